@@ -1,0 +1,143 @@
+// fdlibm's kernels, written for one rounding at each operation (-ffp-contract=off is part of the contract).
+#include "core/fixed_math.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace roboss {
+namespace {
+
+// pi/2 in three parts of 33 bits and a rest, for Cody-Waite reduction.
+constexpr double kPio2Part1 = 1.57079632673412561417e+00;
+constexpr double kPio2Part2 = 6.07710050630396597660e-11;
+constexpr double kPio2Part3 = 2.02226624871116645580e-21;
+constexpr double kPio2Part3Rest = 8.47842766036889956997e-32;
+constexpr double kTwoOverPi = 6.36619772367581382433e-01;
+
+double sin_kernel(double x) {
+    const double z = x * x;
+    const double r =
+        8.33333333332248946124e-03 +
+        z * (-1.98412698298579493134e-04 +
+             z * (2.75573137070700676789e-06 + z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
+    return x + z * x * (-1.66666666666666324348e-01 + z * r);
+}
+
+double cos_kernel(double x) {
+    const double z = x * x;
+    const double r =
+        z * (4.16666666666666019037e-02 +
+             z * (-1.38888888888741095749e-03 +
+                  z * (2.48015872894767294178e-05 +
+                       z * (-2.75573143513906633035e-07 +
+                            z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11)))));
+    const double half = 0.5 * z;
+    const double w = 1.0 - half;
+    return w + (((1.0 - w) - half) + z * r);
+}
+
+double atan_positive(double x) {
+    constexpr double kHigh[] = {4.63647609000806093515e-01, 7.85398163397448278999e-01, 9.82793723247329054082e-01,
+                                1.57079632679489655800e+00};
+    constexpr double kLow[] = {2.26987774529616870924e-17, 3.06161699786838301793e-17, 1.39033110312309984516e-17,
+                               6.12323399573676603587e-17};
+    int region = -1;
+    if (x >= 2.4375) {
+        region = 3, x = -1.0 / x;
+    } else if (x >= 1.1875) {
+        region = 2, x = (x - 1.5) / (1.0 + 1.5 * x);
+    } else if (x >= 0.6875) {
+        region = 1, x = (x - 1.0) / (x + 1.0);
+    } else if (x >= 0.4375) {
+        region = 0, x = (2.0 * x - 1.0) / (2.0 + x);
+    }
+    const double z = x * x;
+    const double w = z * z;
+    const double s1 =
+        z * (3.33333333333329318027e-01 +
+             w * (1.42857142725034663711e-01 +
+                  w * (9.09088713343650656196e-02 +
+                       w * (6.66107313738753120669e-02 + w * (4.97687799461593236017e-02 + w * 1.62858201153657823623e-02)))));
+    const double s2 =
+        w * (-1.99999999998764832476e-01 +
+             w * (-1.11111104054623557880e-01 +
+                  w * (-7.69187620504482999495e-02 + w * (-5.83357013379057348645e-02 + w * -3.65315727442169155270e-02))));
+    if (region < 0) return x - x * (s1 + s2);
+    return kHigh[region] - ((x * (s1 + s2) - kLow[region]) - x);
+}
+
+}  // namespace
+
+SinCos fixed_sincos(double angle) {
+    const double n = std::floor(angle * kTwoOverPi + 0.5);
+    const double r = ((angle - n * kPio2Part1) - n * kPio2Part2) - n * kPio2Part3 - n * kPio2Part3Rest;
+    const double s = sin_kernel(r);
+    const double c = cos_kernel(r);
+    switch (static_cast<std::int64_t>(n) & 3) {
+        case 0: return {s, c};
+        case 1: return {c, -s};
+        case 2: return {-s, -c};
+        default: return {-c, s};
+    }
+}
+
+double fixed_sin(double angle) {
+    return fixed_sincos(angle).sin;
+}
+
+double fixed_cos(double angle) {
+    return fixed_sincos(angle).cos;
+}
+
+double fixed_atan2(double y, double x) {
+    if (y == 0.0 && x == 0.0) return 0.0;
+    const double ax = std::fabs(x);
+    const double ay = std::fabs(y);
+    double angle = ax == 0.0 ? 0.5 * kPi : atan_positive(ay / ax);
+    if (x < 0.0) angle = kPi - (angle - 1.2246467991473531772e-16);
+    return y < 0.0 ? -angle : angle;
+}
+
+double fixed_asin(double x) {
+    if (x >= 1.0) return 0.5 * kPi;
+    if (x <= -1.0) return -0.5 * kPi;
+    return fixed_atan2(x, std::sqrt((1.0 - x) * (1.0 + x)));
+}
+
+double fixed_acos(double x) {
+    if (x >= 1.0) return 0.0;
+    if (x <= -1.0) return kPi;
+    return fixed_atan2(std::sqrt((1.0 - x) * (1.0 + x)), x);
+}
+
+double fixed_log(double x) {
+    constexpr double kLn2High = 6.93147180369123816490e-01;
+    constexpr double kLn2Low = 1.90821492927058770002e-10;
+    std::uint64_t bits = std::bit_cast<std::uint64_t>(x);
+    auto exponent = static_cast<int>((bits >> 52) & 0x7FF) - 1023;
+    double m = std::bit_cast<double>((bits & 0x000FFFFFFFFFFFFFull) | 0x3FF0000000000000ull);
+    if (m > 1.41421356237309514547) {
+        m *= 0.5;
+        exponent += 1;
+    }
+    const double f = m - 1.0;
+    const double s = f / (2.0 + f);
+    const double z = s * s;
+    const double w = z * z;
+    const double t1 = w * (3.999999999940941908e-01 + w * (2.222219843214978396e-01 + w * 1.531383769920937332e-01));
+    const double t2 =
+        z * (6.666666666666735130e-01 +
+             w * (2.857142874366239149e-01 + w * (1.818357216161805012e-01 + w * 1.479819860511658591e-01)));
+    const double half = 0.5 * f * f;
+    const double k = exponent;
+    return k * kLn2High - ((half - (s * (half + (t1 + t2)) + k * kLn2Low)) - f);
+}
+
+double wrap_angle(double angle) {
+    const double turns = std::floor(angle / (2.0 * kPi) + 0.5);
+    const double wrapped = angle - turns * (2.0 * kPi);
+    return wrapped <= -kPi ? kPi : wrapped;
+}
+
+}  // namespace roboss

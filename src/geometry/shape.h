@@ -1,0 +1,24 @@
+// Collision shapes, in their own frame, centred at their own origin (a plane: the half-space z <= 0 of its frame).
+#pragma once
+
+#include "math/aabb.h"
+#include "math/pose.h"
+
+namespace roboss {
+
+enum class ShapeKind : unsigned char { kPlane, kSphere, kBox, kCylinder, kCapsule };
+
+struct Shape {
+    ShapeKind kind = ShapeKind::kSphere;
+    Vec3 half;               // box: half edges, m
+    double radius = 0;       // sphere, cylinder, capsule, m
+    double half_length = 0;  // cylinder, capsule (straight part), along the shape's z, m
+};
+
+/// Tight box in W of a shape at X_WS. A plane's is infinite.
+Aabb bounds(const Shape& shape, const Transform& X_WS);
+
+/// Radius of the smallest origin-centred sphere that holds the shape; infinite for a plane.
+double bounding_radius(const Shape& shape);
+
+}  // namespace roboss

@@ -1,0 +1,108 @@
+// Three-vectors and 3x3 matrices over a scalar T (double, or later a register of lanes). Fixed order of operations: a
+// sum of three is always (x + y) + z, so the bits are the same for every compiler and every instruction set.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+namespace roboss {
+
+template <class T>
+struct Vec3T {
+    T x{}, y{}, z{};
+
+    T& operator[](std::size_t i) { return i == 0 ? x : i == 1 ? y : z; }
+    const T& operator[](std::size_t i) const { return i == 0 ? x : i == 1 ? y : z; }
+    Vec3T& operator+=(const Vec3T& b) { return x += b.x, y += b.y, z += b.z, *this; }
+    Vec3T& operator-=(const Vec3T& b) { return x -= b.x, y -= b.y, z -= b.z, *this; }
+    friend Vec3T operator+(const Vec3T& a, const Vec3T& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+    friend Vec3T operator-(const Vec3T& a, const Vec3T& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+    friend Vec3T operator-(const Vec3T& a) { return {-a.x, -a.y, -a.z}; }
+    friend Vec3T operator*(const Vec3T& a, T s) { return {a.x * s, a.y * s, a.z * s}; }
+    friend Vec3T operator*(T s, const Vec3T& a) { return {a.x * s, a.y * s, a.z * s}; }
+    friend Vec3T operator/(const Vec3T& a, T s) { return {a.x / s, a.y / s, a.z / s}; }
+    friend bool operator==(const Vec3T&, const Vec3T&) = default;
+};
+
+template <class T>
+T dot(const Vec3T<T>& a, const Vec3T<T>& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+template <class T>
+Vec3T<T> cross(const Vec3T<T>& a, const Vec3T<T>& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+template <class T>
+T norm_squared(const Vec3T<T>& a) {
+    return dot(a, a);
+}
+
+template <class T>
+T norm(const Vec3T<T>& a) {
+    using std::sqrt;
+    return sqrt(dot(a, a));
+}
+
+/// Unit vector along a; a must not be zero.
+template <class T>
+Vec3T<T> normalized(const Vec3T<T>& a) {
+    return a / norm(a);
+}
+
+/// Row-major 3x3 matrix.
+template <class T>
+struct Mat3T {
+    Vec3T<T> r0{}, r1{}, r2{};  // rows
+
+    static Mat3T identity() { return {{T(1), T(0), T(0)}, {T(0), T(1), T(0)}, {T(0), T(0), T(1)}}; }
+    static Mat3T diagonal(T a, T b, T c) { return {{a, T(0), T(0)}, {T(0), b, T(0)}, {T(0), T(0), c}}; }
+
+    Vec3T<T>& row(std::size_t i) { return i == 0 ? r0 : i == 1 ? r1 : r2; }
+    const Vec3T<T>& row(std::size_t i) const { return i == 0 ? r0 : i == 1 ? r1 : r2; }
+    T& operator()(std::size_t i, std::size_t j) { return row(i)[j]; }
+    const T& operator()(std::size_t i, std::size_t j) const { return row(i)[j]; }
+    Vec3T<T> col(std::size_t j) const { return {r0[j], r1[j], r2[j]}; }
+
+    friend Vec3T<T> operator*(const Mat3T& m, const Vec3T<T>& v) { return {dot(m.r0, v), dot(m.r1, v), dot(m.r2, v)}; }
+    friend Mat3T operator+(const Mat3T& a, const Mat3T& b) { return {a.r0 + b.r0, a.r1 + b.r1, a.r2 + b.r2}; }
+    friend Mat3T operator-(const Mat3T& a, const Mat3T& b) { return {a.r0 - b.r0, a.r1 - b.r1, a.r2 - b.r2}; }
+    friend Mat3T operator*(const Mat3T& a, T s) { return {a.r0 * s, a.r1 * s, a.r2 * s}; }
+    friend Mat3T operator*(const Mat3T& a, const Mat3T& b) {
+        const Vec3T<T> c0 = b.col(0), c1 = b.col(1), c2 = b.col(2);
+        return {{dot(a.r0, c0), dot(a.r0, c1), dot(a.r0, c2)},
+                {dot(a.r1, c0), dot(a.r1, c1), dot(a.r1, c2)},
+                {dot(a.r2, c0), dot(a.r2, c1), dot(a.r2, c2)}};
+    }
+};
+
+template <class T>
+Mat3T<T> transpose(const Mat3T<T>& m) {
+    return {m.col(0), m.col(1), m.col(2)};
+}
+
+/// transpose(m) * v
+template <class T>
+Vec3T<T> transpose_times(const Mat3T<T>& m, const Vec3T<T>& v) {
+    return {m.r0.x * v.x + m.r1.x * v.y + m.r2.x * v.z, m.r0.y * v.x + m.r1.y * v.y + m.r2.y * v.z,
+            m.r0.z * v.x + m.r1.z * v.y + m.r2.z * v.z};
+}
+
+using Vec3 = Vec3T<double>;
+using Mat3 = Mat3T<double>;
+
+/// Two unit vectors that complete n to a right-handed frame (Duff et al., "Building an Orthonormal Basis, Revisited", 2017).
+inline void tangents(const Vec3& n, Vec3& t1, Vec3& t2) {
+    const double sign = n.z >= 0.0 ? 1.0 : -1.0;
+    const double a = -1.0 / (sign + n.z);
+    const double b = n.x * n.y * a;
+    t1 = {1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x};
+    t2 = {b, sign + n.y * n.y * a, -n.y};
+}
+
+inline bool is_finite(const Vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+}  // namespace roboss

@@ -1,0 +1,161 @@
+// Model: the compiled, immutable, hashed world that every Simulator and Client shares. A RobotType is compiled once
+// however many robots are of it. Links welded by fixed joints are one Body of the dynamics tree.
+//
+// Coordinates of a robot: q = [base position p_WB0 (3), base orientation (w x y z) (4), joint coordinates], v = [base
+// angular velocity w_WB0 (3), base linear velocity v_WB0 of the base origin (3), both in world axes] for a free base, then
+// joint velocities. A fixed base has the 7 base coordinates too (its place in the world) but no base velocity.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "core/types.h"
+#include "geometry/bvh.h"
+#include "geometry/shape.h"
+#include "math/pose.h"
+#include "world/world.h"
+
+namespace roboss {
+
+enum class JointKind : std::uint8_t { kFree, kRevolute, kPrismatic, kBall };
+
+/// A rigid body of the tree. Its frame B sits at its joint: X_PB(q) = X_PJ * motion(q); bodies come parents first.
+struct Body {
+    int parent = -1;  // -1: the base frame (fixed base) or the world (body 0 of a free base)
+    JointKind joint = JointKind::kFree;
+    Transform X_PJ;
+    Vec3 axis_J{0, 0, 1};
+    int q_index = 0;  // first coordinate in RobotState::q
+    int v_index = 0;  // first in RobotState::v
+    int nv = 0;
+    double mass = 0;
+    double gravity_factor = 1;  // share of the mass that feels gravity (links with <gravity>0)
+    Vec3 p_BC;          // centre of mass
+    Mat3 inertia_C;     // about the centre of mass, axes of B
+    // 1/kg and 1/(kg m^2): mobility of the centre of mass at the zero pose; scales the solver's regularisation.
+    double inverse_mass_linear = 0, inverse_inertia_angular = 0;
+};
+
+/// One degree of freedom of a joint (not of the free base), in the order of v.
+struct Dof {
+    int body = 0;
+    JointId joint;
+    double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
+    double max_effort = std::numeric_limits<double>::infinity();
+    double max_velocity = std::numeric_limits<double>::infinity();
+    double damping = 0, friction = 0, spring_stiffness = 0, spring_reference = 0, armature = 0;
+    double position_gain = 0, velocity_gain = 0;  // 0: as stiff as the solver allows
+    double inverse_inertia = 0;                   // mobility at the zero pose
+};
+
+struct Link {
+    std::string name;
+    int body = -1;  // -1: welded to the fixed base
+    Transform X_BL;
+};
+
+struct Joint {
+    std::string name;
+    JointSpecKind kind = JointSpecKind::kFixed;
+    int body = -1;     // the body it moves; -1 for fixed
+    int q_index = -1;  // first coordinate, -1 for fixed
+    int v_index = -1;
+    int nv = 0;
+};
+
+/// Friction etc. of one shape; a pair combines: mu = min, restitution = max, threshold = max, others = min (documented in physics).
+struct Material {
+    double mu = 1, restitution = 0, bounce_threshold = 0.01, torsional = 0, rolling = 0;
+    std::uint32_t collide_bitmask = 0xFFFF;
+};
+
+struct BodyShape {
+    Shape shape;
+    int body = -1;  // -1: fixed base
+    LinkId link;
+    Transform X_BS;
+    Material material;
+};
+
+struct SensorInfo {
+    SensorSpec spec;
+    LinkId link;
+};
+
+struct RobotType {
+    std::string name;
+    bool free_base = true;
+    bool self_collide = false;
+    Transform X_RB;  // free base: body 0's frame in the robot (SDF model) frame at the start; fixed base: identity
+    std::vector<Body> bodies;
+    std::vector<Dof> dofs;          // dofs[i] is v[base_nv() + i]
+    std::vector<int> dof_parent;    // for each entry of v: the previous one on its path to the root, -1 at the root
+    std::vector<Link> links;
+    std::vector<Joint> joints;
+    std::vector<BodyShape> shapes;
+    std::vector<std::pair<int, int>> self_pairs;  // shapes of this robot that may collide with each other
+    std::vector<SensorInfo> sensors;
+    std::vector<double> initial_q;  // joint coordinates behind the 7 base ones
+    int nq = 7, nv = 0;
+    double reach = 0;  // radius of the sphere about the base origin that holds every shape in every pose
+    double mass = 0;
+    std::uint64_t hash = 0;
+
+    int base_nv() const { return free_base ? 6 : 0; }
+    std::optional<LinkId> find_link(const std::string& name) const;
+    std::optional<JointId> find_joint(const std::string& name) const;
+    std::optional<std::size_t> find_sensor(const std::string& name) const;
+};
+
+struct Robot {
+    std::string name;
+    TypeId type;
+    Pose X_WR;                // robot (SDF model) frame at the start
+    std::uint32_t family = 0;  // robots made of one SDF model share a family and do not collide unless self_collide
+};
+
+struct StaticShape {
+    Shape shape;
+    Transform X_WS;
+    Material material;
+    std::string name;  // "model::link::collision"
+};
+
+/// What the user may trade for speed; part of the Model, so part of its hash.
+struct Accuracy {
+    double tolerance = 1e-9;     // relative residual of the solver
+    int newton_max = 60;         // iterations for one friction bound
+    int friction_max = 20;       // updates of the friction bounds
+};
+
+struct Model {
+    std::string name;
+    double dt_s = 0.001;
+    Vec3 gravity{0, 0, -9.8};
+    Vec3 magnetic_field_T;
+    std::optional<SphericalCoordinates> spherical;
+    Accuracy accuracy;
+    std::vector<RobotType> types;
+    std::vector<Robot> robots;
+    std::vector<StaticShape> statics;
+    Bvh static_bvh;
+    std::uint64_t hash = 0;
+
+    const RobotType& type_of(RobotId robot) const { return types[robots[robot.index()].type.index()]; }
+    std::optional<RobotId> find_robot(const std::string& name) const;
+};
+
+struct CompileOptions {
+    std::optional<double> dt_s;  // overrides the world's step
+    Accuracy accuracy;
+};
+
+/// World to Model. Findings go to `diagnostics`; nullptr if any of them is an error.
+std::shared_ptr<const Model> compile(const World& world, const CompileOptions& options, Diagnostics& diagnostics);
+
+}  // namespace roboss

@@ -1,0 +1,58 @@
+// Orders: the four levels on which a Client changes the world (the paper's section 4.3). Only the Controller sets apply_at.
+#pragma once
+
+#include <cstdint>
+#include <variant>
+
+#include "core/types.h"
+#include "model/robot_state.h"
+
+namespace roboss {
+
+/// Level 1: puts the robot (SDF model) frame at X_WR; joints keep their coordinates, velocities are kept.
+struct SetPose {
+    Pose X_WR;
+};
+
+/// Level 2: base velocity in world axes (of the base origin). Only for free bases.
+struct SetVelocity {
+    Vec3 linear, angular;
+};
+
+/// Level 3: force at the link's centre of mass and torque, world axes, for `duration` ticks (at least 1).
+struct ApplyWrench {
+    LinkId link;
+    Vec3 force, torque;
+    Tick duration = 1;
+};
+
+/// Level 4: latches a setpoint of one degree of freedom of a joint. A negative max_effort means the joint's own bound.
+struct SetJoint {
+    JointId joint;
+    int axis = 0;
+    MotorMode mode = MotorMode::kVelocity;
+    double target = 0;
+    double max_effort = -1;
+};
+
+using Action = std::variant<SetPose, SetVelocity, ApplyWrench, SetJoint>;
+
+struct Order {
+    Tick apply_at = 0;  // applied at the start of this tick, before the step apply_at -> apply_at + 1
+    ClientId client;
+    std::uint64_t sequence = 0;  // per Client, ascending
+    RobotId robot;
+    Action action;
+};
+
+/// Canonical order: (apply_at, client, sequence).
+bool comes_before(const Order& a, const Order& b);
+
+/// What is wrong with the order for this Model (unknown robot, link or joint, number that is not finite, velocity of a
+/// fixed base ...), in words, or Ok.
+Result<> check_order(const Model& model, const Order& order);
+
+/// Applies a checked order to the robot's state.
+void apply_order(const Model& model, const Order& order, RobotState& state);
+
+}  // namespace roboss

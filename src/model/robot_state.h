@@ -1,0 +1,68 @@
+// RobotState: ALL that the next step reads of a robot. Copying it moves the robot to another machine, bit for bit.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/hash.h"
+#include "core/types.h"
+#include "model/model.h"
+
+namespace roboss {
+
+enum class MotorMode : std::uint32_t { kPassive, kVelocity, kPosition, kEffort };
+
+/// The latched order of one joint degree of freedom.
+struct MotorSetpoint {
+    MotorMode mode = MotorMode::kPassive;
+    double target = 0;      // rad/s, rad, N m (or m/s, m, N)
+    double max_effort = 0;  // bound in force, N m or N
+    friend bool operator==(const MotorSetpoint&, const MotorSetpoint&) = default;
+};
+
+/// A force on a link's centre of mass and a torque, world axes, while tick < until.
+struct TimedWrench {
+    LinkId link;
+    Vec3 force, torque;
+    Tick until = 0;
+    friend bool operator==(const TimedWrench&, const TimedWrench&) = default;
+};
+
+/// The normal impulse of a contact at the last tick, the solver's first guess of the friction bound. Owned by the lower
+/// robot id of the pair; dropped at the first tick without the contact. Kept sorted by key (all members but the impulse).
+struct ContactMemory {
+    std::uint32_t other_robot = 0;  // RobotId of the other, Id::kNone for static scenery
+    std::uint32_t shape = 0;        // of this robot
+    std::uint32_t other_shape = 0;  // of the other robot or of Model::statics
+    std::uint32_t feature = 0;
+    double impulse = 0;  // N s
+    friend bool operator==(const ContactMemory&, const ContactMemory&) = default;
+};
+
+struct RobotState {
+    std::vector<double> q;  // see model.h
+    std::vector<double> v;
+    std::vector<MotorSetpoint> motors;  // one a Dof
+    std::vector<TimedWrench> wrenches;
+    std::vector<ContactMemory> contacts;
+    friend bool operator==(const RobotState&, const RobotState&) = default;
+};
+
+RobotState initial_state(const Model& model, RobotId robot);
+
+/// Pose of body 0 (free base) or of the base frame.
+Pose base_pose(const RobotState& state);
+void set_base_pose(RobotState& state, const Pose& X_WB);
+
+/// Hash of one robot's whole state with its id and the tick.
+std::uint64_t state_hash(RobotId robot, Tick tick, const RobotState& state);
+
+/// The world's state hash, from the robots' hashes in ascending order of ids: the number that must be equal everywhere.
+std::uint64_t world_hash(std::uint64_t model_hash, std::span<const std::uint64_t> robot_hashes);
+
+/// The state as bytes (little-endian, versioned by the Model hash that travels beside it) and back.
+void encode(const RobotState& state, std::vector<std::uint8_t>& out);
+Result<RobotState> decode_state(std::span<const std::uint8_t> bytes, const RobotType& type);
+
+}  // namespace roboss

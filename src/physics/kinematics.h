@@ -1,0 +1,23 @@
+// Where the bodies and links of a robot are and how they move, from its state alone.
+#pragma once
+
+#include <span>
+
+#include "model/model.h"
+#include "model/robot_state.h"
+
+namespace roboss {
+
+/// Poses of all bodies; X_WB has type.bodies.size() entries.
+void body_poses(const RobotType& type, const RobotState& state, std::span<Transform> X_WB);
+
+struct Twist {
+    Vec3 angular;  // rad/s, world axes
+    Vec3 linear;   // m/s, of the frame's origin, world axes
+};
+
+/// Pose and velocity of one link (walks from the link to the root; for tools, traces and sensors, not for the step).
+Transform link_pose(const RobotType& type, const RobotState& state, LinkId link);
+Twist link_twist(const RobotType& type, const RobotState& state, LinkId link);
+
+}  // namespace roboss

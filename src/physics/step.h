@@ -1,0 +1,47 @@
+// One tick of one island: the pure function of DESIGN. The result of a robot depends on (model, states, orders) only,
+// never on which other robots happen to share the island: two robots affect each other only if their interaction bounds meet.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "math/aabb.h"
+#include "model/model.h"
+#include "model/order.h"
+#include "model/robot_state.h"
+
+namespace roboss {
+
+/// Covers all that detection reads of the robot at this tick (shapes, contact margin, speculative reach at its speed),
+/// rounded outward. Feeds both the broad phase and the swept bounds of a window. Call it after the tick's orders.
+Aabb interaction_bound(const Model& model, RobotId robot, const RobotState& state);
+
+struct StepReport {
+    int contacts = 0;         // contact points that carried or could carry force
+    int static_contacts = 0;  // of these, with static scenery
+    int iterations = 0;       // Newton iterations, summed over contact islands
+    double residual = 0;      // worst relative residual of the contact islands
+    RobotId not_finite;       // first robot whose state is not finite; the run must stop
+};
+
+/// Buffers of the step; keep one a thread, so that nothing is allocated once they have grown.
+class StepScratch {
+  public:
+    StepScratch();
+    ~StepScratch();
+    StepScratch(StepScratch&&) noexcept;
+    StepScratch& operator=(StepScratch&&) noexcept;
+    struct Impl;
+    Impl& impl() { return *impl_; }
+
+  private:
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Steps the island from `tick` to `tick` + 1. `robots` ascending, states[i] of robots[i]; `orders`: those with apply_at ==
+/// tick for these robots, in canonical order. bounds[i] receives the interaction bound of robots[i] at this tick.
+StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> robots,
+                       std::span<RobotState* const> states, std::span<const Order> orders, std::span<Aabb> bounds,
+                       StepScratch& scratch);
+
+}  // namespace roboss
