@@ -1,0 +1,36 @@
+// A control program: an ordinary Client written as a class. `roboss run --client lib.so` loads it from a shared library;
+// the same source links into a process of its own. It sees the whole state, computes sensors here, and gives orders.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "client/client.h"
+
+namespace roboss {
+
+struct ControlOptions {
+    double period_s = 0.02;   // control period: how often control() is called, in simulated time
+    double latency_s = -1;    // from observation to effect of its orders; negative: one period
+    bool synchronous = true;  // the world waits for this Client's word each period
+};
+
+class ControlProgram {
+  public:
+    virtual ~ControlProgram() = default;
+    virtual ControlOptions options() const { return {}; }
+    /// Once, before the first control(); the state is that of the start.
+    virtual void start(Client&) {}
+    /// Once a control period. Must be a function of what the Client shows (and of start) if saved runs are to continue exactly.
+    virtual void control(Client&) = 0;
+};
+
+/// Version of this interface; the loader refuses a library built against another one.
+inline constexpr int kControlProgramAbi = 1;
+
+}  // namespace roboss
+
+/// In exactly one source file of the library: the entry point.
+#define ROBOSS_CONTROL_PROGRAM(Class)                                             \
+    extern "C" int roboss_control_program_abi() { return ::roboss::kControlProgramAbi; } \
+    extern "C" ::roboss::ControlProgram* roboss_control_program() { return new Class(); }
