@@ -1,0 +1,123 @@
+// compile(World) -> Model: types once, robots placed, static scenery flattened and put into its BVH, everything hashed.
+#include <map>
+#include <span>
+
+#include "core/hash.h"
+#include "model/compile_type.h"
+
+namespace roboss {
+namespace {
+
+/// What one prototype compiles to: robot parts, or static shapes in its model frame.
+struct CompiledPrototype {
+    std::vector<CompiledPart> parts;
+    std::vector<TypeId> types;
+};
+
+void add_statics(const ModelSpec& spec, const ModelInstance& instance, Model& model) {
+    for (const LinkSpec& link : spec.links) {
+        for (const CollisionSpec& collision : link.collisions) {
+            StaticShape shape;
+            if (!to_shape(collision.geometry, shape.shape)) continue;
+            shape.X_WS = to_transform(instance.X_WM * link.X_ML * collision.X_LS);
+            shape.material = to_material(collision.surface);
+            shape.name = instance.name + "::" + link.name + "::" + collision.name;
+            model.statics.push_back(shape);
+        }
+    }
+}
+
+/// Types equal in every number are one type, whatever prototype they come from.
+TypeId intern_type(RobotType type, Model& model, std::map<std::uint64_t, TypeId>& known) {
+    const auto [entry, is_new] = known.try_emplace(type.hash, TypeId(model.types.size()));
+    if (is_new) model.types.push_back(std::move(type));
+    return entry->second;
+}
+
+std::vector<CompiledPrototype> compile_prototypes(const World& world, Model& model, Diagnostics& diagnostics) {
+    std::vector<CompiledPrototype> prototypes(world.prototypes.size());
+    std::map<std::uint64_t, TypeId> known;
+    for (std::size_t p = 0; p < world.prototypes.size(); ++p) {
+        const ModelSpec& spec = world.prototypes[p];
+        if (spec.is_static) continue;
+        prototypes[p].parts = compile_parts(spec, diagnostics);
+        for (const CompiledPart& part : prototypes[p].parts)
+            prototypes[p].types.push_back(intern_type(part.type, model, known));
+    }
+    return prototypes;
+}
+
+void build_bvh(Model& model) {
+    std::vector<Aabb> boxes;
+    boxes.reserve(model.statics.size());
+    for (const StaticShape& s : model.statics) boxes.push_back(bounds(s.shape, s.X_WS));
+    model.static_bvh = Bvh(boxes);
+}
+
+std::uint64_t model_hash(const Model& model) {
+    Hash hash;
+    hash.add(model.dt_s);
+    for (const Vec3& v : {model.gravity, model.magnetic_field_T}) hash.add(v.x), hash.add(v.y), hash.add(v.z);
+    hash.add(model.accuracy.tolerance);
+    hash.add(static_cast<std::uint64_t>(model.accuracy.newton_max));
+    hash.add(static_cast<std::uint64_t>(model.accuracy.friction_max));
+    for (const RobotType& type : model.types) hash.add(type.hash);
+    for (const Robot& robot : model.robots) {
+        hash.add(robot.name);
+        hash.add(static_cast<std::uint64_t>(robot.type.value));
+        hash.add(static_cast<std::uint64_t>(robot.family));
+        const double numbers[] = {robot.X_WR.p.x, robot.X_WR.p.y, robot.X_WR.p.z, robot.X_WR.q.w,
+                                  robot.X_WR.q.x, robot.X_WR.q.y, robot.X_WR.q.z};
+        hash.add(std::span<const double>(numbers));
+    }
+    for (const StaticShape& s : model.statics) {
+        hash.add(static_cast<std::uint64_t>(s.shape.kind));
+        const double numbers[] = {s.shape.half.x,   s.shape.half.y,   s.shape.half.z,        s.shape.radius,
+                                  s.shape.half_length, s.X_WS.p.x,    s.X_WS.p.y,            s.X_WS.p.z,
+                                  s.X_WS.R.r0.x,    s.X_WS.R.r0.y,    s.X_WS.R.r0.z,         s.X_WS.R.r1.x,
+                                  s.X_WS.R.r1.y,    s.X_WS.R.r1.z,    s.X_WS.R.r2.x,         s.X_WS.R.r2.y,
+                                  s.X_WS.R.r2.z,    s.material.mu,    s.material.restitution, s.material.bounce_threshold,
+                                  s.material.torsional, s.material.rolling};
+        hash.add(std::span<const double>(numbers));
+        hash.add(static_cast<std::uint64_t>(s.material.collide_bitmask));
+    }
+    return hash.value();
+}
+
+}  // namespace
+
+std::shared_ptr<const Model> compile(const World& world, const CompileOptions& options, Diagnostics& diagnostics) {
+    const std::size_t errors = diagnostics.count(Severity::kError);
+    auto model = std::make_shared<Model>();
+    model->name = world.name;
+    model->dt_s = options.dt_s.value_or(world.dt_s);
+    model->gravity = world.gravity;
+    model->magnetic_field_T = world.magnetic_field_T;
+    model->spherical = world.spherical;
+    model->accuracy = options.accuracy;
+    if (!(model->dt_s > 0 && model->dt_s <= 1.0))
+        diagnostics.error({world.file, 0}, "bad-step", "the step of " + std::to_string(model->dt_s) + " s is not in (0, 1] s",
+                          "set <physics><max_step_size> or --dt to a few milliseconds");
+
+    const std::vector<CompiledPrototype> prototypes = compile_prototypes(world, *model, diagnostics);
+    for (std::size_t i = 0; i < world.instances.size(); ++i) {
+        const ModelInstance& instance = world.instances[i];
+        const ModelSpec& spec = world.prototypes[instance.prototype];
+        if (spec.is_static) {
+            add_statics(spec, instance, *model);
+            continue;
+        }
+        const CompiledPrototype& prototype = prototypes[instance.prototype];
+        for (std::size_t p = 0; p < prototype.parts.size(); ++p) {
+            const CompiledPart& part = prototype.parts[p];
+            model->robots.push_back({instance.name + part.suffix, prototype.types[p], instance.X_WM * part.X_MR,
+                                     static_cast<std::uint32_t>(i)});
+        }
+    }
+    build_bvh(*model);
+    model->hash = model_hash(*model);
+    if (diagnostics.count(Severity::kError) > errors) return nullptr;
+    return model;
+}
+
+}  // namespace roboss

@@ -1,0 +1,30 @@
+// One ModelSpec becomes one RobotType for each of its connected parts (links that no joint connects are robots of their
+// own: a bigger unit would only make islands larger). Internal to the model floor.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/model.h"
+
+namespace roboss {
+
+struct CompiledPart {
+    RobotType type;
+    std::string suffix;  // behind the instance's name: "" for the part with the canonical link, else "::link"
+    Pose X_MR;           // robot frame in the SDF model frame
+};
+
+std::vector<CompiledPart> compile_parts(const ModelSpec& spec, Diagnostics& diagnostics);
+
+/// A collision element as a Shape; false if its geometry takes no part in the physics yet.
+bool to_shape(const GeometrySpec& geometry, Shape& shape);
+Material to_material(const SurfaceSpec& surface);
+
+/// Fills Body::inverse_mass_linear, inverse_inertia_angular and Dof::inverse_inertia from the mass matrix at the zero pose.
+void compute_mobility(RobotType& type);
+
+/// Hash over every number of the type that the physics reads.
+std::uint64_t type_hash(const RobotType& type);
+
+}  // namespace roboss

@@ -1,0 +1,108 @@
+// Checks orders from outside and applies them to a robot's state.
+#include "model/order.h"
+
+#include <cmath>
+#include <tuple>
+
+namespace roboss {
+namespace {
+
+const char* const kFiniteRemedy = "every number of an order must be finite";
+
+/// "robot 'car_7'" for messages.
+std::string called(const Model& model, const Order& order) {
+    return "robot '" + model.robots[order.robot.index()].name + "'";
+}
+
+/// Checks one action against the robot's type.
+struct Check {
+    const Model& model;
+    const Order& order;
+    const RobotType& type;
+
+    Result<> operator()(const SetPose& a) const {
+        if (!is_finite(a.X_WR)) return Error{"set_pose of " + called(model, order) + " is not finite", kFiniteRemedy};
+        const Quat& q = a.X_WR.q;
+        const double n = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+        if (std::fabs(n - 1.0) > 1e-6)
+            return Error{"set_pose of " + called(model, order) + " has a quaternion of norm " + std::to_string(std::sqrt(n)),
+                         "give a unit quaternion [w, x, y, z]"};
+        return Ok{};
+    }
+    Result<> operator()(const SetVelocity& a) const {
+        if (!is_finite(a.linear) || !is_finite(a.angular))
+            return Error{"set_velocity of " + called(model, order) + " is not finite", kFiniteRemedy};
+        if (!type.free_base)
+            return Error{"set_velocity: the base of " + called(model, order) + " is fixed to the world", "order its joints instead"};
+        return Ok{};
+    }
+    Result<> operator()(const ApplyWrench& a) const {
+        if (a.link.index() >= type.links.size())
+            return Error{"wrench on a link that " + called(model, order) + " does not have", "see `roboss check` for its links"};
+        if (!is_finite(a.force) || !is_finite(a.torque))
+            return Error{"wrench on " + called(model, order) + " is not finite", kFiniteRemedy};
+        if (a.duration < 1) return Error{"wrench on " + called(model, order) + " lasts less than one tick", "give a duration > 0"};
+        return Ok{};
+    }
+    Result<> operator()(const SetJoint& a) const {
+        if (a.joint.index() >= type.joints.size())
+            return Error{"order for a joint that " + called(model, order) + " does not have", "see `roboss check` for its joints"};
+        const Joint& joint = type.joints[a.joint.index()];
+        if (a.axis < 0 || a.axis >= joint.nv)
+            return Error{"joint '" + joint.name + "' of " + called(model, order) + " has " + std::to_string(joint.nv) +
+                             " degrees of freedom; axis " + std::to_string(a.axis) + " is not one of them",
+                         joint.nv == 0 ? "fixed joints take no orders" : "count axes from 0"};
+        if (joint.kind == JointSpecKind::kBall && a.mode == MotorMode::kPosition)
+            return Error{"ball joint '" + joint.name + "' takes no position order per axis", "order its velocity or effort"};
+        if (!std::isfinite(a.target) || std::isnan(a.max_effort))
+            return Error{"order for joint '" + joint.name + "' of " + called(model, order) + " is not finite", kFiniteRemedy};
+        return Ok{};
+    }
+};
+
+/// Applies one checked action.
+struct Apply {
+    const Order& order;
+    const RobotType& type;
+    RobotState& state;
+
+    void operator()(const SetPose& a) const {
+        Pose X_WB = a.X_WR;
+        if (type.free_base) X_WB = X_WB * Pose{type.X_RB.p, to_quat(type.X_RB.R)};
+        X_WB.q = normalized(X_WB.q);
+        set_base_pose(state, X_WB);
+    }
+    void operator()(const SetVelocity& a) const {
+        const double numbers[] = {a.angular.x, a.angular.y, a.angular.z, a.linear.x, a.linear.y, a.linear.z};
+        for (std::size_t i = 0; i < 6; ++i) state.v[i] = numbers[i];
+    }
+    void operator()(const ApplyWrench& a) const {
+        state.wrenches.push_back({a.link, a.force, a.torque, order.apply_at + a.duration});
+    }
+    void operator()(const SetJoint& a) const {
+        const Joint& joint = type.joints[a.joint.index()];
+        const auto d = static_cast<std::size_t>(joint.v_index + a.axis - type.base_nv());
+        const double bound = type.dofs[d].max_effort;
+        state.motors[d] = {a.mode, a.target, a.max_effort < 0 ? bound : std::fmin(a.max_effort, bound)};
+    }
+};
+
+}  // namespace
+
+bool comes_before(const Order& a, const Order& b) {
+    return std::tie(a.apply_at, a.client, a.sequence) < std::tie(b.apply_at, b.client, b.sequence);
+}
+
+Result<> check_order(const Model& model, const Order& order) {
+    if (order.robot.index() >= model.robots.size())
+        return Error{"order for robot number " + std::to_string(order.robot.value) + ", but the world has " +
+                         std::to_string(model.robots.size()) + " robots",
+                     "see `roboss check` for their names"};
+    return std::visit(Check{model, order, model.type_of(order.robot)}, order.action);
+}
+
+void apply_order(const Model& model, const Order& order, RobotState& state) {
+    std::visit(Apply{order, model.type_of(order.robot), state}, order.action);
+}
+
+}  // namespace roboss

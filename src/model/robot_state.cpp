@@ -1,0 +1,154 @@
+// Start, hash and bytes of a robot's state.
+#include "model/robot_state.h"
+
+#include <bit>
+
+namespace roboss {
+
+RobotState initial_state(const Model& model, RobotId robot) {
+    const RobotType& type = model.type_of(robot);
+    RobotState state;
+    state.q.resize(7);
+    const Pose X_RB{type.X_RB.p, to_quat(type.X_RB.R)};
+    Pose X_WB = type.free_base ? model.robots[robot.index()].X_WR * X_RB : model.robots[robot.index()].X_WR;
+    X_WB.q = normalized(X_WB.q);
+    set_base_pose(state, X_WB);
+    state.q.insert(state.q.end(), type.initial_q.begin(), type.initial_q.end());
+    state.v.assign(static_cast<std::size_t>(type.nv), 0.0);
+    state.motors.resize(type.dofs.size());
+    return state;
+}
+
+Pose base_pose(const RobotState& s) {
+    return {{s.q[0], s.q[1], s.q[2]}, {s.q[3], s.q[4], s.q[5], s.q[6]}};
+}
+
+void set_base_pose(RobotState& s, const Pose& X) {
+    const double numbers[] = {X.p.x, X.p.y, X.p.z, X.q.w, X.q.x, X.q.y, X.q.z};
+    for (std::size_t i = 0; i < 7; ++i) s.q[i] = numbers[i];
+}
+
+std::uint64_t state_hash(RobotId robot, Tick tick, const RobotState& state) {
+    Hash hash;
+    hash.add(static_cast<std::uint64_t>(robot.value));
+    hash.add(static_cast<std::uint64_t>(tick));
+    hash.add(std::span<const double>(state.q));
+    hash.add(std::span<const double>(state.v));
+    for (const MotorSetpoint& m : state.motors) {
+        hash.add(static_cast<std::uint64_t>(m.mode));
+        hash.add(m.target), hash.add(m.max_effort);
+    }
+    for (const TimedWrench& w : state.wrenches) {
+        hash.add(static_cast<std::uint64_t>(w.link.value));
+        for (double x : {w.force.x, w.force.y, w.force.z, w.torque.x, w.torque.y, w.torque.z}) hash.add(x);
+        hash.add(static_cast<std::uint64_t>(w.until));
+    }
+    for (const ContactMemory& c : state.contacts) {
+        hash.add(static_cast<std::uint64_t>(c.other_robot) << 32 | c.shape);
+        hash.add(static_cast<std::uint64_t>(c.other_shape) << 32 | c.feature);
+        hash.add(c.impulse);
+    }
+    return hash.value();
+}
+
+std::uint64_t world_hash(std::uint64_t model_hash, std::span<const std::uint64_t> robot_hashes) {
+    Hash hash;
+    hash.add(model_hash);
+    for (std::uint64_t h : robot_hashes) hash.add(h);
+    return hash.value();
+}
+
+namespace {
+
+class Writer {
+  public:
+    explicit Writer(std::vector<std::uint8_t>& out) : out_(out) {}
+    void word(std::uint64_t w) {
+        for (int i = 0; i < 8; ++i) out_.push_back(static_cast<std::uint8_t>(w >> (8 * i)));
+    }
+    void number(double x) { word(std::bit_cast<std::uint64_t>(x)); }
+    void vector(const Vec3& v) { number(v.x), number(v.y), number(v.z); }
+    void pair(std::uint32_t a, std::uint32_t b) { word(static_cast<std::uint64_t>(a) << 32 | b); }
+
+  private:
+    std::vector<std::uint8_t>& out_;
+};
+
+class Reader {
+  public:
+    explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+    std::uint64_t word() {
+        if (left() < 1) {
+            short_ = true;
+            return 0;
+        }
+        std::uint64_t w = 0;
+        for (std::size_t i = 0; i < 8; ++i) w |= static_cast<std::uint64_t>(bytes_[at_ + i]) << (8 * i);
+        at_ += 8;
+        return w;
+    }
+    double number() { return std::bit_cast<double>(word()); }
+    Vec3 vector() {
+        const double x = number(), y = number(), z = number();
+        return {x, y, z};
+    }
+    std::size_t left() const { return (bytes_.size() - at_) / 8; }  // whole words
+    bool complete() const { return !short_ && at_ == bytes_.size(); }
+
+  private:
+    std::span<const std::uint8_t> bytes_;
+    std::size_t at_ = 0;
+    bool short_ = false;
+};
+
+constexpr std::size_t kWrenchWords = 8;
+constexpr std::size_t kContactWords = 3;
+
+}  // namespace
+
+void encode(const RobotState& state, std::vector<std::uint8_t>& out) {
+    Writer w(out);
+    for (std::size_t n : {state.q.size(), state.v.size(), state.motors.size(), state.wrenches.size(), state.contacts.size()})
+        w.word(n);
+    for (double x : state.q) w.number(x);
+    for (double x : state.v) w.number(x);
+    for (const MotorSetpoint& m : state.motors) w.word(static_cast<std::uint64_t>(m.mode)), w.number(m.target), w.number(m.max_effort);
+    for (const TimedWrench& t : state.wrenches)
+        w.word(t.link.value), w.vector(t.force), w.vector(t.torque), w.word(static_cast<std::uint64_t>(t.until));
+    for (const ContactMemory& c : state.contacts)
+        w.pair(c.other_robot, c.shape), w.pair(c.other_shape, c.feature), w.number(c.impulse);
+}
+
+Result<RobotState> decode_state(std::span<const std::uint8_t> bytes, const RobotType& type) {
+    Reader r(bytes);
+    const std::uint64_t nq = r.word(), nv = r.word(), motors = r.word(), wrenches = r.word(), contacts = r.word();
+    if (nq != static_cast<std::uint64_t>(type.nq) || nv != static_cast<std::uint64_t>(type.nv) || motors != type.dofs.size())
+        return Error{"the bytes of a state do not fit robot type '" + type.name + "'", "they belong to another world or version"};
+    if (wrenches > r.left() / kWrenchWords || contacts > r.left() / kContactWords)
+        return Error{"the bytes of a state of type '" + type.name + "' are truncated", "fetch or save the state again"};
+    RobotState state;
+    state.q.resize(nq), state.v.resize(nv), state.motors.resize(motors);
+    state.wrenches.resize(wrenches), state.contacts.resize(contacts);
+    for (double& x : state.q) x = r.number();
+    for (double& x : state.v) x = r.number();
+    for (MotorSetpoint& m : state.motors) {
+        m.mode = static_cast<MotorMode>(r.word());
+        if (m.mode > MotorMode::kEffort) return Error{"a state names a motor mode that does not exist", "the bytes are damaged"};
+        m.target = r.number(), m.max_effort = r.number();
+    }
+    for (TimedWrench& t : state.wrenches) {
+        t.link = LinkId(static_cast<std::uint32_t>(r.word()));
+        if (t.link.index() >= type.links.size()) return Error{"a state names a link that does not exist", "the bytes are damaged"};
+        t.force = r.vector(), t.torque = r.vector(), t.until = static_cast<Tick>(r.word());
+    }
+    for (ContactMemory& c : state.contacts) {
+        const std::uint64_t a = r.word(), b = r.word();
+        c.other_robot = static_cast<std::uint32_t>(a >> 32), c.shape = static_cast<std::uint32_t>(a);
+        c.other_shape = static_cast<std::uint32_t>(b >> 32), c.feature = static_cast<std::uint32_t>(b);
+        c.impulse = r.number();
+    }
+    if (!r.complete()) return Error{"the bytes of a state of type '" + type.name + "' have the wrong length", "fetch or save it again"};
+    return state;
+}
+
+}  // namespace roboss
