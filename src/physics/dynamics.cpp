@@ -1,0 +1,190 @@
+// Articulated dynamics in world axes about the base origin: recursive Newton-Euler for the bias, composite rigid bodies
+// for the mass matrix (Featherstone 2008, chapters 5 and 6), with springs and damping taken implicitly.
+#include <algorithm>
+#include <cmath>
+
+#include "physics/robot_work.h"
+
+namespace roboss {
+namespace {
+
+constexpr double kBaseMargin = 0.002;  // m: what gravity and solving may add to the way of one tick
+
+Transform base_transform(std::span<const double> q) {
+    return {to_matrix(Quat{q[3], q[4], q[5], q[6]}), {q[0], q[1], q[2]}};
+}
+
+Mat3 rotation_about(const Vec3& a, double angle) {
+    const SinCos h = fixed_sincos(0.5 * angle);
+    return to_matrix(Quat{h.cos, a.x * h.sin, a.y * h.sin, a.z * h.sin});
+}
+
+/// Axes of one joint; anchor is the body's origin from O, R_WJ the joint frame before its motion.
+void set_axes(const Body& body, const Mat3& R_WJ, const Vec3& anchor, Spatial* axes) {
+    switch (body.joint) {
+        case JointKind::kRevolute: {
+            const Vec3 a = R_WJ * body.axis_J;
+            axes[0] = {a, cross(anchor, a)};
+            break;
+        }
+        case JointKind::kPrismatic: axes[0] = {{}, R_WJ * body.axis_J}; break;
+        case JointKind::kBall:
+            for (std::size_t k = 0; k < 3; ++k) axes[k] = {R_WJ.col(k), cross(anchor, R_WJ.col(k))};
+            break;
+        case JointKind::kFree:
+            for (std::size_t k = 0; k < 3; ++k) {
+                axes[k] = axes[k + 3] = Spatial{};
+                axes[k].angular[k] = axes[k + 3].linear[k] = 1;
+            }
+            break;
+    }
+}
+
+Transform moved(const Body& body, const Transform& X_WJ, std::span<const double> q) {
+    const auto i = static_cast<std::size_t>(body.q_index);
+    switch (body.joint) {
+        case JointKind::kRevolute: return {X_WJ.R * rotation_about(body.axis_J, q[i]), X_WJ.p};
+        case JointKind::kPrismatic: return {X_WJ.R, X_WJ.p + X_WJ.R * (body.axis_J * q[i])};
+        case JointKind::kBall: return {X_WJ.R * to_matrix(Quat{q[i], q[i + 1], q[i + 2], q[i + 3]}), X_WJ.p};
+        case JointKind::kFree: break;
+    }
+    return X_WJ;
+}
+
+/// Adds what Clients' wrenches do to the bodies' impulses (force at the link's centre of mass taken as its body's).
+void add_wrenches(const RobotType& type, const RobotState& state, double dt, RobotWork& work) {
+    for (const TimedWrench& w : state.wrenches) {
+        const int b = type.links[w.link.index()].body;
+        if (b < 0) continue;
+        BodyWork& body = work.bodies[static_cast<std::size_t>(b)];
+        body.impulse += Spatial{w.torque + cross(body.centre, w.force), w.force} * dt;
+    }
+}
+
+/// Springs and rotor inertias: they act along one degree of freedom, outside the tree of bodies.
+void add_joint_impulses(const RobotType& type, double dt, std::span<const double> q, std::span<const double> v,
+                        RobotWork& work) {
+    for (std::size_t d = 0; d < type.dofs.size(); ++d) {
+        const Dof& dof = type.dofs[d];
+        const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
+        if (dof.armature != 0) work.impulse[i] += dof.armature * v[i];
+        if (dof.spring_stiffness != 0) {
+            const Body& body = type.bodies[static_cast<std::size_t>(dof.body)];
+            work.impulse[i] -= dt * dof.spring_stiffness * (q[static_cast<std::size_t>(body.q_index)] - dof.spring_reference);
+        }
+    }
+}
+
+}  // namespace
+
+void place_bodies(const RobotType& type, std::span<const double> q, RobotWork& work) {
+    const Transform X_WR = base_transform(q);
+    work.origin = X_WR.p;
+    work.bodies.resize(type.bodies.size());
+    work.axes.resize(static_cast<std::size_t>(type.nv));
+    for (std::size_t b = 0; b < type.bodies.size(); ++b) {
+        const Body& body = type.bodies[b];
+        BodyWork& w = work.bodies[b];
+        Transform X_WJ = X_WR;
+        if (body.joint != JointKind::kFree)
+            X_WJ = (body.parent < 0 ? X_WR : work.bodies[static_cast<std::size_t>(body.parent)].X_WB) * body.X_PJ;
+        w.X_WB = moved(body, X_WJ, q);
+        w.centre = w.X_WB * body.p_BC - work.origin;
+        set_axes(body, X_WJ.R, w.X_WB.p - work.origin, &work.axes[static_cast<std::size_t>(body.v_index)]);
+    }
+}
+
+void move_bodies(const RobotType& type, std::span<const double> v, RobotWork& work) {
+    for (std::size_t b = 0; b < type.bodies.size(); ++b) {
+        const Body& body = type.bodies[b];
+        BodyWork& w = work.bodies[b];
+        const auto first = static_cast<std::size_t>(body.v_index);
+        if (body.joint == JointKind::kFree) {
+            w.velocity = {{v[first], v[first + 1], v[first + 2]}, {v[first + 3], v[first + 4], v[first + 5]}};
+            // A base whose origin does not accelerate: its spatial acceleration about the fixed point O is -w x v.
+            w.bias = {{}, -cross(w.velocity.angular, w.velocity.linear)};
+            continue;
+        }
+        Spatial joint{};
+        for (std::size_t k = 0; k < static_cast<std::size_t>(body.nv); ++k) joint += work.axes[first + k] * v[first + k];
+        if (body.parent < 0) {
+            w.velocity = joint;
+            w.bias = {};
+        } else {
+            const BodyWork& parent = work.bodies[static_cast<std::size_t>(body.parent)];
+            w.velocity = parent.velocity + joint;
+            w.bias = parent.bias + cross_motion(parent.velocity, joint);
+        }
+    }
+}
+
+void place_shapes(const RobotType& type, double dt, RobotWork& work) {
+    work.shapes.resize(type.shapes.size());
+    work.box = {};
+    for (std::size_t s = 0; s < type.shapes.size(); ++s) {
+        const BodyShape& shape = type.shapes[s];
+        ShapeWork& w = work.shapes[s];
+        if (shape.body < 0) {
+            w.X_WS = base_transform(work.state->q) * shape.X_BS;
+            w.margin = kBaseMargin;
+        } else {
+            const BodyWork& body = work.bodies[static_cast<std::size_t>(shape.body)];
+            w.X_WS = body.X_WB * shape.X_BS;
+            const Vec3 at_shape = body.velocity.linear + cross(body.velocity.angular, w.X_WS.p - work.origin);
+            const double radius = bounding_radius(shape.shape);
+            const double speed = norm(at_shape) + (std::isfinite(radius) ? norm(body.velocity.angular) * radius : 0.0);
+            w.margin = kBaseMargin + dt * speed;
+        }
+        w.box = bounds(shape.shape, w.X_WS).inflated(w.margin);
+        work.box.include(w.box);
+    }
+}
+
+void compute_impulse(const Model& model, Tick, std::span<const double> q, std::span<const double> v, RobotWork& work) {
+    const RobotType& type = *work.type;
+    const double dt = model.dt_s;
+    for (std::size_t b = 0; b < type.bodies.size(); ++b) {
+        const Body& body = type.bodies[b];
+        BodyWork& w = work.bodies[b];
+        w.inertia = spatial_inertia(body.mass, w.centre, rotated(w.X_WB.R, body.inertia_C));
+        const Spatial momentum = w.inertia * w.velocity;
+        const Vec3 weight = model.gravity * (body.mass * body.gravity_factor);
+        const Spatial force = Spatial{cross(w.centre, weight), weight} - w.inertia * w.bias - cross_force(w.velocity, momentum);
+        w.impulse = momentum + force * dt;
+    }
+    add_wrenches(type, *work.state, dt, work);
+    work.impulse.resize(static_cast<std::size_t>(type.nv));
+    for (std::size_t b = type.bodies.size(); b-- > 0;) {
+        const Body& body = type.bodies[b];
+        const BodyWork& w = work.bodies[b];
+        for (int k = 0; k < body.nv; ++k) {
+            const auto i = static_cast<std::size_t>(body.v_index + k);
+            work.impulse[i] = dot(work.axes[i], w.impulse);
+        }
+        if (body.parent >= 0) work.bodies[static_cast<std::size_t>(body.parent)].impulse += w.impulse;
+    }
+    add_joint_impulses(type, dt, q, v, work);
+}
+
+void compute_mass_matrix(const RobotType& type, double dt, RobotWork& work) {
+    const auto n = static_cast<std::size_t>(type.nv);
+    work.mass_matrix.resize(n * n);
+    for (std::size_t b = type.bodies.size(); b-- > 0;) {
+        const Body& body = type.bodies[b];
+        const SpatialInertia& subtree = work.bodies[b].inertia;
+        for (int k = body.nv - 1; k >= 0; --k) {
+            const auto i = static_cast<std::size_t>(body.v_index + k);
+            const Spatial momentum = subtree * work.axes[i];
+            for (int j = static_cast<int>(i); j >= 0; j = type.dof_parent[static_cast<std::size_t>(j)])
+                work.mass_matrix[i * n + static_cast<std::size_t>(j)] = dot(work.axes[static_cast<std::size_t>(j)], momentum);
+        }
+        if (body.parent >= 0) work.bodies[static_cast<std::size_t>(body.parent)].inertia += subtree;
+    }
+    for (std::size_t d = 0; d < type.dofs.size(); ++d) {
+        const Dof& dof = type.dofs[d];
+        const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
+        work.mass_matrix[i * n + i] += dof.armature + dt * dof.damping + dt * dt * dof.spring_stiffness;
+    }
+}
+
+}  // namespace roboss

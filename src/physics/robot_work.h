@@ -1,0 +1,56 @@
+// What one tick computes of one robot before anything is solved: poses, motion axes, mass matrix, free impulse. Buffers
+// are kept from tick to tick, so that nothing is allocated once they have grown.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "math/aabb.h"
+#include "math/spatial.h"
+#include "model/model.h"
+#include "model/robot_state.h"
+
+namespace roboss {
+
+struct BodyWork {
+    Transform X_WB;
+    Vec3 centre;             // of mass, from O, world axes
+    Spatial velocity;        // about O
+    Spatial bias;            // acceleration with all joint accelerations zero
+    SpatialInertia inertia;  // of the body, then of its whole subtree
+    Spatial impulse;         // momentum minus dt * bias force, summed over the subtree
+};
+
+struct ShapeWork {
+    Transform X_WS;
+    Aabb box;           // inflated by `margin`
+    double margin = 0;  // contact margin of this shape at this tick, m
+};
+
+struct RobotWork {
+    RobotId id;
+    const RobotType* type = nullptr;
+    RobotState* state = nullptr;
+    Vec3 origin;  // O: the base origin, m, world
+    std::vector<BodyWork> bodies;
+    std::vector<Spatial> axes;        // one a degree of freedom: motion of its body per unit of v, about O
+    std::vector<double> mass_matrix;  // nv x nv, lower triangle filled on the tree's pattern; implicit damping and springs included
+    std::vector<double> impulse;      // nv: M v + dt (applied - bias); the free velocity is M^-1 of it
+    std::vector<double> velocity;     // nv: solved
+    std::vector<double> position_velocity;  // nv: what moves the coordinates (differs from velocity to mend penetration)
+    std::vector<ShapeWork> shapes;
+    Aabb box;  // interaction bound
+    int contacts = 0;          // contact points that involve this robot
+    bool touches_robot = false;  // has a contact with another robot or itself
+    bool split = false;          // position_velocity was solved on its own
+};
+
+/// Parts of RobotWork in the order of computing. `dt` in s.
+void place_bodies(const RobotType& type, std::span<const double> q, RobotWork& work);
+void move_bodies(const RobotType& type, std::span<const double> v, RobotWork& work);
+void place_shapes(const RobotType& type, double dt, RobotWork& work);
+void compute_impulse(const Model& model, Tick tick, std::span<const double> q, std::span<const double> v, RobotWork& work);
+void compute_mass_matrix(const RobotType& type, double dt, RobotWork& work);
+
+
+}  // namespace roboss
