@@ -231,6 +231,7 @@ class PartBuilder {
             link.body = body;
             link.X_BL = body < 0 ? to_transform(spec.X_ML)
                                  : inverse(X_MB_[static_cast<std::size_t>(body)]) * to_transform(spec.X_ML);
+            link.p_BC = link.X_BL * spec.p_LC;
             const LinkId id(part_.type.links.size());
             if (body >= 0) add_mass(part_.type.bodies[static_cast<std::size_t>(body)], spec, link.X_BL);
             add_shapes(spec, link, id);

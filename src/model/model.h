@@ -57,6 +57,7 @@ struct Link {
     std::string name;
     int body = -1;  // -1: welded to the fixed base
     Transform X_BL;
+    Vec3 p_BC;  // the link's own centre of mass, in its body
 };
 
 struct Joint {
@@ -128,9 +129,11 @@ struct StaticShape {
 
 /// What the user may trade for speed; part of the Model, so part of its hash.
 struct Accuracy {
-    double tolerance = 1e-9;     // relative residual of the solver
-    int newton_max = 60;         // iterations for one friction bound
-    int friction_max = 20;       // updates of the friction bounds
+    double tolerance = 1e-9;        // relative residual of the momentum balance
+    double friction_tolerance = 1e-6;  // relative error of the friction bound mu * normal impulse
+    int newton_max = 60;            // Newton iterations of a contact island and tick
+    int friction_max = 20;          // updates of its friction bounds
+    double compliance = 1e-6;       // regularisation of hard rows, relative to the mobility they act on
 };
 
 struct Model {

@@ -51,23 +51,24 @@ Transform moved(const Body& body, const Transform& X_WJ, std::span<const double>
     return X_WJ;
 }
 
-/// Adds what Clients' wrenches do to the bodies' impulses (force at the link's centre of mass taken as its body's).
+/// Adds what Clients' wrenches do to the bodies' impulses (force at the link's centre of mass).
 void add_wrenches(const RobotType& type, const RobotState& state, double dt, RobotWork& work) {
     for (const TimedWrench& w : state.wrenches) {
-        const int b = type.links[w.link.index()].body;
-        if (b < 0) continue;
-        BodyWork& body = work.bodies[static_cast<std::size_t>(b)];
-        body.impulse += Spatial{w.torque + cross(body.centre, w.force), w.force} * dt;
+        const Link& link = type.links[w.link.index()];
+        if (link.body < 0) continue;
+        BodyWork& body = work.bodies[static_cast<std::size_t>(link.body)];
+        const Vec3 arm = body.X_WB * link.p_BC - work.origin;
+        body.impulse += Spatial{w.torque + cross(arm, w.force), w.force} * dt;
     }
 }
 
 /// Springs and rotor inertias: they act along one degree of freedom, outside the tree of bodies.
-void add_joint_impulses(const RobotType& type, double dt, std::span<const double> q, std::span<const double> v,
-                        RobotWork& work) {
+void add_joint_impulses(const RobotType& type, double dt, double momentum_weight, std::span<const double> q,
+                        std::span<const double> v, RobotWork& work) {
     for (std::size_t d = 0; d < type.dofs.size(); ++d) {
         const Dof& dof = type.dofs[d];
         const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
-        if (dof.armature != 0) work.impulse[i] += dof.armature * v[i];
+        if (dof.armature != 0) work.impulse[i] += momentum_weight * dof.armature * v[i];
         if (dof.spring_stiffness != 0) {
             const Body& body = type.bodies[static_cast<std::size_t>(dof.body)];
             work.impulse[i] -= dt * dof.spring_stiffness * (q[static_cast<std::size_t>(body.q_index)] - dof.spring_reference);
@@ -140,9 +141,9 @@ void place_shapes(const RobotType& type, double dt, RobotWork& work) {
     }
 }
 
-void compute_impulse(const Model& model, Tick, std::span<const double> q, std::span<const double> v, RobotWork& work) {
+void compute_impulse(const Model& model, double dt, double momentum_weight, std::span<const double> q,
+                     std::span<const double> v, RobotWork& work) {
     const RobotType& type = *work.type;
-    const double dt = model.dt_s;
     for (std::size_t b = 0; b < type.bodies.size(); ++b) {
         const Body& body = type.bodies[b];
         BodyWork& w = work.bodies[b];
@@ -150,7 +151,7 @@ void compute_impulse(const Model& model, Tick, std::span<const double> q, std::s
         const Spatial momentum = w.inertia * w.velocity;
         const Vec3 weight = model.gravity * (body.mass * body.gravity_factor);
         const Spatial force = Spatial{cross(w.centre, weight), weight} - w.inertia * w.bias - cross_force(w.velocity, momentum);
-        w.impulse = momentum + force * dt;
+        w.impulse = momentum * momentum_weight + force * dt;
     }
     add_wrenches(type, *work.state, dt, work);
     work.impulse.resize(static_cast<std::size_t>(type.nv));
@@ -163,7 +164,7 @@ void compute_impulse(const Model& model, Tick, std::span<const double> q, std::s
         }
         if (body.parent >= 0) work.bodies[static_cast<std::size_t>(body.parent)].impulse += w.impulse;
     }
-    add_joint_impulses(type, dt, q, v, work);
+    add_joint_impulses(type, dt, momentum_weight, q, v, work);
 }
 
 void compute_mass_matrix(const RobotType& type, double dt, RobotWork& work) {

@@ -49,7 +49,9 @@ struct RobotWork {
 void place_bodies(const RobotType& type, std::span<const double> q, RobotWork& work);
 void move_bodies(const RobotType& type, std::span<const double> v, RobotWork& work);
 void place_shapes(const RobotType& type, double dt, RobotWork& work);
-void compute_impulse(const Model& model, Tick tick, std::span<const double> q, std::span<const double> v, RobotWork& work);
+/// work.impulse = momentum_weight * M v + dt * (applied - bias); with (1, 0) the generalised force alone.
+void compute_impulse(const Model& model, double dt, double momentum_weight, std::span<const double> q,
+                     std::span<const double> v, RobotWork& work);
 void compute_mass_matrix(const RobotType& type, double dt, RobotWork& work);
 
 

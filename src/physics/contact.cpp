@@ -1,0 +1,171 @@
+// Broad phase as in the paper (robot boxes, then shape boxes, static scenery through its BVH), then the narrow phase.
+// Two robots meet here only if their interaction bounds overlap: that is what makes grouping into islands invisible.
+#include "physics/contact.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "geometry/collide.h"
+
+namespace roboss {
+namespace {
+
+constexpr std::uint32_t kStatic = RobotId::kNone;
+
+bool may_collide(const Material& a, const Material& b) {
+    return (a.collide_bitmask & b.collide_bitmask) != 0;
+}
+
+void add_points(const Manifold& manifold, Contact contact, const Material& a, const Material& b,
+                std::vector<Contact>& contacts) {
+    contact.normal = manifold.n_W;
+    contact.mu = std::min(a.mu, b.mu);
+    contact.restitution = std::max(a.restitution, b.restitution);
+    contact.bounce_threshold = std::max(a.bounce_threshold, b.bounce_threshold);
+    for (int i = 0; i < manifold.count; ++i) {
+        const ContactPoint& point = manifold.points[static_cast<std::size_t>(i)];
+        contact.p_W = point.p_W;
+        contact.gap = point.gap;
+        contact.feature = point.feature;
+        contacts.push_back(contact);
+    }
+}
+
+/// Collides two placed shapes of robots; `contact` names the pair.
+void collide_shapes(const BodyShape& a, const ShapeWork& wa, const BodyShape& b, const ShapeWork& wb, Contact contact,
+                    std::vector<Contact>& contacts) {
+    if (!overlaps(wa.box, wb.box) || !may_collide(a.material, b.material)) return;
+    contact.body_a = a.body;
+    contact.body_b = b.body;
+    const Manifold manifold = collide(a.shape, wa.X_WS, b.shape, wb.X_WS, wa.margin + wb.margin);
+    add_points(manifold, contact, a.material, b.material, contacts);
+}
+
+std::uint32_t other_id(std::span<const RobotWork> robots, const Contact& c) {
+    return c.robot_b < 0 ? kStatic : robots[static_cast<std::size_t>(c.robot_b)].id.value;
+}
+
+}  // namespace
+
+void ContactFinder::find(const Model& model, std::span<RobotWork> robots, std::vector<Contact>& contacts) {
+    contacts.clear();
+    overlapping_pairs(robots);
+    std::size_t pair = 0;
+    for (std::size_t a = 0; a < robots.size(); ++a) {
+        const std::size_t first = contacts.size();
+        if (!robots[a].type->self_pairs.empty()) with_itself(robots, a, contacts);
+        for (; pair < pairs_.size() && pairs_[pair].first == a; ++pair)
+            with_robot(model, robots, a, pairs_[pair].second, contacts);
+        with_statics(model, robots, a, contacts);
+        std::sort(contacts.begin() + static_cast<std::ptrdiff_t>(first), contacts.end(), [&](const Contact& x, const Contact& y) {
+            return std::tuple(other_id(robots, x), x.shape_a, x.shape_b, x.feature) <
+                   std::tuple(other_id(robots, y), y.shape_a, y.shape_b, y.feature);
+        });
+    }
+    for (const Contact& c : contacts) {
+        RobotWork& a = robots[static_cast<std::size_t>(c.robot_a)];
+        ++a.contacts;
+        if (c.robot_b < 0) continue;
+        robots[static_cast<std::size_t>(c.robot_b)].contacts += c.robot_b == c.robot_a ? 0 : 1;
+        a.touches_robot = robots[static_cast<std::size_t>(c.robot_b)].touches_robot = true;
+    }
+}
+
+void ContactFinder::with_statics(const Model& model, std::span<RobotWork> robots, std::size_t a,
+                                 std::vector<Contact>& contacts) {
+    RobotWork& work = robots[a];
+    if (work.shapes.empty()) return;
+    model.static_bvh.query(work.box, candidates_);
+    for (std::uint32_t i : candidates_) {
+        const StaticShape& scenery = model.statics[i];
+        const bool is_plane = scenery.shape.kind == ShapeKind::kPlane;
+        const Aabb box = is_plane ? Aabb{} : bounds(scenery.shape, scenery.X_WS);
+        for (std::size_t s = 0; s < work.shapes.size(); ++s) {
+            const BodyShape& shape = work.type->shapes[s];
+            const ShapeWork& placed = work.shapes[s];
+            if (shape.body < 0 || (!is_plane && !overlaps(placed.box, box))) continue;
+            if (!may_collide(shape.material, scenery.material)) continue;
+            const Manifold manifold = collide(shape.shape, placed.X_WS, scenery.shape, scenery.X_WS, placed.margin);
+            Contact contact;
+            contact.robot_a = static_cast<int>(a);
+            contact.shape_a = static_cast<std::uint32_t>(s);
+            contact.shape_b = i;
+            contact.body_a = shape.body;
+            add_points(manifold, contact, shape.material, scenery.material, contacts);
+        }
+    }
+}
+
+void ContactFinder::with_itself(std::span<RobotWork> robots, std::size_t a, std::vector<Contact>& contacts) {
+    const RobotWork& work = robots[a];
+    for (const auto& [s, t] : work.type->self_pairs) {
+        const auto i = static_cast<std::size_t>(s), j = static_cast<std::size_t>(t);
+        Contact contact;
+        contact.robot_a = contact.robot_b = static_cast<int>(a);
+        contact.shape_a = static_cast<std::uint32_t>(s);
+        contact.shape_b = static_cast<std::uint32_t>(t);
+        collide_shapes(work.type->shapes[i], work.shapes[i], work.type->shapes[j], work.shapes[j], contact, contacts);
+    }
+}
+
+void ContactFinder::with_robot(const Model& model, std::span<RobotWork> robots, std::size_t a, std::size_t b,
+                               std::vector<Contact>& contacts) {
+    const RobotWork& wa = robots[a];
+    const RobotWork& wb = robots[b];
+    if (model.robots[wa.id.index()].family == model.robots[wb.id.index()].family && !wa.type->self_collide) return;
+    for (std::size_t s = 0; s < wa.shapes.size(); ++s) {
+        if (!overlaps(wa.shapes[s].box, wb.box)) continue;
+        for (std::size_t t = 0; t < wb.shapes.size(); ++t) {
+            if (wa.type->shapes[s].body < 0 && wb.type->shapes[t].body < 0) continue;  // neither can move
+            Contact contact;
+            contact.robot_a = static_cast<int>(a);
+            contact.robot_b = static_cast<int>(b);
+            contact.shape_a = static_cast<std::uint32_t>(s);
+            contact.shape_b = static_cast<std::uint32_t>(t);
+            collide_shapes(wa.type->shapes[s], wa.shapes[s], wb.type->shapes[t], wb.shapes[t], contact, contacts);
+        }
+    }
+}
+
+/// Sweep along x: pairs (a, b), a < b, whose boxes overlap, sorted.
+void ContactFinder::overlapping_pairs(std::span<const RobotWork> robots) {
+    pairs_.clear();
+    if (robots.size() < 2) return;
+    by_x_.resize(robots.size());
+    for (std::size_t i = 0; i < robots.size(); ++i) by_x_[i] = static_cast<std::uint32_t>(i);
+    std::sort(by_x_.begin(), by_x_.end(), [&](std::uint32_t i, std::uint32_t j) {
+        return std::tuple(robots[i].box.min.x, i) < std::tuple(robots[j].box.min.x, j);
+    });
+    for (std::size_t i = 0; i < by_x_.size(); ++i) {
+        const Aabb& box = robots[by_x_[i]].box;
+        for (std::size_t j = i + 1; j < by_x_.size() && robots[by_x_[j]].box.min.x <= box.max.x; ++j)
+            if (overlaps(box, robots[by_x_[j]].box)) pairs_.push_back(std::minmax(by_x_[i], by_x_[j]));
+    }
+    std::sort(pairs_.begin(), pairs_.end());
+}
+
+void recall_impulses(std::span<RobotWork> robots, std::span<Contact> contacts) {
+    std::size_t c = 0;
+    for (std::size_t a = 0; a < robots.size(); ++a) {
+        const std::vector<ContactMemory>& memory = robots[a].state->contacts;
+        auto m = memory.begin();
+        for (; c < contacts.size() && contacts[c].robot_a == static_cast<int>(a); ++c) {
+            Contact& contact = contacts[c];
+            const auto key = std::tuple(other_id(robots, contact), contact.shape_a, contact.shape_b, contact.feature);
+            const auto key_of = [](const ContactMemory& x) { return std::tuple(x.other_robot, x.shape, x.other_shape, x.feature); };
+            while (m != memory.end() && key_of(*m) < key) ++m;
+            contact.impulse = m != memory.end() && key_of(*m) == key ? m->impulse : 0.0;
+        }
+    }
+}
+
+void remember_impulses(std::span<RobotWork> robots, std::span<const Contact> contacts) {
+    for (RobotWork& work : robots) work.state->contacts.clear();
+    for (const Contact& c : contacts) {
+        if (c.impulse <= 0) continue;
+        robots[static_cast<std::size_t>(c.robot_a)].state->contacts.push_back(
+            {other_id(robots, c), c.shape_a, c.shape_b, c.feature, c.impulse});
+    }
+}
+
+}  // namespace roboss

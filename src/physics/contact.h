@@ -1,0 +1,45 @@
+// Contacts of one tick: found pair by pair, in canonical order, with the data that the solver needs.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "physics/robot_work.h"
+
+namespace roboss {
+
+/// One contact point. Side A is the robot that owns it (the lower id), side B another robot, itself, or static scenery.
+struct Contact {
+    int robot_a = 0;   // index into the island's robots
+    int robot_b = -1;  // -1: static scenery
+    std::uint32_t shape_a = 0, shape_b = 0, feature = 0;
+    int body_a = -1, body_b = -1;
+    Vec3 p_W, normal;  // normal from B towards A
+    double gap = 0;
+    double mu = 0, restitution = 0, bounce_threshold = 0;
+    double impulse = 0;  // normal, N s: remembered, then solved
+};
+
+/// Finds all contacts of the island. `robots` ascending by id. Result sorted by (robot_a, other id, shapes, feature).
+class ContactFinder {
+  public:
+    void find(const Model& model, std::span<RobotWork> robots, std::vector<Contact>& contacts);
+
+  private:
+    void with_statics(const Model& model, std::span<RobotWork> robots, std::size_t a, std::vector<Contact>& contacts);
+    void with_itself(std::span<RobotWork> robots, std::size_t a, std::vector<Contact>& contacts);
+    void with_robot(const Model& model, std::span<RobotWork> robots, std::size_t a, std::size_t b,
+                    std::vector<Contact>& contacts);
+    void overlapping_pairs(std::span<const RobotWork> robots);
+
+    std::vector<std::uint32_t> candidates_;
+    std::vector<std::uint32_t> by_x_;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;  // sorted
+};
+
+/// Takes the remembered impulses of the last tick from the owners' states into the contacts, and writes the solved back.
+void recall_impulses(std::span<RobotWork> robots, std::span<Contact> contacts);
+void remember_impulses(std::span<RobotWork> robots, std::span<const Contact> contacts);
+
+}  // namespace roboss

@@ -1,0 +1,291 @@
+// Newton's method for a contact island. Every sum runs in a fixed order, so the bits depend on the island alone.
+#include "physics/solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/tree_factor.h"
+
+namespace roboss {
+
+struct IslandSolver::Problem {
+    const Accuracy& accuracy;
+    std::span<const RobotWork* const> robots;
+    std::span<const int> offsets;
+    std::span<const JointRow> joints;
+    std::span<const ContactColumn> columns;
+    std::span<ContactRow> contacts;
+    bool position = false;
+    double impulse_scale = 0;  // largest normal impulse, N s
+};
+
+namespace {
+
+double impulse(const JointRow& row, double v) {
+    return std::clamp((row.target - v) / row.compliance, row.low, row.high);
+}
+
+double target(const ContactRow& row, bool position) {
+    return position ? row.position_target : row.target;
+}
+
+struct Tangential {
+    double t1, t2;
+};
+
+Tangential friction(const ContactRow& row, double u_t1, double u_t2) {
+    const double t1 = -u_t1 / row.compliance_t, t2 = -u_t2 / row.compliance_t;
+    const double size2 = t1 * t1 + t2 * t2;
+    if (size2 <= row.bound * row.bound) return {t1, t2};
+    const double cut = row.bound / std::sqrt(size2);
+    return {t1 * cut, t2 * cut};
+}
+
+}  // namespace
+
+void IslandSolver::times_mass(const Problem& p, std::span<const double> x, std::vector<double>& y) const {
+    for (std::size_t r = 0; r < p.robots.size(); ++r) {
+        const auto offset = static_cast<std::size_t>(p.offsets[r]);
+        tree_times(p.robots[r]->type->dof_parent, p.robots[r]->mass_matrix, x.data() + offset, y.data() + offset);
+    }
+}
+
+void IslandSolver::start(const Problem& p, std::span<const double> v) {
+    n_ = v.size();
+    tree_ = p.robots.size() == 1 && !p.robots[0]->touches_robot;
+    for (auto* buffer : {&mv_, &g_, &step_, &m_step_}) buffer->resize(n_);
+    times_mass(p, v, mv_);
+    for (ContactRow& row : p.contacts) {
+        row.u_n = row.u_t1 = row.u_t2 = 0;
+        for (std::size_t c = row.first; c < row.last; ++c) {
+            const ContactColumn& column = p.columns[c];
+            const double x = v[static_cast<std::size_t>(column.dof)];
+            row.u_n += column.n * x, row.u_t1 += column.t1 * x, row.u_t2 += column.t2 * x;
+        }
+    }
+    if (!tree_) set_profile(p);
+}
+
+/// Impulses of all contact rows at the present velocities. With `update_bounds` the friction bounds follow the normal impulses;
+/// returns how much friction that changed, relative to the largest normal impulse.
+double IslandSolver::update_impulses(const Problem& p, std::span<const double>, bool update_bounds) {
+    double largest = 0, change = 0;
+    for (ContactRow& row : p.contacts) {
+        row.impulse_n = std::max(0.0, (target(row, p.position) - row.u_n) / row.compliance_n);
+        largest = std::max(largest, row.impulse_n);
+        if (row.mu == 0) continue;
+        if (update_bounds) {
+            const Tangential before = friction(row, row.u_t1, row.u_t2);
+            row.bound = row.mu * row.impulse_n;
+            const Tangential after = friction(row, row.u_t1, row.u_t2);
+            change = std::max(change, std::fabs(after.t1 - before.t1) + std::fabs(after.t2 - before.t2));
+        }
+        const Tangential t = friction(row, row.u_t1, row.u_t2);
+        row.impulse_t1 = t.t1, row.impulse_t2 = t.t2;
+    }
+    return largest > 0 ? change / largest : 0.0;
+}
+
+/// g = M v - p - J^T impulses; returns its size relative to the momenta in play, both measured in the metric of M's diagonal.
+double IslandSolver::gradient(const Problem& p, std::span<const double> v) {
+    for (std::size_t i = 0; i < n_; ++i) step_[i] = 0;  // applied impulses, for now
+    for (const JointRow& row : p.joints) {
+        const auto i = static_cast<std::size_t>(row.dof);
+        step_[i] += impulse(row, v[i]);
+    }
+    for (const ContactRow& row : p.contacts) {
+        for (std::size_t c = row.first; c < row.last; ++c) {
+            const ContactColumn& k = p.columns[c];
+            step_[static_cast<std::size_t>(k.dof)] += k.n * row.impulse_n + k.t1 * row.impulse_t1 + k.t2 * row.impulse_t2;
+        }
+    }
+    double error = 0, scale = 0;
+    for (std::size_t r = 0; r < p.robots.size(); ++r) {
+        const RobotWork& robot = *p.robots[r];
+        const auto nv = static_cast<std::size_t>(robot.type->nv);
+        for (std::size_t k = 0; k < nv; ++k) {
+            const std::size_t i = static_cast<std::size_t>(p.offsets[r]) + k;
+            const double free = robot.impulse[k];
+            g_[i] = mv_[i] - free - step_[i];
+            const double m = robot.mass_matrix[k * nv + k];
+            error += g_[i] * g_[i] / m;
+            scale += (mv_[i] * mv_[i] + free * free + step_[i] * step_[i]) / m;
+        }
+    }
+    return scale > 0 ? std::sqrt(error / scale) : 0.0;
+}
+
+double& IslandSolver::at(std::size_t i, std::size_t j) {
+    return tree_ ? h_[i * n_ + j] : h_[row_at_[i] + j];
+}
+
+/// Skyline of the Hessian: a robot's rows reach back to the first dof of the lowest robot it touches.
+void IslandSolver::set_profile(const Problem& p) {
+    first_.resize(n_);
+    row_at_.resize(n_);
+    for (std::size_t r = 0; r < p.robots.size(); ++r) {
+        const auto begin = static_cast<std::size_t>(p.offsets[r]);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(p.robots[r]->type->nv); ++k) first_[begin + k] = begin;
+    }
+    for (const ContactRow& row : p.contacts) {
+        std::size_t lowest = n_;
+        for (std::size_t c = row.first; c < row.last; ++c)
+            lowest = std::min(lowest, first_[static_cast<std::size_t>(p.columns[c].dof)]);
+        for (std::size_t c = row.first; c < row.last; ++c) {
+            std::size_t& first = first_[static_cast<std::size_t>(p.columns[c].dof)];
+            first = std::min(first, lowest);
+        }
+    }
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < n_; ++i) {
+        row_at_[i] = size - first_[i];
+        size += i - first_[i] + 1;
+    }
+    h_.resize(size);
+}
+
+void IslandSolver::assemble(const Problem& p, std::span<const double> v) {
+    if (tree_) {
+        h_.assign(p.robots[0]->mass_matrix.begin(), p.robots[0]->mass_matrix.end());
+    } else {
+        std::fill(h_.begin(), h_.end(), 0.0);
+        for (std::size_t r = 0; r < p.robots.size(); ++r) {
+            const RobotWork& robot = *p.robots[r];
+            const auto nv = static_cast<std::size_t>(robot.type->nv);
+            const auto offset = static_cast<std::size_t>(p.offsets[r]);
+            for (std::size_t i = 0; i < nv; ++i)
+                for (int j = static_cast<int>(i); j >= 0; j = robot.type->dof_parent[static_cast<std::size_t>(j)])
+                    at(offset + i, offset + static_cast<std::size_t>(j)) = robot.mass_matrix[i * nv + static_cast<std::size_t>(j)];
+        }
+    }
+    for (const JointRow& row : p.joints) {
+        const auto i = static_cast<std::size_t>(row.dof);
+        const double raw = (row.target - v[i]) / row.compliance;
+        if (raw >= row.low && raw <= row.high) at(i, i) += 1.0 / row.compliance;
+    }
+    for (const ContactRow& row : p.contacts) add_contact(p, row);
+}
+
+/// J^T D J of one contact, D = minus the derivative of its impulses by its velocities.
+void IslandSolver::add_contact(const Problem& p, const ContactRow& row) {
+    const double d_n = row.impulse_n > 0 ? 1.0 / row.compliance_n : 0.0;
+    double d_11 = 0, d_12 = 0, d_22 = 0;
+    if (row.bound > 0) {
+        const double speed = std::sqrt(row.u_t1 * row.u_t1 + row.u_t2 * row.u_t2);
+        if (speed <= row.bound * row.compliance_t) {
+            d_11 = d_22 = 1.0 / row.compliance_t;
+        } else {  // sliding: only turning the direction changes the impulse
+            const double s = row.bound / speed, e1 = row.u_t1 / speed, e2 = row.u_t2 / speed;
+            d_11 = s * (1.0 - e1 * e1), d_12 = -s * e1 * e2, d_22 = s * (1.0 - e2 * e2);
+        }
+    }
+    if (d_n == 0 && d_11 == 0 && d_22 == 0) return;
+    for (std::size_t a = row.first; a < row.last; ++a) {
+        const ContactColumn& x = p.columns[a];
+        const double n = d_n * x.n, t1 = d_11 * x.t1 + d_12 * x.t2, t2 = d_12 * x.t1 + d_22 * x.t2;
+        for (std::size_t b = row.first; b < row.last; ++b) {
+            const ContactColumn& y = p.columns[b];
+            if (y.dof > x.dof) continue;
+            at(static_cast<std::size_t>(x.dof), static_cast<std::size_t>(y.dof)) += n * y.n + t1 * y.t1 + t2 * y.t2;
+        }
+    }
+}
+
+/// step = -H^-1 g
+void IslandSolver::factor_and_solve(const Problem& p) {
+    for (std::size_t i = 0; i < n_; ++i) step_[i] = -g_[i];
+    if (tree_) {
+        tree_factor(p.robots[0]->type->dof_parent, h_);
+        tree_solve(p.robots[0]->type->dof_parent, h_, step_.data());
+    } else {
+        skyline_factor(h_, first_, row_at_);
+        skyline_solve(h_, first_, row_at_, step_);
+    }
+}
+
+/// Exact minimum along the step: the root of the derivative, which is monotone; nearly always 1 is good enough.
+double IslandSolver::line_search(const Problem& p, std::span<const double> v) {
+    times_mass(p, step_, m_step_);
+    double slope0 = 0, quadratic = 0;  // of the smooth part
+    for (std::size_t r = 0; r < p.robots.size(); ++r) {
+        for (std::size_t k = 0; k < static_cast<std::size_t>(p.robots[r]->type->nv); ++k) {
+            const std::size_t i = static_cast<std::size_t>(p.offsets[r]) + k;
+            slope0 += step_[i] * (mv_[i] - p.robots[r]->impulse[k]);
+            quadratic += step_[i] * m_step_[i];
+        }
+    }
+    for (ContactRow& row : p.contacts) {
+        row.du_n = row.du_t1 = row.du_t2 = 0;
+        for (std::size_t c = row.first; c < row.last; ++c) {
+            const ContactColumn& k = p.columns[c];
+            const double x = step_[static_cast<std::size_t>(k.dof)];
+            row.du_n += k.n * x, row.du_t1 += k.t1 * x, row.du_t2 += k.t2 * x;
+        }
+    }
+    const auto slope = [&](double alpha) {
+        double s = slope0 + alpha * quadratic;
+        for (const JointRow& row : p.joints) {
+            const auto i = static_cast<std::size_t>(row.dof);
+            s -= impulse(row, v[i] + alpha * step_[i]) * step_[i];
+        }
+        for (const ContactRow& row : p.contacts) {
+            const double u_n = row.u_n + alpha * row.du_n;
+            const Tangential t = friction(row, row.u_t1 + alpha * row.du_t1, row.u_t2 + alpha * row.du_t2);
+            s -= std::max(0.0, (target(row, p.position) - u_n) / row.compliance_n) * row.du_n;
+            s -= t.t1 * row.du_t1 + t.t2 * row.du_t2;
+        }
+        return s;
+    };
+    const double at_zero = slope(0.0);
+    double low = 0, high = 1, s_low = at_zero, s_high = slope(1.0);
+    if (!(at_zero < 0) || std::fabs(s_high) <= -0.05 * at_zero) return 1.0;
+    for (int i = 0; i < 20 && s_high < 0; ++i) low = high, s_low = s_high, high *= 2, s_high = slope(high);
+    for (int i = 0; i < 40; ++i) {  // regula falsi with the Illinois rule
+        const double alpha = low + (high - low) * (s_low / (s_low - s_high));
+        const double s = slope(alpha);
+        if (std::fabs(s) <= -0.01 * at_zero) return alpha;
+        if (s < 0) {
+            low = alpha, s_low = s, s_high *= 0.5;
+        } else {
+            high = alpha, s_high = s, s_low *= 0.5;
+        }
+    }
+    return low > 0 ? low : high;
+}
+
+SolveReport IslandSolver::solve(const Accuracy& accuracy, std::span<const RobotWork* const> robots,
+                                std::span<const int> offsets, std::span<const JointRow> joints,
+                                std::span<const ContactColumn> columns, std::span<ContactRow> contacts, bool position,
+                                std::vector<double>& v) {
+    const Problem p{accuracy, robots, offsets, joints, columns, contacts, position};
+    constexpr double kRoughly = 1e-4;  // bounds are updated once the momentum balance is this good
+    start(p, v);
+    SolveReport report;
+    int bound_updates = 0;
+    double friction_change = 0;
+    bool update = false;
+    for (report.iterations = 0; report.iterations <= accuracy.newton_max; ++report.iterations) {
+        friction_change = update_impulses(p, v, update);
+        report.residual = gradient(p, v);
+        if (!update && report.residual <= kRoughly && bound_updates < accuracy.friction_max) {
+            ++bound_updates;
+            friction_change = update_impulses(p, v, true);
+            report.residual = gradient(p, v);
+        }
+        const bool settled = friction_change <= accuracy.friction_tolerance || bound_updates >= accuracy.friction_max;
+        if (report.residual <= accuracy.tolerance && settled) break;
+        if (report.iterations == accuracy.newton_max) break;
+        assemble(p, v);
+        factor_and_solve(p);
+        const double alpha = line_search(p, v);
+        for (std::size_t i = 0; i < n_; ++i) {
+            v[i] += alpha * step_[i];
+            mv_[i] += alpha * m_step_[i];
+        }
+        for (ContactRow& row : p.contacts)
+            row.u_n += alpha * row.du_n, row.u_t1 += alpha * row.du_t1, row.u_t2 += alpha * row.du_t2;
+    }
+    return report;
+}
+
+}  // namespace roboss

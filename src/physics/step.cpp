@@ -1,0 +1,205 @@
+// step_island: orders, kinematics, contacts, then each contact island by itself, then the new state.
+#include "physics/step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/float_env.h"
+#include "physics/integrate.h"
+#include "physics/solver.h"
+
+namespace roboss {
+
+struct StepScratch::Impl {
+    std::vector<RobotWork> robots;  // only the first `count` are of this island
+    ContactFinder finder;
+    std::vector<Contact> contacts;
+    std::vector<int> group;  // union-find over the robots: contact islands
+    std::vector<std::uint32_t> members;
+    std::vector<Contact*> island_contacts;
+    std::vector<const RobotWork*> island_robots;
+    std::vector<int> offsets, island_offsets;
+    std::vector<JointRow> joints;
+    std::vector<ContactColumn> columns;
+    std::vector<ContactRow> rows;
+    std::vector<double> v, v_before;
+    IslandSolver solver;
+    FreeBuffer free_buffer;
+};
+
+StepScratch::StepScratch() : impl_(std::make_unique<Impl>()) {}
+StepScratch::~StepScratch() = default;
+StepScratch::StepScratch(StepScratch&&) noexcept = default;
+StepScratch& StepScratch::operator=(StepScratch&&) noexcept = default;
+
+namespace {
+
+using Impl = StepScratch::Impl;
+
+void place_robot(const Model& model, RobotId id, RobotState& state, RobotWork& work) {
+    const RobotType& type = model.type_of(id);
+    work.id = id;
+    work.type = &type;
+    work.state = &state;
+    work.contacts = 0;
+    work.touches_robot = work.split = false;
+    place_bodies(type, state.q, work);
+    move_bodies(type, state.v, work);
+    place_shapes(type, model.dt_s, work);
+    if (type.shapes.empty()) work.box.include(work.origin);
+}
+
+void apply_orders(const Model& model, std::span<const RobotId> robots, std::span<RobotState* const> states,
+                  std::span<const Order> orders) {
+    for (const Order& order : orders) {
+        const auto found = std::lower_bound(robots.begin(), robots.end(), order.robot);
+        if (found == robots.end() || *found != order.robot) continue;
+        apply_order(model, order, *states[static_cast<std::size_t>(found - robots.begin())]);
+    }
+}
+
+int root_of(std::vector<int>& group, int i) {
+    while (group[static_cast<std::size_t>(i)] != i) {
+        int& parent = group[static_cast<std::size_t>(i)];
+        parent = group[static_cast<std::size_t>(parent)];
+        i = parent;
+    }
+    return i;
+}
+
+/// Joins robots in contact; afterwards group[i] is the lowest robot of i's contact island.
+void build_contact_islands(Impl& s, std::size_t count) {
+    s.group.resize(count);
+    for (std::size_t i = 0; i < count; ++i) s.group[i] = static_cast<int>(i);
+    for (const Contact& c : s.contacts) {
+        if (c.robot_b < 0 || c.robot_b == c.robot_a) continue;
+        const int a = root_of(s.group, c.robot_a), b = root_of(s.group, c.robot_b);
+        s.group[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    }
+    for (std::size_t i = 0; i < count; ++i) s.group[i] = root_of(s.group, static_cast<int>(i));
+    s.members.resize(count);
+    for (std::size_t i = 0; i < count; ++i) s.members[i] = static_cast<std::uint32_t>(i);
+    std::sort(s.members.begin(), s.members.end(), [&](std::uint32_t i, std::uint32_t j) {
+        return s.group[i] != s.group[j] ? s.group[i] < s.group[j] : i < j;
+    });
+}
+
+void finish_freely(const Model& model, Impl& s, RobotWork& work) {
+    advance_freely(model, work, s.free_buffer);
+}
+
+/// Writes the solved velocities into the states and moves the coordinates.
+void finish_island(const Model& model, Impl& s, std::span<const std::uint32_t> members, std::span<const double> way) {
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        RobotWork& work = s.robots[members[m]];
+        const auto offset = static_cast<std::size_t>(s.island_offsets[m]);
+        const auto nv = static_cast<std::size_t>(work.type->nv);
+        std::copy_n(s.v.begin() + static_cast<std::ptrdiff_t>(offset), nv, work.state->v.begin());
+        advance_coordinates(*work.type, way.subspan(offset, nv), model.dt_s, work.state->q);
+    }
+}
+
+/// Gathers rows and first guess of one contact island; true if the way of the tick needs a solution of its own.
+bool gather_island(const Model& model, Impl& s, std::span<const std::uint32_t> members, std::span<Contact> contacts) {
+    s.island_robots.clear(), s.island_offsets.clear();
+    s.joints.clear(), s.columns.clear(), s.rows.clear(), s.v.clear();
+    s.offsets.resize(s.robots.size());
+    for (std::uint32_t m : members) {
+        RobotWork& work = s.robots[m];
+        const int offset = static_cast<int>(s.v.size());
+        s.offsets[m] = offset;
+        s.island_robots.push_back(&work);
+        s.island_offsets.push_back(offset);
+        compute_impulse(model, model.dt_s, 1.0, work.state->q, work.state->v, work);
+        compute_mass_matrix(*work.type, model.dt_s, work);
+        add_joint_rows(model, work, offset, s.joints);
+        s.v.insert(s.v.end(), work.state->v.begin(), work.state->v.end());
+    }
+    bool split = false;
+    for (std::uint32_t m : members) {  // contacts are sorted by their first robot
+        const auto first = std::lower_bound(contacts.begin(), contacts.end(), static_cast<int>(m),
+                                            [](const Contact& c, int robot) { return c.robot_a < robot; });
+        for (auto c = first; c != contacts.end() && c->robot_a == static_cast<int>(m); ++c) {
+            split |= add_contact_row(model, *c, s.robots, s.offsets, s.columns, s.rows);
+            s.island_contacts.push_back(&*c);
+        }
+    }
+    return split;
+}
+
+void solve_island(const Model& model, Impl& s, std::span<const std::uint32_t> members, StepReport& report) {
+    s.island_contacts.clear();
+    if (members.size() == 1) {
+        RobotWork& work = s.robots[members[0]];
+        if (work.type->nv == 0) return;
+        if (work.contacts == 0 && moves_freely(model, work)) return finish_freely(model, s, work);
+    }
+    const bool split = gather_island(model, s, members, s.contacts);
+    s.v_before = s.v;
+    const SolveReport solved = s.solver.solve(model.accuracy, s.island_robots, s.island_offsets, s.joints, s.columns, s.rows, false, s.v);
+    report.iterations += solved.iterations;
+    report.residual = std::max(report.residual, solved.residual);
+    for (std::size_t c = 0; c < s.rows.size(); ++c) s.island_contacts[c]->impulse = s.rows[c].impulse_n;
+    if (split) {
+        for (ContactRow& row : s.rows) row.bound = row.mu * row.impulse_n;
+        report.iterations += s.solver.solve(model.accuracy, s.island_robots, s.island_offsets, s.joints, s.columns, s.rows, true,
+                                            s.v_before).iterations;
+    }
+    finish_island(model, s, members, split ? s.v_before : s.v);
+}
+
+bool is_finite(const RobotState& state) {
+    double sum = 0;
+    for (double x : state.q) sum += x - x;
+    for (double x : state.v) sum += x - x;
+    return sum == 0;
+}
+
+void expire_wrenches(Tick tick, RobotState& state) {
+    std::erase_if(state.wrenches, [&](const TimedWrench& w) { return w.until <= tick + 1; });
+}
+
+}  // namespace
+
+Aabb interaction_bound(const Model& model, RobotId robot, const RobotState& state) {
+    RobotWork work;
+    RobotState copy = state;
+    place_robot(model, robot, copy, work);
+    return work.box;
+}
+
+StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> robots, std::span<RobotState* const> states,
+                       std::span<const Order> orders, std::span<Aabb> bounds, StepScratch& scratch) {
+    const ExactFloatScope exact;
+    Impl& s = scratch.impl();
+    const std::size_t count = robots.size();
+    apply_orders(model, robots, states, orders);
+    if (s.robots.size() < count) s.robots.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        place_robot(model, robots[i], *states[i], s.robots[i]);
+        bounds[i] = s.robots[i].box;
+    }
+    const std::span<RobotWork> works(s.robots.data(), count);
+    s.finder.find(model, works, s.contacts);
+    recall_impulses(works, s.contacts);
+    build_contact_islands(s, count);
+
+    StepReport report;
+    report.contacts = static_cast<int>(s.contacts.size());
+    for (std::size_t first = 0; first < count;) {
+        std::size_t last = first + 1;
+        while (last < count && s.group[s.members[last]] == s.group[s.members[first]]) ++last;
+        solve_island(model, s, std::span(s.members).subspan(first, last - first), report);
+        first = last;
+    }
+    remember_impulses(works, s.contacts);
+    for (const Contact& c : s.contacts) report.static_contacts += c.robot_b < 0 ? 1 : 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        expire_wrenches(tick, *states[i]);
+        if (!report.not_finite.valid() && !is_finite(*states[i])) report.not_finite = robots[i];
+    }
+    return report;
+}
+
+}  // namespace roboss

@@ -1,0 +1,74 @@
+// See tree_factor.h.
+#include "physics/tree_factor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace roboss {
+
+void tree_times(std::span<const int> parent, std::span<const double> a, const double* x, double* y) {
+    const std::size_t n = parent.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const double* row = a.data() + i * n;
+        double sum = row[i] * x[i];
+        for (int j = parent[i]; j >= 0; j = parent[static_cast<std::size_t>(j)]) {
+            const auto k = static_cast<std::size_t>(j);
+            sum += row[k] * x[k];
+            y[k] += row[k] * x[i];
+        }
+        y[i] = sum;  // later rows add their share above
+    }
+}
+
+void tree_factor(std::span<const int> parent, std::span<double> a) {
+    const std::size_t n = parent.size();
+    for (std::size_t k = n; k-- > 0;) {
+        double* row_k = a.data() + k * n;
+        const double inverse = 1.0 / row_k[k];
+        row_k[k] = inverse;
+        for (int i = parent[k]; i >= 0; i = parent[static_cast<std::size_t>(i)]) {
+            double* row_i = a.data() + static_cast<std::size_t>(i) * n;
+            const double l = row_k[i] * inverse;
+            for (int j = i; j >= 0; j = parent[static_cast<std::size_t>(j)]) row_i[j] -= l * row_k[j];
+            row_k[i] = l;
+        }
+    }
+}
+
+void tree_solve(std::span<const int> parent, std::span<const double> a, double* x) {
+    const std::size_t n = parent.size();
+    for (std::size_t i = n; i-- > 0;)
+        for (int j = parent[i]; j >= 0; j = parent[static_cast<std::size_t>(j)]) x[j] -= a[i * n + static_cast<std::size_t>(j)] * x[i];
+    for (std::size_t i = 0; i < n; ++i) x[i] *= a[i * n + i];
+    for (std::size_t i = 0; i < n; ++i)
+        for (int j = parent[i]; j >= 0; j = parent[static_cast<std::size_t>(j)]) x[i] -= a[i * n + static_cast<std::size_t>(j)] * x[j];
+}
+
+void skyline_factor(std::span<double> a, std::span<const std::size_t> first, std::span<const std::size_t> row_at) {
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        double* row_i = a.data() + row_at[i];
+        for (std::size_t j = first[i]; j <= i; ++j) {
+            const double* row_j = a.data() + row_at[j];
+            double sum = row_i[j];
+            for (std::size_t k = std::max(first[i], first[j]); k < j; ++k) sum -= row_i[k] * row_j[k];
+            row_i[j] = j == i ? 1.0 / std::sqrt(sum) : sum * row_j[j];
+        }
+    }
+}
+
+void skyline_solve(std::span<const double> a, std::span<const std::size_t> first, std::span<const std::size_t> row_at,
+                   std::span<double> x) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const double* row = a.data() + row_at[i];
+        for (std::size_t k = first[i]; k < i; ++k) x[i] -= row[k] * x[k];
+        x[i] *= row[i];
+    }
+    for (std::size_t i = x.size(); i-- > 0;) {
+        const double* row = a.data() + row_at[i];
+        x[i] *= row[i];
+        for (std::size_t k = first[i]; k < i; ++k) x[k] -= row[k] * x[i];
+    }
+}
+
+}  // namespace roboss
