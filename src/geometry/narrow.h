@@ -1,0 +1,29 @@
+// The narrow phase's pairs, for the files of this folder only. Each function gets its shapes in the order of
+// their kinds, writes points with gap <= margin into an empty manifold, and lets the normal point from its
+// second shape to its first.
+#pragma once
+
+#include "geometry/collide.h"
+
+namespace roboss::narrow {
+
+struct Posed {
+    const Shape& shape;
+    const Transform& X;  // X_WS
+
+    Vec3 axis(std::size_t i) const { return X.R.col(i); }
+};
+
+using PairFunction = void (*)(const Posed& a, const Posed& b, double margin, Manifold& out);
+
+void plane_sphere(const Posed& plane, const Posed& sphere, double margin, Manifold& out);
+void plane_box(const Posed& plane, const Posed& box, double margin, Manifold& out);
+void plane_cylinder(const Posed& plane, const Posed& cylinder, double margin, Manifold& out);
+void plane_capsule(const Posed& plane, const Posed& capsule, double margin, Manifold& out);
+void sphere_sphere(const Posed& a, const Posed& b, double margin, Manifold& out);
+void sphere_box(const Posed& sphere, const Posed& box, double margin, Manifold& out);
+void sphere_cylinder(const Posed& sphere, const Posed& cylinder, double margin, Manifold& out);
+void sphere_capsule(const Posed& sphere, const Posed& capsule, double margin, Manifold& out);
+void box_box(const Posed& a, const Posed& b, double margin, Manifold& out);
+
+}  // namespace roboss::narrow
