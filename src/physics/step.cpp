@@ -85,10 +85,6 @@ void build_contact_islands(Impl& s, std::size_t count) {
     });
 }
 
-void finish_freely(const Model& model, Impl& s, RobotWork& work) {
-    advance_freely(model, work, s.free_buffer);
-}
-
 /// Writes the solved velocities into the states and moves the coordinates.
 void finish_island(const Model& model, Impl& s, std::span<const std::uint32_t> members, std::span<const double> way) {
     for (std::size_t m = 0; m < members.size(); ++m) {
@@ -133,7 +129,7 @@ void solve_island(const Model& model, Impl& s, std::span<const std::uint32_t> me
     if (members.size() == 1) {
         RobotWork& work = s.robots[members[0]];
         if (work.type->nv == 0) return;
-        if (work.contacts == 0 && moves_freely(model, work)) return finish_freely(model, s, work);
+        if (work.contacts == 0 && moves_freely(model, work)) return advance_freely(model, work, s.free_buffer);
     }
     const bool split = gather_island(model, s, members, s.contacts);
     s.v_before = s.v;
@@ -154,6 +150,14 @@ bool is_finite(const RobotState& state) {
     for (double x : state.q) sum += x - x;
     for (double x : state.v) sum += x - x;
     return sum == 0;
+}
+
+void count_contacts(const Model& model, std::span<const Contact> contacts, StepReport& report) {
+    for (const Contact& c : contacts) {
+        if (c.impulse <= 0) continue;
+        ++report.contacts;
+        if (c.robot_b < 0 && model.statics[c.shape_b].shape.kind != ShapeKind::kPlane) ++report.static_contacts;
+    }
 }
 
 void expire_wrenches(Tick tick, RobotState& state) {
@@ -186,7 +190,6 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
     build_contact_islands(s, count);
 
     StepReport report;
-    report.contacts = static_cast<int>(s.contacts.size());
     for (std::size_t first = 0; first < count;) {
         std::size_t last = first + 1;
         while (last < count && s.group[s.members[last]] == s.group[s.members[first]]) ++last;
@@ -194,7 +197,7 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
         first = last;
     }
     remember_impulses(works, s.contacts);
-    for (const Contact& c : s.contacts) report.static_contacts += c.robot_b < 0 ? 1 : 0;
+    count_contacts(model, s.contacts, report);
     for (std::size_t i = 0; i < count; ++i) {
         expire_wrenches(tick, *states[i]);
         if (!report.not_finite.valid() && !is_finite(*states[i])) report.not_finite = robots[i];

@@ -1,0 +1,38 @@
+// The options of `roboss run`, as given on the command line.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace roboss {
+
+struct RunOptions {
+    std::string world;
+    std::vector<std::string> paths;  // --path: where model:// and package:// URIs are looked up
+    std::optional<double> duration_s;
+    std::optional<double> dt_s;
+    std::string speed = "max";    // "max" or a factor of real time
+    std::string window = "auto";  // "auto" or a number of ticks
+    int threads = 1;
+    int simulators = 1;
+    bool merge_islands = false;
+    std::vector<std::string> clients;  // control programs, shared libraries
+    std::string orders;                // JSON lines
+    std::string trace;                 // CSV
+    double trace_every_s = 0;
+    double hash_every_s = 0;
+    std::string json;
+    std::uint64_t seed = 0;
+    std::string save;
+    std::string from;
+    std::string paths_picture;  // SVG of where the robots went
+    bool headless = false;
+    bool quiet = false;
+};
+
+void add_run_options(CLI::App& command, RunOptions& options);
+
+}  // namespace roboss
