@@ -14,8 +14,8 @@ namespace roboss {
 
 struct LaserReading {
     int samples = 0, vertical_samples = 0;
-    // m, row by row (vertical angle ascending), horizontal angle ascending; +infinity: nothing within range_max,
-    // -infinity: something nearer than range_min.
+    // m, row by row (vertical angle ascending), horizontal angle ascending; +infinity: nothing within
+    // range_max, -infinity: something nearer than range_min.
     std::vector<double> ranges;
 };
 
@@ -27,17 +27,17 @@ struct OdometerReading {
 };
 
 struct GpsReading {
-    Vec3 p_W;          // m, world frame
-    Vec3 v_W;          // m/s
+    Vec3 p_W;               // m, world frame
+    Vec3 v_W;               // m/s
     bool geodetic = false;  // world has spherical coordinates: the next three are set (WGS84)
     double latitude_rad = 0, longitude_rad = 0, altitude_m = 0;
 };
 
 struct CompassReading {
-    Quat q_WS;           // orientation of the sensor frame
+    Quat q_WS;                // orientation of the sensor frame
     Vec3 angular_velocity_S;  // rad/s, sensor axes (the gyro)
-    double heading_rad = 0;   // of the sensor's x axis: clockwise from true north where the world has spherical coordinates
-                              // (world y = north without), 0 .. 2 pi
+    double heading_rad = 0;   // of the sensor's x axis: clockwise from true north where the world has
+                              // spherical coordinates (world y = north without), 0 .. 2 pi
 };
 
 /// Rays against the static scenery and every robot (Embree, pinned to one instruction set, robust mode).
@@ -50,8 +50,8 @@ class RayScene {
 
     /// Moves every robot's shapes to its state; states[i] belongs to RobotId i.
     void update(std::span<const RobotState* const> states);
-    /// Nearest hit from `origin_W` along unit `direction_W`, in m, or +infinity; `self` (if valid) is not seen when `ignore_self_link`
-    /// is the link that carries the sensor.
+    /// Nearest hit from `origin_W` along unit `direction_W`, in m, or +infinity; `self` (if valid) is not
+    /// seen when `ignore_self_link` is the link that carries the sensor.
     struct Ray {
         Vec3 origin_W, direction_W;
         double max_range = 0;
@@ -65,13 +65,27 @@ class RayScene {
     std::unique_ptr<Impl> impl_;
 };
 
-LaserReading read_laser(const Model& model, RobotId robot, std::size_t sensor, const RobotState& state, Tick tick,
-                        std::uint64_t seed, RayScene& scene);
-OdometerReading read_odometer(const Model& model, RobotId robot, std::size_t sensor, const RobotState& state, Tick tick,
-                              std::uint64_t seed);
+/// Readings of sensor number `sensor` (of RobotType::sensors, of the matching kind) of a robot in `state`.
+/// Noise is a pure function of (seed, robot, sensor, tick): SDF's mean, stddev, and a bias drawn once a run
+/// from (bias_mean, bias_stddev).
+///
+/// Laser: beam (row, column) points along (cos e cos a, cos e sin a, sin e) of the sensor frame, a in
+/// [min_angle, max_angle], e in the vertical range, ends included (a single sample: the smaller end).
+/// Surfaces are seen from both sides. Noise, then range_resolution, then clamped to [range_min, range_max];
+/// whether a beam is out of range is judged without noise.
+LaserReading read_laser(const Model& model, RobotId robot, std::size_t sensor, const RobotState& state,
+                        Tick tick, std::uint64_t seed, RayScene& scene);
+/// Odometer: noise as a fraction; distance has mean and bias (a wrong wheel radius), speed also the draw of
+/// the tick.
+OdometerReading read_odometer(const Model& model, RobotId robot, std::size_t sensor, const RobotState& state,
+                              Tick tick, std::uint64_t seed);
+/// GPS: the world is the plane that touches the WGS84 ellipsoid at its origin; noise in world axes, before
+/// the conversion.
 GpsReading read_gps(const Model& model, RobotId robot, std::size_t sensor, const RobotState& state, Tick tick,
                     std::uint64_t seed);
-CompassReading read_compass(const Model& model, RobotId robot, std::size_t sensor, const RobotState& state, Tick tick,
-                            std::uint64_t seed);
+/// Gyrocompass: north at the sensor's own place; noise (rad) turns heading and orientation together; the gyro
+/// has none.
+CompassReading read_compass(const Model& model, RobotId robot, std::size_t sensor, const RobotState& state,
+                            Tick tick, std::uint64_t seed);
 
 }  // namespace roboss

@@ -1,0 +1,48 @@
+// roboss-world: makes worlds. One subcommand a kind of world.
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+
+#include "app/city_world.h"
+
+namespace {
+
+/// 0, or 3 after a message when the file cannot be written.
+int write_world(const std::string& text, const std::string& file) {
+    if (file.empty() || file == "-") {
+        std::cout << text << std::flush;
+        if (std::cout) return 0;
+    } else {
+        std::ofstream out(file, std::ios::binary);
+        out << text << std::flush;
+        if (out) return 0;
+    }
+    std::cerr << "roboss-world: cannot write " << (file.empty() ? "to standard output" : file)
+              << "\n  remedy: name a file in a folder that exists and can be written to, with room for "
+              << text.size() << " bytes\n";
+    return 3;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{
+        "Makes worlds for RoBOSS, as SDF files.\n"
+        "Exit codes: 0 done, 3 the file cannot be written, others: the command line is wrong."};
+    app.require_subcommand(1);
+    roboss::CityOptions city;
+    std::string file;
+    CLI::App* make_city = app.add_subcommand(
+        "city",
+        "a city of streets, buildings and parked obstacles, with four-wheeled cars that have a laser range\n"
+        "finder, odometer, GPS and gyrocompass; more cars make a larger city of the same density");
+    make_city->add_option("--cars", city.cars, "how many cars, 1 to 100000")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    make_city->add_option("--seed", city.seed, "another seed, another city")->capture_default_str();
+    make_city->add_option("-o,--output", file, "the file to write; without it, or with -, standard output");
+    CLI11_PARSE(app, argc, argv);
+    return write_world(roboss::city_sdf(city), file);
+}

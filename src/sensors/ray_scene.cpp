@@ -1,0 +1,121 @@
+// Two trees: the scenery, built once, and every robot's shapes, rebuilt at each update. Planes have no box
+// and are asked by every ray. A ray asks the scenery first, so that the robots behind a wall are never looked
+// at.
+#include <cmath>
+#include <limits>
+
+#include "core/check.h"
+#include "core/float_env.h"
+#include "physics/kinematics.h"
+#include "sensors/ray_shape.h"
+#include "sensors/ray_tree.h"
+#include "sensors/readings.h"
+
+namespace roboss {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Item {
+    Shape shape;
+    Transform X_WS;
+    RobotId robot;  // none: scenery
+    LinkId link;
+};
+
+struct RayAndItems final : RayTree::Target {
+    RayAndItems(const RayScene::Ray& r, std::span<const Item> all) : ray(r), items(all) {}
+    double distance(std::uint32_t i) const override {
+        const Item& item = items[i];
+        if (item.robot.valid() && item.robot == ray.self && item.link == ray.ignore_self_link)
+            return kInfinity;
+        return ray_distance(item.shape, item.X_WS, ray.origin_W, ray.direction_W);
+    }
+    const RayScene::Ray& ray;
+    std::span<const Item> items;
+};
+
+double nearest_of_all(const RayScene::Ray& ray, std::span<const Item> items, double limit) {
+    const RayAndItems target(ray, items);
+    for (std::uint32_t i = 0; i < items.size(); ++i) limit = std::fmin(limit, target.distance(i));
+    return limit;
+}
+
+}  // namespace
+
+struct RayScene::Impl {
+    explicit Impl(std::shared_ptr<const Model> m) : model(std::move(m)) {}
+
+    std::shared_ptr<const Model> model;
+    RayDevice device;
+    RayTree static_tree{device, RayTree::Use::kBuildOnce};
+    RayTree robot_tree{device, RayTree::Use::kRebuildOften};
+    std::vector<Item> static_items, static_planes;
+    std::vector<Item> robot_items, robot_planes;
+    std::vector<Aabb> boxes;
+    std::vector<Transform> X_WB;
+
+    void add_robot(RobotId robot, const RobotState& state);
+    double nearest(const Ray& ray) const;
+};
+
+void RayScene::Impl::add_robot(RobotId robot, const RobotState& state) {
+    const RobotType& type = model->type_of(robot);
+    if (type.shapes.empty()) return;
+    X_WB.resize(type.bodies.size());
+    body_poses(type, state, X_WB);
+    const Transform X_WBase = to_transform(base_pose(state));
+    for (const BodyShape& part : type.shapes) {
+        const Transform& X_WBody = part.body < 0 ? X_WBase : X_WB[static_cast<std::size_t>(part.body)];
+        const Item item{part.shape, X_WBody * part.X_BS, robot, part.link};
+        if (part.shape.kind == ShapeKind::kPlane) {
+            robot_planes.push_back(item);
+        } else {
+            robot_items.push_back(item);
+            boxes.push_back(bounds(item.shape, item.X_WS));
+        }
+    }
+}
+
+double RayScene::Impl::nearest(const Ray& ray) const {
+    double limit = std::nextafter(ray.max_range, kInfinity);  // a hit at max_range itself counts
+    limit = nearest_of_all(ray, static_planes, limit);
+    limit = nearest_of_all(ray, robot_planes, limit);
+    limit = static_tree.nearest(ray.origin_W, ray.direction_W, limit, RayAndItems(ray, static_items));
+    limit = robot_tree.nearest(ray.origin_W, ray.direction_W, limit, RayAndItems(ray, robot_items));
+    return limit <= ray.max_range ? limit : kInfinity;
+}
+
+RayScene::RayScene(std::shared_ptr<const Model> model) : impl_(std::make_unique<Impl>(std::move(model))) {
+    const ExactFloatScope exact;
+    for (const StaticShape& fixed : impl_->model->statics) {
+        const Item item{fixed.shape, fixed.X_WS, {}, {}};
+        if (fixed.shape.kind == ShapeKind::kPlane) {
+            impl_->static_planes.push_back(item);
+        } else {
+            impl_->static_items.push_back(item);
+            impl_->boxes.push_back(bounds(item.shape, item.X_WS));
+        }
+    }
+    impl_->static_tree.build(impl_->boxes);
+}
+
+RayScene::~RayScene() = default;
+
+void RayScene::update(std::span<const RobotState* const> states) {
+    const ExactFloatScope exact;
+    ROBOSS_CHECK(states.size() == impl_->model->robots.size(), "a ray scene needs the state of every robot");
+    impl_->robot_items.clear();
+    impl_->robot_planes.clear();
+    impl_->boxes.clear();
+    for (std::size_t i = 0; i < states.size(); ++i) impl_->add_robot(RobotId(i), *states[i]);
+    impl_->robot_tree.build(impl_->boxes);
+}
+
+void RayScene::cast(std::span<const Ray> rays, std::span<double> distances) {
+    const ExactFloatScope exact;
+    ROBOSS_CHECK(rays.size() == distances.size(), "as many distances as rays");
+    for (std::size_t i = 0; i < rays.size(); ++i) distances[i] = impl_->nearest(rays[i]);
+}
+
+}  // namespace roboss

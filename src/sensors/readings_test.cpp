@@ -1,0 +1,337 @@
+// What each sensor reads of a robot in a known state, and the statistics of its noise.
+#include "sensors/readings.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "sensors/test_model.h"
+
+namespace roboss {
+namespace {
+
+using namespace sensors_test;
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kDegree = kPi / 180.0;
+const RobotId kFirst(std::size_t{0});
+
+SensorSpec laser_spec() {
+    SensorSpec spec;
+    spec.name = "laser";
+    spec.kind = SensorKind::kLaser;
+    spec.samples = 5;
+    spec.min_angle = -0.5 * kPi, spec.max_angle = 0.5 * kPi;
+    spec.range_min = 0.1, spec.range_max = 20;
+    return spec;
+}
+
+/// A cart with one sensor on its mast (1 m up).
+struct OneSensor {
+    std::shared_ptr<Model> model;
+    RobotState state = cart_at({});
+
+    explicit OneSensor(const SensorSpec& spec, std::size_t link = 1) {
+        RobotType type = cart_type();
+        add_sensor(type, link, spec);
+        model = model_of(type, 3);
+    }
+    LaserReading laser(Tick tick, std::uint64_t seed, RobotId robot = kFirst) const {
+        RayScene scene(model);
+        const RobotState parked = cart_at({{0, 0, -50}, {}});
+        const RobotState* states[] = {&state, &parked, &parked};
+        scene.update(states);
+        return read_laser(*model, robot, 0, state, tick, seed, scene);
+    }
+    GpsReading gps(Tick tick = 0, std::uint64_t seed = 1) const {
+        return read_gps(*model, kFirst, 0, state, tick, seed);
+    }
+    CompassReading compass(Tick tick = 0, std::uint64_t seed = 1) const {
+        return read_compass(*model, kFirst, 0, state, tick, seed);
+    }
+};
+
+/// A wall whose near face is at x = 4 (world), 40 m wide and high.
+void add_wall(Model& model) {
+    add_static(model, {ShapeKind::kBox, {1, 20, 20}, 0, 0}, {Mat3::identity(), {5, 0, 0}});
+}
+
+TEST(Laser, BeamsRunFromRightToLeft) {
+    OneSensor cart(laser_spec());
+    add_wall(*cart.model);
+    add_static(*cart.model, {ShapeKind::kSphere, {}, 1, 0}, {Mat3::identity(), {0, 8, 1}});
+    const LaserReading reading = cart.laser(0, 1);
+    ASSERT_EQ(reading.ranges.size(), 5u);
+    EXPECT_EQ(reading.ranges[0], kFar);
+    EXPECT_NEAR(reading.ranges[1], 4 * std::sqrt(2.0), 1e-12);
+    EXPECT_NEAR(reading.ranges[2], 4.0, 1e-12);
+    EXPECT_NEAR(reading.ranges[3], 4 * std::sqrt(2.0), 1e-12);
+    EXPECT_NEAR(reading.ranges[4], 7.0, 1e-12);
+}
+
+TEST(Laser, RowsRunFromBelowToAbove) {
+    SensorSpec spec = laser_spec();
+    spec.samples = 1, spec.min_angle = spec.max_angle = 0;
+    spec.vertical_samples = 3, spec.vertical_min_angle = -kPi / 4, spec.vertical_max_angle = kPi / 4;
+    OneSensor cart(spec, 1);
+    add_static(*cart.model, {ShapeKind::kPlane, {}, 0, 0}, {});
+    const LaserReading reading = cart.laser(0, 1);
+    ASSERT_EQ(reading.ranges.size(), 3u);
+    EXPECT_NEAR(reading.ranges[0], std::sqrt(2.0), 1e-12);
+    EXPECT_EQ(reading.ranges[1], kFar);
+    EXPECT_EQ(reading.ranges[2], kFar);
+}
+
+TEST(Laser, FollowsTheRobotAndItsOwnPlaceOnTheLink) {
+    SensorSpec spec = laser_spec();
+    spec.samples = 1, spec.min_angle = spec.max_angle = 0;
+    spec.X_LS = {{0.5, 0, 0}, from_rpy(0, 0, kPi)};  // half a metre ahead, looking back
+    OneSensor cart(spec);
+    add_wall(*cart.model);
+    cart.state =
+        cart_at({{1, 0, 0}, from_rpy(0, 0, kPi)});  // the robot is turned, so the sensor looks at the wall
+    EXPECT_NEAR(cart.laser(0, 1).ranges[0], 3.5, 1e-12);
+}
+
+TEST(Laser, TooNearIsMinusInfinityAndTooFarPlusInfinity) {
+    SensorSpec spec = laser_spec();
+    spec.samples = 1, spec.min_angle = spec.max_angle = 0;
+    spec.range_min = 1, spec.range_max = 3;
+    OneSensor cart(spec);
+    add_wall(*cart.model);
+    EXPECT_EQ(cart.laser(0, 1).ranges[0], kFar);
+    cart.state = cart_at({{1.5, 0, 0}, {}});
+    EXPECT_NEAR(cart.laser(0, 1).ranges[0], 2.5, 1e-12);
+    cart.state = cart_at({{3.5, 0, 0}, {}});
+    EXPECT_EQ(cart.laser(0, 1).ranges[0], -kFar);
+}
+
+TEST(Laser, RangesAreMultiplesOfTheResolution) {
+    SensorSpec spec = laser_spec();
+    spec.range_resolution = 0.25;
+    OneSensor cart(spec);
+    add_wall(*cart.model);
+    EXPECT_EQ(cart.laser(0, 1).ranges[1], 5.75);  // of 5.657
+}
+
+TEST(Laser, NoiseHasTheMeanAndDeviationOfTheFile) {
+    SensorSpec spec = laser_spec();
+    spec.samples = 501, spec.min_angle = -0.2, spec.max_angle = 0.2;
+    spec.noise.mean = 0.02, spec.noise.stddev = 0.05;
+    OneSensor noisy(spec);
+    spec.noise = {};
+    OneSensor exact(spec);
+    add_wall(*noisy.model);
+    add_wall(*exact.model);
+    const LaserReading truth = exact.laser(0, 1);
+    double sum = 0, squares = 0;
+    for (Tick tick = 0; tick < 100; ++tick) {
+        const LaserReading reading = noisy.laser(tick, 1);
+        for (std::size_t i = 0; i < 501; ++i) {
+            const double error = reading.ranges[i] - truth.ranges[i];
+            sum += error, squares += error * error;
+        }
+    }
+    const double mean = sum / 50100, deviation = std::sqrt(squares / 50100 - mean * mean);
+    EXPECT_NEAR(mean, 0.02, 0.001);
+    EXPECT_NEAR(deviation, 0.05, 0.001);
+}
+
+TEST(Laser, BiasIsDrawnOnceForEachSensorOfARun) {
+    SensorSpec spec = laser_spec();
+    spec.samples = 1, spec.min_angle = spec.max_angle = 0;
+    spec.noise.bias_mean = 0.5, spec.noise.bias_stddev = 0.1;
+    OneSensor cart(spec);
+    add_wall(*cart.model);
+    const double first = cart.laser(0, 1).ranges[0];
+    EXPECT_NEAR(first, 4.5, 0.5);
+    EXPECT_NE(first, 4.5);
+    EXPECT_EQ(cart.laser(999, 1).ranges[0], first);
+    EXPECT_NE(cart.laser(0, 2).ranges[0], first);
+    EXPECT_NE(cart.laser(0, 1, RobotId(std::size_t{1})).ranges[0], first);
+}
+
+TEST(Laser, SameSeedSameReading) {
+    SensorSpec spec = laser_spec();
+    spec.noise.stddev = 0.05;
+    OneSensor cart(spec);
+    add_wall(*cart.model);
+    EXPECT_EQ(cart.laser(7, 3).ranges, cart.laser(7, 3).ranges);
+    EXPECT_NE(cart.laser(7, 3).ranges, cart.laser(8, 3).ranges);
+    EXPECT_NE(cart.laser(7, 3).ranges, cart.laser(7, 4).ranges);
+}
+
+SensorSpec odometer_spec() {
+    SensorSpec spec;
+    spec.name = "odometer";
+    spec.kind = SensorKind::kOdometer;
+    spec.joints = {"axle"};
+    spec.wheel_radius = 0.1;
+    return spec;
+}
+
+TEST(Odometer, WayIsTheWheelsTurnSinceTheStart) {
+    OneSensor cart(odometer_spec());
+    cart.state.q[7] = 0.25 + 30;  // starts at 0.25
+    cart.state.v[6] = 4;
+    const OdometerReading reading = read_odometer(*cart.model, kFirst, 0, cart.state, 0, 1);
+    ASSERT_EQ(reading.joint_positions.size(), 1u);
+    EXPECT_EQ(reading.joint_positions[0], 30.25);
+    EXPECT_EQ(reading.joint_velocities[0], 4);
+    EXPECT_DOUBLE_EQ(reading.distance, 3.0);
+    EXPECT_DOUBLE_EQ(reading.speed, 0.4);
+}
+
+TEST(Odometer, WithoutAWheelRadiusThereAreOnlyAngles) {
+    SensorSpec spec = odometer_spec();
+    spec.wheel_radius = 0;
+    OneSensor cart(spec);
+    cart.state.q[7] = 3, cart.state.v[6] = 2;
+    const OdometerReading reading = read_odometer(*cart.model, kFirst, 0, cart.state, 0, 1);
+    EXPECT_EQ(reading.joint_positions[0], 3);
+    EXPECT_EQ(reading.distance, 0);
+    EXPECT_EQ(reading.speed, 0);
+}
+
+TEST(Odometer, NoiseIsAFractionOfTheWay) {
+    SensorSpec spec = odometer_spec();
+    spec.noise.mean = 0.02, spec.noise.stddev = 0.1;
+    OneSensor cart(spec);
+    cart.state.q[7] = 0.25 + 1000, cart.state.v[6] = 10;
+    double sum = 0, squares = 0;
+    for (Tick tick = 0; tick < 20000; ++tick) {
+        const OdometerReading reading = read_odometer(*cart.model, kFirst, 0, cart.state, tick, 1);
+        EXPECT_DOUBLE_EQ(reading.distance, 102);
+        sum += reading.speed, squares += reading.speed * reading.speed;
+    }
+    const double mean = sum / 20000;
+    EXPECT_NEAR(mean, 1.02, 0.003);
+    EXPECT_NEAR(std::sqrt(squares / 20000 - mean * mean), 0.1, 0.003);
+}
+
+SensorSpec gps_spec() {
+    SensorSpec spec;
+    spec.name = "gps";
+    spec.kind = SensorKind::kGps;
+    spec.X_LS.p = {0.3, 0, 0};
+    return spec;
+}
+
+TEST(Gps, ReadsThePlaceAndSpeedOfTheAntenna) {
+    OneSensor cart(gps_spec());
+    cart.state = cart_at({{10, 20, 3}, from_rpy(0, 0, 0.5 * kPi)});
+    cart.state.v = {0, 0, 2, 1, 0, 0, 0};  // 2 rad/s about z, 1 m/s along x
+    const GpsReading reading = cart.gps();
+    EXPECT_NEAR(norm(reading.p_W - Vec3{10, 20.3, 4}), 0, 1e-12);
+    EXPECT_NEAR(norm(reading.v_W - Vec3{1 - 0.6, 0, 0}), 0, 1e-12);
+    EXPECT_FALSE(reading.geodetic);
+}
+
+TEST(Gps, GivesLatitudeAndLongitudeWhereTheWorldHasThem) {
+    SensorSpec spec = gps_spec();
+    spec.X_LS.p = {};
+    OneSensor cart(spec);
+    cart.model->spherical = SphericalCoordinates{52.25 * kDegree, 21 * kDegree, 100, 0};
+    cart.state = cart_at({{0, 1000, -1}, {}});  // a kilometre north; the mast lifts the sensor to 0
+    const GpsReading reading = cart.gps();
+    EXPECT_TRUE(reading.geodetic);
+    const double meridian =
+        6335439.327 / std::pow(1 - 0.00669437999014 * std::pow(std::sin(52.25 * kDegree), 2), 1.5);
+    EXPECT_NEAR(reading.latitude_rad, 52.25 * kDegree + 1000 / (meridian + 100), 1e-9);
+    EXPECT_NEAR(reading.longitude_rad, 21 * kDegree, 1e-14);
+    EXPECT_NEAR(reading.altitude_m, 100 + 1000.0 * 1000.0 / (2 * (meridian + 100)), 1e-4);
+}
+
+TEST(Gps, TheWorldsHeadingTurnsItsAxes) {
+    SensorSpec spec = gps_spec();
+    spec.X_LS.p = {};
+    OneSensor cart(spec);
+    cart.model->spherical = SphericalCoordinates{0, 0, 0, 0.5 * kPi};  // world x points north
+    cart.state = cart_at({{1000, 0, -1}, {}});
+    const GpsReading reading = cart.gps();
+    EXPECT_NEAR(reading.latitude_rad, 1000 / 6335439.327, 1e-10);
+    EXPECT_NEAR(reading.longitude_rad, 0, 1e-14);
+}
+
+TEST(Gps, NoiseIsApartForHorizontalAndVertical) {
+    SensorSpec spec = gps_spec();
+    spec.position_horizontal_noise.stddev = 2;
+    spec.position_vertical_noise.stddev = 5;
+    spec.velocity_vertical_noise.mean = 0.5;
+    OneSensor cart(spec);
+    Vec3 sum, squares;
+    double xy = 0;
+    for (Tick tick = 0; tick < 20000; ++tick) {
+        const GpsReading reading = cart.gps(tick);
+        const Vec3 e = reading.p_W - Vec3{0.3, 0, 1};
+        sum += e, squares += Vec3{e.x * e.x, e.y * e.y, e.z * e.z}, xy += e.x * e.y;
+        EXPECT_EQ(reading.v_W, (Vec3{0, 0, 0.5}));
+    }
+    EXPECT_NEAR(norm(sum / 20000.0), 0, 0.1);
+    EXPECT_NEAR(std::sqrt(squares.x / 20000), 2, 0.05);
+    EXPECT_NEAR(std::sqrt(squares.y / 20000), 2, 0.05);
+    EXPECT_NEAR(std::sqrt(squares.z / 20000), 5, 0.12);
+    EXPECT_NEAR(xy / 20000, 0, 0.1);
+}
+
+SensorSpec compass_spec() {
+    SensorSpec spec;
+    spec.name = "compass";
+    spec.kind = SensorKind::kCompass;
+    return spec;
+}
+
+TEST(Compass, HeadingIsClockwiseFromWorldYWithoutSphericalCoordinates) {
+    OneSensor cart(compass_spec());
+    EXPECT_NEAR(cart.compass().heading_rad, 0.5 * kPi, 1e-12);  // x ahead is east
+    cart.state = cart_at({{}, from_rpy(0, 0, 0.5 * kPi)});
+    EXPECT_NEAR(std::sin(cart.compass().heading_rad), 0.0, 1e-12);
+    EXPECT_NEAR(std::cos(cart.compass().heading_rad), 1.0, 1e-12);
+    cart.state = cart_at({{}, from_rpy(0, 0, kPi)});
+    EXPECT_NEAR(cart.compass().heading_rad, 1.5 * kPi, 1e-12);
+}
+
+TEST(Compass, GyroReadsInSensorAxes) {
+    SensorSpec spec = compass_spec();
+    spec.X_LS.q = from_rpy(0, 0, 0.5 * kPi);
+    OneSensor cart(spec);
+    cart.state.v = {1, 2, 3, 0, 0, 0, 0};
+    EXPECT_NEAR(norm(cart.compass().angular_velocity_S - Vec3{2, -1, 3}), 0, 1e-12);
+}
+
+TEST(Compass, TheWorldsHeadingCounts) {
+    OneSensor cart(compass_spec());
+    cart.model->spherical =
+        SphericalCoordinates{40 * kDegree, 10 * kDegree, 0, 0.5 * kPi};  // world x points north
+    const double heading = cart.compass().heading_rad;
+    EXPECT_NEAR(wrap_angle(heading), 0, 1e-12);
+}
+
+TEST(Compass, NorthIsThatOfTheSensorsOwnPlace) {
+    OneSensor cart(compass_spec());
+    cart.model->spherical = SphericalCoordinates{60 * kDegree, 0, 0, 0};
+    cart.state = cart_at({{10000, 0, 0}, from_rpy(0, 0, 0.5 * kPi)});  // 10 km east, along the origin's north
+    // The meridians converge: north is to the left of the origin's north, by the longitude times the
+    // latitude's sine.
+    const double longitude = 10000 / (6394209.0 * std::cos(60 * kDegree));
+    EXPECT_NEAR(wrap_angle(cart.compass().heading_rad), longitude * std::sin(60 * kDegree), 1e-5);
+}
+
+TEST(Compass, NoiseTurnsHeadingAndOrientationTogether) {
+    SensorSpec spec = compass_spec();
+    spec.noise.stddev = 0.1;
+    OneSensor cart(spec);
+    double squares = 0;
+    for (Tick tick = 0; tick < 20000; ++tick) {
+        const CompassReading reading = cart.compass(tick);
+        const Vec3 ahead = rotate(reading.q_WS, Vec3{1, 0, 0});
+        EXPECT_NEAR(wrap_angle(std::atan2(ahead.x, ahead.y) - reading.heading_rad), 0, 1e-12);
+        const double error = wrap_angle(reading.heading_rad - 0.5 * kPi);
+        squares += error * error;
+    }
+    EXPECT_NEAR(std::sqrt(squares / 20000), 0.1, 0.003);
+}
+
+}  // namespace
+}  // namespace roboss
