@@ -1,5 +1,5 @@
-// Spatial algebra against the laws of mechanics: power, the invariance of power under the cross products, and a rigid
-// body's momentum and energy computed the long way, as a cloud of point masses.
+// Spatial algebra against the laws of mechanics: power, the invariance of power under the cross products, and
+// a rigid body's momentum and energy computed the long way, as a cloud of point masses.
 #include "math/spatial.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +15,11 @@ struct PointMass {
     double mass;
     Vec3 p;
 };
-const std::array<PointMass, 5> kCloud = {
-    {{1.0, {1, 0, 0.5}}, {2.0, {0, -1, 0.2}}, {0.5, {2, 2, -1}}, {0.7, {-1, 0.3, 3}}, {1.3, {0.1, 0.2, -0.4}}}};
+const std::array<PointMass, 5> kCloud = {{{1.0, {1, 0, 0.5}},
+                                          {2.0, {0, -1, 0.2}},
+                                          {0.5, {2, 2, -1}},
+                                          {0.7, {-1, 0.3, 3}},
+                                          {1.3, {0.1, 0.2, -0.4}}}};
 const Spatial kMotion{{0.3, -1.2, 0.8}, {2, 0.5, -1}};
 const Spatial kOther{{-0.7, 0.1, 1.5}, {0.2, -2, 0.9}};
 const Spatial kForce{{1.1, 0.4, -2}, {-0.6, 3, 0.25}};
@@ -41,8 +44,12 @@ SpatialInertia cloud_inertia() {
     for (const PointMass& point : kCloud) {
         const Vec3 r = point.p - centre;
         const double m = point.mass;
-        about_centre += Sym3{m * (r.y * r.y + r.z * r.z), m * (r.x * r.x + r.z * r.z), m * (r.x * r.x + r.y * r.y),
-                             -m * r.x * r.y,              -m * r.x * r.z,              -m * r.y * r.z};
+        about_centre += Sym3{m * (r.y * r.y + r.z * r.z),
+                             m * (r.x * r.x + r.z * r.z),
+                             m * (r.x * r.x + r.y * r.y),
+                             -m * r.x * r.y,
+                             -m * r.x * r.z,
+                             -m * r.y * r.z};
     }
     return spatial_inertia(mass, centre, about_centre);
 }
@@ -60,7 +67,8 @@ TEST(Spatial, MomentumIsThatOfTheBodysPoints) {
 
 TEST(Spatial, HalfMotionTimesMomentumIsTheKineticEnergy) {
     double energy = 0;
-    for (const PointMass& point : kCloud) energy += 0.5 * point.mass * norm_squared(velocity_at(kMotion, point.p));
+    for (const PointMass& point : kCloud)
+        energy += 0.5 * point.mass * norm_squared(velocity_at(kMotion, point.p));
     EXPECT_NEAR(0.5 * dot(kMotion, cloud_inertia() * kMotion), energy, 1e-12);
 }
 
@@ -74,7 +82,8 @@ TEST(Spatial, InertiasOfPartsAddUpToThatOfTheWhole) {
 
 TEST(Spatial, CarryingMotionAndForceAlongKeepsTheirPower) {
     // d/dt (f . m) = 0 when both are carried along by the same motion.
-    EXPECT_NEAR(dot(cross_force(kMotion, kForce), kOther) + dot(kForce, cross_motion(kMotion, kOther)), 0.0, 1e-13);
+    EXPECT_NEAR(dot(cross_force(kMotion, kForce), kOther) + dot(kForce, cross_motion(kMotion, kOther)), 0.0,
+                1e-13);
 }
 
 TEST(Spatial, MotionsCrossAntisymmetrically) {

@@ -1,5 +1,5 @@
-// A user's program: makes a world in code, a ball above a floor, lets it fall for a second, and looks at where it is.
-// Ends with 0 if the ball lies on the floor and a second run gave the same state hash.
+// A user's program: makes a world in code, a ball above a floor, lets it fall for a second, and looks at
+// where it is. Ends with 0 if the ball lies on the floor and a second run gave the same state hash.
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -63,6 +63,7 @@ std::optional<Outcome> fall() {
 int main() {
     const std::optional<Outcome> first = fall(), second = fall();
     if (!first || !second) return 1;
-    std::printf("height of the ball after 1 s: %.6f m, state hash %s\n", first->height, roboss::to_hex(first->hash).c_str());
+    std::printf("height of the ball after 1 s: %.6f m, state hash %s\n", first->height,
+                roboss::to_hex(first->hash).c_str());
     return std::fabs(first->height - kRadius) < 1e-3 && first->hash == second->hash ? 0 : 1;
 }
