@@ -1,5 +1,6 @@
 # roboss_floor(name DEPENDS floors...): src/name/*.cpp becomes the static library roboss_name; every src/name/*_test.cpp goes into one
-# test program, roboss_name_test. A floor with external libraries adds them in src/name/floor.cmake (included after the target exists).
+# test program, roboss_name_test. A floor with external libraries adds them in src/name/floor.cmake (included after the target exists);
+# cmake/install.cmake must know each such library, so that an installed RoBOSS finds it again.
 add_library(roboss_options INTERFACE)
 target_compile_options(roboss_options INTERFACE
   -Wall -Wextra -Wshadow -Wconversion -Werror -ffp-contract=off -fno-fast-math)
@@ -25,7 +26,7 @@ function(roboss_floor name)
   if(sources)
     add_library(${target} STATIC ${sources})
     set(scope PUBLIC)
-    target_link_libraries(${target} PRIVATE roboss_options)
+    target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:roboss_options>)
   else()
     add_library(${target} INTERFACE)
     set(scope INTERFACE)
@@ -33,6 +34,10 @@ function(roboss_floor name)
   add_library(roboss::${name} ALIAS ${target})
   target_include_directories(${target} ${scope}
     $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include/roboss>)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  # A program outside compiles our inline arithmetic too, and the linker may keep its copy: it needs C++20 and must not fuse.
+  target_compile_features(${target} ${scope} cxx_std_20)
+  target_compile_options(${target} INTERFACE $<INSTALL_INTERFACE:-ffp-contract=off>)
   foreach(dep ${ARG_DEPENDS})
     target_link_libraries(${target} ${scope} roboss_${dep})
   endforeach()

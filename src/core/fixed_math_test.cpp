@@ -24,8 +24,10 @@ TEST(FixedMath, SinCosWithinTwoUlps) {
         const long double c = std::cos(static_cast<long double>(x));
         const SinCos ours = fixed_sincos(x);
         // Near a zero of the function the reduction's rest counts; compare absolutely there.
-        worst = std::max(worst, std::min(ulps(ours.sin, s), static_cast<double>(std::fabs(ours.sin - s)) / 1e-16));
-        worst = std::max(worst, std::min(ulps(ours.cos, c), static_cast<double>(std::fabs(ours.cos - c)) / 1e-16));
+        worst = std::max(worst,
+                         std::min(ulps(ours.sin, s), static_cast<double>(std::fabs(ours.sin - s)) / 1e-16));
+        worst = std::max(worst,
+                         std::min(ulps(ours.cos, c), static_cast<double>(std::fabs(ours.cos - c)) / 1e-16));
     }
     EXPECT_LT(worst, 2.0);
 }
@@ -37,7 +39,8 @@ TEST(FixedMath, Atan2WithinTwoUlpsInAllQuadrants) {
             const double y = (i - 200) * 0.0173;
             const double x = (j - 200) * 0.0311;
             if (x == 0 && y == 0) continue;
-            worst = std::max(worst, ulps(fixed_atan2(y, x), std::atan2(static_cast<long double>(y), static_cast<long double>(x))));
+            worst = std::max(worst, ulps(fixed_atan2(y, x), std::atan2(static_cast<long double>(y),
+                                                                       static_cast<long double>(x))));
         }
     }
     EXPECT_LT(worst, 2.5);
@@ -49,7 +52,8 @@ TEST(FixedMath, LogWithinTwoUlps) {
     for (int i = 1; i < 100000; ++i) {
         const double x = i * 0.00037;
         const long double exact = std::log(static_cast<long double>(x));
-        worst = std::max(worst, std::min(ulps(fixed_log(x), exact), static_cast<double>(std::fabs(fixed_log(x) - exact)) / 1e-16));
+        worst = std::max(worst, std::min(ulps(fixed_log(x), exact),
+                                         static_cast<double>(std::fabs(fixed_log(x) - exact)) / 1e-16));
     }
     EXPECT_LT(worst, 2.0);
 }

@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Sets up, builds and runs the benchmarks: ./bench.sh [NAME] [Google Benchmark flags]; without a name it lists them.
+# Rows carry commit, compiler, CPU, world and number of robots; the same rows as JSON go to build/bench/NAME.json.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+tools/setup.sh build bench
+tools/build.sh bench roboss-bench
+program=build/bench/bin/roboss-bench
+if [[ $# -eq 0 ]]; then
+    printf 'benchmarks (./bench.sh NAME runs one, ./bench.sh all runs them all):\n'
+    exec "$program" --benchmark_list_tests
+fi
+name=$1
+shift
+filter=$name
+[[ $name != all ]] || filter=.
+ROBOSS_COMMIT=$(git describe --always --dirty 2>/dev/null || printf 'unknown') \
+    "$program" --benchmark_filter="$filter" --benchmark_counters_tabular=true \
+    --benchmark_out="build/bench/$name.json" --benchmark_out_format=json "$@"
+printf 'rows as JSON: build/bench/%s.json\n' "$name"

@@ -1,0 +1,62 @@
+# cmake --install: the floors as roboss::NAME with their headers, the programs, and what find_package(roboss) reads.
+# Included last, when every target exists.
+include(CMakePackageConfigHelpers)
+include(GNUInstallDirs)
+set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/roboss)
+
+# The external libraries that a static floor hands on to whoever links it: pattern of the linked name, and how to find it.
+set(ROBOSS_EXTERNALS
+  "^sdformat12::|^sdformat12" "find_dependency(sdformat12)"
+  "^pugixml" "find_dependency(pugixml)"
+  "^embree$" "find_dependency(embree 3)"
+  "^SQLite::SQLite3$" "find_dependency(SQLite3)"
+  "^Threads::Threads$" "find_dependency(Threads)"
+  "^fmt::" "find_dependency(fmt)"
+  "^spdlog::" "find_dependency(spdlog)"
+  "^nlohmann_json::" "find_dependency(nlohmann_json)"
+  "^(dl|m|rt|atomic)$|^$" "")
+
+# Sets `result` to the find_dependency line of one linked library; ends the configuration where none is known.
+function(roboss_dependency_line floor library result)
+  set(patterns ${ROBOSS_EXTERNALS})
+  while(patterns)
+    list(POP_FRONT patterns pattern line)
+    if(library MATCHES "${pattern}")
+      set(${result} "${line}" PARENT_SCOPE)
+      return()
+    endif()
+  endwhile()
+  message(FATAL_ERROR "floor ${floor} links ${library}, and cmake/install.cmake does not know how an installed RoBOSS finds it: "
+    "add it to ROBOSS_EXTERNALS")
+endfunction()
+
+get_property(floors GLOBAL PROPERTY ROBOSS_FLOORS)
+set(ROBOSS_FIND_DEPENDENCIES "")
+foreach(floor ${floors})
+  set(linked "")
+  foreach(property LINK_LIBRARIES INTERFACE_LINK_LIBRARIES)
+    get_target_property(more roboss_${floor} ${property})
+    if(more)
+      list(APPEND linked ${more})
+    endif()
+  endforeach()
+  list(FILTER linked EXCLUDE REGEX "^roboss_")
+  list(FILTER linked EXCLUDE REGEX "BUILD_INTERFACE:")
+  list(TRANSFORM linked REPLACE "^.<LINK_ONLY:(.*)>$" "\\1")
+  list(TRANSFORM linked STRIP)
+  foreach(library ${linked})
+    roboss_dependency_line(${floor} "${library}" line)
+    list(APPEND ROBOSS_FIND_DEPENDENCIES "${line}")
+  endforeach()
+  install(TARGETS roboss_${floor} EXPORT roboss ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/src/${floor} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/roboss
+    FILES_MATCHING PATTERN "*.h")
+endforeach()
+list(REMOVE_DUPLICATES ROBOSS_FIND_DEPENDENCIES)
+list(JOIN ROBOSS_FIND_DEPENDENCIES "\n" ROBOSS_FIND_DEPENDENCIES)
+
+install(EXPORT roboss NAMESPACE roboss:: FILE roboss-targets.cmake DESTINATION ${config_dir})
+configure_package_config_file(${CMAKE_SOURCE_DIR}/cmake/roboss-config.cmake.in ${CMAKE_BINARY_DIR}/roboss-config.cmake
+  INSTALL_DESTINATION ${config_dir})
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/roboss-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/roboss-config.cmake ${CMAKE_BINARY_DIR}/roboss-config-version.cmake DESTINATION ${config_dir})

@@ -1,0 +1,48 @@
+// A Result holds its value or its Error, and taking the wrong one ends the program with the reason.
+#include "core/result.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+namespace roboss {
+namespace {
+
+Result<int> half_of(int number) {
+    if (number % 2 != 0) return Error{"7 is odd", "give an even number"};
+    return number / 2;
+}
+
+TEST(Result, HoldsAValue) {
+    const Result<int> result = half_of(8);
+    ASSERT_TRUE(result.ok());
+    EXPECT_TRUE(static_cast<bool>(result));
+    EXPECT_EQ(result.value(), 4);
+}
+
+TEST(Result, HoldsAnErrorWithItsRemedy) {
+    const Result<int> result = half_of(7);
+    ASSERT_FALSE(result.ok());
+    EXPECT_EQ(result.error().text(), "7 is odd\n  remedy: give an even number");
+    EXPECT_EQ((Error{"no remedy", ""}).text(), "no remedy");
+}
+
+TEST(Result, MovesOutWhatCannotBeCopied) {
+    Result<std::unique_ptr<int>> result(std::make_unique<int>(3));
+    const std::unique_ptr<int> taken = std::move(result).value();
+    EXPECT_EQ(*taken, 3);
+}
+
+TEST(ResultDeathTest, TakingTheValueOfAnErrorEndsTheProgramWithTheReason) {
+    const Result<int> result = half_of(7);
+    EXPECT_DEATH(static_cast<void>(result.value()), "internal error at .*7 is odd");
+}
+
+TEST(Result, OkIsAResultWithoutAValue) {
+    const Result<> result = Ok{};
+    EXPECT_TRUE(result.ok());
+}
+
+}  // namespace
+}  // namespace roboss

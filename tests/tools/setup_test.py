@@ -1,0 +1,78 @@
+"""tools/setup.sh: no apt when nothing is missing, the right packages when something is, a clear word when it cannot."""
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+TOOLS = Path(os.environ["ROBOSS_TOOLS"])
+# Stand-ins for the system's programs: `installed` lists what dpkg-query knows, `calls` receives each call of apt-get.
+DPKG_QUERY = '#!/bin/bash\ngrep -qxF "${!#}" "$STAND_INS/installed" && echo installed || { echo "no packages found" >&2; exit 1; }\n'
+APT_GET = '#!/bin/bash\necho "$DEBIAN_FRONTEND $*" >> "$STAND_INS/calls"\n'
+
+
+class Setup(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.root = Path(self.folder.name)
+        self.stand_in("dpkg-query", DPKG_QUERY)
+        self.stand_in("apt-get", APT_GET)
+        self.stand_in("id", "#!/bin/bash\necho 0\n")
+
+    def stand_in(self, name, text):
+        path = self.root / name
+        path.write_text(text)
+        path.chmod(0o755)
+
+    def run_setup(self, installed, *groups, path=None, **more):
+        (self.root / "installed").write_text("".join(f"{name}\n" for name in installed))
+        environment = {"PATH": path or f"{self.root}:/usr/bin:/bin", "STAND_INS": str(self.root), **more}
+        done = subprocess.run(["/bin/bash", TOOLS / "setup.sh", *groups], env=environment, capture_output=True, text=True, check=False)
+        calls = self.root / "calls"
+        return done.returncode, done.stdout + done.stderr, calls.read_text() if calls.exists() else ""
+
+    @staticmethod
+    def packages(group):
+        lines = (line.split() for line in (TOOLS / "packages.txt").read_text().splitlines() if not line.startswith("#"))
+        return [words[1] for words in lines if words[0] == group]
+
+    def test_calls_no_apt_when_all_is_there(self):
+        code, output, calls = self.run_setup(self.packages("build"), "build")
+        self.assertEqual((code, output, calls), (0, "", ""))
+
+    def test_installs_just_what_is_missing_without_questions(self):
+        code, output, calls = self.run_setup(self.packages("build")[1:], "build", "test")
+        self.assertEqual(code, 0, output)
+        update, install = calls.splitlines()
+        self.assertIn("update", update)
+        self.assertTrue(install.startswith("noninteractive install"), install)
+        wanted = [word for word in install.split()[2:] if not word.startswith("-")]
+        self.assertEqual(wanted, self.packages("build")[:1] + self.packages("test"))
+
+    def test_says_what_to_do_without_root_and_sudo(self):
+        self.stand_in("id", "#!/bin/bash\necho 1000\n")
+        for name in ("bash", "grep", "dirname", "env"):
+            os.symlink(f"/usr/bin/{name}", self.root / name)
+        code, output, calls = self.run_setup([], "bench", path=str(self.root))
+        self.assertEqual((code, calls), (1, ""))
+        self.assertIn("neither root nor has sudo: libbenchmark-dev", output)
+        self.assertIn("apt-get install --no-install-recommends libbenchmark-dev", output)
+
+    def test_says_what_to_do_on_a_system_without_apt(self):
+        (self.root / "apt-get").unlink()
+        for name in ("bash", "grep", "dirname", "env"):
+            os.symlink(f"/usr/bin/{name}", self.root / name)
+        code, output, _ = self.run_setup([], "build", path=str(self.root))
+        self.assertEqual(code, 1)
+        self.assertIn("ROBOSS_SKIP_SETUP=1", output)
+        self.assertEqual(self.run_setup([], "build", path=str(self.root), ROBOSS_SKIP_SETUP="1")[0], 0)
+
+    def test_refuses_a_group_that_is_not_there(self):
+        code, output, _ = self.run_setup([], "nonsense")
+        self.assertEqual(code, 1)
+        self.assertIn("no packages in: nonsense", output)
+
+
+if __name__ == "__main__":
+    unittest.main()
