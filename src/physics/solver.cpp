@@ -115,10 +115,6 @@ double IslandSolver::gradient(const Problem& p, std::span<const double> v) {
     return scale > 0 ? std::sqrt(error / scale) : 0.0;
 }
 
-double& IslandSolver::at(std::size_t i, std::size_t j) {
-    return tree_ ? h_[i * n_ + j] : h_[row_at_[i] + j];
-}
-
 /// Skyline of the Hessian: a robot's rows reach back to the first dof of the lowest robot it touches.
 void IslandSolver::set_profile(const Problem& p) {
     first_.resize(n_);
@@ -155,13 +151,13 @@ void IslandSolver::assemble(const Problem& p, std::span<const double> v) {
             const auto offset = static_cast<std::size_t>(p.offsets[r]);
             for (std::size_t i = 0; i < nv; ++i)
                 for (int j = static_cast<int>(i); j >= 0; j = robot.type->dof_parent[static_cast<std::size_t>(j)])
-                    at(offset + i, offset + static_cast<std::size_t>(j)) = robot.mass_matrix[i * nv + static_cast<std::size_t>(j)];
+                    row_of(offset + i)[offset + static_cast<std::size_t>(j)] = robot.mass_matrix[i * nv + static_cast<std::size_t>(j)];
         }
     }
     for (const JointRow& row : p.joints) {
         const auto i = static_cast<std::size_t>(row.dof);
         const double raw = (row.target - v[i]) / row.compliance;
-        if (raw >= row.low && raw <= row.high) at(i, i) += 1.0 / row.compliance;
+        if (raw >= row.low && raw <= row.high) row_of(i)[i] += 1.0 / row.compliance;
     }
     for (const ContactRow& row : p.contacts) add_contact(p, row);
 }
@@ -180,13 +176,15 @@ void IslandSolver::add_contact(const Problem& p, const ContactRow& row) {
         }
     }
     if (d_n == 0 && d_11 == 0 && d_22 == 0) return;
+    const ContactColumn* columns = p.columns.data();
     for (std::size_t a = row.first; a < row.last; ++a) {
-        const ContactColumn& x = p.columns[a];
+        const ContactColumn& x = columns[a];
         const double n = d_n * x.n, t1 = d_11 * x.t1 + d_12 * x.t2, t2 = d_12 * x.t1 + d_22 * x.t2;
-        for (std::size_t b = row.first; b < row.last; ++b) {
-            const ContactColumn& y = p.columns[b];
-            if (y.dof > x.dof) continue;
-            at(static_cast<std::size_t>(x.dof), static_cast<std::size_t>(y.dof)) += n * y.n + t1 * y.t1 + t2 * y.t2;
+        double* h = row_of(static_cast<std::size_t>(x.dof));
+        // Columns of one path descend, so in a tree the lower triangle is all that follows.
+        for (std::size_t b = tree_ ? a : row.first; b < row.last; ++b) {
+            const ContactColumn& y = columns[b];
+            if (y.dof <= x.dof) h[y.dof] += n * y.n + t1 * y.t1 + t2 * y.t2;
         }
     }
 }

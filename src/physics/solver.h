@@ -35,7 +35,7 @@ class IslandSolver {
     double gradient(const Problem& p, std::span<const double> v);
     void assemble(const Problem& p, std::span<const double> v);
     void add_contact(const Problem& p, const ContactRow& row);
-    double& at(std::size_t i, std::size_t j);
+    double* row_of(std::size_t i) { return h_.data() + (tree_ ? i * n_ : row_at_[i]); }  // Hessian row, by column
     void factor_and_solve(const Problem& p);
     double line_search(const Problem& p, std::span<const double> v);
     void set_profile(const Problem& p);
