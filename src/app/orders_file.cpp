@@ -120,7 +120,7 @@ Order parse_line(const std::string& line, const Model& model) {
     json o;
     try {
         o = json::parse(line);
-    } catch (const json::parse_error& error) {
+    } catch (const json::exception& error) {
         throw LineFault("not valid JSON: " + std::string(error.what()), "one complete JSON object a line");
     }
     only_keys(o, "an order", {"t", "robot", "set_pose", "set_velocity", "wrench", "joint"});
