@@ -22,15 +22,16 @@ Vec3 crossing_normal(const Posed& a, const Posed& b) {
 }  // namespace
 
 void capsule_capsule(const Posed& a, const Posed& b, double margin, Manifold& out) {
-    SupportLine line_a = core(a), line_b = core(b);
-    const LineParameters p = closest_parameters(line_a, line_b);
-    const Vec3 d = (line_a.middle + line_a.half * p.s) - (line_b.middle + line_b.half * p.t);
+    LinePair pair{core(a), core(b), {}, 0, 0.01 * std::min(a.shape.radius, b.shape.radius)};
+    const LineParameters p = closest_parameters(pair.a, pair.b);
+    const Vec3 d = (pair.a.middle + pair.a.half * p.s) - (pair.b.middle + pair.b.half * p.t);
     const double distance = norm(d), ra = a.shape.radius, rb = b.shape.radius;
-    if (distance - ra - rb > margin) return;
-    out.n_W = distance > 1e-12 * (ra + rb) ? d / distance : crossing_normal(a, b);
-    line_a.middle += out.n_W * -ra;
-    line_b.middle += out.n_W * rb;
-    add_lines(line_a, line_b, 0.01 * std::min(ra, rb), margin, out);
+    pair.gap = distance - ra - rb;
+    if (pair.gap > margin) return;
+    pair.n = distance > 1e-12 * (ra + rb) ? d / distance : crossing_normal(a, b);
+    pair.a.middle += pair.n * -ra;
+    pair.b.middle += pair.n * rb;
+    add_lines(pair, margin, out);
 }
 
 }  // namespace roboss::narrow

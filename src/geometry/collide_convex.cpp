@@ -96,13 +96,11 @@ void write_features(const Posed& a, const Posed& b, const ConvexSum& sum, const 
         const FaceContact contact(a, b, choice, best.n);
         if (contact.points.deepest() <= gap_max) return contact.write(choice.of_first, margin, out);
     }
-    out.n_W = best.n;
-    const double width = 0.01 * sum.inradius();
     for (const double tolerance : {kAlmostFlat, 1e-6}) {
-        const SupportLine line_a = support_line(a, -best.n, tolerance),
-                          line_b = support_line(b, best.n, tolerance);
+        const LinePair lines{support_line(a, -best.n, tolerance), support_line(b, best.n, tolerance), best.n, gap,
+                             1e-3 * sum.inradius()};
         out.count = 0;
-        if (add_lines(line_a, line_b, width, margin, out) <= gap_max && out.count > 0) return;
+        if (add_lines(lines, margin, out) <= gap_max && out.count > 0) return;
     }
     // Features that touch between the classes: the gap is exact, the place that of the supporting points.
     const SupportLine line_a = support_line(a, -best.n, 1e-6), line_b = support_line(b, best.n, 1e-6);

@@ -9,6 +9,7 @@ namespace roboss::narrow {
 namespace {
 
 constexpr double kNear = 0.02;  // sine of the angle within which a feature is tried
+constexpr double kStep = 1e-6;  // rad
 constexpr int kNewtonSteps = 12;
 
 Vec3 radial_part(const Vec3& n, const Vec3& axis) {
@@ -62,6 +63,10 @@ Vec3 ConvexSum::support(const Vec3& n) const {
         if (length > 1e-12) x += radial * (discs_[i].radius / length);
     }
     return x;
+}
+
+double ConvexSum::rounding() const {
+    return 2e-15 * (std::fabs(centre_.x) + std::fabs(centre_.y) + std::fabs(centre_.z) + inradius_);
 }
 
 Separation ConvexSum::best_natural() const {
@@ -122,18 +127,16 @@ Separation ConvexSum::climb(Vec3 n, const Vec3* edge) const {
         if (!(norm_squared(move) < 0.25)) return best;
         n = normalized(n + move);
         const Separation found = separation(n);
-        if (!(found.s > best.s)) {
-            if (found.s > best.s - 1e-15 * std::fabs(best.s)) best = found;
-            return best;
-        }
-        best = found;
+        if (!(found.s >= best.s - rounding())) return best;
+        best = found;  // also when equal: the gap is flat at its maximum, the direction still improves
+        if (norm_squared(move) < 1e-28) return best;
     }
     return best;
 }
 
 Separation ConvexSum::polished(const Separation& start) const {
     Separation best = start;
-    const double tie = 1e-11 * inradius_;
+    const double tie = rounding();
     const Vec3& n0 = start.n;
     // Flattest last, each accepted when it is at least as good to within a tie.
     const auto consider = [&](const Separation& found) {
@@ -145,9 +148,18 @@ Separation ConvexSum::polished(const Separation& start) const {
     for (std::size_t i = 0; i < segment_count_; ++i) {
         if (half_[i] > 0.0 && std::fabs(dot(n0, direction_[i])) < kNear) near[near_count++] = i;
     }
+    // The gap has a kink where n is perpendicular to a segment, so each smooth side of it is climbed from a small step.
     for (std::size_t i = 0; i < near_count; ++i) {
         const Vec3& edge = direction_[near[i]];
-        consider(climb(normalized(radial_part(n0, edge)), &edge));
+        const Vec3 n = normalized(radial_part(n0, edge));
+        for (const double step : {-kStep, kStep}) consider(climb(normalized(n + edge * step), nullptr));
+    }
+    for (std::size_t i = 0; i < near_count; ++i) {
+        const Vec3& edge = direction_[near[i]];
+        const Vec3 n = normalized(radial_part(n0, edge)), along = cross(edge, n);
+        consider(climb(n, &edge));
+        if (near_count == 1) continue;
+        for (const double step : {-kStep, kStep}) consider(climb(normalized(n + along * step), &edge));
     }
     const auto consider_flat = [&](const Vec3& direction) {
         const double length = norm(direction);

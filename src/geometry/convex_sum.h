@@ -30,7 +30,7 @@ class ConvexSum {
     Separation best_natural() const;
 
     /// Improves a nearby maximum to rounding: all combinations of features close to start.n, each by Newton's
-    /// method on the sphere. Between equals the flatter one wins. The result is never below start.
+    /// method on the sphere. Between equals the flatter one wins. The result is below start by rounding at most.
     Separation polished(const Separation& start) const;
 
   private:
@@ -39,6 +39,7 @@ class ConvexSum {
         double radius = 0;
     };
     void add(const Posed& shape);
+    double rounding() const;  // differences of s below it are noise
     Separation climb(Vec3 n, const Vec3* edge) const;
 
     Vec3 centre_;

@@ -71,7 +71,7 @@ struct Cut {
         if (empty) return;
         const double root = std::sqrt(discriminant);
         if ((-b - root) / a > t0) t0 = (-b - root) / a, edge0 = kRim;
-        if ((root - b) / a < t1) t1 = (root - b) / a, edge1 = kRim;
+        if ((root - b) / a < t1) t1 = (root - b) / a, edge1 = kRimLeft;
     }
 };
 
@@ -120,9 +120,26 @@ void add_rim_crossings(const FaceRegion& face, const Span& disc, std::uint32_t e
     }
 }
 
-/// The crossings of two circles, heights from the incident disc's plane.
-void add_circle_crossings(const FaceRegion& face, const Span& disc, double radius, std::uint32_t end,
-                          Candidates& out) {
+/// Moves (alpha, beta) along the disc's rim until it lies over the face's rim; false when it does not get there.
+bool slide_to_rim(const Span& disc, double radius, double& alpha, double& beta) {
+    constexpr int kSteps = 8;
+    for (int i = 0; i < kSteps; ++i) {
+        const double length = std::sqrt(alpha * alpha + beta * beta);
+        alpha /= length;
+        beta /= length;
+        const Vec3 p = disc.at(alpha, beta), along = disc.b * alpha - disc.a * beta;  // derivative by the angle
+        const double excess = p.x * p.x + p.y * p.y - radius * radius, slope = 2.0 * (p.x * along.x + p.y * along.y);
+        if (std::fabs(excess) <= 1e-13 * radius * radius) return true;
+        if (std::fabs(slope) < 1e-9 * radius * radius) return false;
+        const double turn = -excess / slope, a = alpha;
+        alpha -= beta * turn;
+        beta += a * turn;
+    }
+    return false;
+}
+
+/// The crossings of the face's circle and the incident disc's ellipse, from those of the untilted circles.
+void add_circle_crossings(const FaceRegion& face, const Span& disc, double radius, std::uint32_t end, Candidates& out) {
     const double d_squared = disc.c.x * disc.c.x + disc.c.y * disc.c.y;
     if (d_squared < 1e-8 * radius * radius) return;
     const double along = (d_squared + face.hx * face.hx - radius * radius) / (2.0 * d_squared);
@@ -132,8 +149,8 @@ void add_circle_crossings(const FaceRegion& face, const Span& disc, double radiu
         const double side = which == 0 ? std::sqrt(rest) : -std::sqrt(rest);
         double alpha = 0, beta = 0;
         disc.coordinates(along * disc.c.x - side * disc.c.y, along * disc.c.y + side * disc.c.x, alpha, beta);
-        out.add(point(disc.at(alpha, beta), kRimCrossing + 2 * end + which,
-                      kRimCrossing + 2 * face.end() + which));
+        if (!slide_to_rim(disc, face.hx, alpha, beta)) continue;
+        out.add(point(disc.at(alpha, beta), kRimCrossing + 2 * end + which, kRimCrossing + 2 * face.end() + which));
     }
 }
 

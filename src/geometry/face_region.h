@@ -9,7 +9,8 @@
 
 namespace roboss::narrow {
 
-inline constexpr std::uint32_t kRimPoint = 2, kRimCrossing = 10, kCap = 14, kRim = 20, kLine = 21;
+inline constexpr std::uint32_t kRimPoint = 2, kRimCrossing = 10, kCap = 14, kRim = 20, kLine = 21,
+                               kRimLeft = 22;
 
 /// Up to 8 points from any number of candidates.
 class Candidates {

@@ -98,20 +98,24 @@ bool common_part(const SupportLine& a, const SupportLine& b, double width,
     return true;
 }
 
-double add_lines(const SupportLine& a, const SupportLine& b, double width, double margin, Manifold& out) {
+double add_lines(const LinePair& pair, double margin, Manifold& out) {
+    const SupportLine &a = pair.a, &b = pair.b;
     double smallest = std::numeric_limits<double>::infinity();
+    out.n_W = pair.n;
     const auto add = [&](const LineParameters& p) {
         const Vec3 on_a = a.middle + a.half * p.s, on_b = b.middle + b.half * p.t;
-        const double gap = dot(out.n_W, on_a - on_b);
+        const double gap = dot(pair.n, on_a - on_b);
         smallest = std::min(smallest, gap);
         if (gap <= margin) out.add((on_a + on_b) * 0.5, gap, feature_of(part_at(a, p.s), part_at(b, p.t)));
     };
+    SupportLine touching = b;
+    touching.middle += pair.n * pair.gap;
     std::array<LineParameters, 2> ends;
-    if (common_part(a, b, width, ends)) {
+    if (common_part(a, touching, pair.width, ends)) {
         add(ends[0]);
         add(ends[1]);
     } else {
-        add(closest_parameters(a, b));
+        add(closest_parameters(a, touching));
     }
     return smallest;
 }

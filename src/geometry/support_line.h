@@ -27,8 +27,15 @@ LineParameters closest_parameters(const SupportLine& a, const SupportLine& b);
 bool common_part(const SupportLine& a, const SupportLine& b, double width,
                  std::array<LineParameters, 2>& ends);
 
-/// Adds the contact of two lines along out.n_W (two points when they run side by side), gaps measured along
-/// the normal. `width` is the lateral size below which the lines count as parallel. Returns the smallest gap.
-double add_lines(const SupportLine& a, const SupportLine& b, double width, double margin, Manifold& out);
+/// Two lines that touch once `b` has been moved by `gap` along `n`.
+struct LinePair {
+    SupportLine a, b;
+    Vec3 n;
+    double gap = 0;
+    double width = 0;  // lateral size below which they count as parallel
+};
+
+/// Adds the contact of two lines (two points when they run side by side), gaps measured along n. Returns the smallest gap.
+double add_lines(const LinePair& pair, double margin, Manifold& out);
 
 }  // namespace roboss::narrow
