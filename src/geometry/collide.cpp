@@ -18,9 +18,9 @@ void nothing(const Posed&, const Posed&, double, Manifold&) {}
 constexpr PairFunction kPairs[5][5] = {
     {nothing, plane_sphere, plane_box, plane_cylinder, plane_capsule},
     {nullptr, sphere_sphere, sphere_box, sphere_cylinder, sphere_capsule},
-    {nullptr, nullptr, box_box, nothing, nothing},
-    {nullptr, nullptr, nullptr, nothing, nothing},
-    {nullptr, nullptr, nullptr, nullptr, nothing},
+    {nullptr, nullptr, box_box, convex_convex, convex_convex},
+    {nullptr, nullptr, nullptr, convex_convex, convex_convex},
+    {nullptr, nullptr, nullptr, nullptr, capsule_capsule},
 };
 
 int compare(const Vec3& a, const Vec3& b) {

@@ -184,7 +184,7 @@ void box_box(const Posed& a, const Posed& b, double margin, Manifold& out) {
         if (cosine > kAlmostParallel && add_face_contact(a, b, close, gap_max, margin, out)) return;
         if (add_edge_contact(a, b, r, edge, out)) return;
     }
-    add_face_contact(a, b, face, margin, margin, out);
+    convex_convex(a, b, margin, out);  // apart, closest at a corner
 }
 
 }  // namespace roboss::narrow

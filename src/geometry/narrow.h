@@ -25,5 +25,9 @@ void sphere_box(const Posed& sphere, const Posed& box, double margin, Manifold& 
 void sphere_cylinder(const Posed& sphere, const Posed& cylinder, double margin, Manifold& out);
 void sphere_capsule(const Posed& sphere, const Posed& capsule, double margin, Manifold& out);
 void box_box(const Posed& a, const Posed& b, double margin, Manifold& out);
+void capsule_capsule(const Posed& a, const Posed& b, double margin, Manifold& out);
+
+/// Any two of box, cylinder and capsule but two capsules, exact and slower than the functions for one pair.
+void convex_convex(const Posed& a, const Posed& b, double margin, Manifold& out);
 
 }  // namespace roboss::narrow

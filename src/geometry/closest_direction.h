@@ -1,0 +1,23 @@
+// The global part of the search for the deepest or closest direction: GJK while the shapes are apart, a
+// polytope expanded from inside (EPA) when they overlap, then polishing.
+#pragma once
+
+#include "geometry/convex_sum.h"
+
+namespace roboss::narrow {
+
+/// The largest separation of the sum, found from any start. When it is above `enough`, any separation above
+/// it is returned.
+Separation closest_direction(const ConvexSum& sum, const Separation& start, double enough);
+
+/// Gilbert, Johnson and Keerthi, "A Fast Procedure for Computing the Distance between Complex Objects in
+/// Three-Dimensional Space", 1988. Returns the better of `start` and the result; when the shapes overlap or
+/// nearly touch, `overlap` becomes true.
+Separation closest_apart(const ConvexSum& sum, const Separation& start, double enough, bool& overlap);
+
+/// After van den Bergen, "Proximity Queries and Penetration Depth Computation on 3D Game Objects", 2001. The
+/// polytope starts round the centre of the sum, so it needs no simplex from GJK, and works for a slight
+/// separation too.
+Separation closest_overlapping(const ConvexSum& sum, const Separation& start);
+
+}  // namespace roboss::narrow

@@ -1,0 +1,135 @@
+// The polytope lies inside the sum, so its largest facet separation bounds the answer from above, and every
+// support direction tried bounds it from below; facets are expanded until the two meet or the fixed storage
+// is full.
+#include <algorithm>
+
+#include "geometry/closest_direction.h"
+
+namespace roboss::narrow {
+namespace {
+
+constexpr std::size_t kVerticesMax = 120;
+constexpr std::size_t kFacesMax = 2 * kVerticesMax + 64;
+constexpr std::size_t kEdgesMax = 256;
+constexpr double kGap = 1e-6;  // of the inradius, between the bounds; polishing does the rest
+
+struct Face {
+    std::array<std::size_t, 3> v{};
+    Vec3 n;
+    double offset = 0;  // n.x = offset on the face
+    double s = -1e300;  // separation of the sum's centre from the face's plane
+};
+
+class Polytope {
+  public:
+    explicit Polytope(const ConvexSum& sum) : sum_(sum) {}
+
+    /// An octahedron of three pairs of opposite support points; false when the sum is flat.
+    bool start(const Vec3& n) {
+        Vec3 t1, t2;
+        tangents(n, t1, t2);
+        const Vec3 a = sum_.support(n);
+        const double length = norm(a);
+        if (!(length > 0.0)) return false;
+        tangents(a / length, t1, t2);
+        const Vec3 b = sum_.support(t1);
+        const Vec3 across = cross(a, b);
+        const double area = norm(across);
+        if (!(area > 0.0)) return false;
+        const Vec3 c = sum_.support(across / area);  // cross(a, b).c > 0
+        vertices_ = {a, b, c, -a, -b, -c};
+        vertex_count_ = 6;
+        for (std::size_t k = 0; k < 8; ++k) {
+            const std::size_t x = (k & 1u) != 0 ? 3 : 0, y = (k & 2u) != 0 ? 4 : 1, z = (k & 4u) != 0 ? 5 : 2;
+            const bool even = ((k & 1u) + (k >> 1 & 1u) + (k >> 2)) % 2 == 0;
+            even ? add_face(x, y, z) : add_face(x, z, y);
+        }
+        return true;
+    }
+
+    const Face& best_face() const {
+        return *std::max_element(faces_.begin(), faces_.begin() + static_cast<long>(face_count_),
+                                 [](const Face& a, const Face& b) { return a.s < b.s; });
+    }
+
+    /// Takes the point into the hull; false when the storage is full or the point changes nothing.
+    bool expand(const Vec3& x) {
+        if (vertex_count_ == kVerticesMax || face_count_ + 64 > kFacesMax) return false;
+        edge_count_ = 0;
+        const double visible = 1e-13 * sum_.inradius();
+        for (std::size_t i = 0; i < face_count_;) {
+            if (dot(faces_[i].n, x) - faces_[i].offset <= visible) {
+                ++i;
+                continue;
+            }
+            const auto v = faces_[i].v;
+            if (edge_count_ + 3 > kEdgesMax) return false;
+            toggle_edge(v[0], v[1]);
+            toggle_edge(v[1], v[2]);
+            toggle_edge(v[2], v[0]);
+            faces_[i] = faces_[--face_count_];
+        }
+        if (edge_count_ == 0 || face_count_ + edge_count_ > kFacesMax) return false;
+        vertices_[vertex_count_] = x;
+        for (std::size_t i = 0; i < edge_count_; ++i) add_face(edges_[i][0], edges_[i][1], vertex_count_);
+        ++vertex_count_;
+        return true;
+    }
+
+  private:
+    void add_face(std::size_t a, std::size_t b, std::size_t c) {
+        Face face{{a, b, c}, {}, 0, -1e300};
+        const Vec3 normal = cross(vertices_[b] - vertices_[a], vertices_[c] - vertices_[a]);
+        const double length = norm(normal);
+        if (length > 1e-14 * sum_.inradius() * sum_.inradius()) {
+            face.n = normal / length;
+            face.offset = dot(face.n, vertices_[a]);
+            face.s = dot(face.n, sum_.centre()) - face.offset;
+        }
+        faces_[face_count_++] = face;
+    }
+
+    /// Keeps the edges that only one of the removed faces has: the horizon.
+    void toggle_edge(std::size_t a, std::size_t b) {
+        for (std::size_t i = 0; i < edge_count_; ++i) {
+            if (edges_[i][0] == b && edges_[i][1] == a) {
+                edges_[i] = edges_[--edge_count_];
+                return;
+            }
+        }
+        edges_[edge_count_++] = {a, b};
+    }
+
+    const ConvexSum& sum_;
+    std::size_t vertex_count_ = 0, face_count_ = 0, edge_count_ = 0;
+    std::array<Vec3, kVerticesMax> vertices_;
+    std::array<Face, kFacesMax> faces_;
+    std::array<std::array<std::size_t, 2>, kEdgesMax> edges_;
+};
+
+}  // namespace
+
+Separation closest_overlapping(const ConvexSum& sum, const Separation& start) {
+    Separation best = start;
+    Polytope polytope(sum);
+    if (!polytope.start(start.n)) return best;
+    const double gap = kGap * sum.inradius();
+    while (true) {
+        const Face face = polytope.best_face();
+        if (face.s <= best.s + gap) return best;
+        const Separation found = sum.separation(face.n);
+        if (found.s > best.s) best = found;
+        if (face.s <= best.s + gap || !polytope.expand(sum.support(face.n))) return best;
+    }
+}
+
+Separation closest_direction(const ConvexSum& sum, const Separation& start, double enough) {
+    bool overlap = false;
+    Separation best = closest_apart(sum, start, enough, overlap);
+    if (best.s > enough) return best;
+    best = sum.polished(best);
+    if (!overlap) return best;
+    return sum.polished(closest_overlapping(sum, best));
+}
+
+}  // namespace roboss::narrow

@@ -1,0 +1,180 @@
+// Support functions of segments |n.g| and discs r sqrt(1 - (n.u)^2), and Newton's method for the largest gap:
+// with the support point x(n), the gradient of s on the sphere is the tangential part of c - x(n), and minus
+// its Hessian is the discs' curvature plus s times the identity (s is homogeneous of degree one).
+#include "geometry/convex_sum.h"
+
+#include <algorithm>
+
+namespace roboss::narrow {
+namespace {
+
+constexpr double kNear = 0.02;  // sine of the angle within which a feature is tried
+constexpr double kStep = 1e-6;  // rad
+constexpr int kNewtonSteps = 12;
+
+Vec3 radial_part(const Vec3& n, const Vec3& axis) {
+    return n - axis * dot(n, axis);
+}
+
+}  // namespace
+
+ConvexSum::ConvexSum(const Posed& first, const Posed& second) : centre_(first.X.p - second.X.p) {
+    add(first);
+    first_segments_ = segment_count_;
+    add(second);
+}
+
+void ConvexSum::add(const Posed& shape) {
+    const Shape& s = shape.shape;
+    double inradius = 0.0;
+    if (s.kind == ShapeKind::kBox) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            direction_[segment_count_] = shape.axis(i);
+            half_[segment_count_++] = s.half[i];
+        }
+        inradius = std::min(s.half.x, std::min(s.half.y, s.half.z));
+    } else {
+        direction_[segment_count_] = shape.axis(2);
+        half_[segment_count_++] = s.half_length;
+    }
+    if (s.kind == ShapeKind::kCylinder) {
+        discs_[disc_count_++] = {shape.axis(2), s.radius};
+        inradius = std::min(s.radius, s.half_length);
+    }
+    inradius_ = std::max(inradius_, inradius);
+}
+
+double ConvexSum::reach(const Vec3& n) const {
+    double h = 0.0;
+    for (std::size_t i = 0; i < segment_count_; ++i) h += half_[i] * std::fabs(dot(n, direction_[i]));
+    for (std::size_t i = 0; i < disc_count_; ++i)
+        h += discs_[i].radius * norm(radial_part(n, discs_[i].axis));
+    return h;
+}
+
+Vec3 ConvexSum::support(const Vec3& n) const {
+    Vec3 x;
+    for (std::size_t i = 0; i < segment_count_; ++i) {
+        x += direction_[i] * (dot(n, direction_[i]) < 0.0 ? -half_[i] : half_[i]);
+    }
+    for (std::size_t i = 0; i < disc_count_; ++i) {
+        const Vec3 radial = radial_part(n, discs_[i].axis);
+        const double length = norm(radial);
+        if (length > 1e-12) x += radial * (discs_[i].radius / length);
+    }
+    return x;
+}
+
+double ConvexSum::rounding() const {
+    return 2e-15 * (std::fabs(centre_.x) + std::fabs(centre_.y) + std::fabs(centre_.z) + inradius_);
+}
+
+Separation ConvexSum::best_natural() const {
+    Separation best;
+    const auto consider = [&](const Vec3& direction) {
+        const double length = norm(direction);
+        if (length < 1e-3) return;
+        const Vec3 n = direction * (dot(direction, centre_) < 0.0 ? -1.0 / length : 1.0 / length);
+        const Separation found = separation(n);
+        if (found.s > best.s) best = found;
+    };
+    for (std::size_t i = 0; i < segment_count_; ++i) consider(direction_[i]);
+    for (std::size_t i = 0; i < first_segments_; ++i) {
+        for (std::size_t j = first_segments_; j < segment_count_; ++j)
+            consider(cross(direction_[i], direction_[j]));
+    }
+    const double distance = norm(centre_);
+    if (distance > 1e-150) {
+        const Vec3 d = centre_ / distance;
+        consider(d);
+        for (std::size_t i = 0; i < segment_count_; ++i) consider(radial_part(d, direction_[i]));
+    }
+    return best;
+}
+
+Separation ConvexSum::climb(Vec3 n, const Vec3* edge) const {
+    Separation best = separation(n);
+    for (int step = 0; step < kNewtonSteps; ++step) {
+        Vec3 t1, t2;
+        if (edge != nullptr) {
+            t1 = cross(*edge, n);
+        } else {
+            tangents(n, t1, t2);
+        }
+        const Vec3 gap = centre_ - support(n);
+        const double s = dot(n, centre_) - reach(n);
+        const double g1 = dot(t1, gap), g2 = dot(t2, gap);
+        double h11 = s, h22 = s, h12 = 0.0;
+        for (std::size_t i = 0; i < disc_count_; ++i) {
+            const Vec3 side = cross(discs_[i].axis, n);
+            const double q_squared = norm_squared(side);
+            if (q_squared < 1e-16) return best;
+            const double curvature = discs_[i].radius / (q_squared * std::sqrt(q_squared));
+            const double m1 = dot(t1, side), m2 = dot(t2, side);
+            h11 += curvature * m1 * m1;
+            h12 += curvature * m1 * m2;
+            h22 += curvature * m2 * m2;
+        }
+        Vec3 move;
+        if (edge != nullptr) {
+            if (!(h11 > 0.0)) return best;
+            move = t1 * (g1 / h11);
+        } else {
+            const double determinant = h11 * h22 - h12 * h12;
+            if (!(h11 > 0.0 && determinant > 0.0)) return best;
+            move = t1 * ((h22 * g1 - h12 * g2) / determinant) + t2 * ((h11 * g2 - h12 * g1) / determinant);
+        }
+        if (!(norm_squared(move) < 0.25)) return best;
+        n = normalized(n + move);
+        const Separation found = separation(n);
+        if (!(found.s >= best.s - rounding())) return best;
+        best = found;  // also when equal: the gap is flat at its maximum, the direction still improves
+        if (norm_squared(move) < 1e-28) return best;
+    }
+    return best;
+}
+
+Separation ConvexSum::polished(const Separation& start) const {
+    Separation best = start;
+    const double tie = rounding();
+    const Vec3& n0 = start.n;
+    // Flattest last, each accepted when it is at least as good to within a tie.
+    const auto consider = [&](const Separation& found) {
+        if (found.s >= best.s - tie) best = {found.n, found.s};
+    };
+    consider(climb(n0, nullptr));
+    std::array<std::size_t, 6> near{};
+    std::size_t near_count = 0;
+    for (std::size_t i = 0; i < segment_count_; ++i) {
+        if (half_[i] > 0.0 && std::fabs(dot(n0, direction_[i])) < kNear) near[near_count++] = i;
+    }
+    // The gap has a kink where n is perpendicular to a segment, so each smooth side of it is climbed from a small step.
+    for (std::size_t i = 0; i < near_count; ++i) {
+        const Vec3& edge = direction_[near[i]];
+        const Vec3 n = normalized(radial_part(n0, edge));
+        for (const double step : {-kStep, kStep}) consider(climb(normalized(n + edge * step), nullptr));
+    }
+    for (std::size_t i = 0; i < near_count; ++i) {
+        const Vec3& edge = direction_[near[i]];
+        const Vec3 n = normalized(radial_part(n0, edge)), along = cross(edge, n);
+        consider(climb(n, &edge));
+        if (near_count == 1) continue;
+        for (const double step : {-kStep, kStep}) consider(climb(normalized(n + along * step), &edge));
+    }
+    const auto consider_flat = [&](const Vec3& direction) {
+        const double length = norm(direction);
+        if (length < 1e-3) return;
+        const Vec3 n = direction * (dot(direction, n0) < 0.0 ? -1.0 / length : 1.0 / length);
+        if (dot(n, n0) > 0.9) consider(separation(n));
+    };
+    for (std::size_t i = 0; i < near_count; ++i) {
+        for (std::size_t j = i + 1; j < near_count; ++j)
+            consider_flat(cross(direction_[near[i]], direction_[near[j]]));
+    }
+    for (std::size_t i = 0; i < disc_count_; ++i) {
+        if (norm(radial_part(n0, discs_[i].axis)) < kNear) consider_flat(discs_[i].axis);
+    }
+    return best;
+}
+
+}  // namespace roboss::narrow

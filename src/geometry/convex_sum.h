@@ -1,0 +1,53 @@
+// The signed distance of two convex shapes as one function of a direction. All our shapes are symmetric about
+// their centres, so for a unit normal n the gap along n is s(n) = n.c - h(n): c goes from the second centre
+// to the first, h is the support function of the sum of both shapes (segments and discs; a capsule's ball is
+// added by the caller). The signed distance is the largest s(n), apart or penetrating; every s(n) is a lower
+// bound of it.
+#pragma once
+
+#include <array>
+
+#include "geometry/narrow.h"
+
+namespace roboss::narrow {
+
+struct Separation {
+    Vec3 n;  // unit, from the second shape to the first
+    double s = -1e300;
+};
+
+class ConvexSum {
+  public:
+    ConvexSum(const Posed& first, const Posed& second);
+
+    const Vec3& centre() const { return centre_; }
+    double inradius() const { return inradius_; }  // lower bound of the sum's; the scale of all tolerances
+    double reach(const Vec3& n) const;             // h(n), n need not be a unit vector
+    Vec3 support(const Vec3& n) const;
+    Separation separation(const Vec3& n) const { return {n, dot(n, centre_) - reach(n)}; }
+
+    /// The best of the directions in which flat facets of the sum can look (and two round ones).
+    Separation best_natural() const;
+
+    /// Improves a nearby maximum to rounding: all combinations of features close to start.n, each by Newton's
+    /// method on the sphere. Between equals the flatter one wins. The result is below start by rounding at most.
+    Separation polished(const Separation& start) const;
+
+  private:
+    struct Disc {
+        Vec3 axis;
+        double radius = 0;
+    };
+    void add(const Posed& shape);
+    double rounding() const;  // differences of s below it are noise
+    Separation climb(Vec3 n, const Vec3* edge) const;
+
+    Vec3 centre_;
+    double inradius_ = 0;
+    std::size_t segment_count_ = 0, disc_count_ = 0, first_segments_ = 0;
+    std::array<Vec3, 6> direction_;  // of the segments, unit
+    std::array<double, 6> half_{};
+    std::array<Disc, 2> discs_;
+};
+
+}  // namespace roboss::narrow
