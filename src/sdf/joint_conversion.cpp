@@ -150,7 +150,6 @@ std::optional<JointSpec> convert_joint(const sdf::Joint& joint, const Element& s
     for (unsigned i = 0; i < axes_of(*kind); ++i) spec.axes.push_back(read_axis(joint, source, i, *kind, import));
     if (*kind == JointSpecKind::kScrew) spec.screw_pitch = screw_pitch(source, import);
     report_joint_to_come(spec, source, import);
-    if (*kind == JointSpecKind::kGearbox) return std::nullopt;
     return spec;
 }
 

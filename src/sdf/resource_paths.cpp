@@ -19,7 +19,7 @@ bool starts_with(const std::string& text, const std::string& prefix) {
     return text.compare(0, prefix.size(), prefix) == 0;
 }
 
-bool exists(const fs::path& path) {
+bool is_there(const fs::path& path) {
     std::error_code ignored;
     return fs::exists(path, ignored);
 }
@@ -40,7 +40,7 @@ void try_path(const fs::path& candidate, Resolved& result) {
     if (result.path) return;
     const std::string text = candidate.lexically_normal().string();
     result.searched.push_back(text);
-    if (exists(candidate)) result.path = text;
+    if (is_there(candidate)) result.path = text;
 }
 
 /// Fuel's cache keeps a model as .../models/NAME/VERSION/: the highest version there.

@@ -3,7 +3,6 @@
 #include <set>
 #include <unordered_map>
 
-#include "world/tree.h"
 #include "world/world.h"
 
 namespace roboss {
@@ -50,7 +49,6 @@ class ModelCheck {
     void run() {
         for (const LinkSpec& link : model_.links) check_link(link);
         for (const JointSpec& joint : model_.joints) check_joint(joint);
-        if (!model_.is_static) check_loops();
         for (const LinkSpec& link : model_.links) check_sensors(link);
     }
 
@@ -144,19 +142,6 @@ class ModelCheck {
         if (!(axis.damping >= 0) || !(axis.friction >= 0) || !(axis.spring_stiffness >= 0) || !(axis.armature >= 0)) {
             diagnostics_.error(joint.where, "bad-dynamics", name + " has a negative damping, friction, spring or armature",
                                "Write values of at least 0.");
-        }
-    }
-
-    void check_loops() {
-        const std::vector<bool> in_tree = tree_joints(model_);
-        for (std::size_t i = 0; i < model_.joints.size(); ++i) {
-            const JointSpec& joint = model_.joints[i];
-            if (in_tree[i] || !links_.count(joint.child) || joint.parent == joint.child) continue;
-            if (joint.parent != "world" && !links_.count(joint.parent)) continue;
-            diagnostics_.warning(joint.where, "loop",
-                                 named("joint", joint.name) + " closes a loop (link '" + joint.child +
-                                     "' hangs on another joint already); loops are still to come: this joint is ignored",
-                                 "Cut the loop where the robot can do without a joint.");
         }
     }
 
