@@ -1,0 +1,133 @@
+// Parses numbers with from_chars: no locale, and the same double for the same text everywhere.
+#include "sdf/element_reader.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace roboss::sdf_import {
+namespace {
+
+bool is_space(char c) {
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
+}
+
+}  // namespace
+
+std::optional<double> parse_number(std::string_view text) {
+    if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc::result_out_of_range && end == text.data() + text.size()) {
+        // Too small for a double is zero for every reader of SDFormat; too large stays no number.
+        const bool tiny = text.find("e-") != text.npos || text.find("E-") != text.npos;
+        return tiny ? std::optional<double>(0.0) : std::nullopt;
+    }
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+std::vector<std::string_view> words_of(std::string_view text) {
+    std::vector<std::string_view> words;
+    std::size_t at = 0;
+    while (at < text.size()) {
+        while (at < text.size() && is_space(text[at])) ++at;
+        const std::size_t start = at;
+        while (at < text.size() && !is_space(text[at])) ++at;
+        if (at > start) words.push_back(text.substr(start, at - start));
+    }
+    return words;
+}
+
+void ElementReader::bad_value(const Element& element, const std::string& expected) const {
+    const std::string name = element.node.name();
+    diagnostics_.error(element.where(), "bad-value",
+                       "<" + name + "> is '" + element.node.text().get() + "', which is not " + expected,
+                       "Write " + expected + " with decimal points, for instance " +
+                           (expected.find("3 ") == 0 ? "0 0 1.5." : expected.find("6 ") == 0 ? "0 0 1.5 0 0 0." : "1.5."));
+}
+
+bool ElementReader::numbers(const Element& element, std::span<double> values, Finite finite) const {
+    const auto words = words_of(element.node.text().get());
+    const std::string expected =
+        values.size() == 1 ? "a finite number" : std::to_string(values.size()) + " finite numbers";
+    if (words.size() != values.size()) return bad_value(element, expected), false;
+    std::vector<double> parsed;
+    for (const auto word : words) {
+        const auto value = parse_number(word);
+        const bool good = value && !std::isnan(*value) && (finite == Finite::kInfinityAllowed || std::isfinite(*value));
+        if (!good) return bad_value(element, expected), false;
+        parsed.push_back(*value);
+    }
+    std::copy(parsed.begin(), parsed.end(), values.begin());
+    return true;
+}
+
+double ElementReader::number(const Element& parent, const char* child, double fallback, Finite finite) const {
+    const Element element = parent.child(child);
+    if (!element) return fallback;
+    double value = fallback;
+    numbers(element, {&value, 1}, finite);
+    return value;
+}
+
+int ElementReader::integer(const Element& parent, const char* child, int fallback) const {
+    const double value = number(parent, child, fallback);
+    if (std::floor(value) != value || std::fabs(value) > 2e9) {
+        bad_value(parent.child(child), "a whole number");
+        return fallback;
+    }
+    return static_cast<int>(value);
+}
+
+bool ElementReader::boolean(const Element& parent, const char* child, bool fallback) const {
+    const Element element = parent.child(child);
+    if (!element) return fallback;
+    const std::string text = element.node.text().get();
+    if (text == "1" || text == "true" || text == "True" || text == "TRUE") return true;
+    if (text == "0" || text == "false" || text == "False" || text == "FALSE") return false;
+    diagnostics_.error(element.where(), "bad-value",
+                       "<" + std::string(child) + "> is '" + text + "', which is neither true nor false",
+                       "Write true or false.");
+    return fallback;
+}
+
+Vec3 ElementReader::vector(const Element& parent, const char* child, const Vec3& fallback) const {
+    const Element element = parent.child(child);
+    if (!element) return fallback;
+    double values[3] = {fallback.x, fallback.y, fallback.z};
+    numbers(element, values, Finite::kRequired);
+    return {values[0], values[1], values[2]};
+}
+
+double ElementReader::angle(const Element& parent, const char* child, double fallback) const {
+    const Element element = parent.child(child);
+    if (!element) return fallback;
+    const double value = number(parent, child, fallback);
+    return element.node.attribute("degrees").as_bool() ? value * kPi / 180.0 : value;
+}
+
+Pose ElementReader::pose(const Element& pose_element) const {
+    if (!pose_element || words_of(pose_element.node.text().get()).empty()) return {};
+    if (std::string(pose_element.node.attribute("rotation_format").value()) == "quat_xyzw") {
+        double v[7] = {0, 0, 0, 0, 0, 0, 1};
+        numbers(pose_element, v, Finite::kRequired);
+        const Quat q{v[6], v[3], v[4], v[5]};
+        if (q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z < 1e-12) {
+            bad_value(pose_element, "a position and a quaternion of length 1");
+            return {{v[0], v[1], v[2]}, {}};
+        }
+        return {{v[0], v[1], v[2]}, normalized(q)};
+    }
+    double v[6] = {};
+    numbers(pose_element, v, Finite::kRequired);
+    const double unit = pose_element.node.attribute("degrees").as_bool() ? kPi / 180.0 : 1.0;
+    return {{v[0], v[1], v[2]}, from_rpy(v[3] * unit, v[4] * unit, v[5] * unit)};
+}
+
+std::string relative_to(const Element& pose_element) {
+    if (!pose_element) return {};
+    const std::string now = pose_element.node.attribute("relative_to").value();
+    return now.empty() ? pose_element.node.attribute("frame").value() : now;
+}
+
+}  // namespace roboss::sdf_import

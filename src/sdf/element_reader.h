@@ -1,0 +1,52 @@
+// ElementReader: values out of XML elements. A value that cannot be what it should be (a word where a number belongs,
+// NaN, too few numbers) is an error with its line; the fallback is used so that reading can go on and find more.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/diagnostics.h"
+#include "math/pose.h"
+#include "sdf/source_file.h"
+
+namespace roboss::sdf_import {
+
+enum class Finite { kRequired, kInfinityAllowed };
+
+/// The whole text as one number; nullopt if it is none. Accepts what SDFormat accepts: "+1", "1e-3", "inf".
+std::optional<double> parse_number(std::string_view text);
+
+/// The words of a text between white space.
+std::vector<std::string_view> words_of(std::string_view text);
+
+class ElementReader {
+  public:
+    explicit ElementReader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+    double number(const Element& parent, const char* child, double fallback, Finite finite = Finite::kRequired) const;
+    int integer(const Element& parent, const char* child, int fallback) const;
+    bool boolean(const Element& parent, const char* child, bool fallback) const;
+    Vec3 vector(const Element& parent, const char* child, const Vec3& fallback) const;
+
+    /// An angle in radians, or in degrees with degrees="true".
+    double angle(const Element& parent, const char* child, double fallback) const;
+
+    /// A <pose>: x y z roll pitch yaw, also with degrees="true" or rotation_format="quat_xyzw". Empty: identity.
+    Pose pose(const Element& pose_element) const;
+
+    Diagnostics& diagnostics() const { return diagnostics_; }
+
+  private:
+    /// Fills all of `values` from the element's text, or reports and leaves them as they are.
+    bool numbers(const Element& element, std::span<double> values, Finite finite) const;
+    void bad_value(const Element& element, const std::string& expected) const;
+
+    Diagnostics& diagnostics_;
+};
+
+/// What `relative_to` (or `frame`, its name up to SDFormat 1.6) of a <pose> says; empty: nothing.
+std::string relative_to(const Element& pose_element);
+
+}  // namespace roboss::sdf_import

@@ -1,0 +1,59 @@
+// Plugins and elements of other namespaces: kept or reported, never run.
+#include <cstring>
+#include <sstream>
+
+#include "sdf/model_conversion.h"
+
+namespace roboss::sdf_import {
+namespace {
+
+ExtensionElement kept(const Element& element) {
+    std::ostringstream text;
+    element.node.print(text, "", pugi::format_raw);
+    return {element.node.name(), std::move(text).str(), element.where()};
+}
+
+bool is_ours_here(const char* parent, const char* name) {
+    const auto is = [](const char* a, const char* b) { return std::strcmp(a, b) == 0; };
+    if (is(name, "roboss:sensor")) return is(parent, "link");
+    if (is(name, "roboss:motor")) return is(parent, "joint") || is(parent, "axis") || is(parent, "axis2");
+    if (is(name, "roboss:rolling_friction")) return is(parent, "collision") || is(parent, "surface");
+    return false;
+}
+
+void report_foreign(const Element& element, const Import& import) {
+    const std::string name = element.node.name(), parent = element.node.parent().name();
+    if (is_ours_here(parent.c_str(), name.c_str())) return;
+    if (name.rfind("roboss:", 0) == 0) {
+        import.diagnostics().warning(element.where(), "unknown-extension",
+                                     "<" + name + "> in <" + parent + "> is not known and is ignored",
+                                     "Known: <roboss:sensor> in a link, <roboss:motor> in a joint or axis, "
+                                     "<roboss:rolling_friction> in a collision or surface.");
+    } else {
+        import.diagnostics().note(element.where(), "foreign-element", "<" + name + "> is not for RoBOSS and is ignored");
+    }
+}
+
+}  // namespace
+
+void convert_extensions(const Element& parent, const Import& import, std::vector<ExtensionElement>& extensions) {
+    for (const auto node : parent.node.children()) {
+        if (node.type() != pugi::node_element) continue;
+        const Element element{parent.source, node};
+        if (std::strcmp(node.name(), "plugin") == 0) {
+            extensions.push_back(kept(element));
+            const std::string name = element.name(), file = node.attribute("filename").value();
+            import.diagnostics().note(element.where(), "plugin",
+                                      "plugin '" + (name.empty() ? file : name) + "' is not run",
+                                      "Drive robots from a Client program; physics and sensors need no plugin here.");
+        } else if (std::strcmp(node.name(), "model") == 0) {
+            continue;  // nested models and includes take their own turn
+        } else if (std::strchr(node.name(), ':') != nullptr) {
+            report_foreign(element, import);
+        } else {
+            convert_extensions(element, import, extensions);
+        }
+    }
+}
+
+}  // namespace roboss::sdf_import

@@ -1,0 +1,156 @@
+// Joints: type, links and frames from libsdformat, numbers of the axes and <roboss:motor> from the source.
+#include <cmath>
+#include <limits>
+
+#include "sdf/model_conversion.h"
+
+namespace roboss::sdf_import {
+namespace {
+
+std::optional<JointSpecKind> kind_of(sdf::JointType type) {
+    switch (type) {
+        case sdf::JointType::FIXED: return JointSpecKind::kFixed;
+        case sdf::JointType::REVOLUTE: return JointSpecKind::kRevolute;
+        case sdf::JointType::CONTINUOUS: return JointSpecKind::kContinuous;
+        case sdf::JointType::PRISMATIC: return JointSpecKind::kPrismatic;
+        case sdf::JointType::BALL: return JointSpecKind::kBall;
+        case sdf::JointType::SCREW: return JointSpecKind::kScrew;
+        case sdf::JointType::UNIVERSAL: return JointSpecKind::kUniversal;
+        case sdf::JointType::REVOLUTE2: return JointSpecKind::kRevolute2;
+        case sdf::JointType::GEARBOX: return JointSpecKind::kGearbox;
+        case sdf::JointType::INVALID: return std::nullopt;
+    }
+    return std::nullopt;
+}
+
+unsigned axes_of(JointSpecKind kind) {
+    switch (kind) {
+        case JointSpecKind::kFixed:
+        case JointSpecKind::kBall: return 0;
+        case JointSpecKind::kUniversal:
+        case JointSpecKind::kRevolute2:
+        case JointSpecKind::kGearbox: return 2;
+        default: return 1;
+    }
+}
+
+/// Negative or infinite: unlimited, as in SDF.
+double bound(double written) {
+    return written >= 0 && std::isfinite(written) ? written : -1.0;
+}
+
+void read_limit(const Element& limit, const ElementReader& reader, AxisSpec& spec) {
+    if (!limit) return;
+    constexpr auto kAny = Finite::kInfinityAllowed;
+    spec.lower = reader.number(limit, "lower", spec.lower, kAny);
+    spec.upper = reader.number(limit, "upper", spec.upper, kAny);
+    spec.max_effort = bound(reader.number(limit, "effort", -1, kAny));
+    spec.max_velocity = bound(reader.number(limit, "velocity", -1, kAny));
+    spec.limit_stiffness = reader.number(limit, "stiffness", spec.limit_stiffness, kAny);
+    spec.limit_dissipation = reader.number(limit, "dissipation", spec.limit_dissipation, kAny);
+}
+
+void read_dynamics(const Element& dynamics, const ElementReader& reader, AxisSpec& spec) {
+    if (!dynamics) return;
+    spec.damping = reader.number(dynamics, "damping", 0);
+    spec.friction = reader.number(dynamics, "friction", 0);
+    spec.spring_stiffness = reader.number(dynamics, "spring_stiffness", 0);
+    spec.spring_reference = reader.number(dynamics, "spring_reference", 0);
+}
+
+/// <roboss:motor>: gains, bounds and the rotor's inertia.
+void read_motor(const Element& motor, const ElementReader& reader, AxisSpec& spec) {
+    if (!motor) return;
+    constexpr auto kAny = Finite::kInfinityAllowed;
+    spec.position_gain = reader.number(motor, "position_gain", spec.position_gain);
+    spec.velocity_gain = reader.number(motor, "velocity_gain", spec.velocity_gain);
+    spec.armature = reader.number(motor, "armature", spec.armature);
+    if (motor.child("max_effort")) spec.max_effort = bound(reader.number(motor, "max_effort", -1, kAny));
+    if (motor.child("max_velocity")) spec.max_velocity = bound(reader.number(motor, "max_velocity", -1, kAny));
+}
+
+Vec3 direction_of(const sdf::JointAxis* axis) {
+    ignition::math::Vector3d xyz = ignition::math::Vector3d::UnitZ;
+    if (axis == nullptr || !axis->ResolveXyz(xyz).empty()) return {0, 0, 1};
+    const Vec3 direction{xyz.X(), xyz.Y(), xyz.Z()};
+    const double length = norm(direction);
+    return length > 1e-12 && std::isfinite(length) ? direction / length : Vec3{0, 0, 1};
+}
+
+AxisSpec read_axis(const sdf::Joint& joint, const Element& source, unsigned index, JointSpecKind kind, const Import& import) {
+    const Element axis = source.child(index == 0 ? "axis" : "axis2");
+    AxisSpec spec;
+    spec.xyz = direction_of(joint.Axis(index));
+    if (!axis) {
+        import.diagnostics().warning(source.where(), "missing-axis",
+                                     "joint '" + joint.Name() + "' has no <" + (index == 0 ? "axis" : "axis2") +
+                                         ">; z of its frame is used",
+                                     "Add it, with <xyz>.");
+    } else {
+        import.reader.vector(axis, "xyz", {0, 0, 1});
+    }
+    read_limit(axis.child("limit"), import.reader, spec);
+    read_dynamics(axis.child("dynamics"), import.reader, spec);
+    spec.initial_position = import.reader.number(axis, "initial_position", 0);
+    read_motor(source.child("roboss:motor"), import.reader, spec);
+    read_motor(axis.child("roboss:motor"), import.reader, spec);
+    if (kind == JointSpecKind::kContinuous) {
+        spec.lower = -std::numeric_limits<double>::infinity();
+        spec.upper = std::numeric_limits<double>::infinity();
+    }
+    return spec;
+}
+
+/// Metres a radian. <screw_thread_pitch> (1.10): metres a turn. <thread_pitch>: Gazebo's -radians a metre.
+double screw_pitch(const Element& source, const Import& import) {
+    if (source.child("screw_thread_pitch")) return import.reader.number(source, "screw_thread_pitch", 1) / (2.0 * kPi);
+    const double radians_a_metre = import.reader.number(source, "thread_pitch", 1);
+    return radians_a_metre != 0 ? -1.0 / radians_a_metre : 0.0;
+}
+
+void report_joint_to_come(const JointSpec& spec, const Element& source, const Import& import) {
+    if (spec.kind == JointSpecKind::kScrew) {
+        import.diagnostics().warning(source.where(), "joint-to-come",
+                                     "joint '" + spec.name + "': screw joints are still to come; its links are welded together",
+                                     "Use a revolute and a prismatic joint, driven together.");
+    }
+    if (spec.kind == JointSpecKind::kGearbox) {
+        import.diagnostics().warning(source.where(), "joint-to-come",
+                                     "joint '" + spec.name + "': gearboxes are still to come; its links turn independently",
+                                     "Drive both joints from the control program.");
+    }
+    for (const auto node : source.node.children("sensor")) {
+        import.diagnostics().warning({source.source->where(node)}, "sensor-to-come",
+                                     "sensors of type '" + std::string(node.attribute("type").value()) +
+                                         "' are still to come; they measure nothing");
+    }
+}
+
+/// The link that libsdformat found for a parent or child frame, else the name as written, for validate() to report.
+template <class Resolve>
+std::string link_name(const std::string& written, const std::string& scope, Resolve resolve) {
+    std::string found;
+    if (!resolve(found).empty() || found.empty()) found = written;
+    return found == "world" ? found : scope + found;
+}
+
+}  // namespace
+
+std::optional<JointSpec> convert_joint(const sdf::Joint& joint, const Element& source, const Pose& X_MJ,
+                                       const std::string& scope, const Import& import) {
+    const auto kind = kind_of(joint.Type());
+    if (!kind) return std::nullopt;  // libsdformat has said so
+    JointSpec spec;
+    spec.name = scope + joint.Name();
+    spec.kind = *kind;
+    spec.where = source.where();
+    spec.X_MJ = X_MJ;
+    spec.parent = link_name(joint.ParentLinkName(), scope, [&](std::string& name) { return joint.ResolveParentLink(name); });
+    spec.child = link_name(joint.ChildLinkName(), scope, [&](std::string& name) { return joint.ResolveChildLink(name); });
+    for (unsigned i = 0; i < axes_of(*kind); ++i) spec.axes.push_back(read_axis(joint, source, i, *kind, import));
+    if (*kind == JointSpecKind::kScrew) spec.screw_pitch = screw_pitch(source, import);
+    report_joint_to_come(spec, source, import);
+    return spec;
+}
+
+}  // namespace roboss::sdf_import

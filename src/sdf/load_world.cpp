@@ -1,0 +1,155 @@
+// The straight path of loading: file, placements, distinct models through libsdformat, poses, validation.
+#include "sdf/load_world.h"
+
+#include <map>
+#include <tuple>
+#include <unordered_map>
+
+#include "sdf/include_store.h"
+#include "sdf/libsdformat_reader.h"
+#include "sdf/model_conversion.h"
+#include "sdf/newer_versions.h"
+#include "sdf/placements.h"
+#include "sdf/same_model.h"
+#include "sdf/urdf.h"
+#include "sdf/world_frames.h"
+#include "sdf/world_settings.h"
+
+namespace roboss {
+namespace {
+
+using namespace sdf_import;
+
+/// Models that are equal but for name and pose, and what became of them.
+struct Distinct {
+    Element model;
+    bool is_static = false;
+    std::unique_ptr<ReadModel> read;        // nullptr: libsdformat refused it
+    std::optional<std::size_t> prototype;  // in World::prototypes
+};
+
+class WorldLoader {
+  public:
+    WorldLoader(const LoadOptions& options, Diagnostics& diagnostics)
+        : paths_(options.search_paths),
+          import_{paths_, ElementReader(diagnostics)},
+          includes_(paths_, diagnostics),
+          libsdformat_(includes_, diagnostics),
+          diagnostics_(diagnostics) {}
+
+    std::optional<World> load(const std::string& path) {
+        file_ = SourceFile::read(path, diagnostics_);
+        if (file_ && std::string(file_->root().name()) == "robot") file_ = urdf_to_sdf(*file_, diagnostics_);
+        if (!file_) return std::nullopt;
+        const auto world = find_world();
+        if (!world) return std::nullopt;
+        World result;
+        result.file = path;
+        read_world_settings(*world, import_, result);
+        if (result.name.empty()) result.name = first_model(*file_).name();
+        const auto placements = collect_placements(*world, includes_, import_);
+        for (const Placement& placement : placements) distinct_of_.push_back(find_distinct(placement));
+        for (Distinct& distinct : distinct_) read_distinct(distinct, result);
+        place(*world, placements, result);
+        return result;
+    }
+
+  private:
+    /// The <world>, or the <sdf> of a file that holds a model only.
+    std::optional<Element> find_world() {
+        const Element root{file_.get(), file_->root()};
+        if (std::string(root.node.name()) != "sdf") {
+            diagnostics_.error(root.where(), "not-sdf",
+                               "the file begins with <" + std::string(root.node.name()) + ">; it is neither SDFormat nor URDF",
+                               "Give a file whose root element is <sdf> or <robot>.");
+            return std::nullopt;
+        }
+        check_version(*file_, diagnostics_);
+        const Element world = root.child("world");
+        if (world) {
+            if (const auto second = world.node.next_sibling("world")) {
+                diagnostics_.warning(file_->where(second), "second-world", "the file has several worlds; the first is used",
+                                     "Put each world into a file of its own.");
+            }
+            return world;
+        }
+        if (first_model(*file_)) return root;
+        diagnostics_.error(root.where(), "no-world", "the file holds neither a <world> nor a <model>", "Add one.");
+        return std::nullopt;
+    }
+
+    std::size_t find_distinct(const Placement& placement) {
+        const std::uint64_t hash = model_hash(placement.model) * 2 + (placement.is_static ? 1 : 0);
+        for (auto [at, end] = by_hash_.equal_range(hash); at != end; ++at) {
+            const Distinct& known = distinct_[at->second];
+            if (known.is_static == placement.is_static && same_model(known.model, placement.model)) return at->second;
+        }
+        distinct_.push_back({placement.model, placement.is_static, nullptr, std::nullopt});
+        by_hash_.emplace(hash, distinct_.size() - 1);
+        return distinct_.size() - 1;
+    }
+
+    void read_distinct(Distinct& distinct, World& world) {
+        distinct.read = libsdformat_.read(make_skeleton(distinct.model, includes_));
+        if (!distinct.read) return;
+        ModelSpec spec = convert_model(*distinct.read, distinct.is_static, import_);
+        if (spec.links.empty()) {
+            diagnostics_.warning(spec.where, "no-links", "model '" + spec.name + "' has no links; it is left out",
+                                 "Give it a link, or remove it.");
+            return;
+        }
+        world.prototypes.push_back(std::move(spec));
+        distinct.prototype = world.prototypes.size() - 1;
+    }
+
+    void place(const Element& world, const std::vector<Placement>& placements, World& result) {
+        const auto in_model = [&](std::size_t i, const std::string& name) -> std::optional<Pose> {
+            const auto& read = distinct_[distinct_of_[i]].read;
+            return read ? pose_in_model(*read, name) : std::nullopt;
+        };
+        WorldFrames frames(world, placements, in_model, import_);
+        for (std::size_t i = 0; i < placements.size(); ++i) {
+            const Pose X_WM = frames.pose_of(i);
+            const Distinct& distinct = distinct_[distinct_of_[i]];
+            if (!distinct.prototype) continue;
+            result.instances.push_back({placements[i].name, *distinct.prototype, X_WM, placements[i].where.where()});
+        }
+    }
+
+    ResourcePaths paths_;
+    Import import_;
+    IncludeStore includes_;
+    LibsdformatReader libsdformat_;
+    Diagnostics& diagnostics_;
+    std::unique_ptr<SourceFile> file_;
+    std::vector<Distinct> distinct_;
+    std::unordered_multimap<std::uint64_t, std::size_t> by_hash_;
+    std::vector<std::size_t> distinct_of_;  // by placement
+};
+
+/// Findings that say the same in the same file become one, with their number and the first line.
+void add_grouped(const Diagnostics& found, Diagnostics& out) {
+    std::map<std::tuple<Severity, std::string, std::string, std::string>, std::size_t> count;
+    const auto key = [](const Diagnostic& d) { return std::tuple(d.severity, d.where.file, d.code, d.message); };
+    for (const Diagnostic& d : found.items()) ++count[key(d)];
+    for (const Diagnostic& d : found.items()) {
+        auto& times = count[key(d)];
+        if (times == 0) continue;
+        Diagnostic grouped = d;
+        if (times > 1) grouped.message += " (" + std::to_string(times) + " times, first here)";
+        times = 0;
+        out.add(std::move(grouped));
+    }
+}
+
+}  // namespace
+
+std::optional<World> load_world(const std::string& file, const LoadOptions& options, Diagnostics& diagnostics) {
+    Diagnostics found;
+    auto world = WorldLoader(options, found).load(file);
+    if (world) validate(*world, found);
+    add_grouped(found, diagnostics);
+    return world;
+}
+
+}  // namespace roboss

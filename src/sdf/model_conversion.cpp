@@ -1,0 +1,160 @@
+// Walks a model and its nested models.
+#include "sdf/model_conversion.h"
+
+#include <cstring>
+
+#include "sdf/newer_versions.h"
+
+namespace roboss::sdf_import {
+namespace {
+
+/// A model or nested model on the way: where it is in the outermost model.
+struct Scope {
+    const sdf::Model& model;
+    std::string prefix;  // "" or "inner::"
+    Pose X_MS;           // this model's frame in the outermost model's
+};
+
+template <class Posed>
+Pose resolved(const Posed& posed, const std::string& in) {
+    ignition::math::Pose3d pose;
+    // Errors of the frame graph were reported when libsdformat built it.
+    if (!posed.SemanticPose().Resolve(pose, in).empty()) return {};
+    return to_pose(pose);
+}
+
+class ModelConverter {
+  public:
+    ModelConverter(const ReadModel& read, const Import& import, ModelSpec& spec)
+        : read_(read), import_(import), spec_(spec) {}
+
+    void convert(const Scope& scope) {
+        const Element source = read_.source_of(scope.model.Element());
+        if (source) convert_extensions(source, import_, spec_.extensions);
+        for (std::uint64_t i = 0; i < scope.model.LinkCount(); ++i) convert_link(*scope.model.LinkByIndex(i), scope);
+        for (std::uint64_t i = 0; i < scope.model.JointCount(); ++i) convert_joint_of(*scope.model.JointByIndex(i), scope);
+        for (std::uint64_t i = 0; i < scope.model.ModelCount(); ++i) convert_nested(*scope.model.ModelByIndex(i), scope);
+    }
+
+  private:
+    void convert_nested(const sdf::Model& nested, const Scope& outer) {
+        const Element source = read_.source_of(nested.Element());
+        if (nested.Static() && !spec_.is_static) {
+            import_.diagnostics().warning(source.where(), "nested-static",
+                                          "the nested model '" + nested.Name() +
+                                              "' is static, but the model around it is not; it is taken as movable",
+                                          "Make it a model of the world, or weld it to the world with a fixed joint.");
+        }
+        convert({nested, outer.prefix + nested.Name() + "::", outer.X_MS * resolved(nested, "__model__")});
+    }
+
+    void convert_link(const sdf::Link& link, const Scope& scope) {
+        const Element source = read_.source_of(link.Element());
+        LinkSpec spec;
+        spec.name = scope.prefix + link.Name();
+        spec.where = source.where();
+        spec.X_ML = scope.X_MS * resolved(link, "__model__");
+        if (!source) {
+            import_.diagnostics().warning(read_.source().where(), "lost-link",
+                                          "link '" + spec.name + "' cannot be found again in the file; it has no shapes");
+            spec_.links.push_back(std::move(spec));
+            return;
+        }
+        if (!spec_.is_static) convert_inertial(source, import_, spec);
+        convert_link_flags(source, spec);
+        for (const auto node : source.node.children()) {
+            if (node.type() == pugi::node_element) convert_part({source.source, node}, link, scope, spec);
+        }
+        spec_.links.push_back(std::move(spec));
+    }
+
+    void convert_link_flags(const Element& source, LinkSpec& spec) {
+        spec.gravity = import_.reader.boolean(source, "gravity", true);
+        if (import_.reader.boolean(source, "self_collide", false)) spec_.self_collide = true;
+        if (import_.reader.boolean(source, "kinematic", false)) {
+            import_.diagnostics().warning(source.where(), "kinematic",
+                                          "link '" + spec.name + "' is kinematic; it is simulated as a dynamic link",
+                                          "Move it with velocity orders, or make the model static.");
+        }
+        if (import_.reader.boolean(source, "enable_wind", false)) {
+            import_.diagnostics().note(source.where(), "wind", "wind does not act on links yet");
+        }
+    }
+
+    /// A <collision>, <visual> or sensor of a link.
+    void convert_part(const Element& part, const sdf::Link& link, const Scope& scope, LinkSpec& spec) {
+        const char* tag = part.node.name();
+        if (std::strcmp(tag, "collision") == 0) {
+            const auto* known = link.CollisionByName(part.name());
+            if (auto collision = convert_collision(part, pose_of(part, known, link), import_)) {
+                spec.collisions.push_back(std::move(*collision));
+            }
+        } else if (std::strcmp(tag, "visual") == 0) {
+            spec.visuals.push_back(convert_visual(part, pose_of(part, link.VisualByName(part.name()), link), import_));
+        } else if (std::strcmp(tag, "sensor") == 0 || std::strcmp(tag, "roboss:sensor") == 0) {
+            const Pose X_LS = pose_of(part, link.SensorByName(part.name()), link);
+            spec.sensors.push_back(convert_sensor(part, X_LS, scope.prefix, import_));
+        }
+    }
+
+    /// Ours to read unless it is relative to another frame; then libsdformat knows.
+    template <class Posed>
+    Pose pose_of(const Element& part, const Posed* known, const sdf::Link& link) {
+        const Element pose = part.child("pose");
+        if (relative_to(pose).empty()) return import_.reader.pose(pose);
+        import_.reader.pose(pose);
+        if (known == nullptr) return {};
+        return resolved(*known, link.Name());
+    }
+
+    void convert_joint_of(const sdf::Joint& joint, const Scope& scope) {
+        Element source = read_.source_of(joint.Element());
+        if (!source) source = read_.source();
+        auto spec = convert_joint(joint, source, scope.X_MS * resolved(joint, "__model__"), scope.prefix, import_);
+        if (spec) spec_.joints.push_back(std::move(*spec));
+    }
+
+    const ReadModel& read_;
+    const Import& import_;
+    ModelSpec& spec_;
+};
+
+}  // namespace
+
+Pose to_pose(const ignition::math::Pose3d& pose) {
+    return {{pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z()},
+            {pose.Rot().W(), pose.Rot().X(), pose.Rot().Y(), pose.Rot().Z()}};
+}
+
+ModelSpec convert_model(const ReadModel& read, bool is_static, const Import& import) {
+    ModelSpec spec;
+    const Element source = read.source();
+    spec.name = source.name();
+    spec.where = source.where();
+    spec.is_static = is_static;
+    spec.self_collide = import.reader.boolean(source, "self_collide", false);
+    spec.canonical_link = read.model().CanonicalLinkAndRelativeName().second;
+    report_newer_elements(source, import.diagnostics());
+    ModelConverter(read, import, spec).convert({read.model(), "", {}});
+    return spec;
+}
+
+std::optional<Pose> pose_in_model(const ReadModel& read, const std::string& scoped_name) {
+    const sdf::Model* model = &read.model();
+    std::string rest = scoped_name;
+    Pose X_MS;
+    for (std::size_t at = rest.find("::"); at != std::string::npos; at = rest.find("::")) {
+        model = model->ModelByName(rest.substr(0, at));
+        if (model == nullptr) return std::nullopt;
+        X_MS = X_MS * resolved(*model, "__model__");
+        rest = rest.substr(at + 2);
+    }
+    if (rest == "__model__") return X_MS;
+    if (const auto* link = model->LinkByName(rest)) return X_MS * resolved(*link, "__model__");
+    if (const auto* frame = model->FrameByName(rest)) return X_MS * resolved(*frame, "__model__");
+    if (const auto* joint = model->JointByName(rest)) return X_MS * resolved(*joint, "__model__");
+    if (const auto* nested = model->ModelByName(rest)) return X_MS * resolved(*nested, "__model__");
+    return std::nullopt;
+}
+
+}  // namespace roboss::sdf_import

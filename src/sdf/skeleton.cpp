@@ -1,0 +1,153 @@
+// Writes skeletons: one element a line, so that libsdformat's line numbers lead back to the source.
+#include "sdf/skeleton.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "sdf/element_reader.h"
+#include "sdf/newer_versions.h"
+
+namespace roboss::sdf_import {
+namespace {
+
+bool is_any(const char* name, std::initializer_list<const char*> names) {
+    return std::any_of(names.begin(), names.end(), [&](const char* n) { return std::strcmp(name, n) == 0; });
+}
+
+/// Parts of a model that say nothing about its kinematics; the importer reads or reports them from the source.
+bool is_left_out(const char* parent, const char* name) {
+    if (std::strchr(name, ':') != nullptr) return true;  // other namespaces, ours among them
+    if (is_any(name, {"plugin", "light", "sensor", "visual"})) return true;
+    if (std::strcmp(parent, "model") == 0) return is_any(name, {"gripper", "self_collide", "allow_auto_disable", "enable_wind"});
+    if (std::strcmp(parent, "link") == 0) {
+        return is_any(name, {"gravity", "enable_wind", "self_collide", "kinematic", "must_be_base_link", "velocity_decay",
+                             "projector", "particle_emitter", "audio_source", "audio_sink", "battery"});
+    }
+    if (std::strcmp(parent, "joint") == 0) return is_any(name, {"physics"});
+    return std::strcmp(parent, "axis") == 0 && std::strcmp(name, "initial_position") == 0;
+}
+
+class Writer {
+  public:
+    Writer(Skeleton& out, SkeletonIncludes& includes) : out_(out), includes_(includes) {}
+
+    void top_model(const Element& model) {
+        const std::string version = libsdformat_version(model.source->version());
+        out_.head = "<sdf version=\"" + version + "\"><model name=\"" + escaped(model.name()) + "\"";
+        out_.lines.push_back(model);
+        for (const auto attribute : model.node.attributes()) {
+            if (!is_any(attribute.name(), {"name", "placement_frame"})) write_attribute(attribute);
+        }
+        out_.body += '>';
+        for (const auto child : model.node.children()) {
+            if (child.type() == pugi::node_element && std::strcmp(child.name(), "pose") != 0) {
+                element({model.source, child}, "model");
+            }
+        }
+        out_.body += "\n</model></sdf>\n";
+    }
+
+  private:
+    void element(const Element& e, const char* parent) {
+        const char* name = e.node.name();
+        if (is_any(name, {"visual", "sensor"}) && std::strcmp(parent, "link") == 0) return posed_only(e);
+        if (is_left_out(parent, name) || !known_to_libsdformat(e)) return;
+        if (std::strcmp(name, "include") == 0) return include(e);
+        if (std::strcmp(name, "pose") == 0 && is_any(parent, {"collision", "inertial"}) && relative_to(e).empty()) return;
+        const bool mask = masked_ > 0 || is_any(name, {"inertial", "geometry", "surface", "limit", "dynamics"});
+        open(e);
+        masked_ += mask ? 1 : 0;
+        content(e);
+        masked_ -= mask ? 1 : 0;
+        out_.body += std::string("</") + name + ">";
+    }
+
+    void open(const Element& e) {
+        out_.body += std::string("\n<") + e.node.name();
+        out_.lines.push_back(e);
+        for (const auto attribute : e.node.attributes()) {
+            if (std::strchr(attribute.name(), ':') == nullptr && attribute_known_to_libsdformat(e, attribute.name())) {
+                write_attribute(attribute);
+            }
+        }
+        out_.body += '>';
+    }
+
+    void content(const Element& e) {
+        for (const auto child : e.node.children()) {
+            if (child.type() == pugi::node_element) {
+                element({e.source, child}, e.node.name());
+            } else if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) {
+                out_.body += masked_ > 0 ? masked(e.node.name(), child.value()) : escaped(child.value());
+            }
+        }
+    }
+
+    /// A visual or sensor whose pose depends on other frames: a stand-in that libsdformat can place.
+    void posed_only(const Element& e) {
+        const Element pose = e.child("pose");
+        if (relative_to(pose).empty()) return;
+        const bool visual = std::strcmp(e.node.name(), "visual") == 0;
+        out_.body += std::string("\n<") + e.node.name() + " name=\"" + escaped(e.name()) +
+                     (visual ? "\">" : "\" type=\"contact\">");
+        out_.lines.push_back(e);
+        element(pose, e.node.name());
+        if (visual) out_.body += "<geometry><sphere><radius>1</radius></sphere></geometry>";
+        out_.body += std::string("</") + e.node.name() + ">";
+    }
+
+    void include(const Element& e) {
+        const auto file = includes_.skeleton_file(e);
+        if (!file) return;
+        open(e);
+        out_.body += "<uri>" + escaped(*file) + "</uri>";
+        for (const char* kept : {"name", "pose", "static", "placement_frame"}) {
+            if (const Element child = e.child(kept)) element(child, "include");
+        }
+        out_.body += "</include>";
+    }
+
+    void write_attribute(const pugi::xml_attribute& attribute) {
+        out_.body += std::string(" ") + attribute.name() + "=\"" + escaped(attribute.value()) + "\"";
+    }
+
+    /// Every number becomes 1 (products of inertia 0, so that the inertia stays valid); other words stay.
+    static std::string masked(const std::string& element_name, const std::string& text) {
+        const bool product = element_name == "ixy" || element_name == "ixz" || element_name == "iyz";
+        std::string result;
+        for (const auto word : words_of(text)) {
+            if (!result.empty()) result += ' ';
+            result += parse_number(word) ? std::string(product ? "0" : "1") : escaped(std::string(word));
+        }
+        return result;
+    }
+
+    static std::string escaped(const std::string& text) {
+        std::string result;
+        for (const char c : text) {
+            switch (c) {
+                case '&': result += "&amp;"; break;
+                case '<': result += "&lt;"; break;
+                case '>': result += "&gt;"; break;
+                case '"': result += "&quot;"; break;
+                case '\n': result += ' '; break;  // one element a line
+                default: result += c;
+            }
+        }
+        return result;
+    }
+
+    Skeleton& out_;
+    SkeletonIncludes& includes_;
+    int masked_ = 0;
+};
+
+}  // namespace
+
+Skeleton make_skeleton(const Element& model, SkeletonIncludes& includes) {
+    Skeleton skeleton;
+    Writer(skeleton, includes).top_model(model);
+    return skeleton;
+}
+
+}  // namespace roboss::sdf_import

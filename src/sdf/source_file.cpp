@@ -1,0 +1,80 @@
+// Reads XML files and finds the line of a node from its offset in the text.
+#include "sdf/source_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace roboss::sdf_import {
+
+int parse_version(const std::string& text) {
+    int major = 0, minor = 0;
+    const char* end = text.data() + text.size();
+    const auto [dot, error] = std::from_chars(text.data(), end, major);
+    if (error != std::errc{} || dot == end || *dot != '.') return 0;
+    const auto [rest, minor_error] = std::from_chars(dot + 1, end, minor);
+    if (minor_error != std::errc{} || rest != end || major < 1 || minor < 0 || minor > 99) return 0;
+    return major * 100 + minor;
+}
+
+std::unique_ptr<SourceFile> SourceFile::read(const std::string& path, Diagnostics& diagnostics) {
+    std::error_code ignored;
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream || std::filesystem::is_directory(path, ignored)) {
+        diagnostics.error({path, 0}, "cannot-read", "the file '" + path + "' cannot be read",
+                          "Check the path and the permissions.");
+        return nullptr;
+    }
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return from_text(path, std::move(text).str(), {}, diagnostics);
+}
+
+std::unique_ptr<SourceFile> SourceFile::from_text(const std::string& path, std::string text, std::vector<int> lines,
+                                                  Diagnostics& diagnostics) {
+    auto file = std::make_unique<SourceFile>();
+    file->path_ = path;
+    file->line_map_ = std::move(lines);
+    if (!file->parse(std::move(text), diagnostics)) return nullptr;
+    return file;
+}
+
+bool SourceFile::parse(std::string text, Diagnostics& diagnostics) {
+    line_starts_.push_back(0);
+    for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1)) {
+        line_starts_.push_back(at + 1);
+    }
+    const auto result = document_.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_trim_pcdata);
+    if (!result) {
+        const int line = line_of_offset(result.offset);
+        const auto column = result.offset - static_cast<std::ptrdiff_t>(line_starts_[static_cast<std::size_t>(line - 1)]) + 1;
+        diagnostics.error({path_, line}, "malformed-xml",
+                          "the XML is malformed at line " + std::to_string(line) + ", column " +
+                              std::to_string(column) + ": " + result.description(),
+                          "Check that every tag that is opened is closed, and that the file is complete.");
+        return false;
+    }
+    version_ = parse_version(root().attribute("version").value());
+    return true;
+}
+
+std::string SourceFile::folder() const {
+    return std::filesystem::path(path_).parent_path().string();
+}
+
+int SourceFile::line(pugi::xml_node node) const {
+    const int line = line_of_offset(node.offset_debug());
+    if (line_map_.empty() || line == 0) return line;
+    const auto index = static_cast<std::size_t>(line - 1);
+    return index < line_map_.size() ? line_map_[index] : 0;
+}
+
+int SourceFile::line_of_offset(std::ptrdiff_t offset) const {
+    if (offset < 0) return 0;
+    const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), static_cast<std::size_t>(offset));
+    return static_cast<int>(after - line_starts_.begin());
+}
+
+}  // namespace roboss::sdf_import
