@@ -48,6 +48,7 @@ function(roboss_floor name)
   if(ROBOSS_TESTS AND tests)
     add_executable(${target}_test ${tests})
     target_link_libraries(${target}_test PRIVATE ${target} roboss_options GTest::gtest_main)
+    target_include_directories(${target}_test PRIVATE ${CMAKE_SOURCE_DIR}/tests)  # <support/...>: worlds that tests share
     gtest_discover_tests(${target}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60)
   endif()
 endfunction()

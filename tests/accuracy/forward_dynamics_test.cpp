@@ -1,0 +1,167 @@
+// Forward dynamics, poses and twists against MuJoCo at random states of trees of every joint kind, contacts
+// off.
+#include <gtest/gtest.h>
+
+#include <support/robots.h>
+#include <support/simulation.h>
+
+#include "mujoco_oracle.h"
+#include "physics/robot_work.h"
+#include "physics/tree_factor.h"
+
+namespace roboss::test {
+namespace {
+
+constexpr int kStates = 200;
+constexpr double kRelative = 1e-9;
+
+struct Case {
+    const char* name;
+    ModelSpec (*build)();
+};
+
+ModelSpec build_car() {
+    return car();
+}
+ModelSpec build_pendulum() {
+    return pendulum();
+}
+
+/// Our acceleration, through the pieces of the step, with explicit damping as in a continuous-time model.
+std::vector<double> our_acceleration(const Model& model, RobotState& state,
+                                     const std::vector<double>& joint_force) {
+    const RobotType& type = model.types[0];
+    RobotWork work;
+    work.type = &type;
+    work.state = &state;
+    place_bodies(type, state.q, work);
+    move_bodies(type, state.v, work);
+    compute_impulse(model, 1.0, 0.0, state.q, state.v, work);
+    compute_mass_matrix(type, 0.0, work);
+    for (std::size_t d = 0; d < type.dofs.size(); ++d) {
+        const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
+        work.impulse[i] += joint_force[d] - type.dofs[d].damping * state.v[i];
+    }
+    tree_factor(type.dof_parent, work.mass_matrix);
+    tree_solve(type.dof_parent, work.mass_matrix, work.impulse.data());
+    return work.impulse;
+}
+
+RobotState random_state(const Model& model, Random& random) {
+    const RobotType& type = model.types[0];
+    RobotState state = initial_state(model, RobotId(std::size_t{0}));
+    if (type.free_base) set_base_pose(state, {random.vector(10), random.rotation()});
+    for (const Body& body : type.bodies) {
+        const auto i = static_cast<std::size_t>(body.q_index);
+        if (body.joint == JointKind::kBall) {
+            const Quat q = random.rotation();
+            state.q[i] = q.w, state.q[i + 1] = q.x, state.q[i + 2] = q.y, state.q[i + 3] = q.z;
+        } else if (body.joint != JointKind::kFree) {
+            state.q[i] = random.uniform(-2, 2);
+        }
+    }
+    for (double& v : state.v) v = random.uniform(-5, 5);
+    for (std::size_t l = 0; l < type.links.size(); ++l)
+        state.wrenches.push_back({LinkId(l), random.vector(10), random.vector(3), 1000});
+    return state;
+}
+
+std::vector<double> random_forces(const RobotType& type, Random& random) {
+    std::vector<double> forces(type.dofs.size());
+    for (double& f : forces) f = random.uniform(-4, 4);
+    return forces;
+}
+
+/// Largest difference over largest size.
+double relative_error(const std::vector<double>& a, const std::vector<double>& b) {
+    double error = 0, size = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        error = std::fmax(error, std::fabs(a[i] - b[i]));
+        size = std::fmax(size, std::fabs(b[i]));
+    }
+    return error / size;
+}
+
+class ForwardDynamics : public testing::TestWithParam<Case> {
+  protected:
+    ForwardDynamics() {
+        world_ = empty_world(1e-3, {0.3, -0.2, -9.81});
+        place(world_, GetParam().build(), "robot", X_WM_);
+        model_ = compiled(world_);
+        oracle_ =
+            std::make_unique<MujocoOracle>(world_.prototypes[0], X_WM_, world_.gravity, model_->types[0]);
+    }
+    const Pose X_WM_{{0.5, -0.3, 0.2}, from_rpy(0.2, -0.4, 1.1)};
+    World world_;
+    std::shared_ptr<const Model> model_;
+    std::unique_ptr<MujocoOracle> oracle_;
+    Random random_{7};
+};
+
+TEST_P(ForwardDynamics, AccelerationsAgreeWithMujoco) {
+    double worst = 0;
+    for (int i = 0; i < kStates; ++i) {
+        RobotState state = random_state(*model_, random_);
+        const std::vector<double> forces = random_forces(model_->types[0], random_);
+        oracle_->set(state, forces);
+        const std::vector<double> theirs = oracle_->acceleration();
+        worst = std::fmax(worst, relative_error(our_acceleration(*model_, state, forces), theirs));
+    }
+    std::printf("%s: worst relative error %.2e over %d states\n", GetParam().name, worst, kStates);
+    EXPECT_LE(worst, kRelative);
+}
+
+TEST_P(ForwardDynamics, PosesAndTwistsOfLinksAgreeWithMujoco) {
+    for (int i = 0; i < 20; ++i) {
+        const RobotState state = random_state(*model_, random_);
+        oracle_->set(state, std::vector<double>(model_->types[0].dofs.size()));
+        for (std::size_t l = 0; l < model_->types[0].links.size(); ++l) {
+            const std::string& name = model_->types[0].links[l].name;
+            const Transform X = link_pose(model_->types[0], state, LinkId(l)), Y = oracle_->link_pose(name);
+            EXPECT_LE(norm(X.p - Y.p), 1e-11) << name;
+            for (std::size_t r = 0; r < 3; ++r) EXPECT_LE(norm(X.R.row(r) - Y.R.row(r)), 1e-11) << name;
+            const Twist v = link_twist(model_->types[0], state, LinkId(l)), w = oracle_->link_twist(name);
+            EXPECT_LE(norm(v.angular - w.angular), 1e-10) << name;
+            EXPECT_LE(norm(v.linear - w.linear), 1e-9) << name;
+        }
+    }
+}
+
+/// The whole tick, solver included: effort motors change the velocities by dt times MuJoCo's acceleration.
+/// Only where nothing acts implicitly (no damping, no springs).
+TEST_P(ForwardDynamics, OneTickWithEffortMotorsGivesMujocosAcceleration) {
+    for (const Dof& dof : model_->types[0].dofs)
+        if (dof.damping != 0 || dof.spring_stiffness != 0) GTEST_SKIP() << "implicit damping or springs";
+    StepScratch scratch;
+    double worst = 0;
+    for (int i = 0; i < 50; ++i) {
+        RobotState state = random_state(*model_, random_);
+        std::vector<double> forces = random_forces(model_->types[0], random_);
+        for (std::size_t d = 0; d < forces.size(); ++d) {
+            const double bound = model_->types[0].dofs[d].max_effort;
+            forces[d] = std::fmax(-bound, std::fmin(bound, forces[d]));
+            state.motors[d] = {MotorMode::kEffort, forces[d], bound};
+        }
+        oracle_->set(state, forces);
+        const std::vector<double> theirs = oracle_->acceleration(), before = state.v;
+        RobotState* pointer = &state;
+        const RobotId id(std::size_t{0});
+        Aabb bound;
+        step_island(*model_, 0, {&id, 1}, {&pointer, 1}, {}, {&bound, 1}, scratch);
+        std::vector<double> ours = state.v;
+        for (std::size_t k = 0; k < ours.size(); ++k) ours[k] = (ours[k] - before[k]) / model_->dt_s;
+        worst = std::fmax(worst, relative_error(ours, theirs));
+    }
+    EXPECT_LE(worst, 1e-8);  // the difference of two velocities loses three digits
+}
+
+INSTANTIATE_TEST_SUITE_P(Trees, ForwardDynamics,
+                         testing::Values(Case{"pendulum", build_pendulum},
+                                         Case{"double_pendulum", double_pendulum}, Case{"arm", arm},
+                                         Case{"car", build_car}, Case{"prismatic_chain", prismatic_chain},
+                                         Case{"spider", spider}, Case{"ball_chain", ball_chain},
+                                         Case{"mixed_tree", mixed_tree}),
+                         [](const auto& tree) { return std::string(tree.param.name); });
+
+}  // namespace
+}  // namespace roboss::test
