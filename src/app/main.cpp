@@ -1,0 +1,20 @@
+// The roboss command: one subcommand a file.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "app/check_command.h"
+
+int main(int argc, char** argv) {
+    CLI::App app{"RoBOSS simulates many robots in one physical world, exactly, on any number of machines.\n"
+                 "Start with:  roboss check WORLD   then   roboss run WORLD --duration 10"};
+    app.require_subcommand(1);
+    app.set_help_all_flag("--help-all", "help of all subcommands");
+    int exit_code = 0;
+    roboss::add_check_command(app, exit_code);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    return exit_code;
+}
