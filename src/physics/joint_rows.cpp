@@ -81,6 +81,15 @@ void add_limits(const DofState& s, int dof, std::vector<JointRow>& rows) {
     if (s.dof.upper - s.q < reach) rows.push_back({dof, -target(s.dof.upper - s.q), s.compliance, -kInfinity, 0.0});
 }
 
+/// Springs or damping so stiff that the explicit Runge-Kutta step would not follow them; its limit is 2.8, but the mobility is that
+/// of the zero pose. The solver takes them implicitly.
+bool is_stiff(const Dof& dof, double dt) {
+    constexpr double kRateMax = 0.25;  // a tick times the damping's rate or the spring's frequency
+    const double damping = dt * dof.damping * dof.inverse_inertia;
+    const double spring = dt * dt * dof.spring_stiffness * dof.inverse_inertia;
+    return damping > kRateMax || spring > kRateMax * kRateMax;
+}
+
 bool near_limit(const Dof& dof, double q, double v, double dt) {
     const double reach = dt * std::fabs(v) + 0.05;
     return q - dof.lower < reach || dof.upper - q < reach;
@@ -110,7 +119,7 @@ bool moves_freely(const Model& model, const RobotWork& robot) {
     const RobotState& state = *robot.state;
     for (std::size_t d = 0; d < type.dofs.size(); ++d) {
         const Dof& dof = type.dofs[d];
-        if (state.motors[d].mode != MotorMode::kPassive || dof.friction > 0) return false;
+        if (state.motors[d].mode != MotorMode::kPassive || dof.friction > 0 || is_stiff(dof, model.dt_s)) return false;
         const Body& body = type.bodies[static_cast<std::size_t>(dof.body)];
         if (body.joint == JointKind::kBall) continue;
         const double v = state.v[d + static_cast<std::size_t>(type.base_nv())];

@@ -37,12 +37,11 @@ struct RobotWork {
     std::vector<double> mass_matrix;  // nv x nv, lower triangle filled on the tree's pattern; implicit damping and springs included
     std::vector<double> impulse;      // nv: M v + dt (applied - bias); the free velocity is M^-1 of it
     std::vector<double> velocity;     // nv: solved
-    std::vector<double> position_velocity;  // nv: what moves the coordinates (differs from velocity to mend penetration)
     std::vector<ShapeWork> shapes;
     Aabb box;  // interaction bound
     int contacts = 0;          // contact points that involve this robot
     bool touches_robot = false;  // has a contact with another robot or itself
-    bool split = false;          // position_velocity was solved on its own
+    bool pushed = false;         // a contact gives it an impulse in this tick
 };
 
 /// Parts of RobotWork in the order of computing. `dt` in s.

@@ -36,7 +36,7 @@ struct ContactRow {
 /// Motors, joint friction, limits of one robot; `offset` is its first dof in the contact island.
 void add_joint_rows(const Model& model, const RobotWork& robot, int offset, std::vector<JointRow>& rows);
 
-/// True if add_joint_rows would add nothing: the robot moves smoothly when nothing touches it.
+/// True if add_joint_rows would add nothing and no spring or damping is stiff: the robot moves smoothly when nothing touches it.
 bool moves_freely(const Model& model, const RobotWork& robot);
 
 /// Rows of one contact; offsets[i] is the first dof of robots[i] in the contact island. Returns true if the way of this tick

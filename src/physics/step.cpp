@@ -43,7 +43,7 @@ void place_robot(const Model& model, RobotId id, RobotState& state, RobotWork& w
     work.type = &type;
     work.state = &state;
     work.contacts = 0;
-    work.touches_robot = work.split = false;
+    work.touches_robot = work.pushed = false;
     place_bodies(type, state.q, work);
     move_bodies(type, state.v, work);
     place_shapes(type, model.dt_s, work);
@@ -85,12 +85,27 @@ void build_contact_islands(Impl& s, std::size_t count) {
     });
 }
 
-/// Writes the solved velocities into the states and moves the coordinates.
+/// Marks the robots that a contact pushes, in their velocity or on their way.
+void mark_pushed(Impl& s) {
+    for (std::size_t c = 0; c < s.rows.size(); ++c) {
+        const Contact& contact = *s.island_contacts[c];
+        if (contact.impulse <= 0 && s.rows[c].impulse_n <= 0) continue;
+        s.robots[static_cast<std::size_t>(contact.robot_a)].pushed = true;
+        if (contact.robot_b >= 0) s.robots[static_cast<std::size_t>(contact.robot_b)].pushed = true;
+    }
+}
+
+/// Writes the solved velocities into the states and moves the coordinates. A robot that is near something but not pushed moves
+/// freely, else a ball would lose height in every tick that it spends close to the ground.
 void finish_island(const Model& model, Impl& s, std::span<const std::uint32_t> members, std::span<const double> way) {
     for (std::size_t m = 0; m < members.size(); ++m) {
         RobotWork& work = s.robots[members[m]];
         const auto offset = static_cast<std::size_t>(s.island_offsets[m]);
         const auto nv = static_cast<std::size_t>(work.type->nv);
+        if (!work.pushed && moves_freely(model, work)) {
+            advance_freely(model, work, s.free_buffer);
+            continue;
+        }
         std::copy_n(s.v.begin() + static_cast<std::ptrdiff_t>(offset), nv, work.state->v.begin());
         advance_coordinates(*work.type, way.subspan(offset, nv), model.dt_s, work.state->q);
     }
@@ -142,6 +157,7 @@ void solve_island(const Model& model, Impl& s, std::span<const std::uint32_t> me
         report.iterations += s.solver.solve(model.accuracy, s.island_robots, s.island_offsets, s.joints, s.columns, s.rows, true,
                                             s.v_before).iterations;
     }
+    mark_pushed(s);
     finish_island(model, s, members, split ? s.v_before : s.v);
 }
 

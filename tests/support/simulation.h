@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,6 +21,11 @@ inline std::shared_ptr<const Model> compiled(const World& world) {
     for (const Diagnostic& d : diagnostics.items())
         if (d.severity == Severity::kError) ADD_FAILURE() << to_text(d);
     return model;
+}
+
+/// A number worth reading in the test's output, beside the bound that it must keep.
+inline void tell(const std::string& what, double value) {
+    std::printf("    measured: %s = %.6g\n", what.c_str(), value);
 }
 
 struct Momentum {
