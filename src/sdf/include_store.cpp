@@ -86,7 +86,7 @@ std::optional<std::string> IncludeStore::skeleton_file(const Element& include) {
         return std::nullopt;
     }
     open_.push_back(source);
-    Skeleton skeleton = make_skeleton(model, *this);
+    Skeleton skeleton = make_skeleton(model, TopPose::kKept, *this);
     open_.pop_back();
     const std::string file = *in + "/" + std::to_string(written_.size()) + ".sdf";
     std::ofstream(file) << skeleton.text();

@@ -1,6 +1,8 @@
 // Calls libsdformat and translates its errors.
 #include "sdf/libsdformat_reader.h"
 
+#include <algorithm>
+
 #include "sdf/console_capture.h"
 
 namespace roboss::sdf_import {
@@ -37,13 +39,21 @@ std::string trimmed(std::string text) {
     return text;
 }
 
-/// Follows from an error that is reported anyway: by validate(), or by libsdformat itself one line earlier.
-bool is_consequence(sdf::ErrorCode code, std::size_t reported) {
-    switch (code) {
+bool is_joint_to_nowhere(const sdf::Error& error) {
+    return error.Code() == sdf::ErrorCode::JOINT_CHILD_LINK_INVALID || error.Code() == sdf::ErrorCode::JOINT_PARENT_LINK_INVALID;
+}
+
+/// Follows from an error that is told already: by validate() (joints to nowhere), or one line earlier.
+bool is_consequence(const sdf::Error& error, bool joint_to_nowhere, std::size_t reported) {
+    switch (error.Code()) {
         case sdf::ErrorCode::JOINT_CHILD_LINK_INVALID:
         case sdf::ErrorCode::JOINT_PARENT_LINK_INVALID: return true;
         case sdf::ErrorCode::FRAME_ATTACHED_TO_GRAPH_ERROR:
-        case sdf::ErrorCode::POSE_RELATIVE_TO_GRAPH_ERROR: return reported > 0;
+        case sdf::ErrorCode::POSE_RELATIVE_TO_GRAPH_ERROR: return joint_to_nowhere || reported > 0;
+        case sdf::ErrorCode::FRAME_ATTACHED_TO_INVALID:
+        case sdf::ErrorCode::POSE_RELATIVE_TO_INVALID:
+            return joint_to_nowhere && (error.Message().find("specified by joint") != std::string::npos ||
+                                        error.Message().find("frame with name [") != std::string::npos);
         default: return false;
     }
 }
@@ -103,9 +113,10 @@ std::shared_ptr<const sdf::Root> LibsdformatReader::parse(const Skeleton& skelet
 
 void LibsdformatReader::report(const sdf::Errors& errors, const Skeleton& skeleton, bool readable) {
     const Element model = skeleton.lines.front();
+    const bool joint_to_nowhere = std::any_of(errors.begin(), errors.end(), is_joint_to_nowhere);
     std::size_t reported = 0;
     for (const sdf::Error& error : errors) {
-        if (is_consequence(error.Code(), reported)) continue;
+        if (is_consequence(error, joint_to_nowhere, reported)) continue;
         Element at;
         if (error.LineNumber()) {
             const Skeleton* included = includes_.skeleton_of(error.FilePath().value_or(""));
@@ -126,6 +137,14 @@ void LibsdformatReader::report(const sdf::Errors& errors, const Skeleton& skelet
         }
         // The first unreadable element says it all; its parents repeat it.
         if (error.Code() == sdf::ErrorCode::ELEMENT_INVALID && reported > 0) continue;
+        if (at && message.rfind("Error reading element", 0) == 0) {
+            diagnostics_.error(at.where(), "bad-value",
+                               "<" + std::string(at.node.name()) + "> in <" + at.node.parent().name() + "> is '" +
+                                   at.node.text().get() + "', which is no value for it",
+                               "Write what the SDFormat specification says (http://sdformat.org/spec).");
+            ++reported;
+            continue;
+        }
         if (!at) at = element_named_in(message, model);
         diagnostics_.error(at.where(), "sdf", "model '" + model.name() + "': " + message,
                            "Correct the element as the SDFormat specification says (http://sdformat.org/spec).");

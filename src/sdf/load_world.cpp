@@ -11,6 +11,7 @@
 #include "sdf/newer_versions.h"
 #include "sdf/placements.h"
 #include "sdf/same_model.h"
+#include "sdf/static_sensors.h"
 #include "sdf/urdf.h"
 #include "sdf/world_frames.h"
 #include "sdf/world_settings.h"
@@ -90,7 +91,7 @@ class WorldLoader {
     }
 
     void read_distinct(Distinct& distinct, World& world) {
-        distinct.read = libsdformat_.read(make_skeleton(distinct.model, includes_));
+        distinct.read = libsdformat_.read(make_skeleton(distinct.model, TopPose::kLeftOut, includes_));
         if (!distinct.read) return;
         ModelSpec spec = convert_model(*distinct.read, distinct.is_static, import_);
         if (spec.links.empty()) {
@@ -98,6 +99,7 @@ class WorldLoader {
                                  "Give it a link, or remove it.");
             return;
         }
+        keep_sensors_of_static(spec, diagnostics_);
         world.prototypes.push_back(std::move(spec));
         distinct.prototype = world.prototypes.size() - 1;
     }

@@ -27,22 +27,35 @@ bool is_left_out(const char* parent, const char* name) {
     return std::strcmp(parent, "axis") == 0 && std::strcmp(name, "initial_position") == 0;
 }
 
+/// How many numbers the importer reads from an element itself, and so reports when they are wrong; 0: not known.
+int numbers_read_here(const Element& e) {
+    const char* name = e.node.name();
+    if (std::strcmp(name, "size") == 0) return std::strcmp(e.node.parent().name(), "plane") == 0 ? 2 : 3;
+    if (is_any(name, {"normal", "radii", "scale", "fdir1"})) return 3;
+    return is_any(name, {"mass", "ixx", "iyy", "izz", "ixy", "ixz", "iyz", "radius", "length", "mu", "mu2", "lower", "upper", "effort",
+                         "velocity", "stiffness", "dissipation", "damping", "friction", "spring_stiffness", "spring_reference",
+                         "restitution_coefficient", "threshold", "coefficient", "patch_radius", "surface_radius"})
+               ? 1
+               : 0;
+}
+
 class Writer {
   public:
     Writer(Skeleton& out, SkeletonIncludes& includes) : out_(out), includes_(includes) {}
 
-    void top_model(const Element& model) {
+    void top_model(const Element& model, TopPose pose) {
+        const bool keep = pose == TopPose::kKept;
         const std::string version = libsdformat_version(model.source->version());
         out_.head = "<sdf version=\"" + version + "\"><model name=\"" + escaped(model.name()) + "\"";
         out_.lines.push_back(model);
         for (const auto attribute : model.node.attributes()) {
-            if (!is_any(attribute.name(), {"name", "placement_frame"})) write_attribute(attribute);
+            const bool placement = std::strcmp(attribute.name(), "placement_frame") == 0;
+            if (std::strcmp(attribute.name(), "name") != 0 && (keep || !placement)) write_attribute(attribute);
         }
         out_.body += '>';
         for (const auto child : model.node.children()) {
-            if (child.type() == pugi::node_element && std::strcmp(child.name(), "pose") != 0) {
-                element({model.source, child}, "model");
-            }
+            if (child.type() != pugi::node_element) continue;
+            if (keep || std::strcmp(child.name(), "pose") != 0) element({model.source, child}, "model");
         }
         out_.body += "\n</model></sdf>\n";
     }
@@ -78,7 +91,7 @@ class Writer {
             if (child.type() == pugi::node_element) {
                 element({e.source, child}, e.node.name());
             } else if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) {
-                out_.body += masked_ > 0 ? masked(e.node.name(), child.value()) : escaped(child.value());
+                out_.body += masked_ > 0 ? masked(e, child.value()) : escaped(child.value());
             }
         }
     }
@@ -111,13 +124,18 @@ class Writer {
         out_.body += std::string(" ") + attribute.name() + "=\"" + escaped(attribute.value()) + "\"";
     }
 
-    /// Every number becomes 1 (products of inertia 0, so that the inertia stays valid); other words stay.
-    static std::string masked(const std::string& element_name, const std::string& text) {
-        const bool product = element_name == "ixy" || element_name == "ixz" || element_name == "iyz";
+    /// Every number becomes 1 (products of inertia 0, so that the inertia stays valid); other words stay. What the importer
+    /// reads itself is made valid here, so that libsdformat does not refuse the model and hide what else is wrong in it.
+    static std::string masked(const Element& e, const std::string& text) {
+        const char* name = e.node.name();
+        if (const int count = numbers_read_here(e); count > 0) {
+            if (is_any(name, {"ixy", "ixz", "iyz"})) return "0";
+            return count == 1 ? "1" : count == 2 ? "1 1" : "1 1 1";
+        }
         std::string result;
         for (const auto word : words_of(text)) {
             if (!result.empty()) result += ' ';
-            result += parse_number(word) ? std::string(product ? "0" : "1") : escaped(std::string(word));
+            result += parse_number(word) ? std::string("1") : escaped(std::string(word));
         }
         return result;
     }
@@ -144,9 +162,9 @@ class Writer {
 
 }  // namespace
 
-Skeleton make_skeleton(const Element& model, SkeletonIncludes& includes) {
+Skeleton make_skeleton(const Element& model, TopPose pose, SkeletonIncludes& includes) {
     Skeleton skeleton;
-    Writer(skeleton, includes).top_model(model);
+    Writer(skeleton, includes).top_model(model, pose);
     return skeleton;
 }
 

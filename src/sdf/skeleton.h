@@ -26,7 +26,10 @@ class SkeletonIncludes {
     virtual std::optional<std::string> skeleton_file(const Element& include) = 0;
 };
 
-/// The skeleton of a top-level <model>, without its pose and placement frame: those belong to its place in the world.
-Skeleton make_skeleton(const Element& model, SkeletonIncludes& includes);
+/// A model's own pose and placement frame: left out for a model of the world (they belong to its place there, so that
+/// equal models have equal skeletons), kept for a model that is included in a model.
+enum class TopPose { kLeftOut, kKept };
+
+Skeleton make_skeleton(const Element& model, TopPose pose, SkeletonIncludes& includes);
 
 }  // namespace roboss::sdf_import

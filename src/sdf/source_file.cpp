@@ -9,6 +9,32 @@
 
 namespace roboss::sdf_import {
 
+namespace {
+
+constexpr int kDeepest = 100;  // tinyxml2, inside libsdformat, refuses more; no world comes near it
+
+/// The first node that lies too deep for recursive reading, if any.
+pugi::xml_node too_deep(pugi::xml_node root) {
+    int depth = 0;
+    pugi::xml_node node = root;
+    while (node) {
+        if (node.first_child()) {
+            node = node.first_child();
+            if (++depth > kDeepest) return node;
+            continue;
+        }
+        while (node != root && !node.next_sibling()) {
+            node = node.parent();
+            --depth;
+        }
+        if (node == root) break;
+        node = node.next_sibling();
+    }
+    return {};
+}
+
+}  // namespace
+
 int parse_version(const std::string& text) {
     int major = 0, minor = 0;
     const char* end = text.data() + text.size();
@@ -54,6 +80,12 @@ bool SourceFile::parse(std::string text, Diagnostics& diagnostics) {
                           "the XML is malformed at line " + std::to_string(line) + ", column " +
                               std::to_string(column) + ": " + result.description(),
                           "Check that every tag that is opened is closed, and that the file is complete.");
+        return false;
+    }
+    if (const auto node = too_deep(root())) {
+        diagnostics.error({path_, line(node.parent())}, "too-deep",
+                          "elements are nested more than " + std::to_string(kDeepest) + " deep",
+                          "Flatten the file; nested models rarely need more than a few levels.");
         return false;
     }
     version_ = parse_version(root().attribute("version").value());

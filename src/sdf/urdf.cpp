@@ -16,6 +16,26 @@ std::string text_of(const SourceFile& file) {
     return text.str();
 }
 
+/// Errors name links and joints as "[name]": the line of that element, else the robot's.
+SourceLocation where_of(const std::string& message, const SourceFile& urdf) {
+    for (const auto node : urdf.root().children()) {
+        const std::string name = node.attribute("name").value();
+        if (!name.empty() && message.find("[" + name + "]") != std::string::npos) return urdf.where(node);
+    }
+    return urdf.where(urdf.root());
+}
+
+/// What libsdformat leaves out of a URDF without a word.
+void report_left_out(const SourceFile& urdf, Diagnostics& diagnostics) {
+    for (const auto joint : urdf.root().children("joint")) {
+        if (!joint.child("mimic")) continue;
+        diagnostics.warning(urdf.where(joint), "newer-element",
+                            "joint '" + std::string(joint.attribute("name").value()) +
+                                "': mimic joints are still to come: the joint moves on its own",
+                            "Drive both joints from the control program, or weld the follower.");
+    }
+}
+
 /// For each line of the SDF the line of the URDF link or joint it came from (the robot's until the first).
 std::vector<int> map_lines(const SourceFile& urdf, const std::string& sdf) {
     std::map<std::string, int> line_of;
@@ -57,16 +77,16 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
         }
         printed = capture.lines();
     }
+    constexpr const char* kRemedy = "Correct the URDF (check_urdf FILE tells more).";
     for (const ConsoleLine& line : printed) {
         if (line.is_error) {
-            diagnostics.error(where, "urdf", line.text, "Correct the URDF (check_urdf FILE tells more).");
+            diagnostics.error(where_of(line.text, urdf), "urdf", line.text, kRemedy);
         } else {
-            diagnostics.warning(where, "urdf", line.text);
+            diagnostics.warning(where_of(line.text, urdf), "urdf", line.text);
         }
     }
-    for (const sdf::Error& error : errors) {
-        diagnostics.error(where, "urdf", error.Message(), "Correct the URDF (check_urdf FILE tells more).");
-    }
+    for (const sdf::Error& error : errors) diagnostics.error(where, "urdf", error.Message(), kRemedy);
+    report_left_out(urdf, diagnostics);
     if (text.empty()) {
         if (!diagnostics.has_errors()) {
             diagnostics.error(where, "urdf", "libsdformat cannot read this <robot> as URDF",

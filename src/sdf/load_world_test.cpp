@@ -1,0 +1,280 @@
+// Links, poses, joints and frames as the file means them.
+#include "sdf/load_world.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "sdf/test_files.h"
+
+namespace roboss {
+namespace {
+
+using namespace sdf_test;
+
+void expect_near(const Vec3& a, const Vec3& b) {
+    EXPECT_NEAR(a.x, b.x, 1e-12);
+    EXPECT_NEAR(a.y, b.y, 1e-12);
+    EXPECT_NEAR(a.z, b.z, 1e-12);
+}
+
+TEST(LoadWorld, ReadsAModelWithItsPlaceInTheWorld) {
+    const Loaded loaded = load_elements("<model name='m'><pose>1 2 3 0 0 1.5707963267948966</pose>" + link("a") + "</model>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
+    ASSERT_EQ(loaded.world->instances.size(), 1u);
+    EXPECT_EQ(loaded.world->instances[0].name, "m");
+    expect_near(loaded.world->instances[0].X_WM.p, {1, 2, 3});
+    expect_near(rotate(loaded.world->instances[0].X_WM.q, Vec3{1, 0, 0}), {0, 1, 0});
+    EXPECT_EQ(loaded.world->prototypes[0].links[0].mass, 2.0);
+}
+
+TEST(LoadWorld, ModelsEqualButForNameAndPoseShareOnePrototype) {
+    std::string models;
+    for (int i = 0; i < 5; ++i) {
+        models += "<model name='m" + std::to_string(i) + "'><pose>" + std::to_string(i) + " 0 0 0 0 0</pose>" + link("a") + "</model>\n";
+    }
+    models += "<model name='other'>" + link("b") + "</model>";
+    const Loaded loaded = load_elements(models);
+    ASSERT_TRUE(loaded.world);
+    EXPECT_EQ(loaded.world->prototypes.size(), 2u);
+    ASSERT_EQ(loaded.world->instances.size(), 6u);
+    EXPECT_EQ(loaded.world->instances[4].prototype, 0u);
+    EXPECT_EQ(loaded.world->instances[4].X_WM.p.x, 4.0);
+    EXPECT_EQ(loaded.world->instances[5].prototype, 1u);
+}
+
+TEST(LoadWorld, ModelsThatDifferInNumbersOnlyKeepTheirOwnNumbers) {
+    const auto ball = [](const std::string& name, const std::string& radius) {
+        return "<model name='" + name + "'>" +
+               link("a", "<collision name='c'><geometry><sphere><radius>" + radius + "</radius></sphere></geometry></collision>") + "</model>";
+    };
+    const Loaded loaded = load_elements(ball("x", "0.25") + ball("y", "0.75"));
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    ASSERT_EQ(loaded.world->prototypes.size(), 2u);
+    EXPECT_EQ(loaded.world->prototypes[0].links[0].collisions[0].geometry.radius, 0.25);
+    EXPECT_EQ(loaded.world->prototypes[1].links[0].collisions[0].geometry.radius, 0.75);
+}
+
+TEST(LoadWorld, TurnsAnInertiaIntoLinkAxes) {
+    const Loaded loaded = load_elements(
+        "<model name='m'><link name='a'><inertial><pose>0.1 0.2 0.3 0 0 1.5707963267948966</pose><mass>3</mass><inertia>"
+        "<ixx>1</ixx><iyy>2</iyy><izz>2.5</izz><ixy>0.1</ixy><ixz>0</ixz><iyz>0</iyz></inertia></inertial></link></model>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    const LinkSpec& link = loaded.world->prototypes[0].links[0];
+    expect_near(link.p_LC, {0.1, 0.2, 0.3});
+    EXPECT_NEAR(link.inertia_C(0, 0), 2, 1e-12);
+    EXPECT_NEAR(link.inertia_C(1, 1), 1, 1e-12);
+    EXPECT_NEAR(link.inertia_C(0, 1), -0.1, 1e-12);
+}
+
+TEST(LoadWorld, FoldsAPlanesNormalIntoItsPose) {
+    const Loaded loaded = load_elements(
+        "<model name='m'><static>true</static><link name='a'><collision name='c'><geometry><plane><normal>1 0 0</normal>"
+        "<size>2 3</size></plane></geometry></collision></link></model>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    const CollisionSpec& c = loaded.world->prototypes[0].links[0].collisions[0];
+    expect_near(rotate(c.X_LS.q, Vec3{0, 0, 1}), {1, 0, 0});
+    EXPECT_EQ(c.geometry.size.y, 3.0);
+}
+
+TEST(LoadWorld, ReadsJointsWithLimitsMotorsAndFrames) {
+    const Loaded loaded = load_elements(
+        "<model name='m'>" + link("a") + "<link name='b'><pose>0 0 1 0 0 1.5707963267948966</pose>" + kInertial + "</link>" +
+        "<joint name='j' type='revolute'><parent>a</parent><child>b</child><pose>0 0 0.5 0 0 0</pose>"
+        "<axis><xyz expressed_in='__model__'>1 0 0</xyz><limit><lower>-1</lower><upper>2</upper><effort>7</effort>"
+        "<velocity>3</velocity></limit><dynamics><damping>0.1</damping><friction>0.2</friction></dynamics>"
+        "<roboss:motor><position_gain>50</position_gain><armature>0.01</armature></roboss:motor></axis></joint></model>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
+    const JointSpec& joint = loaded.world->prototypes[0].joints[0];
+    EXPECT_EQ(joint.kind, JointSpecKind::kRevolute);
+    EXPECT_EQ(joint.parent, "a");
+    EXPECT_EQ(joint.child, "b");
+    expect_near(joint.X_MJ.p, {0, 0, 1.5});
+    // The model's x axis, seen from a frame turned by 90 degrees about z.
+    expect_near(joint.axes[0].xyz, {0, -1, 0});
+    EXPECT_EQ(joint.axes[0].lower, -1);
+    EXPECT_EQ(joint.axes[0].upper, 2);
+    EXPECT_EQ(joint.axes[0].max_effort, 7);
+    EXPECT_EQ(joint.axes[0].max_velocity, 3);
+    EXPECT_EQ(joint.axes[0].damping, 0.1);
+    EXPECT_EQ(joint.axes[0].friction, 0.2);
+    EXPECT_EQ(joint.axes[0].position_gain, 50);
+    EXPECT_EQ(joint.axes[0].armature, 0.01);
+}
+
+TEST(LoadWorld, AnAxisOfAnOldFileCanBeInTheModelsFrame) {
+    const Loaded loaded = load_elements(
+        "<model name='m'>" + link("a") + "<link name='b'><pose>0 0 1 0 0 1.5707963267948966</pose>" + kInertial + "</link>" +
+        "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>1 0 0</xyz>"
+        "<use_parent_model_frame>true</use_parent_model_frame><limit><lower>-1</lower><upper>1</upper></limit></axis></joint></model>",
+        "1.6");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
+    expect_near(loaded.world->prototypes[0].joints[0].axes[0].xyz, {0, -1, 0});
+}
+
+TEST(LoadWorld, ReadsEveryKindOfJoint) {
+    std::string model = "<model name='m'>" + link("l0");
+    const char* kinds[] = {"fixed", "revolute", "continuous", "prismatic", "ball", "screw", "universal", "revolute2"};
+    int i = 0;
+    for (const char* kind : kinds) {
+        const std::string n = std::to_string(++i);
+        model += link("l" + n) + "<joint name='j" + n + "' type='" + kind + "'><parent>l0</parent><child>l" + n +
+                 "</child><axis><xyz>0 0 1</xyz></axis><axis2><xyz>0 1 0</xyz></axis2></joint>";
+    }
+    const Loaded loaded = load_elements(model + "</model>");
+    ASSERT_TRUE(loaded.world);
+    EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
+    const auto& joints = loaded.world->prototypes[0].joints;
+    ASSERT_EQ(joints.size(), 8u);
+    EXPECT_EQ(joints[0].axes.size(), 0u);
+    EXPECT_GT(joints[2].axes[0].upper, 1e300);
+    EXPECT_EQ(joints[4].kind, JointSpecKind::kBall);
+    EXPECT_EQ(joints[4].axes.size(), 0u);
+    EXPECT_EQ(joints[6].axes.size(), 2u);
+    ASSERT_NE(loaded.find("joint-to-come"), nullptr);
+    EXPECT_NE(loaded.find("joint-to-come")->message.find("screw"), std::string::npos);
+}
+
+TEST(LoadWorld, FlattensNestedModels) {
+    const Loaded loaded = load_elements(
+        "<model name='m'>" + link("a") + "<model name='inner'><pose>1 0 0 0 0 1.5707963267948966</pose><link name='b'><pose>1 0 0 0 0 0</pose>" +
+        kInertial + "<collision name='c'><geometry><box><size>1 2 3</size></box></geometry></collision></link></model>" +
+        "<joint name='j' type='fixed'><parent>a</parent><child>inner::b</child></joint></model>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
+    const ModelSpec& model = loaded.world->prototypes[0];
+    ASSERT_EQ(model.links.size(), 2u);
+    EXPECT_EQ(model.links[1].name, "inner::b");
+    expect_near(model.links[1].X_ML.p, {1, 1, 0});
+    EXPECT_EQ(model.links[1].collisions[0].geometry.size.z, 3);
+    EXPECT_EQ(model.joints[0].child, "inner::b");
+    EXPECT_EQ(model.canonical_link, "a");
+}
+
+TEST(LoadWorld, PlacesModelsRelativeToOthersAndToTheirFrames) {
+    const Loaded loaded = load_elements(
+        "<frame name='f' attached_to='base'><pose>0 0 1 0 0 0</pose></frame>"
+        "<model name='base'><pose>1 0 0 0 0 1.5707963267948966</pose>" + link("a") +
+        "<frame name='hook'><pose>0 0 5 0 0 0</pose></frame></model>"
+        "<model name='on_frame'><pose relative_to='f'>1 0 0 0 0 0</pose>" + link("a") + "</model>"
+        "<model name='on_hook'><pose relative_to='base::hook'>0 2 0 0 0 0</pose>" + link("a") + "</model>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
+    expect_near(loaded.world->instances[1].X_WM.p, {1, 1, 1});
+    expect_near(loaded.world->instances[2].X_WM.p, {-1, 0, 5});
+}
+
+TEST(LoadWorld, AModelCanBePlacedByOneOfItsFrames) {
+    const Loaded loaded = load_elements("<model name='m' placement_frame='foot'><pose>0 0 0 0 0 0</pose>" + link("a") +
+                                        "<frame name='foot'><pose>0 0 -2 0 0 0</pose></frame></model>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    expect_near(loaded.world->instances[0].X_WM.p, {0, 0, 2});
+}
+
+TEST(LoadWorld, ACircleOfFramesIsAnError) {
+    const Loaded loaded = load_elements("<model name='a'><pose relative_to='b'/>" + link("l") + "</model><model name='b'><pose relative_to='a'/>" +
+                                        link("l") + "</model>");
+    ASSERT_NE(loaded.find("frame-cycle"), nullptr) << loaded.text();
+}
+
+TEST(LoadWorld, PosesKnowDegreesQuaternionsAndOtherFrames) {
+    const Loaded loaded = load_elements(
+        "<model name='m'>" +
+        link("a", "<collision name='d'><pose degrees='true'>0 0 0 0 0 90</pose><geometry><box><size>1 1 1</size></box></geometry></collision>"
+                  "<collision name='q'><pose rotation_format='quat_xyzw'>1 0 0  0 0 0.7071067811865476 0.7071067811865476</pose>"
+                  "<geometry><box><size>1 1 1</size></box></geometry></collision>"
+                  "<collision name='r'><pose relative_to='f'>0 0 1 0 0 0</pose><geometry><box><size>1 1 1</size></box></geometry></collision>"
+                  "<visual name='v'><pose relative_to='f'>0 0 2 0 0 0</pose><geometry><box><size>1 1 1</size></box></geometry></visual>") +
+        "<frame name='f'><pose>5 0 0 0 0 0</pose></frame></model>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
+    const LinkSpec& l = loaded.world->prototypes[0].links[0];
+    expect_near(rotate(l.collisions[0].X_LS.q, Vec3{1, 0, 0}), {0, 1, 0});
+    expect_near(rotate(l.collisions[1].X_LS.q, Vec3{1, 0, 0}), {0, 1, 0});
+    expect_near(l.collisions[2].X_LS.p, {5, 0, 1});
+    expect_near(l.visuals[0].X_LV.p, {5, 0, 2});
+}
+
+TEST(LoadWorld, ReadsSurfaces) {
+    const Loaded loaded = load_elements(
+        "<model name='m'>" +
+        link("a", "<collision name='c'><geometry><box><size>1 1 1</size></box></geometry><surface><friction><ode><mu>0.3</mu><mu2>0.3</mu2></ode>"
+                  "<torsional><coefficient>0.5</coefficient><use_patch_radius>true</use_patch_radius><patch_radius>0.02</patch_radius></torsional></friction>"
+                  "<bounce><restitution_coefficient>0.4</restitution_coefficient><threshold>0.2</threshold></bounce>"
+                  "<contact><collide_bitmask>0x0f</collide_bitmask></contact>"
+                  "<roboss:rolling_friction>0.001</roboss:rolling_friction></surface></collision>") + "</model>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
+    const SurfaceSpec& s = loaded.world->prototypes[0].links[0].collisions[0].surface;
+    EXPECT_EQ(s.mu, 0.3);
+    EXPECT_EQ(s.restitution, 0.4);
+    EXPECT_EQ(s.bounce_threshold, 0.2);
+    EXPECT_EQ(s.torsional_mu, 0.5);
+    EXPECT_EQ(s.torsional_radius, 0.02);
+    EXPECT_EQ(s.collide_bitmask, 15u);
+    EXPECT_EQ(s.rolling_mu, 0.001);
+}
+
+TEST(LoadWorld, ReadsWhatTheWorldSays) {
+    const Loaded loaded = load_elements(
+        "<physics name='slow' type='x'><max_step_size>0.01</max_step_size></physics>"
+        "<physics name='used' type='x' default='true'><max_step_size>0.002</max_step_size><real_time_factor>0.5</real_time_factor></physics>"
+        "<gravity>0 0 -1.6</gravity><magnetic_field>1 2 3</magnetic_field>"
+        "<spherical_coordinates><surface_model>EARTH_WGS84</surface_model><latitude_deg>60</latitude_deg><longitude_deg>25</longitude_deg>"
+        "<elevation>12</elevation><heading_deg>90</heading_deg></spherical_coordinates>"
+        "<model name='m'>" + link("a") + "</model>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    const World& world = *loaded.world;
+    EXPECT_EQ(world.name, "w");
+    EXPECT_EQ(world.dt_s, 0.002);
+    EXPECT_EQ(world.real_time_factor, 0.5);
+    EXPECT_EQ(world.gravity.z, -1.6);
+    EXPECT_EQ(world.magnetic_field_T.y, 2);
+    ASSERT_TRUE(world.spherical);
+    EXPECT_NEAR(world.spherical->latitude_rad, kPi / 3, 1e-15);
+    EXPECT_EQ(world.spherical->elevation_m, 12);
+    EXPECT_NEAR(world.spherical->heading_rad, kPi / 2, 1e-15);
+}
+
+TEST(LoadWorld, AFileWithAModelOnlyIsAWorld) {
+    const Loaded loaded = load_text("<sdf version='1.7'><model name='m'>" + link("a") + "</model></sdf>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_EQ(loaded.world->name, "m");
+    EXPECT_EQ(loaded.world->instances.size(), 1u);
+}
+
+TEST(LoadWorld, AStaticModelWithALaserBecomesAWeldedRobot) {
+    const std::string laser = "<sensor name='s' type='lidar'><lidar><scan><horizontal><samples>3</samples><min_angle>0</min_angle>"
+                              "<max_angle>1</max_angle></horizontal></scan><range><min>0.1</min><max>9</max></range></lidar></sensor>";
+    const Loaded loaded = load_elements("<model name='m'><static>1</static><link name='a'>" + laser + "</link></model>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_FALSE(loaded.world->prototypes[0].is_static);
+    ASSERT_EQ(loaded.world->prototypes[0].joints.size(), 1u);
+    EXPECT_EQ(loaded.world->prototypes[0].joints[0].parent, "world");
+}
+
+TEST(LoadWorld, TwoThousandSixWheeledCarsLoadQuickly) {
+    std::string car;
+    car += link("chassis", "<collision name='c'><geometry><box><size>1 .5 .3</size></box></geometry></collision>");
+    for (int i = 0; i < 6; ++i) {
+        const std::string n = std::to_string(i);
+        car += link("wheel" + n, "<collision name='c'><geometry><cylinder><radius>.2</radius><length>.1</length></cylinder></geometry></collision>") +
+               "<joint name='j" + n + "' type='continuous'><parent>chassis</parent><child>wheel" + n + "</child><axis><xyz>0 1 0</xyz></axis></joint>";
+    }
+    std::string cars;
+    for (int i = 0; i < 2000; ++i) cars += "<model name='car" + std::to_string(i) + "'><pose>" + std::to_string(i) + " 0 0 0 0 0</pose>" + car + "</model>\n";
+    const auto start = std::chrono::steady_clock::now();
+    const Loaded loaded = load_elements(cars);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_EQ(loaded.world->instances.size(), 2000u);
+    EXPECT_EQ(loaded.world->prototypes.size(), 1u);
+    // libsdformat alone takes a minute; this is far below it even in a debug build with sanitizers.
+    EXPECT_LT(took.count(), 10.0);
+}
+
+}  // namespace
+}  // namespace roboss

@@ -1,0 +1,58 @@
+// URDF through libsdformat.
+#include <gtest/gtest.h>
+
+#include "sdf/test_files.h"
+
+namespace roboss {
+namespace {
+
+using namespace sdf_test;
+
+const std::string kArm =
+    "<?xml version='1.0'?>\n<robot name='arm'>\n<link name='world'/>\n<link name='base'><inertial><mass value='2'/>"
+    "<inertia ixx='0.1' iyy='0.1' izz='0.1' ixy='0' ixz='0' iyz='0'/></inertial>"
+    "<collision><geometry><box size='0.2 0.2 0.2'/></geometry></collision></link>\n"
+    "<link name='upper'><inertial><origin xyz='0 0 0.5'/><mass value='1'/><inertia ixx='0.1' iyy='0.1' izz='0.01' ixy='0' ixz='0' iyz='0'/></inertial></link>\n"
+    "<joint name='fix' type='fixed'><parent link='world'/><child link='base'/></joint>\n"
+    "<joint name='shoulder' type='revolute'><origin xyz='0 0 0.2'/><parent link='base'/><child link='upper'/><axis xyz='0 1 0'/>"
+    "<limit lower='-1' upper='1.5' effort='20' velocity='3'/><dynamics damping='0.7'/></joint>\n</robot>\n";
+
+TEST(Urdf, BecomesAWorldWithOneRobot) {
+    const Loaded loaded = load_text(kArm, "arm.urdf");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
+    const ModelSpec& arm = loaded.world->prototypes.at(0);
+    ASSERT_EQ(arm.links.size(), 2u);
+    EXPECT_EQ(arm.links[0].mass, 2);
+    EXPECT_EQ(arm.links[0].collisions.at(0).geometry.size.x, 0.2);
+    EXPECT_EQ(arm.links[1].p_LC.z, 0.5);
+    ASSERT_EQ(arm.joints.size(), 2u);
+    const JointSpec& shoulder = arm.joints[0].name == "shoulder" ? arm.joints[0] : arm.joints[1];
+    EXPECT_NEAR(shoulder.X_MJ.p.z, 0.2, 1e-12);
+    EXPECT_NEAR(shoulder.axes.at(0).xyz.y, 1, 1e-12);
+    EXPECT_EQ(shoulder.axes[0].upper, 1.5);
+    EXPECT_EQ(shoulder.axes[0].max_effort, 20);
+    EXPECT_EQ(shoulder.axes[0].damping, 0.7);
+    EXPECT_EQ(shoulder.where.line, 7);
+}
+
+TEST(Urdf, ThatIsBrokenIsAnErrorAtTheLink) {
+    std::string broken = kArm;
+    broken.replace(broken.find("mass value='1'"), 14, "mass value='x'");
+    const Loaded loaded = load_text(broken, "arm.urdf");
+    EXPECT_TRUE(loaded.diagnostics.has_errors());
+    EXPECT_NE(loaded.text().find("arm.urdf:5: error"), std::string::npos) << loaded.text();
+    EXPECT_TRUE(load_text("<robot name='r'/>", "r.urdf").diagnostics.has_errors());
+}
+
+TEST(Urdf, CanBeIncludedInAWorld) {
+    const TestFolder folder;
+    folder.write("arm.urdf", kArm);
+    folder.write("world.sdf", "<sdf version='1.9'><world name='w'><include><uri>arm.urdf</uri><name>one</name></include></world></sdf>");
+    const Loaded loaded = folder.load("world.sdf");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_EQ(loaded.world->instances.at(0).name, "one");
+}
+
+}  // namespace
+}  // namespace roboss
