@@ -117,7 +117,7 @@ double free_way(const DriverView& view, double angle, double half_width) {
         const roboss::SinCos off =
             roboss::fixed_sincos(view.min_angle + step * static_cast<double>(i) - angle);
         const double along = range * off.cos, aside = std::fabs(range * off.sin);
-        if (along <= 0.0 || aside >= half_width) continue;
+        if (off.cos <= 0.0 || aside >= half_width) continue;
         way = std::min(way, std::max(0.0, along - std::sqrt(half_width * half_width - aside * aside)));
     }
     // Between two beams that both end, there is most likely a wall from one end to the other.
