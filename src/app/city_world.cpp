@@ -60,18 +60,16 @@ constexpr const char* kChassis = R"(      <link name="chassis">
             </velocity_sensing>
           </navsat>
         </sensor>
-        <sensor name="compass" type="custom" roboss:type="gyrocompass">
+        <roboss:sensor name="compass" type="gyrocompass">
           <update_rate>20</update_rate>
-          <roboss:noise><mean>0</mean><stddev>0.01</stddev></roboss:noise>
-        </sensor>
-        <sensor name="odometer" type="custom" roboss:type="odometer">
+          <noise type="gaussian"><mean>0</mean><stddev>0.01</stddev></noise>
+        </roboss:sensor>
+        <roboss:sensor name="odometer" type="odometer">
           <update_rate>20</update_rate>
-          <roboss:odometer>
-            <joint>front_left</joint><joint>front_right</joint><joint>rear_left</joint><joint>rear_right</joint>
-            <wheel_radius>0.05</wheel_radius>
-          </roboss:odometer>
-          <roboss:noise><mean>0</mean><stddev>0.01</stddev></roboss:noise>
-        </sensor>
+          <joint>front_left</joint><joint>front_right</joint><joint>rear_left</joint><joint>rear_right</joint>
+          <wheel_radius>0.05</wheel_radius>
+          <noise type="gaussian"><mean>0</mean><stddev>0.01</stddev></noise>
+        </roboss:sensor>
       </link>
 )";
 
