@@ -4,8 +4,9 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 tools/setup.sh build bench
-tools/build.sh bench roboss-bench
-program=build/bench/bin/roboss-bench
+tools/build.sh release -DROBOSS_BENCHMARKS=ON roboss-bench
+mkdir -p build/bench
+program=build/release/bin/roboss-bench
 if [[ $# -eq 0 ]]; then
     printf 'benchmarks (./bench.sh NAME runs one, ./bench.sh all runs them all):\n'
     exec "$program" --benchmark_list_tests

@@ -11,6 +11,5 @@ else
     tools/build.sh release -DROBOSS_TESTS=OFF
 fi
 build/release/bin/roboss run worlds/city.sdf --client build/release/lib/libcity_driver.so --duration 60 \
-    --trace build/city_trace.csv --trace-every 0.25 --json build/city.json "$@"
-tools/draw_paths build/city_trace.csv --world worlds/city.sdf --out build/city_paths.svg
+    --json build/city.json --picture build/city_paths.svg "$@"
 printf 'picture of the paths: build/city_paths.svg\n'

@@ -6,6 +6,8 @@ target_compile_options(roboss_options INTERFACE
   -Wall -Wextra -Wshadow -Wconversion -Werror -ffp-contract=off -fno-fast-math)
 # g++ 12 warns of overlapping copies inside std::string::operator+ that cannot happen (GCC bug 105651).
 target_compile_options(roboss_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+# clang counts changes of sign to -Wconversion, g++ does not; g++ is the measure.
+target_compile_options(roboss_options INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>)
 target_compile_features(roboss_options INTERFACE cxx_std_20)
 if(ROBOSS_SANITIZE)
   target_compile_options(roboss_options INTERFACE -fsanitize=${ROBOSS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)

@@ -6,7 +6,7 @@ set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/roboss)
 
 # The external libraries that a static floor hands on to whoever links it: pattern of the linked name, and how to find it.
 set(ROBOSS_EXTERNALS
-  "^sdformat12::|^sdformat12" "find_dependency(sdformat12)"
+  "^sdformat12::|^sdformat12" "find_dependency(sdformat12)\nset(CMAKE_MODULE_PATH \${roboss_module_path})"
   "^pugixml" "find_dependency(pugixml)"
   "^embree$" "find_dependency(embree 3)"
   "^SQLite::SQLite3$" "find_dependency(SQLite3)"
@@ -60,3 +60,14 @@ configure_package_config_file(${CMAKE_SOURCE_DIR}/cmake/roboss-config.cmake.in $
   INSTALL_DESTINATION ${config_dir})
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/roboss-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/roboss-config.cmake ${CMAKE_BINARY_DIR}/roboss-config-version.cmake DESTINATION ${config_dir})
+
+# The programs, and the example control programs as libraries that `roboss run --client` loads.
+foreach(program roboss roboss-world)
+  if(TARGET ${program})
+    install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  endif()
+endforeach()
+if(TARGET city_driver)
+  install(TARGETS city_driver LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/roboss)
+endif()
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/worlds DESTINATION ${CMAKE_INSTALL_DATADIR}/roboss OPTIONAL)

@@ -13,7 +13,7 @@ fail() {
 # Prints the packages of the groups given, in the order of the list.
 wanted_packages() {
     local group package
-    while read -r group package; do
+    while read -r group package _; do
         [[ " $* " == *" $group "* ]] && printf '%s\n' "$package"
     done < <(grep -v '^#' "$here/packages.txt")
     return 0
