@@ -10,6 +10,7 @@ void StatePull::begin(const Model& model, Tick tick, std::vector<Holding> holder
     tick_ = tick;
     wanted_.assign(model.robots.size(), false);
     missing_ = 0;
+    holders_.clear();
     for (const Holding& holding : holders)
         for (const RobotId robot : holding.robots) {
             if (robot.index() >= wanted_.size() || wanted_[robot.index()]) continue;
@@ -19,7 +20,16 @@ void StatePull::begin(const Model& model, Tick tick, std::vector<Holding> holder
     redirect(std::move(holders));
 }
 
+void StatePull::begin_all(const Model& model, Tick tick) {
+    active_ = true;
+    tick_ = tick;
+    wanted_.assign(model.robots.size(), true);
+    missing_ = model.robots.size();
+    holders_.clear();
+}
+
 void StatePull::redirect(std::vector<Holding> holders) {
+    if (holders == holders_) return;
     holders_ = std::move(holders);
     ask_now_ = true;
 }

@@ -12,9 +12,11 @@ namespace roboss {
 
 class StatePull {
   public:
-    /// Starts to fetch `holders`' robots at `tick`. Where to put a state is asked of accept()'s caller.
+    /// Starts to fetch `holders`' robots at `tick`; accept() says where each state goes.
     void begin(const Model& model, Tick tick, std::vector<Holding> holders);
-    /// The same robots are to be had from others now; what has come stays. Sends at once on the next advance().
+    /// Starts to fetch every robot; redirect() says from whom.
+    void begin_all(const Model& model, Tick tick);
+    /// Who has the robots now; what has come stays. Asks at once on the next advance() if this is news.
     void redirect(std::vector<Holding> holders);
     void cancel();
 

@@ -53,16 +53,19 @@ WindowStepper::WindowStepper(std::shared_ptr<const Model> model, ThreadPool& poo
 
 void WindowStepper::sort_orders(const Plan& plan) {
     const std::size_t islands = plan.island_offsets.size() - 1;
-    island_of_.resize(model_->robots.size());
+    island_of_.assign(model_->robots.size(), RobotId::kNone);
     for (std::uint32_t i = 0; i < islands; ++i)
         for (std::size_t k = plan.island_offsets[i]; k < plan.island_offsets[i + 1]; ++k)
             island_of_[plan.robots[k].index()] = i;
     order_offsets_.assign(islands + 1, 0);
-    for (const Order& order : plan.orders) ++order_offsets_[island_of_[order.robot.index()] + 1];
+    const auto concerns = [&](const Order& order) { return island_of_[order.robot.index()] != RobotId::kNone; };
+    for (const Order& order : plan.orders)
+        if (concerns(order)) ++order_offsets_[island_of_[order.robot.index()] + 1];
     std::partial_sum(order_offsets_.begin(), order_offsets_.end(), order_offsets_.begin());
     std::vector<std::size_t> next(order_offsets_.begin(), order_offsets_.end() - 1);
-    orders_.resize(plan.orders.size());
-    for (const Order& order : plan.orders) orders_[next[island_of_[order.robot.index()]]++] = order;
+    orders_.resize(order_offsets_.back());
+    for (const Order& order : plan.orders)
+        if (concerns(order)) orders_[next[island_of_[order.robot.index()]]++] = order;
 }
 
 void WindowStepper::cut_batches(const Plan& plan) {

@@ -41,7 +41,7 @@ class WindowStepper {
     // flat over the plan's robots
     std::vector<RobotState*> states_;
     std::vector<Aabb> bounds_, swept_;
-    std::vector<std::uint32_t> island_of_;  // by RobotId; only valid for the plan's robots
+    std::vector<std::uint32_t> island_of_;  // by RobotId; kNone: not in the plan
     // flat over the plan's orders, those of an island together
     std::vector<Order> orders_;
     std::vector<std::size_t> order_offsets_;

@@ -63,13 +63,13 @@ template <class A> void field(A& a, Of<A, StateReply>& m) { fields(a, m.states);
 template <class A> void field(A& a, Of<A, ClientHello>& m) {
     fields(a, m.name, m.model_hash, m.period, m.latency, m.synchronous);
 }
-template <class A> void field(A& a, Of<A, ClientWelcome>& m) { fields(a, m.client, m.seed); }
+template <class A> void field(A& a, Of<A, ClientWelcome>& m) { fields(a, m.client, m.first, m.seed); }
 template <class A> void field(A& a, Of<A, Observation>& m) { fields(a, m.tick, m.last_word, m.holders); }
 template <class A> void field(A& a, Of<A, ClientOrder>& m) { fields(a, m.sequence, m.robot, m.action); }
 template <class A> void field(A& a, Of<A, ClientWord>& m) { fields(a, m.client, m.word, m.observed, m.orders); }
 template <class A> void field(A& a, Of<A, RefusedOrder>& m) { fields(a, m.sequence, m.reason); }
 template <class A> void field(A& a, Of<A, WordAck>& m) { fields(a, m.client, m.word, m.refused); }
-template <class A> void field(A& a, Of<A, ClientBye>& m) { fields(a, m.client, m.failed, m.reason); }
+template <class A> void field(A& a, Of<A, ClientBye>& m) { fields(a, m.client, m.word, m.failed, m.reason); }
 // clang-format on
 
 template <class A, class... Fields>

@@ -28,8 +28,8 @@ struct Address {
 /// States of some robots at one tick, bit for bit: hand-offs, checkpoints, observations.
 struct StateBlock {
     Tick tick = 0;
-    std::vector<RobotId> robots;      // ascending
-    std::vector<std::uint32_t> sizes;  // bytes of each robot's state
+    std::vector<RobotId> robots;
+    std::vector<std::uint32_t> sizes;  // bytes of each robot's state, in the order of `robots`
     std::vector<std::uint8_t> bytes;
     friend bool operator==(const StateBlock&, const StateBlock&) = default;
 };
@@ -124,7 +124,7 @@ struct Frame {  // Simulator -> Controller: the answer to a Plan, robots and isl
 
 struct StateRequest {  // anyone -> whoever holds the robots
     Tick tick = 0;
-    std::vector<RobotId> robots;  // ascending
+    std::vector<RobotId> robots;
 };
 struct StateReply {
     StateBlock states;  // may lack robots that are not here (yet)
@@ -141,6 +141,7 @@ struct ClientHello {
 };
 struct ClientWelcome {
     ClientId client;
+    Tick first = 0;  // tick of its first observation
     std::uint64_t seed = 0;
 };
 /// Controller -> Client: the world at `tick` is committed and may be fetched. Sent again until the Client's word comes.
@@ -170,9 +171,10 @@ struct WordAck {
     std::uint64_t word = 0;  // the last word accepted
     std::vector<RefusedOrder> refused;  // orders of that word that were refused
 };
-/// Client -> Controller: it takes no part any more. A failure ends the run.
+/// Client -> Controller: its last word; it takes no part any more. A failure ends the run.
 struct ClientBye {
     ClientId client;
+    std::uint64_t word = 0;
     bool failed = false;
     std::string reason;
 };

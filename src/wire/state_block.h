@@ -10,13 +10,12 @@
 
 namespace roboss {
 
-/// Robots must be appended in ascending order.
 void append(StateBlock& block, RobotId robot, const RobotState& state);
 
 /// Bytes of the i-th state given the sum of the sizes before it.
 std::span<const std::uint8_t> state_bytes(const StateBlock& block, std::size_t i, std::size_t offset);
 
-/// A block that can be asked for any of its robots quickly.
+/// A block, its robots ascending, that can be asked for any of them quickly.
 class StateShelf {
   public:
     explicit StateShelf(StateBlock block);
