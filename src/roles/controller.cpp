@@ -1,6 +1,8 @@
 // The Controller's outline, and who it talks to.
 #include "roles/controller.h"
 
+#include <algorithm>
+
 #include "core/float_env.h"
 #include "wire/state_block.h"
 
@@ -111,6 +113,12 @@ void Controller::serve(Bus& bus, const Address& from, const StateRequest& reques
     for (const RobotId robot : request.robots)
         if (robot.index() < base_.states.size()) append(reply.states, robot, base_.states[robot.index()]);
     bus.send(kControllerAddress, from, std::move(reply));
+}
+
+bool Controller::settled() const {
+    return resting() && std::all_of(desk_.seats().begin(), desk_.seats().end(), [this](const ClientSeat& seat) {
+               return !seat.synchronous || seat.unanswered.empty() || seat.unanswered.front() >= tick_;
+           });
 }
 
 const std::vector<RobotState>* Controller::states() const {

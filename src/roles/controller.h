@@ -66,6 +66,10 @@ class Controller {
     Tick tick() const { return tick_; }  // committed
     /// At the target with nothing under way.
     bool resting() const { return tick_ >= target_ && !round_ && started_; }
+    /// Resting, and every synchronous Client has answered all it observed before tick(): time for a save.
+    bool settled() const;
+    /// Nothing under way any more after a failure.
+    bool stopped() const { return failure_ && !round_; }
     /// Set: the run cannot go on; tick() and states are those before.
     const std::optional<Error>& failure() const { return failure_; }
 

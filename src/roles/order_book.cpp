@@ -5,20 +5,9 @@
 
 namespace roboss {
 
-namespace {
-
-bool same_place(const Order& a, const Order& b) {
-    return !comes_before(a, b) && !comes_before(b, a);
-}
-
-}  // namespace
-
 bool OrderBook::add(const Order& order, Tick observed) {
-    const auto is_this = [&](const Entry& e) { return same_place(e.order, order); };
-    if (observed == kGiven) {  // only given orders can come twice; words of Clients are numbered
-        settle();
-        if (std::any_of(entries_.begin(), entries_.end(), is_this)) return false;
-    }
+    // only given orders can come twice (from a file and from a saved run); words of Clients are numbered
+    if (observed == kGiven && !given_.insert({order.apply_at, order.client, order.sequence}).second) return false;
     fresh_.push_back({order, observed});
     return true;
 }
@@ -56,6 +45,7 @@ void OrderBook::trim(Tick tick) {
     settle();
     const auto earlier = [](const Entry& e, Tick t) { return e.order.apply_at < t; };
     entries_.erase(entries_.begin(), std::lower_bound(entries_.begin(), entries_.end(), tick, earlier));
+    given_.erase(given_.begin(), given_.lower_bound({tick, ClientId(0u), 0}));
 }
 
 }  // namespace roboss

@@ -2,6 +2,8 @@
 // what a recovery applies again both come from here.
 #pragma once
 
+#include <set>
+#include <tuple>
 #include <vector>
 
 #include "model/order.h"
@@ -33,6 +35,7 @@ class OrderBook {
 
     std::vector<Entry> entries_;  // canonical order
     std::vector<Entry> fresh_;    // not sorted in yet
+    std::set<std::tuple<Tick, ClientId, std::uint64_t>> given_;
 };
 
 }  // namespace roboss
