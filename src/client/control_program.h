@@ -19,14 +19,18 @@ class ControlProgram {
   public:
     virtual ~ControlProgram() = default;
     virtual ControlOptions options() const { return {}; }
-    /// Once, before the first control(); the state is that of the start.
+    /// Once, before the first control(); the state is that of the first observation.
     virtual void start(Client&) {}
-    /// Once a control period. Must be a function of what the Client shows (and of start) if saved runs are to continue exactly.
+    /// Once a control period. An exception ends the run with its text; the world stays intact and can be saved.
     virtual void control(Client&) = 0;
+    /// What the program remembers from one control() to the next, as bytes. A saved run takes it along and gives it to restore(),
+    /// after start(), when it continues; so a program that remembers anything must have both for saved runs to continue exactly.
+    virtual std::string memory() const { return {}; }
+    virtual void restore(const std::string&) {}
 };
 
 /// Version of this interface; the loader refuses a library built against another one.
-inline constexpr int kControlProgramAbi = 1;
+inline constexpr int kControlProgramAbi = 2;
 
 }  // namespace roboss
 

@@ -1,0 +1,46 @@
+// A Bus that behaves as badly as a network may, by seed: drops, doubles, delays and reorders, on a logical clock that
+// advances when told. It carries encoded bytes, so that every message also passes the codec. For tests.
+#pragma once
+
+#include <map>
+#include <set>
+
+#include "bus/bus.h"
+
+namespace roboss {
+
+struct FaultOptions {
+    std::uint64_t seed = 1;
+    double drop = 0.05, duplicate = 0.05;  // probabilities
+    std::int64_t delay_ms_max = 8;         // each message is delayed by 0 .. this, so later ones overtake
+};
+
+class FaultyBus : public Bus {
+  public:
+    explicit FaultyBus(const FaultOptions& options);
+    void send(const Address& from, const Address& to, Message message) override;
+    void drain(const Address& self, std::vector<Envelope>& inbox) override;
+    std::int64_t now_ms() override { return now_ms_; }
+
+    void advance_clock(std::int64_t ms) { now_ms_ += ms; }
+    /// Everything to and from this address vanishes from now on, and what is under way to it too.
+    void cut_off(const Address& address) { cut_.insert(address); }
+    /// A uniform number below `limit`, from the same seeded stream; for choosing when to kill whom.
+    std::uint64_t random(std::uint64_t limit);
+    std::uint64_t dropped() const { return dropped_; }
+    std::uint64_t doubled() const { return doubled_; }
+
+  private:
+    bool chance(double probability);
+    void post(const Address& to, std::vector<std::uint8_t> bytes);
+
+    FaultOptions options_;
+    std::uint64_t random_state_;
+    std::int64_t now_ms_ = 0;
+    std::uint64_t dropped_ = 0, doubled_ = 0, serial_ = 0;
+    // by receiver: (due time, serial) -> bytes
+    std::map<Address, std::map<std::pair<std::int64_t, std::uint64_t>, std::vector<std::uint8_t>>> under_way_;
+    std::set<Address> cut_;
+};
+
+}  // namespace roboss

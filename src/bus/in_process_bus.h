@@ -1,0 +1,22 @@
+// A Bus within one process and one thread: a queue an address; messages are moved, not encoded, and never lost.
+#pragma once
+
+#include <map>
+
+#include "bus/bus.h"
+
+namespace roboss {
+
+class InProcessBus : public Bus {
+  public:
+    void send(const Address& from, const Address& to, Message message) override;
+    void drain(const Address& self, std::vector<Envelope>& inbox) override;
+    std::int64_t now_ms() override { return monotonic_ms(); }
+    /// No message is under way.
+    bool quiet() const;
+
+  private:
+    std::map<Address, std::vector<Envelope>> queues_;
+};
+
+}  // namespace roboss

@@ -1,0 +1,54 @@
+// StatePull: fetches the exact states of some robots at one tick from whoever holds them, asking again until all have
+// come. Simulators use it for hand-offs, Clients for observations, the Controller for checkpoints.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "bus/bus.h"
+#include "model/robot_state.h"
+
+namespace roboss {
+
+class StatePull {
+  public:
+    /// Starts to fetch `holders`' robots at `tick`; accept() says where each state goes.
+    void begin(const Model& model, Tick tick, std::vector<Holding> holders);
+    /// Starts to fetch every robot; redirect() says from whom.
+    void begin_all(const Model& model, Tick tick);
+    /// Who has the robots now; what has come stays. Asks at once on the next advance() if this is news.
+    void redirect(std::vector<Holding> holders);
+    void cancel();
+
+    bool active() const { return active_; }
+    bool complete() const { return active_ && missing_ == 0; }
+    Tick tick() const { return tick_; }
+
+    /// Sends requests for what is missing, at once and then every resend_ms.
+    void advance(Bus& bus, const Address& self, std::int64_t resend_ms);
+
+    /// Calls put(robot, RobotState&&) for every missing robot of the reply. Damaged states count as not come.
+    template <class Put>
+    void accept(const Model& model, const StateReply& reply, Put&& put) {
+        if (!active_ || reply.states.tick != tick_) return;
+        std::size_t offset = 0;
+        for (std::size_t i = 0; i < reply.states.robots.size(); ++i) {
+            if (std::optional<RobotState> state = take(model, reply.states, i, offset))
+                put(reply.states.robots[i], std::move(*state));
+            offset += reply.states.sizes[i];
+        }
+    }
+
+  private:
+    std::optional<RobotState> take(const Model& model, const StateBlock& block, std::size_t i, std::size_t offset);
+
+    bool active_ = false;
+    Tick tick_ = 0;
+    std::vector<Holding> holders_;
+    std::vector<bool> wanted_;  // by RobotId
+    std::size_t missing_ = 0;
+    bool ask_now_ = false;
+    std::int64_t asked_ms_ = 0;
+};
+
+}  // namespace roboss

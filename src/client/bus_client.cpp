@@ -1,0 +1,127 @@
+// Joining, observing and answering over a Bus.
+#include "client/bus_client.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace roboss {
+
+BusClient::BusClient(std::shared_ptr<const Model> model, const Address& self, BusClientOptions options)
+    : model_(std::move(model)), self_(self), options_(std::move(options)) {
+    states_.resize(model_->robots.size());
+    coming_.resize(model_->robots.size());
+}
+
+Result<> BusClient::order(RobotId robot, const Action& action) {
+    Order order;
+    order.apply_at = std::max<Tick>(tick_, 0);
+    order.robot = robot;
+    order.action = action;
+    if (Result<> checked = check_order(*model_, order); !checked) return checked;
+    orders_.push_back({++sequence_, robot, action});
+    return Ok{};
+}
+
+void BusClient::advance(Bus& bus) {
+    bus.drain(self_, inbox_);
+    for (Envelope& envelope : inbox_) handle(envelope);
+    if (!observing_) {
+        pull_next();
+        if (pull_.complete()) show();
+    }
+    pull_.advance(bus, self_, options_.resend_ms);
+    say_again(bus);
+}
+
+void BusClient::handle(Envelope& envelope) {
+    if (auto* observation = std::get_if<Observation>(&envelope.message)) {
+        take_observation(*observation);
+    } else if (const auto* reply = std::get_if<StateReply>(&envelope.message)) {
+        pull_.accept(*model_, *reply, [&](RobotId robot, RobotState&& s) { coming_[robot.index()] = std::move(s); });
+    } else if (const auto* ack = std::get_if<WordAck>(&envelope.message)) {
+        if (ack->client != id_) return;
+        const bool news = !words_.empty() && words_.front().word <= ack->word;
+        if (news)
+            for (const RefusedOrder& r : ack->refused) refusals_.push_back("order " + std::to_string(r.sequence) + ": " + r.reason);
+        heard_up_to(ack->word);
+    } else if (const auto* welcome = std::get_if<ClientWelcome>(&envelope.message)) {
+        if (id_.valid()) return;
+        id_ = welcome->client;
+        seed_ = welcome->seed;
+        expected_ = welcome->first;
+    } else if (const auto* refused = std::get_if<Refused>(&envelope.message)) {
+        refusals_.push_back(refused->reason);
+    }
+}
+
+void BusClient::heard_up_to(std::uint64_t word) {
+    while (!words_.empty() && words_.front().word <= word) words_.pop_front();
+    if (bye_ && bye_->word <= word) bye_.reset();
+}
+
+void BusClient::take_observation(Observation& observation) {
+    heard_up_to(observation.last_word);
+    if (!id_.valid() || bye_) return;
+    if (observation.tick <= tick_) return;  // shown already; the word for it will be said again
+    if (options_.synchronous && observation.tick < expected_) return;
+    offers_[observation.tick] = std::move(observation.holders);
+}
+
+/// A synchronous Client sees every observation in turn, a free-running one the newest.
+void BusClient::pull_next() {
+    if (offers_.empty()) return;
+    auto next = options_.synchronous ? offers_.find(expected_) : std::prev(offers_.end());
+    if (next == offers_.end()) return;
+    if (!pull_.active() || pull_.tick() != next->first) pull_.begin_all(*model_, next->first);
+    pull_.redirect(next->second);
+}
+
+void BusClient::show() {
+    tick_ = pull_.tick();
+    expected_ = tick_ + options_.period;
+    states_.swap(coming_);
+    offers_.erase(offers_.begin(), offers_.upper_bound(tick_));
+    pull_.cancel();
+    observing_ = true;
+}
+
+void BusClient::answer(Bus& bus) {
+    ROBOSS_CHECK(observing_, "an answer without an observation");
+    observing_ = false;
+    words_.push_back({id_, ++word_, tick_, std::exchange(orders_, {})});
+    bus.send(self_, kControllerAddress, words_.back());
+    said_ms_ = bus.now_ms();
+}
+
+void BusClient::leave(Bus& bus, const std::string& failure) {
+    bye_ = ClientBye{id_, ++word_, !failure.empty(), failure};
+    observing_ = false;
+    offers_.clear();
+    pull_.cancel();
+    bus.send(self_, kControllerAddress, *bye_);
+    said_ms_ = bus.now_ms();
+}
+
+void BusClient::say_again(Bus& bus) {
+    const std::int64_t now = bus.now_ms();
+    if (now - said_ms_ < options_.resend_ms) return;
+    said_ms_ = now;
+    if (!id_.valid())
+        bus.send(self_, kControllerAddress,
+                 ClientHello{options_.name, model_->hash, options_.period, options_.latency, options_.synchronous});
+    for (const ClientWord& word : words_) bus.send(self_, kControllerAddress, word);
+    if (bye_) bus.send(self_, kControllerAddress, *bye_);
+}
+
+RayScene& BusClient::ray_scene() {
+    if (!scene_) scene_ = std::make_unique<RayScene>(model_);
+    if (scene_tick_ != tick_) {
+        std::vector<const RobotState*> states;
+        for (const RobotState& state : states_) states.push_back(&state);
+        scene_->update(states);
+        scene_tick_ = tick_;
+    }
+    return *scene_;
+}
+
+}  // namespace roboss

@@ -1,0 +1,83 @@
+// BusClient: a Client over a Bus, the same in this process and elsewhere. It joins, fetches the exact state of each
+// observation from whoever holds it, and says one word for each, again and again until the Controller has it.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+
+#include "bus/bus.h"
+#include "bus/state_pull.h"
+#include "client/client.h"
+
+namespace roboss {
+
+struct BusClientOptions {
+    std::string name = "client";
+    Tick period = 1, latency = 1;  // ticks
+    bool synchronous = true;
+    std::int64_t resend_ms = 100;
+};
+
+class BusClient : public Client {
+  public:
+    BusClient(std::shared_ptr<const Model> model, const Address& self, BusClientOptions options);
+
+    const Model& model() const override { return *model_; }
+    Tick tick() const override { return tick_; }
+    const RobotState& state(RobotId robot) const override { return states_[robot.index()]; }
+    std::uint64_t seed() const override { return seed_; }
+    Result<> order(RobotId robot, const Action& action) override;
+
+    /// Handles what has come and asks for what is missing. Never waits.
+    void advance(Bus& bus);
+    /// A new observation is shown and waits for an answer().
+    bool observing() const { return observing_; }
+    /// Says the word for the observation shown, with the orders given since.
+    void answer(Bus& bus);
+    /// Takes leave. `failure`: why, if something broke; it ends the run.
+    void leave(Bus& bus, const std::string& failure = {});
+
+    bool joined() const { return id_.valid(); }
+    /// Every word has reached the Controller.
+    bool heard() const { return words_.empty() && !bye_; }
+    /// Refusals by the Controller since the last call.
+    std::vector<std::string> take_refusals() { return std::exchange(refusals_, {}); }
+
+  protected:
+    RayScene& ray_scene() override;
+
+  private:
+    void handle(Envelope& envelope);
+    void heard_up_to(std::uint64_t word);
+    void take_observation(Observation& observation);
+    void pull_next();
+    void show();
+    void say_again(Bus& bus);
+
+    std::shared_ptr<const Model> model_;
+    Address self_;
+    BusClientOptions options_;
+    ClientId id_;
+    std::uint64_t seed_ = 0;
+
+    Tick tick_ = -1;
+    std::vector<RobotState> states_, coming_;
+    bool observing_ = false;
+    StatePull pull_;
+    std::map<Tick, std::vector<Holding>> offers_;  // observations told and not shown yet
+    Tick expected_ = 0;                            // the next observation of a synchronous Client
+
+    std::vector<ClientOrder> orders_;  // for the next word
+    std::uint64_t sequence_ = 0, word_ = 0;
+    std::deque<ClientWord> words_;  // not known to have arrived
+    std::optional<ClientBye> bye_;
+    std::int64_t said_ms_ = -1'000'000'000;
+    std::vector<std::string> refusals_;
+
+    std::unique_ptr<RayScene> scene_;
+    Tick scene_tick_ = -1;
+    std::vector<Envelope> inbox_;
+};
+
+}  // namespace roboss

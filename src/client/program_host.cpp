@@ -1,0 +1,72 @@
+// A control program between its observations and its words.
+#include "client/program_host.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+namespace roboss {
+
+Result<BusClientOptions> client_options(const ControlOptions& options, const Model& model, const std::string& name) {
+    const double latency_s = options.latency_s < 0 ? options.period_s : options.latency_s;
+    const auto ticks = [&](double seconds) { return static_cast<Tick>(std::floor(seconds / model.dt_s + 0.5)); };
+    if (!(options.period_s > 0) || options.period_s > 1e9 || !(latency_s < 1e9))
+        return Error{"control program '" + name + "' asks for a control period of " + std::to_string(options.period_s) + " s",
+                     "give a period above 0 in ControlProgram::options()"};
+    BusClientOptions result;
+    result.name = name;
+    result.period = std::max<Tick>(ticks(options.period_s), 1);
+    result.latency = ticks(latency_s);
+    result.synchronous = options.synchronous;
+    return result;
+}
+
+namespace {
+
+BusClientOptions options_or_default(const ControlProgram& program, const Model& model, const std::string& name) {
+    Result<BusClientOptions> options = client_options(program.options(), model, name);
+    ROBOSS_CHECK(options.ok(), "check client_options() before making a ProgramHost");
+    return std::move(options).value();
+}
+
+}  // namespace
+
+ProgramHost::ProgramHost(std::shared_ptr<const Model> model, const Address& self, std::string name,
+                         std::unique_ptr<ControlProgram> program)
+    : name_(std::move(name)), program_(std::move(program)), client_(model, self, options_or_default(*program_, *model, name_)) {}
+
+template <class Call>
+bool ProgramHost::guarded(Bus& bus, const char* what, Call&& call) {
+    try {
+        call();
+        return true;
+    } catch (const std::exception& e) {
+        failure_ = std::string(what) + " threw: " + e.what();
+    } catch (...) {
+        failure_ = std::string(what) + " threw something that is no std::exception";
+    }
+    client_.leave(bus, failure_);
+    return false;
+}
+
+void ProgramHost::advance(Bus& bus) {
+    client_.advance(bus);
+    if (!client_.observing() || !failure_.empty()) return;
+    if (!started_) {
+        started_ = true;
+        if (!guarded(bus, "start()", [&] { program_->start(client_); })) return;
+        if (restored_ && !guarded(bus, "restore()", [&] { program_->restore(*restored_); })) return;
+    }
+    const bool done = guarded(bus, "control()", [&] {
+        memory_before_ = program_->memory();
+        controlled_ = client_.tick();
+        program_->control(client_);
+    });
+    if (done) client_.answer(bus);
+}
+
+std::string ProgramHost::memory_at(Tick tick) const {
+    return controlled_ >= tick ? memory_before_ : program_->memory();
+}
+
+}  // namespace roboss

@@ -1,0 +1,47 @@
+// ProgramHost: runs a control program as a Client. The program's exceptions end here: they become the Client's last word.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "client/bus_client.h"
+#include "client/control_program.h"
+
+namespace roboss {
+
+class ProgramHost {
+  public:
+    ProgramHost(std::shared_ptr<const Model> model, const Address& self, std::string name,
+                std::unique_ptr<ControlProgram> program);
+
+    /// What a saved run kept of this program; before the first advance().
+    void restore(std::string memory) { restored_ = std::move(memory); }
+    /// Lets the program control whenever there is an observation. Never waits.
+    void advance(Bus& bus);
+
+    const std::string& name() const { return name_; }
+    const BusClient& client() const { return client_; }
+    BusClient& client() { return client_; }
+    const std::string& failure() const { return failure_; }
+    /// What the program remembered when it had answered every observation before `tick`, and none since.
+    std::string memory_at(Tick tick) const;
+
+  private:
+    template <class Call>
+    bool guarded(Bus& bus, const char* what, Call&& call);
+
+    std::string name_;
+    std::unique_ptr<ControlProgram> program_;
+    BusClient client_;
+    std::optional<std::string> restored_;
+    bool started_ = false;
+    std::string failure_;
+    Tick controlled_ = -1;       // tick of the last control()
+    std::string memory_before_;  // as that call found it
+};
+
+/// The times of a control program in ticks of this world. `name` is for the message of an Error.
+Result<BusClientOptions> client_options(const ControlOptions& options, const Model& model, const std::string& name);
+
+}  // namespace roboss

@@ -1,0 +1,57 @@
+// The pool: workers sleep between batches and claim items with one atomic counter.
+#include "core/thread_pool.h"
+
+namespace roboss {
+
+ThreadPool::ThreadPool(unsigned threads) {
+    for (unsigned i = 1; i < threads; ++i) workers_.emplace_back([this, i] { serve(i); });
+}
+
+ThreadPool::~ThreadPool() {
+    {
+        const std::lock_guard lock(mutex_);
+        ending_ = true;
+    }
+    start_.notify_all();
+    for (std::thread& worker : workers_) worker.join();
+}
+
+void ThreadPool::claim_all(std::size_t worker) {
+    for (std::size_t item = next_.fetch_add(1); item < count_; item = next_.fetch_add(1)) (*work_)(item, worker);
+}
+
+void ThreadPool::run(std::size_t count, const Work& work) {
+    if (workers_.empty() || count < 2) {
+        for (std::size_t item = 0; item < count; ++item) work(item, 0);
+        return;
+    }
+    {
+        const std::lock_guard lock(mutex_);
+        work_ = &work;
+        count_ = count;
+        next_ = 0;
+        busy_ = workers_.size();
+        ++batch_;
+    }
+    start_.notify_all();
+    claim_all(0);
+    std::unique_lock lock(mutex_);
+    done_.wait(lock, [this] { return busy_ == 0; });
+}
+
+void ThreadPool::serve(std::size_t worker) {
+    std::uint64_t served = 0;
+    while (true) {
+        {
+            std::unique_lock lock(mutex_);
+            start_.wait(lock, [&] { return ending_ || batch_ != served; });
+            if (ending_) return;
+            served = batch_;
+        }
+        claim_all(worker);
+        const std::lock_guard lock(mutex_);
+        if (--busy_ == 0) done_.notify_one();
+    }
+}
+
+}  // namespace roboss

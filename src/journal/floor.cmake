@@ -1,0 +1,3 @@
+# SQLite holds checkpoint files; no other floor knows it.
+find_package(SQLite3 REQUIRED)
+target_link_libraries(roboss_journal PRIVATE SQLite::SQLite3)

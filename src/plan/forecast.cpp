@@ -1,0 +1,86 @@
+// Forecast boxes: the robot's own box, moved along its velocity, with a margin for what may accelerate it.
+#include "plan/forecast.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace roboss {
+
+namespace {
+
+constexpr double kTurn = 0.15;           // share of the way that a turn may bend sideways
+constexpr double kAcceleration = 15.0;   // m/s^2: a fall, a hard start or stop
+
+std::array<float, 3> to_floats(const Vec3& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+/// A setpoint can change, a motor can start: how far beyond its way a robot may come.
+double margin(double speed, double span_s) {
+    return kTurn * speed * span_s + 0.5 * kAcceleration * span_s * span_s;
+}
+
+}  // namespace
+
+RobotMotion motion_of(const Model& model, RobotId robot, const RobotState& state) {
+    const Aabb bound = interaction_bound(model, robot, state);
+    RobotMotion motion;
+    motion.swept = outward(bound);
+    motion.centre = to_floats(bound.centre());
+    if (model.type_of(robot).free_base) motion.velocity = to_floats({state.v[3], state.v[4], state.v[5]});
+    return motion;
+}
+
+void Forecast::predict(std::span<const RobotMotion> motions, double span_s, double reach_scale) {
+    for (std::uint32_t robot = 0; robot < motions.size(); ++robot) {
+        const RobotMotion& m = motions[robot];
+        double speed = 0;
+        for (const float v : m.velocity) speed += static_cast<double>(v) * v;
+        speed = std::sqrt(speed);
+        OwnedBox& out = boxes_.emplace_back();
+        out.owner = robot;
+        for (std::size_t k = 0; k < 3; ++k) {
+            // the last swept box less the way made in it is the robot's own size
+            const double way_before = std::fabs(static_cast<double>(m.velocity[k])) * m.span_s;
+            const double size = static_cast<double>(m.swept.max[k]) - m.swept.min[k];
+            const double half = 0.5 * std::max(size - way_before, 0.0) + reach_scale * margin(speed, span_s);
+            const double way = reach_scale * m.velocity[k] * span_s;
+            out.box.min[k] = round_down(m.centre[k] - half + std::min(way, 0.0));
+            out.box.max[k] = round_up(m.centre[k] + half + std::max(way, 0.0));
+        }
+    }
+}
+
+void Forecast::predict_orders(std::span<const Order> orders, double span_s) {
+    for (const Order& order : orders) {
+        const double reach = model_->type_of(order.robot).reach;
+        if (const auto* pose = std::get_if<SetPose>(&order.action)) {
+            Aabb box;
+            box.include(pose->X_WR.p);
+            boxes_.push_back({outward(box.inflated(2 * reach + margin(0, span_s))), order.robot.value});
+        } else if (const auto* velocity = std::get_if<SetVelocity>(&order.action)) {
+            const Box32 own = boxes_[order.robot.index()].box;
+            Aabb box{{own.min[0], own.min[1], own.min[2]}, {own.max[0], own.max[1], own.max[2]}};
+            const Vec3 way = velocity->linear * span_s;
+            box.include(Aabb{box.min + way, box.max + way});
+            boxes_.push_back({outward(box), order.robot.value});
+        }
+    }
+}
+
+void Forecast::islands(std::span<const RobotMotion> motions, std::span<const Order> orders, Tick ticks,
+                       const ForecastOptions& options, Islands& out) {
+    sets_.reset(motions.size());
+    if (options.merge_all) {
+        for (std::uint32_t robot = 1; robot < motions.size(); ++robot) sets_.unite(0, robot);
+    } else if (!options.blind) {
+        const double span_s = static_cast<double>(ticks) * model_->dt_s;
+        boxes_.clear();
+        predict(motions, span_s, options.reach_scale);
+        predict_orders(orders, span_s);
+        sweep_.unite_overlapping(boxes_, sets_);
+    }
+    collect_islands(sets_, out);
+}
+
+}  // namespace roboss

@@ -1,0 +1,51 @@
+// The Clients that the Controller serves: who observes which ticks, whose words are still to come, and so how far the
+// world may go. Words are numbered and accepted in order, so it does not matter how the Bus treats them.
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "wire/message.h"
+
+namespace roboss {
+
+struct ClientSeat {
+    std::string name;
+    Address address;
+    Tick period = 1, latency = 1;
+    bool synchronous = true;
+    bool joined = false, gone = false;
+    Tick first = 0;                    // tick of its first observation
+    std::uint64_t last_word = 0;
+    std::vector<RefusedOrder> refused;  // of the last word
+    std::deque<Tick> unanswered;       // observations told and not answered, ascending
+    std::int64_t told_ms = 0;
+    bool serves() const { return joined && !gone; }
+};
+
+class ClientDesk {
+  public:
+    /// A run waits for these Clients before its first window; their ids are their places here, whoever comes first.
+    explicit ClientDesk(const std::vector<std::string>& expected);
+
+    /// Takes a Client in; `earliest`: the first tick that is not planned yet. The seat is joined() already if the hello came twice.
+    ClientId welcome(const Address& address, const ClientHello& hello, Tick earliest, bool& is_new);
+    bool all_joined() const;
+
+    ClientSeat* find(ClientId id) { return id.index() < seats_.size() ? &seats_[id.index()] : nullptr; }
+    std::vector<ClientSeat>& seats() { return seats_; }
+    const std::vector<ClientSeat>& seats() const { return seats_; }
+
+    static bool observes(const ClientSeat& seat, Tick tick) {
+        return seat.serves() && tick >= seat.first && tick % seat.period == 0;
+    }
+    /// The furthest tick to which the world may be planned from `tick`: not beyond the next observation, nor beyond what a
+    /// synchronous Client that has not answered yet may still order. May be `tick` itself: wait.
+    Tick limit(Tick tick) const;
+
+  private:
+    std::vector<ClientSeat> seats_;
+};
+
+}  // namespace roboss

@@ -1,0 +1,145 @@
+// The Controller's outline, and who it talks to.
+#include "roles/controller.h"
+
+#include <algorithm>
+
+#include "core/float_env.h"
+#include "wire/state_block.h"
+
+namespace roboss {
+
+StartingPoint beginning_of(const Model& model) {
+    StartingPoint start;
+    for (std::size_t i = 0; i < model.robots.size(); ++i) start.states.push_back(initial_state(model, RobotId(i)));
+    return start;
+}
+
+Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptions& options, StartingPoint start)
+    : model_(std::move(model)),
+      options_(options),
+      desk_(options.clients),
+      tick_(start.tick),
+      target_(start.tick),
+      forecast_(model_),
+      length_(options.window, options.window_max) {
+    const std::size_t n = model_->robots.size();
+    ROBOSS_CHECK(start.states.size() == n, "the starting point has not one state a robot");
+    const ExactFloatScope exact;
+    for (std::size_t i = 0; i < n; ++i) {
+        hashes_.push_back(state_hash(RobotId(i), tick_, start.states[i]));
+        motions_.push_back(motion_of(*model_, RobotId(i), start.states[i]));
+        cost_.push_back(static_cast<float>(4 + model_->type_of(RobotId(i)).nv));
+    }
+    next_hashes_ = hashes_;
+    holder_.assign(n, kAtController);
+    for (const Order& order : start.orders) book_.add(order, OrderBook::kGiven);
+    base_.tick = tick_;
+    base_.states = std::move(start.states);
+    base_.touched.reset(n);
+}
+
+void Controller::advance(Bus& bus) {
+    bus.drain(kControllerAddress, inbox_);
+    for (Envelope& envelope : inbox_) handle(bus, envelope);
+    notice_losses(bus);
+    pull_.advance(bus, kControllerAddress, options_.resend_ms);
+    if (round_ && round_->all_answered()) finish_round();
+    if (!round_) at_boundary(bus);
+    if (round_) round_->send(bus, roster_, options_.resend_ms);
+    send_observations(bus, std::exchange(tell_again_, false));
+}
+
+void Controller::handle(Bus& bus, Envelope& envelope) {
+    const Address& from = envelope.from;
+    if (const auto* frame = std::get_if<Frame>(&envelope.message)) {
+        if (heard_from(bus, from, frame->simulator)) take_frame(*frame);
+    } else if (const auto* alive = std::get_if<Alive>(&envelope.message)) {
+        heard_from(bus, from, alive->simulator);
+    } else if (const auto* request = std::get_if<StateRequest>(&envelope.message)) {
+        serve(bus, from, *request);
+    } else if (const auto* reply = std::get_if<StateReply>(&envelope.message)) {
+        if (next_base_)
+            pull_.accept(*model_, *reply,
+                         [&](RobotId robot, RobotState&& s) { next_base_->states[robot.index()] = std::move(s); });
+    } else if (const auto* word = std::get_if<ClientWord>(&envelope.message)) {
+        take_word(bus, *word);
+    } else if (const auto* hello = std::get_if<Hello>(&envelope.message)) {
+        take_hello(bus, from, *hello);
+    } else if (const auto* client_hello = std::get_if<ClientHello>(&envelope.message)) {
+        take_client_hello(bus, from, *client_hello);
+    } else if (const auto* leave = std::get_if<LeaveRequest>(&envelope.message)) {
+        take_leave(bus, from, *leave);
+    } else if (const auto* bye = std::get_if<ClientBye>(&envelope.message)) {
+        take_bye(bus, *bye);
+    }
+}
+
+void Controller::take_hello(Bus& bus, const Address& from, const Hello& hello) {
+    if (hello.model_hash != model_->hash)
+        return bus.send(kControllerAddress, from,
+                        Refused{"its world (model hash " + to_hex(hello.model_hash) + ") is not this run's (" +
+                                to_hex(model_->hash) + ")"});
+    bool is_new = false;
+    const SimulatorId id = roster_.seat_for(from, hello.threads, bus.now_ms(), is_new);
+    if (is_new) notice("simulator " + std::to_string(id.value) + " joined at tick " + std::to_string(tick_));
+    counters_.simulators = roster_.alive_count();
+    bus.send(kControllerAddress, from, Welcome{id});
+}
+
+bool Controller::heard_from(Bus& bus, const Address& from, SimulatorId id) {
+    if (!roster_.known(id)) return false;
+    SimulatorSeat& seat = roster_.seat(id.value);
+    if (seat.alive) {
+        seat.heard_ms = bus.now_ms();
+    } else if (seat.leaving) {
+        bus.send(kControllerAddress, from, Goodbye{id});
+    } else {
+        bus.send(kControllerAddress, from, Expelled{id});
+    }
+    return seat.alive;
+}
+
+void Controller::take_leave(Bus& bus, const Address& from, const LeaveRequest& request) {
+    if (!heard_from(bus, from, request.simulator)) return;
+    SimulatorSeat& seat = roster_.seat(request.simulator.value);
+    if (!seat.leaving) notice("simulator " + std::to_string(request.simulator.value) + " wants to leave");
+    seat.leaving = true;
+}
+
+void Controller::serve(Bus& bus, const Address& from, const StateRequest& request) const {
+    if (request.tick != base_.tick) return;
+    StateReply reply;
+    reply.states.tick = request.tick;
+    for (const RobotId robot : request.robots)
+        if (robot.index() < base_.states.size()) append(reply.states, robot, base_.states[robot.index()]);
+    bus.send(kControllerAddress, from, std::move(reply));
+}
+
+bool Controller::settled() const {
+    return resting() && std::all_of(desk_.seats().begin(), desk_.seats().end(), [this](const ClientSeat& seat) {
+               return !seat.synchronous || seat.unanswered.empty() || seat.unanswered.front() >= tick_;
+           });
+}
+
+const std::vector<RobotState>* Controller::states() const {
+    if (base_.tick == tick_) return &base_.states;
+    return next_base_ && next_base_->tick == tick_ && pull_.complete() ? &next_base_->states : nullptr;
+}
+
+Result<> Controller::submit(const Order& order) {
+    if (Result<> checked = check_order(*model_, order); !checked) return checked;
+    if (order.apply_at < plannable())
+        return Error{"an order for tick " + std::to_string(order.apply_at) + " comes too late, the world is at tick " +
+                         std::to_string(plannable()),
+                     "give a later time"};
+    book_.add(order, OrderBook::kGiven);
+    return Ok{};
+}
+
+void Controller::fail(Error error) {
+    if (failure_) return;
+    notice("stopped: " + error.message);
+    failure_ = std::move(error);
+}
+
+}  // namespace roboss

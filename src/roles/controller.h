@@ -1,0 +1,194 @@
+// The Controller role (the paper's section 3): plans windows, validates what came of them, commits, stamps orders, serves
+// observations, and brings back what a lost Simulator had. It steps nothing. The truth is in its committed tick, the robots' hashes
+// there, the last checkpoint and the order log; everything else can be asked for again.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/bus.h"
+#include "bus/state_pull.h"
+#include "plan/forecast.h"
+#include "plan/window_length.h"
+#include "roles/client_desk.h"
+#include "roles/order_book.h"
+#include "roles/roster.h"
+#include "roles/round.h"
+
+namespace roboss {
+
+struct ControllerOptions {
+    Tick window = 0;       // ticks; 0: adaptive
+    Tick window_max = 64;  // of the adaptive one
+    ForecastOptions forecast;
+    std::size_t simulators = 1;         // the first window waits for so many
+    std::vector<std::string> clients;   // and for these; their ids are their places here
+    std::uint64_t seed = 1;             // told to Clients
+    std::int64_t resend_ms = 100;
+    std::int64_t loss_ms = 0;           // a Simulator silent for so long is given up; 0: never
+    Tick checkpoint_ticks = 0;          // recovery checkpoints at most so far apart; 0: none by ticks
+    double checkpoint_work_s = 0;       // and so much stepping CPU time of the busiest Simulator apart; 0: none by work
+};
+
+/// Where a run starts: the world's beginning, or a saved run.
+struct StartingPoint {
+    Tick tick = 0;
+    std::vector<RobotState> states;  // by RobotId
+    std::vector<Order> orders;       // still to come
+};
+StartingPoint beginning_of(const Model& model);
+
+struct Counters {
+    std::uint64_t windows = 0;           // committed
+    std::uint64_t windows_repeated = 0;  // of these, with islands merged and stepped again
+    std::uint64_t robots_repeated = 0;   // robots stepped again, summed over attempts
+    std::uint64_t islands = 0;           // summed over windows
+    std::uint64_t ticks = 0;             // committed by this run
+    std::uint64_t island_ticks = 0;      // islands times ticks: islands_mean = island_ticks / ticks
+    std::uint64_t contacts = 0, static_contacts = 0;  // summed over ticks
+    double step_cpu_s = 0;               // all stepping, repeats included
+    std::uint64_t losses = 0, recoveries = 0, migrations = 0, checkpoints = 0, orders_refused = 0;
+    std::size_t simulators = 0, islands_now = 0;
+};
+
+class Controller {
+  public:
+    Controller(std::shared_ptr<const Model> model, const ControllerOptions& options, StartingPoint start);
+
+    /// Handles what has come and starts what is due. Never waits.
+    void advance(Bus& bus);
+
+    /// The world goes on until this tick and stops there. An earlier one than tick() pauses at the next boundary.
+    void run_until(Tick target) { target_ = target; }
+    Tick target() const { return target_; }
+    Tick tick() const { return tick_; }  // committed
+    /// At the target with nothing under way.
+    bool resting() const { return tick_ >= target_ && !round_ && started_; }
+    /// Resting, and every synchronous Client has answered all it observed before tick(): time for a save.
+    bool settled() const;
+    /// Nothing under way any more after a failure.
+    bool stopped() const { return failure_ && !round_; }
+    /// Set: the run cannot go on; tick() and states are those before.
+    const std::optional<Error>& failure() const { return failure_; }
+
+    /// The 64-bit hash of the world at tick().
+    std::uint64_t hash() const { return world_hash(model_->hash, hashes_); }
+    std::uint64_t robot_hash(RobotId robot) const { return hashes_[robot.index()]; }
+    /// Fetches all states at tick(); only while resting (or failed). Then states() has them after some advances.
+    void request_states() { states_wanted_ = true; }
+    const std::vector<RobotState>* states() const;
+
+    /// An order with a given tick, `apply_at` >= tick().
+    Result<> submit(const Order& order);
+    /// Orders that a run saved at tick() takes along.
+    std::vector<Order> pending_orders() { return book_.pending(tick_); }
+
+    const Counters& counters() const { return counters_; }
+    /// What happened since the last call: losses, refusals, joins. One line each.
+    std::vector<std::string> take_notices() { return std::exchange(notices_, {}); }
+    /// Index of the Simulator that has the robot; for drawing.
+    std::uint32_t place_of(RobotId robot) const { return holder_[robot.index()]; }
+    const Islands& islands() const { return islands_; }
+
+  private:
+    /// A committed tick that somebody still wants to fetch.
+    struct Want {
+        Tick tick = 0;
+        std::vector<std::uint32_t> holder;  // by RobotId: place, or kLost
+        std::vector<ClientId> clients;
+        bool checkpoint = false;
+        bool open() const { return checkpoint || !clients.empty(); }
+    };
+    struct Checkpoint {
+        Tick tick = 0;
+        std::vector<RobotState> states;
+        UnionFind touched;  // robots that may have interacted since
+    };
+
+    // controller.cpp: messages in
+    void handle(Bus& bus, Envelope& envelope);
+    void take_hello(Bus& bus, const Address& from, const Hello& hello);
+    void take_leave(Bus& bus, const Address& from, const LeaveRequest& request);
+    bool heard_from(Bus& bus, const Address& from, SimulatorId id);
+    void serve(Bus& bus, const Address& from, const StateRequest& request) const;
+    void fail(Error error);
+    void notice(std::string text) { notices_.push_back(std::move(text)); }
+
+    // controller_clients.cpp
+    void take_client_hello(Bus& bus, const Address& from, const ClientHello& hello);
+    void take_word(Bus& bus, const ClientWord& word);
+    void take_orders(ClientSeat& seat, const ClientWord& word);
+    void take_bye(Bus& bus, const ClientBye& bye);
+    void tell_observers();
+    void tell_observer(ClientId id, Tick tick);
+    void forget(ClientId id, Tick tick);
+    void send_observations(Bus& bus, bool again_now);
+    Want& want_at_this_tick();
+    Tick plannable() const { return round_ && !round_->span().recovery ? round_->span().until : tick_; }
+
+    // controller_window.cpp
+    void at_boundary(Bus& bus);
+    bool may_plan() const;
+    void plan_window();
+    void keep_wanted(Round& round) const;
+    void take_frame(const Frame& frame);
+    void finish_round();
+    bool merge_touching();
+    void commit();
+    void learn_costs();
+    std::optional<Error> failed_island() const;
+
+    // controller_recovery.cpp: checkpoints, leaving, losses
+    void notice_losses(Bus& bus);
+    void begin_checkpoint();
+    void finish_checkpoint();
+    bool checkpoint_due() const;
+    bool let_leavers_go(Bus& bus);
+    bool anything_lost() const;
+    void begin_recovery();
+    std::vector<RobotId> closure_of_lost();
+    void begin_leg(Tick from);
+    void finish_leg();
+    bool is_lost(std::uint32_t place) const { return place != kAtController && !roster_.alive(place); }
+
+    std::shared_ptr<const Model> model_;
+    ControllerOptions options_;
+    Roster roster_;
+    ClientDesk desk_;
+    OrderBook book_;
+
+    Tick tick_ = 0, target_ = 0;
+    bool started_ = false;
+    std::vector<std::uint64_t> hashes_, next_hashes_;  // by RobotId: committed; of the round
+    std::vector<std::uint32_t> holder_;                // by RobotId: place of its state at tick_
+    std::vector<RobotMotion> motions_;                 // by RobotId, for the forecast
+    std::vector<float> cost_;                          // by RobotId: work a tick
+    Forecast forecast_;
+    WindowLength length_;
+    Islands islands_;  // of the last window committed
+
+    std::optional<Round> round_;
+    std::uint32_t epoch_ = 0;
+    std::uint64_t window_ = 0;
+    std::vector<OwnedBox> boxes_;
+    UnionFind sets_;
+    Sweep sweep_;
+
+    Checkpoint base_;
+    std::optional<Checkpoint> next_base_;  // being fetched, or waiting until nobody wants an earlier tick
+    StatePull pull_;
+    double work_since_s_ = 0;  // of the busiest Simulator since the last checkpoint
+    bool states_wanted_ = false;
+    std::vector<Want> wants_;
+    std::vector<RobotId> recovering_;  // robots of the recovery under way, ascending
+    bool tell_again_ = false;
+
+    std::optional<Error> failure_;
+    Counters counters_;
+    std::vector<std::string> notices_;
+    std::vector<Envelope> inbox_;
+};
+
+}  // namespace roboss

@@ -1,0 +1,122 @@
+// The Controller towards Clients: words in, observations out.
+#include <algorithm>
+
+#include "roles/controller.h"
+
+namespace roboss {
+
+void Controller::take_client_hello(Bus& bus, const Address& from, const ClientHello& hello) {
+    if (hello.model_hash != model_->hash)
+        return bus.send(kControllerAddress, from, Refused{"its world is not this run's"});
+    bool is_new = false;
+    const ClientId id = desk_.welcome(from, hello, plannable(), is_new);
+    const ClientSeat& seat = desk_.seats()[id.index()];
+    bus.send(kControllerAddress, from, ClientWelcome{id, seat.first, options_.seed});
+    if (!is_new) return;
+    notice("client '" + seat.name + "' joined at tick " + std::to_string(tick_));
+    const bool at_rest = !round_ || round_->span().recovery;
+    if (at_rest && ClientDesk::observes(seat, tick_)) tell_observer(id, tick_);
+}
+
+void Controller::take_word(Bus& bus, const ClientWord& word) {
+    ClientSeat* seat = desk_.find(word.client);
+    if (seat == nullptr || !seat->serves()) return;
+    if (word.word == seat->last_word + 1) {
+        seat->last_word = word.word;
+        take_orders(*seat, word);
+        std::erase_if(seat->unanswered, [&](Tick tick) { return tick == word.observed; });
+        forget(word.client, word.observed);
+    }
+    const bool is_last = word.word == seat->last_word;
+    bus.send(kControllerAddress, seat->address,
+             WordAck{word.client, seat->last_word, is_last ? seat->refused : std::vector<RefusedOrder>{}});
+}
+
+void Controller::take_orders(ClientSeat& seat, const ClientWord& word) {
+    seat.refused.clear();
+    const Tick apply_at = seat.synchronous ? std::max(word.observed + seat.latency, plannable()) : plannable();
+    for (const ClientOrder& given : word.orders) {
+        const Order order{apply_at, word.client, given.sequence, given.robot, given.action};
+        if (Result<> checked = check_order(*model_, order); !checked) {
+            seat.refused.push_back({given.sequence, checked.error().text()});
+            ++counters_.orders_refused;
+            notice("order " + std::to_string(given.sequence) + " of client '" + seat.name + "' refused: " + checked.error().message);
+            continue;
+        }
+        book_.add(order, word.observed);
+    }
+}
+
+void Controller::take_bye(Bus& bus, const ClientBye& bye) {
+    ClientSeat* seat = desk_.find(bye.client);
+    if (seat == nullptr || !seat->joined || bye.word > seat->last_word + 1) return;
+    bus.send(kControllerAddress, seat->address, WordAck{bye.client, bye.word, {}});
+    if (seat->gone || bye.word <= seat->last_word) return;
+    seat->gone = true;
+    seat->last_word = bye.word;
+    for (const Tick tick : seat->unanswered) forget(bye.client, tick);
+    seat->unanswered.clear();
+    if (bye.failed)
+        fail({"client '" + seat->name + "' failed at tick " + std::to_string(tick_) + ": " + bye.reason,
+              "mend the control program; the world up to this tick is intact and can be saved"});
+    else
+        notice("client '" + seat->name + "' left");
+}
+
+Controller::Want& Controller::want_at_this_tick() {
+    if (wants_.empty() || wants_.back().tick != tick_) {
+        wants_.push_back({});
+        wants_.back().tick = tick_;
+        wants_.back().holder = holder_;
+    }
+    return wants_.back();
+}
+
+void Controller::tell_observers() {
+    for (std::size_t i = 0; i < desk_.seats().size(); ++i)
+        if (ClientDesk::observes(desk_.seats()[i], tick_)) tell_observer(ClientId(i), tick_);
+}
+
+void Controller::tell_observer(ClientId id, Tick tick) {
+    ClientSeat& seat = desk_.seats()[id.index()];
+    if (!seat.synchronous) {  // only the newest counts
+        for (const Tick old : seat.unanswered) forget(id, old);
+        seat.unanswered.clear();
+    }
+    seat.unanswered.push_back(tick);
+    seat.told_ms = 0;
+    want_at_this_tick().clients.push_back(id);
+    tell_again_ = true;
+}
+
+void Controller::forget(ClientId id, Tick tick) {
+    for (Want& want : wants_)
+        if (want.tick == tick) std::erase(want.clients, id);
+    std::erase_if(wants_, [](const Want& want) { return !want.open(); });
+}
+
+void Controller::send_observations(Bus& bus, bool again_now) {
+    const std::int64_t now = bus.now_ms();
+    for (std::size_t i = 0; i < desk_.seats().size(); ++i) {
+        ClientSeat& seat = desk_.seats()[i];
+        if (seat.unanswered.empty() || (!again_now && now - seat.told_ms < options_.resend_ms)) continue;
+        seat.told_ms = now;
+        for (const Want& want : wants_) {
+            if (std::find(want.clients.begin(), want.clients.end(), ClientId(i)) == want.clients.end()) continue;
+            Observation observation{want.tick, seat.last_word, {}};
+            std::vector<std::uint32_t> places;
+            for (std::size_t r = 0; r < want.holder.size(); ++r) {
+                if (is_lost(want.holder[r])) continue;  // told again when it is back
+                auto place = std::find(places.begin(), places.end(), want.holder[r]);
+                if (place == places.end()) {
+                    place = places.insert(places.end(), want.holder[r]);
+                    observation.holders.push_back({roster_.address_of(want.holder[r]), {}});
+                }
+                observation.holders[static_cast<std::size_t>(place - places.begin())].robots.emplace_back(r);
+            }
+            bus.send(kControllerAddress, seat.address, std::move(observation));
+        }
+    }
+}
+
+}  // namespace roboss

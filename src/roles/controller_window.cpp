@@ -1,0 +1,226 @@
+// The life of a window: forecast, assign, publish; then frames, validation, repeats where islands touched, commit.
+#include <algorithm>
+
+#include "plan/assign.h"
+#include "roles/controller.h"
+
+namespace roboss {
+
+namespace {
+
+constexpr float kNewCostShare = 0.3f;  // of a window's measurement in a robot's running mean cost
+constexpr double kNewRateShare = 0.1;
+
+/// Speeds of these seats, relative to their mean, so that costs measured on one machine hold for the others.
+std::vector<double> speeds_of(const Roster& roster, std::span<const std::uint32_t> workers) {
+    std::vector<double> speeds;
+    double known = 0, sum = 0;
+    for (const std::uint32_t place : workers)
+        if (roster.seat(place).rate_known) known += 1, sum += roster.seat(place).rate;
+    const double mean = known > 0 ? sum / known : 1;
+    for (const std::uint32_t place : workers) {
+        const SimulatorSeat& seat = roster.seat(place);
+        speeds.push_back((seat.rate_known ? seat.rate : mean) * seat.threads);
+    }
+    return speeds;
+}
+
+/// assign() for seats: places in and out are seats, of which only `workers` may get islands.
+std::vector<std::uint32_t> assign_to_seats(const Islands& islands, std::span<const float> cost, const Roster& roster,
+                                           std::span<const std::uint32_t> holder, double slack) {
+    const std::vector<std::uint32_t> workers = roster.workers();
+    std::vector<std::uint32_t> index_of(roster.size(), kNowhere), place(holder.size(), kNowhere);
+    for (std::uint32_t i = 0; i < workers.size(); ++i) index_of[workers[i]] = i;
+    for (std::size_t r = 0; r < holder.size(); ++r)
+        if (holder[r] < roster.size()) place[r] = index_of[holder[r]];
+    const std::vector<double> speeds = speeds_of(roster, workers);
+    std::vector<std::uint32_t> result = assign({islands, cost, place, speeds, slack});
+    for (std::uint32_t& seat : result) seat = workers[seat];
+    return result;
+}
+
+}  // namespace
+
+void Controller::at_boundary(Bus& bus) {
+    if (!started_) {
+        started_ = roster_.workers().size() >= options_.simulators && desk_.all_joined();
+        if (!started_) return;
+    }
+    if (pull_.complete()) finish_checkpoint();
+    if (failure_) {
+        if (states_wanted_) begin_checkpoint();
+        return;
+    }
+    if (anything_lost()) return begin_recovery();
+    if (let_leavers_go(bus)) return;
+    if (states_wanted_ || checkpoint_due()) begin_checkpoint();
+    if (may_plan()) plan_window();
+}
+
+bool Controller::may_plan() const {
+    return tick_ < target_ && !roster_.workers().empty() && desk_.limit(tick_) > tick_;
+}
+
+void Controller::plan_window() {
+    const Tick until = std::min({tick_ + length_.ticks(), target_, desk_.limit(tick_)});
+    round_.emplace(RoundSpan{epoch_, ++window_, tick_, until, false}, book_.between(tick_, until), model_->robots.size());
+    forecast_.islands(motions_, round_->orders(), until - tick_, options_.forecast, round_->islands);
+    const std::vector<std::uint32_t> place = assign_to_seats(round_->islands, cost_, roster_, holder_, 0.1);
+    round_->plan(round_->islands, place, holder_, roster_);
+    for (std::size_t r = 0; r < holder_.size(); ++r)
+        if (holder_[r] != kAtController && holder_[r] != round_->seat_of(RobotId(r))) ++counters_.migrations;
+    keep_wanted(*round_);
+}
+
+void Controller::keep_wanted(Round& round) const {
+    if (!wants_.empty() && wants_.back().tick == round.span().from) {
+        std::vector<std::vector<RobotId>> robots(roster_.size());
+        for (std::size_t r = 0; r < holder_.size(); ++r)
+            if (holder_[r] < roster_.size()) robots[holder_[r]].emplace_back(r);
+        for (std::uint32_t place = 0; place < robots.size(); ++place)
+            if (!robots[place].empty()) round.keep(place, std::move(robots[place]));
+    }
+    round.release_before(wants_.empty() ? round.span().from : wants_.front().tick);
+}
+
+void Controller::take_frame(const Frame& frame) {
+    if (!round_) return;
+    const std::optional<Plan> plan = round_->answered_by(frame);
+    if (!plan) return;
+    const bool plan_is_recovery = round_->span().recovery;
+    const auto span_s = static_cast<float>(static_cast<double>(plan->until - plan->from) * model_->dt_s);
+    for (const RobotFrame& f : frame.robots) {
+        if (!plan_is_recovery) motions_[f.robot.index()] = {f.swept, f.centre, f.velocity, span_s};
+        next_hashes_[f.robot.index()] = f.hash;
+    }
+    std::uint64_t cost_ns = 0;
+    for (std::size_t i = 0; i < frame.islands.size(); ++i) {
+        round_->outcome[plan->robots[plan->island_offsets[i]].index()] = frame.islands[i];
+        cost_ns += frame.islands[i].cost_ns;
+    }
+    counters_.step_cpu_s += 1e-9 * static_cast<double>(cost_ns);
+    round_->earlier.insert(round_->earlier.end(), frame.earlier.begin(), frame.earlier.end());
+}
+
+void Controller::finish_round() {
+    if (round_->span().recovery) return finish_leg();
+    if (merge_touching()) return;
+    if (std::optional<Error> error = failed_island()) {
+        round_.reset();
+        return fail(std::move(*error));
+    }
+    commit();
+}
+
+bool Controller::merge_touching() {
+    const std::size_t n = model_->robots.size();
+    const Islands& before = round_->islands;
+    std::vector<std::size_t> size_before(n, 0);  // by root
+    sets_.reset(n);
+    for (std::size_t i = 0; i < before.count(); ++i) {
+        const auto robots = before.of(i);
+        size_before[robots.front().index()] = robots.size();
+        for (const RobotId robot : robots) sets_.unite(robots.front().value, robot.value);
+    }
+    boxes_.clear();
+    for (std::uint32_t r = 0; r < n; ++r) boxes_.push_back({motions_[r].swept, r});
+    for (const EarlierBox& e : round_->earlier) boxes_.push_back({e.swept, e.robot.value});
+    if (sweep_.unite_overlapping(boxes_, sets_) == 0) return false;
+
+    Islands all, again;
+    collect_islands(sets_, all);
+    std::vector<bool> stepped_again(n, false);
+    for (std::size_t i = 0; i < all.count(); ++i) {
+        const auto robots = all.of(i);
+        if (robots.size() == size_before[robots.front().index()]) continue;
+        again.robots.insert(again.robots.end(), robots.begin(), robots.end());
+        again.offsets.push_back(static_cast<std::uint32_t>(again.robots.size()));
+        for (const RobotId robot : robots) stepped_again[robot.index()] = true;
+    }
+    std::erase_if(round_->earlier, [&](const EarlierBox& e) { return stepped_again[e.robot.index()]; });
+    round_->islands = std::move(all);
+    counters_.robots_repeated += again.robots.size();
+    const std::vector<std::uint32_t> place = assign_to_seats(again, cost_, roster_, round_->seats(), 0.5);
+    round_->plan(again, place, round_->seats(), roster_);
+    return true;
+}
+
+std::optional<Error> Controller::failed_island() const {
+    const IslandFrame* first = nullptr;
+    for (std::size_t i = 0; i < round_->islands.count(); ++i) {
+        const IslandFrame& outcome = round_->outcome[round_->islands.of(i).front().index()];
+        if (!outcome.failed.valid()) continue;
+        if (first == nullptr || std::pair(outcome.failed_at, outcome.failed) < std::pair(first->failed_at, first->failed))
+            first = &outcome;
+    }
+    if (first == nullptr) return std::nullopt;
+    return Error{"the state of robot '" + model_->robots[first->failed.index()].name + "' is no longer finite after tick " +
+                     std::to_string(first->failed_at) + " (" +
+                     std::to_string(static_cast<double>(first->failed_at) * model_->dt_s) + " s)",
+                 "look for extreme orders or masses, or take a shorter step; the world up to tick " + std::to_string(tick_) +
+                     " is intact and can be saved"};
+}
+
+void Controller::commit() {
+    const Round& round = *round_;
+    const Tick ticks = round.span().until - round.span().from;
+    learn_costs();
+    for (std::size_t i = 0; i < round.islands.count(); ++i) {
+        const auto robots = round.islands.of(i);
+        for (const RobotId robot : robots) {
+            base_.touched.unite(robots.front().value, robot.value);
+            if (next_base_) next_base_->touched.unite(robots.front().value, robot.value);
+        }
+        counters_.contacts += round.outcome[robots.front().index()].contacts;
+        counters_.static_contacts += round.outcome[robots.front().index()].static_contacts;
+    }
+    const double share = static_cast<double>(round.islands.largest()) * roster_.threads() /
+                         static_cast<double>(std::max<std::size_t>(model_->robots.size(), 1));
+    length_.committed(ticks, round.attempt() > 0, share);
+    ++counters_.windows;
+    counters_.windows_repeated += round.attempt() > 0 ? 1 : 0;
+    counters_.islands += round.islands.count();
+    counters_.ticks += static_cast<std::uint64_t>(ticks);
+    counters_.island_ticks += static_cast<std::uint64_t>(ticks) * round.islands.count();
+    counters_.islands_now = round.islands.count();
+
+    holder_.assign(round.seats().begin(), round.seats().end());
+    hashes_ = next_hashes_;
+    tick_ = round.span().until;
+    islands_ = std::move(round_->islands);
+    round_.reset();
+    tell_observers();
+}
+
+void Controller::learn_costs() {
+    const Round& round = *round_;
+    const auto ticks = static_cast<double>(round.span().until - round.span().from);
+    std::vector<double> work(roster_.size(), 0.0), spent_ns(roster_.size(), 0.0);
+    for (std::size_t i = 0; i < round.islands.count(); ++i) {
+        const auto robots = round.islands.of(i);
+        const IslandFrame& outcome = round.outcome[robots.front().index()];
+        const std::uint32_t place = round.seat_of(robots.front());
+        const double rate = roster_.seat(place).rate_known ? roster_.seat(place).rate : 1;
+        double freedoms = 0;
+        for (const RobotId robot : robots) freedoms += 4 + model_->type_of(robot).nv;
+        work[place] += freedoms * ticks + static_cast<double>(outcome.contacts);
+        spent_ns[place] += static_cast<double>(outcome.cost_ns);
+        const double each = rate * static_cast<double>(outcome.cost_ns) / (ticks * static_cast<double>(robots.size()));
+        for (const RobotId robot : robots) {
+            float& cost = cost_[robot.index()];
+            cost += kNewCostShare * (static_cast<float>(std::max(each, 1e-3)) - cost);
+        }
+    }
+    double busiest_ns = 0;
+    for (std::size_t place = 0; place < work.size(); ++place) {
+        if (spent_ns[place] <= 0) continue;
+        busiest_ns = std::max(busiest_ns, spent_ns[place]);
+        SimulatorSeat& seat = roster_.seat(static_cast<std::uint32_t>(place));
+        const double rate = work[place] / spent_ns[place];
+        seat.rate = seat.rate_known ? seat.rate + kNewRateShare * (rate - seat.rate) : rate;
+        seat.rate_known = true;
+    }
+    work_since_s_ += 1e-9 * busiest_ns;
+}
+
+}  // namespace roboss

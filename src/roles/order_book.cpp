@@ -1,0 +1,51 @@
+// Orders in canonical order; new ones are merged in when somebody reads.
+#include "roles/order_book.h"
+
+#include <algorithm>
+
+namespace roboss {
+
+bool OrderBook::add(const Order& order, Tick observed) {
+    // only given orders can come twice (from a file and from a saved run); words of Clients are numbered
+    if (observed == kGiven && !given_.insert({order.apply_at, order.client, order.sequence}).second) return false;
+    fresh_.push_back({order, observed});
+    return true;
+}
+
+void OrderBook::settle() {
+    if (fresh_.empty()) return;
+    const auto before = [](const Entry& a, const Entry& b) { return comes_before(a.order, b.order); };
+    std::sort(fresh_.begin(), fresh_.end(), before);
+    const auto middle = static_cast<std::ptrdiff_t>(entries_.size());
+    entries_.insert(entries_.end(), fresh_.begin(), fresh_.end());
+    std::inplace_merge(entries_.begin(), entries_.begin() + middle, entries_.end(), before);
+    fresh_.clear();
+}
+
+std::vector<Order> OrderBook::between(Tick from, Tick until) {
+    settle();
+    const auto earlier = [](const Entry& e, Tick tick) { return e.order.apply_at < tick; };
+    const auto first = std::lower_bound(entries_.begin(), entries_.end(), from, earlier);
+    const auto last = std::lower_bound(first, entries_.end(), until, earlier);
+    std::vector<Order> orders;
+    orders.reserve(static_cast<std::size_t>(last - first));
+    for (auto it = first; it != last; ++it) orders.push_back(it->order);
+    return orders;
+}
+
+std::vector<Order> OrderBook::pending(Tick tick) {
+    settle();
+    std::vector<Order> orders;
+    for (const Entry& e : entries_)
+        if (e.order.apply_at >= tick && e.observed < tick) orders.push_back(e.order);
+    return orders;
+}
+
+void OrderBook::trim(Tick tick) {
+    settle();
+    const auto earlier = [](const Entry& e, Tick t) { return e.order.apply_at < t; };
+    entries_.erase(entries_.begin(), std::lower_bound(entries_.begin(), entries_.end(), tick, earlier));
+    given_.erase(given_.begin(), given_.lower_bound({tick, ClientId(0u), 0}));
+}
+
+}  // namespace roboss

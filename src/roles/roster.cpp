@@ -1,0 +1,44 @@
+// Seats of Simulators.
+#include "roles/roster.h"
+
+#include <algorithm>
+
+#include "bus/bus.h"
+
+namespace roboss {
+
+SimulatorId Roster::seat_for(const Address& address, std::uint32_t threads, std::int64_t now_ms, bool& is_new) {
+    const auto here = std::find_if(seats_.begin(), seats_.end(),
+                                   [&](const SimulatorSeat& s) { return s.alive && s.address == address; });
+    is_new = here == seats_.end();
+    if (!is_new) return SimulatorId(static_cast<std::size_t>(here - seats_.begin()));
+    SimulatorSeat seat;
+    seat.address = address;
+    seat.threads = std::max(threads, 1u);
+    seat.heard_ms = now_ms;
+    seats_.push_back(seat);
+    return SimulatorId(seats_.size() - 1);
+}
+
+std::size_t Roster::alive_count() const {
+    return static_cast<std::size_t>(std::count_if(seats_.begin(), seats_.end(), [](const auto& s) { return s.alive; }));
+}
+
+std::vector<std::uint32_t> Roster::workers() const {
+    std::vector<std::uint32_t> workers;
+    for (std::uint32_t place = 0; place < seats_.size(); ++place)
+        if (seats_[place].alive && !seats_[place].leaving) workers.push_back(place);
+    return workers;
+}
+
+std::uint32_t Roster::threads() const {
+    std::uint32_t threads = 0;
+    for (const std::uint32_t place : workers()) threads += seats_[place].threads;
+    return threads;
+}
+
+Address Roster::address_of(std::uint32_t place) const {
+    return place == kAtController ? kControllerAddress : seats_[place].address;
+}
+
+}  // namespace roboss

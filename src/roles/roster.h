@@ -1,0 +1,47 @@
+// The Simulators that the Controller knows. A seat is never given twice, so a message that names a lost Simulator's seat
+// can be told from one of its successor.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "wire/message.h"
+
+namespace roboss {
+
+/// Where a robot's state is: the index of a seat, or one of these.
+inline constexpr std::uint32_t kAtController = 0xFFFFFFFEu;
+inline constexpr std::uint32_t kLost = 0xFFFFFFFDu;
+
+struct SimulatorSeat {
+    Address address;
+    bool alive = true;
+    bool leaving = false;        // asked to go; with !alive: has gone in good order
+    std::uint32_t threads = 1;
+    std::int64_t heard_ms = 0;
+    double rate = 1;             // measured: work per ns of CPU time
+    bool rate_known = false;
+    double speed() const { return rate * threads; }
+};
+
+class Roster {
+  public:
+    /// The seat of the living Simulator at this address; a new one if there is none.
+    SimulatorId seat_for(const Address& address, std::uint32_t threads, std::int64_t now_ms, bool& is_new);
+    bool known(SimulatorId id) const { return id.index() < seats_.size(); }
+    bool alive(std::uint32_t place) const { return place < seats_.size() && seats_[place].alive; }
+    SimulatorSeat& seat(std::uint32_t place) { return seats_[place]; }
+    const SimulatorSeat& seat(std::uint32_t place) const { return seats_[place]; }
+    std::size_t size() const { return seats_.size(); }
+    std::size_t alive_count() const;
+    /// Seats that may get work: alive and not leaving.
+    std::vector<std::uint32_t> workers() const;
+    /// Threads of all workers.
+    std::uint32_t threads() const;
+    Address address_of(std::uint32_t place) const;
+
+  private:
+    std::vector<SimulatorSeat> seats_;
+};
+
+}  // namespace roboss

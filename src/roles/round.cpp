@@ -1,0 +1,84 @@
+// Writing, sending and ticking off the plans of a window.
+#include "roles/round.h"
+
+#include <algorithm>
+
+namespace roboss {
+
+Round::Round(const RoundSpan& span, std::vector<Order> orders, std::size_t robots)
+    : outcome(robots), span_(span), orders_(std::move(orders)), seat_(robots, kLost) {}
+
+Plan& Round::plan_for(std::uint32_t place) {
+    const auto here = std::find_if(sent_.begin(), sent_.end(), [place](const Sent& s) { return s.place == place; });
+    if (here != sent_.end()) return here->plan;
+    Sent& sent = sent_.emplace_back();
+    sent.place = place;
+    sent.plan.epoch = span_.epoch;
+    sent.plan.window = span_.window;
+    sent.plan.attempt = attempt_;
+    sent.plan.simulator = SimulatorId(place);
+    sent.plan.from = span_.from;
+    sent.plan.until = span_.until;
+    sent.plan.island_offsets.push_back(0);
+    return sent.plan;
+}
+
+void Round::plan(const Islands& part, std::span<const std::uint32_t> place, std::span<const std::uint32_t> source,
+                 const Roster& roster) {
+    if (planned_) ++attempt_;
+    planned_ = true;
+    std::vector<std::uint32_t> from(source.begin(), source.end());  // `source` may be seats(), which change below
+    std::vector<bool> in_part(seat_.size(), false);
+    for (std::size_t i = 0; i < part.count(); ++i) {
+        Plan& plan = plan_for(place[i]);
+        for (const RobotId robot : part.of(i)) {
+            plan.robots.push_back(robot);
+            seat_[robot.index()] = place[i];
+            in_part[robot.index()] = true;
+            if (from[robot.index()] == place[i]) continue;
+            const Address address = roster.address_of(from[robot.index()]);
+            auto& holdings = plan.hand_offs;
+            auto holding = std::find_if(holdings.begin(), holdings.end(), [&](const Holding& h) { return h.source == address; });
+            if (holding == holdings.end()) holding = holdings.insert(holdings.end(), Holding{address, {}});
+            holding->robots.push_back(robot);
+        }
+        plan.island_offsets.push_back(static_cast<std::uint32_t>(plan.robots.size()));
+    }
+    for (const Order& order : orders_)
+        if (in_part[order.robot.index()]) plan_for(seat_[order.robot.index()]).orders.push_back(order);
+}
+
+void Round::keep(std::uint32_t place, std::vector<RobotId> robots) {
+    plan_for(place).keep = std::move(robots);
+}
+
+void Round::release_before(Tick tick) {
+    for (Sent& sent : sent_) sent.plan.release_before = tick;
+}
+
+void Round::send(Bus& bus, const Roster& roster, std::int64_t resend_ms) {
+    const std::int64_t now = bus.now_ms();
+    for (Sent& sent : sent_) {
+        if (sent.sent_ms && now - *sent.sent_ms < resend_ms) continue;
+        sent.sent_ms = now;
+        bus.send(kControllerAddress, roster.address_of(sent.place), sent.plan);
+    }
+}
+
+std::optional<Plan> Round::answered_by(const Frame& frame) {
+    if (frame.epoch != span_.epoch || frame.window != span_.window || frame.attempt != attempt_) return std::nullopt;
+    const auto sent = std::find_if(sent_.begin(), sent_.end(), [&](const Sent& s) { return s.plan.simulator == frame.simulator; });
+    if (sent == sent_.end()) return std::nullopt;
+    const Plan& plan = sent->plan;
+    const bool fits = frame.robots.size() == plan.robots.size() && frame.islands.size() + 1 == plan.island_offsets.size() &&
+                      std::equal(plan.robots.begin(), plan.robots.end(), frame.robots.begin(),
+                                 [](RobotId robot, const RobotFrame& f) { return robot == f.robot; }) &&
+                      std::all_of(frame.earlier.begin(), frame.earlier.end(),
+                                  [&](const EarlierBox& e) { return e.robot.index() < seat_.size(); });
+    if (!fits) return std::nullopt;
+    std::optional<Plan> answered = std::move(sent->plan);
+    sent_.erase(sent);
+    return answered;
+}
+
+}  // namespace roboss

@@ -1,0 +1,69 @@
+// Round: one attempt at a window under way: which Simulator has which islands, the plans sent and not answered, and what the
+// answers said so far. Kept by RobotId in flat arrays, so merging islands moves nothing.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bus/bus.h"
+#include "plan/forecast.h"
+#include "roles/roster.h"
+
+namespace roboss {
+
+struct RoundSpan {
+    std::uint32_t epoch = 0;
+    std::uint64_t window = 0;
+    Tick from = 0, until = 0;
+    bool recovery = false;  // steps what was committed before, from a checkpoint
+};
+
+class Round {
+  public:
+    Round(const RoundSpan& span, std::vector<Order> orders, std::size_t robots);
+
+    const RoundSpan& span() const { return span_; }
+    const std::vector<Order>& orders() const { return orders_; }
+    std::uint32_t attempt() const { return attempt_; }
+
+    /// Writes plans: islands.of(i) to seat place[i]; `source`[robot]: where its state at `from` is. Later calls are further
+    /// attempts, for the islands given only.
+    void plan(const Islands& islands, std::span<const std::uint32_t> place, std::span<const std::uint32_t> source,
+              const Roster& roster);
+    /// To be kept by the Simulator at `place` on receiving the plan; writes an empty plan if it has none.
+    void keep(std::uint32_t place, std::vector<RobotId> robots);
+    void release_before(Tick tick);
+    /// Sends plans that were never sent or not answered for resend_ms.
+    void send(Bus& bus, const Roster& roster, std::int64_t resend_ms);
+
+    /// The plan that this frame answers, removed from those unanswered; nothing if it answers none.
+    std::optional<Plan> answered_by(const Frame& frame);
+    bool all_answered() const { return sent_.empty(); }
+
+    /// The seat that steps this robot.
+    std::uint32_t seat_of(RobotId robot) const { return seat_[robot.index()]; }
+    std::span<const std::uint32_t> seats() const { return seat_; }
+
+    Islands islands;                      // of the whole window so far
+    std::vector<IslandFrame> outcome;     // by the island's root
+    std::vector<EarlierBox> earlier;
+
+  private:
+    struct Sent {
+        std::uint32_t place = 0;
+        Plan plan;
+        std::optional<std::int64_t> sent_ms;
+    };
+    Plan& plan_for(std::uint32_t place);
+
+    RoundSpan span_;
+    std::vector<Order> orders_;
+    std::uint32_t attempt_ = 0;
+    bool planned_ = false;
+    std::vector<Sent> sent_;
+    std::vector<std::uint32_t> seat_;
+};
+
+}  // namespace roboss

@@ -1,0 +1,121 @@
+// The Simulator: messages in, frames out.
+#include "roles/simulator.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace roboss {
+
+namespace {
+
+template <class A, class B>
+bool same_attempt(const A& a, const B& b) {
+    return std::tie(a.epoch, a.window, a.attempt) == std::tie(b.epoch, b.window, b.attempt);
+}
+
+template <class A, class B>
+bool is_newer(const A& a, const B& b) {
+    return std::tie(a.epoch, a.window, a.attempt) > std::tie(b.epoch, b.window, b.attempt);
+}
+
+bool known(const Model& model, const std::vector<RobotId>& robots) {
+    return std::all_of(robots.begin(), robots.end(), [&](RobotId r) { return r.index() < model.robots.size(); });
+}
+
+}  // namespace
+
+Simulator::Simulator(std::shared_ptr<const Model> model, const Address& self, const SimulatorOptions& options, ThreadPool& pool)
+    : model_(std::move(model)), self_(self), options_(options), store_(*model_), stepper_(model_, pool, options.measure_cpu) {}
+
+void Simulator::advance(Bus& bus) {
+    if (gone_) return;
+    bus.drain(self_, inbox_);
+    for (Envelope& envelope : inbox_) handle(bus, envelope);
+    keep_in_touch(bus);
+    if (gone_ || !plan_) return;
+    if (!pull_.complete()) return pull_.advance(bus, self_, options_.resend_ms);
+    answer_ = stepper_.step(*plan_, store_, [&] { say_alive(bus); });
+    plan_.reset();
+    bus.send(self_, kControllerAddress, *answer_);
+}
+
+void Simulator::handle(Bus& bus, Envelope& envelope) {
+    if (auto* plan = std::get_if<Plan>(&envelope.message)) {
+        take_plan(bus, *plan);
+    } else if (const auto* request = std::get_if<StateRequest>(&envelope.message)) {
+        serve(bus, envelope.from, *request);
+    } else if (const auto* reply = std::get_if<StateReply>(&envelope.message)) {
+        const Tick tick = reply->states.tick;
+        pull_.accept(*model_, *reply, [&](RobotId robot, RobotState&& state) { store_.put(robot, tick, std::move(state)); });
+    } else if (const auto* welcome = std::get_if<Welcome>(&envelope.message)) {
+        if (id_.valid() && welcome->simulator <= id_) return;  // an old one
+        start_over();
+        id_ = welcome->simulator;
+    } else if (const auto* expelled = std::get_if<Expelled>(&envelope.message)) {
+        if (expelled->simulator == id_) start_over();
+    } else if (const auto* goodbye = std::get_if<Goodbye>(&envelope.message)) {
+        gone_ = gone_ || (goodbye->simulator == id_ && leaving_);
+    } else if (const auto* refused = std::get_if<Refused>(&envelope.message)) {
+        refusal_ = refused->reason;
+        gone_ = true;
+    }
+}
+
+void Simulator::take_plan(Bus& bus, Plan& plan) {
+    if (plan.simulator != id_) return;
+    if (answer_ && same_attempt(plan, *answer_)) return bus.send(self_, kControllerAddress, *answer_);
+    if ((answer_ && !is_newer(plan, *answer_)) || (plan_ && !is_newer(plan, *plan_))) return;
+    const bool robots_known = known(*model_, plan.robots) && known(*model_, plan.keep);
+    const bool orders_ok = std::all_of(plan.orders.begin(), plan.orders.end(),
+                                       [&](const Order& order) { return check_order(*model_, order).ok(); });
+    if (robots_known && orders_ok) adopt(plan);
+}
+
+void Simulator::adopt(Plan& plan) {
+    store_.keep(plan.keep, plan.from);
+    store_.release_before(plan.release_before);
+    std::vector<bool> comes(model_->robots.size(), false);
+    for (const Holding& holding : plan.hand_offs)
+        for (const RobotId robot : holding.robots)
+            if (robot.index() < comes.size()) comes[robot.index()] = true;
+    for (const RobotId robot : plan.robots)
+        ROBOSS_CHECK(comes[robot.index()] || store_.start(robot, plan.from),
+                     "simulator " + std::to_string(id_.value) + " lacks robot " + std::to_string(robot.value) + " at tick " +
+                         std::to_string(plan.from));
+    pull_.begin(*model_, plan.from, plan.hand_offs);
+    plan_ = std::move(plan);
+}
+
+void Simulator::serve(Bus& bus, const Address& from, const StateRequest& request) const {
+    StateReply reply;
+    reply.states.tick = request.tick;
+    for (const RobotId robot : request.robots) store_.copy_to(reply.states, robot, request.tick);
+    if (!reply.states.robots.empty()) bus.send(self_, from, std::move(reply));
+}
+
+void Simulator::keep_in_touch(Bus& bus) {
+    const std::int64_t now = bus.now_ms();
+    if (id_.valid()) say_alive(bus);
+    if (now - asked_ms_ < options_.resend_ms) return;
+    if (!id_.valid()) bus.send(self_, kControllerAddress, Hello{model_->hash, static_cast<std::uint32_t>(stepper_.threads())});
+    if (id_.valid() && leaving_) bus.send(self_, kControllerAddress, LeaveRequest{id_});
+    asked_ms_ = now;
+}
+
+void Simulator::say_alive(Bus& bus) {
+    const std::int64_t now = bus.now_ms();
+    if (now - alive_ms_ < options_.alive_ms) return;
+    alive_ms_ = now;
+    bus.send(self_, kControllerAddress, Alive{id_});
+}
+
+void Simulator::start_over() {
+    id_ = SimulatorId{};
+    plan_.reset();
+    answer_.reset();
+    pull_.cancel();
+    store_.clear();
+    asked_ms_ = kLongAgo;
+}
+
+}  // namespace roboss

@@ -1,0 +1,68 @@
+// The Simulator role (the paper's section 3): takes a window's plan, fetches the states it lacks, steps its islands
+// through the window without talking to anyone, and answers with a frame. It knows nothing of other Simulators' plans and decides
+// nothing; a plan that comes twice is answered from memory.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/bus.h"
+#include "bus/state_pull.h"
+#include "roles/state_store.h"
+#include "roles/window_stepper.h"
+
+namespace roboss {
+
+struct SimulatorOptions {
+    std::int64_t resend_ms = 100;  // unanswered requests are sent again after this
+    std::int64_t alive_ms = 50;    // sign of life, also from within a long step
+    bool measure_cpu = true;       // false: cost is counted work, so that a seeded test repeats exactly
+};
+
+class Simulator {
+  public:
+    /// `pool` steps the islands; it may be shared by Simulators that advance in one thread.
+    Simulator(std::shared_ptr<const Model> model, const Address& self, const SimulatorOptions& options, ThreadPool& pool);
+
+    /// Handles what has come and does the work that is due. Never waits.
+    void advance(Bus& bus);
+
+    /// Asks to leave; serves on until gone().
+    void leave() { leaving_ = true; }
+    bool gone() const { return gone_; }
+    bool joined() const { return id_.valid(); }
+    bool idle() const { return !plan_.has_value(); }
+    /// Why the Controller does not want it (another Model, say); empty: nothing of the kind.
+    const std::string& refusal() const { return refusal_; }
+
+  private:
+    void handle(Bus& bus, Envelope& envelope);
+    void take_plan(Bus& bus, Plan& plan);
+    void adopt(Plan& plan);
+    void serve(Bus& bus, const Address& from, const StateRequest& request) const;
+    void keep_in_touch(Bus& bus);
+    void say_alive(Bus& bus);
+    void start_over();
+
+    std::shared_ptr<const Model> model_;
+    Address self_;
+    SimulatorOptions options_;
+
+    SimulatorId id_;
+    std::string refusal_;
+    bool leaving_ = false, gone_ = false;
+    std::int64_t asked_ms_ = kLongAgo, alive_ms_ = kLongAgo;
+
+    StateStore store_;
+    std::optional<Plan> plan_;     // being worked on
+    StatePull pull_;               // of its hand-offs
+    std::optional<Frame> answer_;  // to the last plan worked on
+    WindowStepper stepper_;
+    std::vector<Envelope> inbox_;
+
+    static constexpr std::int64_t kLongAgo = -1'000'000'000;
+};
+
+}  // namespace roboss

@@ -1,0 +1,66 @@
+// Two states a robot, and shelves of kept ones.
+#include "roles/state_store.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace roboss {
+
+void StateStore::put(RobotId robot, Tick tick, RobotState&& state) {
+    Slot& slot = slots_[robot.index()];
+    slot.start = std::move(state);
+    slot.start_tick = tick;
+    slot.end_tick = kNone;
+}
+
+bool StateStore::start(RobotId robot, Tick tick) {
+    Slot& slot = slots_[robot.index()];
+    if (slot.end_tick == tick) {
+        std::swap(slot.start, slot.end);
+        slot.start_tick = tick;
+        slot.end_tick = kNone;
+    }
+    return slot.start_tick == tick;
+}
+
+RobotState& StateStore::begin_window(RobotId robot, Tick until) {
+    Slot& slot = slots_[robot.index()];
+    slot.end = slot.start;
+    slot.end_tick = until;
+    return slot.end;
+}
+
+const RobotState* StateStore::find(RobotId robot, Tick tick) const {
+    const Slot& slot = slots_[robot.index()];
+    if (slot.start_tick == tick) return &slot.start;
+    return slot.end_tick == tick ? &slot.end : nullptr;
+}
+
+void StateStore::keep(std::span<const RobotId> robots, Tick tick) {
+    StateBlock block;
+    block.tick = tick;
+    for (const RobotId robot : robots)
+        if (const RobotState* state = find(robot, tick)) append(block, robot, *state);
+    if (!block.robots.empty()) kept_.emplace_back(std::move(block));
+}
+
+void StateStore::release_before(Tick tick) {
+    std::erase_if(kept_, [tick](const StateShelf& shelf) { return shelf.tick() < tick; });
+}
+
+bool StateStore::copy_to(StateBlock& out, RobotId robot, Tick tick) const {
+    if (robot.index() >= slots_.size()) return false;
+    if (const RobotState* state = find(robot, tick)) {
+        append(out, robot, *state);
+        return true;
+    }
+    return std::any_of(kept_.begin(), kept_.end(),
+                       [&](const StateShelf& shelf) { return shelf.tick() == tick && shelf.copy_to(out, robot); });
+}
+
+void StateStore::clear() {
+    std::fill(slots_.begin(), slots_.end(), Slot{});
+    kept_.clear();
+}
+
+}  // namespace roboss

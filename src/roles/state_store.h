@@ -1,0 +1,47 @@
+// A Simulator's states: of each robot that at the window's start and that at its end, and copies that were kept because
+// somebody still wants an earlier tick. A state is found by (robot, tick), never by "the current one", so late and doubled requests
+// get the right bits or nothing.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "model/robot_state.h"
+#include "wire/state_block.h"
+
+namespace roboss {
+
+class StateStore {
+  public:
+    explicit StateStore(const Model& model) : slots_(model.robots.size()) {}
+
+    /// Takes a state from elsewhere.
+    void put(RobotId robot, Tick tick, RobotState&& state);
+    /// Makes the robot's state at `tick` the start of a window. False: it is not here.
+    bool start(RobotId robot, Tick tick);
+    const RobotState& start_of(RobotId robot) const { return slots_[robot.index()].start; }
+    /// The state to step on: a copy of the start, which becomes the state at `until`.
+    RobotState& begin_window(RobotId robot, Tick until);
+    const RobotState& end_of(RobotId robot) const { return slots_[robot.index()].end; }
+
+    /// Copies these robots' states at `tick`, to be found after the slots have moved on.
+    void keep(std::span<const RobotId> robots, Tick tick);
+    void release_before(Tick tick);
+    /// Appends the state to `out`; false: not here.
+    bool copy_to(StateBlock& out, RobotId robot, Tick tick) const;
+    void clear();
+
+  private:
+    static constexpr Tick kNone = -1;
+    struct Slot {
+        Tick start_tick = kNone, end_tick = kNone;
+        RobotState start, end;
+    };
+    const RobotState* find(RobotId robot, Tick tick) const;
+
+    std::vector<Slot> slots_;
+    std::vector<StateShelf> kept_;
+};
+
+}  // namespace roboss

@@ -1,0 +1,175 @@
+// The stepping of a window: batches of islands, tick by tick, with their actual bounds.
+#include "roles/window_stepper.h"
+
+#include <time.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace roboss {
+
+namespace {
+
+constexpr std::size_t kRobotsPerBatch = 8;   // a look at the clock costs about a tenth of a robot's step
+constexpr std::size_t kLargeIsland = 64;     // robots; such islands show signs of life every tick
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+const Aabb kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
+
+/// A bound that makes no sense counts as everywhere: such a robot is stepped with all others.
+bool sensible(const Aabb& b) {
+    return b.min.x <= b.max.x && b.min.y <= b.max.y && b.min.z <= b.max.z;
+}
+
+bool teleports(const Order& order) {
+    return std::holds_alternative<SetPose>(order.action);
+}
+
+std::array<float, 3> to_floats(const Vec3& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+}  // namespace
+
+std::uint64_t thread_cpu_ns() {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<std::uint64_t>(t.tv_sec) * 1'000'000'000u + static_cast<std::uint64_t>(t.tv_nsec);
+}
+
+struct WindowStepper::Job {
+    const Plan& plan;
+    const std::function<void()>& between;
+    Frame frame;
+
+    std::span<const RobotId> robots(std::size_t island) const {
+        const std::size_t first = plan.island_offsets[island];
+        return std::span(plan.robots).subspan(first, plan.island_offsets[island + 1] - first);
+    }
+};
+
+WindowStepper::WindowStepper(std::shared_ptr<const Model> model, ThreadPool& pool, bool measure_cpu)
+    : model_(std::move(model)), pool_(pool), measure_cpu_(measure_cpu), scratch_(pool.threads()) {}
+
+void WindowStepper::sort_orders(const Plan& plan) {
+    const std::size_t islands = plan.island_offsets.size() - 1;
+    island_of_.assign(model_->robots.size(), RobotId::kNone);
+    for (std::uint32_t i = 0; i < islands; ++i)
+        for (std::size_t k = plan.island_offsets[i]; k < plan.island_offsets[i + 1]; ++k)
+            island_of_[plan.robots[k].index()] = i;
+    order_offsets_.assign(islands + 1, 0);
+    const auto concerns = [&](const Order& order) { return island_of_[order.robot.index()] != RobotId::kNone; };
+    for (const Order& order : plan.orders)
+        if (concerns(order)) ++order_offsets_[island_of_[order.robot.index()] + 1];
+    std::partial_sum(order_offsets_.begin(), order_offsets_.end(), order_offsets_.begin());
+    std::vector<std::size_t> next(order_offsets_.begin(), order_offsets_.end() - 1);
+    orders_.resize(order_offsets_.back());
+    for (const Order& order : plan.orders)
+        if (concerns(order)) orders_[next[island_of_[order.robot.index()]]++] = order;
+}
+
+void WindowStepper::cut_batches(const Plan& plan) {
+    const auto size = [&](std::uint32_t i) { return plan.island_offsets[i + 1] - plan.island_offsets[i]; };
+    sequence_.resize(plan.island_offsets.size() - 1);
+    std::iota(sequence_.begin(), sequence_.end(), 0u);
+    std::stable_sort(sequence_.begin(), sequence_.end(), [&](auto a, auto b) { return size(a) > size(b); });
+    batch_offsets_.assign(1, 0);
+    std::size_t robots = 0;
+    for (std::size_t k = 0; k < sequence_.size(); ++k) {
+        robots += size(sequence_[k]);
+        if (robots < kRobotsPerBatch && k + 1 < sequence_.size()) continue;
+        batch_offsets_.push_back(k + 1);
+        robots = 0;
+    }
+}
+
+Frame WindowStepper::step(const Plan& plan, StateStore& store, const std::function<void()>& between) {
+    const std::size_t n = plan.robots.size();
+    sort_orders(plan);
+    cut_batches(plan);
+    states_.resize(n);
+    bounds_.resize(n);
+    swept_.assign(n, Aabb{});
+    earlier_.resize(plan.island_offsets.size() - 1);
+    for (std::size_t k = 0; k < n; ++k) states_[k] = &store.begin_window(plan.robots[k], plan.until);
+
+    Job job{plan, between, Frame{plan.epoch, plan.window, plan.attempt, plan.simulator, {}, {}, {}}};
+    job.frame.robots.resize(n);
+    job.frame.islands.resize(plan.island_offsets.size() - 1);
+    pool_.run(batch_offsets_.size() - 1, [&](std::size_t b, std::size_t worker) { step_batch(job, b, worker); });
+    for (auto& boxes : earlier_) {
+        job.frame.earlier.insert(job.frame.earlier.end(), boxes.begin(), boxes.end());
+        boxes.clear();
+    }
+    return std::move(job.frame);
+}
+
+void WindowStepper::step_batch(Job& job, std::size_t batch, std::size_t worker) {
+    const auto islands = std::span(sequence_).subspan(batch_offsets_[batch], batch_offsets_[batch + 1] - batch_offsets_[batch]);
+    const std::uint64_t start_ns = measure_cpu_ ? thread_cpu_ns() : 0;
+    std::uint64_t work = 0;  // robot-ticks and contacts, to share the measured time out
+    const auto ticks = static_cast<std::uint64_t>(job.plan.until - job.plan.from);
+    const auto work_of = [&](std::uint32_t i) { return 4 * ticks * job.robots(i).size() + job.frame.islands[i].contacts; };
+    for (const std::uint32_t island : islands) {
+        step_island_through(job, island, worker);
+        work += work_of(island);
+    }
+    const std::uint64_t spent_ns = measure_cpu_ ? thread_cpu_ns() - start_ns : work;
+    for (const std::uint32_t island : islands)
+        job.frame.islands[island].cost_ns = static_cast<std::uint64_t>(
+            static_cast<double>(spent_ns) * static_cast<double>(work_of(island)) / static_cast<double>(std::max<std::uint64_t>(work, 1)));
+    if (worker == 0) job.between();
+}
+
+void WindowStepper::step_island_through(Job& job, std::size_t island, std::size_t worker) {
+    std::size_t next = order_offsets_[island];
+    const std::size_t end = order_offsets_[island + 1];
+    for (Tick tick = job.plan.from; tick < job.plan.until; ++tick) {
+        const std::size_t first = next;
+        while (next < end && orders_[next].apply_at == tick) ++next;
+        if (!step_tick(job, island, tick, std::span(orders_).subspan(first, next - first), worker)) return;
+        if (worker == 0 && job.robots(island).size() >= kLargeIsland) job.between();
+    }
+    report_robots(job, island);
+}
+
+bool WindowStepper::step_tick(Job& job, std::size_t island, Tick tick, std::span<const Order> orders, std::size_t worker) {
+    const std::size_t first = job.plan.island_offsets[island];
+    const std::span<const RobotId> robots = job.robots(island);
+    const StepReport report = step_island(*model_, tick, robots, std::span(states_).subspan(first, robots.size()), orders,
+                                          std::span(bounds_).subspan(first, robots.size()), scratch_[worker]);
+    for (const Order& order : orders) {
+        if (!teleports(order)) continue;
+        const auto k = first + static_cast<std::size_t>(
+                                   std::lower_bound(robots.begin(), robots.end(), order.robot) - robots.begin());
+        if (!swept_[k].empty()) earlier_[island].push_back({order.robot, outward(swept_[k])});
+        swept_[k] = Aabb{};
+    }
+    for (std::size_t k = first; k < first + robots.size(); ++k)
+        swept_[k].include(sensible(bounds_[k]) ? bounds_[k] : kEverywhere);
+    IslandFrame& outcome = job.frame.islands[island];
+    outcome.contacts += static_cast<std::uint64_t>(report.contacts);
+    outcome.static_contacts += static_cast<std::uint64_t>(report.static_contacts);
+    if (!report.not_finite.valid()) return true;
+    outcome.failed = report.not_finite;
+    outcome.failed_at = tick;
+    for (std::size_t k = 0; k < robots.size(); ++k) {  // the bounds so far must still be compared with others'
+        job.frame.robots[first + k].robot = robots[k];
+        job.frame.robots[first + k].swept = outward(swept_[first + k]);
+    }
+    return false;
+}
+
+void WindowStepper::report_robots(Job& job, std::size_t island) {
+    for (std::size_t k = job.plan.island_offsets[island]; k < job.plan.island_offsets[island + 1]; ++k) {
+        RobotFrame& out = job.frame.robots[k];
+        const RobotState& state = *states_[k];
+        out.robot = job.plan.robots[k];
+        out.swept = outward(swept_[k]);
+        out.centre = to_floats(bounds_[k].centre());
+        if (model_->type_of(out.robot).free_base) out.velocity = to_floats({state.v[3], state.v[4], state.v[5]});
+        out.hash = state_hash(out.robot, job.plan.until, state);
+    }
+}
+
+}  // namespace roboss

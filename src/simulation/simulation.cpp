@@ -1,0 +1,97 @@
+// Building the roles of one process and giving each its turn.
+#include "simulation/simulation.h"
+
+#include <set>
+
+namespace roboss {
+
+namespace {
+
+ControllerOptions controller_options(const SimulationOptions& options, const std::vector<NamedProgram>& programs) {
+    ControllerOptions result = options.controller;
+    result.simulators = options.simulators;
+    result.clients.clear();
+    for (const NamedProgram& program : programs) result.clients.push_back(program.name);
+    return result;
+}
+
+StartingPoint starting_point(const Model& model, const SavedRun* from) {
+    if (from == nullptr) return beginning_of(model);
+    return {from->tick, from->states, from->orders};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Simulation>> Simulation::create(std::shared_ptr<const Model> model, const SimulationOptions& options,
+                                                       std::vector<NamedProgram> programs, const SavedRun* from) {
+    if (options.simulators < 1) return Error{"a run needs at least one Simulator", "give --simulators 1 or more"};
+    std::set<std::string> names;
+    for (const NamedProgram& program : programs) {
+        if (!names.insert(program.name).second)
+            return Error{"two control programs are called '" + program.name + "'", "give each its own name"};
+        if (Result<BusClientOptions> times = client_options(program.program->options(), *model, program.name); !times)
+            return times.error();
+    }
+    return std::unique_ptr<Simulation>(new Simulation(std::move(model), options, std::move(programs), from));
+}
+
+Simulation::Simulation(std::shared_ptr<const Model> model, const SimulationOptions& options,
+                       std::vector<NamedProgram> programs, const SavedRun* from)
+    : model_(std::move(model)),
+      world_file_(options.world_file),
+      seed_(options.controller.seed),
+      pool_(options.threads),
+      controller_(model_, controller_options(options, programs), starting_point(*model_, from)) {
+    std::uint64_t instance = 0;
+    for (NamedProgram& program : programs) {
+        hosts_.push_back(std::make_unique<ProgramHost>(model_, Address{Role::kClient, ++instance}, program.name,
+                                                       std::move(program.program)));
+        if (from == nullptr) continue;
+        const auto memory = from->memory.find(program.name);
+        if (memory != from->memory.end()) hosts_.back()->restore(memory->second);
+    }
+    for (std::size_t i = 0; i < options.simulators; ++i)
+        simulators_.push_back(
+            std::make_unique<Simulator>(model_, Address{Role::kSimulator, ++instance}, SimulatorOptions{}, pool_));
+}
+
+void Simulation::turn() {
+    controller_.advance(bus_);
+    for (auto& host : hosts_) host->advance(bus_);
+    for (auto& simulator : simulators_) simulator->advance(bus_);
+}
+
+Result<> Simulation::run_until(Tick target, const std::function<bool()>& go_on) {
+    controller_.run_until(target);
+    while (!controller_.resting() && !controller_.stopped()) {
+        if (go_on && !go_on()) controller_.run_until(controller_.tick());
+        turn();
+    }
+    if (controller_.failure()) return *controller_.failure();
+    return Ok{};
+}
+
+const std::vector<RobotState>& Simulation::states() {
+    if (controller_.states() == nullptr) controller_.request_states();
+    while (controller_.states() == nullptr) turn();
+    return *controller_.states();
+}
+
+SavedRun Simulation::saved_run() {
+    while (!controller_.settled() && !controller_.stopped()) turn();
+    SavedRun run;
+    run.world_file = world_file_;
+    run.seed = seed_;
+    run.tick = tick();
+    run.states = states();
+    run.orders = controller_.pending_orders();
+    for (const auto& host : hosts_)
+        if (std::string memory = host->memory_at(run.tick); !memory.empty()) run.memory[host->name()] = std::move(memory);
+    return run;
+}
+
+std::vector<std::string> Simulation::take_notices() {
+    return controller_.take_notices();
+}
+
+}  // namespace roboss

@@ -1,0 +1,75 @@
+// Simulation: a whole cluster in one process: Controller, Simulators, control programs, and a Bus between them. It only
+// gives each role its turn; everything else is the roles' own, the same as in a cluster of machines.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bus/in_process_bus.h"
+#include "client/program_host.h"
+#include "core/thread_pool.h"
+#include "journal/journal.h"
+#include "roles/controller.h"
+#include "roles/simulator.h"
+
+namespace roboss {
+
+struct NamedProgram {
+    std::string name;  // unique in the run
+    std::unique_ptr<ControlProgram> program;
+};
+
+struct SimulationOptions {
+    std::size_t simulators = 1;
+    unsigned threads = 1;        // that step islands, shared by all Simulators
+    std::string world_file;      // for saved runs
+    ControllerOptions controller;  // its `simulators` and `clients` are set from here
+};
+
+class Simulation {
+  public:
+    /// At the world's beginning, or where `from` was saved. Orders with equal ticks sort by the programs' places.
+    static Result<std::unique_ptr<Simulation>> create(std::shared_ptr<const Model> model, const SimulationOptions& options,
+                                                      std::vector<NamedProgram> programs = {}, const SavedRun* from = nullptr);
+
+    /// An order with its tick, from a file say; refused if it makes no sense or comes too late.
+    Result<> submit(const Order& order) { return controller_.submit(order); }
+
+    /// Runs until the world is at `target`. An Error: the run cannot go on (a state not finite, a control program that
+    /// threw); the world is intact at tick() and can be saved. `go_on` is asked now and then; false ends the run at the next window's end.
+    Result<> run_until(Tick target, const std::function<bool()>& go_on = {});
+
+    Tick tick() const { return controller_.tick(); }
+    double time_s() const { return static_cast<double>(tick()) * model_->dt_s; }
+    const Model& model() const { return *model_; }
+    std::uint64_t hash() const { return controller_.hash(); }
+    /// All states at tick(), by RobotId. Valid until the next run_until().
+    const std::vector<RobotState>& states();
+    /// Everything needed to go on exactly.
+    SavedRun saved_run();
+    Result<> save(const std::string& path) { return save_run(path, *model_, saved_run()); }
+
+    const Counters& counters() const { return controller_.counters(); }
+    /// What happened since the last call, one line each: for the log.
+    std::vector<std::string> take_notices();
+    Controller& controller() { return controller_; }
+
+  private:
+    Simulation(std::shared_ptr<const Model> model, const SimulationOptions& options, std::vector<NamedProgram> programs,
+               const SavedRun* from);
+    void turn();
+
+    std::shared_ptr<const Model> model_;
+    std::string world_file_;
+    std::uint64_t seed_;
+    InProcessBus bus_;
+    ThreadPool pool_;
+    Controller controller_;
+    std::vector<std::unique_ptr<ProgramHost>> hosts_;
+    std::vector<std::unique_ptr<Simulator>> simulators_;
+};
+
+}  // namespace roboss

@@ -1,0 +1,135 @@
+// Writing and reading plain values as little-endian bytes. A message describes its fields once, as a function template
+// over the archive, so that encoder and decoder cannot disagree. Reading past the end or an impossible count sets the
+// reader's failure and gives zeros; it never throws and never allocates by a count that the bytes cannot hold.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <concepts>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "core/types.h"
+
+namespace roboss::wire {
+
+static_assert(std::endian::native == std::endian::little, "the encoding is the memory of a little-endian machine");
+
+template <class T>
+concept Scalar = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+class Writer {
+  public:
+    static constexpr bool kReading = false;
+
+    template <Scalar T>
+    void scalar(const T& value) {
+        raw(&value, sizeof(T));
+    }
+    void count(std::size_t n) { scalar(static_cast<std::uint32_t>(n)); }
+    void raw(const void* data, std::size_t n) {
+        if (n == 0) return;
+        const std::size_t at = bytes_.size();
+        bytes_.resize(at + n);
+        std::memcpy(bytes_.data() + at, data, n);
+    }
+    std::vector<std::uint8_t> take() { return std::move(bytes_); }
+
+  private:
+    std::vector<std::uint8_t> bytes_;
+};
+
+class Reader {
+  public:
+    static constexpr bool kReading = true;
+
+    explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+    template <Scalar T>
+    void scalar(T& value) {
+        value = T{};
+        if (!take(sizeof(T))) return;
+        std::memcpy(&value, bytes_.data() + at_ - sizeof(T), sizeof(T));
+    }
+    /// A count of items of which each takes at least `bytes_each`.
+    std::size_t count(std::size_t bytes_each) {
+        std::uint32_t n = 0;
+        scalar(n);
+        if (n > (bytes_.size() - at_) / bytes_each) fail("a count is larger than the bytes that follow");
+        return failure_.empty() ? n : 0;
+    }
+    void raw(void* data, std::size_t n) {
+        if (take(n) && n > 0) std::memcpy(data, bytes_.data() + at_ - n, n);
+    }
+    void fail(const char* what) {
+        if (failure_.empty()) failure_ = what;
+    }
+    bool failed() const { return !failure_.empty(); }
+    const std::string& failure() const { return failure_; }
+    std::size_t left() const { return bytes_.size() - at_; }
+
+  private:
+    bool take(std::size_t n) {
+        if (n > bytes_.size() - at_) fail("the bytes end too early");
+        if (failed()) return false;
+        at_ += n;
+        return true;
+    }
+
+    std::span<const std::uint8_t> bytes_;
+    std::size_t at_ = 0;
+    std::string failure_;
+};
+
+/// T as the archive needs it: const for a Writer.
+template <class Archive, class T>
+using Of = std::conditional_t<Archive::kReading, T, const T>;
+
+template <class Archive, Scalar T>
+    requires(!std::same_as<T, bool>)
+void field(Archive& a, T& value) {
+    a.scalar(const_cast<std::remove_const_t<T>&>(value));
+}
+
+inline void field(Writer& a, const bool& value) {
+    a.scalar(static_cast<std::uint8_t>(value ? 1 : 0));
+}
+inline void field(Reader& a, bool& value) {
+    std::uint8_t byte = 0;
+    a.scalar(byte);
+    if (byte > 1) a.fail("a yes-or-no is neither 0 nor 1");
+    value = byte == 1;
+}
+
+template <class Tag>
+void field(Writer& a, const Id<Tag>& id) {
+    a.scalar(id.value);
+}
+template <class Tag>
+void field(Reader& a, Id<Tag>& id) {
+    a.scalar(id.value);
+}
+
+inline void field(Writer& a, const std::string& text) {
+    a.count(text.size());
+    a.raw(text.data(), text.size());
+}
+inline void field(Reader& a, std::string& text) {
+    text.resize(a.count(1));
+    a.raw(text.data(), text.size());
+}
+
+template <class T, std::size_t N>
+void field(Writer& a, const std::array<T, N>& values) {
+    for (const T& v : values) field(a, v);
+}
+template <class T, std::size_t N>
+void field(Reader& a, std::array<T, N>& values) {
+    for (T& v : values) field(a, v);
+}
+
+}  // namespace roboss::wire

@@ -1,0 +1,229 @@
+// One description of every message's fields, used by the encoder and by the decoder.
+#include "wire/codec.h"
+
+#include <utility>
+
+#include "wire/archive.h"
+
+namespace roboss {
+
+namespace wire {
+namespace {
+
+/// Types whose memory is their encoding, so that a vector of them is copied at once.
+template <class T>
+constexpr bool kPlain = std::is_same_v<T, std::uint8_t> || std::is_same_v<T, std::uint32_t> || std::is_same_v<T, RobotId>;
+static_assert(sizeof(RobotId) == 4);
+
+template <class A, class... Fields>
+void fields(A& a, Fields&... values);
+
+template <class T>
+void field(Writer& a, const std::vector<T>& values);
+template <class T>
+void field(Reader& a, std::vector<T>& values);
+template <class... T>
+void field(Writer& a, const std::variant<T...>& value);
+template <class... T>
+void field(Reader& a, std::variant<T...>& value);
+
+// clang-format off
+template <class A> void field(A& a, Of<A, Vec3>& m) { fields(a, m.x, m.y, m.z); }
+template <class A> void field(A& a, Of<A, Quat>& m) { fields(a, m.w, m.x, m.y, m.z); }
+template <class A> void field(A& a, Of<A, Box32>& m) { fields(a, m.min, m.max); }
+template <class A> void field(A& a, Of<A, Address>& m) { fields(a, m.role, m.instance); }
+template <class A> void field(A& a, Of<A, StateBlock>& m) { fields(a, m.tick, m.robots, m.sizes, m.bytes); }
+template <class A> void field(A& a, Of<A, Holding>& m) { fields(a, m.source, m.robots); }
+template <class A> void field(A& a, Of<A, SetPose>& m) { fields(a, m.X_WR.p, m.X_WR.q); }
+template <class A> void field(A& a, Of<A, SetVelocity>& m) { fields(a, m.linear, m.angular); }
+template <class A> void field(A& a, Of<A, ApplyWrench>& m) { fields(a, m.link, m.force, m.torque, m.duration); }
+template <class A> void field(A& a, Of<A, SetJoint>& m) { fields(a, m.joint, m.axis, m.mode, m.target, m.max_effort); }
+template <class A> void field(A& a, Of<A, Order>& m) { fields(a, m.apply_at, m.client, m.sequence, m.robot, m.action); }
+template <class A> void field(A& a, Of<A, Hello>& m) { fields(a, m.model_hash, m.threads); }
+template <class A> void field(A& a, Of<A, Welcome>& m) { fields(a, m.simulator); }
+template <class A> void field(A& a, Of<A, Refused>& m) { fields(a, m.reason); }
+template <class A> void field(A& a, Of<A, Expelled>& m) { fields(a, m.simulator); }
+template <class A> void field(A& a, Of<A, Alive>& m) { fields(a, m.simulator); }
+template <class A> void field(A& a, Of<A, LeaveRequest>& m) { fields(a, m.simulator); }
+template <class A> void field(A& a, Of<A, Goodbye>& m) { fields(a, m.simulator); }
+template <class A> void field(A& a, Of<A, Plan>& m) {
+    fields(a, m.epoch, m.window, m.attempt, m.simulator, m.from, m.until, m.island_offsets, m.robots, m.hand_offs, m.orders, m.keep,
+           m.release_before);
+}
+template <class A> void field(A& a, Of<A, RobotFrame>& m) { fields(a, m.robot, m.swept, m.centre, m.velocity, m.hash); }
+template <class A> void field(A& a, Of<A, EarlierBox>& m) { fields(a, m.robot, m.swept); }
+template <class A> void field(A& a, Of<A, IslandFrame>& m) {
+    fields(a, m.cost_ns, m.contacts, m.static_contacts, m.failed, m.failed_at);
+}
+template <class A> void field(A& a, Of<A, Frame>& m) {
+    fields(a, m.epoch, m.window, m.attempt, m.simulator, m.robots, m.earlier, m.islands);
+}
+template <class A> void field(A& a, Of<A, StateRequest>& m) { fields(a, m.tick, m.robots); }
+template <class A> void field(A& a, Of<A, StateReply>& m) { fields(a, m.states); }
+template <class A> void field(A& a, Of<A, ClientHello>& m) {
+    fields(a, m.name, m.model_hash, m.period, m.latency, m.synchronous);
+}
+template <class A> void field(A& a, Of<A, ClientWelcome>& m) { fields(a, m.client, m.first, m.seed); }
+template <class A> void field(A& a, Of<A, Observation>& m) { fields(a, m.tick, m.last_word, m.holders); }
+template <class A> void field(A& a, Of<A, ClientOrder>& m) { fields(a, m.sequence, m.robot, m.action); }
+template <class A> void field(A& a, Of<A, ClientWord>& m) { fields(a, m.client, m.word, m.observed, m.orders); }
+template <class A> void field(A& a, Of<A, RefusedOrder>& m) { fields(a, m.sequence, m.reason); }
+template <class A> void field(A& a, Of<A, WordAck>& m) { fields(a, m.client, m.word, m.refused); }
+template <class A> void field(A& a, Of<A, ClientBye>& m) { fields(a, m.client, m.word, m.failed, m.reason); }
+// clang-format on
+
+template <class A, class... Fields>
+void fields(A& a, Fields&... values) {
+    (field(a, values), ...);
+}
+
+template <class T>
+void field(Writer& a, const std::vector<T>& values) {
+    a.count(values.size());
+    if constexpr (kPlain<T>) {
+        a.raw(values.data(), values.size() * sizeof(T));
+    } else {
+        for (const T& value : values) field(a, value);
+    }
+}
+
+template <class T>
+void field(Reader& a, std::vector<T>& values) {
+    values.clear();
+    if constexpr (kPlain<T>) {
+        values.resize(a.count(sizeof(T)));
+        a.raw(values.data(), values.size() * sizeof(T));
+    } else {
+        const std::size_t n = a.count(1);
+        for (std::size_t i = 0; i < n && !a.failed(); ++i) field(a, values.emplace_back());
+    }
+}
+
+template <class... T>
+void field(Writer& a, const std::variant<T...>& value) {
+    a.scalar(static_cast<std::uint8_t>(value.index()));
+    std::visit([&a](const auto& alternative) { field(a, alternative); }, value);
+}
+
+template <class Variant, std::size_t I = 0>
+void read_alternative(Reader& a, std::size_t index, Variant& value) {
+    if constexpr (I < std::variant_size_v<Variant>) {
+        if (index == I) return field(a, value.template emplace<I>());
+        read_alternative<Variant, I + 1>(a, index, value);
+    } else {
+        a.fail("it is of an unknown kind");
+    }
+}
+
+template <class... T>
+void field(Reader& a, std::variant<T...>& value) {
+    std::uint8_t index = 0;
+    a.scalar(index);
+    if (!a.failed()) read_alternative(a, index, value);
+}
+
+/// What the fields' types alone cannot say and every receiver relies on.
+const char* broken_rule(const StateBlock& block) {
+    std::uint64_t bytes = 0;
+    for (const std::uint32_t size : block.sizes) bytes += size;
+    if (block.sizes.size() != block.robots.size()) return "it has not one size a robot";
+    if (bytes != block.bytes.size()) return "the sizes do not add up to its bytes";
+    return nullptr;
+}
+
+const char* broken_rule(const Plan& plan) {
+    const auto& offsets = plan.island_offsets;
+    if (offsets.empty() || offsets.front() != 0 || offsets.back() != plan.robots.size())
+        return "its islands do not cover its robots";
+    for (std::size_t i = 1; i < offsets.size(); ++i)
+        if (offsets[i] <= offsets[i - 1]) return "one of its islands is empty";
+    return plan.until < plan.from ? "it ends before it starts" : nullptr;
+}
+
+const char* broken_rule(const StateReply& reply) {
+    return broken_rule(reply.states);
+}
+
+const char* broken_rule(const ClientHello& hello) {
+    return hello.period < 1 || hello.latency < 0 ? "its period or latency is out of range" : nullptr;
+}
+
+template <class T>
+const char* broken_rule(const T&) {
+    return nullptr;
+}
+
+const char* role_rule(const Envelope& e) {
+    return e.from.role > Role::kClient || e.to.role > Role::kClient ? "it names an unknown role" : nullptr;
+}
+
+bool modes_known(const Order& order) {
+    const auto* joint = std::get_if<SetJoint>(&order.action);
+    return joint == nullptr || joint->mode <= MotorMode::kEffort;
+}
+
+}  // namespace
+}  // namespace wire
+
+const char* message_name(const Message& message) {
+    static constexpr const char* kNames[] = {
+        "Hello", "Welcome",      "Refused",    "Expelled",    "Alive",         "LeaveRequest", "Goodbye",    "Plan",    "Frame",
+        "StateRequest", "StateReply", "ClientHello", "ClientWelcome", "Observation",  "ClientWord", "WordAck", "ClientBye"};
+    static_assert(std::size(kNames) == std::variant_size_v<Message>);
+    return kNames[message.index()];
+}
+
+std::vector<std::uint8_t> encode(const Envelope& envelope) {
+    wire::Writer a;
+    a.scalar(kWireVersion);
+    wire::fields(a, envelope.from, envelope.to, envelope.message);
+    return a.take();
+}
+
+Result<Envelope> decode_envelope(std::span<const std::uint8_t> bytes) {
+    wire::Reader a(bytes);
+    std::uint16_t version = 0;
+    a.scalar(version);
+    if (!a.failed() && version != kWireVersion)
+        return Error{"a message of wire version " + std::to_string(version) + ", this program speaks " +
+                         std::to_string(kWireVersion),
+                     "run the same version of RoBOSS everywhere"};
+    Envelope envelope;
+    wire::fields(a, envelope.from, envelope.to, envelope.message);
+    if (a.left() > 0) a.fail("bytes are left over behind it");
+    if (!a.failed()) {
+        const char* broken = std::visit([](const auto& m) { return wire::broken_rule(m); }, envelope.message);
+        if (broken == nullptr) broken = wire::role_rule(envelope);
+        if (broken != nullptr) a.fail(broken);
+    }
+    if (!a.failed()) return envelope;
+    return Error{"a damaged message of " + std::to_string(bytes.size()) + " bytes (" + message_name(envelope.message) +
+                     "): " + a.failure(),
+                 "check the network, or what else sends on this domain"};
+}
+
+std::vector<std::uint8_t> encode_orders(const std::vector<Order>& orders) {
+    wire::Writer a;
+    wire::fields(a, orders);
+    return a.take();
+}
+
+Result<std::vector<Order>> decode_orders(std::span<const std::uint8_t> bytes) {
+    wire::Reader a(bytes);
+    std::vector<Order> orders;
+    wire::fields(a, orders);
+    if (a.left() > 0) a.fail("bytes are left over behind them");
+    for (const Order& order : orders)
+        if (!wire::modes_known(order)) a.fail("a motor mode is unknown");
+    if (a.failed()) return Error{"damaged orders: " + a.failure(), ""};
+    return orders;
+}
+
+bool operator==(const Plan& a, const Plan& b) {
+    wire::Writer wa, wb;
+    wire::fields(wa, a);
+    wire::fields(wb, b);
+    return wa.take() == wb.take();
+}
+
+}  // namespace roboss

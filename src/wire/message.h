@@ -1,0 +1,190 @@
+// Every message that Controller, Simulators and Clients exchange, as plain data. A Bus may drop, double, delay or reorder
+// any of them: requests are sent again until answered, and every answer names what it answers, so nothing here is
+// harmful when it comes late or twice.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/types.h"
+#include "math/box32.h"
+#include "model/order.h"
+
+namespace roboss {
+
+enum class Role : std::uint8_t { kController, kSimulator, kClient };
+
+/// Who a message is from or for. `instance` is chosen by whoever starts the role and never used twice; the Controller is 0.
+struct Address {
+    Role role = Role::kController;
+    std::uint64_t instance = 0;
+    friend auto operator<=>(const Address&, const Address&) = default;
+};
+
+/// States of some robots at one tick, bit for bit: hand-offs, checkpoints, observations.
+struct StateBlock {
+    Tick tick = 0;
+    std::vector<RobotId> robots;
+    std::vector<std::uint32_t> sizes;  // bytes of each robot's state, in the order of `robots`
+    std::vector<std::uint8_t> bytes;
+    friend bool operator==(const StateBlock&, const StateBlock&) = default;
+};
+
+/// Which robots' states can be had from whom.
+struct Holding {
+    Address source;
+    std::vector<RobotId> robots;
+    friend bool operator==(const Holding&, const Holding&) = default;
+};
+
+// --- joining and leaving -------------------------------------------------------------------------------------------------
+
+struct Hello {  // Simulator -> Controller
+    std::uint64_t model_hash = 0;
+    std::uint32_t threads = 1;
+};
+struct Welcome {  // Controller -> Simulator
+    SimulatorId simulator;
+};
+struct Refused {  // Controller -> Simulator or Client that cannot take part
+    std::string reason;
+};
+struct Expelled {  // Controller -> Simulator that was given up; it may say Hello again
+    SimulatorId simulator;
+};
+struct Alive {  // Simulator -> Controller, every 50 ms, also from within a long step
+    SimulatorId simulator;
+};
+struct LeaveRequest {  // Simulator -> Controller
+    SimulatorId simulator;
+};
+struct Goodbye {  // Controller -> Simulator: nothing depends on it any more
+    SimulatorId simulator;
+};
+
+// --- windows -------------------------------------------------------------------------------------------------------------
+
+/// One Simulator's part of an attempt at a window. Island i is robots[island_offsets[i] .. island_offsets[i + 1]).
+struct Plan {
+    std::uint32_t epoch = 0;    // grows when a Simulator is lost
+    std::uint64_t window = 0;   // grows with every window planned
+    std::uint32_t attempt = 0;  // grows when touching islands of the window are merged
+    SimulatorId simulator;
+    Tick from = 0, until = 0;
+    std::vector<std::uint32_t> island_offsets;
+    std::vector<RobotId> robots;
+    std::vector<Holding> hand_offs;  // robots whose states at `from` must be fetched; the others are here already
+    std::vector<Order> orders;       // for these robots, from <= apply_at < until, canonical order
+    std::vector<RobotId> keep;       // robots of this Simulator whose states at `from` somebody still wants
+    Tick release_before = 0;         // states kept for earlier ticks may go
+    friend bool operator==(const Plan&, const Plan&);
+};
+
+/// What the Controller learns of a robot from a window: 60 bytes.
+struct RobotFrame {
+    RobotId robot;
+    Box32 swept;                     // all interaction bounds since the window's start, or since the last teleport
+    std::array<float, 3> centre{};   // of the last bound, m
+    std::array<float, 3> velocity{};  // of the base at the end, m/s
+    std::uint64_t hash = 0;          // state_hash at the end of the window
+    friend bool operator==(const RobotFrame&, const RobotFrame&) = default;
+};
+
+/// Interaction bounds from before a teleport within the window.
+struct EarlierBox {
+    RobotId robot;
+    Box32 swept;
+    friend bool operator==(const EarlierBox&, const EarlierBox&) = default;
+};
+
+struct IslandFrame {
+    std::uint64_t cost_ns = 0;  // thread CPU time of the stepping; for balance and telemetry, never for results
+    std::uint64_t contacts = 0, static_contacts = 0;  // summed over the ticks
+    RobotId failed;             // valid: this robot's state was not finite after the step from tick `failed_at`
+    Tick failed_at = 0;
+    friend bool operator==(const IslandFrame&, const IslandFrame&) = default;
+};
+
+struct Frame {  // Simulator -> Controller: the answer to a Plan, robots and islands in the Plan's order
+    std::uint32_t epoch = 0;
+    std::uint64_t window = 0;
+    std::uint32_t attempt = 0;
+    SimulatorId simulator;
+    std::vector<RobotFrame> robots;
+    std::vector<EarlierBox> earlier;
+    std::vector<IslandFrame> islands;
+    friend bool operator==(const Frame&, const Frame&) = default;
+};
+
+// --- states --------------------------------------------------------------------------------------------------------------
+
+struct StateRequest {  // anyone -> whoever holds the robots
+    Tick tick = 0;
+    std::vector<RobotId> robots;
+};
+struct StateReply {
+    StateBlock states;  // may lack robots that are not here (yet)
+};
+
+// --- Clients -------------------------------------------------------------------------------------------------------------
+
+struct ClientHello {
+    std::string name;
+    std::uint64_t model_hash = 0;
+    Tick period = 1;   // ticks between observations
+    Tick latency = 1;  // ticks from an observation to the effect of its orders
+    bool synchronous = true;
+};
+struct ClientWelcome {
+    ClientId client;
+    Tick first = 0;  // tick of its first observation
+    std::uint64_t seed = 0;
+};
+/// Controller -> Client: the world at `tick` is committed and may be fetched. Sent again until the Client's word comes.
+struct Observation {
+    Tick tick = 0;
+    std::uint64_t last_word = 0;  // the Client's last word that the Controller has
+    std::vector<Holding> holders;
+};
+struct ClientOrder {
+    std::uint64_t sequence = 0;
+    RobotId robot;
+    Action action;
+};
+/// Client -> Controller, numbered 1, 2, 3 ...; accepted in this order. One for each observation, with its orders.
+struct ClientWord {
+    ClientId client;
+    std::uint64_t word = 0;
+    Tick observed = 0;
+    std::vector<ClientOrder> orders;
+};
+struct RefusedOrder {
+    std::uint64_t sequence = 0;
+    std::string reason;
+};
+struct WordAck {
+    ClientId client;
+    std::uint64_t word = 0;  // the last word accepted
+    std::vector<RefusedOrder> refused;  // orders of that word that were refused
+};
+/// Client -> Controller: its last word; it takes no part any more. A failure ends the run.
+struct ClientBye {
+    ClientId client;
+    std::uint64_t word = 0;
+    bool failed = false;
+    std::string reason;
+};
+
+using Message = std::variant<Hello, Welcome, Refused, Expelled, Alive, LeaveRequest, Goodbye, Plan, Frame, StateRequest,
+                             StateReply, ClientHello, ClientWelcome, Observation, ClientWord, WordAck, ClientBye>;
+
+struct Envelope {
+    Address from, to;
+    Message message;
+};
+
+}  // namespace roboss

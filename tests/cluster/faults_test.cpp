@@ -1,0 +1,125 @@
+// Whatever the Bus does to messages and whoever dies: the run ends with the hash of the undisturbed one.
+#include <gtest/gtest.h>
+
+#include "faulty_cluster.h"
+#include "simulation/simulation.h"
+#include "test_worlds.h"
+
+namespace roboss::test {
+namespace {
+
+constexpr Tick kTicks = 240;
+
+ControlOptions quick() {
+    ControlOptions options;
+    options.period_s = 0.016;
+    return options;
+}
+
+ControlOptions slow_to_act() {
+    ControlOptions options;
+    options.period_s = 0.024;
+    options.latency_s = 0.05;
+    return options;
+}
+
+ControlOptions at_once() {
+    ControlOptions options;
+    options.period_s = 0.04;
+    options.latency_s = 0;
+    return options;
+}
+
+std::uint64_t undisturbed_hash(const std::shared_ptr<const Model>& model) {
+    std::vector<NamedProgram> programs;
+    programs.push_back({"quick", std::make_unique<DrivingProgram>(quick())});
+    programs.push_back({"slow", std::make_unique<DrivingProgram>(slow_to_act())});
+    programs.push_back({"at_once", std::make_unique<DrivingProgram>(at_once())});
+    auto simulation = Simulation::create(model, {}, std::move(programs));
+    EXPECT_TRUE(simulation.value()->run_until(kTicks).ok());
+    return simulation.value()->hash();
+}
+
+void add_programs(FaultyCluster& cluster) {
+    cluster.add_program("quick", quick());
+    cluster.add_program("slow", slow_to_act());
+    cluster.add_program("at_once", at_once());
+}
+
+ControllerOptions checkpointing(std::uint64_t seed) {
+    ControllerOptions options;
+    options.checkpoint_ticks = 10 + static_cast<Tick>(seed % 5) * 12;
+    options.window = seed % 3 == 0 ? 0 : static_cast<Tick>(seed % 7 + 1);
+    return options;
+}
+
+TEST(Faults, AHundredSeedsOfABadBusWithKillsEndWithTheUndisturbedHash) {
+    const auto model = carts_world(4);
+    const std::uint64_t expected = undisturbed_hash(model);
+    std::uint64_t losses = 0, recoveries = 0, checkpoints = 0;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        FaultOptions faults;
+        faults.seed = seed;
+        faults.drop = 0.02 * static_cast<double>(seed % 6);
+        faults.duplicate = 0.02 * static_cast<double>(seed % 5);
+        faults.delay_ms_max = static_cast<std::int64_t>(seed % 10);
+        FaultyCluster cluster(model, checkpointing(seed), faults, {150, 60, 50, 250, 2000}, 1 + seed % 4);
+        add_programs(cluster);
+        ASSERT_TRUE(cluster.run_until(kTicks)) << "stuck at tick " << cluster.controller().tick();
+        EXPECT_EQ(cluster.controller().hash(), expected);
+        losses += cluster.controller().counters().losses;
+        recoveries += cluster.controller().counters().recoveries;
+        checkpoints += cluster.controller().counters().checkpoints;
+    }
+    EXPECT_GT(losses, 100u);      // else this test did not test
+    EXPECT_GT(recoveries, 50u);
+    EXPECT_GT(checkpoints, 300u);
+    RecordProperty("losses", std::to_string(losses));
+    RecordProperty("recoveries", std::to_string(recoveries));
+}
+
+TEST(Faults, AllSimulatorsLostAndANewOneJoinedEndsWithTheSameHash) {
+    const auto model = carts_world(4);
+    const std::uint64_t expected = undisturbed_hash(model);
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
+        FaultyCluster cluster(model, checkpointing(seed), {seed, 0.05, 0.05, 5}, {}, 3);
+        add_programs(cluster);
+        ASSERT_TRUE(cluster.run_until(kTicks / 2)) << "seed " << seed;
+        cluster.controller().run_until(kTicks);
+        for (int i = 0; i < 20; ++i) cluster.turn();
+        cluster.kill_all();
+        for (int i = 0; i < 400; ++i) cluster.turn();  // longer than loss_ms: nobody is left
+        EXPECT_EQ(cluster.controller().counters().simulators, 0u);
+        cluster.add_simulator();
+        ASSERT_TRUE(cluster.run_until(kTicks)) << "seed " << seed;
+        EXPECT_EQ(cluster.controller().hash(), expected) << "seed " << seed;
+        EXPECT_EQ(cluster.controller().counters().losses, 3u) << "seed " << seed;
+    }
+}
+
+TEST(Faults, JoiningLateAndLeavingInGoodOrderLosesNothing) {
+    const auto model = carts_world(4);
+    const std::uint64_t expected = undisturbed_hash(model);
+    FaultyCluster cluster(model, {}, {7, 0.05, 0.05, 5}, {}, 1);  // no checkpoints but those that leaving needs
+    add_programs(cluster);
+    ASSERT_TRUE(cluster.run_until(60));
+    cluster.add_simulator();
+    ASSERT_TRUE(cluster.run_until(120));
+    EXPECT_EQ(cluster.controller().counters().simulators, 2u);
+    EXPECT_GT(cluster.controller().counters().migrations, 0u);
+    cluster.simulator(0).leave();
+    ASSERT_TRUE(cluster.run_until(180));
+    EXPECT_EQ(cluster.simulators(), 1u);
+    cluster.simulator(0).leave();  // the last one: the world waits at the Controller
+    for (int i = 0; i < 500; ++i) cluster.turn();
+    EXPECT_EQ(cluster.simulators(), 0u);
+    cluster.add_simulator();
+    ASSERT_TRUE(cluster.run_until(kTicks));
+    EXPECT_EQ(cluster.controller().hash(), expected);
+    EXPECT_EQ(cluster.controller().counters().losses, 0u);
+    EXPECT_EQ(cluster.controller().counters().recoveries, 0u);
+}
+
+}  // namespace
+}  // namespace roboss::test

@@ -1,0 +1,81 @@
+// Turns and troubles.
+#include "faulty_cluster.h"
+
+#include "test_worlds.h"
+
+namespace roboss::test {
+
+FaultyCluster::FaultyCluster(std::shared_ptr<const Model> model, ControllerOptions options, const FaultOptions& faults,
+                             const Trouble& trouble, std::size_t simulators)
+    : model_(std::move(model)), options_(std::move(options)), trouble_(trouble), bus_(faults) {
+    options_.simulators = simulators;
+    options_.resend_ms = 20;
+    options_.loss_ms = 250;
+    for (std::size_t i = 0; i < simulators; ++i) add_simulator();
+}
+
+void FaultyCluster::add_program(const std::string& name, const ControlOptions& options) {
+    options_.clients.push_back(name);
+    hosts_.push_back(std::make_unique<ProgramHost>(model_, Address{Role::kClient, ++instance_}, name,
+                                                   std::make_unique<DrivingProgram>(options)));
+}
+
+void FaultyCluster::add_simulator() {
+    const Address address{Role::kSimulator, ++instance_};
+    SimulatorOptions options;
+    options.resend_ms = 20;
+    options.alive_ms = 20;
+    options.measure_cpu = false;
+    simulators_.push_back({std::make_unique<Simulator>(model_, address, options, pool_), address, 0});
+}
+
+void FaultyCluster::kill(std::size_t i) {
+    bus_.cut_off(simulators_[i].address);
+    simulators_.erase(simulators_.begin() + static_cast<std::ptrdiff_t>(i));
+    ++kills_;
+}
+
+void FaultyCluster::kill_all() {
+    while (!simulators_.empty()) kill(0);
+}
+
+void FaultyCluster::make_trouble() {
+    if (!simulators_.empty() && happens(trouble_.kill)) kill(bus_.random(simulators_.size()));
+    if (!simulators_.empty() && happens(trouble_.hang)) simulators_[bus_.random(simulators_.size())].hangs_for = 400;
+    if (!simulators_.empty() && happens(trouble_.leave)) simulators_[bus_.random(simulators_.size())].role->leave();
+    if (happens(trouble_.join) && simulators_.size() < 6) add_simulator();
+    if (simulators_.empty() && happens(trouble_.rescue)) add_simulator();
+}
+
+void FaultyCluster::turn() {
+    if (!controller_) controller_ = std::make_unique<Controller>(model_, options_, beginning_of(*model_));
+    bus_.advance_clock(1);
+    make_trouble();
+    const std::size_t roles = 1 + hosts_.size() + simulators_.size();
+    const std::size_t first = bus_.random(roles);
+    for (std::size_t k = 0; k < roles; ++k) {
+        const std::size_t i = (first + k) % roles;
+        if (i == 0) {
+            controller_->advance(bus_);
+        } else if (i <= hosts_.size()) {
+            hosts_[i - 1]->advance(bus_);
+        } else {
+            Member& member = simulators_[i - 1 - hosts_.size()];
+            if (member.hangs_for > 0) --member.hangs_for;
+            else member.role->advance(bus_);
+        }
+    }
+    std::erase_if(simulators_, [](const Member& m) { return m.role->gone(); });
+}
+
+bool FaultyCluster::run_until(Tick target, int turns_max) {
+    if (!controller_) turn();
+    controller_->run_until(target);
+    for (int turns = 0; turns < turns_max; ++turns) {
+        if (controller_->resting() || controller_->stopped()) return controller_->resting();
+        turn();
+    }
+    return false;
+}
+
+}  // namespace roboss::test

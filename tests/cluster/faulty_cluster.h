@@ -1,0 +1,64 @@
+// A cluster on a FaultyBus, all in one thread and by one seed: roles take turns in random order, Simulators are killed,
+// hang, leave and join at random moments.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bus/faulty_bus.h"
+#include "client/program_host.h"
+#include "roles/controller.h"
+#include "roles/simulator.h"
+
+namespace roboss::test {
+
+struct Trouble {
+    // chances per turn, in 1/100000
+    std::uint64_t kill = 0, hang = 0, leave = 0, join = 0;
+    std::uint64_t rescue = 0;  // that a Simulator joins when none is left
+};
+
+class FaultyCluster {
+  public:
+    FaultyCluster(std::shared_ptr<const Model> model, ControllerOptions options, const FaultOptions& faults,
+                  const Trouble& trouble, std::size_t simulators);
+
+    void add_program(const std::string& name, const ControlOptions& options);
+    void add_simulator();
+    void kill(std::size_t i);
+    void kill_all();
+
+    /// Gives everybody turns until the world rests at `target`; false: it did not come to it in so many turns.
+    bool run_until(Tick target, int turns_max = 400'000);
+    void turn();
+
+    Controller& controller() { return *controller_; }
+    FaultyBus& bus() { return bus_; }
+    std::size_t simulators() const { return simulators_.size(); }
+    Simulator& simulator(std::size_t i) { return *simulators_[i].role; }
+    int kills() const { return kills_; }
+    ProgramHost& host(std::size_t i) { return *hosts_[i]; }
+
+  private:
+    struct Member {
+        std::unique_ptr<Simulator> role;
+        Address address;
+        int hangs_for = 0;  // turns
+    };
+    void make_trouble();
+    bool happens(std::uint64_t chance) { return bus_.random(100'000) < chance; }
+
+    std::shared_ptr<const Model> model_;
+    ControllerOptions options_;
+    Trouble trouble_;
+    FaultyBus bus_;
+    ThreadPool pool_{1};
+    std::unique_ptr<Controller> controller_;
+    std::vector<std::unique_ptr<ProgramHost>> hosts_;
+    std::vector<Member> simulators_;
+    std::uint64_t instance_ = 0;
+    int kills_ = 0;
+};
+
+}  // namespace roboss::test

@@ -1,0 +1,32 @@
+// Worlds for the cluster tests, built as plain data, and control programs that keep them busy.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "client/control_program.h"
+#include "model/model.h"
+
+namespace roboss::test {
+
+/// Boxes and balls that fall on each other in several heaps, and one long row of boxes like dominoes.
+std::shared_ptr<const Model> heaps_world(int heaps = 4);
+
+/// Four-wheeled carts on a plane around a wall, to be driven by a DrivingProgram; they bump into each other.
+std::shared_ptr<const Model> carts_world(int carts = 6);
+
+/// Gives every cart wheel speeds that depend on what it observes, a shove now and then, and remembers how often it was called.
+class DrivingProgram : public ControlProgram {
+  public:
+    explicit DrivingProgram(const ControlOptions& options) : options_(options) {}
+    ControlOptions options() const override { return options_; }
+    void control(Client& client) override;
+    std::string memory() const override { return std::to_string(calls_); }
+    void restore(const std::string& memory) override { calls_ = std::stoi(memory); }
+
+  private:
+    ControlOptions options_;
+    int calls_ = 0;
+};
+
+}  // namespace roboss::test
