@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "app/check_command.h"
+#include "app/run_command.h"
 
 int main(int argc, char** argv) {
     CLI::App app{"RoBOSS simulates many robots in one physical world, exactly, on any number of machines.\n"
@@ -10,6 +11,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     app.set_help_all_flag("--help-all", "help of all subcommands");
     int exit_code = 0;
+    roboss::add_run_command(app, exit_code);
     roboss::add_check_command(app, exit_code);
     try {
         app.parse(argc, argv);
