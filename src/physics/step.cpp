@@ -184,6 +184,7 @@ void expire_wrenches(Tick tick, RobotState& state) {
 }  // namespace
 
 Aabb interaction_bound(const Model& model, RobotId robot, const RobotState& state) {
+    const ExactFloatScope exact;
     RobotWork work;
     RobotState copy = state;
     place_robot(model, robot, copy, work);
