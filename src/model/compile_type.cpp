@@ -249,8 +249,11 @@ class PartBuilder {
         const Vec3 centre = (body.p_BC * body.mass + p_BC * link.mass) * (1.0 / total);
         body.inertia_C = body.inertia_C + point_inertia(body.mass, body.p_BC - centre) + inertia +
                          point_inertia(link.mass, p_BC - centre);
-        const double felt = body.gravity_factor * body.mass + (link.gravity ? link.mass : 0.0);
-        body.gravity_factor = felt / total;
+        if (link.gravity && link.mass > 0) {
+            const double felt = body.gravity_mass + link.mass;
+            body.p_BG = (body.p_BG * body.gravity_mass + p_BC * link.mass) * (1.0 / felt);
+            body.gravity_mass = felt;
+        }
         body.p_BC = centre;
         body.mass = total;
     }

@@ -34,8 +34,8 @@ void add(Hash& hash, int value) {
 
 void add_body(Hash& hash, const Body& body) {
     add(hash, body.parent), add(hash, static_cast<int>(body.joint)), add(hash, body.X_PJ), add(hash, body.axis_J);
-    add(hash, body.inertia_C), add(hash, body.p_BC);
-    for (double x : {body.mass, body.gravity_factor, body.inverse_mass_linear, body.inverse_inertia_angular}) hash.add(x);
+    add(hash, body.inertia_C), add(hash, body.p_BC), add(hash, body.p_BG);
+    for (double x : {body.mass, body.gravity_mass, body.inverse_mass_linear, body.inverse_inertia_angular}) hash.add(x);
 }
 
 void add_dof(Hash& hash, const Dof& dof) {

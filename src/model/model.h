@@ -34,8 +34,9 @@ struct Body {
     int v_index = 0;  // first in RobotState::v
     int nv = 0;
     double mass = 0;
-    double gravity_factor = 1;  // share of the mass that feels gravity (links with <gravity>0)
+    double gravity_mass = 0;  // of the links that feel gravity
     Vec3 p_BC;          // centre of mass
+    Vec3 p_BG;          // centre of the gravity mass
     Mat3 inertia_C;     // about the centre of mass, axes of B
     // 1/kg and 1/(kg m^2): mobility of the centre of mass at the zero pose; scales the solver's regularisation.
     double inverse_mass_linear = 0, inverse_inertia_angular = 0;

@@ -31,6 +31,13 @@ double mobility(const RobotWork& robot, int body) {
     return body < 0 ? 0.0 : robot.type->bodies[static_cast<std::size_t>(body)].inverse_mass_linear;
 }
 
+/// Gravity along the normal as the body feels it.
+double gravity_along(const Model& model, const RobotWork& robot, int body, const Vec3& n) {
+    if (body < 0) return 0.0;
+    const Body& info = robot.type->bodies[static_cast<std::size_t>(body)];
+    return info.mass > 0 ? dot(model.gravity, n) * (info.gravity_mass / info.mass) : 0.0;
+}
+
 /// Normal velocity before the step, from the states' velocities.
 double normal_velocity(const RobotWork& robot, int body, const Vec3& p_W, const Vec3& n) {
     if (body < 0) return 0.0;
@@ -66,13 +73,13 @@ bool add_contact_row(const Model& model, const Contact& c, std::span<const Robot
     add_columns(a, c.body_a, offsets[static_cast<std::size_t>(c.robot_a)], 1.0, c.p_W, frame, columns);
     double ease = mobility(a, c.body_a);
     double approach = -normal_velocity(a, c.body_a, c.p_W, c.normal);
-    double gravity_n = c.body_a < 0 ? 0.0 : dot(model.gravity, c.normal);
+    double gravity_n = gravity_along(model, a, c.body_a, c.normal);
     if (c.robot_b >= 0) {
         const RobotWork& b = robots[static_cast<std::size_t>(c.robot_b)];
         add_columns(b, c.body_b, offsets[static_cast<std::size_t>(c.robot_b)], -1.0, c.p_W, frame, columns);
         ease += mobility(b, c.body_b);
         approach += normal_velocity(b, c.body_b, c.p_W, c.normal);
-        if (c.body_b >= 0) gravity_n -= dot(model.gravity, c.normal);
+        gravity_n -= gravity_along(model, b, c.body_b, c.normal);
     }
     row.last = columns.size();
     row.mu = c.mu;

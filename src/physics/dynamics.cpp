@@ -149,8 +149,9 @@ void compute_impulse(const Model& model, double dt, double momentum_weight, std:
         BodyWork& w = work.bodies[b];
         w.inertia = spatial_inertia(body.mass, w.centre, rotated(w.X_WB.R, body.inertia_C));
         const Spatial momentum = w.inertia * w.velocity;
-        const Vec3 weight = model.gravity * (body.mass * body.gravity_factor);
-        const Spatial force = Spatial{cross(w.centre, weight), weight} - w.inertia * w.bias - cross_force(w.velocity, momentum);
+        const Vec3 weight = model.gravity * body.gravity_mass;
+        const Vec3 feels = body.gravity_mass == body.mass ? w.centre : w.X_WB * body.p_BG - work.origin;
+        const Spatial force = Spatial{cross(feels, weight), weight} - w.inertia * w.bias - cross_force(w.velocity, momentum);
         w.impulse = momentum * momentum_weight + force * dt;
     }
     add_wrenches(type, *work.state, dt, work);

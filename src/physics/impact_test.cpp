@@ -45,6 +45,18 @@ TEST(Impact, BallBouncesToTheRightHeights) {
     }
 }
 
+TEST(Impact, BallThatFeelsNoGravityBouncesByItsRestitutionAlone) {
+    World world = empty_world(1e-3);
+    place(world, ground(surface(0.5)), "ground");
+    ModelSpec ball = solid_sphere(1.0, 0.05, surface(0.5, 0.5));
+    ball.links[0].gravity = false;
+    place(world, ball, "ball", {{0, 0, 0.35}, {}});
+    Simulation sim(world);
+    sim.states[0].v[5] = -1;
+    sim.run(0.5);
+    EXPECT_NEAR(sim.states[0].v[5], 0.5, 1e-5);
+}
+
 TEST(Impact, BallWithoutRestitutionStaysDown) {
     World world = empty_world(1e-3);
     place(world, ground(surface(0.5)), "ground");

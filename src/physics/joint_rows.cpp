@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLimitShare = 0.2;      // of a violated limit mended in one tick
-constexpr double kLimitSpeedMax = 1.0;   // rad/s or m/s, while mending
+constexpr double kLimitSlop = 1e-6;      // rad or m beyond a limit that are left alone
+constexpr double kLimitSpeedMax = 1.0;   // rad/s or m/s, while mending; it never enters the velocity, so it adds no energy
 
 /// Everything about one degree of freedom that its rows need.
 struct DofState {
@@ -71,14 +72,17 @@ void add_motor(const DofState& s, int dof, std::vector<JointRow>& rows) {
     rows.push_back(row);
 }
 
-/// A limit pushes away from itself, and only if this tick could reach it.
-void add_limits(const DofState& s, int dof, std::vector<JointRow>& rows) {
+/// A limit pushes away from itself, and only if this tick could reach it. Returns true if it is violated.
+bool add_limits(const DofState& s, int dof, std::vector<JointRow>& rows) {
     const double reach = s.dt * std::fabs(s.v) + 0.05;
-    const auto target = [&](double room) {  // room: way left before the limit, negative when violated
-        return room >= 0 ? -room / s.dt : std::min(-room * kLimitShare / s.dt, kLimitSpeedMax);
+    const double below = s.q - s.dof.lower, above = s.dof.upper - s.q;  // way left, negative when violated
+    const auto target = [&](double room) { return std::max(room, 0.0) / s.dt; };
+    const auto mend = [&](double room) {
+        return std::clamp((-room - kLimitSlop) * kLimitShare / s.dt, 0.0, kLimitSpeedMax);
     };
-    if (s.q - s.dof.lower < reach) rows.push_back({dof, target(s.q - s.dof.lower), s.compliance, 0.0, kInfinity});
-    if (s.dof.upper - s.q < reach) rows.push_back({dof, -target(s.dof.upper - s.q), s.compliance, -kInfinity, 0.0});
+    if (below < reach) rows.push_back({dof, -target(below), s.compliance, 0.0, kInfinity, mend(below)});
+    if (above < reach) rows.push_back({dof, target(above), s.compliance, -kInfinity, 0.0, -mend(above)});
+    return std::min(below, above) < -kLimitSlop;
 }
 
 /// Springs or damping so stiff that the explicit Runge-Kutta step would not follow them; its limit is 2.8, but the mobility is that
@@ -97,9 +101,10 @@ bool near_limit(const Dof& dof, double q, double v, double dt) {
 
 }  // namespace
 
-void add_joint_rows(const Model& model, const RobotWork& robot, int offset, std::vector<JointRow>& rows) {
+bool add_joint_rows(const Model& model, const RobotWork& robot, int offset, std::vector<JointRow>& rows) {
     const RobotType& type = *robot.type;
     const RobotState& state = *robot.state;
+    bool mends = false;
     for (std::size_t d = 0; d < type.dofs.size(); ++d) {
         const Dof& dof = type.dofs[d];
         const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
@@ -110,8 +115,9 @@ void add_joint_rows(const Model& model, const RobotWork& robot, int offset, std:
         add_motor(s, island_dof, rows);
         if (dof.friction > 0)
             rows.push_back({island_dof, 0.0, s.compliance, -dof.friction * model.dt_s, dof.friction * model.dt_s});
-        if (body.joint != JointKind::kBall) add_limits(s, island_dof, rows);
+        if (body.joint != JointKind::kBall) mends |= add_limits(s, island_dof, rows);
     }
+    return mends;
 }
 
 bool moves_freely(const Model& model, const RobotWork& robot) {

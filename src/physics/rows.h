@@ -11,6 +11,7 @@ namespace roboss {
 struct JointRow {
     int dof = 0;  // in the contact island
     double target = 0, compliance = 1, low = 0, high = 0;
+    double mend = 0;  // added to the target for the way of this tick: a violated limit is mended without speed
 };
 
 /// One column of a contact's Jacobian: velocity of A against B at the point, along (normal, tangent 1, tangent 2), per unit
@@ -33,8 +34,9 @@ struct ContactRow {
     double du_n = 0, du_t1 = 0, du_t2 = 0;           // per unit step of the line search
 };
 
-/// Motors, joint friction, limits of one robot; `offset` is its first dof in the contact island.
-void add_joint_rows(const Model& model, const RobotWork& robot, int offset, std::vector<JointRow>& rows);
+/// Motors, joint friction, limits of one robot; `offset` is its first dof in the contact island. Returns true if a row has
+/// something to mend.
+bool add_joint_rows(const Model& model, const RobotWork& robot, int offset, std::vector<JointRow>& rows);
 
 /// True if add_joint_rows would add nothing and no spring or damping is stiff: the robot moves smoothly when nothing touches it.
 bool moves_freely(const Model& model, const RobotWork& robot);

@@ -116,6 +116,7 @@ bool gather_island(const Model& model, Impl& s, std::span<const std::uint32_t> m
     s.island_robots.clear(), s.island_offsets.clear();
     s.joints.clear(), s.columns.clear(), s.rows.clear(), s.v.clear();
     s.offsets.resize(s.robots.size());
+    bool split = false;
     for (std::uint32_t m : members) {
         RobotWork& work = s.robots[m];
         const int offset = static_cast<int>(s.v.size());
@@ -124,10 +125,9 @@ bool gather_island(const Model& model, Impl& s, std::span<const std::uint32_t> m
         s.island_offsets.push_back(offset);
         compute_impulse(model, model.dt_s, 1.0, work.state->q, work.state->v, work);
         compute_mass_matrix(*work.type, model.dt_s, work);
-        add_joint_rows(model, work, offset, s.joints);
+        split |= add_joint_rows(model, work, offset, s.joints);
         s.v.insert(s.v.end(), work.state->v.begin(), work.state->v.end());
     }
-    bool split = false;
     for (std::uint32_t m : members) {  // contacts are sorted by their first robot
         const auto first = std::lower_bound(contacts.begin(), contacts.end(), static_cast<int>(m),
                                             [](const Contact& c, int robot) { return c.robot_a < robot; });
@@ -154,6 +154,7 @@ void solve_island(const Model& model, Impl& s, std::span<const std::uint32_t> me
     for (std::size_t c = 0; c < s.rows.size(); ++c) s.island_contacts[c]->impulse = s.rows[c].impulse_n;
     if (split) {
         for (ContactRow& row : s.rows) row.bound = row.mu * row.impulse_n;
+        for (JointRow& row : s.joints) row.target += row.mend;
         report.iterations += s.solver.solve(model.accuracy, s.island_robots, s.island_offsets, s.joints, s.columns, s.rows, true,
                                             s.v_before).iterations;
     }
@@ -183,6 +184,7 @@ void expire_wrenches(Tick tick, RobotState& state) {
 }  // namespace
 
 Aabb interaction_bound(const Model& model, RobotId robot, const RobotState& state) {
+    const ExactFloatScope exact;
     RobotWork work;
     RobotState copy = state;
     place_robot(model, robot, copy, work);
