@@ -21,6 +21,7 @@ Vec3 radial_part(const Vec3& n, const Vec3& axis) {
 ConvexSum::ConvexSum(const Posed& first, const Posed& second) : centre_(first.X.p - second.X.p) {
     add(first);
     first_segments_ = segment_count_;
+    first_discs_ = disc_count_;
     add(second);
 }
 
@@ -42,6 +43,7 @@ void ConvexSum::add(const Posed& shape) {
         inradius = std::min(s.radius, s.half_length);
     }
     inradius_ = std::max(inradius_, inradius);
+    scale_ = std::min(scale_, s.kind == ShapeKind::kCapsule ? s.radius : inradius);
 }
 
 double ConvexSum::reach(const Vec3& n) const {
@@ -53,16 +55,29 @@ double ConvexSum::reach(const Vec3& n) const {
 }
 
 Vec3 ConvexSum::support(const Vec3& n) const {
-    Vec3 x;
+    Vec3 first;
+    return support(n, first);
+}
+
+Vec3 ConvexSum::support(const Vec3& n, Vec3& first) const {
+    std::array<Vec3, 2> share;
     for (std::size_t i = 0; i < segment_count_; ++i) {
-        x += direction_[i] * (dot(n, direction_[i]) < 0.0 ? -half_[i] : half_[i]);
+        share[i < first_segments_ ? 0 : 1] +=
+            direction_[i] * (dot(n, direction_[i]) < 0.0 ? -half_[i] : half_[i]);
     }
     for (std::size_t i = 0; i < disc_count_; ++i) {
         const Vec3 radial = radial_part(n, discs_[i].axis);
         const double length = norm(radial);
-        if (length > 1e-12) x += radial * (discs_[i].radius / length);
+        if (length > 1e-12) share[i < first_discs_ ? 0 : 1] += radial * (discs_[i].radius / length);
     }
-    return x;
+    first = share[0];
+    return share[0] + share[1];
+}
+
+ConvexSum ConvexSum::moved(const Vec3& by) const {
+    ConvexSum sum = *this;
+    sum.centre_ += by;
+    return sum;
 }
 
 double ConvexSum::rounding() const {
@@ -148,7 +163,8 @@ Separation ConvexSum::polished(const Separation& start) const {
     for (std::size_t i = 0; i < segment_count_; ++i) {
         if (half_[i] > 0.0 && std::fabs(dot(n0, direction_[i])) < kNear) near[near_count++] = i;
     }
-    // The gap has a kink where n is perpendicular to a segment, so each smooth side of it is climbed from a small step.
+    // The gap has a kink where n is perpendicular to a segment, so each smooth side of it is climbed from a
+    // small step.
     for (std::size_t i = 0; i < near_count; ++i) {
         const Vec3& edge = direction_[near[i]];
         const Vec3 n = normalized(radial_part(n0, edge));
