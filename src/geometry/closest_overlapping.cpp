@@ -127,7 +127,9 @@ Separation closest_direction(const ConvexSum& sum, const Separation& start, doub
     const ClosestApart apart = closest_apart(sum, start, enough);
     if (apart.best.s > enough) return apart.best;
     const Separation best = sum.polished(apart.best);
-    return apart.overlap ? sum.polished(closest_overlapping(sum, best)) : best;
+    if (!apart.overlap) return best;
+    const Separation deeper = closest_overlapping(sum, best);
+    return deeper.s > best.s ? sum.polished(deeper) : best;
 }
 
 }  // namespace roboss::narrow

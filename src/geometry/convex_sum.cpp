@@ -149,43 +149,64 @@ Separation ConvexSum::climb(Vec3 n, const Vec3* edge) const {
     return best;
 }
 
-Separation ConvexSum::polished(const Separation& start) const {
-    Separation best = start;
-    const double tie = rounding();
-    const Vec3& n0 = start.n;
-    // Flattest last, each accepted when it is at least as good to within a tie.
-    const auto consider = [&](const Separation& found) {
-        if (found.s >= best.s - tie) best = {found.n, found.s};
-    };
-    consider(climb(n0, nullptr));
-    std::array<std::size_t, 6> near{};
-    std::size_t near_count = 0;
+bool ConvexSum::rises(const Vec3& n, const Vec3& d) const {
+    double smooth = dot(d, centre_), kinks = 0.0;
     for (std::size_t i = 0; i < segment_count_; ++i) {
-        if (half_[i] > 0.0 && std::fabs(dot(n0, direction_[i])) < kNear) near[near_count++] = i;
+        const double across = dot(n, direction_[i]), along = half_[i] * dot(d, direction_[i]);
+        if (std::fabs(across) < 1e-9) {
+            kinks += std::fabs(along);
+        } else {
+            smooth -= across < 0.0 ? -along : along;
+        }
     }
-    // The gap has a kink where n is perpendicular to a segment, so each smooth side of it is climbed from a
-    // small step.
-    for (std::size_t i = 0; i < near_count; ++i) {
-        const Vec3& edge = direction_[near[i]];
-        const Vec3 n = normalized(radial_part(n0, edge));
-        for (const double step : {-kStep, kStep}) consider(climb(normalized(n + edge * step), nullptr));
+    for (std::size_t i = 0; i < disc_count_; ++i) {
+        const Vec3 radial = radial_part(n, discs_[i].axis);
+        const double length = norm(radial);
+        if (length < 1e-9) {
+            kinks += discs_[i].radius * norm(radial_part(d, discs_[i].axis));
+        } else {
+            smooth -= discs_[i].radius * dot(d, radial) / length;
+        }
     }
-    for (std::size_t i = 0; i < near_count; ++i) {
-        const Vec3& edge = direction_[near[i]];
-        const Vec3 n = normalized(radial_part(n0, edge)), along = cross(edge, n);
-        consider(climb(n, &edge));
-        if (near_count == 1) continue;
-        for (const double step : {-kStep, kStep}) consider(climb(normalized(n + along * step), &edge));
+    return std::fabs(smooth) > kinks;
+}
+
+void ConvexSum::climb_beside(const Vec3& n, const Vec3& d, const Vec3* edge, Separation& best) const {
+    if (!rises(n, d)) return;
+    for (const double step : {-kStep, kStep}) best = better(best, climb(normalized(n + d * step), edge));
+}
+
+Separation ConvexSum::better(const Separation& best, const Separation& found) const {
+    return found.s >= best.s - rounding() ? found : best;
+}
+
+Separation ConvexSum::polished(const Separation& start) const {
+    // Flattest last, each accepted when it is at least as good to within rounding.
+    const Vec3& n0 = start.n;
+    Separation best = better(start, climb(n0, nullptr));
+    std::array<Vec3, 6> edges;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < segment_count_; ++i) {
+        if (half_[i] > 0.0 && std::fabs(dot(n0, direction_[i])) < kNear) edges[count++] = direction_[i];
+    }
+    // The gap has a kink where n is perpendicular to a segment: where it rises beside the kink, each side is
+    // climbed.
+    for (std::size_t i = 0; i < count; ++i) {
+        climb_beside(normalized(radial_part(n0, edges[i])), edges[i], nullptr, best);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 n = normalized(radial_part(n0, edges[i]));
+        best = better(best, climb(n, &edges[i]));
+        if (count > 1) climb_beside(n, cross(edges[i], n), &edges[i], best);
     }
     const auto consider_flat = [&](const Vec3& direction) {
         const double length = norm(direction);
         if (length < 1e-3) return;
         const Vec3 n = direction * (dot(direction, n0) < 0.0 ? -1.0 / length : 1.0 / length);
-        if (dot(n, n0) > 0.9) consider(separation(n));
+        if (dot(n, n0) > 0.9) best = better(best, separation(n));
     };
-    for (std::size_t i = 0; i < near_count; ++i) {
-        for (std::size_t j = i + 1; j < near_count; ++j)
-            consider_flat(cross(direction_[near[i]], direction_[near[j]]));
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t j = i + 1; j < count; ++j) consider_flat(cross(edges[i], edges[j]));
     }
     for (std::size_t i = 0; i < disc_count_; ++i) {
         if (norm(radial_part(n0, discs_[i].axis)) < kNear) consider_flat(discs_[i].axis);

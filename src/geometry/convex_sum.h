@@ -43,8 +43,11 @@ class ConvexSum {
         double radius = 0;
     };
     void add(const Posed& shape);
-    double rounding() const;  // differences of s below it are noise
-    Separation climb(Vec3 n, const Vec3* edge) const;
+    double rounding() const;                           // differences of s below it are noise
+    Separation climb(Vec3 n, const Vec3* edge) const;  // Newton, perpendicular to the edge if one is given
+    bool rises(const Vec3& n, const Vec3& d) const;    // s grows from n towards d or -d
+    void climb_beside(const Vec3& n, const Vec3& d, const Vec3* edge, Separation& best) const;
+    Separation better(const Separation& best, const Separation& found) const;
 
     Vec3 centre_;
     double inradius_ = 0, scale_ = 1e300;
