@@ -8,7 +8,7 @@ namespace roboss::narrow {
 namespace {
 
 constexpr int kStepsMax = 96;
-constexpr double kGap = 1e-10;  // relative gap between the bounds; polishing does the rest
+constexpr double kGap = 1e-6;  // gap between the bounds, of distance and size; polishing does the rest
 
 /// A point w of the sum minus its centre, and the share `first` of it that belongs to the first shape.
 struct Vertex {
@@ -130,7 +130,7 @@ ClosestApart closest_apart(const ConvexSum& sum, const Separation& start, double
         const double distance = std::sqrt(squared);
         const Separation found = sum.separation(simplex.closest.w / -distance);
         if (found.s > best.s) best = found;
-        if (best.s > enough || distance - best.s <= kGap * distance) break;
+        if (best.s > enough || distance - best.s <= kGap * (distance + sum.scale())) break;
         const Vertex vertex = support(sum, found.n);
         if (simplex.has(vertex.w)) break;
         simplex.v[simplex.count++] = vertex;

@@ -3,6 +3,7 @@
 // the contact is done. Otherwise the closest direction is searched, and the contact built from the features
 // that meet along it.
 #include <algorithm>
+#include <limits>
 
 #include "geometry/closest_direction.h"
 #include "geometry/cylinder_rim.h"
@@ -100,6 +101,14 @@ bool is_proven(const ConvexSum& sum, const Separation& best, const FaceContact& 
            depth * (1.0 + 2.0 * norm(aside) / height) <= contact.clearance(10.0 * tolerance);
 }
 
+/// Whether the lines or points furthest along n lie opposite each other: apart, that makes n the best of all.
+bool is_opposite(const Posed& a, const Posed& b, const ConvexSum& sum, const Separation& best) {
+    const LinePair lines{support_line(a, -best.n, 1e-7), support_line(b, best.n, 1e-7), best.n,
+                         best.s - ball(a) - ball(b), 1e-8 * sum.scale()};
+    Manifold ignored;
+    return add_lines(lines, 0.0, ignored) < std::numeric_limits<double>::infinity();
+}
+
 void write_features(const Posed& a, const Posed& b, const ConvexSum& sum, const Separation& best,
                     double margin, Manifold& out) {
     const double gap = best.s - ball(a) - ball(b);
@@ -139,7 +148,9 @@ void convex_convex(const Posed& a, const Posed& b, double margin, Manifold& out)
         if (is_proven(sum, best, contact, balls, rim_slack(a, b, best.n)))
             return contact.write(choice.of_first, margin, out);
     }
-    best = closest_direction(sum, best, enough);
+    best = sum.polished(best);
+    if (best.s > enough) return;
+    if (!(best.s > 0.0 && is_opposite(a, b, sum, best))) best = closest_direction(sum, best, enough);
     if (best.s > enough) return;
     write_features(a, b, sum, best, margin, out);
 }

@@ -98,11 +98,20 @@ Separation ConvexSum::best_natural() const {
         for (std::size_t j = first_segments_; j < segment_count_; ++j)
             consider(cross(direction_[i], direction_[j]));
     }
-    const double distance = norm(centre_);
-    if (distance > 1e-150) {
-        const Vec3 d = centre_ / distance;
+    const auto consider_near = [&](const Vec3& towards) {
+        const double distance = norm(towards);
+        if (distance < 1e-12 * inradius_) return;
+        const Vec3 d = towards / distance;
         consider(d);
         for (std::size_t i = 0; i < segment_count_; ++i) consider(radial_part(d, direction_[i]));
+    };
+    consider_near(centre_);
+    if (first_segments_ == 3) {  // from the point of the box that is closest to the other centre
+        Vec3 closest;
+        for (std::size_t i = 0; i < 3; ++i) {
+            closest += direction_[i] * std::clamp(dot(centre_, direction_[i]), -half_[i], half_[i]);
+        }
+        consider_near(centre_ - closest);
     }
     return best;
 }
