@@ -8,6 +8,9 @@
 namespace roboss::narrow {
 namespace {
 
+constexpr double kMergeFraction = 1e-4;  // of the smallest half size: points closer than that are one
+constexpr double kBorderFraction =
+    1e-7;  // how far outside the border a face still touches when nothing is inside
 constexpr std::uint32_t kReferenceLine = 4;  // lines 0 .. 3 are incident edges, 4 .. 7 reference edges
 
 struct Vertex {
@@ -78,16 +81,17 @@ Corners incident_corners(const BoxFace& reference, const BoxFace& incident) {
     return {{vertex(c + x + y, 0), vertex(c - x + y, 1), vertex(c - x - y, 2), vertex(c + x - y, 3)}};
 }
 
-/// Names a polygon vertex: a box corner where one is within `tolerance`, else the two edges that cross.
+/// Names a polygon vertex: a box corner where one is within half the tolerance for merging, else the two
+/// edges that cross.
 ClippedPoint name_point(const BoxFace& reference, const BoxFace& incident, const Corners& incident_at,
                         const Corners& reference_at, std::uint32_t line_before, const Vertex& v,
                         double tolerance) {
     ClippedPoint point{v.x, v.y, v.z, kFacePart, kFacePart};
-    if (const std::size_t i = incident_at.near(v.x, v.y, tolerance); i < 4) {
+    if (const std::size_t i = incident_at.near(v.x, v.y, 0.5 * tolerance); i < 4) {
         point.part = incident.corner_part(i);
         return point;
     }
-    std::size_t corner = reference_at.near(v.x, v.y, tolerance);
+    std::size_t corner = reference_at.near(v.x, v.y, 0.5 * tolerance);
     if (line_before >= kReferenceLine && v.line >= kReferenceLine) {
         corner = corner_between(line_before - kReferenceLine, v.line - kReferenceLine);
     }
@@ -167,7 +171,9 @@ std::uint32_t BoxFace::edge_part_after(std::size_t corner) const {
     }
 }
 
-ClippedFace clip(const BoxFace& reference, const BoxFace& incident) {
+namespace {
+
+ClippedFace clip_exactly(const BoxFace& reference, const BoxFace& incident, double tolerance) {
     const Corners incident_at = incident_corners(reference, incident);
     const double hx = reference.hx, hy = reference.hy;
     const Corners reference_at{{Vertex{hx, hy}, Vertex{-hx, hy}, Vertex{-hx, -hy}, Vertex{hx, -hy}}};
@@ -187,7 +193,6 @@ ClippedFace clip(const BoxFace& reference, const BoxFace& incident) {
     for (const Vertex& v : incident_at.v) polygon.add(v);
     for (std::uint32_t edge = 0; edge < 4; ++edge) clip_edge(polygon, edge, edge % 2 == 0 ? hy : hx);
 
-    const double tolerance = 1e-4 * std::min(std::min(hx, hy), std::min(incident.hx, incident.hy));
     for (int i = 0; i < polygon.count; ++i) {
         const std::uint32_t line_before = polygon[i == 0 ? polygon.count - 1 : i - 1].line;
         merge(out,
@@ -195,6 +200,18 @@ ClippedFace clip(const BoxFace& reference, const BoxFace& incident) {
               tolerance);
     }
     return out;
+}
+
+}  // namespace
+
+ClippedFace clip(const BoxFace& reference, const BoxFace& incident) {
+    const double size = std::min(std::min(reference.hx, reference.hy), std::min(incident.hx, incident.hy));
+    const ClippedFace clipped = clip_exactly(reference, incident, kMergeFraction * size);
+    if (clipped.count > 0) return clipped;
+    BoxFace wider = reference;
+    wider.hx += kBorderFraction * size;
+    wider.hy += kBorderFraction * size;
+    return clip_exactly(wider, incident, kMergeFraction * size);
 }
 
 void add_clipped(const BoxFace& reference, const ClippedFace& clipped, bool reference_is_first, double margin,

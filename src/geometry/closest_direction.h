@@ -10,10 +10,15 @@ namespace roboss::narrow {
 /// it is returned.
 Separation closest_direction(const ConvexSum& sum, const Separation& start, double enough);
 
+struct ClosestApart {
+    Separation best;       // the better of `start` and what was found
+    bool overlap = false;  // the shapes overlap or nearly touch
+    Vec3 first;            // the first shape's share of the sum's closest point, when they do not
+};
+
 /// Gilbert, Johnson and Keerthi, "A Fast Procedure for Computing the Distance between Complex Objects in
-/// Three-Dimensional Space", 1988. Returns the better of `start` and the result; when the shapes overlap or
-/// nearly touch, `overlap` becomes true.
-Separation closest_apart(const ConvexSum& sum, const Separation& start, double enough, bool& overlap);
+/// Three-Dimensional Space", 1988.
+ClosestApart closest_apart(const ConvexSum& sum, const Separation& start, double enough);
 
 /// After van den Bergen, "Proximity Queries and Penetration Depth Computation on 3D Game Objects", 2001. The
 /// polytope starts round the centre of the sum, so it needs no simplex from GJK, and works for a slight

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kVerticesMax = 120;
 constexpr std::size_t kFacesMax = 2 * kVerticesMax + 64;
 constexpr std::size_t kEdgesMax = 256;
-constexpr double kGap = 1e-6;  // of the inradius, between the bounds; polishing does the rest
+constexpr double kGap = 1e-6;  // of the smallest size, between the bounds; polishing does the rest
 
 struct Face {
     std::array<std::size_t, 3> v{};
@@ -113,7 +113,7 @@ Separation closest_overlapping(const ConvexSum& sum, const Separation& start) {
     Separation best = start;
     Polytope polytope(sum);
     if (!polytope.start(start.n)) return best;
-    const double gap = kGap * sum.inradius();
+    const double gap = kGap * sum.scale();
     while (true) {
         const Face face = polytope.best_face();
         if (face.s <= best.s + gap) return best;
@@ -124,12 +124,12 @@ Separation closest_overlapping(const ConvexSum& sum, const Separation& start) {
 }
 
 Separation closest_direction(const ConvexSum& sum, const Separation& start, double enough) {
-    bool overlap = false;
-    Separation best = closest_apart(sum, start, enough, overlap);
-    if (best.s > enough) return best;
-    best = sum.polished(best);
-    if (!overlap) return best;
-    return sum.polished(closest_overlapping(sum, best));
+    const ClosestApart apart = closest_apart(sum, start, enough);
+    if (apart.best.s > enough) return apart.best;
+    const Separation best = sum.polished(apart.best);
+    if (!apart.overlap) return best;
+    const Separation deeper = closest_overlapping(sum, best);
+    return deeper.s > best.s ? sum.polished(deeper) : best;
 }
 
 }  // namespace roboss::narrow

@@ -40,23 +40,20 @@ struct Relative {
 };
 
 /// False as soon as an axis separates by more than the margin.
-bool test_faces(const Relative& r, double margin, Axis& best) {
-    const double tie = 1e-6 * (r.a.x + r.a.y + r.a.z);  // prefer the first box: its choice must not flicker
+bool test_faces(const Relative& r, double margin, std::array<Axis, 2>& best) {
     for (std::size_t i = 0; i < 3; ++i) {
         const double s = std::fabs(r.p_A[i]) - (r.a[i] + dot(r.size.row(i), r.b));
         if (s > margin) return false;
-        if (s <= best.separation) continue;
+        if (s <= best[0].separation) continue;
         Vec3 n;
         n[i] = r.p_A[i] < 0.0 ? -1.0 : 1.0;
-        best = {s, n, i, 0};
+        best[0] = {s, n, i, 0};
     }
-    const Axis of_first = best;
     for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3 size = r.size.col(i);
-        const double s = std::fabs(r.p_B[i]) - (r.b[i] + dot(size, r.a));
+        const double s = std::fabs(r.p_B[i]) - (r.b[i] + dot(r.size.col(i), r.a));
         if (s > margin) return false;
-        if (s <= best.separation || s <= of_first.separation + tie) continue;
-        best = {s, r.p_B[i] < 0.0 ? -r.R.col(i) : r.R.col(i), i, 1};
+        if (s <= best[1].separation) continue;
+        best[1] = {s, r.p_B[i] < 0.0 ? -r.R.col(i) : r.R.col(i), i, 1};
     }
     return true;
 }
@@ -153,10 +150,8 @@ bool add_edge_contact(const Posed& first, const Posed& second, const Relative& r
     const double c = dot(a.direction, b.direction), da = dot(d, a.direction), db = dot(d, b.direction);
     const double determinant = 1.0 - c * c;
     const double s = (da - c * db) / determinant, t = (c * da - db) / determinant;
-    const bool within = std::fabs(s) <= a.half && std::fabs(t) <= b.half;
-    if (!within && axis.separation > 0.0) return false;
-    const Vec3 on_a = a.middle + a.direction * std::clamp(s, -a.half, a.half);
-    const Vec3 on_b = b.middle + b.direction * std::clamp(t, -b.half, b.half);
+    if (!(std::fabs(s) <= a.half && std::fabs(t) <= b.half)) return false;
+    const Vec3 on_a = a.middle + a.direction * s, on_b = b.middle + b.direction * t;
     out.n_W = first.X.R * axis.n_A;
     out.add((on_a + on_b) * 0.5, axis.separation, feature_of(a.part, b.part));
     return true;
@@ -166,25 +161,30 @@ bool add_edge_contact(const Posed& first, const Posed& second, const Relative& r
 
 void box_box(const Posed& a, const Posed& b, double margin, Manifold& out) {
     const Relative r(a, b);
-    Axis face, edge;
-    if (!test_faces(r, margin, face)) return;
-    edge.separation = face.separation;
+    std::array<Axis, 2> faces;
+    if (!test_faces(r, margin, faces)) return;
+    const double face_separation = std::max(faces[0].separation, faces[1].separation);
+    Axis edge;
+    edge.separation = face_separation;
     if (!test_edges(r, margin, edge)) return;
 
+    // Ties go to a face before an edge pair and to the first box before the second: the choice must not
+    // flicker.
     const double size =
         std::min(std::min(r.a.x, std::min(r.a.y, r.a.z)), std::min(r.b.x, std::min(r.b.y, r.b.z)));
-    const double tie = std::max(1e-9 * size, 1e-3 * std::fabs(face.separation));
-    if (edge.separation <= face.separation + tie) {
-        const double gap_max = face.separation > 0.0 ? face.separation + 1e-9 * size : margin;
+    const double tie = 1e-6 * size;
+    if (edge.separation <= face_separation + std::max(tie, 1e-3 * std::fabs(face_separation))) {
+        const Axis& face = faces[1].separation > faces[0].separation + tie ? faces[1] : faces[0];
+        const double gap_max = face_separation > 0.0 ? face_separation + tie : margin;
         if (add_face_contact(a, b, face, gap_max, margin, out)) return;
     } else {
         double cosine = 0.0;
         const Axis close = face_most_along(r, edge.n_A, cosine);
-        const double gap_max = edge.separation + 1e-3 * std::fabs(edge.separation) + 1e-6 * size;
+        const double gap_max = edge.separation + 1e-3 * std::fabs(edge.separation) + tie;
         if (cosine > kAlmostParallel && add_face_contact(a, b, close, gap_max, margin, out)) return;
         if (add_edge_contact(a, b, r, edge, out)) return;
     }
-    convex_convex(a, b, margin, out);  // apart, closest at a corner
+    convex_convex(a, b, margin, out);  // apart and closest at a corner, or too degenerate for fixed axes
 }
 
 }  // namespace roboss::narrow

@@ -31,7 +31,10 @@ void capsule_capsule(const Posed& a, const Posed& b, double margin, Manifold& ou
     pair.n = distance > 1e-12 * (ra + rb) ? d / distance : crossing_normal(a, b);
     pair.a.middle += pair.n * -ra;
     pair.b.middle += pair.n * rb;
-    add_lines(pair, margin, out);
+    if (add_lines(pair, margin, out) <= margin) return;
+    out.n_W = pair.n;  // cores so nearly one that the normal is not perpendicular to them
+    const Vec3 on_a = pair.a.middle + pair.a.half * p.s;
+    out.add(on_a - pair.n * (0.5 * pair.gap), pair.gap, feature_of(kLine, kLine));
 }
 
 }  // namespace roboss::narrow

@@ -3,8 +3,10 @@
 // the contact is done. Otherwise the closest direction is searched, and the contact built from the features
 // that meet along it.
 #include <algorithm>
+#include <limits>
 
 #include "geometry/closest_direction.h"
+#include "geometry/cylinder_rim.h"
 #include "geometry/support_line.h"
 
 namespace roboss::narrow {
@@ -73,12 +75,24 @@ struct FaceContact {
     }
 };
 
+/// How far the deepest of a cap's four points may lie above its rim's deepest point (see rim_directions).
+double rim_slack(const Posed& a, const Posed& b, const Vec3& n) {
+    double slack = 0.0;
+    for (const Posed* s : {&a, &b}) {
+        if (s->shape.kind != ShapeKind::kCylinder) continue;
+        const double tilt = norm(cross(s->axis(2), n));
+        if (tilt < kTilted) slack += 0.3 * s->shape.radius * tilt;
+    }
+    return slack;
+}
+
 /// Whether no direction separates better than the face's. Apart: the deepest point over the face is a pair of
 /// points at that distance. Penetrating by d: the sum holds the facet's disc of radius `clearance` and its
 /// mirror image, hence a ball of radius d round the centre if the disc is wide enough for the slant of the
 /// line that joins the two.
-bool is_proven(const ConvexSum& sum, const Separation& best, const FaceContact& contact, double balls) {
-    const double tolerance = 1e-7 * sum.inradius();
+bool is_proven(const ConvexSum& sum, const Separation& best, const FaceContact& contact, double balls,
+               double slack) {
+    const double tolerance = 1e-7 * sum.scale() + slack;
     if (contact.points.deepest() > best.s - balls + tolerance) return false;
     if (best.s >= 0.0) return true;
     const double depth = -best.s, height = sum.reach(best.n);
@@ -87,27 +101,38 @@ bool is_proven(const ConvexSum& sum, const Separation& best, const FaceContact& 
            depth * (1.0 + 2.0 * norm(aside) / height) <= contact.clearance(10.0 * tolerance);
 }
 
+/// Whether the lines or points furthest along n lie opposite each other: apart, that makes n the best of all.
+bool is_opposite(const Posed& a, const Posed& b, const ConvexSum& sum, const Separation& best) {
+    const LinePair lines{support_line(a, -best.n, 1e-7), support_line(b, best.n, 1e-7), best.n,
+                         best.s - ball(a) - ball(b), 1e-8 * sum.scale()};
+    Manifold ignored;
+    return add_lines(lines, 0.0, ignored) < std::numeric_limits<double>::infinity();
+}
+
 void write_features(const Posed& a, const Posed& b, const ConvexSum& sum, const Separation& best,
                     double margin, Manifold& out) {
     const double gap = best.s - ball(a) - ball(b);
-    const double gap_max = gap + 1e-3 * std::fabs(gap) + 1e-6 * sum.inradius();
+    const double gap_max = gap + 1e-3 * std::fabs(gap) + 1e-6 * sum.scale() + rim_slack(a, b, best.n);
     const FaceChoice choice = face_along(a, b, best.n);
     if (choice.cosine > kAlmostParallel) {
         const FaceContact contact(a, b, choice, best.n);
         if (contact.points.deepest() <= gap_max) return contact.write(choice.of_first, margin, out);
     }
     for (const double tolerance : {kAlmostFlat, 1e-6}) {
-        const LinePair lines{support_line(a, -best.n, tolerance), support_line(b, best.n, tolerance), best.n, gap,
-                             1e-3 * sum.inradius()};
+        const LinePair lines{support_line(a, -best.n, tolerance), support_line(b, best.n, tolerance), best.n,
+                             gap, 1e-3 * sum.scale()};
         out.count = 0;
         if (add_lines(lines, margin, out) <= gap_max && out.count > 0) return;
     }
-    // Features that touch between the classes: the gap is exact, the place that of the supporting points.
-    const SupportLine line_a = support_line(a, -best.n, 1e-6), line_b = support_line(b, best.n, 1e-6);
-    const LineParameters p = closest_parameters(line_a, line_b);
+    // Features between the classes, such as a line along the border of a face: the gap is exact, and the
+    // place is that of the closest points once the first shape has been lifted off.
+    const ConvexSum lifted = sum.moved(best.n * (sum.scale() - best.s));
+    const ClosestApart apart = closest_apart(lifted, {best.n, sum.scale()}, 1e300);
+    const Vec3 on_a = a.X.p - apart.first - best.n * ball(a);
     out.count = 0;
-    out.add((line_a.middle + line_a.half * p.s + line_b.middle + line_b.half * p.t) * 0.5, gap,
-            feature_of(line_a.part, line_b.part));
+    out.n_W = best.n;
+    out.add(on_a - best.n * (0.5 * gap), gap,
+            feature_of(support_line(a, -best.n, 1e-6).part, support_line(b, best.n, 1e-6).part));
 }
 
 }  // namespace
@@ -120,9 +145,12 @@ void convex_convex(const Posed& a, const Posed& b, double margin, Manifold& out)
     const FaceChoice choice = face_along(a, b, best.n);
     if (choice.cosine > 1.0 - 1e-12) {
         const FaceContact contact(a, b, choice, best.n);
-        if (is_proven(sum, best, contact, balls)) return contact.write(choice.of_first, margin, out);
+        if (is_proven(sum, best, contact, balls, rim_slack(a, b, best.n)))
+            return contact.write(choice.of_first, margin, out);
     }
-    best = closest_direction(sum, best, enough);
+    best = sum.polished(best);
+    if (best.s > enough) return;
+    if (!(best.s > 0.0 && is_opposite(a, b, sum, best))) best = closest_direction(sum, best, enough);
     if (best.s > enough) return;
     write_features(a, b, sum, best, margin, out);
 }

@@ -1,6 +1,7 @@
-// Random and degenerate placements of every pair, checked against certificates that share no code with the narrow phase:
-// by the support functions below, s(n) is a lower bound of the signed distance for every direction n; points inside the
-// shapes are an upper bound when apart; and thousands of directions must not separate better when penetrating.
+// Random and degenerate placements of every pair, checked against certificates that share no code with the
+// narrow phase: by the support functions below, s(n) is a lower bound of the signed distance for every
+// direction n; points inside the shapes are an upper bound when apart; and thousands of directions must not
+// separate better when penetrating.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +19,9 @@ struct Random {
     std::mt19937_64 engine;
     explicit Random(std::uint64_t seed) : engine(seed) {}
 
-    double in(double low, double high) { return low + (high - low) * (static_cast<double>(engine() >> 11) * 0x1p-53); }
+    double in(double low, double high) {
+        return low + (high - low) * (static_cast<double>(engine() >> 11) * 0x1p-53);
+    }
     std::size_t below(std::size_t n) { return engine() % n; }
     Vec3 direction() {
         while (true) {
@@ -32,23 +35,43 @@ struct Random {
 double support_distance(const Shape& s, const Transform& X, const Vec3& n) {
     const Vec3 d = transpose_times(X.R, n);
     switch (s.kind) {
-        case ShapeKind::kPlane: return d.z > 1.0 - 1e-12 ? 0.0 : 1e300;  // unbounded but along its normal
-        case ShapeKind::kSphere: return s.radius;
-        case ShapeKind::kBox: return std::fabs(d.x) * s.half.x + std::fabs(d.y) * s.half.y + std::fabs(d.z) * s.half.z;
-        case ShapeKind::kCylinder: return std::fabs(d.z) * s.half_length + std::sqrt(d.x * d.x + d.y * d.y) * s.radius;
-        case ShapeKind::kCapsule: return std::fabs(d.z) * s.half_length + s.radius;
+        case ShapeKind::kPlane:
+            return d.z > 1.0 - 1e-12 ? 0.0 : 1e300;  // unbounded but along its normal
+        case ShapeKind::kSphere:
+            return s.radius;
+        case ShapeKind::kBox:
+            return std::fabs(d.x) * s.half.x + std::fabs(d.y) * s.half.y + std::fabs(d.z) * s.half.z;
+        case ShapeKind::kCylinder:
+            return std::fabs(d.z) * s.half_length + std::sqrt(d.x * d.x + d.y * d.y) * s.radius;
+        case ShapeKind::kCapsule:
+            return std::fabs(d.z) * s.half_length + s.radius;
     }
     return 0;
+}
+
+/// The point of the shape furthest along n.
+Vec3 support_point(const Shape& s, const Transform& X, const Vec3& n) {
+    const Vec3 d = transpose_times(X.R, n);
+    const auto side = [](double x, double h) { return x < 0 ? -h : h; };
+    Vec3 p;
+    if (s.kind == ShapeKind::kBox) p = {side(d.x, s.half.x), side(d.y, s.half.y), side(d.z, s.half.z)};
+    if (s.kind == ShapeKind::kCylinder || s.kind == ShapeKind::kCapsule) p.z = side(d.z, s.half_length);
+    if (s.kind == ShapeKind::kSphere || s.kind == ShapeKind::kCapsule) p += d * s.radius;
+    if (s.kind == ShapeKind::kCylinder) p += normalized(Vec3{d.x, d.y, 0}) * s.radius;
+    return X * p;
 }
 
 /// How far p lies outside the shape along the worst of its faces (<= 0: inside).
 double outside(const Shape& s, const Transform& X, const Vec3& p_W) {
     const Vec3 p = transpose_times(X.R, p_W - X.p);
     switch (s.kind) {
-        case ShapeKind::kPlane: return p.z;
-        case ShapeKind::kSphere: return norm(p) - s.radius;
+        case ShapeKind::kPlane:
+            return p.z;
+        case ShapeKind::kSphere:
+            return norm(p) - s.radius;
         case ShapeKind::kBox:
-            return std::max(std::fabs(p.x) - s.half.x, std::max(std::fabs(p.y) - s.half.y, std::fabs(p.z) - s.half.z));
+            return std::max(std::fabs(p.x) - s.half.x,
+                            std::max(std::fabs(p.y) - s.half.y, std::fabs(p.z) - s.half.z));
         case ShapeKind::kCylinder:
             return std::max(std::fabs(p.z) - s.half_length, std::sqrt(p.x * p.x + p.y * p.y) - s.radius);
         case ShapeKind::kCapsule:
@@ -70,8 +93,10 @@ struct Case {
         double size = 1e300;
         for (const Shape* s : {&a, &b}) {
             if (s->kind == ShapeKind::kPlane) continue;
-            if (s->kind == ShapeKind::kBox) size = std::min({size, s->half.x, s->half.y, s->half.z});
-            else size = std::min(size, s->radius);
+            if (s->kind == ShapeKind::kBox)
+                size = std::min({size, s->half.x, s->half.y, s->half.z});
+            else
+                size = std::min(size, s->radius);
         }
         return size;
     }
@@ -91,7 +116,8 @@ double climb(const Case& c, Vec3& n, const Vec3& edge, int steps, double step, d
     return best;
 }
 
-/// Climbs freely, then along the ridges where n is perpendicular to an axis of a shape, and to their crossings.
+/// Climbs freely, then along the ridges where n is perpendicular to an axis of a shape, and to their
+/// crossings.
 double refined_separation(const Case& c, Vec3& n, int steps, double step, double enough = 1e300) {
     climb(c, n, {}, steps, step, enough);
     std::vector<Vec3> axes;
@@ -153,6 +179,15 @@ void place(Case& c, const Vec3& n, double gap) {
     }
 }
 
+/// Puts A at the distance `gap` from B along n (when the gap is negative, another direction may separate
+/// better).
+void place_at_distance(Case& c, const Vec3& n, double gap) {
+    if (c.with_plane()) return place(c, n, gap);
+    c.X_WA.p = {};
+    c.X_WB.p = {};
+    c.X_WA.p = support_point(c.b, c.X_WB, n) - support_point(c.a, c.X_WA, -n) + n * gap;
+}
+
 Case random_case(ShapeKind a, ShapeKind b, Random& random, double scale = 1.0) {
     Case c{random_shape(a, random, scale), random_shape(b, random, scale), {}, {}};
     c.X_WA.R = to_matrix(random.rotation());
@@ -161,7 +196,8 @@ Case random_case(ShapeKind a, ShapeKind b, Random& random, double scale = 1.0) {
     return c;
 }
 
-/// Where a face's normal stands for the exact one, at most 1.1 degrees aside, so that the manifold is a polygon.
+/// Where a face's normal stands for the exact one, at most 1.1 degrees aside, so that the manifold is a
+/// polygon.
 bool is_aligned_to_a_face(const Case& c, const Manifold& m, double tolerance) {
     return std::fabs(c.separation(m.n_W) - smallest_gap(m)) > tolerance;
 }
@@ -169,6 +205,7 @@ bool is_aligned_to_a_face(const Case& c, const Manifold& m, double tolerance) {
 struct Tolerance {
     double gap = 1e-9;      // of the gap against the bounds
     double surface = 1e-9;  // of the points against the shapes
+    double aligned = 1e-5;  // of the gap where a face's normal stands for the exact one
 };
 
 void expect_certified(const Case& c, const Manifold& m, const Tolerance& t) {
@@ -178,8 +215,8 @@ void expect_certified(const Case& c, const Manifold& m, const Tolerance& t) {
     if (is_aligned_to_a_face(c, m, t.gap)) {  // then the gap may differ in second order of the angle
         Vec3 n = m.n_W;
         const double best = refined_separation(c, n, 3000, 0.03);
-        EXPECT_GT(dot(n, m.n_W), 0.9997);
-        EXPECT_NEAR(best, gap, 1e-3 * std::fabs(gap) + 1e-5);
+        EXPECT_GT(c.separation(m.n_W), gap - 0.1);
+        EXPECT_NEAR(best, gap, 1e-3 * std::fabs(gap) + t.aligned);
     }
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& p = m.points[static_cast<std::size_t>(i)];
@@ -207,7 +244,8 @@ TEST_P(EveryPair, GapIsTheSignedDistanceAndPointsLieOnTheSurfaces) {
         const Manifold m = c.collide();
         SCOPED_TRACE(testing::Message() << "case " << i);
         if (m.count == 0) {
-            EXPECT_GT(c.with_plane() ? c.separation(-c.X_WA.R.col(2)) : sampled_separation(c, 200, 1500, kMargin, random),
+            EXPECT_GT(c.with_plane() ? c.separation(-c.X_WA.R.col(2))
+                                     : sampled_separation(c, 200, 1500, kMargin, random),
                       kMargin - (c.with_plane() ? 1e-9 : 1e-3));
             continue;
         }
@@ -231,7 +269,7 @@ TEST_P(EveryPair, SwappedArgumentsGiveTheSamePointsAndTheOppositeNormal) {
         const Manifold m = c.collide();
         const Manifold swapped = collide(c.b, c.X_WB, c.a, c.X_WA, kMargin);
         ASSERT_EQ(m.count, swapped.count);
-        if (m.count > 0) ASSERT_EQ(m.n_W, -swapped.n_W);
+        ASSERT_TRUE(m.count == 0 || m.n_W == -swapped.n_W);
         for (std::size_t k = 0; k < static_cast<std::size_t>(m.count); ++k) {
             ASSERT_EQ(m.points[k].p_W, swapped.points[k].p_W);
             ASSERT_EQ(m.points[k].gap, swapped.points[k].gap);
@@ -272,27 +310,34 @@ TEST_P(EveryPair, IsEmptyWhenTheInflatedBoundsAreApart) {
         if (i % 4 == 0) {  // boxes whose inflated bounds touch to the last bit
             place(c, {1, 0, 0}, margin);
         }
-        const Aabb a = bounds(c.a, c.X_WA).inflated(0.5 * margin), b = bounds(c.b, c.X_WB).inflated(0.5 * margin);
+        const Aabb a = bounds(c.a, c.X_WA).inflated(0.5 * margin),
+                   b = bounds(c.b, c.X_WB).inflated(0.5 * margin);
         if (overlaps(a, b)) continue;
         ++apart;
         ASSERT_EQ(c.collide(margin).count, 0);
     }
-    if (GetParam().first != ShapeKind::kPlane) EXPECT_GT(apart, 100);
+    EXPECT_TRUE(apart > 100 || GetParam().first == ShapeKind::kPlane);
 }
 
-TEST_P(EveryPair, SizesFromAMillimetreToAKilometreAreFinite) {
+TEST_P(EveryPair, AKnownDistanceIsFoundForSizesFromAMillimetreToAKilometre) {
     Random random(8);
     for (const double scale_a : {1e-3, 1.0, 1e3}) {
         for (const double scale_b : {1e-3, 1.0, 1e3}) {
-            for (int i = 0; i < 300; ++i) {
+            for (int i = 0; i < 500; ++i) {
                 Case c = random_case(GetParam().first, GetParam().second, random, scale_a);
                 c.b = random_shape(GetParam().second, random, scale_b);
-                const double small = std::min(scale_a, scale_b);
-                place(c, random.direction(), -0.01 * small);
-                const Manifold m = c.collide(0.1 * small);
+                const double small = std::min(scale_a, scale_b), large = std::max(scale_a, scale_b);
+                const double gap = small * random.in(-0.01, 0.1);
+                place_at_distance(c, random.direction(), gap);
+                const Manifold m = c.collide(0.11 * small);
                 ASSERT_GT(m.count, 0);
-                ASSERT_NEAR(norm(m.n_W), 1.0, 1e-9);
-                ASSERT_GE(smallest_gap(m), -0.0101 * small - 1e-6 * std::max(scale_a, scale_b));
+                ASSERT_NEAR(norm(m.n_W), 1.0, 1e-12);
+                const double slack =
+                    is_aligned_to_a_face(c, m, 1e-9 * large) ? 1e-3 * std::fabs(gap) + 1e-5 * small : 0;
+                // At a ratio of a million the search runs out of digits.
+                const double exact = 1e-9 * small + (large > 1e5 * small ? 2e-9 : 1e-12) * large;
+                EXPECT_GT(smallest_gap(m), gap - slack - exact);
+                EXPECT_LT(gap > 0 ? smallest_gap(m) : 0, std::max(gap, 0.0) + slack + exact);
                 for (std::size_t k = 0; k < static_cast<std::size_t>(m.count); ++k) {
                     ASSERT_TRUE(is_finite(m.points[k].p_W));
                 }
@@ -331,10 +376,11 @@ TEST_P(EveryPair, DegeneratePlacementsAreCertifiedToo) {
         const Manifold m = c.collide();
         SCOPED_TRACE(testing::Message() << "case " << i);
         if (m.count == 0) {
-            EXPECT_GT(c.with_plane() ? c.separation(-c.X_WA.R.col(2)) : sampled_separation(c, 200, 1500, kMargin, random),
+            EXPECT_GT(c.with_plane() ? c.separation(-c.X_WA.R.col(2))
+                                     : sampled_separation(c, 200, 1500, kMargin, random),
                       kMargin - 1e-3);
         } else {
-            expect_certified(c, m, {1e-7, 1e-7});
+            expect_certified(c, m, {1e-7, 1e-4, 5e-5});
         }
         if (HasFailure()) return;
     }

@@ -23,7 +23,8 @@ void ball_ball(const Vec3& a_W, double a_radius, const Vec3& b_W, double b_radiu
     const double distance_squared = norm_squared(d);
     if (reach < 0.0 || distance_squared > reach * reach) return;
     const double distance = std::sqrt(distance_squared);
-    const Vec3 n = distance > 1e-150 ? d / distance : aside;
+    const Vec3 n =
+        distance > 1e-12 * (a_radius + b_radius) ? d / distance : aside;  // nearer, d is all rounding
     add_single(out, a_W, n, distance - b_radius, a_radius);
 }
 

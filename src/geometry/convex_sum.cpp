@@ -21,6 +21,7 @@ Vec3 radial_part(const Vec3& n, const Vec3& axis) {
 ConvexSum::ConvexSum(const Posed& first, const Posed& second) : centre_(first.X.p - second.X.p) {
     add(first);
     first_segments_ = segment_count_;
+    first_discs_ = disc_count_;
     add(second);
 }
 
@@ -42,6 +43,7 @@ void ConvexSum::add(const Posed& shape) {
         inradius = std::min(s.radius, s.half_length);
     }
     inradius_ = std::max(inradius_, inradius);
+    scale_ = std::min(scale_, s.kind == ShapeKind::kCapsule ? s.radius : inradius);
 }
 
 double ConvexSum::reach(const Vec3& n) const {
@@ -53,16 +55,29 @@ double ConvexSum::reach(const Vec3& n) const {
 }
 
 Vec3 ConvexSum::support(const Vec3& n) const {
-    Vec3 x;
+    Vec3 first;
+    return support(n, first);
+}
+
+Vec3 ConvexSum::support(const Vec3& n, Vec3& first) const {
+    std::array<Vec3, 2> share;
     for (std::size_t i = 0; i < segment_count_; ++i) {
-        x += direction_[i] * (dot(n, direction_[i]) < 0.0 ? -half_[i] : half_[i]);
+        share[i < first_segments_ ? 0 : 1] +=
+            direction_[i] * (dot(n, direction_[i]) < 0.0 ? -half_[i] : half_[i]);
     }
     for (std::size_t i = 0; i < disc_count_; ++i) {
         const Vec3 radial = radial_part(n, discs_[i].axis);
         const double length = norm(radial);
-        if (length > 1e-12) x += radial * (discs_[i].radius / length);
+        if (length > 1e-12) share[i < first_discs_ ? 0 : 1] += radial * (discs_[i].radius / length);
     }
-    return x;
+    first = share[0];
+    return share[0] + share[1];
+}
+
+ConvexSum ConvexSum::moved(const Vec3& by) const {
+    ConvexSum sum = *this;
+    sum.centre_ += by;
+    return sum;
 }
 
 double ConvexSum::rounding() const {
@@ -83,11 +98,20 @@ Separation ConvexSum::best_natural() const {
         for (std::size_t j = first_segments_; j < segment_count_; ++j)
             consider(cross(direction_[i], direction_[j]));
     }
-    const double distance = norm(centre_);
-    if (distance > 1e-150) {
-        const Vec3 d = centre_ / distance;
+    const auto consider_near = [&](const Vec3& towards) {
+        const double distance = norm(towards);
+        if (distance < 1e-12 * inradius_) return;
+        const Vec3 d = towards / distance;
         consider(d);
         for (std::size_t i = 0; i < segment_count_; ++i) consider(radial_part(d, direction_[i]));
+    };
+    consider_near(centre_);
+    if (first_segments_ == 3) {  // from the point of the box that is closest to the other centre
+        Vec3 closest;
+        for (std::size_t i = 0; i < 3; ++i) {
+            closest += direction_[i] * std::clamp(dot(centre_, direction_[i]), -half_[i], half_[i]);
+        }
+        consider_near(centre_ - closest);
     }
     return best;
 }
@@ -134,42 +158,64 @@ Separation ConvexSum::climb(Vec3 n, const Vec3* edge) const {
     return best;
 }
 
-Separation ConvexSum::polished(const Separation& start) const {
-    Separation best = start;
-    const double tie = rounding();
-    const Vec3& n0 = start.n;
-    // Flattest last, each accepted when it is at least as good to within a tie.
-    const auto consider = [&](const Separation& found) {
-        if (found.s >= best.s - tie) best = {found.n, found.s};
-    };
-    consider(climb(n0, nullptr));
-    std::array<std::size_t, 6> near{};
-    std::size_t near_count = 0;
+bool ConvexSum::rises(const Vec3& n, const Vec3& d) const {
+    double smooth = dot(d, centre_), kinks = 0.0;
     for (std::size_t i = 0; i < segment_count_; ++i) {
-        if (half_[i] > 0.0 && std::fabs(dot(n0, direction_[i])) < kNear) near[near_count++] = i;
+        const double across = dot(n, direction_[i]), along = half_[i] * dot(d, direction_[i]);
+        if (std::fabs(across) < 1e-9) {
+            kinks += std::fabs(along);
+        } else {
+            smooth -= across < 0.0 ? -along : along;
+        }
     }
-    // The gap has a kink where n is perpendicular to a segment, so each smooth side of it is climbed from a small step.
-    for (std::size_t i = 0; i < near_count; ++i) {
-        const Vec3& edge = direction_[near[i]];
-        const Vec3 n = normalized(radial_part(n0, edge));
-        for (const double step : {-kStep, kStep}) consider(climb(normalized(n + edge * step), nullptr));
+    for (std::size_t i = 0; i < disc_count_; ++i) {
+        const Vec3 radial = radial_part(n, discs_[i].axis);
+        const double length = norm(radial);
+        if (length < 1e-9) {
+            kinks += discs_[i].radius * norm(radial_part(d, discs_[i].axis));
+        } else {
+            smooth -= discs_[i].radius * dot(d, radial) / length;
+        }
     }
-    for (std::size_t i = 0; i < near_count; ++i) {
-        const Vec3& edge = direction_[near[i]];
-        const Vec3 n = normalized(radial_part(n0, edge)), along = cross(edge, n);
-        consider(climb(n, &edge));
-        if (near_count == 1) continue;
-        for (const double step : {-kStep, kStep}) consider(climb(normalized(n + along * step), &edge));
+    return std::fabs(smooth) > kinks;
+}
+
+void ConvexSum::climb_beside(const Vec3& n, const Vec3& d, const Vec3* edge, Separation& best) const {
+    if (!rises(n, d)) return;
+    for (const double step : {-kStep, kStep}) best = better(best, climb(normalized(n + d * step), edge));
+}
+
+Separation ConvexSum::better(const Separation& best, const Separation& found) const {
+    return found.s >= best.s - rounding() ? found : best;
+}
+
+Separation ConvexSum::polished(const Separation& start) const {
+    // Flattest last, each accepted when it is at least as good to within rounding.
+    const Vec3& n0 = start.n;
+    Separation best = better(start, climb(n0, nullptr));
+    std::array<Vec3, 6> edges;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < segment_count_; ++i) {
+        if (half_[i] > 0.0 && std::fabs(dot(n0, direction_[i])) < kNear) edges[count++] = direction_[i];
+    }
+    // The gap has a kink where n is perpendicular to a segment: where it rises beside the kink, each side is
+    // climbed.
+    for (std::size_t i = 0; i < count; ++i) {
+        climb_beside(normalized(radial_part(n0, edges[i])), edges[i], nullptr, best);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 n = normalized(radial_part(n0, edges[i]));
+        best = better(best, climb(n, &edges[i]));
+        if (count > 1) climb_beside(n, cross(edges[i], n), &edges[i], best);
     }
     const auto consider_flat = [&](const Vec3& direction) {
         const double length = norm(direction);
         if (length < 1e-3) return;
         const Vec3 n = direction * (dot(direction, n0) < 0.0 ? -1.0 / length : 1.0 / length);
-        if (dot(n, n0) > 0.9) consider(separation(n));
+        if (dot(n, n0) > 0.9) best = better(best, separation(n));
     };
-    for (std::size_t i = 0; i < near_count; ++i) {
-        for (std::size_t j = i + 1; j < near_count; ++j)
-            consider_flat(cross(direction_[near[i]], direction_[near[j]]));
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t j = i + 1; j < count; ++j) consider_flat(cross(edges[i], edges[j]));
     }
     for (std::size_t i = 0; i < disc_count_; ++i) {
         if (norm(radial_part(n0, discs_[i].axis)) < kNear) consider_flat(discs_[i].axis);

@@ -21,16 +21,20 @@ class ConvexSum {
     ConvexSum(const Posed& first, const Posed& second);
 
     const Vec3& centre() const { return centre_; }
-    double inradius() const { return inradius_; }  // lower bound of the sum's; the scale of all tolerances
+    double inradius() const { return inradius_; }  // lower bound of the sum's
+    double scale() const { return scale_; }        // smallest size of either shape: what tolerances refer to
     double reach(const Vec3& n) const;             // h(n), n need not be a unit vector
     Vec3 support(const Vec3& n) const;
+    Vec3 support(const Vec3& n, Vec3& first) const;  // also the first shape's share of it
+    ConvexSum moved(const Vec3& by) const;           // the first shape moved
     Separation separation(const Vec3& n) const { return {n, dot(n, centre_) - reach(n)}; }
 
-    /// The best of the directions in which flat facets of the sum can look (and two round ones).
+    /// The best of the directions in which flat facets of the sum can look (and some round ones).
     Separation best_natural() const;
 
     /// Improves a nearby maximum to rounding: all combinations of features close to start.n, each by Newton's
-    /// method on the sphere. Between equals the flatter one wins. The result is below start by rounding at most.
+    /// method on the sphere. Between equals the flatter one wins. The result is below start by rounding at
+    /// most.
     Separation polished(const Separation& start) const;
 
   private:
@@ -39,12 +43,16 @@ class ConvexSum {
         double radius = 0;
     };
     void add(const Posed& shape);
-    double rounding() const;  // differences of s below it are noise
-    Separation climb(Vec3 n, const Vec3* edge) const;
+    double rounding() const;                           // differences of s below it are noise
+    Separation climb(Vec3 n, const Vec3* edge) const;  // Newton, perpendicular to the edge if one is given
+    bool rises(const Vec3& n, const Vec3& d) const;    // s grows from n towards d or -d
+    void climb_beside(const Vec3& n, const Vec3& d, const Vec3* edge, Separation& best) const;
+    Separation better(const Separation& best, const Separation& found) const;
 
     Vec3 centre_;
-    double inradius_ = 0;
-    std::size_t segment_count_ = 0, disc_count_ = 0, first_segments_ = 0;
+    double inradius_ = 0, scale_ = 1e300;
+    std::size_t segment_count_ = 0, disc_count_ = 0;
+    std::size_t first_segments_ = 0, first_discs_ = 0;
     std::array<Vec3, 6> direction_;  // of the segments, unit
     std::array<double, 6> half_{};
     std::array<Disc, 2> discs_;

@@ -10,11 +10,12 @@
 
 namespace roboss::narrow {
 
+inline constexpr double kUpright = 1e-5;  // sine of the tilt below which the points are fixed in the cylinder
+inline constexpr double kTilted = 1e-4;   // and above which the first is the deepest
+
 /// Unit radial directions in W of the four rim points; `n` is the unit normal away from the supporting
 /// surface.
 inline std::array<Vec3, 4> rim_directions(const Posed& cylinder, const Vec3& n) {
-    constexpr double kUpright = 1e-5;  // sine of the tilt below which the points are fixed in the cylinder
-    constexpr double kTilted = 1e-4;   // and above which the first is the deepest
     const Vec3 u = cylinder.axis(2);
     const Vec3 down = u * dot(n, u) - n;  // radial, as long as the sine of the tilt
     const double tilt = norm(down);

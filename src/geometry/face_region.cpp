@@ -12,6 +12,8 @@ namespace roboss::narrow {
 namespace {
 
 constexpr double kMergeFraction = 1e-4;  // of the smaller size: points closer than that are one
+constexpr double kBorderFraction =
+    1e-7;  // how far outside the border a face still touches when nothing is inside
 
 double smallest_side(const Posed& s) {
     switch (s.shape.kind) {
@@ -120,15 +122,18 @@ void add_rim_crossings(const FaceRegion& face, const Span& disc, std::uint32_t e
     }
 }
 
-/// Moves (alpha, beta) along the disc's rim until it lies over the face's rim; false when it does not get there.
+/// Moves (alpha, beta) along the disc's rim until it lies over the face's rim; false when it does not get
+/// there.
 bool slide_to_rim(const Span& disc, double radius, double& alpha, double& beta) {
     constexpr int kSteps = 8;
     for (int i = 0; i < kSteps; ++i) {
         const double length = std::sqrt(alpha * alpha + beta * beta);
         alpha /= length;
         beta /= length;
-        const Vec3 p = disc.at(alpha, beta), along = disc.b * alpha - disc.a * beta;  // derivative by the angle
-        const double excess = p.x * p.x + p.y * p.y - radius * radius, slope = 2.0 * (p.x * along.x + p.y * along.y);
+        const Vec3 p = disc.at(alpha, beta),
+                   along = disc.b * alpha - disc.a * beta;  // derivative by the angle
+        const double excess = p.x * p.x + p.y * p.y - radius * radius,
+                     slope = 2.0 * (p.x * along.x + p.y * along.y);
         if (std::fabs(excess) <= 1e-13 * radius * radius) return true;
         if (std::fabs(slope) < 1e-9 * radius * radius) return false;
         const double turn = -excess / slope, a = alpha;
@@ -139,7 +144,8 @@ bool slide_to_rim(const Span& disc, double radius, double& alpha, double& beta) 
 }
 
 /// The crossings of the face's circle and the incident disc's ellipse, from those of the untilted circles.
-void add_circle_crossings(const FaceRegion& face, const Span& disc, double radius, std::uint32_t end, Candidates& out) {
+void add_circle_crossings(const FaceRegion& face, const Span& disc, double radius, std::uint32_t end,
+                          Candidates& out) {
     const double d_squared = disc.c.x * disc.c.x + disc.c.y * disc.c.y;
     if (d_squared < 1e-8 * radius * radius) return;
     const double along = (d_squared + face.hx * face.hx - radius * radius) / (2.0 * d_squared);
@@ -150,7 +156,8 @@ void add_circle_crossings(const FaceRegion& face, const Span& disc, double radiu
         double alpha = 0, beta = 0;
         disc.coordinates(along * disc.c.x - side * disc.c.y, along * disc.c.y + side * disc.c.x, alpha, beta);
         if (!slide_to_rim(disc, face.hx, alpha, beta)) continue;
-        out.add(point(disc.at(alpha, beta), kRimCrossing + 2 * end + which, kRimCrossing + 2 * face.end() + which));
+        out.add(point(disc.at(alpha, beta), kRimCrossing + 2 * end + which,
+                      kRimCrossing + 2 * face.end() + which));
     }
 }
 
@@ -302,8 +309,9 @@ std::uint32_t FaceRegion::edge_at(bool along_y, bool positive) const {
     return along_y ? edge_part(i, sign, end()) : edge_part(j, end(), sign);
 }
 
-Candidates points_over(const FaceRegion& face, const Posed& other) {
-    const double tolerance = kMergeFraction * std::min(smallest_side(face.owner), smallest_side(other));
+namespace {
+
+Candidates points_inside(const FaceRegion& face, const Posed& other, double tolerance) {
     Candidates out(tolerance);
     switch (other.shape.kind) {
         case ShapeKind::kBox:
@@ -329,6 +337,18 @@ Candidates points_over(const FaceRegion& face, const Posed& other) {
     }
     out.reduce();
     return out;
+}
+
+}  // namespace
+
+Candidates points_over(const FaceRegion& face, const Posed& other) {
+    const double size = std::min(smallest_side(face.owner), smallest_side(other));
+    const Candidates inside = points_inside(face, other, kMergeFraction * size);
+    if (inside.count() > 0) return inside;
+    FaceRegion wider = face;
+    wider.hx += kBorderFraction * size;
+    wider.hy += kBorderFraction * size;
+    return points_inside(wider, other, kMergeFraction * size);
 }
 
 }  // namespace roboss::narrow

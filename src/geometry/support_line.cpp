@@ -91,7 +91,7 @@ bool common_part(const SupportLine& a, const SupportLine& b, double width,
     // b's ends in a's parameter
     const double middle = dot(b.middle - a.middle, a.half) / aa, reach = std::fabs(ab) / aa;
     const double low = std::max(-1.0, middle - reach), high = std::min(1.0, middle + reach);
-    if (!(low < high)) return false;
+    if (!(high - low > 1e-4)) return false;
     const double slope = ab / bb, shift = dot(a.middle - b.middle, b.half) / bb;
     const auto on_b = [&](double s) { return std::clamp(shift + slope * s, -1.0, 1.0); };
     ends = {LineParameters{low, on_b(low)}, LineParameters{high, on_b(high)}};
@@ -100,22 +100,28 @@ bool common_part(const SupportLine& a, const SupportLine& b, double width,
 
 double add_lines(const LinePair& pair, double margin, Manifold& out) {
     const SupportLine &a = pair.a, &b = pair.b;
+    SupportLine touching = b;
+    touching.middle += pair.n * pair.gap;
+    const auto aside = [&](const LineParameters& p) {
+        const Vec3 d = (a.middle + a.half * p.s) - (touching.middle + touching.half * p.t);
+        return norm(d - pair.n * dot(pair.n, d));
+    };
+    std::array<LineParameters, 2> points;
+    std::size_t count = 2;
+    if (!common_part(a, touching, pair.width, points) || aside(points[0]) > pair.width ||
+        aside(points[1]) > pair.width) {
+        points[0] = closest_parameters(a, touching);
+        count = 1;
+    }
     double smallest = std::numeric_limits<double>::infinity();
+    if (count == 1 && aside(points[0]) > pair.width) return smallest;
     out.n_W = pair.n;
-    const auto add = [&](const LineParameters& p) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const LineParameters& p = points[i];
         const Vec3 on_a = a.middle + a.half * p.s, on_b = b.middle + b.half * p.t;
         const double gap = dot(pair.n, on_a - on_b);
         smallest = std::min(smallest, gap);
         if (gap <= margin) out.add((on_a + on_b) * 0.5, gap, feature_of(part_at(a, p.s), part_at(b, p.t)));
-    };
-    SupportLine touching = b;
-    touching.middle += pair.n * pair.gap;
-    std::array<LineParameters, 2> ends;
-    if (common_part(a, touching, pair.width, ends)) {
-        add(ends[0]);
-        add(ends[1]);
-    } else {
-        add(closest_parameters(a, touching));
     }
     return smallest;
 }

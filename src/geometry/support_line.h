@@ -32,10 +32,11 @@ struct LinePair {
     SupportLine a, b;
     Vec3 n;
     double gap = 0;
-    double width = 0;  // lateral size below which they count as parallel
+    double width = 0;  // sideways distance below which they count as touching
 };
 
-/// Adds the contact of two lines (two points when they run side by side), gaps measured along n. Returns the smallest gap.
+/// Adds the contact of two lines (two points when they run side by side), gaps measured along n. Returns the
+/// smallest gap; infinity, and nothing added, when the lines pass each other sideways by more than the width.
 double add_lines(const LinePair& pair, double margin, Manifold& out);
 
 }  // namespace roboss::narrow
