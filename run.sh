@@ -10,6 +10,6 @@ if [[ -f build/release/CMakeCache.txt ]]; then
 else
     tools/build.sh release -DROBOSS_TESTS=OFF
 fi
-build/release/bin/roboss run worlds/city.sdf --client build/release/lib/libcity_driver.so --duration 60 \
+build/release/bin/roboss run worlds/city.sdf --client build/release/lib/roboss_city_driver.so --duration 60 \
     --json build/city.json --picture build/city_paths.svg "$@"
 printf 'picture of the paths: build/city_paths.svg\n'

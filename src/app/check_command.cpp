@@ -17,10 +17,12 @@ namespace roboss {
 namespace {
 
 constexpr const char* kHelp =
-    "Reads a world without running it: prints how many robots, links, joints, shapes and sensors it has, and everything\n"
+    "Reads a world without running it: prints how many robots, links, joints, shapes and sensors it has, and "
+    "everything\n"
     "that is wrong, unsupported or suspicious in it, each with file, line and what to do.\n"
     "WORLD is an SDFormat file (1.4 to 1.12) or a URDF file.\n\n"
-    "Exit codes: 0 fine (warnings and notes allowed), 1 errors in the world, 2 the file cannot be read or wrong usage.\n"
+    "Exit codes: 0 fine (warnings and notes allowed), 1 errors in the world, 2 the file cannot be read or "
+    "wrong usage.\n"
     "Example: roboss check worlds/city.sdf --path ~/models";
 
 struct CheckOptions {
@@ -31,13 +33,15 @@ struct CheckOptions {
 
 std::string counts(const std::map<std::string, std::size_t>& by_kind) {
     std::string text;
-    for (const auto& [kind, count] : by_kind) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, kind);
+    for (const auto& [kind, count] : by_kind)
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, kind);
     return text.empty() ? "none" : text;
 }
 
 void print_text(const World& world, const WorldCensus& census) {
     fmt::print("world          {} ({})\n", world.name, world.file);
-    fmt::print("robots         {} of {} distinct types, {} links\n", census.robots, census.robot_types, census.links);
+    fmt::print("robots         {} of {} distinct types, {} links\n", census.robots, census.robot_types,
+               census.links);
     fmt::print("static models  {}\n", census.static_models);
     fmt::print("joints         {}\n", counts(census.joints));
     fmt::print("shapes         {}\n", counts(census.shapes));
@@ -105,10 +109,13 @@ int check(const CheckOptions& options) {
 void add_check_command(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<CheckOptions>();
     CLI::App* command = app.add_subcommand("check", kHelp);
-    command->add_option("world", options->world, "world file: SDFormat or URDF")->required()->type_name("WORLD");
+    command->add_option("world", options->world, "world file: SDFormat or URDF")
+        ->required()
+        ->type_name("WORLD");
     command
-        ->add_option("--path", options->paths,
-                     "folder to search for model://, package:// and relative URIs; may be given several times")
+        ->add_option(
+            "--path", options->paths,
+            "folder to search for model://, package:// and relative URIs; may be given several times")
         ->type_name("DIR")
         ->take_all();
     command->add_flag("--json", options->json, "print one JSON object instead of text");

@@ -5,7 +5,8 @@
 
 namespace roboss {
 
-/// Adds the subcommand; it sets exit_code to 0 (fine, warnings allowed), 1 (errors in the world) or 2 (cannot be read).
+/// Adds the subcommand; it sets exit_code to 0 (fine, warnings allowed), 1 (errors in the world) or 2 (cannot
+/// be read).
 void add_check_command(CLI::App& app, int& exit_code);
 
 }  // namespace roboss

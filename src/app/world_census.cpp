@@ -5,41 +5,64 @@ namespace roboss {
 
 const char* to_text(JointSpecKind kind) {
     switch (kind) {
-        case JointSpecKind::kFixed: return "fixed";
-        case JointSpecKind::kRevolute: return "revolute";
-        case JointSpecKind::kContinuous: return "continuous";
-        case JointSpecKind::kPrismatic: return "prismatic";
-        case JointSpecKind::kBall: return "ball";
-        case JointSpecKind::kScrew: return "screw";
-        case JointSpecKind::kUniversal: return "universal";
-        case JointSpecKind::kRevolute2: return "revolute2";
-        case JointSpecKind::kGearbox: return "gearbox";
+        case JointSpecKind::kFixed:
+            return "fixed";
+        case JointSpecKind::kRevolute:
+            return "revolute";
+        case JointSpecKind::kContinuous:
+            return "continuous";
+        case JointSpecKind::kPrismatic:
+            return "prismatic";
+        case JointSpecKind::kBall:
+            return "ball";
+        case JointSpecKind::kScrew:
+            return "screw";
+        case JointSpecKind::kUniversal:
+            return "universal";
+        case JointSpecKind::kRevolute2:
+            return "revolute2";
+        case JointSpecKind::kGearbox:
+            return "gearbox";
     }
     return "?";
 }
 
 const char* to_text(GeometryKind kind) {
     switch (kind) {
-        case GeometryKind::kPlane: return "plane";
-        case GeometryKind::kBox: return "box";
-        case GeometryKind::kSphere: return "sphere";
-        case GeometryKind::kCylinder: return "cylinder";
-        case GeometryKind::kCapsule: return "capsule";
-        case GeometryKind::kEllipsoid: return "ellipsoid";
-        case GeometryKind::kMesh: return "mesh";
-        case GeometryKind::kHeightmap: return "heightmap";
-        case GeometryKind::kPolyline: return "polyline";
+        case GeometryKind::kPlane:
+            return "plane";
+        case GeometryKind::kBox:
+            return "box";
+        case GeometryKind::kSphere:
+            return "sphere";
+        case GeometryKind::kCylinder:
+            return "cylinder";
+        case GeometryKind::kCapsule:
+            return "capsule";
+        case GeometryKind::kEllipsoid:
+            return "ellipsoid";
+        case GeometryKind::kMesh:
+            return "mesh";
+        case GeometryKind::kHeightmap:
+            return "heightmap";
+        case GeometryKind::kPolyline:
+            return "polyline";
     }
     return "?";
 }
 
 const char* to_text(SensorKind kind) {
     switch (kind) {
-        case SensorKind::kLaser: return "laser";
-        case SensorKind::kGps: return "gps";
-        case SensorKind::kCompass: return "gyrocompass";
-        case SensorKind::kOdometer: return "odometer";
-        case SensorKind::kUnsupported: return "unsupported";
+        case SensorKind::kLaser:
+            return "laser";
+        case SensorKind::kGps:
+            return "gps";
+        case SensorKind::kCompass:
+            return "gyrocompass";
+        case SensorKind::kOdometer:
+            return "odometer";
+        case SensorKind::kUnsupported:
+            return "unsupported";
     }
     return "?";
 }
@@ -51,7 +74,8 @@ WorldCensus take_census(const World& world) {
     for (std::size_t i = 0; i < times.size(); ++i) {
         const ModelSpec& model = world.prototypes[i];
         for (const LinkSpec& link : model.links) {
-            for (const CollisionSpec& collision : link.collisions) census.shapes[to_text(collision.geometry.kind)] += times[i];
+            for (const CollisionSpec& collision : link.collisions)
+                census.shapes[to_text(collision.geometry.kind)] += times[i];
         }
         if (model.is_static) {
             census.static_models += times[i];

@@ -9,10 +9,10 @@
 namespace roboss {
 
 struct WorldCensus {
-    std::size_t robots = 0;         // movable models
-    std::size_t robot_types = 0;    // distinct ones
+    std::size_t robots = 0;       // movable models
+    std::size_t robot_types = 0;  // distinct ones
     std::size_t static_models = 0;
-    std::size_t links = 0;          // of the robots
+    std::size_t links = 0;                       // of the robots
     std::map<std::string, std::size_t> joints;   // of the robots, by kind
     std::map<std::string, std::size_t> shapes;   // collisions of everything, by kind
     std::map<std::string, std::size_t> sensors;  // of the robots, by kind

@@ -1,4 +1,5 @@
-// Solids of uniform density: volumes and second moments from any table (box, ellipsoid, cylinder, cone, capsule).
+// Solids of uniform density: volumes and second moments from any table (box, ellipsoid, cylinder, cone,
+// capsule).
 #include "sdf/automatic_inertia.h"
 
 #include <cstring>
@@ -56,12 +57,18 @@ std::optional<Solid> solid_of(const Element& geometry, const Import& import) {
     const auto spec = convert_geometry(geometry, import, unused);
     if (!spec) return std::nullopt;
     switch (spec->kind) {
-        case GeometryKind::kBox: return box(spec->size);
-        case GeometryKind::kSphere: return ellipsoid({spec->radius, spec->radius, spec->radius});
-        case GeometryKind::kCylinder: return cylinder(spec->radius, spec->length);
-        case GeometryKind::kCapsule: return capsule(spec->radius, spec->length);
-        case GeometryKind::kEllipsoid: return ellipsoid(spec->size);
-        default: return std::nullopt;
+        case GeometryKind::kBox:
+            return box(spec->size);
+        case GeometryKind::kSphere:
+            return ellipsoid({spec->radius, spec->radius, spec->radius});
+        case GeometryKind::kCylinder:
+            return cylinder(spec->radius, spec->length);
+        case GeometryKind::kCapsule:
+            return capsule(spec->radius, spec->length);
+        case GeometryKind::kEllipsoid:
+            return ellipsoid(spec->size);
+        default:
+            return std::nullopt;
     }
 }
 
@@ -81,9 +88,10 @@ std::vector<Placed> solids_of(const Element& link, const Import& import) {
             solids.push_back({*solid, import.reader.pose(collision.child("pose")),
                               import.reader.number(collision, "density", link_density)});
         } else {
-            import.diagnostics().warning(collision.where(), "automatic-inertia",
-                                         "collision '" + collision.name() + "' adds nothing to the automatic inertia of its link",
-                                         "Write the link's <mass> and <inertia>, or use primitive shapes.");
+            import.diagnostics().warning(
+                collision.where(), "automatic-inertia",
+                "collision '" + collision.name() + "' adds nothing to the automatic inertia of its link",
+                "Write the link's <mass> and <inertia>, or use primitive shapes.");
         }
     }
     return solids;

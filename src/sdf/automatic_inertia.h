@@ -1,4 +1,5 @@
-// Automatic inertia (<inertial auto="true">, SDFormat 1.11): mass properties from the volumes of a link's collisions.
+// Automatic inertia (<inertial auto="true">, SDFormat 1.11): mass properties from the volumes of a link's
+// collisions.
 #pragma once
 
 #include <optional>
@@ -13,7 +14,8 @@ struct MassProperties {
     Mat3 inertia;  // about the centre, link axes
 };
 
-/// nullopt if no collision of the link has a known volume. Collisions without one (meshes) are reported and left out.
+/// nullopt if no collision of the link has a known volume. Collisions without one (meshes) are reported and
+/// left out.
 std::optional<MassProperties> automatic_inertia(const Element& link, const Import& import);
 
 }  // namespace roboss::sdf_import

@@ -33,7 +33,8 @@ TEST(BadInput, AMissingFileIsAnError) {
 }
 
 TEST(BadInput, MalformedXmlNamesLineAndColumn) {
-    const Loaded loaded = load_text("<sdf version='1.9'>\n<world name='w'>\n  <model name='m'></world></sdf>");
+    const Loaded loaded =
+        load_text("<sdf version='1.9'>\n<world name='w'>\n  <model name='m'></world></sdf>");
     EXPECT_FALSE(loaded.world);
     ASSERT_NE(loaded.find("malformed-xml"), nullptr) << loaded.text();
     EXPECT_EQ(loaded.find("malformed-xml")->where.line, 3);
@@ -48,38 +49,57 @@ TEST(BadInput, OtherXmlIsNotTakenForAWorld) {
 }
 
 TEST(BadInput, AJointToNowhereIsAnError) {
-    expect_error("<model name='m'>" + link("a") + "\n<joint name='j' type='fixed'><parent>a</parent><child>nowhere</child></joint></model>",
-                 "joint-to-nowhere", 3, "'nowhere'");
+    expect_error(
+        "<model name='m'>" + link("a") +
+            "\n<joint name='j' type='fixed'><parent>a</parent><child>nowhere</child></joint></model>",
+        "joint-to-nowhere", 3, "'nowhere'");
 }
 
 TEST(BadInput, AJointToNowhereIsReportedOnce) {
-    const Loaded loaded = load_elements("<model name='m'>" + link("a") + link("b") +
-                                        "<joint name='j' type='fixed'><parent>gone</parent><child>b</child></joint></model>");
+    const Loaded loaded =
+        load_elements("<model name='m'>" + link("a") + link("b") +
+                      "<joint name='j' type='fixed'><parent>gone</parent><child>b</child></joint></model>");
     EXPECT_EQ(loaded.diagnostics.count(Severity::kError), 1u) << loaded.text();
 }
 
 TEST(BadInput, ZeroMassIsAnError) {
-    expect_error("<model name='m'>\n\n<link name='a'><inertial><mass>0</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial></link></model>",
-                 "bad-mass", 4, "mass of 0");
+    expect_error(
+        "<model name='m'>\n\n<link "
+        "name='a'><inertial><mass>0</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></"
+        "inertial></link></model>",
+        "bad-mass", 4, "mass of 0");
 }
 
 TEST(BadInput, NotANumberIsAnError) {
-    expect_error("<model name='m'><link name='a'><inertial>\n<mass>nan</mass></inertial></link></model>", "bad-value", 3, "nan");
-    expect_error("<model name='m'>" + link("a", "<collision name='c'><geometry><box>\n<size>1 two 3</size></box></geometry></collision>") + "</model>",
-                 "bad-value", 3, "1 two 3");
-    expect_error("<model name='m'>\n<pose>1 2 3 0 0</pose>" + link("a") + "</model>", "bad-value", 3, "6 finite numbers");
-    expect_error("<model name='m'>" + link("a") + link("b") + "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz>\n"
-                 "<limit><upper>1e999</upper></limit></axis></joint></model>", "bad-value", 3, "1e999");
+    expect_error("<model name='m'><link name='a'><inertial>\n<mass>nan</mass></inertial></link></model>",
+                 "bad-value", 3, "nan");
+    expect_error(
+        "<model name='m'>" +
+            link("a",
+                 "<collision name='c'><geometry><box>\n<size>1 two 3</size></box></geometry></collision>") +
+            "</model>",
+        "bad-value", 3, "1 two 3");
+    expect_error("<model name='m'>\n<pose>1 2 3 0 0</pose>" + link("a") + "</model>", "bad-value", 3,
+                 "6 finite numbers");
+    expect_error(
+        "<model name='m'>" + link("a") + link("b") +
+            "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz>\n"
+            "<limit><upper>1e999</upper></limit></axis></joint></model>",
+        "bad-value", 3, "1e999");
 }
 
 TEST(BadInput, ALinkPoseThatIsNoPoseIsAnError) {
-    const Loaded loaded = load_elements("\n<model name='m'><link name='a'>\n<pose>1 2 x 0 0 0</pose>" + kInertial + "</link></model>");
+    const Loaded loaded = load_elements("\n<model name='m'><link name='a'>\n<pose>1 2 x 0 0 0</pose>" +
+                                        kInertial + "</link></model>");
     EXPECT_TRUE(loaded.diagnostics.has_errors());
     EXPECT_NE(loaded.text().find("world.sdf:3: error"), std::string::npos) << loaded.text();
 }
 
 TEST(BadInput, AnInertiaOfNoBodyIsAWarningWithItsNumbers) {
-    const Loaded loaded = load_elements("<model name='m'><link name='a'><inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>5</izz></inertia></inertial></link></model>");
+    const Loaded loaded = load_elements(
+        "<model name='m'><link "
+        "name='a'><inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>5</izz></inertia></"
+        "inertial></link></model>");
     EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
     ASSERT_NE(loaded.find("unreal-inertia"), nullptr) << loaded.text();
     EXPECT_NE(loaded.find("unreal-inertia")->message.find("izz 5"), std::string::npos);
@@ -95,9 +115,13 @@ TEST(BadInput, AMissingInertiaIsAWarningThatSaysTheDefault) {
 
 TEST(BadInput, AMissingMeshIsAWarningWithThePathsSearched) {
     const TestFolder folder;
-    folder.write("world.sdf", "<sdf version='1.9'><world name='w'><model name='m'>" +
-                              link("a", "<collision name='c'><geometry><mesh><uri>model://car/body.stl</uri></mesh></geometry></collision>") +
-                              "</model></world></sdf>");
+    folder.write(
+        "world.sdf",
+        "<sdf version='1.9'><world name='w'><model name='m'>" +
+            link("a",
+                 "<collision "
+                 "name='c'><geometry><mesh><uri>model://car/body.stl</uri></mesh></geometry></collision>") +
+            "</model></world></sdf>");
     const Loaded loaded = folder.load("world.sdf", {{"/some/where"}});
     ASSERT_NE(loaded.find("file-not-found"), nullptr) << loaded.text();
     EXPECT_EQ(loaded.find("file-not-found")->severity, Severity::kWarning);
@@ -107,11 +131,14 @@ TEST(BadInput, AMissingMeshIsAWarningWithThePathsSearched) {
 }
 
 TEST(BadInput, TwoModelsOfOneNameAreAnError) {
-    expect_error("<model name='m'>" + link("a") + "</model>\n<model name='m'>" + link("a") + "</model>", "duplicate-name", 3, "'m'");
+    expect_error("<model name='m'>" + link("a") + "</model>\n<model name='m'>" + link("a") + "</model>",
+                 "duplicate-name", 3, "'m'");
 }
 
 TEST(BadInput, UnknownElementsAreReportedWithTheirLine) {
-    const Loaded loaded = load_elements("<model name='m'>\n" + link("a", "<collision name='c'>" + kBox + "\n<surfce/></collision>") + "</model>\n<modle/>");
+    const Loaded loaded = load_elements("<model name='m'>\n" +
+                                        link("a", "<collision name='c'>" + kBox + "\n<surfce/></collision>") +
+                                        "</model>\n<modle/>");
     std::string text = loaded.text();
     EXPECT_NE(text.find("world.sdf:3: warning: <surfce> in <collision>"), std::string::npos) << text;
     EXPECT_NE(text.find("world.sdf:4: warning: <modle> in <world>"), std::string::npos) << text;
@@ -121,34 +148,51 @@ TEST(BadInput, UnknownElementsAreReportedWithTheirLine) {
 TEST(BadInput, EqualFindingsAreOneWithTheirNumber) {
     std::string models;
     for (int i = 0; i < 7; ++i) {
-        models += "\n<model name='m" + std::to_string(i) + "'><pose>" + std::to_string(i) + " 0 0 0 0 0</pose>" + link("l" + std::to_string(i)) +
+        models += "\n<model name='m" + std::to_string(i) + "'><pose>" + std::to_string(i) +
+                  " 0 0 0 0 0</pose>" + link("l" + std::to_string(i)) +
                   "<plugin name='drive' filename='x'/></model>";
     }
     const Loaded loaded = load_elements(models);
     EXPECT_EQ(loaded.diagnostics.items().size(), 1u) << loaded.text();
-    EXPECT_NE(loaded.text().find("world.sdf:2: note: plugin 'drive' is not run (7 times"), std::string::npos) << loaded.text();
+    EXPECT_NE(loaded.text().find("world.sdf:2: note: plugin 'drive' is not run (7 times"), std::string::npos)
+        << loaded.text();
 }
 
 TEST(BadInput, AllErrorsComeAtOnce) {
     const Loaded loaded = load_elements(
-        "<model name='a'><link name='l'><inertial><mass>-1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial></link></model>"
-        "<model name='b'>" + link("l", "<collision name='c'><geometry><sphere><radius>-2</radius></sphere></geometry></collision>") + "</model>"
-        "<model name='c'><pose relative_to='nobody'/>" + link("l") + "</model>");
+        "<model name='a'><link "
+        "name='l'><inertial><mass>-1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></"
+        "inertial></link></model>"
+        "<model name='b'>" +
+        link("l",
+             "<collision name='c'><geometry><sphere><radius>-2</radius></sphere></geometry></collision>") +
+        "</model>"
+        "<model name='c'><pose relative_to='nobody'/>" +
+        link("l") + "</model>");
     EXPECT_NE(loaded.find("bad-mass"), nullptr);
     EXPECT_NE(loaded.find("bad-size"), nullptr);
     EXPECT_NE(loaded.find("unknown-frame"), nullptr);
 }
 
 const std::string kValid =
-    "<?xml version='1.0'?>\n<sdf version='1.6' xmlns:roboss='urn:roboss:1'>\n<world name='w'>\n<physics name='p' type='ode'><max_step_size>0.002</max_step_size></physics>\n"
-    "<model name='car'><pose>1 2 3 0 0 0</pose>\n<link name='a'><inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial>"
+    "<?xml version='1.0'?>\n<sdf version='1.6' xmlns:roboss='urn:roboss:1'>\n<world name='w'>\n<physics "
+    "name='p' type='ode'><max_step_size>0.002</max_step_size></physics>\n"
+    "<model name='car'><pose>1 2 3 0 0 0</pose>\n<link "
+    "name='a'><inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial>"
     "<collision name='c'><geometry><box><size>1 1 1</size></box></geometry></collision>\n"
-    "<sensor name='s' type='ray'><ray><scan><horizontal><samples>3</samples><min_angle>0</min_angle><max_angle>1</max_angle></horizontal></scan>"
+    "<sensor name='s' "
+    "type='ray'><ray><scan><horizontal><samples>3</samples><min_angle>0</min_angle><max_angle>1</max_angle></"
+    "horizontal></scan>"
     "<range><min>0.1</min><max>9</max></range></ray></sensor></link>\n"
-    "<link name='b'><inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial></link>\n"
-    "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz></axis></joint></model>\n"
-    "<population name='p'><model name='x'><link name='l'/></model><pose>0 0 0 0 0 0</pose><box><size>1 1 1</size></box>"
-    "<model_count>3</model_count><distribution><type>random</type></distribution></population>\n</world></sdf>\n";
+    "<link "
+    "name='b'><inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial></"
+    "link>\n"
+    "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 0 "
+    "1</xyz></axis></joint></model>\n"
+    "<population name='p'><model name='x'><link name='l'/></model><pose>0 0 0 0 0 0</pose><box><size>1 1 "
+    "1</size></box>"
+    "<model_count>3</model_count><distribution><type>random</type></distribution></population>\n</world></"
+    "sdf>\n";
 
 TEST(BadInput, ATruncatedWorldIsAlwaysAnError) {
     ASSERT_FALSE(load_text(kValid).diagnostics.has_errors()) << load_text(kValid).text();
@@ -167,9 +211,15 @@ TEST(BadInput, AGarbledWorldNeverBringsTheLoaderDown) {
         for (int i = 0; i < changes; ++i) {
             const std::size_t at = random() % text.size();
             switch (random() % 3) {
-                case 0: text[at] = bytes[random() % bytes.size()]; break;
-                case 1: text.erase(at, random() % 20); break;
-                default: text.insert(at, text.substr(random() % text.size(), random() % 60)); break;
+                case 0:
+                    text[at] = bytes[random() % bytes.size()];
+                    break;
+                case 1:
+                    text.erase(at, random() % 20);
+                    break;
+                default:
+                    text.insert(at, text.substr(random() % text.size(), random() % 60));
+                    break;
             }
         }
         const Loaded loaded = load_text(text);

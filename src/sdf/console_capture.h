@@ -1,5 +1,6 @@
-// ConsoleCapture: while it lives, what libsdformat and urdfdom print goes into a string instead of the terminal. Both
-// print through process-wide streams, so captures exclude each other: only one thread is inside libsdformat at a time.
+// ConsoleCapture: while it lives, what libsdformat and urdfdom print goes into a string instead of the
+// terminal. Both print through process-wide streams, so captures exclude each other: only one thread is
+// inside libsdformat at a time.
 #pragma once
 
 #include <mutex>

@@ -43,7 +43,9 @@ void ElementReader::bad_value(const Element& element, const std::string& expecte
     diagnostics_.error(element.where(), "bad-value",
                        "<" + name + "> is '" + element.node.text().get() + "', which is not " + expected,
                        "Write " + expected + " with decimal points, for instance " +
-                           (expected.find("3 ") == 0 ? "0 0 1.5." : expected.find("6 ") == 0 ? "0 0 1.5 0 0 0." : "1.5."));
+                           (expected.find("3 ") == 0   ? "0 0 1.5."
+                            : expected.find("6 ") == 0 ? "0 0 1.5 0 0 0."
+                                                       : "1.5."));
 }
 
 bool ElementReader::numbers(const Element& element, std::span<double> values, Finite finite) const {
@@ -54,7 +56,8 @@ bool ElementReader::numbers(const Element& element, std::span<double> values, Fi
     std::vector<double> parsed;
     for (const auto word : words) {
         const auto value = parse_number(word);
-        const bool good = value && !std::isnan(*value) && (finite == Finite::kInfinityAllowed || std::isfinite(*value));
+        const bool good =
+            value && !std::isnan(*value) && (finite == Finite::kInfinityAllowed || std::isfinite(*value));
         if (!good) return bad_value(element, expected), false;
         parsed.push_back(*value);
     }

@@ -1,5 +1,6 @@
-// ElementReader: values out of XML elements. A value that cannot be what it should be (a word where a number belongs,
-// NaN, too few numbers) is an error with its line; the fallback is used so that reading can go on and find more.
+// ElementReader: values out of XML elements. A value that cannot be what it should be (a word where a number
+// belongs, NaN, too few numbers) is an error with its line; the fallback is used so that reading can go on
+// and find more.
 #pragma once
 
 #include <optional>
@@ -25,7 +26,8 @@ class ElementReader {
   public:
     explicit ElementReader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
-    double number(const Element& parent, const char* child, double fallback, Finite finite = Finite::kRequired) const;
+    double number(const Element& parent, const char* child, double fallback,
+                  Finite finite = Finite::kRequired) const;
     int integer(const Element& parent, const char* child, int fallback) const;
     bool boolean(const Element& parent, const char* child, bool fallback) const;
     Vec3 vector(const Element& parent, const char* child, const Vec3& fallback) const;
@@ -33,7 +35,8 @@ class ElementReader {
     /// An angle in radians, or in degrees with degrees="true".
     double angle(const Element& parent, const char* child, double fallback) const;
 
-    /// A <pose>: x y z roll pitch yaw, also with degrees="true" or rotation_format="quat_xyzw". Empty: identity.
+    /// A <pose>: x y z roll pitch yaw, also with degrees="true" or rotation_format="quat_xyzw". Empty:
+    /// identity.
     Pose pose(const Element& pose_element) const;
 
     Diagnostics& diagnostics() const { return diagnostics_; }

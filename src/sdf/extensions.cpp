@@ -30,22 +30,24 @@ void report_foreign(const Element& element, const Import& import) {
                                      "Known: <roboss:sensor> in a link, <roboss:motor> in a joint or axis, "
                                      "<roboss:rolling_friction> in a collision or surface.");
     } else {
-        import.diagnostics().note(element.where(), "foreign-element", "<" + name + "> is not for RoBOSS and is ignored");
+        import.diagnostics().note(element.where(), "foreign-element",
+                                  "<" + name + "> is not for RoBOSS and is ignored");
     }
 }
 
 }  // namespace
 
-void convert_extensions(const Element& parent, const Import& import, std::vector<ExtensionElement>& extensions) {
+void convert_extensions(const Element& parent, const Import& import,
+                        std::vector<ExtensionElement>& extensions) {
     for (const auto node : parent.node.children()) {
         if (node.type() != pugi::node_element) continue;
         const Element element{parent.source, node};
         if (std::strcmp(node.name(), "plugin") == 0) {
             extensions.push_back(kept(element));
             const std::string name = element.name(), file = node.attribute("filename").value();
-            import.diagnostics().note(element.where(), "plugin",
-                                      "plugin '" + (name.empty() ? file : name) + "' is not run",
-                                      "Drive robots from a Client program; physics and sensors need no plugin here.");
+            import.diagnostics().note(
+                element.where(), "plugin", "plugin '" + (name.empty() ? file : name) + "' is not run",
+                "Drive robots from a Client program; physics and sensors need no plugin here.");
         } else if (std::strcmp(node.name(), "model") == 0) {
             continue;  // nested models and includes take their own turn
         } else if (std::strchr(node.name(), ':') != nullptr) {

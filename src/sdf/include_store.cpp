@@ -31,13 +31,15 @@ const SourceFile* IncludeStore::file_of(const Element& include) {
     if (!found.path) {
         if (!unresolved_.emplace(base + "\n" + uri, true).second) return nullptr;
         if (found.remote) {
-            diagnostics_.warning(include.where(), "remote-uri",
-                                 "'" + uri + "' is on the network; nothing is fetched, the model is left out",
-                                 "Download it (gz fuel download -u URI) and run again, or give its folder with --path.");
+            diagnostics_.warning(
+                include.where(), "remote-uri",
+                "'" + uri + "' is on the network; nothing is fetched, the model is left out",
+                "Download it (gz fuel download -u URI) and run again, or give its folder with --path.");
         } else {
-            diagnostics_.error(include.where(), "include-not-found",
-                               "<include> of '" + uri + "' leads to no file; searched: " + list_of(found.searched),
-                               "Give the folder that holds it with --path, or in GZ_SIM_RESOURCE_PATH.");
+            diagnostics_.error(
+                include.where(), "include-not-found",
+                "<include> of '" + uri + "' leads to no file; searched: " + list_of(found.searched),
+                "Give the folder that holds it with --path, or in GZ_SIM_RESOURCE_PATH.");
         }
         return nullptr;
     }
@@ -47,7 +49,8 @@ const SourceFile* IncludeStore::file_of(const Element& include) {
         if (file && std::string(file->root().name()) == "robot") file = urdf_to_sdf(*file, diagnostics_);
         if (file && !first_model(*file)) {
             diagnostics_.error(file->where(file->root()), "no-model",
-                               "the file is included, but holds no <model>", "Include a file with a <model>.");
+                               "the file is included, but holds no <model>",
+                               "Include a file with a <model>.");
             file = nullptr;
         }
         if (file) check_version(*file, diagnostics_);
@@ -81,7 +84,8 @@ std::optional<std::string> IncludeStore::skeleton_file(const Element& include) {
     if (const auto known = written_.find(source); known != written_.end()) return known->second;
     const auto in = folder();
     if (!in) {
-        diagnostics_.error(include.where(), "no-temporary-folder", "no temporary folder can be made for included models",
+        diagnostics_.error(include.where(), "no-temporary-folder",
+                           "no temporary folder can be made for included models",
                            "Check that the folder in TMPDIR (else /tmp) can be written.");
         return std::nullopt;
     }

@@ -1,5 +1,6 @@
-// IncludeStore: every file that a world includes, read once. A nested <include> (of a model in a model) is left to
-// libsdformat, which knows merging and placement frames; it gets the included file's skeleton as a temporary file.
+// IncludeStore: every file that a world includes, read once. A nested <include> (of a model in a model) is
+// left to libsdformat, which knows merging and placement frames; it gets the included file's skeleton as a
+// temporary file.
 #pragma once
 
 #include <map>
@@ -20,7 +21,8 @@ class IncludeStore : public SkeletonIncludes {
     IncludeStore(const IncludeStore&) = delete;
     IncludeStore& operator=(const IncludeStore&) = delete;
 
-    /// The model that an <include> names, or nothing (reported, once a URI and folder). URDF files are converted.
+    /// The model that an <include> names, or nothing (reported, once a URI and folder). URDF files are
+    /// converted.
     Element model_of(const Element& include);
 
     /// For a nested include: the file with the skeleton of the included model, for libsdformat to read.
@@ -36,10 +38,10 @@ class IncludeStore : public SkeletonIncludes {
     const ResourcePaths& paths_;
     Diagnostics& diagnostics_;
     std::map<std::string, std::unique_ptr<SourceFile>> files_;  // by path; nullptr: cannot be read
-    std::map<std::string, bool> unresolved_;                     // by folder and URI: reported
-    std::map<std::string, std::string> written_;                 // source path to skeleton file
-    std::map<std::string, Skeleton> skeletons_;                  // by skeleton file
-    std::vector<std::string> open_;                              // sources whose skeletons are being written: cycles
+    std::map<std::string, bool> unresolved_;                    // by folder and URI: reported
+    std::map<std::string, std::string> written_;                // source path to skeleton file
+    std::map<std::string, Skeleton> skeletons_;                 // by skeleton file
+    std::vector<std::string> open_;  // sources whose skeletons are being written: cycles
     std::string folder_;
 };
 

@@ -10,7 +10,8 @@ namespace {
 
 using namespace sdf_test;
 
-std::string model_file(const std::string& name, const std::string& inner, const std::string& version = "1.9") {
+std::string model_file(const std::string& name, const std::string& inner,
+                       const std::string& version = "1.9") {
     return "<sdf version='" + version + "'>\n<model name='" + name + "'>" + inner + "</model></sdf>";
 }
 
@@ -20,11 +21,14 @@ std::string world_file(const std::string& elements) {
 
 TEST(Include, FindsModelsInTheSearchPathAndOverridesNamePoseAndStatic) {
     const TestFolder folder;
-    folder.write("models/car/model.config", "<model><sdf version='1.4'>old.sdf</sdf><sdf version='1.9'>new.sdf</sdf></model>");
+    folder.write("models/car/model.config",
+                 "<model><sdf version='1.4'>old.sdf</sdf><sdf version='1.9'>new.sdf</sdf></model>");
     folder.write("models/car/new.sdf", model_file("car", "<pose>9 9 9 0 0 0</pose>" + link("a")));
-    folder.write("world.sdf", world_file("<include><uri>model://car</uri></include>"
-                                         "<include><uri>model://car</uri><name>mine</name><pose>1 0 0 0 0 0</pose></include>"
-                                         "<include><uri>model://car</uri><name>rock</name><static>true</static></include>"));
+    folder.write(
+        "world.sdf",
+        world_file("<include><uri>model://car</uri></include>"
+                   "<include><uri>model://car</uri><name>mine</name><pose>1 0 0 0 0 0</pose></include>"
+                   "<include><uri>model://car</uri><name>rock</name><static>true</static></include>"));
     const Loaded loaded = folder.load("world.sdf", {{folder.path("models")}});
     ASSERT_TRUE(loaded.world);
     EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
@@ -54,8 +58,9 @@ TEST(Include, LooksWhereTheEnvironmentSays) {
 TEST(Include, UnderstandsEveryKindOfUri) {
     const TestFolder folder;
     const std::string file = folder.write("parts/ball/model.sdf", model_file("ball", link("a")));
-    for (const std::string& uri : {std::string("parts/ball/model.sdf"), std::string("parts/ball"), file, "file://" + file,
-                                  std::string("file://parts/ball"), std::string("package://ball"), std::string("model://ball/model.sdf")}) {
+    for (const std::string& uri : {std::string("parts/ball/model.sdf"), std::string("parts/ball"), file,
+                                   "file://" + file, std::string("file://parts/ball"),
+                                   std::string("package://ball"), std::string("model://ball/model.sdf")}) {
         folder.write("world.sdf", world_file("<include><uri>" + uri + "</uri></include>"));
         const Loaded loaded = folder.load("world.sdf", {{folder.path("parts")}});
         ASSERT_TRUE(loaded.world);
@@ -76,7 +81,9 @@ TEST(Include, ThatLeadsNowhereTellsWhereItLooked) {
 }
 
 TEST(Include, OfAFuelModelIsLeftOutWithARemedy) {
-    const Loaded loaded = load_elements("<include><uri>https://fuel.gazebosim.org/1.0/OpenRobotics/models/Nowhere To Be Found</uri></include>");
+    const Loaded loaded = load_elements(
+        "<include><uri>https://fuel.gazebosim.org/1.0/OpenRobotics/models/Nowhere To Be "
+        "Found</uri></include>");
     const Diagnostic* found = loaded.find("remote-uri");
     ASSERT_NE(found, nullptr) << loaded.text();
     EXPECT_EQ(found->severity, Severity::kWarning);
@@ -86,7 +93,8 @@ TEST(Include, OfAFuelModelIsLeftOutWithARemedy) {
 TEST(Include, OfAFuelModelIsFoundWhereItWasDownloaded) {
     const TestFolder folder;
     folder.write("fuel/fuel.gazebosim.org/me/models/ball/2/model.sdf", model_file("ball", link("a")));
-    folder.write("world.sdf", world_file("<include><uri>https://fuel.gazebosim.org/1.0/me/models/ball</uri></include>"));
+    folder.write("world.sdf",
+                 world_file("<include><uri>https://fuel.gazebosim.org/1.0/me/models/ball</uri></include>"));
     setenv("GZ_FUEL_CACHE_PATH", folder.path("fuel").c_str(), 1);
     const Loaded loaded = folder.load("world.sdf");
     unsetenv("GZ_FUEL_CACHE_PATH");
@@ -96,22 +104,34 @@ TEST(Include, OfAFuelModelIsFoundWhereItWasDownloaded) {
 
 TEST(Include, InAModelNestsOrMergesAndKeepsFilesAndLines) {
     const TestFolder folder;
-    folder.write("wheel.sdf", model_file("wheel", "\n" + link("rim", "<collision name='c'><geometry><sphere><radius>0.25</radius></sphere></geometry></collision>"), "1.6"));
+    folder.write(
+        "wheel.sdf",
+        model_file(
+            "wheel",
+            "\n" + link("rim",
+                        "<collision "
+                        "name='c'><geometry><sphere><radius>0.25</radius></sphere></geometry></collision>"),
+            "1.6"));
     folder.write("bumper.sdf", model_file("bumper", "<pose>7 0 0 0 0 0</pose>\n\n" + link("plate")));
-    folder.write("world.sdf", world_file(
-        "<model name='car'>" + link("chassis") +
-        "<include><uri>wheel.sdf</uri><name>left</name><pose>0 1 0 0 0 0</pose></include>"
-        "<include><uri>wheel.sdf</uri><name>right</name><pose>0 -1 0 0 0 0</pose></include>"
-        "<include merge='true'><uri>bumper.sdf</uri></include>"
-        "<joint name='l' type='continuous'><parent>chassis</parent><child>left::rim</child><axis><xyz>0 1 0</xyz></axis></joint>"
-        "<joint name='r' type='continuous'><parent>chassis</parent><child>right::rim</child><axis><xyz>0 1 0</xyz></axis></joint></model>"));
+    folder.write(
+        "world.sdf",
+        world_file(
+            "<model name='car'>" + link("chassis") +
+            "<include><uri>wheel.sdf</uri><name>left</name><pose>0 1 0 0 0 0</pose></include>"
+            "<include><uri>wheel.sdf</uri><name>right</name><pose>0 -1 0 0 0 0</pose></include>"
+            "<include merge='true'><uri>bumper.sdf</uri></include>"
+            "<joint name='l' type='continuous'><parent>chassis</parent><child>left::rim</child><axis><xyz>0 "
+            "1 0</xyz></axis></joint>"
+            "<joint name='r' type='continuous'><parent>chassis</parent><child>right::rim</child><axis><xyz>0 "
+            "1 0</xyz></axis></joint></model>"));
     const Loaded loaded = folder.load("world.sdf");
     ASSERT_TRUE(loaded.world);
     EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
     const ModelSpec& car = loaded.world->prototypes[0];
     ASSERT_EQ(car.links.size(), 4u);
     const auto named = [&](const std::string& name) {
-        return *std::find_if(car.links.begin(), car.links.end(), [&](const LinkSpec& l) { return l.name == name; });
+        return *std::find_if(car.links.begin(), car.links.end(),
+                             [&](const LinkSpec& l) { return l.name == name; });
     };
     EXPECT_EQ(named("left::rim").X_ML.p.y, 1);
     EXPECT_EQ(named("right::rim").X_ML.p.y, -1);
@@ -132,8 +152,10 @@ TEST(Include, OfItselfIsAnErrorNotACrash) {
 
 TEST(Include, WithAPlacementFrameStandsOnIt) {
     const TestFolder folder;
-    folder.write("mast.sdf", model_file("mast", link("l") + "<frame name='foot'><pose>0 0 -3 0 0 0</pose></frame>"));
-    folder.write("world.sdf", world_file("<include><uri>mast.sdf</uri><placement_frame>foot</placement_frame><pose>1 0 0 0 0 0</pose></include>"));
+    folder.write("mast.sdf",
+                 model_file("mast", link("l") + "<frame name='foot'><pose>0 0 -3 0 0 0</pose></frame>"));
+    folder.write("world.sdf", world_file("<include><uri>mast.sdf</uri><placement_frame>foot</"
+                                         "placement_frame><pose>1 0 0 0 0 0</pose></include>"));
     const Loaded loaded = folder.load("world.sdf");
     ASSERT_TRUE(loaded.world) << loaded.text();
     EXPECT_EQ(loaded.world->instances[0].X_WM.p, (Vec3{1, 0, 3}));

@@ -22,10 +22,12 @@ Mat3 read_inertia(const Element& inertia, const ElementReader& reader) {
 void read_automatic(const Element& link, const Element& inertial, const Import& import, LinkSpec& spec) {
     const auto automatic = automatic_inertia(link, import);
     if (!automatic) {
-        import.diagnostics().warning(inertial.where(), "automatic-inertia",
-                                     "link '" + spec.name + "' asks for automatic inertia, but none of its collisions has a "
-                                     "volume that is known; SDF's default is used: 1 kg, 1 kg m^2 about each axis",
-                                     "Write its <mass> and <inertia>.");
+        import.diagnostics().warning(
+            inertial.where(), "automatic-inertia",
+            "link '" + spec.name +
+                "' asks for automatic inertia, but none of its collisions has a "
+                "volume that is known; SDF's default is used: 1 kg, 1 kg m^2 about each axis",
+            "Write its <mass> and <inertia>.");
         return;
     }
     spec.mass = automatic->mass;
@@ -37,8 +39,8 @@ void read_automatic(const Element& link, const Element& inertial, const Import& 
         spec.mass = mass;
     }
     import.diagnostics().note(inertial.where(), "automatic-inertia",
-                              "mass and inertia of link '" + spec.name + "' are computed from its collisions: " +
-                                  std::to_string(spec.mass) + " kg");
+                              "mass and inertia of link '" + spec.name +
+                                  "' are computed from its collisions: " + std::to_string(spec.mass) + " kg");
 }
 
 }  // namespace
@@ -47,8 +49,9 @@ void convert_inertial(const Element& link, const Import& import, LinkSpec& spec)
     const Element inertial = link.child("inertial");
     if (!inertial) {
         import.diagnostics().warning(link.where(), "missing-inertia",
-                                     "link '" + spec.name + "' has no <inertial>; SDF's default is used, as in Gazebo: "
-                                     "1 kg, 1 kg m^2 about each axis",
+                                     "link '" + spec.name +
+                                         "' has no <inertial>; SDF's default is used, as in Gazebo: "
+                                         "1 kg, 1 kg m^2 about each axis",
                                      "Write its <inertial> with <mass> and <inertia>.");
         return;
     }
@@ -58,11 +61,11 @@ void convert_inertial(const Element& link, const Import& import, LinkSpec& spec)
     spec.p_LC = X_LI.p;
     const Element inertia = inertial.child("inertia");
     if (!inertial.child("mass") || !inertia) {
-        import.diagnostics().warning(inertial.where(), "missing-inertia",
-                                     "link '" + spec.name + "' has no <" + (inertia ? "mass" : "inertia") +
-                                         ">; SDF's default is used, as in Gazebo: " +
-                                         (inertia ? "1 kg" : "1 kg m^2 about each axis"),
-                                     "Write both <mass> and <inertia>.");
+        import.diagnostics().warning(
+            inertial.where(), "missing-inertia",
+            "link '" + spec.name + "' has no <" + (inertia ? "mass" : "inertia") +
+                ">; SDF's default is used, as in Gazebo: " + (inertia ? "1 kg" : "1 kg m^2 about each axis"),
+            "Write both <mass> and <inertia>.");
     }
     if (inertia) spec.inertia_C = rotated(read_inertia(inertia, import.reader), X_LI.q);
 }

@@ -9,16 +9,26 @@ namespace {
 
 std::optional<JointSpecKind> kind_of(sdf::JointType type) {
     switch (type) {
-        case sdf::JointType::FIXED: return JointSpecKind::kFixed;
-        case sdf::JointType::REVOLUTE: return JointSpecKind::kRevolute;
-        case sdf::JointType::CONTINUOUS: return JointSpecKind::kContinuous;
-        case sdf::JointType::PRISMATIC: return JointSpecKind::kPrismatic;
-        case sdf::JointType::BALL: return JointSpecKind::kBall;
-        case sdf::JointType::SCREW: return JointSpecKind::kScrew;
-        case sdf::JointType::UNIVERSAL: return JointSpecKind::kUniversal;
-        case sdf::JointType::REVOLUTE2: return JointSpecKind::kRevolute2;
-        case sdf::JointType::GEARBOX: return JointSpecKind::kGearbox;
-        case sdf::JointType::INVALID: return std::nullopt;
+        case sdf::JointType::FIXED:
+            return JointSpecKind::kFixed;
+        case sdf::JointType::REVOLUTE:
+            return JointSpecKind::kRevolute;
+        case sdf::JointType::CONTINUOUS:
+            return JointSpecKind::kContinuous;
+        case sdf::JointType::PRISMATIC:
+            return JointSpecKind::kPrismatic;
+        case sdf::JointType::BALL:
+            return JointSpecKind::kBall;
+        case sdf::JointType::SCREW:
+            return JointSpecKind::kScrew;
+        case sdf::JointType::UNIVERSAL:
+            return JointSpecKind::kUniversal;
+        case sdf::JointType::REVOLUTE2:
+            return JointSpecKind::kRevolute2;
+        case sdf::JointType::GEARBOX:
+            return JointSpecKind::kGearbox;
+        case sdf::JointType::INVALID:
+            return std::nullopt;
     }
     return std::nullopt;
 }
@@ -26,11 +36,14 @@ std::optional<JointSpecKind> kind_of(sdf::JointType type) {
 unsigned axes_of(JointSpecKind kind) {
     switch (kind) {
         case JointSpecKind::kFixed:
-        case JointSpecKind::kBall: return 0;
+        case JointSpecKind::kBall:
+            return 0;
         case JointSpecKind::kUniversal:
         case JointSpecKind::kRevolute2:
-        case JointSpecKind::kGearbox: return 2;
-        default: return 1;
+        case JointSpecKind::kGearbox:
+            return 2;
+        default:
+            return 1;
     }
 }
 
@@ -66,7 +79,8 @@ void read_motor(const Element& motor, const ElementReader& reader, AxisSpec& spe
     spec.velocity_gain = reader.number(motor, "velocity_gain", spec.velocity_gain);
     spec.armature = reader.number(motor, "armature", spec.armature);
     if (motor.child("max_effort")) spec.max_effort = bound(reader.number(motor, "max_effort", -1, kAny));
-    if (motor.child("max_velocity")) spec.max_velocity = bound(reader.number(motor, "max_velocity", -1, kAny));
+    if (motor.child("max_velocity"))
+        spec.max_velocity = bound(reader.number(motor, "max_velocity", -1, kAny));
 }
 
 Vec3 direction_of(const sdf::JointAxis* axis) {
@@ -77,14 +91,15 @@ Vec3 direction_of(const sdf::JointAxis* axis) {
     return length > 1e-12 && std::isfinite(length) ? direction / length : Vec3{0, 0, 1};
 }
 
-AxisSpec read_axis(const sdf::Joint& joint, const Element& source, unsigned index, JointSpecKind kind, const Import& import) {
+AxisSpec read_axis(const sdf::Joint& joint, const Element& source, unsigned index, JointSpecKind kind,
+                   const Import& import) {
     const Element axis = source.child(index == 0 ? "axis" : "axis2");
     AxisSpec spec;
     spec.xyz = direction_of(joint.Axis(index));
     if (!axis) {
         import.diagnostics().warning(source.where(), "missing-axis",
-                                     "joint '" + joint.Name() + "' has no <" + (index == 0 ? "axis" : "axis2") +
-                                         ">; z of its frame is used",
+                                     "joint '" + joint.Name() + "' has no <" +
+                                         (index == 0 ? "axis" : "axis2") + ">; z of its frame is used",
                                      "Add it, with <xyz>.");
     } else {
         import.reader.vector(axis, "xyz", {0, 0, 1});
@@ -103,21 +118,24 @@ AxisSpec read_axis(const sdf::Joint& joint, const Element& source, unsigned inde
 
 /// Metres a radian. <screw_thread_pitch> (1.10): metres a turn. <thread_pitch>: Gazebo's -radians a metre.
 double screw_pitch(const Element& source, const Import& import) {
-    if (source.child("screw_thread_pitch")) return import.reader.number(source, "screw_thread_pitch", 1) / (2.0 * kPi);
+    if (source.child("screw_thread_pitch"))
+        return import.reader.number(source, "screw_thread_pitch", 1) / (2.0 * kPi);
     const double radians_a_metre = import.reader.number(source, "thread_pitch", 1);
     return radians_a_metre != 0 ? -1.0 / radians_a_metre : 0.0;
 }
 
 void report_joint_to_come(const JointSpec& spec, const Element& source, const Import& import) {
     if (spec.kind == JointSpecKind::kScrew) {
-        import.diagnostics().warning(source.where(), "joint-to-come",
-                                     "joint '" + spec.name + "': screw joints are still to come; its links are welded together",
-                                     "Use a revolute and a prismatic joint, driven together.");
+        import.diagnostics().warning(
+            source.where(), "joint-to-come",
+            "joint '" + spec.name + "': screw joints are still to come; its links are welded together",
+            "Use a revolute and a prismatic joint, driven together.");
     }
     if (spec.kind == JointSpecKind::kGearbox) {
-        import.diagnostics().warning(source.where(), "joint-to-come",
-                                     "joint '" + spec.name + "': gearboxes are still to come; its links turn independently",
-                                     "Drive both joints from the control program.");
+        import.diagnostics().warning(
+            source.where(), "joint-to-come",
+            "joint '" + spec.name + "': gearboxes are still to come; its links turn independently",
+            "Drive both joints from the control program.");
     }
     for (const auto node : source.node.children("sensor")) {
         import.diagnostics().warning({source.source->where(node)}, "sensor-to-come",
@@ -126,7 +144,8 @@ void report_joint_to_come(const JointSpec& spec, const Element& source, const Im
     }
 }
 
-/// The link that libsdformat found for a parent or child frame, else the name as written, for validate() to report.
+/// The link that libsdformat found for a parent or child frame, else the name as written, for validate() to
+/// report.
 template <class Resolve>
 std::string link_name(const std::string& written, const std::string& scope, Resolve resolve) {
     std::string found;
@@ -145,9 +164,12 @@ std::optional<JointSpec> convert_joint(const sdf::Joint& joint, const Element& s
     spec.kind = *kind;
     spec.where = source.where();
     spec.X_MJ = X_MJ;
-    spec.parent = link_name(joint.ParentLinkName(), scope, [&](std::string& name) { return joint.ResolveParentLink(name); });
-    spec.child = link_name(joint.ChildLinkName(), scope, [&](std::string& name) { return joint.ResolveChildLink(name); });
-    for (unsigned i = 0; i < axes_of(*kind); ++i) spec.axes.push_back(read_axis(joint, source, i, *kind, import));
+    spec.parent = link_name(joint.ParentLinkName(), scope,
+                            [&](std::string& name) { return joint.ResolveParentLink(name); });
+    spec.child = link_name(joint.ChildLinkName(), scope,
+                           [&](std::string& name) { return joint.ResolveChildLink(name); });
+    for (unsigned i = 0; i < axes_of(*kind); ++i)
+        spec.axes.push_back(read_axis(joint, source, i, *kind, import));
     if (*kind == JointSpecKind::kScrew) spec.screw_pitch = screw_pitch(source, import);
     report_joint_to_come(spec, source, import);
     return spec;

@@ -40,21 +40,25 @@ std::string trimmed(std::string text) {
 }
 
 bool is_joint_to_nowhere(const sdf::Error& error) {
-    return error.Code() == sdf::ErrorCode::JOINT_CHILD_LINK_INVALID || error.Code() == sdf::ErrorCode::JOINT_PARENT_LINK_INVALID;
+    return error.Code() == sdf::ErrorCode::JOINT_CHILD_LINK_INVALID ||
+           error.Code() == sdf::ErrorCode::JOINT_PARENT_LINK_INVALID;
 }
 
 /// Follows from an error that is told already: by validate() (joints to nowhere), or one line earlier.
 bool is_consequence(const sdf::Error& error, bool joint_to_nowhere, std::size_t reported) {
     switch (error.Code()) {
         case sdf::ErrorCode::JOINT_CHILD_LINK_INVALID:
-        case sdf::ErrorCode::JOINT_PARENT_LINK_INVALID: return true;
+        case sdf::ErrorCode::JOINT_PARENT_LINK_INVALID:
+            return true;
         case sdf::ErrorCode::FRAME_ATTACHED_TO_GRAPH_ERROR:
-        case sdf::ErrorCode::POSE_RELATIVE_TO_GRAPH_ERROR: return joint_to_nowhere || reported > 0;
+        case sdf::ErrorCode::POSE_RELATIVE_TO_GRAPH_ERROR:
+            return joint_to_nowhere || reported > 0;
         case sdf::ErrorCode::FRAME_ATTACHED_TO_INVALID:
         case sdf::ErrorCode::POSE_RELATIVE_TO_INVALID:
             return joint_to_nowhere && (error.Message().find("specified by joint") != std::string::npos ||
                                         error.Message().find("frame with name [") != std::string::npos);
-        default: return false;
+        default:
+            return false;
     }
 }
 
@@ -103,7 +107,8 @@ std::shared_ptr<const sdf::Root> LibsdformatReader::parse(const Skeleton& skelet
                 errors.insert(errors.end(), more.begin(), more.end());
             }
         } catch (const std::exception& exception) {
-            errors.emplace_back(sdf::ErrorCode::STRING_READ, std::string("libsdformat failed: ") + exception.what());
+            errors.emplace_back(sdf::ErrorCode::STRING_READ,
+                                std::string("libsdformat failed: ") + exception.what());
         }
     }
     const bool readable = root->Model() != nullptr;
@@ -128,10 +133,10 @@ void LibsdformatReader::report(const sdf::Errors& errors, const Skeleton& skelet
             const std::string element = at ? at.node.name() : bracketed(message, "Element");
             const std::string parent = at ? at.node.parent().name() : bracketed(message, "element");
             diagnostics_.warning(at ? at.where() : model.where(), "unknown-element",
-                                 attribute.empty()
-                                     ? "<" + element + "> in <" + parent + "> is not known to SDFormat and is ignored"
-                                     : "the attribute " + attribute + " of <" + element +
-                                           "> is not known to SDFormat and is ignored",
+                                 attribute.empty() ? "<" + element + "> in <" + parent +
+                                                         "> is not known to SDFormat and is ignored"
+                                                   : "the attribute " + attribute + " of <" + element +
+                                                         "> is not known to SDFormat and is ignored",
                                  "Check the spelling and the place.");
             continue;
         }
@@ -139,15 +144,16 @@ void LibsdformatReader::report(const sdf::Errors& errors, const Skeleton& skelet
         if (error.Code() == sdf::ErrorCode::ELEMENT_INVALID && reported > 0) continue;
         if (at && message.rfind("Error reading element", 0) == 0) {
             diagnostics_.error(at.where(), "bad-value",
-                               "<" + std::string(at.node.name()) + "> in <" + at.node.parent().name() + "> is '" +
-                                   at.node.text().get() + "', which is no value for it",
+                               "<" + std::string(at.node.name()) + "> in <" + at.node.parent().name() +
+                                   "> is '" + at.node.text().get() + "', which is no value for it",
                                "Write what the SDFormat specification says (http://sdformat.org/spec).");
             ++reported;
             continue;
         }
         if (!at) at = element_named_in(message, model);
-        diagnostics_.error(at.where(), "sdf", "model '" + model.name() + "': " + message,
-                           "Correct the element as the SDFormat specification says (http://sdformat.org/spec).");
+        diagnostics_.error(
+            at.where(), "sdf", "model '" + model.name() + "': " + message,
+            "Correct the element as the SDFormat specification says (http://sdformat.org/spec).");
         ++reported;
     }
     if (!readable && reported == 0) {

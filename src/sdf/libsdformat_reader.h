@@ -1,6 +1,6 @@
-// LibsdformatReader: hands skeletons to libsdformat and turns what it says into diagnostics with the lines of the source.
-// Equal skeletons are read once; reading in a fresh document each time keeps it linear (one document of 2000 cars takes
-// libsdformat 12 a minute).
+// LibsdformatReader: hands skeletons to libsdformat and turns what it says into diagnostics with the lines of
+// the source. Equal skeletons are read once; reading in a fresh document each time keeps it linear (one
+// document of 2000 cars takes libsdformat 12 a minute).
 #pragma once
 
 #include <memory>

@@ -25,7 +25,7 @@ using namespace sdf_import;
 struct Distinct {
     Element model;
     bool is_static = false;
-    std::unique_ptr<ReadModel> read;        // nullptr: libsdformat refused it
+    std::unique_ptr<ReadModel> read;       // nullptr: libsdformat refused it
     std::optional<std::size_t> prototype;  // in World::prototypes
 };
 
@@ -61,7 +61,8 @@ class WorldLoader {
         const Element root{file_.get(), file_->root()};
         if (std::string(root.node.name()) != "sdf") {
             diagnostics_.error(root.where(), "not-sdf",
-                               "the file begins with <" + std::string(root.node.name()) + ">; it is neither SDFormat nor URDF",
+                               "the file begins with <" + std::string(root.node.name()) +
+                                   ">; it is neither SDFormat nor URDF",
                                "Give a file whose root element is <sdf> or <robot>.");
             return std::nullopt;
         }
@@ -69,13 +70,15 @@ class WorldLoader {
         const Element world = root.child("world");
         if (world) {
             if (const auto second = world.node.next_sibling("world")) {
-                diagnostics_.warning(file_->where(second), "second-world", "the file has several worlds; the first is used",
+                diagnostics_.warning(file_->where(second), "second-world",
+                                     "the file has several worlds; the first is used",
                                      "Put each world into a file of its own.");
             }
             return world;
         }
         if (first_model(*file_)) return root;
-        diagnostics_.error(root.where(), "no-world", "the file holds neither a <world> nor a <model>", "Add one.");
+        diagnostics_.error(root.where(), "no-world", "the file holds neither a <world> nor a <model>",
+                           "Add one.");
         return std::nullopt;
     }
 
@@ -83,7 +86,8 @@ class WorldLoader {
         const std::uint64_t hash = model_hash(placement.model) * 2 + (placement.is_static ? 1 : 0);
         for (auto [at, end] = by_hash_.equal_range(hash); at != end; ++at) {
             const Distinct& known = distinct_[at->second];
-            if (known.is_static == placement.is_static && same_model(known.model, placement.model)) return at->second;
+            if (known.is_static == placement.is_static && same_model(known.model, placement.model))
+                return at->second;
         }
         distinct_.push_back({placement.model, placement.is_static, nullptr, std::nullopt});
         by_hash_.emplace(hash, distinct_.size() - 1);
@@ -95,7 +99,8 @@ class WorldLoader {
         if (!distinct.read) return;
         ModelSpec spec = convert_model(*distinct.read, distinct.is_static, import_);
         if (spec.links.empty()) {
-            diagnostics_.warning(spec.where, "no-links", "model '" + spec.name + "' has no links; it is left out",
+            diagnostics_.warning(spec.where, "no-links",
+                                 "model '" + spec.name + "' has no links; it is left out",
                                  "Give it a link, or remove it.");
             return;
         }
@@ -114,7 +119,8 @@ class WorldLoader {
             const Pose X_WM = frames.pose_of(i);
             const Distinct& distinct = distinct_[distinct_of_[i]];
             if (!distinct.prototype) continue;
-            result.instances.push_back({placements[i].name, *distinct.prototype, X_WM, placements[i].where.where()});
+            result.instances.push_back(
+                {placements[i].name, *distinct.prototype, X_WM, placements[i].where.where()});
         }
     }
 
@@ -132,7 +138,9 @@ class WorldLoader {
 /// Findings that say the same in the same file become one, with their number and the first line.
 void add_grouped(const Diagnostics& found, Diagnostics& out) {
     std::map<std::tuple<Severity, std::string, std::string, std::string>, std::size_t> count;
-    const auto key = [](const Diagnostic& d) { return std::tuple(d.severity, d.where.file, d.code, d.message); };
+    const auto key = [](const Diagnostic& d) {
+        return std::tuple(d.severity, d.where.file, d.code, d.message);
+    };
     for (const Diagnostic& d : found.items()) ++count[key(d)];
     for (const Diagnostic& d : found.items()) {
         auto& times = count[key(d)];
@@ -146,7 +154,8 @@ void add_grouped(const Diagnostics& found, Diagnostics& out) {
 
 }  // namespace
 
-std::optional<World> load_world(const std::string& file, const LoadOptions& options, Diagnostics& diagnostics) {
+std::optional<World> load_world(const std::string& file, const LoadOptions& options,
+                                Diagnostics& diagnostics) {
     Diagnostics found;
     auto world = WorldLoader(options, found).load(file);
     if (world) validate(*world, found);

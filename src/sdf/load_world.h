@@ -1,5 +1,6 @@
-// load_world: an SDFormat or URDF file to a World, with every finding in `diagnostics`. Large worlds load fast: pugixml
-// reads the file, models that are equal but for name and pose are found, and libsdformat reads each distinct one once.
+// load_world: an SDFormat or URDF file to a World, with every finding in `diagnostics`. Large worlds load
+// fast: pugixml reads the file, models that are equal but for name and pose are found, and libsdformat reads
+// each distinct one once.
 #pragma once
 
 #include <optional>
@@ -12,14 +13,15 @@
 namespace roboss {
 
 struct LoadOptions {
-    /// Folders in which model://, package:// and relative URIs are looked for, before those of the environment
-    /// (SDF_PATH, GZ_SIM_RESOURCE_PATH, IGN_GAZEBO_RESOURCE_PATH).
+    /// Folders in which model://, package:// and relative URIs are looked for, before those of the
+    /// environment (SDF_PATH, GZ_SIM_RESOURCE_PATH, IGN_GAZEBO_RESOURCE_PATH).
     std::vector<std::string> search_paths;
 };
 
-/// The world of `file` (its first one; a file with a model only becomes a world with that model), checked with
-/// validate(). nullopt if the file cannot be read as a world at all; otherwise the World may still have errors:
-/// ask diagnostics.has_errors(). Never throws and never prints.
-std::optional<World> load_world(const std::string& file, const LoadOptions& options, Diagnostics& diagnostics);
+/// The world of `file` (its first one; a file with a model only becomes a world with that model), checked
+/// with validate(). nullopt if the file cannot be read as a world at all; otherwise the World may still have
+/// errors: ask diagnostics.has_errors(). Never throws and never prints.
+std::optional<World> load_world(const std::string& file, const LoadOptions& options,
+                                Diagnostics& diagnostics);
 
 }  // namespace roboss

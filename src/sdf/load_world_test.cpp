@@ -19,7 +19,8 @@ void expect_near(const Vec3& a, const Vec3& b) {
 }
 
 TEST(LoadWorld, ReadsAModelWithItsPlaceInTheWorld) {
-    const Loaded loaded = load_elements("<model name='m'><pose>1 2 3 0 0 1.5707963267948966</pose>" + link("a") + "</model>");
+    const Loaded loaded =
+        load_elements("<model name='m'><pose>1 2 3 0 0 1.5707963267948966</pose>" + link("a") + "</model>");
     ASSERT_TRUE(loaded.world) << loaded.text();
     EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
     ASSERT_EQ(loaded.world->instances.size(), 1u);
@@ -32,7 +33,8 @@ TEST(LoadWorld, ReadsAModelWithItsPlaceInTheWorld) {
 TEST(LoadWorld, ModelsEqualButForNameAndPoseShareOnePrototype) {
     std::string models;
     for (int i = 0; i < 5; ++i) {
-        models += "<model name='m" + std::to_string(i) + "'><pose>" + std::to_string(i) + " 0 0 0 0 0</pose>" + link("a") + "</model>\n";
+        models += "<model name='m" + std::to_string(i) + "'><pose>" + std::to_string(i) +
+                  " 0 0 0 0 0</pose>" + link("a") + "</model>\n";
     }
     models += "<model name='other'>" + link("b") + "</model>";
     const Loaded loaded = load_elements(models);
@@ -47,7 +49,9 @@ TEST(LoadWorld, ModelsEqualButForNameAndPoseShareOnePrototype) {
 TEST(LoadWorld, ModelsThatDifferInNumbersOnlyKeepTheirOwnNumbers) {
     const auto ball = [](const std::string& name, const std::string& radius) {
         return "<model name='" + name + "'>" +
-               link("a", "<collision name='c'><geometry><sphere><radius>" + radius + "</radius></sphere></geometry></collision>") + "</model>";
+               link("a", "<collision name='c'><geometry><sphere><radius>" + radius +
+                             "</radius></sphere></geometry></collision>") +
+               "</model>";
     };
     const Loaded loaded = load_elements(ball("x", "0.25") + ball("y", "0.75"));
     ASSERT_TRUE(loaded.world) << loaded.text();
@@ -58,8 +62,10 @@ TEST(LoadWorld, ModelsThatDifferInNumbersOnlyKeepTheirOwnNumbers) {
 
 TEST(LoadWorld, TurnsAnInertiaIntoLinkAxes) {
     const Loaded loaded = load_elements(
-        "<model name='m'><link name='a'><inertial><pose>0.1 0.2 0.3 0 0 1.5707963267948966</pose><mass>3</mass><inertia>"
-        "<ixx>1</ixx><iyy>2</iyy><izz>2.5</izz><ixy>0.1</ixy><ixz>0</ixz><iyz>0</iyz></inertia></inertial></link></model>");
+        "<model name='m'><link name='a'><inertial><pose>0.1 0.2 0.3 0 0 "
+        "1.5707963267948966</pose><mass>3</mass><inertia>"
+        "<ixx>1</ixx><iyy>2</iyy><izz>2.5</izz><ixy>0.1</ixy><ixz>0</ixz><iyz>0</iyz></inertia></inertial></"
+        "link></model>");
     ASSERT_TRUE(loaded.world) << loaded.text();
     const LinkSpec& link = loaded.world->prototypes[0].links[0];
     expect_near(link.p_LC, {0.1, 0.2, 0.3});
@@ -70,7 +76,8 @@ TEST(LoadWorld, TurnsAnInertiaIntoLinkAxes) {
 
 TEST(LoadWorld, FoldsAPlanesNormalIntoItsPose) {
     const Loaded loaded = load_elements(
-        "<model name='m'><static>true</static><link name='a'><collision name='c'><geometry><plane><normal>1 0 0</normal>"
+        "<model name='m'><static>true</static><link name='a'><collision name='c'><geometry><plane><normal>1 "
+        "0 0</normal>"
         "<size>2 3</size></plane></geometry></collision></link></model>");
     ASSERT_TRUE(loaded.world) << loaded.text();
     const CollisionSpec& c = loaded.world->prototypes[0].links[0].collisions[0];
@@ -80,11 +87,14 @@ TEST(LoadWorld, FoldsAPlanesNormalIntoItsPose) {
 
 TEST(LoadWorld, ReadsJointsWithLimitsMotorsAndFrames) {
     const Loaded loaded = load_elements(
-        "<model name='m'>" + link("a") + "<link name='b'><pose>0 0 1 0 0 1.5707963267948966</pose>" + kInertial + "</link>" +
+        "<model name='m'>" + link("a") + "<link name='b'><pose>0 0 1 0 0 1.5707963267948966</pose>" +
+        kInertial + "</link>" +
         "<joint name='j' type='revolute'><parent>a</parent><child>b</child><pose>0 0 0.5 0 0 0</pose>"
-        "<axis><xyz expressed_in='__model__'>1 0 0</xyz><limit><lower>-1</lower><upper>2</upper><effort>7</effort>"
+        "<axis><xyz expressed_in='__model__'>1 0 "
+        "0</xyz><limit><lower>-1</lower><upper>2</upper><effort>7</effort>"
         "<velocity>3</velocity></limit><dynamics><damping>0.1</damping><friction>0.2</friction></dynamics>"
-        "<roboss:motor><position_gain>50</position_gain><armature>0.01</armature></roboss:motor></axis></joint></model>");
+        "<roboss:motor><position_gain>50</position_gain><armature>0.01</armature></roboss:motor></axis></"
+        "joint></model>");
     ASSERT_TRUE(loaded.world) << loaded.text();
     EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
     const JointSpec& joint = loaded.world->prototypes[0].joints[0];
@@ -106,9 +116,11 @@ TEST(LoadWorld, ReadsJointsWithLimitsMotorsAndFrames) {
 
 TEST(LoadWorld, AnAxisOfAnOldFileCanBeInTheModelsFrame) {
     const Loaded loaded = load_elements(
-        "<model name='m'>" + link("a") + "<link name='b'><pose>0 0 1 0 0 1.5707963267948966</pose>" + kInertial + "</link>" +
-        "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>1 0 0</xyz>"
-        "<use_parent_model_frame>true</use_parent_model_frame><limit><lower>-1</lower><upper>1</upper></limit></axis></joint></model>",
+        "<model name='m'>" + link("a") + "<link name='b'><pose>0 0 1 0 0 1.5707963267948966</pose>" +
+            kInertial + "</link>" +
+            "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>1 0 0</xyz>"
+            "<use_parent_model_frame>true</use_parent_model_frame><limit><lower>-1</lower><upper>1</upper></"
+            "limit></axis></joint></model>",
         "1.6");
     ASSERT_TRUE(loaded.world) << loaded.text();
     EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
@@ -117,12 +129,13 @@ TEST(LoadWorld, AnAxisOfAnOldFileCanBeInTheModelsFrame) {
 
 TEST(LoadWorld, ReadsEveryKindOfJoint) {
     std::string model = "<model name='m'>" + link("l0");
-    const char* kinds[] = {"fixed", "revolute", "continuous", "prismatic", "ball", "screw", "universal", "revolute2"};
+    const char* kinds[] = {"fixed", "revolute", "continuous", "prismatic",
+                           "ball",  "screw",    "universal",  "revolute2"};
     int i = 0;
     for (const char* kind : kinds) {
         const std::string n = std::to_string(++i);
-        model += link("l" + n) + "<joint name='j" + n + "' type='" + kind + "'><parent>l0</parent><child>l" + n +
-                 "</child><axis><xyz>0 0 1</xyz></axis><axis2><xyz>0 1 0</xyz></axis2></joint>";
+        model += link("l" + n) + "<joint name='j" + n + "' type='" + kind + "'><parent>l0</parent><child>l" +
+                 n + "</child><axis><xyz>0 0 1</xyz></axis><axis2><xyz>0 1 0</xyz></axis2></joint>";
     }
     const Loaded loaded = load_elements(model + "</model>");
     ASSERT_TRUE(loaded.world);
@@ -140,8 +153,11 @@ TEST(LoadWorld, ReadsEveryKindOfJoint) {
 
 TEST(LoadWorld, FlattensNestedModels) {
     const Loaded loaded = load_elements(
-        "<model name='m'>" + link("a") + "<model name='inner'><pose>1 0 0 0 0 1.5707963267948966</pose><link name='b'><pose>1 0 0 0 0 0</pose>" +
-        kInertial + "<collision name='c'><geometry><box><size>1 2 3</size></box></geometry></collision></link></model>" +
+        "<model name='m'>" + link("a") +
+        "<model name='inner'><pose>1 0 0 0 0 1.5707963267948966</pose><link name='b'><pose>1 0 0 0 0 "
+        "0</pose>" +
+        kInertial +
+        "<collision name='c'><geometry><box><size>1 2 3</size></box></geometry></collision></link></model>" +
         "<joint name='j' type='fixed'><parent>a</parent><child>inner::b</child></joint></model>");
     ASSERT_TRUE(loaded.world) << loaded.text();
     EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
@@ -157,10 +173,14 @@ TEST(LoadWorld, FlattensNestedModels) {
 TEST(LoadWorld, PlacesModelsRelativeToOthersAndToTheirFrames) {
     const Loaded loaded = load_elements(
         "<frame name='f' attached_to='base'><pose>0 0 1 0 0 0</pose></frame>"
-        "<model name='base'><pose>1 0 0 0 0 1.5707963267948966</pose>" + link("a") +
+        "<model name='base'><pose>1 0 0 0 0 1.5707963267948966</pose>" +
+        link("a") +
         "<frame name='hook'><pose>0 0 5 0 0 0</pose></frame></model>"
-        "<model name='on_frame'><pose relative_to='f'>1 0 0 0 0 0</pose>" + link("a") + "</model>"
-        "<model name='on_hook'><pose relative_to='base::hook'>0 2 0 0 0 0</pose>" + link("a") + "</model>");
+        "<model name='on_frame'><pose relative_to='f'>1 0 0 0 0 0</pose>" +
+        link("a") +
+        "</model>"
+        "<model name='on_hook'><pose relative_to='base::hook'>0 2 0 0 0 0</pose>" +
+        link("a") + "</model>");
     ASSERT_TRUE(loaded.world) << loaded.text();
     EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
     expect_near(loaded.world->instances[1].X_WM.p, {1, 1, 1});
@@ -168,27 +188,34 @@ TEST(LoadWorld, PlacesModelsRelativeToOthersAndToTheirFrames) {
 }
 
 TEST(LoadWorld, AModelCanBePlacedByOneOfItsFrames) {
-    const Loaded loaded = load_elements("<model name='m' placement_frame='foot'><pose>0 0 0 0 0 0</pose>" + link("a") +
-                                        "<frame name='foot'><pose>0 0 -2 0 0 0</pose></frame></model>");
+    const Loaded loaded =
+        load_elements("<model name='m' placement_frame='foot'><pose>0 0 0 0 0 0</pose>" + link("a") +
+                      "<frame name='foot'><pose>0 0 -2 0 0 0</pose></frame></model>");
     ASSERT_TRUE(loaded.world) << loaded.text();
     expect_near(loaded.world->instances[0].X_WM.p, {0, 0, 2});
 }
 
 TEST(LoadWorld, ACircleOfFramesIsAnError) {
-    const Loaded loaded = load_elements("<model name='a'><pose relative_to='b'/>" + link("l") + "</model><model name='b'><pose relative_to='a'/>" +
-                                        link("l") + "</model>");
+    const Loaded loaded =
+        load_elements("<model name='a'><pose relative_to='b'/>" + link("l") +
+                      "</model><model name='b'><pose relative_to='a'/>" + link("l") + "</model>");
     ASSERT_NE(loaded.find("frame-cycle"), nullptr) << loaded.text();
 }
 
 TEST(LoadWorld, PosesKnowDegreesQuaternionsAndOtherFrames) {
-    const Loaded loaded = load_elements(
-        "<model name='m'>" +
-        link("a", "<collision name='d'><pose degrees='true'>0 0 0 0 0 90</pose><geometry><box><size>1 1 1</size></box></geometry></collision>"
-                  "<collision name='q'><pose rotation_format='quat_xyzw'>1 0 0  0 0 0.7071067811865476 0.7071067811865476</pose>"
-                  "<geometry><box><size>1 1 1</size></box></geometry></collision>"
-                  "<collision name='r'><pose relative_to='f'>0 0 1 0 0 0</pose><geometry><box><size>1 1 1</size></box></geometry></collision>"
-                  "<visual name='v'><pose relative_to='f'>0 0 2 0 0 0</pose><geometry><box><size>1 1 1</size></box></geometry></visual>") +
-        "<frame name='f'><pose>5 0 0 0 0 0</pose></frame></model>");
+    const Loaded loaded =
+        load_elements("<model name='m'>" +
+                      link("a",
+                           "<collision name='d'><pose degrees='true'>0 0 0 0 0 "
+                           "90</pose><geometry><box><size>1 1 1</size></box></geometry></collision>"
+                           "<collision name='q'><pose rotation_format='quat_xyzw'>1 0 0  0 0 "
+                           "0.7071067811865476 0.7071067811865476</pose>"
+                           "<geometry><box><size>1 1 1</size></box></geometry></collision>"
+                           "<collision name='r'><pose relative_to='f'>0 0 1 0 0 "
+                           "0</pose><geometry><box><size>1 1 1</size></box></geometry></collision>"
+                           "<visual name='v'><pose relative_to='f'>0 0 2 0 0 0</pose><geometry><box><size>1 "
+                           "1 1</size></box></geometry></visual>") +
+                      "<frame name='f'><pose>5 0 0 0 0 0</pose></frame></model>");
     ASSERT_TRUE(loaded.world) << loaded.text();
     EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
     const LinkSpec& l = loaded.world->prototypes[0].links[0];
@@ -199,13 +226,18 @@ TEST(LoadWorld, PosesKnowDegreesQuaternionsAndOtherFrames) {
 }
 
 TEST(LoadWorld, ReadsSurfaces) {
-    const Loaded loaded = load_elements(
-        "<model name='m'>" +
-        link("a", "<collision name='c'><geometry><box><size>1 1 1</size></box></geometry><surface><friction><ode><mu>0.3</mu><mu2>0.3</mu2></ode>"
-                  "<torsional><coefficient>0.5</coefficient><use_patch_radius>true</use_patch_radius><patch_radius>0.02</patch_radius></torsional></friction>"
-                  "<bounce><restitution_coefficient>0.4</restitution_coefficient><threshold>0.2</threshold></bounce>"
-                  "<contact><collide_bitmask>0x0f</collide_bitmask></contact>"
-                  "<roboss:rolling_friction>0.001</roboss:rolling_friction></surface></collision>") + "</model>");
+    const Loaded loaded =
+        load_elements("<model name='m'>" +
+                      link("a",
+                           "<collision name='c'><geometry><box><size>1 1 "
+                           "1</size></box></geometry><surface><friction><ode><mu>0.3</mu><mu2>0.3</mu2></ode>"
+                           "<torsional><coefficient>0.5</coefficient><use_patch_radius>true</"
+                           "use_patch_radius><patch_radius>0.02</patch_radius></torsional></friction>"
+                           "<bounce><restitution_coefficient>0.4</restitution_coefficient><threshold>0.2</"
+                           "threshold></bounce>"
+                           "<contact><collide_bitmask>0x0f</collide_bitmask></contact>"
+                           "<roboss:rolling_friction>0.001</roboss:rolling_friction></surface></collision>") +
+                      "</model>");
     ASSERT_TRUE(loaded.world) << loaded.text();
     EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
     const SurfaceSpec& s = loaded.world->prototypes[0].links[0].collisions[0].surface;
@@ -221,11 +253,15 @@ TEST(LoadWorld, ReadsSurfaces) {
 TEST(LoadWorld, ReadsWhatTheWorldSays) {
     const Loaded loaded = load_elements(
         "<physics name='slow' type='x'><max_step_size>0.01</max_step_size></physics>"
-        "<physics name='used' type='x' default='true'><max_step_size>0.002</max_step_size><real_time_factor>0.5</real_time_factor></physics>"
+        "<physics name='used' type='x' "
+        "default='true'><max_step_size>0.002</max_step_size><real_time_factor>0.5</real_time_factor></"
+        "physics>"
         "<gravity>0 0 -1.6</gravity><magnetic_field>1 2 3</magnetic_field>"
-        "<spherical_coordinates><surface_model>EARTH_WGS84</surface_model><latitude_deg>60</latitude_deg><longitude_deg>25</longitude_deg>"
+        "<spherical_coordinates><surface_model>EARTH_WGS84</surface_model><latitude_deg>60</"
+        "latitude_deg><longitude_deg>25</longitude_deg>"
         "<elevation>12</elevation><heading_deg>90</heading_deg></spherical_coordinates>"
-        "<model name='m'>" + link("a") + "</model>");
+        "<model name='m'>" +
+        link("a") + "</model>");
     ASSERT_TRUE(loaded.world) << loaded.text();
     const World& world = *loaded.world;
     EXPECT_EQ(world.name, "w");
@@ -247,9 +283,12 @@ TEST(LoadWorld, AFileWithAModelOnlyIsAWorld) {
 }
 
 TEST(LoadWorld, AStaticModelWithALaserBecomesAWeldedRobot) {
-    const std::string laser = "<sensor name='s' type='lidar'><lidar><scan><horizontal><samples>3</samples><min_angle>0</min_angle>"
-                              "<max_angle>1</max_angle></horizontal></scan><range><min>0.1</min><max>9</max></range></lidar></sensor>";
-    const Loaded loaded = load_elements("<model name='m'><static>1</static><link name='a'>" + laser + "</link></model>");
+    const std::string laser =
+        "<sensor name='s' type='lidar'><lidar><scan><horizontal><samples>3</samples><min_angle>0</min_angle>"
+        "<max_angle>1</max_angle></horizontal></scan><range><min>0.1</min><max>9</max></range></lidar></"
+        "sensor>";
+    const Loaded loaded =
+        load_elements("<model name='m'><static>1</static><link name='a'>" + laser + "</link></model>");
     ASSERT_TRUE(loaded.world) << loaded.text();
     EXPECT_FALSE(loaded.world->prototypes[0].is_static);
     ASSERT_EQ(loaded.world->prototypes[0].joints.size(), 1u);
@@ -258,14 +297,21 @@ TEST(LoadWorld, AStaticModelWithALaserBecomesAWeldedRobot) {
 
 TEST(LoadWorld, TwoThousandSixWheeledCarsLoadQuickly) {
     std::string car;
-    car += link("chassis", "<collision name='c'><geometry><box><size>1 .5 .3</size></box></geometry></collision>");
+    car += link("chassis",
+                "<collision name='c'><geometry><box><size>1 .5 .3</size></box></geometry></collision>");
     for (int i = 0; i < 6; ++i) {
         const std::string n = std::to_string(i);
-        car += link("wheel" + n, "<collision name='c'><geometry><cylinder><radius>.2</radius><length>.1</length></cylinder></geometry></collision>") +
-               "<joint name='j" + n + "' type='continuous'><parent>chassis</parent><child>wheel" + n + "</child><axis><xyz>0 1 0</xyz></axis></joint>";
+        car += link("wheel" + n,
+                    "<collision "
+                    "name='c'><geometry><cylinder><radius>.2</radius><length>.1</length></cylinder></"
+                    "geometry></collision>") +
+               "<joint name='j" + n + "' type='continuous'><parent>chassis</parent><child>wheel" + n +
+               "</child><axis><xyz>0 1 0</xyz></axis></joint>";
     }
     std::string cars;
-    for (int i = 0; i < 2000; ++i) cars += "<model name='car" + std::to_string(i) + "'><pose>" + std::to_string(i) + " 0 0 0 0 0</pose>" + car + "</model>\n";
+    for (int i = 0; i < 2000; ++i)
+        cars += "<model name='car" + std::to_string(i) + "'><pose>" + std::to_string(i) +
+                " 0 0 0 0 0</pose>" + car + "</model>\n";
     const auto start = std::chrono::steady_clock::now();
     const Loaded loaded = load_elements(cars);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;

@@ -31,19 +31,23 @@ class ModelConverter {
     void convert(const Scope& scope) {
         const Element source = read_.source_of(scope.model.Element());
         if (source) convert_extensions(source, import_, spec_.extensions);
-        for (std::uint64_t i = 0; i < scope.model.LinkCount(); ++i) convert_link(*scope.model.LinkByIndex(i), scope);
-        for (std::uint64_t i = 0; i < scope.model.JointCount(); ++i) convert_joint_of(*scope.model.JointByIndex(i), scope);
-        for (std::uint64_t i = 0; i < scope.model.ModelCount(); ++i) convert_nested(*scope.model.ModelByIndex(i), scope);
+        for (std::uint64_t i = 0; i < scope.model.LinkCount(); ++i)
+            convert_link(*scope.model.LinkByIndex(i), scope);
+        for (std::uint64_t i = 0; i < scope.model.JointCount(); ++i)
+            convert_joint_of(*scope.model.JointByIndex(i), scope);
+        for (std::uint64_t i = 0; i < scope.model.ModelCount(); ++i)
+            convert_nested(*scope.model.ModelByIndex(i), scope);
     }
 
   private:
     void convert_nested(const sdf::Model& nested, const Scope& outer) {
         const Element source = read_.source_of(nested.Element());
         if (nested.Static() && !spec_.is_static) {
-            import_.diagnostics().warning(source.where(), "nested-static",
-                                          "the nested model '" + nested.Name() +
-                                              "' is static, but the model around it is not; it is taken as movable",
-                                          "Make it a model of the world, or weld it to the world with a fixed joint.");
+            import_.diagnostics().warning(
+                source.where(), "nested-static",
+                "the nested model '" + nested.Name() +
+                    "' is static, but the model around it is not; it is taken as movable",
+                "Make it a model of the world, or weld it to the world with a fixed joint.");
         }
         convert({nested, outer.prefix + nested.Name() + "::", outer.X_MS * resolved(nested, "__model__")});
     }
@@ -55,8 +59,9 @@ class ModelConverter {
         spec.where = source.where();
         spec.X_ML = scope.X_MS * resolved(link, "__model__");
         if (!source) {
-            import_.diagnostics().warning(read_.source().where(), "lost-link",
-                                          "link '" + spec.name + "' cannot be found again in the file; it has no shapes");
+            import_.diagnostics().warning(
+                read_.source().where(), "lost-link",
+                "link '" + spec.name + "' cannot be found again in the file; it has no shapes");
             spec_.links.push_back(std::move(spec));
             return;
         }
@@ -72,9 +77,10 @@ class ModelConverter {
         spec.gravity = import_.reader.boolean(source, "gravity", true);
         if (import_.reader.boolean(source, "self_collide", false)) spec_.self_collide = true;
         if (import_.reader.boolean(source, "kinematic", false)) {
-            import_.diagnostics().warning(source.where(), "kinematic",
-                                          "link '" + spec.name + "' is kinematic; it is simulated as a dynamic link",
-                                          "Move it with velocity orders, or make the model static.");
+            import_.diagnostics().warning(
+                source.where(), "kinematic",
+                "link '" + spec.name + "' is kinematic; it is simulated as a dynamic link",
+                "Move it with velocity orders, or make the model static.");
         }
         if (import_.reader.boolean(source, "enable_wind", false)) {
             import_.diagnostics().note(source.where(), "wind", "wind does not act on links yet");
@@ -90,7 +96,8 @@ class ModelConverter {
                 spec.collisions.push_back(std::move(*collision));
             }
         } else if (std::strcmp(tag, "visual") == 0) {
-            spec.visuals.push_back(convert_visual(part, pose_of(part, link.VisualByName(part.name()), link), import_));
+            spec.visuals.push_back(
+                convert_visual(part, pose_of(part, link.VisualByName(part.name()), link), import_));
         } else if (std::strcmp(tag, "sensor") == 0 || std::strcmp(tag, "roboss:sensor") == 0) {
             const Pose X_LS = pose_of(part, link.SensorByName(part.name()), link);
             spec.sensors.push_back(convert_sensor(part, X_LS, scope.prefix, import_));
@@ -110,7 +117,8 @@ class ModelConverter {
     void convert_joint_of(const sdf::Joint& joint, const Scope& scope) {
         Element source = read_.source_of(joint.Element());
         if (!source) source = read_.source();
-        auto spec = convert_joint(joint, source, scope.X_MS * resolved(joint, "__model__"), scope.prefix, import_);
+        auto spec =
+            convert_joint(joint, source, scope.X_MS * resolved(joint, "__model__"), scope.prefix, import_);
         if (spec) spec_.joints.push_back(std::move(*spec));
     }
 

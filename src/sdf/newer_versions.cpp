@@ -19,7 +19,8 @@ constexpr NewerElement kNewer[] = {
      "Drive both joints from the control program, or weld the follower."},
     {"axis2", "mimic", "mimic joints are still to come: the joint moves on its own",
      "Drive both joints from the control program, or weld the follower."},
-    {"inertial", "fluid_added_mass", "added mass of a fluid is not simulated", "Remove it, or add its mass to the link."},
+    {"inertial", "fluid_added_mass", "added mass of a fluid is not simulated",
+     "Remove it, or add its mass to the link."},
     {"inertial", "density", nullptr, nullptr},
     {"inertial", "auto_inertia_params", "parameters of a mesh's automatic inertia are ignored",
      "Write the link's <mass> and <inertia>."},
@@ -71,26 +72,30 @@ bool known_to_libsdformat(const Element& element) {
 }
 
 bool attribute_known_to_libsdformat(const Element& element, const std::string& attribute) {
-    return std::none_of(std::begin(kNewerAttributes), std::end(kNewerAttributes), [&](const NewerAttribute& newer) {
-        return attribute == newer.name && std::strcmp(element.node.name(), newer.element) == 0;
-    });
+    return std::none_of(
+        std::begin(kNewerAttributes), std::end(kNewerAttributes), [&](const NewerAttribute& newer) {
+            return attribute == newer.name && std::strcmp(element.node.name(), newer.element) == 0;
+        });
 }
 
 void report_newer_elements(const Element& model, Diagnostics& diagnostics) {
     for (const auto node : model.node.children()) {
         if (node.type() != pugi::node_element || std::strcmp(node.name(), "plugin") == 0) continue;
         const Element element{model.source, node};
-        if (const NewerElement* newer = find_newer(element); newer != nullptr && newer->consequence != nullptr) {
-            diagnostics.warning(element.where(), "newer-element",
-                                "<" + std::string(newer->name) + "> in <" + newer->parent + ">: " + newer->consequence,
-                                newer->remedy);
+        if (const NewerElement* newer = find_newer(element);
+            newer != nullptr && newer->consequence != nullptr) {
+            diagnostics.warning(
+                element.where(), "newer-element",
+                "<" + std::string(newer->name) + "> in <" + newer->parent + ">: " + newer->consequence,
+                newer->remedy);
         }
         for (const NewerAttribute& newer : kNewerAttributes) {
             if (newer.consequence == nullptr || std::strcmp(node.name(), newer.element) != 0) continue;
             if (node.attribute(newer.name)) {
-                diagnostics.warning(element.where(), "newer-element",
-                                    std::string(newer.name) + "=\"...\" of <" + newer.element + ">: " + newer.consequence,
-                                    newer.remedy);
+                diagnostics.warning(
+                    element.where(), "newer-element",
+                    std::string(newer.name) + "=\"...\" of <" + newer.element + ">: " + newer.consequence,
+                    newer.remedy);
             }
         }
         report_newer_elements(element, diagnostics);
@@ -102,11 +107,13 @@ void check_version(const SourceFile& file, Diagnostics& diagnostics) {
     const std::string written = file.root().attribute("version").value();
     if (file.version() == 0) {
         diagnostics.warning(where, "no-version",
-                            "<sdf> has " + (written.empty() ? "no version" : "the version '" + written + "'") +
+                            "<sdf> has " +
+                                (written.empty() ? "no version" : "the version '" + written + "'") +
                                 "; the file is read as 1.9",
                             "Write <sdf version=\"1.9\">, or the version that the file was made for.");
     } else if (file.version() < kOldestVersion) {
-        diagnostics.warning(where, "old-version", "SDFormat " + written + " is older than 1.4, the oldest that is supported",
+        diagnostics.warning(where, "old-version",
+                            "SDFormat " + written + " is older than 1.4, the oldest that is supported",
                             "Convert it with: gz sdf -p FILE.");
     } else if (file.version() > kNewestKnownHere) {
         diagnostics.warning(where, "newer-version",

@@ -1,5 +1,6 @@
-// What SDFormat 1.10 to 1.12 added. libsdformat 12 knows 1.9 at most: newer files go to it as 1.9 without the new parts,
-// and each part that matters is either read by the importer itself or reported. Never a silent default.
+// What SDFormat 1.10 to 1.12 added. libsdformat 12 knows 1.9 at most: newer files go to it as 1.9 without the
+// new parts, and each part that matters is either read by the importer itself or reported. Never a silent
+// default.
 #pragma once
 
 #include <string>

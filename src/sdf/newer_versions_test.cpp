@@ -18,19 +18,23 @@ TEST(NewerVersions, VersionsAreParsed) {
 
 TEST(NewerVersions, EveryVersionFrom14To112Loads) {
     for (const char* version : {"1.4", "1.5", "1.6", "1.7", "1.8", "1.9", "1.10", "1.11", "1.12"}) {
-        const Loaded loaded = load_elements("<model name='m'><pose>0 0 1 0 0 0</pose>" + link("a") + "</model>", version);
+        const Loaded loaded =
+            load_elements("<model name='m'><pose>0 0 1 0 0 0</pose>" + link("a") + "</model>", version);
         ASSERT_TRUE(loaded.world) << version;
         EXPECT_TRUE(loaded.diagnostics.items().empty()) << version << "\n" << loaded.text();
         EXPECT_EQ(loaded.world->instances.size(), 1u);
     }
-    EXPECT_NE(load_elements("<model name='m'>" + link("a") + "</model>", "1.13").find("newer-version"), nullptr);
+    EXPECT_NE(load_elements("<model name='m'>" + link("a") + "</model>", "1.13").find("newer-version"),
+              nullptr);
     EXPECT_NE(load_elements("<model name='m'>" + link("a") + "</model>", "x").find("no-version"), nullptr);
 }
 
 TEST(NewerVersions, MimicIsReportedWithItsLine) {
     const Loaded loaded = load_elements(
-        "<model name='m'>" + link("a") + link("b") + "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz>\n"
-        "<mimic joint='k'><multiplier>2</multiplier></mimic></axis></joint></model>", "1.11");
+        "<model name='m'>" + link("a") + link("b") +
+            "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz>\n"
+            "<mimic joint='k'><multiplier>2</multiplier></mimic></axis></joint></model>",
+        "1.11");
     ASSERT_NE(loaded.find("newer-element"), nullptr) << loaded.text();
     EXPECT_EQ(loaded.find("newer-element")->where.line, 2);
     EXPECT_FALSE(loaded.diagnostics.has_errors());
@@ -39,9 +43,12 @@ TEST(NewerVersions, MimicIsReportedWithItsLine) {
 TEST(NewerVersions, AutomaticInertiaIsComputedFromTheCollisions) {
     const Loaded loaded = load_elements(
         "<model name='m'><link name='a'><inertial auto='true'><density>500</density></inertial>"
-        "<collision name='x'><pose>0 0 1 0 0 0</pose><geometry><box><size>1 2 3</size></box></geometry></collision>"
-        "<collision name='y'><pose>0 0 -1 0 0 0</pose><density>1500</density><geometry><box><size>1 2 1</size></box></geometry></collision>"
-        "</link></model>", "1.11");
+        "<collision name='x'><pose>0 0 1 0 0 0</pose><geometry><box><size>1 2 "
+        "3</size></box></geometry></collision>"
+        "<collision name='y'><pose>0 0 -1 0 0 0</pose><density>1500</density><geometry><box><size>1 2 "
+        "1</size></box></geometry></collision>"
+        "</link></model>",
+        "1.11");
     ASSERT_TRUE(loaded.world) << loaded.text();
     EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
     EXPECT_NE(loaded.find("automatic-inertia"), nullptr);
@@ -55,8 +62,10 @@ TEST(NewerVersions, AutomaticInertiaIsComputedFromTheCollisions) {
 
 TEST(NewerVersions, AutomaticInertiaOfRoundSolidsIsThatOfTheTextbook) {
     const auto inertia = [](const std::string& shape) {
-        const Loaded loaded = load_elements("<model name='m'><link name='a'><inertial auto='true'/><collision name='x'><geometry>" + shape +
-                                            "</geometry></collision></link></model>", "1.12");
+        const Loaded loaded = load_elements(
+            "<model name='m'><link name='a'><inertial auto='true'/><collision name='x'><geometry>" + shape +
+                "</geometry></collision></link></model>",
+            "1.12");
         return loaded.world->prototypes.at(0).links.at(0);
     };
     const LinkSpec ball = inertia("<sphere><radius>0.1</radius></sphere>");
@@ -74,18 +83,27 @@ TEST(NewerVersions, AutomaticInertiaOfRoundSolidsIsThatOfTheTextbook) {
 }
 
 TEST(NewerVersions, AutomaticInertiaWithoutAVolumeIsAWarning) {
-    const Loaded loaded = load_elements("<model name='m'><link name='a'><inertial auto='true'/></link></model>", "1.11");
+    const Loaded loaded =
+        load_elements("<model name='m'><link name='a'><inertial auto='true'/></link></model>", "1.11");
     ASSERT_NE(loaded.find("automatic-inertia"), nullptr);
     EXPECT_EQ(loaded.find("automatic-inertia")->severity, Severity::kWarning);
 }
 
 TEST(NewerVersions, AWorldsJointIsReported) {
-    const Loaded loaded = load_elements("<model name='m'>" + link("a") + "</model><joint name='j' type='fixed'><parent>world</parent><child>m</child></joint>", "1.11");
+    const Loaded loaded = load_elements(
+        "<model name='m'>" + link("a") +
+            "</model><joint name='j' type='fixed'><parent>world</parent><child>m</child></joint>",
+        "1.11");
     ASSERT_NE(loaded.find("world-joint"), nullptr);
 }
 
 TEST(NewerVersions, AConeIsReportedAndLeftOut) {
-    const Loaded loaded = load_elements("<model name='m'>" + link("a", "<collision name='c'><geometry><cone><radius>1</radius></cone></geometry></collision>") + "</model>", "1.12");
+    const Loaded loaded = load_elements(
+        "<model name='m'>" +
+            link("a",
+                 "<collision name='c'><geometry><cone><radius>1</radius></cone></geometry></collision>") +
+            "</model>",
+        "1.12");
     ASSERT_NE(loaded.find("shape-to-come"), nullptr) << loaded.text();
     EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
     EXPECT_TRUE(loaded.world->prototypes[0].links[0].collisions.empty());

@@ -6,9 +6,11 @@
 namespace roboss::sdf_import {
 namespace {
 
-std::optional<Placement> placement_of_include(const Element& include, IncludeStore& includes, const Import& import) {
+std::optional<Placement> placement_of_include(const Element& include, IncludeStore& includes,
+                                              const Import& import) {
     if (include.node.attribute("merge").as_bool()) {
-        import.diagnostics().warning(include.where(), "merge", "merge=\"true\" has no meaning in a world; the model is included whole",
+        import.diagnostics().warning(include.where(), "merge",
+                                     "merge=\"true\" has no meaning in a world; the model is included whole",
                                      "Remove the attribute.");
     }
     const Element model = includes.model_of(include);
@@ -26,7 +28,8 @@ std::optional<Placement> placement_of_include(const Element& include, IncludeSto
     return placement;
 }
 
-void add_population(const Element& population, IncludeStore& includes, const Import& import, std::vector<Placement>& out) {
+void add_population(const Element& population, IncludeStore& includes, const Import& import,
+                    std::vector<Placement>& out) {
     const Element model = population.child("model");
     // Gazebo's form is <model name="x"><include>...</include></model>: the include is then what is cloned.
     const Element only_include = model.child("link") ? Element{} : model.child("include");
@@ -53,7 +56,8 @@ void add_population(const Element& population, IncludeStore& includes, const Imp
 }  // namespace
 
 std::optional<Placement> placement_of(const Element& element, IncludeStore& includes, const Import& import) {
-    if (std::strcmp(element.node.name(), "include") == 0) return placement_of_include(element, includes, import);
+    if (std::strcmp(element.node.name(), "include") == 0)
+        return placement_of_include(element, includes, import);
     Placement placement;
     placement.name = element.name();
     placement.model = element;
@@ -65,12 +69,14 @@ std::optional<Placement> placement_of(const Element& element, IncludeStore& incl
     return placement;
 }
 
-std::vector<Placement> collect_placements(const Element& world, IncludeStore& includes, const Import& import) {
+std::vector<Placement> collect_placements(const Element& world, IncludeStore& includes,
+                                          const Import& import) {
     std::vector<Placement> placements;
     for (const auto node : world.node.children()) {
         const Element element{world.source, node};
         if (std::strcmp(node.name(), "model") == 0 || std::strcmp(node.name(), "include") == 0) {
-            if (auto placement = placement_of(element, includes, import)) placements.push_back(std::move(*placement));
+            if (auto placement = placement_of(element, includes, import))
+                placements.push_back(std::move(*placement));
         } else if (std::strcmp(node.name(), "population") == 0) {
             add_population(element, includes, import, placements);
         }

@@ -1,5 +1,5 @@
-// Placements: every model of a world with its name and its pose as written (relative to whatever it says), from <model>,
-// <include> and <population>.
+// Placements: every model of a world with its name and its pose as written (relative to whatever it says),
+// from <model>, <include> and <population>.
 #pragma once
 
 #include <string>
@@ -20,13 +20,15 @@ struct Placement {
     Element where;
 };
 
-/// All models under `world` (a <world>, or the <sdf> of a file with a model only). Includes that lead nowhere are reported.
+/// All models under `world` (a <world>, or the <sdf> of a file with a model only). Includes that lead nowhere
+/// are reported.
 std::vector<Placement> collect_placements(const Element& world, IncludeStore& includes, const Import& import);
 
 /// The placement of a <model> or <include>; nothing if an include leads nowhere.
 std::optional<Placement> placement_of(const Element& element, IncludeStore& includes, const Import& import);
 
-/// The poses (of clone i in the population's frame of reference) that a <population> asks for; empty if it is wrong (reported).
+/// The poses (of clone i in the population's frame of reference) that a <population> asks for; empty if it is
+/// wrong (reported).
 std::vector<Pose> population_poses(const Element& population, const Import& import);
 
 }  // namespace roboss::sdf_import

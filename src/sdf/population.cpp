@@ -1,5 +1,6 @@
-// <population>: where the clones stand, as in Gazebo's Population. What Gazebo draws from its global generator comes here
-// from a fixed one (splitmix64, Steele et al. 2014), so a world is the same world every time it is loaded.
+// <population>: where the clones stand, as in Gazebo's Population. What Gazebo draws from its global
+// generator comes here from a fixed one (splitmix64, Steele et al. 2014), so a world is the same world every
+// time it is loaded.
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -71,7 +72,8 @@ class Population {
         const std::string type = distribution.text("type");
         if (type == "grid") return grid(distribution);
         const int count = import_.reader.integer(element_, "model_count", 1);
-        if (count < 1 || count > kMost) return wrong("<model_count> is " + std::to_string(count), "Write a number from 1 to 1000000.");
+        if (count < 1 || count > kMost)
+            return wrong("<model_count> is " + std::to_string(count), "Write a number from 1 to 1000000.");
         Region region;
         if (!read_region(region)) return {};
         std::vector<Vec3> result;
@@ -91,8 +93,10 @@ class Population {
             } else if (type == "linear-z" && !region.cylinder) {
                 result.push_back({0, 0, along * region.size.z});
             } else {
-                return wrong("a <distribution> of type '" + type + "' in a <" + (region.cylinder ? "cylinder" : "box") + "> is not known",
-                             "Use random or uniform in a box or cylinder, linear-x, linear-y or linear-z in a box, or grid.");
+                return wrong("a <distribution> of type '" + type + "' in a <" +
+                                 (region.cylinder ? "cylinder" : "box") + "> is not known",
+                             "Use random or uniform in a box or cylinder, linear-x, linear-y or linear-z in "
+                             "a box, or grid.");
             }
         }
         return result;
@@ -103,13 +107,15 @@ class Population {
         const int columns = import_.reader.integer(distribution, "cols", 1);
         const Vec3 step = import_.reader.vector(distribution, "step", {1, 1, 1});
         if (rows < 1 || columns < 1 || static_cast<long long>(rows) * columns > kMost) {
-            return wrong("a grid of " + std::to_string(rows) + " rows and " + std::to_string(columns) + " columns",
-                         "Write <rows> and <cols> of at least 1, at most 1000000 models.");
+            return wrong(
+                "a grid of " + std::to_string(rows) + " rows and " + std::to_string(columns) + " columns",
+                "Write <rows> and <cols> of at least 1, at most 1000000 models.");
         }
         std::vector<Vec3> result;
         for (int row = 0; row < rows; ++row) {
             for (int column = 0; column < columns; ++column) {
-                result.push_back({step.x * (column - 0.5 * (columns - 1)), step.y * (row - 0.5 * (rows - 1)), 0});
+                result.push_back(
+                    {step.x * (column - 0.5 * (columns - 1)), step.y * (row - 0.5 * (rows - 1)), 0});
             }
         }
         return result;
@@ -135,7 +141,8 @@ class Population {
     }
 
     std::vector<Vec3> wrong(const std::string& what, const std::string& remedy) {
-        import_.diagnostics().error(element_.where(), "population", "<population> '" + element_.name() + "': " + what, remedy);
+        import_.diagnostics().error(element_.where(), "population",
+                                    "<population> '" + element_.name() + "': " + what, remedy);
         return {};
     }
 

@@ -9,8 +9,10 @@ namespace {
 using namespace sdf_test;
 
 Loaded populate(const std::string& region, const std::string& distribution, int count = 4) {
-    return load_elements("<population name='p'><model name='x'>" + link("a") + "</model><pose>10 20 0 0 0 0</pose>" + region + "<model_count>" +
-                         std::to_string(count) + "</model_count><distribution>" + distribution + "</distribution></population>");
+    return load_elements("<population name='p'><model name='x'>" + link("a") +
+                         "</model><pose>10 20 0 0 0 0</pose>" + region + "<model_count>" +
+                         std::to_string(count) + "</model_count><distribution>" + distribution +
+                         "</distribution></population>");
 }
 
 const std::string kBox = "<box><size>8 4 2</size></box>";
@@ -47,7 +49,8 @@ TEST(Population, RandomStaysInItsRegionAndIsTheSameEveryTime) {
             }
         }
     }
-    const Loaded round = populate("<cylinder><radius>2</radius><length>1</length></cylinder>", "<type>random</type>", 50);
+    const Loaded round =
+        populate("<cylinder><radius>2</radius><length>1</length></cylinder>", "<type>random</type>", 50);
     for (const ModelInstance& i : round.world->instances) {
         EXPECT_LE(norm(i.X_WM.p - Vec3{10, 20, i.X_WM.p.z}), 2.0);
         EXPECT_GE(i.X_WM.p.z, 0);
@@ -58,7 +61,8 @@ TEST(Population, ThatMakesNoSenseIsAnError) {
     EXPECT_NE(populate("", "<type>random</type>").find("population"), nullptr);
     EXPECT_NE(populate(kBox, "<type>heaped</type>").find("population"), nullptr);
     EXPECT_NE(populate(kBox, "<type>random</type>", 0).find("population"), nullptr);
-    EXPECT_NE(populate("<cylinder><radius>1</radius></cylinder>", "<type>linear-x</type>").find("population"), nullptr);
+    EXPECT_NE(populate("<cylinder><radius>1</radius></cylinder>", "<type>linear-x</type>").find("population"),
+              nullptr);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// ResourcePaths: URIs of models and meshes to files: model://, package://, file://, plain paths, and what of Gazebo Fuel
-// is already on this machine. Nothing is fetched from the network.
+// ResourcePaths: URIs of models and meshes to files: model://, package://, file://, plain paths, and what of
+// Gazebo Fuel is already on this machine. Nothing is fetched from the network.
 #pragma once
 
 #include <optional>

@@ -44,7 +44,9 @@ bool same_attributes(pugi::xml_node a, pugi::xml_node b, bool top) {
 }
 
 bool same_tree(pugi::xml_node a, pugi::xml_node b, bool top) {
-    if (a.type() != b.type() || std::strcmp(a.name(), b.name()) != 0 || std::strcmp(a.value(), b.value()) != 0) return false;
+    if (a.type() != b.type() || std::strcmp(a.name(), b.name()) != 0 ||
+        std::strcmp(a.value(), b.value()) != 0)
+        return false;
     if (!same_attributes(a, b, top)) return false;
     const auto next = [&](pugi::xml_node x) {
         while (x && top && !top_child_counts(x)) x = x.next_sibling();

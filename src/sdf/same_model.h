@@ -10,7 +10,8 @@ namespace roboss::sdf_import {
 /// Equal for models that are same_model(); rarely equal for others.
 std::uint64_t model_hash(const Element& model);
 
-/// The same file and the same elements, attributes and text, leaving out the models' own name, pose and placement frame.
+/// The same file and the same elements, attributes and text, leaving out the models' own name, pose and
+/// placement frame.
 bool same_model(const Element& a, const Element& b);
 
 }  // namespace roboss::sdf_import

@@ -14,7 +14,8 @@ NoiseSpec read_noise(const Element& noise, const Import& import) {
     if (type.empty()) type = noise.text("type");
     if (type == "none") return spec;
     if (!type.empty() && type != "gaussian" && type != "gaussian_quantized") {
-        import.diagnostics().warning(noise.where(), "noise", "noise of type '" + type + "' is not known; there is none",
+        import.diagnostics().warning(noise.where(), "noise",
+                                     "noise of type '" + type + "' is not known; there is none",
                                      "Use gaussian or gaussian_quantized.");
         return spec;
     }
@@ -25,7 +26,8 @@ NoiseSpec read_noise(const Element& noise, const Import& import) {
     spec.bias_stddev = reader.number(noise, "bias_stddev", 0);
     if (type == "gaussian_quantized") spec.precision = reader.number(noise, "precision", 0);
     if (reader.number(noise, "dynamic_bias_stddev", 0) != 0) {
-        import.diagnostics().note(noise.where(), "noise", "a bias that drifts (<dynamic_bias_stddev>) is still to come");
+        import.diagnostics().note(noise.where(), "noise",
+                                  "a bias that drifts (<dynamic_bias_stddev>) is still to come");
     }
     return spec;
 }
@@ -42,14 +44,16 @@ Scan read_scan(const Element& scan, const Import& import) {
     result.min_angle = import.reader.angle(scan, "min_angle", 0);
     result.max_angle = import.reader.angle(scan, "max_angle", 0);
     if (result.samples < 1) {
-        import.diagnostics().error(scan.where(), "bad-value",
-                                   "<samples> is " + std::to_string(result.samples) + "; a laser needs at least 1",
-                                   "Write the number of beams.");
+        import.diagnostics().error(
+            scan.where(), "bad-value",
+            "<samples> is " + std::to_string(result.samples) + "; a laser needs at least 1",
+            "Write the number of beams.");
         result.samples = 1;
     }
     if (import.reader.number(scan, "resolution", 1) != 1) {
-        import.diagnostics().note(scan.where(), "scan-resolution",
-                                  "<resolution> of a scan is ignored: every one of the <samples> is a beam of its own");
+        import.diagnostics().note(
+            scan.where(), "scan-resolution",
+            "<resolution> of a scan is ignored: every one of the <samples> is a beam of its own");
     }
     return result;
 }
@@ -57,7 +61,8 @@ Scan read_scan(const Element& scan, const Import& import) {
 void read_laser(const Element& sensor, const Import& import, SensorSpec& spec) {
     const Element ray = sensor.child("lidar") ? sensor.child("lidar") : sensor.child("ray");
     if (!ray) {
-        import.diagnostics().warning(sensor.where(), "sensor", "laser '" + spec.name + "' has no <lidar> (or <ray>) element",
+        import.diagnostics().warning(sensor.where(), "sensor",
+                                     "laser '" + spec.name + "' has no <lidar> (or <ray>) element",
                                      "Add <lidar> with <scan> and <range>.");
         spec.kind = SensorKind::kUnsupported;
         return;
@@ -76,8 +81,9 @@ void read_laser(const Element& sensor, const Import& import, SensorSpec& spec) {
     spec.range_resolution = import.reader.number(range, "resolution", 0);
     if (!(spec.range_min >= 0 && spec.range_max > spec.range_min)) {
         import.diagnostics().error(range ? range.where() : ray.where(), "bad-value",
-                                   "the range of laser '" + spec.name + "' is from " + std::to_string(spec.range_min) +
-                                       " to " + std::to_string(spec.range_max) + " m: it sees nothing",
+                                   "the range of laser '" + spec.name + "' is from " +
+                                       std::to_string(spec.range_min) + " to " +
+                                       std::to_string(spec.range_max) + " m: it sees nothing",
                                    "Write <range> with 0 <= <min> < <max>.");
     }
     spec.noise = read_noise(ray.child("noise"), import);
@@ -107,7 +113,8 @@ bool is_laser(const std::string& type) {
 
 }  // namespace
 
-SensorSpec convert_sensor(const Element& sensor, const Pose& X_LS, const std::string& scope, const Import& import) {
+SensorSpec convert_sensor(const Element& sensor, const Pose& X_LS, const std::string& scope,
+                          const Import& import) {
     SensorSpec spec;
     spec.name = sensor.name();
     spec.sdf_type = sensor.node.attribute("type").value();
@@ -129,12 +136,14 @@ SensorSpec convert_sensor(const Element& sensor, const Pose& X_LS, const std::st
         spec.kind = SensorKind::kCompass;
         spec.noise = read_noise(sensor.child("noise"), import);
     } else if (ours) {
-        import.diagnostics().error(sensor.where(), "sensor",
-                                   "<roboss:sensor> '" + spec.name + "' has the type '" + spec.sdf_type + "', which is not known",
-                                   "Use odometer or gyrocompass, or a <sensor> of SDFormat.");
+        import.diagnostics().error(
+            sensor.where(), "sensor",
+            "<roboss:sensor> '" + spec.name + "' has the type '" + spec.sdf_type + "', which is not known",
+            "Use odometer or gyrocompass, or a <sensor> of SDFormat.");
     } else {
-        import.diagnostics().warning(sensor.where(), "sensor-to-come",
-                                     "sensors of type '" + spec.sdf_type + "' are still to come; they measure nothing");
+        import.diagnostics().warning(
+            sensor.where(), "sensor-to-come",
+            "sensors of type '" + spec.sdf_type + "' are still to come; they measure nothing");
     }
     return spec;
 }

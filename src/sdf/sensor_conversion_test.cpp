@@ -9,8 +9,11 @@ namespace {
 using namespace sdf_test;
 
 Loaded with_sensor(const std::string& sensor, const std::string& version = "1.9") {
-    return load_elements("<model name='m'>" + link("a", sensor) + link("b") +
-                         "<joint name='j' type='continuous'><parent>a</parent><child>b</child><axis><xyz>0 1 0</xyz></axis></joint></model>", version);
+    return load_elements(
+        "<model name='m'>" + link("a", sensor) + link("b") +
+            "<joint name='j' type='continuous'><parent>a</parent><child>b</child><axis><xyz>0 1 "
+            "0</xyz></axis></joint></model>",
+        version);
 }
 
 const SensorSpec& first(const Loaded& loaded) {
@@ -20,9 +23,13 @@ const SensorSpec& first(const Loaded& loaded) {
 TEST(Sensors, ALaserHasItsScanRangeAndNoise) {
     for (const std::string type : {"ray", "lidar", "gpu_ray", "gpu_lidar"}) {
         const Loaded loaded = with_sensor(
-            "<sensor name='s' type='" + type + "'><pose>0 0 0.5 0 0 0</pose><update_rate>20</update_rate><ray><scan><horizontal><samples>181</samples>"
-            "<min_angle>-1.5</min_angle><max_angle>1.5</max_angle></horizontal><vertical><samples>4</samples><min_angle>-0.1</min_angle>"
-            "<max_angle>0.2</max_angle></vertical></scan><range><min>0.2</min><max>30</max><resolution>0.01</resolution></range>"
+            "<sensor name='s' type='" + type +
+            "'><pose>0 0 0.5 0 0 "
+            "0</pose><update_rate>20</update_rate><ray><scan><horizontal><samples>181</samples>"
+            "<min_angle>-1.5</min_angle><max_angle>1.5</max_angle></horizontal><vertical><samples>4</"
+            "samples><min_angle>-0.1</min_angle>"
+            "<max_angle>0.2</max_angle></vertical></scan><range><min>0.2</min><max>30</max><resolution>0.01</"
+            "resolution></range>"
             "<noise><type>gaussian</type><mean>0.1</mean><stddev>0.02</stddev></noise></ray></sensor>");
         ASSERT_TRUE(loaded.world) << loaded.text();
         EXPECT_TRUE(loaded.diagnostics.items().empty()) << type << "\n" << loaded.text();
@@ -43,10 +50,12 @@ TEST(Sensors, ALaserHasItsScanRangeAndNoise) {
 
 TEST(Sensors, AGpsHasFourNoises) {
     const std::string noise = "<noise type='gaussian'><stddev>";
-    const Loaded loaded = with_sensor(
-        "<sensor name='s' type='navsat'><navsat><position_sensing><horizontal>" + noise + "1</stddev></noise></horizontal><vertical>" + noise +
-        "2</stddev></noise></vertical></position_sensing><velocity_sensing><horizontal>" + noise + "3</stddev></noise></horizontal><vertical>" +
-        noise + "4</stddev></noise></vertical></velocity_sensing></navsat></sensor>");
+    const Loaded loaded =
+        with_sensor("<sensor name='s' type='navsat'><navsat><position_sensing><horizontal>" + noise +
+                    "1</stddev></noise></horizontal><vertical>" + noise +
+                    "2</stddev></noise></vertical></position_sensing><velocity_sensing><horizontal>" + noise +
+                    "3</stddev></noise></horizontal><vertical>" + noise +
+                    "4</stddev></noise></vertical></velocity_sensing></navsat></sensor>");
     ASSERT_TRUE(loaded.world) << loaded.text();
     const SensorSpec& s = first(loaded);
     EXPECT_EQ(s.kind, SensorKind::kGps);
@@ -57,27 +66,32 @@ TEST(Sensors, AGpsHasFourNoises) {
 }
 
 TEST(Sensors, OurOdometerAndGyrocompassAreRead) {
-    const Loaded odometer = with_sensor("<roboss:sensor name='o' type='odometer'><joint>j</joint><wheel_radius>0.3</wheel_radius>"
-                                        "<noise type='gaussian'><stddev>0.01</stddev></noise></roboss:sensor>");
+    const Loaded odometer = with_sensor(
+        "<roboss:sensor name='o' type='odometer'><joint>j</joint><wheel_radius>0.3</wheel_radius>"
+        "<noise type='gaussian'><stddev>0.01</stddev></noise></roboss:sensor>");
     ASSERT_TRUE(odometer.world);
     EXPECT_TRUE(odometer.diagnostics.items().empty()) << odometer.text();
     EXPECT_EQ(first(odometer).kind, SensorKind::kOdometer);
     EXPECT_EQ(first(odometer).joints, std::vector<std::string>{"j"});
     EXPECT_EQ(first(odometer).wheel_radius, 0.3);
     EXPECT_EQ(first(odometer).noise.stddev, 0.01);
-    const Loaded compass = with_sensor("<roboss:sensor name='g' type='gyrocompass'><pose>0 0 0 0 0 1</pose></roboss:sensor>");
+    const Loaded compass =
+        with_sensor("<roboss:sensor name='g' type='gyrocompass'><pose>0 0 0 0 0 1</pose></roboss:sensor>");
     EXPECT_EQ(first(compass).kind, SensorKind::kCompass);
 }
 
 TEST(Sensors, AnOdometerOfAJointThatIsNotThereIsAnError) {
-    EXPECT_NE(with_sensor("<roboss:sensor name='o' type='odometer'><joint>k</joint></roboss:sensor>").find("unknown-joint"), nullptr);
+    EXPECT_NE(with_sensor("<roboss:sensor name='o' type='odometer'><joint>k</joint></roboss:sensor>")
+                  .find("unknown-joint"),
+              nullptr);
     EXPECT_NE(with_sensor("<roboss:sensor name='o' type='odometer'/>").find("sensor"), nullptr);
     EXPECT_NE(with_sensor("<roboss:sensor name='o' type='nose'/>").find("sensor"), nullptr);
 }
 
 TEST(Sensors, OthersAreKeptAndReportedOnceAKind) {
-    const Loaded loaded = with_sensor("<sensor name='c1' type='camera'><camera><image><width>oops</width></image></camera></sensor>"
-                                      "<sensor name='c2' type='camera'/><sensor name='i' type='imu'/><sensor name='n' type='air_speed'/>");
+    const Loaded loaded = with_sensor(
+        "<sensor name='c1' type='camera'><camera><image><width>oops</width></image></camera></sensor>"
+        "<sensor name='c2' type='camera'/><sensor name='i' type='imu'/><sensor name='n' type='air_speed'/>");
     ASSERT_TRUE(loaded.world);
     EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
     EXPECT_EQ(loaded.diagnostics.items().size(), 3u) << loaded.text();
@@ -86,8 +100,9 @@ TEST(Sensors, OthersAreKeptAndReportedOnceAKind) {
 }
 
 TEST(Sensors, ALaserThatSeesNothingIsAnError) {
-    const Loaded loaded = with_sensor("<sensor name='s' type='lidar'><lidar><scan><horizontal><samples>0</samples></horizontal></scan>"
-                                      "<range><min>5</min><max>1</max></range></lidar></sensor>");
+    const Loaded loaded = with_sensor(
+        "<sensor name='s' type='lidar'><lidar><scan><horizontal><samples>0</samples></horizontal></scan>"
+        "<range><min>5</min><max>1</max></range></lidar></sensor>");
     EXPECT_EQ(loaded.diagnostics.count(Severity::kError), 2u) << loaded.text();
 }
 

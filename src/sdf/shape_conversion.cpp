@@ -33,10 +33,11 @@ void read_file(const Element& shape, const Import& import, GeometrySpec& spec) {
     const Resolved found = import.paths.resolve(uri, shape.source->folder());
     spec.uri = found.path.value_or(uri);
     if (found.path) return;
-    import.diagnostics().warning(shape.where(), "file-not-found",
-                                 "the " + std::string(shape.node.name()) + " '" + uri + "' was not found; searched: " +
-                                     (found.remote ? "Fuel's cache (nothing is fetched)" : list_of(found.searched)),
-                                 "Give the folder that holds it with --path, or in GZ_SIM_RESOURCE_PATH.");
+    import.diagnostics().warning(
+        shape.where(), "file-not-found",
+        "the " + std::string(shape.node.name()) + " '" + uri + "' was not found; searched: " +
+            (found.remote ? "Fuel's cache (nothing is fetched)" : list_of(found.searched)),
+        "Give the folder that holds it with --path, or in GZ_SIM_RESOURCE_PATH.");
 }
 
 bool read_shape(const Element& shape, const Import& import, GeometrySpec& spec, Pose& X) {
@@ -82,15 +83,18 @@ bool collides(GeometryKind kind) {
         case GeometryKind::kBox:
         case GeometryKind::kSphere:
         case GeometryKind::kCylinder:
-        case GeometryKind::kCapsule: return true;
-        default: return false;
+        case GeometryKind::kCapsule:
+            return true;
+        default:
+            return false;
     }
 }
 
 /// The shape element of a <geometry>: its first child that is not of another namespace.
 Element shape_of(const Element& geometry) {
     for (const auto node : geometry.node.children()) {
-        if (node.type() == pugi::node_element && std::strchr(node.name(), ':') == nullptr) return {geometry.source, node};
+        if (node.type() == pugi::node_element && std::strchr(node.name(), ':') == nullptr)
+            return {geometry.source, node};
     }
     return {};
 }
@@ -102,7 +106,8 @@ void does_not_collide(const Element& shape, const Import& import) {
 }
 
 bool has_number_other_than(const Element& parent, const char* child, double usual, const Import& import) {
-    return parent && parent.child(child) && import.reader.number(parent, child, usual, Finite::kInfinityAllowed) != usual;
+    return parent && parent.child(child) &&
+           import.reader.number(parent, child, usual, Finite::kInfinityAllowed) != usual;
 }
 
 void read_friction(const Element& friction, const Import& import, SurfaceSpec& spec) {
@@ -112,13 +117,16 @@ void read_friction(const Element& friction, const Import& import, SurfaceSpec& s
         spec.mu = reader.number(ode, "mu", 1.0, Finite::kInfinityAllowed);
         spec.mu2 = reader.number(ode, "mu2", spec.mu, Finite::kInfinityAllowed);
         spec.fdir1 = reader.vector(ode, "fdir1", {});
-        if (has_number_other_than(ode, "slip1", 0, import) || has_number_other_than(ode, "slip2", 0, import)) {
-            import.diagnostics().note(ode.where(), "slip", "<slip1> and <slip2> are ignored: friction is exact Coulomb");
+        if (has_number_other_than(ode, "slip1", 0, import) ||
+            has_number_other_than(ode, "slip2", 0, import)) {
+            import.diagnostics().note(ode.where(), "slip",
+                                      "<slip1> and <slip2> are ignored: friction is exact Coulomb");
         }
         if (spec.mu != spec.mu2) {
-            import.diagnostics().note(ode.where(), "anisotropic-friction",
-                                      "<mu> and <mu2> differ; friction that depends on the direction is still to come",
-                                      "Give both the same value to say which one is meant.");
+            import.diagnostics().note(
+                ode.where(), "anisotropic-friction",
+                "<mu> and <mu2> differ; friction that depends on the direction is still to come",
+                "Give both the same value to say which one is meant.");
         }
     }
     const Element torsional = friction.child("torsional");
@@ -130,7 +138,8 @@ void read_friction(const Element& friction, const Import& import, SurfaceSpec& s
     }
     const Element bullet = friction.child("bullet");
     if (has_number_other_than(bullet, "rolling_friction", 1.0, import) && !ode) {
-        import.diagnostics().note(bullet.where(), "bullet-friction", "friction for the Bullet engine is ignored",
+        import.diagnostics().note(bullet.where(), "bullet-friction",
+                                  "friction for the Bullet engine is ignored",
                                   "Use <friction><ode><mu> and <roboss:rolling_friction> (in metres).");
     }
 }
@@ -141,16 +150,19 @@ void read_contact(const Element& contact, const Import& import, SurfaceSpec& spe
         char* end = nullptr;
         const unsigned long mask = std::strtoul(text.c_str(), &end, 0);
         if (text.empty() || end == nullptr || *end != '\0' || mask > 0xFFFFul) {
-            import.diagnostics().error(contact.child("collide_bitmask").where(), "bad-value",
-                                       "<collide_bitmask> is '" + text + "', which is not a number from 0 to 65535",
-                                       "Write for instance 65535 or 0xffff.");
+            import.diagnostics().error(
+                contact.child("collide_bitmask").where(), "bad-value",
+                "<collide_bitmask> is '" + text + "', which is not a number from 0 to 65535",
+                "Write for instance 65535 or 0xffff.");
         } else {
             spec.collide_bitmask = static_cast<unsigned>(mask);
         }
     }
     const Element ode = contact.child("ode");
     if (has_number_other_than(ode, "kp", 1e12, import) || has_number_other_than(ode, "soft_cfm", 0, import)) {
-        import.diagnostics().note(ode.where(), "softness", "soft contacts (<kp>, <kd>, <soft_cfm>) are still to come; contacts are rigid");
+        import.diagnostics().note(
+            ode.where(), "softness",
+            "soft contacts (<kp>, <kd>, <soft_cfm>) are still to come; contacts are rigid");
     }
     if (import.reader.boolean(contact, "collide_without_contact", false)) {
         import.diagnostics().warning(contact.where(), "collide-without-contact",
@@ -180,14 +192,16 @@ SurfaceSpec convert_surface(const Element& collision, const Import& import) {
     }
     if (surface.node.child("contact")) read_contact(surface.child("contact"), import, spec);
     if (surface.node.child("soft_contact")) {
-        import.diagnostics().note(surface.where(), "softness", "<soft_contact> is still to come; contacts are rigid");
+        import.diagnostics().note(surface.where(), "softness",
+                                  "<soft_contact> is still to come; contacts are rigid");
     }
     spec.rolling_mu = import.reader.number(collision, "roboss:rolling_friction", 0.0);
     spec.rolling_mu = import.reader.number(surface, "roboss:rolling_friction", spec.rolling_mu);
     return spec;
 }
 
-std::optional<CollisionSpec> convert_collision(const Element& collision, const Pose& X_LS, const Import& import) {
+std::optional<CollisionSpec> convert_collision(const Element& collision, const Pose& X_LS,
+                                               const Import& import) {
     CollisionSpec spec;
     spec.name = collision.name();
     spec.where = collision.where();
@@ -197,7 +211,8 @@ std::optional<CollisionSpec> convert_collision(const Element& collision, const P
     const auto known = convert_geometry(geometry, import, spec.X_LS);
     if (!known) {
         if (!shape) {
-            import.diagnostics().warning(collision.where(), "no-geometry", "collision '" + spec.name + "' has no shape",
+            import.diagnostics().warning(collision.where(), "no-geometry",
+                                         "collision '" + spec.name + "' has no shape",
                                          "Give it a <geometry>, or remove it.");
         } else if (std::strcmp(shape.node.name(), "empty") != 0) {
             does_not_collide(shape, import);
@@ -214,7 +229,8 @@ VisualSpec convert_visual(const Element& visual, const Pose& X_LV, const Import&
     VisualSpec spec;
     spec.name = visual.name();
     spec.X_LV = X_LV;
-    if (const auto known = convert_geometry(visual.child("geometry"), import, spec.X_LV)) spec.geometry = *known;
+    if (const auto known = convert_geometry(visual.child("geometry"), import, spec.X_LV))
+        spec.geometry = *known;
     const Element material = visual.child("material");
     for (const char* colour : {"diffuse", "ambient"}) {
         const auto words = words_of(material.text(colour));

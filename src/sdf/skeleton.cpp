@@ -14,27 +14,54 @@ bool is_any(const char* name, std::initializer_list<const char*> names) {
     return std::any_of(names.begin(), names.end(), [&](const char* n) { return std::strcmp(name, n) == 0; });
 }
 
-/// Parts of a model that say nothing about its kinematics; the importer reads or reports them from the source.
+/// Parts of a model that say nothing about its kinematics; the importer reads or reports them from the
+/// source.
 bool is_left_out(const char* parent, const char* name) {
     if (std::strchr(name, ':') != nullptr) return true;  // other namespaces, ours among them
     if (is_any(name, {"plugin", "light", "sensor", "visual"})) return true;
-    if (std::strcmp(parent, "model") == 0) return is_any(name, {"gripper", "self_collide", "allow_auto_disable", "enable_wind"});
+    if (std::strcmp(parent, "model") == 0)
+        return is_any(name, {"gripper", "self_collide", "allow_auto_disable", "enable_wind"});
     if (std::strcmp(parent, "link") == 0) {
-        return is_any(name, {"gravity", "enable_wind", "self_collide", "kinematic", "must_be_base_link", "velocity_decay",
-                             "projector", "particle_emitter", "audio_source", "audio_sink", "battery"});
+        return is_any(name, {"gravity", "enable_wind", "self_collide", "kinematic", "must_be_base_link",
+                             "velocity_decay", "projector", "particle_emitter", "audio_source", "audio_sink",
+                             "battery"});
     }
     if (std::strcmp(parent, "joint") == 0) return is_any(name, {"physics"});
     return std::strcmp(parent, "axis") == 0 && std::strcmp(name, "initial_position") == 0;
 }
 
-/// How many numbers the importer reads from an element itself, and so reports when they are wrong; 0: not known.
+/// How many numbers the importer reads from an element itself, and so reports when they are wrong; 0: not
+/// known.
 int numbers_read_here(const Element& e) {
     const char* name = e.node.name();
     if (std::strcmp(name, "size") == 0) return std::strcmp(e.node.parent().name(), "plane") == 0 ? 2 : 3;
     if (is_any(name, {"normal", "radii", "scale", "fdir1"})) return 3;
-    return is_any(name, {"mass", "ixx", "iyy", "izz", "ixy", "ixz", "iyz", "radius", "length", "mu", "mu2", "lower", "upper", "effort",
-                         "velocity", "stiffness", "dissipation", "damping", "friction", "spring_stiffness", "spring_reference",
-                         "restitution_coefficient", "threshold", "coefficient", "patch_radius", "surface_radius"})
+    return is_any(name, {"mass",
+                         "ixx",
+                         "iyy",
+                         "izz",
+                         "ixy",
+                         "ixz",
+                         "iyz",
+                         "radius",
+                         "length",
+                         "mu",
+                         "mu2",
+                         "lower",
+                         "upper",
+                         "effort",
+                         "velocity",
+                         "stiffness",
+                         "dissipation",
+                         "damping",
+                         "friction",
+                         "spring_stiffness",
+                         "spring_reference",
+                         "restitution_coefficient",
+                         "threshold",
+                         "coefficient",
+                         "patch_radius",
+                         "surface_radius"})
                ? 1
                : 0;
 }
@@ -50,7 +77,8 @@ class Writer {
         out_.lines.push_back(model);
         for (const auto attribute : model.node.attributes()) {
             const bool placement = std::strcmp(attribute.name(), "placement_frame") == 0;
-            if (std::strcmp(attribute.name(), "name") != 0 && (keep || !placement)) write_attribute(attribute);
+            if (std::strcmp(attribute.name(), "name") != 0 && (keep || !placement))
+                write_attribute(attribute);
         }
         out_.body += '>';
         for (const auto child : model.node.children()) {
@@ -66,8 +94,11 @@ class Writer {
         if (is_any(name, {"visual", "sensor"}) && std::strcmp(parent, "link") == 0) return posed_only(e);
         if (is_left_out(parent, name) || !known_to_libsdformat(e)) return;
         if (std::strcmp(name, "include") == 0) return include(e);
-        if (std::strcmp(name, "pose") == 0 && is_any(parent, {"collision", "inertial"}) && relative_to(e).empty()) return;
-        const bool mask = masked_ > 0 || is_any(name, {"inertial", "geometry", "surface", "limit", "dynamics"});
+        if (std::strcmp(name, "pose") == 0 && is_any(parent, {"collision", "inertial"}) &&
+            relative_to(e).empty())
+            return;
+        const bool mask =
+            masked_ > 0 || is_any(name, {"inertial", "geometry", "surface", "limit", "dynamics"});
         open(e);
         masked_ += mask ? 1 : 0;
         content(e);
@@ -79,7 +110,8 @@ class Writer {
         out_.body += std::string("\n<") + e.node.name();
         out_.lines.push_back(e);
         for (const auto attribute : e.node.attributes()) {
-            if (std::strchr(attribute.name(), ':') == nullptr && attribute_known_to_libsdformat(e, attribute.name())) {
+            if (std::strchr(attribute.name(), ':') == nullptr &&
+                attribute_known_to_libsdformat(e, attribute.name())) {
                 write_attribute(attribute);
             }
         }
@@ -124,8 +156,9 @@ class Writer {
         out_.body += std::string(" ") + attribute.name() + "=\"" + escaped(attribute.value()) + "\"";
     }
 
-    /// Every number becomes 1 (products of inertia 0, so that the inertia stays valid); other words stay. What the importer
-    /// reads itself is made valid here, so that libsdformat does not refuse the model and hide what else is wrong in it.
+    /// Every number becomes 1 (products of inertia 0, so that the inertia stays valid); other words stay.
+    /// What the importer reads itself is made valid here, so that libsdformat does not refuse the model and
+    /// hide what else is wrong in it.
     static std::string masked(const Element& e, const std::string& text) {
         const char* name = e.node.name();
         if (const int count = numbers_read_here(e); count > 0) {
@@ -144,12 +177,23 @@ class Writer {
         std::string result;
         for (const char c : text) {
             switch (c) {
-                case '&': result += "&amp;"; break;
-                case '<': result += "&lt;"; break;
-                case '>': result += "&gt;"; break;
-                case '"': result += "&quot;"; break;
-                case '\n': result += ' '; break;  // one element a line
-                default: result += c;
+                case '&':
+                    result += "&amp;";
+                    break;
+                case '<':
+                    result += "&lt;";
+                    break;
+                case '>':
+                    result += "&gt;";
+                    break;
+                case '"':
+                    result += "&quot;";
+                    break;
+                case '\n':
+                    result += ' ';
+                    break;  // one element a line
+                default:
+                    result += c;
             }
         }
         return result;

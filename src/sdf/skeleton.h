@@ -1,6 +1,7 @@
-// A skeleton is what libsdformat gets to read of a model: links, joints, frames, nested models, and the shapes and
-// inertias with their numbers masked (we read those ourselves, from the source). So models that differ only in sizes,
-// masses or colours share one reading, and each of its lines still leads to the element of the source file.
+// A skeleton is what libsdformat gets to read of a model: links, joints, frames, nested models, and the
+// shapes and inertias with their numbers masked (we read those ourselves, from the source). So models that
+// differ only in sizes, masses or colours share one reading, and each of its lines still leads to the element
+// of the source file.
 #pragma once
 
 #include <optional>
@@ -26,8 +27,8 @@ class SkeletonIncludes {
     virtual std::optional<std::string> skeleton_file(const Element& include) = 0;
 };
 
-/// A model's own pose and placement frame: left out for a model of the world (they belong to its place there, so that
-/// equal models have equal skeletons), kept for a model that is included in a model.
+/// A model's own pose and placement frame: left out for a model of the world (they belong to its place there,
+/// so that equal models have equal skeletons), kept for a model that is included in a model.
 enum class TopPose { kLeftOut, kKept };
 
 Skeleton make_skeleton(const Element& model, TopPose pose, SkeletonIncludes& includes);

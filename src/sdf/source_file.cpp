@@ -58,8 +58,8 @@ std::unique_ptr<SourceFile> SourceFile::read(const std::string& path, Diagnostic
     return from_text(path, std::move(text).str(), {}, diagnostics);
 }
 
-std::unique_ptr<SourceFile> SourceFile::from_text(const std::string& path, std::string text, std::vector<int> lines,
-                                                  Diagnostics& diagnostics) {
+std::unique_ptr<SourceFile> SourceFile::from_text(const std::string& path, std::string text,
+                                                  std::vector<int> lines, Diagnostics& diagnostics) {
     auto file = std::make_unique<SourceFile>();
     file->path_ = path;
     file->line_map_ = std::move(lines);
@@ -72,10 +72,12 @@ bool SourceFile::parse(std::string text, Diagnostics& diagnostics) {
     for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1)) {
         line_starts_.push_back(at + 1);
     }
-    const auto result = document_.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_trim_pcdata);
+    const auto result =
+        document_.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_trim_pcdata);
     if (!result) {
         const int line = line_of_offset(result.offset);
-        const auto column = result.offset - static_cast<std::ptrdiff_t>(line_starts_[static_cast<std::size_t>(line - 1)]) + 1;
+        const auto column =
+            result.offset - static_cast<std::ptrdiff_t>(line_starts_[static_cast<std::size_t>(line - 1)]) + 1;
         diagnostics.error({path_, line}, "malformed-xml",
                           "the XML is malformed at line " + std::to_string(line) + ", column " +
                               std::to_string(column) + ": " + result.description(),
@@ -105,7 +107,8 @@ int SourceFile::line(pugi::xml_node node) const {
 
 int SourceFile::line_of_offset(std::ptrdiff_t offset) const {
     if (offset < 0) return 0;
-    const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), static_cast<std::size_t>(offset));
+    const auto after =
+        std::upper_bound(line_starts_.begin(), line_starts_.end(), static_cast<std::size_t>(offset));
     return static_cast<int>(after - line_starts_.begin());
 }
 

@@ -1,5 +1,5 @@
-// SourceFile: one XML file as read by pugixml, with line numbers. Every element that a diagnostic may name is an Element:
-// a node and the file it stands in.
+// SourceFile: one XML file as read by pugixml, with line numbers. Every element that a diagnostic may name is
+// an Element: a node and the file it stands in.
 #pragma once
 
 #include <memory>
@@ -19,9 +19,10 @@ class SourceFile {
     /// Reads and parses a file; a malformed or missing one gives an error and nullptr.
     static std::unique_ptr<SourceFile> read(const std::string& path, Diagnostics& diagnostics);
 
-    /// Parses text that was made from `path` (an SDF from a URDF); `lines[i]` is the line of `path` behind line i + 1 of the text.
-    static std::unique_ptr<SourceFile> from_text(const std::string& path, std::string text, std::vector<int> lines,
-                                                 Diagnostics& diagnostics);
+    /// Parses text that was made from `path` (an SDF from a URDF); `lines[i]` is the line of `path` behind
+    /// line i + 1 of the text.
+    static std::unique_ptr<SourceFile> from_text(const std::string& path, std::string text,
+                                                 std::vector<int> lines, Diagnostics& diagnostics);
 
     const std::string& path() const { return path_; }
     std::string folder() const;

@@ -12,7 +12,8 @@ bool measures(const SensorSpec& sensor) {
 
 /// A plane reaches everywhere; a robot that does would interact with all others.
 bool is_bounded(const CollisionSpec& collision) {
-    return collision.geometry.kind != GeometryKind::kPlane && collision.geometry.kind != GeometryKind::kHeightmap;
+    return collision.geometry.kind != GeometryKind::kPlane &&
+           collision.geometry.kind != GeometryKind::kHeightmap;
 }
 
 }  // namespace
@@ -26,13 +27,15 @@ void keep_sensors_of_static(ModelSpec& model, Diagnostics& diagnostics) {
         return std::all_of(link.collisions.begin(), link.collisions.end(), is_bounded);
     });
     if (!bounded) {
-        diagnostics.warning(model.where, "static-sensor",
-                            "the static model '" + model.name + "' has a plane and sensors; its sensors cannot be read",
-                            "Put the sensors into a model of their own.");
+        diagnostics.warning(
+            model.where, "static-sensor",
+            "the static model '" + model.name + "' has a plane and sensors; its sensors cannot be read",
+            "Put the sensors into a model of their own.");
         return;
     }
-    diagnostics.note(model.where, "static-sensor",
-                     "the static model '" + model.name + "' has sensors; it becomes a robot that is welded to the world");
+    diagnostics.note(
+        model.where, "static-sensor",
+        "the static model '" + model.name + "' has sensors; it becomes a robot that is welded to the world");
     model.is_static = false;
     model.joints.clear();
     for (const LinkSpec& link : model.links) {

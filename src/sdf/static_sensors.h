@@ -1,5 +1,5 @@
-// Static models become scenery, which has no sensors. One that carries a laser or the like becomes a robot welded to the
-// world instead, so that a Client can read it.
+// Static models become scenery, which has no sensors. One that carries a laser or the like becomes a robot
+// welded to the world instead, so that a Client can read it.
 #pragma once
 
 #include "world/world.h"

@@ -18,7 +18,8 @@ struct Loaded {
     /// The first finding with this code; nullptr: none.
     const Diagnostic* find(const std::string& code) const {
         const auto& items = diagnostics.items();
-        const auto at = std::find_if(items.begin(), items.end(), [&](const Diagnostic& d) { return d.code == code; });
+        const auto at =
+            std::find_if(items.begin(), items.end(), [&](const Diagnostic& d) { return d.code == code; });
         return at == items.end() ? nullptr : &*at;
     }
     std::string text() const {
@@ -68,7 +69,8 @@ inline Loaded load_text(const std::string& text, const std::string& name = "worl
 
 /// Loads a world of SDFormat `version` with these elements; its first line is line 1 of the file.
 inline Loaded load_elements(const std::string& elements, const std::string& version = "1.9") {
-    return load_text("<sdf version='" + version + "' xmlns:roboss='urn:roboss:1'><world name='w'>" + elements + "</world></sdf>\n");
+    return load_text("<sdf version='" + version + "' xmlns:roboss='urn:roboss:1'><world name='w'>" +
+                     elements + "</world></sdf>\n");
 }
 
 inline const std::string kInertial =

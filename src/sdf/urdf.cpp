@@ -40,7 +40,8 @@ void report_left_out(const SourceFile& urdf, Diagnostics& diagnostics) {
 std::vector<int> map_lines(const SourceFile& urdf, const std::string& sdf) {
     std::map<std::string, int> line_of;
     for (const auto node : urdf.root().children()) {
-        if (node.attribute("name")) line_of.emplace(std::string(node.name()) + " " + node.attribute("name").value(), urdf.line(node));
+        if (node.attribute("name"))
+            line_of.emplace(std::string(node.name()) + " " + node.attribute("name").value(), urdf.line(node));
     }
     std::vector<int> lines;
     int line = urdf.line(urdf.root());
@@ -71,7 +72,8 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
             const sdf::SDFPtr document = std::make_shared<sdf::SDF>();
             sdf::init(document);
             sdf::ParserConfig config;
-            if (sdf::readString(text_of(urdf), config, document, errors)) text = document->Root()->ToString("");
+            if (sdf::readString(text_of(urdf), config, document, errors))
+                text = document->Root()->ToString("");
         } catch (const std::exception& exception) {
             errors.emplace_back(sdf::ErrorCode::STRING_READ, exception.what());
         }

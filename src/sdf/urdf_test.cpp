@@ -9,12 +9,15 @@ namespace {
 using namespace sdf_test;
 
 const std::string kArm =
-    "<?xml version='1.0'?>\n<robot name='arm'>\n<link name='world'/>\n<link name='base'><inertial><mass value='2'/>"
+    "<?xml version='1.0'?>\n<robot name='arm'>\n<link name='world'/>\n<link name='base'><inertial><mass "
+    "value='2'/>"
     "<inertia ixx='0.1' iyy='0.1' izz='0.1' ixy='0' ixz='0' iyz='0'/></inertial>"
     "<collision><geometry><box size='0.2 0.2 0.2'/></geometry></collision></link>\n"
-    "<link name='upper'><inertial><origin xyz='0 0 0.5'/><mass value='1'/><inertia ixx='0.1' iyy='0.1' izz='0.01' ixy='0' ixz='0' iyz='0'/></inertial></link>\n"
+    "<link name='upper'><inertial><origin xyz='0 0 0.5'/><mass value='1'/><inertia ixx='0.1' iyy='0.1' "
+    "izz='0.01' ixy='0' ixz='0' iyz='0'/></inertial></link>\n"
     "<joint name='fix' type='fixed'><parent link='world'/><child link='base'/></joint>\n"
-    "<joint name='shoulder' type='revolute'><origin xyz='0 0 0.2'/><parent link='base'/><child link='upper'/><axis xyz='0 1 0'/>"
+    "<joint name='shoulder' type='revolute'><origin xyz='0 0 0.2'/><parent link='base'/><child "
+    "link='upper'/><axis xyz='0 1 0'/>"
     "<limit lower='-1' upper='1.5' effort='20' velocity='3'/><dynamics damping='0.7'/></joint>\n</robot>\n";
 
 TEST(Urdf, BecomesAWorldWithOneRobot) {
@@ -48,7 +51,9 @@ TEST(Urdf, ThatIsBrokenIsAnErrorAtTheLink) {
 TEST(Urdf, CanBeIncludedInAWorld) {
     const TestFolder folder;
     folder.write("arm.urdf", kArm);
-    folder.write("world.sdf", "<sdf version='1.9'><world name='w'><include><uri>arm.urdf</uri><name>one</name></include></world></sdf>");
+    folder.write("world.sdf",
+                 "<sdf version='1.9'><world "
+                 "name='w'><include><uri>arm.urdf</uri><name>one</name></include></world></sdf>");
     const Loaded loaded = folder.load("world.sdf");
     ASSERT_TRUE(loaded.world) << loaded.text();
     EXPECT_EQ(loaded.world->instances.at(0).name, "one");

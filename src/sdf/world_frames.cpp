@@ -3,15 +3,18 @@
 
 namespace roboss::sdf_import {
 
-WorldFrames::WorldFrames(const Element& world, const std::vector<Placement>& placements, InModel in_model, const Import& import)
+WorldFrames::WorldFrames(const Element& world, const std::vector<Placement>& placements, InModel in_model,
+                         const Import& import)
     : placements_(placements), in_model_(std::move(in_model)), import_(import) {
     for (const auto node : world.node.children("frame")) frames_.push_back({world.source, node});
-    for (std::size_t i = 0; i < placements.size(); ++i) names_.try_emplace(placements[i].name, Named{false, i});
+    for (std::size_t i = 0; i < placements.size(); ++i)
+        names_.try_emplace(placements[i].name, Named{false, i});
     for (std::size_t i = 0; i < frames_.size(); ++i) {
         if (!names_.try_emplace(frames_[i].name(), Named{true, i}).second) {
-            import.diagnostics().error(frames_[i].where(), "duplicate-name",
-                                       "the frame '" + frames_[i].name() + "' has the name of another frame or model",
-                                       "Give it a name of its own.");
+            import.diagnostics().error(
+                frames_[i].where(), "duplicate-name",
+                "the frame '" + frames_[i].name() + "' has the name of another frame or model",
+                "Give it a name of its own.");
         }
     }
     solved_models_.resize(placements.size());
@@ -27,7 +30,8 @@ Pose WorldFrames::solve(const Named& named) {
     if (solved.state == State::kBusy) {
         const Element& at = named.is_frame ? frames_[named.index] : placements_[named.index].where;
         import_.diagnostics().error(at.where(), "frame-cycle",
-                                    "the pose of '" + (named.is_frame ? at.name() : placements_[named.index].name) +
+                                    "the pose of '" +
+                                        (named.is_frame ? at.name() : placements_[named.index].name) +
                                         "' depends on itself",
                                     "Break the circle of relative_to and attached_to.");
         return {};
@@ -55,8 +59,8 @@ Pose WorldFrames::solve_model(std::size_t index) {
     const auto X_MP = in_model_(index, placement.placement_frame);
     if (!X_MP) {
         import_.diagnostics().error(placement.where.where(), "unknown-frame",
-                                    "the placement frame '" + placement.placement_frame + "' is not in model '" +
-                                        placement.name + "'",
+                                    "the placement frame '" + placement.placement_frame +
+                                        "' is not in model '" + placement.name + "'",
                                     "Name one of its links, joints or frames.");
         return X_WP;
     }
@@ -74,7 +78,8 @@ Pose WorldFrames::named_pose(const std::string& name, const Element& user) {
             if (const auto X_MF = in_model_(named.index, name.substr(scope + 2))) return solve(named) * *X_MF;
         }
     }
-    import_.diagnostics().error(user.where(), "unknown-frame", "'" + name + "' is no frame or model of this world",
+    import_.diagnostics().error(user.where(), "unknown-frame",
+                                "'" + name + "' is no frame or model of this world",
                                 "Check the name in relative_to or attached_to.");
     return {};
 }

@@ -1,4 +1,5 @@
-// WorldFrames: poses of models and frames in the world, through `relative_to`, `attached_to` and placement frames.
+// WorldFrames: poses of models and frames in the world, through `relative_to`, `attached_to` and placement
+// frames.
 #pragma once
 
 #include <functional>
@@ -15,7 +16,8 @@ class WorldFrames {
     /// `in_model(i, name)`: the pose of a frame inside the model of placement i, in the model's frame.
     using InModel = std::function<std::optional<Pose>(std::size_t, const std::string&)>;
 
-    WorldFrames(const Element& world, const std::vector<Placement>& placements, InModel in_model, const Import& import);
+    WorldFrames(const Element& world, const std::vector<Placement>& placements, InModel in_model,
+                const Import& import);
 
     /// X_WM of placement i. Names that lead nowhere and circles are reported, and taken as the world's frame.
     Pose pose_of(std::size_t placement);

@@ -1,4 +1,5 @@
-// Reads <physics>, <gravity>, <magnetic_field>, <wind>, <spherical_coordinates>; reports actors, world joints, plugins.
+// Reads <physics>, <gravity>, <magnetic_field>, <wind>, <spherical_coordinates>; reports actors, world
+// joints, plugins.
 #include "sdf/world_settings.h"
 
 #include <algorithm>
@@ -8,8 +9,10 @@ namespace roboss::sdf_import {
 namespace {
 
 /// Drawing, sound and bookkeeping: nothing that moves a robot.
-constexpr const char* kSilent[] = {"light", "gui", "scene", "audio", "atmosphere", "physics", "gravity", "wind",
-                                   "magnetic_field", "spherical_coordinates", "model", "include", "population", "frame"};
+constexpr const char* kSilent[] = {
+    "light",   "gui",     "scene",      "audio",          "atmosphere",
+    "physics", "gravity", "wind",       "magnetic_field", "spherical_coordinates",
+    "model",   "include", "population", "frame"};
 
 /// The profile with default="true", else the first.
 Element chosen_physics(const Element& world) {
@@ -22,9 +25,10 @@ Element chosen_physics(const Element& world) {
 double positive(const Element& parent, const char* child, double usual, const Import& import) {
     const double value = import.reader.number(parent, child, usual);
     if (value > 0) return value;
-    import.diagnostics().error(parent.child(child).where(), "bad-value",
-                               "<" + std::string(child) + "> is " + std::to_string(value) + "; it must be greater than 0",
-                               "Write for instance " + std::string(usual < 0.5 ? "0.001." : "1."));
+    import.diagnostics().error(
+        parent.child(child).where(), "bad-value",
+        "<" + std::string(child) + "> is " + std::to_string(value) + "; it must be greater than 0",
+        "Write for instance " + std::string(usual < 0.5 ? "0.001." : "1."));
     return usual;
 }
 
@@ -53,37 +57,46 @@ void read_spherical(const Element& spherical, const Import& import, World& out) 
     const std::string surface = spherical.text("surface_model");
     if (!surface.empty() && surface != "EARTH_WGS84") {
         import.diagnostics().warning(spherical.where(), "surface-model",
-                                     "the surface model '" + surface + "' is not known; WGS84 is used", "Use EARTH_WGS84.");
+                                     "the surface model '" + surface + "' is not known; WGS84 is used",
+                                     "Use EARTH_WGS84.");
     }
     const std::string orientation = spherical.text("world_frame_orientation");
     if (!orientation.empty() && orientation != "ENU") {
-        import.diagnostics().warning(spherical.where(), "world-orientation",
-                                     "the world frame orientation '" + orientation + "' is not supported; x is east, y north",
-                                     "Use ENU.");
+        import.diagnostics().warning(
+            spherical.where(), "world-orientation",
+            "the world frame orientation '" + orientation + "' is not supported; x is east, y north",
+            "Use ENU.");
     }
 }
 
 void report_other(const Element& element, const Import& import, World& out) {
     const std::string name = element.node.name();
     if (name == "actor") {
-        import.diagnostics().warning(element.where(), "actor", "actors are still to come; '" + element.name() + "' is left out");
+        import.diagnostics().warning(element.where(), "actor",
+                                     "actors are still to come; '" + element.name() + "' is left out");
     } else if (name == "joint") {
-        import.diagnostics().warning(element.where(), "world-joint",
-                                     "joints between models of a world are still to come; '" + element.name() + "' is left out",
-                                     "Put both models into one model and the joint with them.");
+        import.diagnostics().warning(
+            element.where(), "world-joint",
+            "joints between models of a world are still to come; '" + element.name() + "' is left out",
+            "Put both models into one model and the joint with them.");
     } else if (name == "state") {
-        import.diagnostics().note(element.where(), "state", "a saved <state> is ignored; models start at their own poses");
+        import.diagnostics().note(element.where(), "state",
+                                  "a saved <state> is ignored; models start at their own poses");
     } else if (name == "road") {
-        import.diagnostics().note(element.where(), "road", "roads are only drawn in Gazebo; they are left out");
+        import.diagnostics().note(element.where(), "road",
+                                  "roads are only drawn in Gazebo; they are left out");
     } else if (std::strchr(name.c_str(), ':') != nullptr) {
         import.diagnostics().note(element.where(), "foreign-element", "<" + name + "> in <world> is ignored");
     } else if (name == "plugin") {
         const auto written = element.name();
-        import.diagnostics().note(element.where(), "plugin",
-                                  "plugin '" + (written.empty() ? element.node.attribute("filename").value() : written) + "' is not run",
-                                  "Drive robots from a Client program; physics and sensors need no plugin here.");
+        import.diagnostics().note(
+            element.where(), "plugin",
+            "plugin '" + (written.empty() ? element.node.attribute("filename").value() : written) +
+                "' is not run",
+            "Drive robots from a Client program; physics and sensors need no plugin here.");
     } else {
-        import.diagnostics().warning(element.where(), "unknown-element", "<" + name + "> in <world> is not known and is ignored",
+        import.diagnostics().warning(element.where(), "unknown-element",
+                                     "<" + name + "> in <world> is not known and is ignored",
                                      "Check the spelling and the place.");
     }
     (void)out;
@@ -102,8 +115,9 @@ void read_world_settings(const Element& world, const Import& import, World& out)
     read_spherical(world.child("spherical_coordinates"), import, out);
     for (const auto node : world.node.children()) {
         if (node.type() != pugi::node_element) continue;
-        const bool silent = std::any_of(std::begin(kSilent), std::end(kSilent),
-                                        [&](const char* name) { return std::strcmp(name, node.name()) == 0; });
+        const bool silent = std::any_of(std::begin(kSilent), std::end(kSilent), [&](const char* name) {
+            return std::strcmp(name, node.name()) == 0;
+        });
         if (!silent) report_other({world.source, node}, import, out);
     }
 }

@@ -1,4 +1,5 @@
-// What a <world> says beside its models: time step, gravity, place on the Earth; and what of it is not simulated.
+// What a <world> says beside its models: time step, gravity, place on the Earth; and what of it is not
+// simulated.
 #pragma once
 
 #include "sdf/model_conversion.h"

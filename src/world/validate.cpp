@@ -34,8 +34,8 @@ bool obeys_triangle_inequality(const Mat3& inertia) {
 }
 
 std::string numbers(const Mat3& i) {
-    return "ixx " + text(i(0, 0)) + ", iyy " + text(i(1, 1)) + ", izz " + text(i(2, 2)) + ", ixy " + text(i(0, 1)) +
-           ", ixz " + text(i(0, 2)) + ", iyz " + text(i(1, 2));
+    return "ixx " + text(i(0, 0)) + ", iyy " + text(i(1, 1)) + ", izz " + text(i(2, 2)) + ", ixy " +
+           text(i(0, 1)) + ", ixz " + text(i(0, 2)) + ", iyz " + text(i(1, 2));
 }
 
 bool is_finite(const Mat3& m) {
@@ -56,11 +56,14 @@ class ModelCheck {
     void check_link(const LinkSpec& link) {
         const std::string name = named("link", link.name);
         if (!names_.insert(link.name).second) {
-            diagnostics_.error(link.where, "duplicate-name", name + ": the model has two links or joints of that name",
+            diagnostics_.error(link.where, "duplicate-name",
+                               name + ": the model has two links or joints of that name",
                                "Give each a name of its own.");
         }
         links_.insert(link.name);
-        if (!is_finite(link.X_ML)) diagnostics_.error(link.where, "not-finite", name + " has a pose that is not finite", "Correct its <pose>.");
+        if (!is_finite(link.X_ML))
+            diagnostics_.error(link.where, "not-finite", name + " has a pose that is not finite",
+                               "Correct its <pose>.");
         if (!model_.is_static) check_mass(link, name);
         for (const CollisionSpec& collision : link.collisions) check_collision(collision);
     }
@@ -71,16 +74,21 @@ class ModelCheck {
                                "Give it a mass greater than 0, or make the model static.");
         }
         if (!is_finite(link.inertia_C) || !is_finite(link.p_LC)) {
-            diagnostics_.error(link.where, "not-finite", name + " has an inertia that is not finite", "Correct its <inertial>.");
+            diagnostics_.error(link.where, "not-finite", name + " has an inertia that is not finite",
+                               "Correct its <inertial>.");
         } else if (!positive_definite(link.inertia_C)) {
-            diagnostics_.error(link.where, "bad-inertia",
-                               name + " has an inertia that is not positive definite: " + numbers(link.inertia_C),
-                               "Write the moments of inertia about the centre of mass; all must be greater than 0.");
+            diagnostics_.error(
+                link.where, "bad-inertia",
+                name + " has an inertia that is not positive definite: " + numbers(link.inertia_C),
+                "Write the moments of inertia about the centre of mass; all must be greater than 0.");
         } else if (!obeys_triangle_inequality(link.inertia_C)) {
-            diagnostics_.warning(link.where, "unreal-inertia",
-                                 name + " has an inertia that no body can have (one principal moment exceeds the sum of the "
-                                 "others): " + numbers(link.inertia_C),
-                                 "Compute it anew; a common slip is to mix up mm and m, or the axes.");
+            diagnostics_.warning(
+                link.where, "unreal-inertia",
+                name +
+                    " has an inertia that no body can have (one principal moment exceeds the sum of the "
+                    "others): " +
+                    numbers(link.inertia_C),
+                "Compute it anew; a common slip is to mix up mm and m, or the axes.");
         }
     }
 
@@ -88,59 +96,75 @@ class ModelCheck {
         const std::string name = named("collision", collision.name);
         const GeometrySpec& g = collision.geometry;
         if (!is_finite(collision.X_LS)) {
-            diagnostics_.error(collision.where, "not-finite", name + " has a pose that is not finite", "Correct its <pose>.");
+            diagnostics_.error(collision.where, "not-finite", name + " has a pose that is not finite",
+                               "Correct its <pose>.");
         }
         const bool box = g.kind == GeometryKind::kBox || g.kind == GeometryKind::kEllipsoid;
-        const bool round = g.kind == GeometryKind::kSphere || g.kind == GeometryKind::kCylinder || g.kind == GeometryKind::kCapsule;
+        const bool round = g.kind == GeometryKind::kSphere || g.kind == GeometryKind::kCylinder ||
+                           g.kind == GeometryKind::kCapsule;
         const bool bad_box = box && !(g.size.x > 0 && g.size.y > 0 && g.size.z > 0 && is_finite(g.size));
         const bool bad_radius = round && !(g.radius > 0 && std::isfinite(g.radius));
-        const bool bad_length = round && g.kind != GeometryKind::kSphere && !(g.length > 0 && std::isfinite(g.length));
+        const bool bad_length =
+            round && g.kind != GeometryKind::kSphere && !(g.length > 0 && std::isfinite(g.length));
         if (bad_box || bad_radius || bad_length) {
-            diagnostics_.error(collision.where, "bad-size", name + " has a size that is not greater than 0", "Correct its <geometry>.");
+            diagnostics_.error(collision.where, "bad-size", name + " has a size that is not greater than 0",
+                               "Correct its <geometry>.");
         }
         const SurfaceSpec& s = collision.surface;
-        if (!(s.mu >= 0) || !(s.mu2 >= 0) || !(s.restitution >= 0) || !(s.torsional_mu >= 0) || !(s.rolling_mu >= 0)) {
-            diagnostics_.error(collision.where, "bad-surface", name + " has a negative coefficient of friction or restitution",
+        if (!(s.mu >= 0) || !(s.mu2 >= 0) || !(s.restitution >= 0) || !(s.torsional_mu >= 0) ||
+            !(s.rolling_mu >= 0)) {
+            diagnostics_.error(collision.where, "bad-surface",
+                               name + " has a negative coefficient of friction or restitution",
                                "Write coefficients of at least 0.");
         }
         if (s.restitution > 1) {
-            diagnostics_.warning(collision.where, "bad-surface", name + " has a restitution of " + text(s.restitution) +
-                                 ": every bounce adds energy", "Write a <restitution_coefficient> from 0 to 1.");
+            diagnostics_.warning(
+                collision.where, "bad-surface",
+                name + " has a restitution of " + text(s.restitution) + ": every bounce adds energy",
+                "Write a <restitution_coefficient> from 0 to 1.");
         }
     }
 
     void check_joint(const JointSpec& joint) {
         const std::string name = named("joint", joint.name);
         if (!names_.insert(joint.name).second) {
-            diagnostics_.error(joint.where, "duplicate-name", name + ": the model has two links or joints of that name",
+            diagnostics_.error(joint.where, "duplicate-name",
+                               name + ": the model has two links or joints of that name",
                                "Give each a name of its own.");
         }
         joints_.insert(joint.name);
         if (joint.parent != "world" && !links_.count(joint.parent)) to_nowhere(joint, "parent", joint.parent);
         if (!links_.count(joint.child)) to_nowhere(joint, "child", joint.child);
         if (joint.parent == joint.child) {
-            diagnostics_.error(joint.where, "joint-to-itself", name + " joins link '" + joint.child + "' to itself",
-                               "Name two links.");
+            diagnostics_.error(joint.where, "joint-to-itself",
+                               name + " joins link '" + joint.child + "' to itself", "Name two links.");
         }
-        if (!is_finite(joint.X_MJ)) diagnostics_.error(joint.where, "not-finite", name + " has a pose that is not finite", "Correct its <pose>.");
+        if (!is_finite(joint.X_MJ))
+            diagnostics_.error(joint.where, "not-finite", name + " has a pose that is not finite",
+                               "Correct its <pose>.");
         for (const AxisSpec& axis : joint.axes) check_axis(joint, axis);
     }
 
     void to_nowhere(const JointSpec& joint, const std::string& end, const std::string& link) {
-        diagnostics_.error(joint.where, "joint-to-nowhere",
-                           named("joint", joint.name) + " has the " + end + " '" + link + "', which is no link of the model",
-                           end == "child" && link == "world" ? "Swap parent and child: world can only be the parent."
-                                                             : "Check the name; links of nested models are NESTED::LINK.");
+        diagnostics_.error(
+            joint.where, "joint-to-nowhere",
+            named("joint", joint.name) + " has the " + end + " '" + link + "', which is no link of the model",
+            end == "child" && link == "world" ? "Swap parent and child: world can only be the parent."
+                                              : "Check the name; links of nested models are NESTED::LINK.");
     }
 
     void check_axis(const JointSpec& joint, const AxisSpec& axis) {
         const std::string name = named("joint", joint.name);
         if (axis.lower > axis.upper) {
-            diagnostics_.error(joint.where, "bad-limit", name + " has the limits " + text(axis.lower) + " to " + text(axis.upper) +
-                               ": lower is above upper", "Swap them.");
+            diagnostics_.error(joint.where, "bad-limit",
+                               name + " has the limits " + text(axis.lower) + " to " + text(axis.upper) +
+                                   ": lower is above upper",
+                               "Swap them.");
         }
-        if (!(axis.damping >= 0) || !(axis.friction >= 0) || !(axis.spring_stiffness >= 0) || !(axis.armature >= 0)) {
-            diagnostics_.error(joint.where, "bad-dynamics", name + " has a negative damping, friction, spring or armature",
+        if (!(axis.damping >= 0) || !(axis.friction >= 0) || !(axis.spring_stiffness >= 0) ||
+            !(axis.armature >= 0)) {
+            diagnostics_.error(joint.where, "bad-dynamics",
+                               name + " has a negative damping, friction, spring or armature",
                                "Write values of at least 0.");
         }
     }
@@ -150,7 +174,8 @@ class ModelCheck {
             for (const std::string& joint : sensor.joints) {
                 if (joints_.count(joint)) continue;
                 diagnostics_.error(sensor.where, "unknown-joint",
-                                   named("sensor", sensor.name) + " reads the joint '" + joint + "', which the model does not have",
+                                   named("sensor", sensor.name) + " reads the joint '" + joint +
+                                       "', which the model does not have",
                                    "Check the name.");
             }
         }
@@ -175,9 +200,11 @@ void check_instances(const World& world, Diagnostics& diagnostics) {
                                   std::to_string(known->second->where.line) + ")",
                               "Give each a name of its own.");
         }
-        if (instance.name.empty()) diagnostics.error(instance.where, "no-name", "a model has no name", "Give it one.");
+        if (instance.name.empty())
+            diagnostics.error(instance.where, "no-name", "a model has no name", "Give it one.");
         if (!is_finite(instance.X_WM)) {
-            diagnostics.error(instance.where, "not-finite", "model '" + instance.name + "' has a pose that is not finite",
+            diagnostics.error(instance.where, "not-finite",
+                              "model '" + instance.name + "' has a pose that is not finite",
                               "Correct its <pose>.");
         }
     }
@@ -186,9 +213,11 @@ void check_instances(const World& world, Diagnostics& diagnostics) {
 }  // namespace
 
 void validate(const World& world, Diagnostics& diagnostics) {
-    if (!is_finite(world.gravity)) diagnostics.error({world.file, 0}, "not-finite", "gravity is not finite", "Correct <gravity>.");
+    if (!is_finite(world.gravity))
+        diagnostics.error({world.file, 0}, "not-finite", "gravity is not finite", "Correct <gravity>.");
     if (!(world.dt_s > 0) || !std::isfinite(world.dt_s)) {
-        diagnostics.error({world.file, 0}, "bad-step", "the time step is " + text(world.dt_s) + " s", "Write <max_step_size> greater than 0.");
+        diagnostics.error({world.file, 0}, "bad-step", "the time step is " + text(world.dt_s) + " s",
+                          "Write <max_step_size> greater than 0.");
     }
     for (const ModelSpec& model : world.prototypes) ModelCheck(model, diagnostics).run();
     check_instances(world, diagnostics);

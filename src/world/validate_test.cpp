@@ -45,7 +45,8 @@ Diagnostics findings(const std::function<void(World&)>& spoil) {
 }
 
 /// The spoilt world has exactly this finding, on this line.
-void expect_one(const std::string& code, Severity severity, int line, const std::function<void(World&)>& spoil) {
+void expect_one(const std::string& code, Severity severity, int line,
+                const std::function<void(World&)>& spoil) {
     const Diagnostics found = findings(spoil);
     ASSERT_EQ(found.items().size(), 1u) << code;
     EXPECT_EQ(found.items()[0].code, code);
@@ -79,18 +80,25 @@ TEST(Validate, AStaticModelNeedsNoMass) {
                     w.prototypes[0].is_static = true;
                     link_a(w).mass = 0;
                     link_a(w).inertia_C = Mat3::diagonal(0, 0, 0);
-                }).items().empty());
+                })
+                    .items()
+                    .empty());
 }
 
 TEST(Validate, InertiasMustBePositiveDefinite) {
-    expect_one("bad-inertia", Severity::kError, 7, [](World& w) { link_a(w).inertia_C = Mat3::diagonal(1, 0, 1); });
-    expect_one("bad-inertia", Severity::kError, 7, [](World& w) { link_a(w).inertia_C = {{1, 2, 0}, {2, 1, 0}, {0, 0, 1}}; });
+    expect_one("bad-inertia", Severity::kError, 7,
+               [](World& w) { link_a(w).inertia_C = Mat3::diagonal(1, 0, 1); });
+    expect_one("bad-inertia", Severity::kError, 7, [](World& w) {
+        link_a(w).inertia_C = {{1, 2, 0}, {2, 1, 0}, {0, 0, 1}};
+    });
     expect_one("not-finite", Severity::kError, 7, [](World& w) { link_a(w).inertia_C(1, 1) = kNan; });
 }
 
 TEST(Validate, InertiasShouldObeyTheTriangleInequality) {
-    expect_one("unreal-inertia", Severity::kWarning, 7, [](World& w) { link_a(w).inertia_C = Mat3::diagonal(1, 1, 2.1); });
-    EXPECT_TRUE(findings([](World& w) { link_a(w).inertia_C = Mat3::diagonal(1, 1, 2); }).items().empty()) << "a thin plate";
+    expect_one("unreal-inertia", Severity::kWarning, 7,
+               [](World& w) { link_a(w).inertia_C = Mat3::diagonal(1, 1, 2.1); });
+    EXPECT_TRUE(findings([](World& w) { link_a(w).inertia_C = Mat3::diagonal(1, 1, 2); }).items().empty())
+        << "a thin plate";
     // The same unreal body in turned axes: only its principal moments tell.
     expect_one("unreal-inertia", Severity::kWarning, 7, [](World& w) {
         const Mat3 R = to_matrix(from_rpy(0.3, 0.4, 0.5));
@@ -107,23 +115,30 @@ TEST(Validate, JointsMustJoinTwoLinksOfTheModel) {
 }
 
 TEST(Validate, LimitsAndDynamicsMustMakeSense) {
-    expect_one("bad-limit", Severity::kError, 9, [](World& w) { joint(w).axes[0].lower = 2, joint(w).axes[0].upper = 1; });
+    expect_one("bad-limit", Severity::kError, 9,
+               [](World& w) { joint(w).axes[0].lower = 2, joint(w).axes[0].upper = 1; });
     expect_one("bad-dynamics", Severity::kError, 9, [](World& w) { joint(w).axes[0].damping = -1; });
     expect_one("bad-dynamics", Severity::kError, 9, [](World& w) { joint(w).axes[0].friction = kNan; });
 }
 
 TEST(Validate, ShapesMustHaveASize) {
-    expect_one("bad-size", Severity::kError, 0, [](World& w) { link_a(w).collisions[0].geometry.size.y = 0; });
-    expect_one("bad-size", Severity::kError, 0, [](World& w) { link_a(w).collisions[0].geometry.kind = GeometryKind::kSphere; });
+    expect_one("bad-size", Severity::kError, 0,
+               [](World& w) { link_a(w).collisions[0].geometry.size.y = 0; });
+    expect_one("bad-size", Severity::kError, 0,
+               [](World& w) { link_a(w).collisions[0].geometry.kind = GeometryKind::kSphere; });
     expect_one("not-finite", Severity::kError, 0, [](World& w) { link_a(w).collisions[0].X_LS.p.x = kNan; });
-    expect_one("bad-surface", Severity::kError, 0, [](World& w) { link_a(w).collisions[0].surface.mu = -0.1; });
-    expect_one("bad-surface", Severity::kWarning, 0, [](World& w) { link_a(w).collisions[0].surface.restitution = 1.1; });
+    expect_one("bad-surface", Severity::kError, 0,
+               [](World& w) { link_a(w).collisions[0].surface.mu = -0.1; });
+    expect_one("bad-surface", Severity::kWarning, 0,
+               [](World& w) { link_a(w).collisions[0].surface.restitution = 1.1; });
 }
 
 TEST(Validate, NamesMustBeUnique) {
-    expect_one("duplicate-name", Severity::kError, 3, [](World& w) { w.instances.push_back(w.instances[0]); });
+    expect_one("duplicate-name", Severity::kError, 3,
+               [](World& w) { w.instances.push_back(w.instances[0]); });
     expect_one("duplicate-name", Severity::kError, 9, [](World& w) { joint(w).name = "a"; });
-    EXPECT_EQ(findings([](World& w) { w.prototypes[0].links[1].name = "a"; }).items()[0].code, "duplicate-name");
+    EXPECT_EQ(findings([](World& w) { w.prototypes[0].links[1].name = "a"; }).items()[0].code,
+              "duplicate-name");
 }
 
 TEST(Validate, PosesGravityAndStepMustBeFinite) {

@@ -1,4 +1,5 @@
-// World: what the file said, as plain data, in SI units and radians. No XML, no computing. Distinct models are kept once
+// World: what the file said, as plain data, in SI units and radians. No XML, no computing. Distinct models
+// are kept once
 // (`prototypes`) and placed many times (`instances`), so 10000 equal cars cost little to read and to check.
 #pragma once
 
@@ -12,10 +13,20 @@
 
 namespace roboss {
 
-enum class GeometryKind { kPlane, kBox, kSphere, kCylinder, kCapsule, kEllipsoid, kMesh, kHeightmap, kPolyline };
+enum class GeometryKind {
+    kPlane,
+    kBox,
+    kSphere,
+    kCylinder,
+    kCapsule,
+    kEllipsoid,
+    kMesh,
+    kHeightmap,
+    kPolyline
+};
 
-/// A geometry element. `size`: box: full edge lengths; ellipsoid: radii; plane: x, y extent (drawing only). Plane: the
-/// normal is +z of the shape's own frame (the importer folds <normal> into the pose).
+/// A geometry element. `size`: box: full edge lengths; ellipsoid: radii; plane: x, y extent (drawing only).
+/// Plane: the normal is +z of the shape's own frame (the importer folds <normal> into the pose).
 struct GeometrySpec {
     GeometryKind kind = GeometryKind::kBox;
     Vec3 size{1, 1, 1};
@@ -26,14 +37,14 @@ struct GeometrySpec {
 };
 
 struct SurfaceSpec {
-    double mu = 1.0;             // SDF ode/mu
-    double mu2 = 1.0;            // SDF ode/mu2
-    Vec3 fdir1;                  // zero: isotropic
-    double restitution = 0.0;    // SDF bounce/restitution_coefficient
+    double mu = 1.0;                 // SDF ode/mu
+    double mu2 = 1.0;                // SDF ode/mu2
+    Vec3 fdir1;                      // zero: isotropic
+    double restitution = 0.0;        // SDF bounce/restitution_coefficient
     double bounce_threshold = 0.01;  // m/s, below it nothing bounces
-    double torsional_mu = 0.0;   // dimensionless; acts with torsional_radius
+    double torsional_mu = 0.0;       // dimensionless; acts with torsional_radius
     double torsional_radius = 0.0;   // m
-    double rolling_mu = 0.0;     // m, <roboss:rolling_friction>
+    double rolling_mu = 0.0;         // m, <roboss:rolling_friction>
     unsigned collide_bitmask = 0xFFFFu;
 };
 
@@ -63,14 +74,14 @@ enum class SensorKind { kLaser, kGps, kCompass, kOdometer, kUnsupported };
 struct SensorSpec {
     std::string name;
     SensorKind kind = SensorKind::kUnsupported;
-    std::string sdf_type;  // as written, e.g. "gpu_lidar"
-    Pose X_LS;             // sensor in link
+    std::string sdf_type;       // as written, e.g. "gpu_lidar"
+    Pose X_LS;                  // sensor in link
     double update_rate_hz = 0;  // 0: every control period
     // laser: beams span [min_angle, max_angle] about the sensor's z (horizontal) and y (vertical) axes
     int samples = 1, vertical_samples = 1;
     double min_angle = 0, max_angle = 0, vertical_min_angle = 0, vertical_max_angle = 0;
     double range_min = 0, range_max = 0, range_resolution = 0;
-    NoiseSpec noise;           // laser range, m; compass: rad; odometer: fraction of the way
+    NoiseSpec noise;  // laser range, m; compass: rad; odometer: fraction of the way
     NoiseSpec position_horizontal_noise, position_vertical_noise;  // gps, m
     NoiseSpec velocity_horizontal_noise, velocity_vertical_noise;  // gps, m/s
     // odometer (<roboss:odometer>): joints read, wheel radius in m (0: angle only)
@@ -83,8 +94,8 @@ struct LinkSpec {
     std::string name;  // nested models: "inner::link"
     Pose X_ML;         // link in the (outer) model frame, all joints at zero
     double mass = 1.0;
-    Vec3 p_LC;                           // centre of mass
-    Mat3 inertia_C = Mat3::identity();   // about the centre of mass, link axes, kg m^2
+    Vec3 p_LC;                          // centre of mass
+    Mat3 inertia_C = Mat3::identity();  // about the centre of mass, link axes, kg m^2
     bool gravity = true;
     std::vector<CollisionSpec> collisions;
     std::vector<VisualSpec> visuals;
@@ -92,15 +103,25 @@ struct LinkSpec {
     SourceLocation where;
 };
 
-enum class JointSpecKind { kFixed, kRevolute, kContinuous, kPrismatic, kBall, kScrew, kUniversal, kRevolute2, kGearbox };
+enum class JointSpecKind {
+    kFixed,
+    kRevolute,
+    kContinuous,
+    kPrismatic,
+    kBall,
+    kScrew,
+    kUniversal,
+    kRevolute2,
+    kGearbox
+};
 
 /// One axis of a joint. Infinite limits mean none.
 struct AxisSpec {
-    Vec3 xyz{0, 0, 1};  // unit, in the joint frame
-    double lower = -1e16, upper = 1e16;          // rad or m
-    double max_effort = -1;                      // N m or N; negative: unlimited
-    double max_velocity = -1;                    // rad/s or m/s; negative: unlimited
-    double damping = 0, friction = 0;            // N m s/rad, N m (or linear)
+    Vec3 xyz{0, 0, 1};                   // unit, in the joint frame
+    double lower = -1e16, upper = 1e16;  // rad or m
+    double max_effort = -1;              // N m or N; negative: unlimited
+    double max_velocity = -1;            // rad/s or m/s; negative: unlimited
+    double damping = 0, friction = 0;    // N m s/rad, N m (or linear)
     double spring_stiffness = 0, spring_reference = 0;
     double limit_stiffness = 1e8, limit_dissipation = 1;
     double initial_position = 0;
@@ -114,7 +135,7 @@ struct JointSpec {
     JointSpecKind kind = JointSpecKind::kFixed;
     std::string parent;  // link name or "world"
     std::string child;
-    Pose X_MJ;  // joint frame in the model frame, all joints at zero
+    Pose X_MJ;                   // joint frame in the model frame, all joints at zero
     std::vector<AxisSpec> axes;  // 0 (fixed, ball), 1, or 2 (universal, revolute2)
     double screw_pitch = 0;      // m per radian
     SourceLocation where;
@@ -122,8 +143,8 @@ struct JointSpec {
 
 /// <plugin> and namespaced elements that are kept for others to read.
 struct ExtensionElement {
-    std::string name;      // e.g. "plugin", "roboss:population"
-    std::string text;      // the element as XML
+    std::string name;  // e.g. "plugin", "roboss:population"
+    std::string text;  // the element as XML
     SourceLocation where;
 };
 
@@ -145,7 +166,8 @@ struct ModelInstance {
     SourceLocation where;
 };
 
-/// WGS84 anchor of the world's origin; heading: rotation of the world's x axis from east, counter-clockwise, rad.
+/// WGS84 anchor of the world's origin; heading: rotation of the world's x axis from east, counter-clockwise,
+/// rad.
 struct SphericalCoordinates {
     double latitude_rad = 0, longitude_rad = 0, elevation_m = 0, heading_rad = 0;
 };
@@ -164,8 +186,8 @@ struct World {
     std::vector<ExtensionElement> extensions;
 };
 
-/// Everything about a World that needs no XML to be judged: finite numbers, positive masses, inertias that a real body
-/// can have, unique names, joints between links that exist. All findings at once.
+/// Everything about a World that needs no XML to be judged: finite numbers, positive masses, inertias that a
+/// real body can have, unique names, joints between links that exist. All findings at once.
 void validate(const World& world, Diagnostics& diagnostics);
 
 }  // namespace roboss
