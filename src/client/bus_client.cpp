@@ -67,7 +67,7 @@ void BusClient::take_observation(Observation& observation) {
     offers_[observation.tick] = std::move(observation.holders);
 }
 
-/// A synchronous Client sees every observation in turn, a free-running one the newest.
+/// A synchronous Client sees every observation in turn; a free-running one what it is told, one at a time.
 void BusClient::pull_next() {
     if (offers_.empty()) return;
     auto next = options_.synchronous ? offers_.find(expected_) : std::prev(offers_.end());

@@ -181,6 +181,9 @@ Result<SavedRun> load_run(const std::string& path, const Model& model) {
     const Database& db = opened.value();
     Result<std::vector<Row>> rows = db.select("SELECT key, value FROM meta");
     if (!rows) return Error{path + " is not a checkpoint of RoBOSS, or is truncated: " + rows.error().message, kSaveAgain};
+    Result<std::vector<Row>> sound = db.select("PRAGMA integrity_check(1)");
+    if (!sound || sound.value().size() != 1 || sound.value()[0][0] != Value(std::string("ok")))
+        return damaged(path, "it is truncated or was changed");
     Meta meta(rows.value());
     if (Result<> fits = check_meta(path, model, meta); !fits) return fits.error();
 

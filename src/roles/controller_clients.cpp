@@ -79,10 +79,7 @@ void Controller::tell_observers() {
 
 void Controller::tell_observer(ClientId id, Tick tick) {
     ClientSeat& seat = desk_.seats()[id.index()];
-    if (!seat.synchronous) {  // only the newest counts
-        for (const Tick old : seat.unanswered) forget(id, old);
-        seat.unanswered.clear();
-    }
+    if (!seat.synchronous && !seat.unanswered.empty()) return;  // it is busy with an earlier one; the world does not wait
     seat.unanswered.push_back(tick);
     seat.told_ms = 0;
     want_at_this_tick().clients.push_back(id);

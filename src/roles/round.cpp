@@ -74,7 +74,10 @@ std::optional<Plan> Round::answered_by(const Frame& frame) {
                       std::equal(plan.robots.begin(), plan.robots.end(), frame.robots.begin(),
                                  [](RobotId robot, const RobotFrame& f) { return robot == f.robot; }) &&
                       std::all_of(frame.earlier.begin(), frame.earlier.end(),
-                                  [&](const EarlierBox& e) { return e.robot.index() < seat_.size(); });
+                                  [&](const EarlierBox& e) { return e.robot.index() < seat_.size(); }) &&
+                      std::all_of(frame.islands.begin(), frame.islands.end(), [&](const IslandFrame& i) {
+                          return !i.failed.valid() || i.failed.index() < seat_.size();
+                      });
     if (!fits) return std::nullopt;
     std::optional<Plan> answered = std::move(sent->plan);
     sent_.erase(sent);

@@ -18,8 +18,20 @@ bool is_newer(const A& a, const B& b) {
     return std::tie(a.epoch, a.window, a.attempt) > std::tie(b.epoch, b.window, b.attempt);
 }
 
-bool known(const Model& model, const std::vector<RobotId>& robots) {
-    return std::all_of(robots.begin(), robots.end(), [&](RobotId r) { return r.index() < model.robots.size(); });
+/// Whether the plan makes sense for this Model: robots that exist, none twice, ascending in their islands; good orders.
+bool plausible(const Model& model, const Plan& plan) {
+    const std::size_t n = model.robots.size();
+    std::vector<bool> seen(n, false);
+    for (std::size_t i = 0; i + 1 < plan.island_offsets.size(); ++i)
+        for (std::size_t k = plan.island_offsets[i]; k < plan.island_offsets[i + 1]; ++k) {
+            const RobotId robot = plan.robots[k];
+            if (robot.index() >= n || seen[robot.index()]) return false;
+            if (k > plan.island_offsets[i] && robot < plan.robots[k - 1]) return false;
+            seen[robot.index()] = true;
+        }
+    return std::all_of(plan.keep.begin(), plan.keep.end(), [&](RobotId r) { return r.index() < n; }) &&
+           std::is_sorted(plan.orders.begin(), plan.orders.end(), comes_before) &&
+           std::all_of(plan.orders.begin(), plan.orders.end(), [&](const Order& o) { return check_order(model, o).ok(); });
 }
 
 }  // namespace
@@ -65,10 +77,7 @@ void Simulator::take_plan(Bus& bus, Plan& plan) {
     if (plan.simulator != id_) return;
     if (answer_ && same_attempt(plan, *answer_)) return bus.send(self_, kControllerAddress, *answer_);
     if ((answer_ && !is_newer(plan, *answer_)) || (plan_ && !is_newer(plan, *plan_))) return;
-    const bool robots_known = known(*model_, plan.robots) && known(*model_, plan.keep);
-    const bool orders_ok = std::all_of(plan.orders.begin(), plan.orders.end(),
-                                       [&](const Order& order) { return check_order(*model_, order).ok(); });
-    if (robots_known && orders_ok) adopt(plan);
+    if (plausible(*model_, plan)) adopt(plan);
 }
 
 void Simulator::adopt(Plan& plan) {

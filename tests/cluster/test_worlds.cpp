@@ -128,6 +128,17 @@ std::shared_ptr<const Model> heaps_world(int heaps) {
     return compiled(world);
 }
 
+std::shared_ptr<const Model> pair_world() {
+    World world = empty_world("pair");
+    world.prototypes.push_back(crate());
+    world.prototypes.push_back(ball());
+    world.instances.push_back({"lower", 1, {{0, 0, 0.2}, {}}, {}});
+    world.instances.push_back({"upper", 1, {{0.1, 0.05, 0.601}, {}}, {}});
+    world.instances.push_back({"lone_crate", 1, {{8, 0, 0.2}, {}}, {}});
+    world.instances.push_back({"lone_ball", 2, {{-8, 0, 0.9}, {}}, {}});
+    return compiled(world);
+}
+
 std::shared_ptr<const Model> carts_world(int carts) {
     World world = empty_world("carts");
     world.prototypes.push_back(wall());

@@ -1,0 +1,125 @@
+// Sweep, islands, assignment, window length.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "plan/assign.h"
+#include "plan/sweep.h"
+#include "plan/window_length.h"
+
+namespace roboss {
+namespace {
+
+std::vector<OwnedBox> random_boxes(std::mt19937_64& random, std::uint32_t owners, double extent, double size) {
+    std::uniform_real_distribution<double> place(-extent, extent), edge(0, size);
+    std::vector<OwnedBox> boxes;
+    for (std::uint32_t i = 0; i < owners; ++i) {
+        const Vec3 p{place(random), place(random), place(random) * 0.05};
+        boxes.push_back({outward(Aabb{p, p + Vec3{edge(random), edge(random), edge(random)}}), i});
+    }
+    return boxes;
+}
+
+TEST(Sweep, FindsExactlyTheSetsOfOverlappingBoxes) {
+    std::mt19937_64 random(4);
+    for (const std::uint32_t n : {0u, 1u, 10u, 63u, 64u, 400u, 1500u})
+        for (const double size : {0.1, 1.0, 8.0}) {
+            std::vector<OwnedBox> boxes = random_boxes(random, n, 40, size);
+            for (std::uint32_t i = 0; i + 1 < n / 10; ++i) boxes.push_back(random_boxes(random, 1, 40, size)[0]);  // owner 0 has more
+            if (n > 70) {  // a pillar over everything, an endless box, an empty one
+                boxes.push_back({Box32{{1, -1e30f, 0}, {1.5f, 1e30f, 1}}, 5});
+                boxes.push_back({Box32{}, 6});
+                const float inf = std::numeric_limits<float>::infinity();
+                if (size > 5) boxes.push_back({Box32{{-inf, -inf, 30}, {inf, inf, 31}}, 7});
+            }
+            UnionFind expected, found;
+            expected.reset(n), found.reset(n);
+            for (std::size_t i = 0; i < boxes.size(); ++i)
+                for (std::size_t j = 0; j < i; ++j)
+                    if (overlaps(boxes[i].box, boxes[j].box)) expected.unite(boxes[i].owner, boxes[j].owner);
+            Sweep().unite_overlapping(boxes, found);
+            for (std::uint32_t i = 0; i < n; ++i) ASSERT_EQ(found.find(i), expected.find(i)) << n << " boxes, robot " << i;
+        }
+}
+
+TEST(Sweep, CountsTouchingAsOverlapping) {
+    UnionFind sets;
+    sets.reset(2);
+    const std::vector<OwnedBox> boxes{{Box32{{0, 0, 0}, {1, 1, 1}}, 0}, {Box32{{1, 1, 1}, {2, 2, 2}}, 1}};
+    EXPECT_EQ(Sweep().unite_overlapping(boxes, sets), 1u);
+}
+
+TEST(Islands, AreCanonicalHoweverTheyWereFound) {
+    UnionFind a, b;
+    a.reset(6), b.reset(6);
+    a.unite(5, 1), a.unite(3, 5), a.unite(4, 2);
+    b.unite(2, 4), b.unite(1, 3), b.unite(5, 3);
+    Islands ia, ib;
+    collect_islands(a, ia), collect_islands(b, ib);
+    EXPECT_EQ(ia.robots, ib.robots);
+    EXPECT_EQ(ia.offsets, (std::vector<std::uint32_t>{0, 1, 4, 6}));
+    EXPECT_EQ(ia.robots, (std::vector<RobotId>{RobotId(0u), RobotId(1u), RobotId(3u), RobotId(5u), RobotId(2u), RobotId(4u)}));
+    Islands some;
+    const std::vector<RobotId> only{RobotId(2u), RobotId(3u), RobotId(5u)};
+    collect_islands(a, only, some);
+    EXPECT_EQ(some.offsets, (std::vector<std::uint32_t>{0, 1, 3}));
+    EXPECT_EQ(some.robots, only);
+}
+
+Islands single_islands(std::size_t n) {
+    Islands islands;
+    for (std::size_t i = 0; i < n; ++i) {
+        islands.robots.emplace_back(i);
+        islands.offsets.push_back(static_cast<std::uint32_t>(i + 1));
+    }
+    return islands;
+}
+
+TEST(Assign, BalancesByCostAndSpeed) {
+    const Islands islands = single_islands(60);
+    std::vector<float> cost(60);
+    for (std::size_t i = 0; i < 60; ++i) cost[i] = 1.0f + static_cast<float>(i % 5);
+    const std::vector<std::uint32_t> nowhere(60, kNowhere);
+    const std::vector<double> speed{1, 2, 1};
+    std::vector<double> load(3, 0.0);
+    const auto place = assign({islands, cost, nowhere, speed});
+    for (std::size_t i = 0; i < 60; ++i) load[place[i]] += static_cast<double>(cost[i]);
+    EXPECT_NEAR(load[0], 45, 5);
+    EXPECT_NEAR(load[1], 90, 5);
+    EXPECT_NEAR(load[2], 45, 5);
+}
+
+TEST(Assign, MovesNobodyWhileStayingIsNearlyAsGood) {
+    const Islands islands = single_islands(40);
+    std::vector<std::uint32_t> here(40);
+    std::vector<float> cost(40);
+    for (std::uint32_t i = 0; i < 40; ++i) here[i] = i % 2, cost[i] = 1.0f + 0.001f * static_cast<float>(i % 3);
+    EXPECT_EQ(assign({islands, cost, here, std::vector<double>{1, 1}}), here);
+}
+
+TEST(Assign, MovesOnlyWhatIsTooMuch) {
+    const Islands islands = single_islands(40);
+    const std::vector<std::uint32_t> here(40, 0);
+    const std::vector<float> cost(40, 1.0f);
+    const auto place = assign({islands, cost, here, std::vector<double>{1, 1}});
+    const auto moved = std::count(place.begin(), place.end(), 1u);
+    EXPECT_GE(moved, 18);
+    EXPECT_LE(moved, 20);
+}
+
+TEST(WindowLength, GrowsWhenCalmAndShrinksWhenRepeated) {
+    WindowLength length(0, 64);
+    for (int i = 0; i < 100; ++i) length.committed(length.ticks(), false, 0.1);
+    EXPECT_EQ(length.ticks(), 64);
+    length.committed(64, true, 0.1);
+    EXPECT_EQ(length.ticks(), 32);
+    for (int i = 0; i < 20; ++i) length.committed(length.ticks(), true, 0.1);
+    EXPECT_EQ(length.ticks(), 1);
+    WindowLength fixed(16, 64);
+    fixed.committed(16, true, 5);
+    EXPECT_EQ(fixed.ticks(), 16);
+}
+
+}  // namespace
+}  // namespace roboss

@@ -1,0 +1,159 @@
+// Every message survives the encoding, and no bytes can break the decoder.
+#include "wire/codec.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace roboss {
+namespace {
+
+const RobotId kRobot(7u), kOther(9u);
+
+std::vector<Order> some_orders() {
+    return {{3, ClientId(1u), 1, kRobot, SetPose{{{1, 2, 3}, {0.5, 0.5, 0.5, 0.5}}}},
+            {3, ClientId(1u), 2, kRobot, SetVelocity{{1, 0, 0}, {0, 0, -2}}},
+            {4, ClientId(2u), 1, kOther, ApplyWrench{LinkId(2u), {1, 2, 3}, {4, 5, 6}, 12}},
+            {5, ClientId(2u), 2, kOther, SetJoint{JointId(1u), 1, MotorMode::kPosition, 0.25, 8.5}}};
+}
+
+std::vector<Message> one_of_each() {
+    Plan plan{2, 17, 1, SimulatorId(3u), 10, 26, {0, 1, 2}, {kRobot, kOther}, {{{Role::kSimulator, 5}, {kOther}}}, some_orders(),
+              {kRobot}, 8};
+    Frame frame{2, 17, 1, SimulatorId(3u), {{kRobot, {}, {1, 2, 3}, {4, 5, 6}, 77}}, {{kRobot, {}}}, {{100, 5, 2, kRobot, 12}}};
+    StateReply reply{{12, {kRobot, kOther}, {2, 3}, {1, 2, 3, 4, 5}}};
+    std::vector<ClientOrder> orders;
+    for (const Order& o : some_orders()) orders.push_back({o.sequence, o.robot, o.action});
+    return {Hello{0xABCDEF, 4},
+            Welcome{SimulatorId(1u)},
+            Refused{"another world"},
+            Expelled{SimulatorId(1u)},
+            Alive{SimulatorId(1u)},
+            LeaveRequest{SimulatorId(1u)},
+            Goodbye{SimulatorId(1u)},
+            plan,
+            frame,
+            StateRequest{12, {kRobot, kOther}},
+            reply,
+            ClientHello{"driver", 5, 20, 20, true},
+            ClientWelcome{ClientId(0u), 40, 99},
+            Observation{40, 3, {{{Role::kController, 0}, {kRobot}}}},
+            ClientWord{ClientId(0u), 4, 40, orders},
+            WordAck{ClientId(0u), 4, {{2, "no such link"}}},
+            ClientBye{ClientId(0u), 5, true, "it threw"}};
+}
+
+Envelope envelope_of(Message message) {
+    return {{Role::kSimulator, 3}, {Role::kController, 0}, std::move(message)};
+}
+
+TEST(Codec, GivesBackEveryMessageAsItWas) {
+    std::vector<bool> met(std::variant_size_v<Message>, false);
+    for (const Message& message : one_of_each()) {
+        met[message.index()] = true;
+        const std::vector<std::uint8_t> bytes = encode(envelope_of(message));
+        const Result<Envelope> back = decode_envelope(bytes);
+        ASSERT_TRUE(back.ok()) << back.error().text();
+        EXPECT_EQ(back.value().message.index(), message.index());
+        EXPECT_EQ(back.value().from, (Address{Role::kSimulator, 3}));
+        EXPECT_EQ(encode(back.value()), bytes) << message_name(message);
+    }
+    EXPECT_EQ(std::count(met.begin(), met.end(), false), 0) << "a kind of message is not tested";
+}
+
+TEST(Codec, KeepsTheFieldsOfPlansAndFrames) {
+    for (const Message& message : one_of_each()) {
+        const Result<Envelope> back = decode_envelope(encode(envelope_of(message)));
+        if (const auto* plan = std::get_if<Plan>(&message)) {
+            const Plan& got = std::get<Plan>(back.value().message);
+            EXPECT_EQ(got.robots, plan->robots);
+            EXPECT_EQ(got.until, 26);
+            EXPECT_EQ(got.hand_offs, plan->hand_offs);
+            ASSERT_EQ(got.orders.size(), 4u);
+            EXPECT_EQ(std::get<SetPose>(got.orders[0].action).X_WR, std::get<SetPose>(plan->orders[0].action).X_WR);
+            EXPECT_EQ(std::get<ApplyWrench>(got.orders[2].action).duration, 12);
+            EXPECT_EQ(std::get<SetJoint>(got.orders[3].action).mode, MotorMode::kPosition);
+        }
+        if (const auto* frame = std::get_if<Frame>(&message)) {
+            EXPECT_EQ(std::get<Frame>(back.value().message), *frame);
+        }
+    }
+}
+
+TEST(Codec, RefusesEveryTruncation) {
+    for (const Message& message : one_of_each()) {
+        const std::vector<std::uint8_t> bytes = encode(envelope_of(message));
+        for (std::size_t n = 0; n < bytes.size(); ++n) {
+            const Result<Envelope> back = decode_envelope(std::span(bytes).first(n));
+            EXPECT_FALSE(back.ok()) << message_name(message) << " cut to " << n << " of " << bytes.size();
+        }
+    }
+}
+
+TEST(Codec, RefusesOrUnderstandsEveryMutation) {
+    std::mt19937_64 random(20261121);
+    int refused = 0, understood = 0;
+    for (const Message& message : one_of_each()) {
+        const std::vector<std::uint8_t> good = encode(envelope_of(message));
+        for (int i = 0; i < 3000; ++i) {
+            std::vector<std::uint8_t> bytes = good;
+            for (std::uint64_t k = 0; k < 1 + random() % 3; ++k) bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
+            const Result<Envelope> back = decode_envelope(bytes);
+            back.ok() ? ++understood : ++refused;
+            if (back.ok()) {
+                EXPECT_EQ(encode(back.value()), bytes);
+            } else {
+                EXPECT_FALSE(back.error().message.empty());
+            }
+        }
+    }
+    EXPECT_GT(refused, 1000);
+    EXPECT_GT(understood, 1000);
+}
+
+TEST(Codec, RefusesNoiseAndHugeCounts) {
+    std::mt19937_64 random(7);
+    for (int i = 0; i < 20000; ++i) {
+        std::vector<std::uint8_t> bytes(random() % 200);
+        for (std::uint8_t& b : bytes) b = static_cast<std::uint8_t>(random());
+        if (bytes.size() > 2) bytes[0] = kWireVersion, bytes[1] = 0;
+        (void)decode_envelope(bytes).ok();
+    }
+    std::vector<std::uint8_t> bytes = encode(envelope_of(StateRequest{1, {}}));
+    for (std::size_t i = bytes.size() - 4; i < bytes.size(); ++i) bytes[i] = 0xFF;
+    const Result<Envelope> back = decode_envelope(bytes);
+    ASSERT_FALSE(back.ok());
+    EXPECT_NE(back.error().message.find("StateRequest"), std::string::npos) << back.error().message;
+    EXPECT_NE(back.error().message.find("count"), std::string::npos) << back.error().message;
+}
+
+TEST(Codec, RefusesAnotherVersionByName) {
+    std::vector<std::uint8_t> bytes = encode(envelope_of(Alive{SimulatorId(1u)}));
+    bytes[0] = 200;
+    const Result<Envelope> back = decode_envelope(bytes);
+    ASSERT_FALSE(back.ok());
+    EXPECT_NE(back.error().message.find("wire version 200"), std::string::npos);
+}
+
+TEST(Codec, RefusesPlansWhoseIslandsDoNotCoverTheirRobots) {
+    Plan plan;
+    plan.island_offsets = {0, 2, 1};
+    plan.robots = {kRobot};
+    EXPECT_FALSE(decode_envelope(encode(envelope_of(plan))).ok());
+    plan.island_offsets = {0, 0, 1};
+    EXPECT_FALSE(decode_envelope(encode(envelope_of(plan))).ok());
+    plan.island_offsets = {0, 1};
+    EXPECT_TRUE(decode_envelope(encode(envelope_of(plan))).ok());
+}
+
+TEST(Codec, KeepsOrders) {
+    const std::vector<std::uint8_t> bytes = encode_orders(some_orders());
+    const auto back = decode_orders(bytes);
+    ASSERT_TRUE(back.ok());
+    EXPECT_EQ(encode_orders(back.value()), bytes);
+    EXPECT_FALSE(decode_orders(std::span(bytes).first(bytes.size() - 1)).ok());
+}
+
+}  // namespace
+}  // namespace roboss
