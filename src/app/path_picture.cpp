@@ -31,6 +31,17 @@ struct Point {
     double x = 0, y = 0;
 };
 
+const char* colour_of(std::size_t path) {
+    return kPathColours[path % std::size(kPathColours)];
+}
+
+/// Without points that are nowhere.
+std::vector<RobotPath> finite_paths(const std::vector<RobotPath>& paths) {
+    std::vector<RobotPath> finite = paths;
+    for (RobotPath& path : finite) std::erase_if(path.points_W, [](const Vec3& p) { return !is_finite(p); });
+    return finite;
+}
+
 std::string escaped(const std::string& text) {
     std::string out;
     for (char c : text) {
@@ -124,7 +135,7 @@ double length_of(const RobotPath& path) {
 class Picture {
   public:
     Picture(const Model& model, const std::vector<RobotPath>& paths, const PictureOptions& options)
-        : paths_(paths), options_(options) {
+        : paths_(finite_paths(paths)), options_(options) {
         for (const StaticShape& fixed : model.statics)
             if (fixed.shape.kind != ShapeKind::kPlane)
                 shapes_.push_back(
@@ -157,7 +168,7 @@ class Picture {
     double px(double x) const { return kMargin + (x - left_) * scale_; }
     double py(double y) const { return kHeader + (top_ - y) * scale_; }
 
-    const std::vector<RobotPath>& paths_;
+    const std::vector<RobotPath> paths_;
     const PictureOptions& options_;
     std::vector<Drawn> shapes_;
     double left_ = 0, top_ = 0, scale_ = 1, map_width_ = 0, map_height_ = 0;
@@ -169,8 +180,7 @@ void Picture::frame_everything() {
     for (const Drawn& shape : shapes_)
         for (const Point& p : shape.outline) all.include(Vec3{p.x, p.y, 0});
     for (const RobotPath& path : paths_)
-        for (const Vec3& p : path.points_W)
-            if (is_finite(p)) all.include(Vec3{p.x, p.y, 0});
+        for (const Vec3& p : path.points_W) all.include(Vec3{p.x, p.y, 0});
     if (all.empty()) all.include(Vec3{0, 0, 0});
     const double pad = 0.01 * std::fmax(all.max.x - all.min.x, all.max.y - all.min.y) + 0.5;
     all = all.inflated(pad);
@@ -189,7 +199,7 @@ void Picture::begin() {
         options_.width_px, height);
     add(text_, "<rect width=\"100%\" height=\"100%\" fill=\"#fbfaf7\"/>\n");
     add(text_,
-        "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" rx=\"6\" fill=\"#efede8\"/>\n",
+        "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" rx=\"6\" fill=\"#f1efea\"/>\n",
         kMargin, kHeader, map_width_, map_height_);
 }
 
@@ -209,8 +219,8 @@ void Picture::paint_shapes() {
     add(text_, "</g>\n<g stroke=\"#ffffff\" stroke-width=\"0.8\" stroke-linejoin=\"round\">\n");
     for (const Drawn& shape : shapes_) {
         const bool low = shape.top < 1.0;
-        const int shade = 205 - static_cast<int>(std::fmin(std::fmax(shape.top - 1.0, 0.0), 6.0) * 6.0);
-        const std::string fill = low ? "#8d99a6" : fmt::format("rgb({},{},{})", shade, shade - 4, shade - 12);
+        const int shade = 198 - static_cast<int>(std::fmin(std::fmax(shape.top - 1.0, 0.0), 6.0) * 6.0);
+        const std::string fill = low ? "#93a0ad" : fmt::format("rgb({},{},{})", shade, shade - 4, shade - 12);
         add(text_, "<polygon points=\"{}\" fill=\"{}\"><title>{}</title></polygon>\n",
             polygon(shape.outline, 0), fill, escaped(*shape.name));
     }
@@ -223,7 +233,6 @@ std::string Picture::polyline(const RobotPath& path) const {
     Point last{-1e9, -1e9};
     for (std::size_t i = 0; i < path.points_W.size(); ++i) {
         const Vec3& p = path.points_W[i];
-        if (!is_finite(p)) continue;
         const Point here{px(p.x), py(p.y)};
         const bool end = i + 1 == path.points_W.size();
         if (!end && std::fabs(here.x - last.x) + std::fabs(here.y - last.y) < 0.33) continue;
@@ -233,25 +242,30 @@ std::string Picture::polyline(const RobotPath& path) const {
     return fmt::to_string(points);
 }
 
+/// Each path has a pale edge, so that where two cross one sees which is which.
 void Picture::paint_paths() {
-    const double width = std::clamp(0.11 * scale_, 0.7, 2.4);
-    add(text_,
-        "<g fill=\"none\" stroke-width=\"{:.2f}\" stroke-linejoin=\"round\" stroke-linecap=\"round\" "
-        "stroke-opacity=\"0.8\">\n",
-        width);
+    const double width = std::clamp(0.12 * scale_, 0.7, 2.4);
+    add(text_, "<defs>\n");
     for (std::size_t i = 0; i < paths_.size(); ++i)
-        add(text_, "<polyline stroke=\"{}\" points=\"{}\"><title>{}: {:.1f} m</title></polyline>\n",
-            kPathColours[i % std::size(kPathColours)], polyline(paths_[i]), escaped(paths_[i].robot),
-            length_of(paths_[i]));
+        add(text_, "<polyline id=\"path{}\" points=\"{}\"/>\n", i, polyline(paths_[i]));
+    add(text_, "</defs>\n<g fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n");
+    for (std::size_t i = 0; i < paths_.size(); ++i) {
+        add(text_,
+            "<use href=\"#path{}\" stroke=\"#fbfaf7\" stroke-opacity=\"0.55\" stroke-width=\"{:.2f}\"/>", i,
+            2.2 * width);
+        add(text_,
+            "<use href=\"#path{}\" stroke=\"{}\" stroke-opacity=\"0.9\" stroke-width=\"{:.2f}\"><title>{}: "
+            "{:.1f} m</title></use>\n",
+            i, colour_of(i), width, escaped(paths_[i].robot), length_of(paths_[i]));
+    }
     add(text_, "</g>\n<g stroke-width=\"{:.2f}\">\n", 0.7 * width);
     for (std::size_t i = 0; i < paths_.size(); ++i) {
         if (paths_[i].points_W.empty()) continue;
-        const char* colour = kPathColours[i % std::size(kPathColours)];
         const Vec3 &first = paths_[i].points_W.front(), &last = paths_[i].points_W.back();
         add(text_, "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" fill=\"#fbfaf7\" stroke=\"{}\"/>",
-            px(first.x), py(first.y), 1.4 * width, colour);
+            px(first.x), py(first.y), 1.4 * width, colour_of(i));
         add(text_, "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" fill=\"{}\" stroke=\"#ffffff\"/>\n",
-            px(last.x), py(last.y), 2.1 * width, colour);
+            px(last.x), py(last.y), 2.1 * width, colour_of(i));
     }
     add(text_, "</g>\n");
 }

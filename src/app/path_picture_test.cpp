@@ -65,6 +65,14 @@ TEST(PathPicture, NothingToShowIsStillAPicture) {
     EXPECT_NE(svg.find("</svg>"), std::string::npos);
 }
 
+TEST(PathPicture, PlacesThatAreNoNumbersAreLeftOut) {
+    const double nowhere = std::numeric_limits<double>::quiet_NaN();
+    const std::string svg =
+        path_picture({}, {{"lost", {{nowhere, 0, 0}, {0, 0, 0}, {3, 4, 0}, {nowhere, 0, 0}}}}, {"", "", 800});
+    EXPECT_EQ(svg.find("nan"), std::string::npos);
+    EXPECT_NE(svg.find("lost: 5.0 m"), std::string::npos);
+}
+
 TEST(PathPicture, AFolderThatDoesNotExistIsSaidSo) {
     const Result<> result = write_path_picture("/no/such/folder/picture.svg", {}, {}, {});
     ASSERT_FALSE(result.ok());
