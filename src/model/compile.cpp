@@ -1,4 +1,5 @@
 // compile(World) -> Model: types once, robots placed, static scenery flattened and put into its BVH, everything hashed.
+#include <algorithm>
 #include <map>
 #include <span>
 
@@ -14,14 +15,22 @@ struct CompiledPrototype {
     std::vector<TypeId> types;
 };
 
-void add_statics(const ModelSpec& spec, const ModelInstance& instance, Model& model) {
-    for (const LinkSpec& link : spec.links) {
+bool has_sensors(const ModelSpec& spec) {
+    return std::any_of(spec.links.begin(), spec.links.end(), [](const LinkSpec& link) { return !link.sensors.empty(); });
+}
+
+/// Shapes of a static model; `owner`: the robot that carries its sensors, if any.
+void add_statics(const ModelSpec& spec, const ModelInstance& instance, RobotId owner, Model& model) {
+    for (std::size_t l = 0; l < spec.links.size(); ++l) {
+        const LinkSpec& link = spec.links[l];
         for (const CollisionSpec& collision : link.collisions) {
             StaticShape shape;
             if (!to_shape(collision.geometry, shape.shape)) continue;
             shape.X_WS = to_transform(instance.X_WM * link.X_ML * collision.X_LS);
             shape.material = to_material(collision.surface);
             shape.name = instance.name + "::" + link.name + "::" + collision.name;
+            shape.robot = owner;
+            if (owner.valid()) shape.link = LinkId(l);
             model.statics.push_back(shape);
         }
     }
@@ -39,8 +48,11 @@ std::vector<CompiledPrototype> compile_prototypes(const World& world, Model& mod
     std::map<std::uint64_t, TypeId> known;
     for (std::size_t p = 0; p < world.prototypes.size(); ++p) {
         const ModelSpec& spec = world.prototypes[p];
-        if (spec.is_static) continue;
-        prototypes[p].parts = compile_parts(spec, diagnostics);
+        if (!spec.is_static) {
+            prototypes[p].parts = compile_parts(spec, diagnostics);
+        } else if (has_sensors(spec)) {
+            prototypes[p].parts = {{sensor_stand(spec), "", Pose{}}};
+        }
         for (const CompiledPart& part : prototypes[p].parts)
             prototypes[p].types.push_back(intern_type(part.type, model, known));
     }
@@ -103,11 +115,8 @@ std::shared_ptr<const Model> compile(const World& world, const CompileOptions& o
     for (std::size_t i = 0; i < world.instances.size(); ++i) {
         const ModelInstance& instance = world.instances[i];
         const ModelSpec& spec = world.prototypes[instance.prototype];
-        if (spec.is_static) {
-            add_statics(spec, instance, *model);
-            continue;
-        }
         const CompiledPrototype& prototype = prototypes[instance.prototype];
+        if (spec.is_static) add_statics(spec, instance, prototype.parts.empty() ? RobotId() : RobotId(model->robots.size()), *model);
         for (std::size_t p = 0; p < prototype.parts.size(); ++p) {
             const CompiledPart& part = prototype.parts[p];
             model->robots.push_back({instance.name + part.suffix, prototype.types[p], instance.X_WM * part.X_MR,

@@ -357,6 +357,21 @@ Material to_material(const SurfaceSpec& surface) {
     return material;
 }
 
+RobotType sensor_stand(const ModelSpec& spec) {
+    RobotType type;
+    type.name = spec.name;
+    type.free_base = false;
+    type.is_static = true;
+    for (const LinkSpec& link : spec.links) {
+        const LinkId id(type.links.size());
+        const Transform X_BL = to_transform(link.X_ML);
+        type.links.push_back({link.name, -1, X_BL, X_BL * link.p_LC});
+        for (const SensorSpec& sensor : link.sensors) type.sensors.push_back({sensor, id});
+    }
+    type.hash = type_hash(type);
+    return type;
+}
+
 std::vector<CompiledPart> compile_parts(const ModelSpec& spec, Diagnostics& diagnostics) {
     const Graph graph = build_graph(spec);
     std::vector<char> seen(spec.links.size(), 0);

@@ -17,6 +17,9 @@ struct CompiledPart {
 
 std::vector<CompiledPart> compile_parts(const ModelSpec& spec, Diagnostics& diagnostics);
 
+/// The links and sensors of a static model as a type with a fixed base, without shapes: its shapes are scenery.
+RobotType sensor_stand(const ModelSpec& spec);
+
 /// A collision element as a Shape; false if its geometry takes no part in the physics yet.
 bool to_shape(const GeometrySpec& geometry, Shape& shape);
 Material to_material(const SurfaceSpec& surface);

@@ -92,6 +92,7 @@ struct SensorInfo {
 struct RobotType {
     std::string name;
     bool free_base = true;
+    bool is_static = false;  // a static model that carries sensors: no order moves it
     bool self_collide = false;
     Transform X_RB;  // free base: body 0's frame in the robot (SDF model) frame at the start; fixed base: identity
     std::vector<Body> bodies;
@@ -114,6 +115,7 @@ struct RobotType {
     std::optional<std::size_t> find_sensor(const std::string& name) const;
 };
 
+/// Something with a state of its own. A static model that carries sensors is one too, fixed and without shapes (these are scenery).
 struct Robot {
     std::string name;
     TypeId type;
@@ -126,6 +128,8 @@ struct StaticShape {
     Transform X_WS;
     Material material;
     std::string name;  // "model::link::collision"
+    RobotId robot;     // of the sensors that its own link carries, if any (they do not see it)
+    LinkId link;
 };
 
 /// What the user may trade for speed; part of the Model, so part of its hash.

@@ -22,6 +22,7 @@ struct Check {
 
     Result<> operator()(const SetPose& a) const {
         if (!is_finite(a.X_WR)) return Error{"set_pose of " + called(model, order) + " is not finite", kFiniteRemedy};
+        if (type.is_static) return Error{"set_pose: " + called(model, order) + " is static", "make the model movable (<static>false)"};
         const Quat& q = a.X_WR.q;
         const double n = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
         if (std::fabs(n - 1.0) > 1e-6)

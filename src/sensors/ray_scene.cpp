@@ -19,7 +19,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 struct Item {
     Shape shape;
     Transform X_WS;
-    RobotId robot;  // none: scenery
+    RobotId robot;  // that it belongs to, if any
     LinkId link;
 };
 
@@ -89,7 +89,7 @@ double RayScene::Impl::nearest(const Ray& ray) const {
 RayScene::RayScene(std::shared_ptr<const Model> model) : impl_(std::make_unique<Impl>(std::move(model))) {
     const ExactFloatScope exact;
     for (const StaticShape& fixed : impl_->model->statics) {
-        const Item item{fixed.shape, fixed.X_WS, {}, {}};
+        const Item item{fixed.shape, fixed.X_WS, fixed.robot, fixed.link};
         if (fixed.shape.kind == ShapeKind::kPlane) {
             impl_->static_planes.push_back(item);
         } else {
