@@ -123,6 +123,25 @@ void merge(ClippedFace& out, const ClippedPoint& point, double tolerance) {
     if (out.count < 8) out.points[static_cast<std::size_t>(out.count++)] = point;
 }
 
+/// Drops crossings that lie on the straight line between their neighbours: two edges that almost coincide
+/// cross wherever rounding says, and the points beside carry the same support.
+void remove_straight(ClippedFace& face, double tolerance) {
+    const auto at = [&](int i) -> ClippedPoint& { return face.points[static_cast<std::size_t>(i)]; };
+    for (int i = 0; i < face.count && face.count > 2;) {
+        const ClippedPoint &p = at(i), &a = at(i == 0 ? face.count - 1 : i - 1),
+                           &b = at(i + 1 == face.count ? 0 : i + 1);
+        const double dx = b.x - a.x, dy = b.y - a.y;
+        const double across = dx * (p.y - a.y) - dy * (p.x - a.x);
+        const bool is_crossing = p.part != kFacePart && p.reference_part != kFacePart;
+        if (!is_crossing || across * across > tolerance * tolerance * (dx * dx + dy * dy)) {
+            ++i;
+            continue;
+        }
+        for (int k = i; k + 1 < face.count; ++k) at(k) = at(k + 1);
+        --face.count;
+    }
+}
+
 }  // namespace
 
 BoxFace::BoxFace(const Posed& box, std::size_t axis, bool upper) : k(axis), side(upper ? 1 : 0) {
@@ -199,6 +218,7 @@ ClippedFace clip_exactly(const BoxFace& reference, const BoxFace& incident, doub
               name_point(reference, incident, incident_at, reference_at, line_before, polygon[i], tolerance),
               tolerance);
     }
+    remove_straight(out, tolerance);
     return out;
 }
 

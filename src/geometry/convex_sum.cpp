@@ -218,7 +218,14 @@ Separation ConvexSum::polished(const Separation& start) const {
         for (std::size_t j = i + 1; j < count; ++j) consider_flat(cross(edges[i], edges[j]));
     }
     for (std::size_t i = 0; i < disc_count_; ++i) {
-        if (norm(radial_part(n0, discs_[i].axis)) < kNear) consider_flat(discs_[i].axis);
+        const Vec3& axis = discs_[i].axis;
+        if (norm(radial_part(n0, axis)) >= kNear) continue;
+        // A cap is a kink too; the gap rises beside it, if at all, towards the centre's place beyond the rim.
+        const Vec3 n = dot(axis, n0) < 0.0 ? -axis : axis;
+        const Vec3 aside = radial_part(centre_ - support(n), axis);
+        const double length = norm(aside);
+        if (length > discs_[i].radius) climb_beside(n, aside / length, nullptr, best);
+        consider_flat(axis);
     }
     return best;
 }

@@ -198,7 +198,8 @@ void add_disc(const FaceRegion& face, const Posed& cylinder, double tolerance, C
     for (std::uint32_t i = 0; i < 4; ++i) {
         const double alpha = i == 0 ? 1.0 : i == 2 ? -1.0 : 0.0, beta = i == 1 ? 1.0 : i == 3 ? -1.0 : 0.0;
         const Vec3 p = disc.at(alpha, beta);
-        if (face.clearance(p.x, p.y) < -tolerance) continue;
+        if (face.clearance(p.x, p.y) < (face.round ? -tolerance : 0.0))
+            continue;  // equal discs keep their points
         out.add(point(p, kRimPoint + 4 * end + i, kFacePart));
         ++inside_count;
     }
