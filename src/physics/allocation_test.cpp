@@ -1,0 +1,89 @@
+// A step allocates nothing once its buffers have grown: operator new of this program is counted, then the
+// same scene runs again.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include <support/scenes.h>
+
+namespace {
+std::size_t allocations = 0;  // this program has one thread
+}
+
+// NOLINTBEGIN: replacements of the global operators; inlined, g++ would take malloc and delete for a mismatch
+[[gnu::noinline]] void* operator new(std::size_t size) {
+    ++allocations;
+    if (void* p = std::malloc(size > 0 ? size : 1)) return p;
+    throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* p) noexcept {
+    std::free(p);
+}
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept {
+    std::free(p);
+}
+// NOLINTEND
+
+namespace roboss::test {
+namespace {
+
+/// Runs the scene once to warm up, again from its start (states keep their capacity), and counts the second
+/// run.
+std::size_t allocations_of(Simulation& sim, int ticks) {
+    const std::vector<RobotState> start = sim.states;
+    for (int i = 0; i < ticks; ++i) sim.step();
+    for (std::size_t r = 0; r < start.size(); ++r) sim.states[r] = start[r];
+    sim.tick = 0;
+    const std::size_t before = allocations;
+    for (int i = 0; i < ticks; ++i) sim.step();
+    return allocations - before;
+}
+
+TEST(Allocation, TheCounterCounts) {
+    const std::size_t before = allocations;
+    const auto number = std::make_unique<int>(7);
+    EXPECT_EQ(allocations, before + 1) << *number;
+}
+
+TEST(Allocation, CarsOnAPlaneAllocateNothing) {
+    World world = empty_world(2e-3);
+    place(world, ground(surface(0.9)), "ground");
+    place(world, car(), "car_0");
+    for (int i = 1; i < 20; ++i)
+        world.instances.push_back({"car_" + std::to_string(i), 1, {{2.0 * i, 0, 0}, {}}, {}});
+    Simulation sim(world);
+    for (std::size_t r = 0; r < sim.states.size(); ++r)
+        for (std::size_t d = 0; d < 4; ++d) sim.set_motor(r, d, MotorMode::kVelocity, d % 2 == 0 ? 4 : 10);
+    EXPECT_EQ(allocations_of(sim, 500), 0u);
+}
+
+TEST(Allocation, StackOfTenAllocatesNothing) {
+    World world = empty_world(2e-3);
+    place(world, ground(surface(0.6)), "ground");
+    place(world, solid_box(1.0, {0.2, 0.2, 0.2}, surface(0.6)), "box_0", {{0, 0, 0.1}, {}});
+    for (int i = 1; i < 10; ++i)
+        world.instances.push_back({"box_" + std::to_string(i), 1, {{0, 0, 0.1 + 0.2 * i}, {}}, {}});
+    Simulation sim(world);
+    EXPECT_EQ(allocations_of(sim, 300), 0u);
+}
+
+TEST(Allocation, CollidingHeapAllocatesNothing) {
+    Simulation sim(random_crowd(23, 30));
+    stir(sim, 23);
+    EXPECT_EQ(allocations_of(sim, 150), 0u);
+}
+
+TEST(Allocation, FreeFlightAndMotorsInTheAirAllocateNothing) {
+    World world = empty_world(1e-3);
+    place(world, spider(), "spider");
+    place(world, ball_chain(), "chain");
+    place(world, arm(), "arm", {{5, 0, 0}, {}});
+    Simulation sim(world);
+    sim.set_motor(2, 0, MotorMode::kPosition, 0.5);
+    sim.states[0].wrenches.push_back({LinkId(std::size_t{0}), {1, 2, 3}, {}, 50});
+    EXPECT_EQ(allocations_of(sim, 200), 0u);
+}
+
+}  // namespace
+}  // namespace roboss::test

@@ -1,0 +1,265 @@
+// The product's heart: a robot's bits depend on the model, its state and its orders, never on who shares the
+// call, on what the scratch did before, on the caller's floating-point flags, or on a trip through bytes.
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include <support/scenes.h>
+
+#if defined(__x86_64__)
+#include <xmmintrin.h>
+#endif
+
+namespace roboss::test {
+namespace {
+
+void expect_same_bits(const RobotState& a, const RobotState& b, const std::string& where) {
+    std::vector<std::uint8_t> x, y;
+    encode(a, x);
+    encode(b, y);
+    ASSERT_EQ(x, y) << where;
+}
+
+/// Two heaps and two cars, far apart, in one world.
+World two_places() {
+    World world = empty_world(2e-3);
+    place(world, ground(surface(0.7)), "ground");
+    const std::size_t box = world.prototypes.size();
+    world.prototypes.push_back(solid_box(1.0, {0.2, 0.2, 0.2}, surface(0.6, 0.2)));
+    world.prototypes.push_back(car());
+    for (int i = 0; i < 8; ++i) {
+        const double x = i % 2 == 0 ? 0 : 50;  // ids alternate between the places
+        world.instances.push_back(
+            {"box_" + std::to_string(i), box, {{x + 0.05 * i, 0.02 * i, 0.12 + 0.12 * i}, {}}, {}});
+    }
+    world.instances.push_back({"car_a", box + 1, {{0.5, 0, 0}, {}}, {}});
+    world.instances.push_back({"car_b", box + 1, {{50.5, 0, 0}, {}}, {}});
+    return world;
+}
+
+std::vector<std::size_t> robots_near(const Simulation& sim, double x) {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < sim.states.size(); ++i)
+        if (std::fabs(sim.states[i].q[0] - x) < 20) found.push_back(i);
+    return found;
+}
+
+void step_members(Simulation& sim, const std::vector<std::size_t>& members, StepScratch& scratch) {
+    std::vector<RobotId> ids;
+    std::vector<RobotState*> states;
+    std::vector<Aabb> bounds(members.size());
+    for (std::size_t m : members) ids.push_back(sim.ids[m]), states.push_back(&sim.states[m]);
+    step_island(*sim.model, sim.tick, ids, states, {}, bounds, scratch);
+}
+
+TEST(Invariance, IslandsApartAndTogetherGiveTheSameBits) {
+    const World world = two_places();
+    Simulation together(world), apart(world);
+    stir(together, 1);
+    stir(apart, 1);
+    const std::vector<std::size_t> here = robots_near(apart, 0), there = robots_near(apart, 50);
+    ASSERT_EQ(here.size(), 5u);
+    ASSERT_EQ(there.size(), 5u);
+    StepScratch first, second;
+    int contacts = 0;
+    for (int i = 0; i < 600; ++i) {
+        contacts += together.step().contacts;
+        step_members(apart, there, second);  // the order of the islands must not matter either
+        step_members(apart, here, first);
+        ++apart.tick;
+        ASSERT_EQ(together.hash(), apart.hash()) << "tick " << i;
+    }
+    EXPECT_GT(contacts, 10000);
+}
+
+TEST(Invariance, FarAwayRobotsChangeNoBit) {
+    const World small = random_crowd(5, 6);
+    World large = small;
+    for (int i = 0; i < 20; ++i)
+        large.instances.push_back({"far_" + std::to_string(i),
+                                   2 + static_cast<std::size_t>(i % 5),
+                                   {{100.0 + 0.15 * i, 0, 0.3}, {}},
+                                   {}});
+    Simulation a(small), b(large);
+    stir(a, 9);
+    stir(b, 9);
+    for (int i = 0; i < 300; ++i) {
+        a.step();
+        b.step();
+        for (std::size_t r = 0; r < a.states.size(); ++r)
+            ASSERT_NO_FATAL_FAILURE(expect_same_bits(a.states[r], b.states[r], "robot " + std::to_string(r)));
+    }
+}
+
+TEST(Invariance, ScratchRemembersNothing) {
+    const World world = random_crowd(7, 10);
+    Simulation fresh(world), used(world);
+    Simulation other(two_places());
+    World arms = empty_world(1e-3);
+    place(arms, spider(), "spider", {{0, 0, 1}, {}});
+    place(arms, ball_chain(), "chain");
+    Simulation smooth(arms);
+    stir(fresh, 2);
+    stir(used, 2);
+    StepScratch scratch;
+    for (int i = 0; i < 200; ++i) {
+        fresh.scratch = StepScratch();
+        fresh.step();
+        std::swap(used.scratch, scratch);  // one scratch serves three worlds in turn
+        used.step();
+        std::swap(used.scratch, scratch);
+        for (Simulation* sim : {&other, &smooth}) {
+            std::swap(sim->scratch, scratch);
+            sim->step();
+            std::swap(sim->scratch, scratch);
+        }
+        ASSERT_EQ(fresh.hash(), used.hash()) << "tick " << i;
+    }
+}
+
+TEST(Invariance, GroupingByInteractionBoundsEqualsOneIslandInFiveHundredScenes) {
+    std::size_t islands = 0, robot_ticks = 0, contacts = 0, ticks = 0, unsolved = 0;
+    double worst = 0;
+    int most = 0;
+    GroupedStepper stepper;  // one scratch over all scenes
+    for (std::uint64_t seed = 0; seed < 500; ++seed) {
+        const World world = random_crowd(seed, 2 + static_cast<int>(seed % 9));
+        Simulation whole(world), grouped(world);
+        stir(whole, seed);
+        stir(grouped, seed);
+        for (int i = 0; i < 40; ++i) {
+            contacts += static_cast<std::size_t>(whole.step().contacts);
+            islands += stepper.step(grouped);
+            robot_ticks += whole.states.size();
+            ASSERT_EQ(whole.hash(), grouped.hash()) << "seed " << seed << ", tick " << i;
+            ASSERT_FALSE(whole.report.not_finite.valid()) << "seed " << seed << ", tick " << i;
+            unsolved += whole.report.residual > whole.model->accuracy.tolerance ? 1 : 0;
+            ++ticks;
+            worst = std::fmax(worst, whole.report.residual);
+            most = std::max(most, whole.report.iterations);
+        }
+    }
+    tell("share of ticks that miss the solver's tolerance",
+         static_cast<double>(unsolved) / static_cast<double>(ticks));
+    tell("worst residual", worst);
+    tell("most Newton iterations of a tick", most);
+    tell("robots an island", static_cast<double>(robot_ticks) / static_cast<double>(islands));
+    EXPECT_GT(contacts, robot_ticks / 2) << "the scenes do collide";
+    EXPECT_GT(robot_ticks, islands + islands / 20) << "islands of several robots do occur";
+}
+
+TEST(Invariance, BoundsOfTheStepAreInteractionBounds) {
+    Simulation sim(random_crowd(3, 10));
+    stir(sim, 3);
+    for (int i = 0; i < 100; ++i) {
+        std::vector<Aabb> expected;
+        for (std::size_t r = 0; r < sim.states.size(); ++r)
+            expected.push_back(interaction_bound(*sim.model, sim.ids[r], sim.states[r]));
+        sim.step();
+        for (std::size_t r = 0; r < sim.states.size(); ++r) {
+            EXPECT_EQ(expected[r].min, sim.bounds[r].min);
+            EXPECT_EQ(expected[r].max, sim.bounds[r].max);
+        }
+    }
+}
+
+TEST(Invariance, StateThroughBytesContinuesWithTheSameBits) {
+    const World world = random_crowd(11, 10);
+    Simulation a(world), b(world);
+    stir(a, 11);
+    stir(b, 11);
+    a.states[0].wrenches.push_back({LinkId(std::size_t{0}), {1, 2, 3}, {0.1, 0, 0}, 150});
+    b.states[0].wrenches = a.states[0].wrenches;
+    for (int i = 0; i < 300; ++i) {
+        a.step();
+        b.step();
+        for (std::size_t r = 0; r < b.states.size(); ++r) {
+            std::vector<std::uint8_t> bytes;
+            encode(b.states[r], bytes);
+            Result<RobotState> decoded = decode_state(bytes, b.type(r));
+            ASSERT_TRUE(decoded.ok()) << decoded.error().text();
+            b.states[r] = std::move(decoded).value();
+        }
+        ASSERT_EQ(a.hash(), b.hash()) << "tick " << i;
+    }
+}
+
+#if defined(__x86_64__)
+TEST(Invariance, FlushToZeroAndRoundingOfTheCallerChangeNoBit) {
+    const World world = random_crowd(13, 10);
+    Simulation plain(world), flushed(world);
+    stir(plain, 13);
+    stir(flushed, 13);
+    for (Simulation* sim : {&plain, &flushed}) {  // numbers that flush-to-zero would eat
+        sim->states[0].v[0] = sim->states[0].v[1] = 3e-310;
+        sim->states[0].q[0] = 1e-309;
+    }
+    const unsigned before = _mm_getcsr();
+    for (int i = 0; i < 200; ++i) {
+        plain.step();
+        _mm_setcsr(before | 0x8040u | 0x6000u);  // flush to zero, denormals are zero, round towards zero
+        const Aabb bound = interaction_bound(*flushed.model, flushed.ids[0], flushed.states[0]);
+        flushed.step();
+        const unsigned after = _mm_getcsr();
+        _mm_setcsr(before);
+        ASSERT_EQ(after & 0xE040u, 0xE040u) << "the caller's flags come back";
+        ASSERT_EQ(bound.min, flushed.bounds[0].min);
+        ASSERT_EQ(bound.max, flushed.bounds[0].max);
+        ASSERT_EQ(plain.hash(), flushed.hash()) << "tick " << i;
+    }
+}
+#endif
+
+/// Flips every bit of a number in turn and expects another hash each time.
+template <class Number>
+void expect_every_bit_counts(const RobotState& state, Number& number) {
+    using Bits = std::conditional_t<sizeof(Number) == 8, std::uint64_t, std::uint32_t>;
+    const RobotId id(std::size_t{0});
+    const Bits original = std::bit_cast<Bits>(number);
+    const std::uint64_t hash = state_hash(id, 5, state);
+    for (unsigned bit = 0; bit < 8 * sizeof(Number); ++bit) {
+        number = std::bit_cast<Number>(original ^ Bits{1} << bit);
+        EXPECT_NE(state_hash(id, 5, state), hash) << "bit " << bit;
+    }
+    number = std::bit_cast<Number>(original);
+}
+
+TEST(StateHash, ChangesWithEveryBitOfTheState) {
+    Simulation sim(random_crowd(17, 8));
+    stir(sim, 17);
+    sim.run(0.5);
+    for (RobotState& state : sim.states) {
+        state.wrenches.push_back({LinkId(std::size_t{0}), {1, 2, 3}, {4, 5, 6}, 1000});
+        for (double& x : state.q) expect_every_bit_counts(state, x);
+        for (double& x : state.v) expect_every_bit_counts(state, x);
+        for (MotorSetpoint& m : state.motors) {
+            expect_every_bit_counts(state, m.mode);
+            expect_every_bit_counts(state, m.target);
+            expect_every_bit_counts(state, m.max_effort);
+        }
+        TimedWrench& w = state.wrenches[0];
+        for (double* x : {&w.force.x, &w.force.y, &w.force.z, &w.torque.x, &w.torque.y, &w.torque.z})
+            expect_every_bit_counts(state, *x);
+        expect_every_bit_counts(state, w.until);
+        expect_every_bit_counts(state, w.link.value);
+        for (ContactMemory& c : state.contacts) {
+            for (std::uint32_t* x : {&c.other_robot, &c.shape, &c.other_shape, &c.feature})
+                expect_every_bit_counts(state, *x);
+            expect_every_bit_counts(state, c.impulse);
+        }
+    }
+}
+
+TEST(StateHash, ChangesWithTickRobotAndLength) {
+    Simulation sim(random_crowd(17, 4));
+    const RobotState& state = sim.states[0];
+    const std::uint64_t hash = state_hash(sim.ids[0], 5, state);
+    EXPECT_NE(state_hash(sim.ids[0], 6, state), hash);
+    EXPECT_NE(state_hash(sim.ids[1], 5, state), hash);
+    RobotState longer = state;
+    longer.wrenches.emplace_back();
+    EXPECT_NE(state_hash(sim.ids[0], 5, longer), hash);
+}
+
+}  // namespace
+}  // namespace roboss::test
