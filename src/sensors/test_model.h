@@ -30,7 +30,7 @@ inline RobotType cart_type() {
     axle.joint = JointId(std::size_t{1});
     type.dofs = {axle};
     type.dof_parent = {-1, 0, 1, 2, 3, 4, 5};
-    type.links = {{"cart", 0, {}}, {"mast", 0, {}}, {"wheel", 1, {}}};
+    type.links = {{"cart", 0, {}, {}}, {"mast", 0, {}, {}}, {"wheel", 1, {}, {}}};
     type.links[1].X_BL.p = {0, 0, 1};
     type.joints = {{"mast_joint", JointSpecKind::kFixed, -1, -1, -1, 0},
                    {"axle", JointSpecKind::kRevolute, 1, 7, 6, 1}};
@@ -50,7 +50,7 @@ inline void add_sensor(RobotType& type, std::size_t link, const SensorSpec& spec
 }
 
 inline void add_static(Model& model, const Shape& shape, const Transform& X_WS) {
-    model.statics.push_back({shape, X_WS, {}, "scenery"});
+    model.statics.push_back({shape, X_WS, {}, "scenery", {}, {}});
 }
 
 /// The model with `count` robots of this type.
