@@ -194,12 +194,13 @@ void add_disc(const FaceRegion& face, const Posed& cylinder, double tolerance, C
     const std::array<Vec3, 4> radial = rim_directions(cylinder, face.n);
     const Span disc{face.local(cylinder.X.p + u * (upper ? l : -l)), face.local_vector(radial[0]) * r,
                     face.local_vector(radial[1]) * r};
+    // Stacked cans of one size: rounding must not take points off the common rim.
+    const double border = face.round && std::fabs(dot(u, face.n)) > 0.9998 ? tolerance : 0.0;
     int inside_count = 0;
     for (std::uint32_t i = 0; i < 4; ++i) {
         const double alpha = i == 0 ? 1.0 : i == 2 ? -1.0 : 0.0, beta = i == 1 ? 1.0 : i == 3 ? -1.0 : 0.0;
         const Vec3 p = disc.at(alpha, beta);
-        if (face.clearance(p.x, p.y) < (face.round ? -tolerance : 0.0))
-            continue;  // equal discs keep their points
+        if (face.clearance(p.x, p.y) < -border) continue;
         out.add(point(p, kRimPoint + 4 * end + i, kFacePart));
         ++inside_count;
     }
