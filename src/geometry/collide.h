@@ -12,7 +12,7 @@ namespace roboss {
 struct ContactPoint {
     Vec3 p_W;              // midway between the two surfaces, m
     double gap = 0;        // signed distance along the normal, negative: penetration, m
-    std::uint32_t feature = 0;  // names the same point on the same pair from tick to tick
+    std::uint32_t feature = 0;  // names the same point on the same pair from tick to tick; < 65536
 };
 
 struct Manifold {
