@@ -1,4 +1,5 @@
-// Collision shapes, in their own frame, centred at their own origin (a plane: the half-space z <= 0 of its frame).
+// Collision shapes, in their own frame, centred at their own origin (a plane: the half-space z <= 0 of its
+// frame).
 #pragma once
 
 #include "math/aabb.h"
