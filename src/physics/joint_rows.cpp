@@ -22,6 +22,13 @@ struct DofState {
     double compliance;  // of a hard row
 };
 
+JointRow bounded_row(int dof, double target, double compliance, double low, double high, double mend) {
+    JointRow row;
+    row.dof = dof, row.target = target, row.compliance = compliance;
+    row.low = low, row.high = high, row.mend = mend;
+    return row;
+}
+
 /// Speed towards a position that the motor's force can still brake: sqrt(2 a e), with half of the force kept in hand.
 double braking_speed(const DofState& s, double error) {
     const double acceleration = 0.5 * s.motor.max_effort * s.dof.inverse_inertia;
@@ -80,8 +87,8 @@ bool add_limits(const DofState& s, int dof, std::vector<JointRow>& rows) {
     const auto mend = [&](double room) {
         return std::clamp((-room - kLimitSlop) * kLimitShare / s.dt, 0.0, kLimitSpeedMax);
     };
-    if (below < reach) rows.push_back({dof, -target(below), s.compliance, 0.0, kInfinity, mend(below)});
-    if (above < reach) rows.push_back({dof, target(above), s.compliance, -kInfinity, 0.0, -mend(above)});
+    if (below < reach) rows.push_back(bounded_row(dof, -target(below), s.compliance, 0.0, kInfinity, mend(below)));
+    if (above < reach) rows.push_back(bounded_row(dof, target(above), s.compliance, -kInfinity, 0.0, -mend(above)));
     return std::min(below, above) < -kLimitSlop;
 }
 
@@ -114,7 +121,7 @@ bool add_joint_rows(const Model& model, const RobotWork& robot, int offset, std:
         const int island_dof = offset + static_cast<int>(i);
         add_motor(s, island_dof, rows);
         if (dof.friction > 0)
-            rows.push_back({island_dof, 0.0, s.compliance, -dof.friction * model.dt_s, dof.friction * model.dt_s});
+            rows.push_back(bounded_row(island_dof, 0.0, s.compliance, -dof.friction * model.dt_s, dof.friction * model.dt_s, 0.0));
         if (body.joint != JointKind::kBall) mends |= add_limits(s, island_dof, rows);
     }
     return mends;

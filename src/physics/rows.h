@@ -12,6 +12,10 @@ struct JointRow {
     int dof = 0;  // in the contact island
     double target = 0, compliance = 1, low = 0, high = 0;
     double mend = 0;  // added to the target for the way of this tick: a violated limit is mended without speed
+    double impulse = 0;
+    double d = 0;                          // minus the derivative of the impulse by the velocity
+    double slack_low = 0, slack_high = 0;  // multipliers of the bounds (interior point), and their steps
+    double slack_low_step = 0, slack_high_step = 0;
 };
 
 /// One column of a contact's Jacobian: velocity of A against B at the point, along (normal, tangent 1, tangent 2), per unit
@@ -32,6 +36,9 @@ struct ContactRow {
     double u_n = 0, u_t1 = 0, u_t2 = 0;              // velocity at the point
     double impulse_n = 0, impulse_t1 = 0, impulse_t2 = 0;
     double du_n = 0, du_t1 = 0, du_t2 = 0;           // per unit step of the line search
+    double d_n = 0, d_11 = 0, d_12 = 0, d_22 = 0;    // minus the derivative of the impulses by the velocity
+    double slack_n = 0, slack_t = 0;                 // multipliers of the bounds (interior point), and their steps
+    double slack_n_step = 0, slack_t_step = 0;
 };
 
 /// Motors, joint friction, limits of one robot; `offset` is its first dof in the contact island. Returns true if a row has

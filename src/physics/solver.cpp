@@ -8,25 +8,10 @@
 
 namespace roboss {
 
-struct IslandSolver::Problem {
-    const Accuracy& accuracy;
-    std::span<const RobotWork* const> robots;
-    std::span<const int> offsets;
-    std::span<const JointRow> joints;
-    std::span<const ContactColumn> columns;
-    std::span<ContactRow> contacts;
-    bool position = false;
-    double impulse_scale = 0;  // largest normal impulse, N s
-};
-
 namespace {
 
-double impulse(const JointRow& row, double v) {
+double clamped_impulse(const JointRow& row, double v) {
     return std::clamp((row.target - v) / row.compliance, row.low, row.high);
-}
-
-double target(const ContactRow& row, bool position) {
-    return position ? row.position_target : row.target;
 }
 
 struct Tangential {
@@ -50,28 +35,35 @@ void IslandSolver::times_mass(const Problem& p, std::span<const double> x, std::
     }
 }
 
+/// du = J x for all contacts.
+void IslandSolver::set_contact_steps(const Problem& p, const double* x) const {
+    for (ContactRow& row : p.contacts) {
+        row.du_n = row.du_t1 = row.du_t2 = 0;
+        for (std::size_t c = row.first; c < row.last; ++c) {
+            const ContactColumn& k = p.columns[c];
+            const double xi = x[k.dof];
+            row.du_n += k.n * xi, row.du_t1 += k.t1 * xi, row.du_t2 += k.t2 * xi;
+        }
+    }
+}
+
 void IslandSolver::start(const Problem& p, std::span<const double> v) {
     n_ = v.size();
     tree_ = p.robots.size() == 1 && !p.robots[0]->touches_robot;
     for (auto* buffer : {&mv_, &g_, &step_, &m_step_}) buffer->resize(n_);
     times_mass(p, v, mv_);
-    for (ContactRow& row : p.contacts) {
-        row.u_n = row.u_t1 = row.u_t2 = 0;
-        for (std::size_t c = row.first; c < row.last; ++c) {
-            const ContactColumn& column = p.columns[c];
-            const double x = v[static_cast<std::size_t>(column.dof)];
-            row.u_n += column.n * x, row.u_t1 += column.t1 * x, row.u_t2 += column.t2 * x;
-        }
-    }
+    set_contact_steps(p, v.data());
+    for (ContactRow& row : p.contacts) row.u_n = row.du_n, row.u_t1 = row.du_t1, row.u_t2 = row.du_t2;
     if (!tree_) set_profile(p);
 }
 
 /// Impulses of all contact rows at the present velocities. With `update_bounds` the friction bounds follow the normal impulses;
 /// returns how much friction that changed, relative to the largest normal impulse.
-double IslandSolver::update_impulses(const Problem& p, std::span<const double>, bool update_bounds) {
+double IslandSolver::update_impulses(const Problem& p, std::span<const double> v, bool update_bounds) {
+    for (JointRow& row : p.joints) row.impulse = clamped_impulse(row, v[static_cast<std::size_t>(row.dof)]);
     double largest = 0, change = 0;
     for (ContactRow& row : p.contacts) {
-        row.impulse_n = std::max(0.0, (target(row, p.position) - row.u_n) / row.compliance_n);
+        row.impulse_n = std::max(0.0, (p.target(row) - row.u_n) / row.compliance_n);
         largest = std::max(largest, row.impulse_n);
         if (row.mu == 0) continue;
         if (update_bounds) {
@@ -87,11 +79,11 @@ double IslandSolver::update_impulses(const Problem& p, std::span<const double>, 
 }
 
 /// g = M v - p - J^T impulses; returns its size relative to the momenta in play, both measured in the metric of M's diagonal.
-double IslandSolver::gradient(const Problem& p, std::span<const double> v) {
+double IslandSolver::gradient(const Problem& p) {
     for (std::size_t i = 0; i < n_; ++i) step_[i] = 0;  // applied impulses, for now
     for (const JointRow& row : p.joints) {
         const auto i = static_cast<std::size_t>(row.dof);
-        step_[i] += impulse(row, v[i]);
+        step_[i] += row.impulse;
     }
     for (const ContactRow& row : p.contacts) {
         for (std::size_t c = row.first; c < row.last; ++c) {
@@ -140,7 +132,7 @@ void IslandSolver::set_profile(const Problem& p) {
     h_.resize(size);
 }
 
-void IslandSolver::assemble(const Problem& p, std::span<const double> v) {
+void IslandSolver::assemble(const Problem& p) {
     if (tree_) {
         h_.assign(p.robots[0]->mass_matrix.begin(), p.robots[0]->mass_matrix.end());
     } else {
@@ -154,32 +146,37 @@ void IslandSolver::assemble(const Problem& p, std::span<const double> v) {
                     row_of(offset + i)[offset + static_cast<std::size_t>(j)] = robot.mass_matrix[i * nv + static_cast<std::size_t>(j)];
         }
     }
-    for (const JointRow& row : p.joints) {
-        const auto i = static_cast<std::size_t>(row.dof);
-        const double raw = (row.target - v[i]) / row.compliance;
-        if (raw >= row.low && raw <= row.high) row_of(i)[i] += 1.0 / row.compliance;
-    }
+    for (const JointRow& row : p.joints) row_of(static_cast<std::size_t>(row.dof))[row.dof] += row.d;
     for (const ContactRow& row : p.contacts) add_contact(p, row);
 }
 
-/// J^T D J of one contact, D = minus the derivative of its impulses by its velocities.
-void IslandSolver::add_contact(const Problem& p, const ContactRow& row) {
-    const double d_n = row.impulse_n > 0 ? 1.0 / row.compliance_n : 0.0;
-    double d_11 = 0, d_12 = 0, d_22 = 0;
-    if (row.bound > 0) {
+/// The rows' share of the Hessian at the present velocities.
+void IslandSolver::set_curvatures(const Problem& p, std::span<const double> v) {
+    for (JointRow& row : p.joints) {
+        const double raw = (row.target - v[static_cast<std::size_t>(row.dof)]) / row.compliance;
+        row.d = raw >= row.low && raw <= row.high ? 1.0 / row.compliance : 0.0;
+    }
+    for (ContactRow& row : p.contacts) {
+        row.d_n = row.impulse_n > 0 ? 1.0 / row.compliance_n : 0.0;
+        row.d_11 = row.d_12 = row.d_22 = 0;
+        if (row.bound <= 0) continue;
         const double speed = std::sqrt(row.u_t1 * row.u_t1 + row.u_t2 * row.u_t2);
         if (speed <= row.bound * row.compliance_t) {
-            d_11 = d_22 = 1.0 / row.compliance_t;
+            row.d_11 = row.d_22 = 1.0 / row.compliance_t;
         } else {  // sliding: only turning the direction changes the impulse
             const double s = row.bound / speed, e1 = row.u_t1 / speed, e2 = row.u_t2 / speed;
-            d_11 = s * (1.0 - e1 * e1), d_12 = -s * e1 * e2, d_22 = s * (1.0 - e2 * e2);
+            row.d_11 = s * (1.0 - e1 * e1), row.d_12 = -s * e1 * e2, row.d_22 = s * (1.0 - e2 * e2);
         }
     }
-    if (d_n == 0 && d_11 == 0 && d_22 == 0) return;
+}
+
+/// J^T D J of one contact.
+void IslandSolver::add_contact(const Problem& p, const ContactRow& row) {
+    if (row.d_n == 0 && row.d_11 == 0 && row.d_22 == 0) return;
     const ContactColumn* columns = p.columns.data();
     for (std::size_t a = row.first; a < row.last; ++a) {
         const ContactColumn& x = columns[a];
-        const double n = d_n * x.n, t1 = d_11 * x.t1 + d_12 * x.t2, t2 = d_12 * x.t1 + d_22 * x.t2;
+        const double n = row.d_n * x.n, t1 = row.d_11 * x.t1 + row.d_12 * x.t2, t2 = row.d_12 * x.t1 + row.d_22 * x.t2;
         double* h = row_of(static_cast<std::size_t>(x.dof));
         // Columns of one path descend, so in a tree the lower triangle is all that follows.
         for (std::size_t b = tree_ ? a : row.first; b < row.last; ++b) {
@@ -203,7 +200,6 @@ void IslandSolver::factor_and_solve(const Problem& p) {
 
 /// Exact minimum along the step: the root of the derivative, which is monotone; nearly always 1 is good enough.
 double IslandSolver::line_search(const Problem& p, std::span<const double> v) {
-    times_mass(p, step_, m_step_);
     double slope0 = 0, quadratic = 0;  // of the smooth part
     for (std::size_t r = 0; r < p.robots.size(); ++r) {
         for (std::size_t k = 0; k < static_cast<std::size_t>(p.robots[r]->type->nv); ++k) {
@@ -212,24 +208,16 @@ double IslandSolver::line_search(const Problem& p, std::span<const double> v) {
             quadratic += step_[i] * m_step_[i];
         }
     }
-    for (ContactRow& row : p.contacts) {
-        row.du_n = row.du_t1 = row.du_t2 = 0;
-        for (std::size_t c = row.first; c < row.last; ++c) {
-            const ContactColumn& k = p.columns[c];
-            const double x = step_[static_cast<std::size_t>(k.dof)];
-            row.du_n += k.n * x, row.du_t1 += k.t1 * x, row.du_t2 += k.t2 * x;
-        }
-    }
     const auto slope = [&](double alpha) {
         double s = slope0 + alpha * quadratic;
         for (const JointRow& row : p.joints) {
             const auto i = static_cast<std::size_t>(row.dof);
-            s -= impulse(row, v[i] + alpha * step_[i]) * step_[i];
+            s -= clamped_impulse(row, v[i] + alpha * step_[i]) * step_[i];
         }
         for (const ContactRow& row : p.contacts) {
             const double u_n = row.u_n + alpha * row.du_n;
             const Tangential t = friction(row, row.u_t1 + alpha * row.du_t1, row.u_t2 + alpha * row.du_t2);
-            s -= std::max(0.0, (target(row, p.position) - u_n) / row.compliance_n) * row.du_n;
+            s -= std::max(0.0, (p.target(row) - u_n) / row.compliance_n) * row.du_n;
             s -= t.t1 * row.du_t1 + t.t2 * row.du_t2;
         }
         return s;
@@ -251,38 +239,67 @@ double IslandSolver::line_search(const Problem& p, std::span<const double> v) {
     return low > 0 ? low : high;
 }
 
+/// v += alpha * step, with all that depends on it linearly.
+void IslandSolver::move(const Problem& p, double alpha, std::vector<double>& v) {
+    for (std::size_t i = 0; i < n_; ++i) {
+        v[i] += alpha * step_[i];
+        mv_[i] += alpha * m_step_[i];
+    }
+    for (ContactRow& row : p.contacts)
+        row.u_n += alpha * row.du_n, row.u_t1 += alpha * row.du_t1, row.u_t2 += alpha * row.du_t2;
+}
+
+/// step = -H^-1 g with the rows' present curvatures, and what follows from it.
+void IslandSolver::find_step(const Problem& p) {
+    assemble(p);
+    factor_and_solve(p);
+    times_mass(p, step_, m_step_);
+    set_contact_steps(p, step_.data());
+}
+
+/// Newton's method until momentum balances and friction bounds agree. False if it does not come near a balance.
+bool IslandSolver::newton(const Problem& p, std::vector<double>& v, SolveReport& report) {
+    constexpr double kRoughly = 1e-4;  // bounds are updated once the momentum balance is this good
+    constexpr double kFar = 1e-2;      // a residual that shows that the set of sliding and open contacts is not found yet
+    constexpr int kFarMax = 8;
+    int far = 0, bound_updates = 0;
+    for (int i = 0;; ++i) {
+        update_impulses(p, v, false);
+        report.residual = gradient(p);
+        if (report.residual <= kRoughly) {
+            const bool last = p.position || bound_updates >= p.accuracy.friction_max;
+            const double change = last ? 0.0 : update_impulses(p, v, true);
+            ++bound_updates;
+            report.residual = gradient(p);
+            if (report.residual <= p.accuracy.tolerance && change <= p.accuracy.friction_tolerance) return true;
+        }
+        if (report.residual > kFar) ++far;
+        if (far > kFarMax || i == p.accuracy.newton_max) return report.residual <= kRoughly;
+        set_curvatures(p, v);
+        find_step(p);
+        move(p, line_search(p, v), v);
+        ++report.iterations;
+    }
+}
+
 SolveReport IslandSolver::solve(const Accuracy& accuracy, std::span<const RobotWork* const> robots,
-                                std::span<const int> offsets, std::span<const JointRow> joints,
+                                std::span<const int> offsets, std::span<JointRow> joints,
                                 std::span<const ContactColumn> columns, std::span<ContactRow> contacts, bool position,
                                 std::vector<double>& v) {
     const Problem p{accuracy, robots, offsets, joints, columns, contacts, position};
-    constexpr double kRoughly = 1e-4;  // bounds are updated once the momentum balance is this good
     start(p, v);
     SolveReport report;
-    int bound_updates = 0;
-    double friction_change = 0;
-    bool update = false;
-    for (report.iterations = 0; report.iterations <= accuracy.newton_max; ++report.iterations) {
-        friction_change = update_impulses(p, v, update);
-        report.residual = gradient(p, v);
-        if (!update && report.residual <= kRoughly && bound_updates < accuracy.friction_max) {
-            ++bound_updates;
-            friction_change = update_impulses(p, v, true);
-            report.residual = gradient(p, v);
-        }
-        const bool settled = friction_change <= accuracy.friction_tolerance || bound_updates >= accuracy.friction_max;
-        if (report.residual <= accuracy.tolerance && settled) break;
-        if (report.iterations == accuracy.newton_max) break;
-        assemble(p, v);
-        factor_and_solve(p);
-        const double alpha = line_search(p, v);
-        for (std::size_t i = 0; i < n_; ++i) {
-            v[i] += alpha * step_[i];
-            mv_[i] += alpha * m_step_[i];
-        }
-        for (ContactRow& row : p.contacts)
-            row.u_n += alpha * row.du_n, row.u_t1 += alpha * row.du_t1, row.u_t2 += alpha * row.du_t2;
-    }
+    start_bounds_.clear();
+    for (const ContactRow& row : contacts) start_bounds_.push_back(row.bound);
+    if (newton(p, v, report)) return report;
+    // Where many contacts stand between sticking and sliding, each Newton step turns only one of them: the potential of hard
+    // rows is all edges. The interior point method goes through the middle, in a number of steps that hardly depends on the
+    // problem: once with the bounds of the last tick, once with those that follow from it.
+    for (std::size_t c = 0; c < contacts.size(); ++c) contacts[c].bound = start_bounds_[c];
+    interior_point(p, v, report);
+    if (position) return report;
+    for (ContactRow& row : contacts) row.bound = row.mu * row.impulse_n;
+    interior_point(p, v, report);
     return report;
 }
 
