@@ -140,8 +140,8 @@ struct StaticShape {
 struct Accuracy {
     double tolerance = 1e-9;        // relative residual of the momentum balance
     double friction_tolerance = 1e-6;  // relative error of the friction bound mu * normal impulse
-    int newton_max = 60;            // Newton iterations of a contact island and tick
-    int friction_max = 20;          // updates of its friction bounds
+    int newton_max = 120;           // Newton iterations of a contact island and tick
+    int friction_max = 40;          // updates of its friction bounds
     double compliance = 1e-6;       // regularisation of hard rows, relative to the mobility they act on
 };
 

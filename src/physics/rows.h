@@ -32,6 +32,7 @@ struct ContactRow {
     double u_n = 0, u_t1 = 0, u_t2 = 0;              // velocity at the point
     double impulse_n = 0, impulse_t1 = 0, impulse_t2 = 0;
     double du_n = 0, du_t1 = 0, du_t2 = 0;           // per unit step of the line search
+    double bound_error = 0, relaxation = 1;          // of the last update of the bound: what it lacked, the share that was given
 };
 
 /// Motors, joint friction, limits of one robot; `offset` is its first dof in the contact island. Returns true if a row has
