@@ -152,6 +152,7 @@ class PartBuilder {
         Joint joint;
         joint.name = spec.name;
         joint.kind = spec.kind;
+        joint.reversed = edge.reversed;
         const JointId id(part_.type.joints.size());
         int body = parent_body;
         if (spec.kind == JointSpecKind::kBall) {

@@ -76,7 +76,7 @@ std::uint64_t type_hash(const RobotType& type) {
     for (const BodyShape& shape : type.shapes) add_shape(hash, shape);
     for (const SensorInfo& sensor : type.sensors) add_sensor(hash, sensor);
     for (const Link& link : type.links) hash.add(std::string_view(link.name)), add(hash, link.body), add(hash, link.X_BL), add(hash, link.p_BC);
-    for (const Joint& joint : type.joints) hash.add(std::string_view(joint.name)), add(hash, joint.v_index);
+    for (const Joint& joint : type.joints) hash.add(std::string_view(joint.name)), add(hash, joint.v_index), add(hash, joint.reversed ? 1 : 0);
     hash.add(std::span<const double>(type.initial_q));
     return hash.value();
 }

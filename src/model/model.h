@@ -68,6 +68,10 @@ struct Joint {
     int q_index = -1;  // first coordinate, -1 for fixed
     int v_index = -1;
     int nv = 0;
+    bool reversed = false;  // the tree walks it from child to parent: of two axes, the second comes first in q and v
+
+    /// Where axis `axis` of the file stands behind q_index and v_index (joints of one or two axes).
+    int axis_offset(int axis) const { return reversed && kind != JointSpecKind::kBall ? nv - 1 - axis : axis; }
 };
 
 /// Friction etc. of one shape; a pair combines: mu = min, restitution = max, threshold = max, others = min (documented in physics).

@@ -7,6 +7,7 @@
 namespace roboss {
 namespace {
 
+constexpr Tick kDurationMax = Tick{1} << 60;  // apply_at + duration must not overflow
 const char* const kFiniteRemedy = "every number of an order must be finite";
 
 /// "robot 'car_7'" for messages.
@@ -42,6 +43,8 @@ struct Check {
             return Error{"wrench on a link that " + called(model, order) + " does not have", "see `roboss check` for its links"};
         if (!is_finite(a.force) || !is_finite(a.torque))
             return Error{"wrench on " + called(model, order) + " is not finite", kFiniteRemedy};
+        if (a.duration > kDurationMax)
+            return Error{"the duration of the wrench on " + called(model, order) + " is longer than any run", "give a duration in ticks below 2^60"};
         if (a.duration < 1) return Error{"wrench on " + called(model, order) + " lasts less than one tick", "give a duration > 0"};
         return Ok{};
     }
@@ -82,7 +85,7 @@ struct Apply {
     }
     void operator()(const SetJoint& a) const {
         const Joint& joint = type.joints[a.joint.index()];
-        const auto d = static_cast<std::size_t>(joint.v_index + a.axis - type.base_nv());
+        const auto d = static_cast<std::size_t>(joint.v_index + joint.axis_offset(a.axis) - type.base_nv());
         const double bound = type.dofs[d].max_effort;
         state.motors[d] = {a.mode, a.target, a.max_effort < 0 ? bound : std::fmin(a.max_effort, bound)};
     }

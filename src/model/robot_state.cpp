@@ -132,13 +132,15 @@ Result<RobotState> decode_state(std::span<const std::uint8_t> bytes, const Robot
     for (double& x : state.q) x = r.number();
     for (double& x : state.v) x = r.number();
     for (MotorSetpoint& m : state.motors) {
-        m.mode = static_cast<MotorMode>(r.word());
-        if (m.mode > MotorMode::kEffort) return Error{"a state names a motor mode that does not exist", "the bytes are damaged"};
+        const std::uint64_t mode = r.word();
+        m.mode = static_cast<MotorMode>(mode);
+        if (mode > static_cast<std::uint64_t>(MotorMode::kEffort)) return Error{"a state names a motor mode that does not exist", "the bytes are damaged"};
         m.target = r.number(), m.max_effort = r.number();
     }
     for (TimedWrench& t : state.wrenches) {
-        t.link = LinkId(static_cast<std::uint32_t>(r.word()));
-        if (t.link.index() >= type.links.size()) return Error{"a state names a link that does not exist", "the bytes are damaged"};
+        const std::uint64_t link = r.word();
+        t.link = LinkId(static_cast<std::uint32_t>(link));
+        if (link >= type.links.size()) return Error{"a state names a link that does not exist", "the bytes are damaged"};
         t.force = r.vector(), t.torque = r.vector(), t.until = static_cast<Tick>(r.word());
     }
     for (ContactMemory& c : state.contacts) {

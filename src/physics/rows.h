@@ -39,6 +39,7 @@ struct ContactRow {
     double d_n = 0, d_11 = 0, d_12 = 0, d_22 = 0;    // minus the derivative of the impulses by the velocity
     double slack_n = 0, slack_t = 0;                 // multipliers of the bounds (interior point), and their steps
     double slack_n_step = 0, slack_t_step = 0;
+    double bound_error = 0, relaxation = 1;          // of the last update of the bound: what it lacked, the share that was given
 };
 
 /// Motors, joint friction, limits of one robot; `offset` is its first dof in the contact island. Returns true if a row has

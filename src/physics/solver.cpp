@@ -18,12 +18,23 @@ struct Tangential {
     double t1, t2;
 };
 
-Tangential friction(const ContactRow& row, double u_t1, double u_t2) {
+Tangential friction(const ContactRow& row, double u_t1, double u_t2, double bound) {
     const double t1 = -u_t1 / row.compliance_t, t2 = -u_t2 / row.compliance_t;
     const double size2 = t1 * t1 + t2 * t2;
-    if (size2 <= row.bound * row.bound) return {t1, t2};
-    const double cut = row.bound / std::sqrt(size2);
+    if (size2 <= bound * bound) return {t1, t2};
+    const double cut = bound / std::sqrt(size2);
     return {t1 * cut, t2 * cut};
+}
+
+/// Moves the friction bound towards mu times the normal impulse. Where more friction means less pressure the plain update swings
+/// for ever between two values, so a swing that hardly shrinks halves the step.
+void update_bound(ContactRow& row) {
+    constexpr double kSlowest = 0.05, kRecovery = 1.2;
+    const double error = row.mu * row.impulse_n - row.bound;
+    const bool swings = error * row.bound_error < 0 && std::fabs(error) > 0.8 * std::fabs(row.bound_error);
+    row.relaxation = swings ? std::max(0.5 * row.relaxation, kSlowest) : std::min(kRecovery * row.relaxation, 1.0);
+    row.bound_error = error;
+    row.bound += row.relaxation * error;
 }
 
 }  // namespace
@@ -58,7 +69,7 @@ void IslandSolver::start(const Problem& p, std::span<const double> v) {
 }
 
 /// Impulses of all contact rows at the present velocities. With `update_bounds` the friction bounds follow the normal impulses;
-/// returns how much friction that changed, relative to the largest normal impulse.
+/// returns how much friction that would change at full step, relative to the largest normal impulse.
 double IslandSolver::update_impulses(const Problem& p, std::span<const double> v, bool update_bounds) {
     for (JointRow& row : p.joints) row.impulse = clamped_impulse(row, v[static_cast<std::size_t>(row.dof)]);
     double largest = 0, change = 0;
@@ -67,12 +78,12 @@ double IslandSolver::update_impulses(const Problem& p, std::span<const double> v
         largest = std::max(largest, row.impulse_n);
         if (row.mu == 0) continue;
         if (update_bounds) {
-            const Tangential before = friction(row, row.u_t1, row.u_t2);
-            row.bound = row.mu * row.impulse_n;
-            const Tangential after = friction(row, row.u_t1, row.u_t2);
+            const Tangential before = friction(row, row.u_t1, row.u_t2, row.bound);
+            const Tangential after = friction(row, row.u_t1, row.u_t2, row.mu * row.impulse_n);
             change = std::max(change, std::fabs(after.t1 - before.t1) + std::fabs(after.t2 - before.t2));
+            update_bound(row);
         }
-        const Tangential t = friction(row, row.u_t1, row.u_t2);
+        const Tangential t = friction(row, row.u_t1, row.u_t2, row.bound);
         row.impulse_t1 = t.t1, row.impulse_t2 = t.t2;
     }
     return largest > 0 ? change / largest : 0.0;
@@ -216,7 +227,7 @@ double IslandSolver::line_search(const Problem& p, std::span<const double> v) {
         }
         for (const ContactRow& row : p.contacts) {
             const double u_n = row.u_n + alpha * row.du_n;
-            const Tangential t = friction(row, row.u_t1 + alpha * row.du_t1, row.u_t2 + alpha * row.du_t2);
+            const Tangential t = friction(row, row.u_t1 + alpha * row.du_t1, row.u_t2 + alpha * row.du_t2, row.bound);
             s -= std::max(0.0, (p.target(row) - u_n) / row.compliance_n) * row.du_n;
             s -= t.t1 * row.du_t1 + t.t2 * row.du_t2;
         }
@@ -226,14 +237,20 @@ double IslandSolver::line_search(const Problem& p, std::span<const double> v) {
     double low = 0, high = 1, s_low = at_zero, s_high = slope(1.0);
     if (!(at_zero < 0) || std::fabs(s_high) <= -0.05 * at_zero) return 1.0;
     for (int i = 0; i < 20 && s_high < 0; ++i) low = high, s_low = s_high, high *= 2, s_high = slope(high);
-    for (int i = 0; i < 40; ++i) {  // regula falsi with the Illinois rule
-        const double alpha = low + (high - low) * (s_low / (s_low - s_high));
+    int side = 0;  // of the last point: -1 below the root
+    for (int i = 0; i < 60; ++i) {  // regula falsi with the Illinois rule; each third time a bisection, for the kinks are sharp
+        const double share = i % 3 == 2 ? 0.5 : s_low / (s_low - s_high);
+        const double alpha = low + (high - low) * share;
         const double s = slope(alpha);
         if (std::fabs(s) <= -0.01 * at_zero) return alpha;
         if (s < 0) {
-            low = alpha, s_low = s, s_high *= 0.5;
+            low = alpha, s_low = s;
+            if (side < 0) s_high *= 0.5;
+            side = -1;
         } else {
-            high = alpha, s_high = s, s_low *= 0.5;
+            high = alpha, s_high = s;
+            if (side > 0) s_low *= 0.5;
+            side = 1;
         }
     }
     return low > 0 ? low : high;
@@ -262,7 +279,9 @@ bool IslandSolver::newton(const Problem& p, std::vector<double>& v, SolveReport&
     constexpr double kRoughly = 1e-4;  // bounds are updated once the momentum balance is this good
     constexpr double kFar = 1e-2;      // a residual that shows that the set of sliding and open contacts is not found yet
     constexpr int kFarMax = 8;
-    int far = 0, bound_updates = 0;
+    constexpr double kRounding = 1e-8;  // below, a residual that no longer falls is taken for rounding
+    int far = 0, bound_updates = 0, stalls = 0;
+    double best = 1;
     for (int i = 0;; ++i) {
         update_impulses(p, v, false);
         report.residual = gradient(p);
@@ -271,7 +290,10 @@ bool IslandSolver::newton(const Problem& p, std::vector<double>& v, SolveReport&
             const double change = last ? 0.0 : update_impulses(p, v, true);
             ++bound_updates;
             report.residual = gradient(p);
-            if (report.residual <= p.accuracy.tolerance && change <= p.accuracy.friction_tolerance) return true;
+            const bool settled = change <= p.accuracy.friction_tolerance;
+            stalls = settled && report.residual <= kRounding && report.residual > 0.9 * best ? stalls + 1 : 0;
+            best = settled ? std::min(best, report.residual) : 1.0;
+            if (settled && (report.residual <= p.accuracy.tolerance || stalls >= 3)) return true;
         }
         if (report.residual > kFar) ++far;
         if (far > kFarMax || i == p.accuracy.newton_max) return report.residual <= kRoughly;

@@ -131,7 +131,7 @@ TEST_P(ForwardDynamics, PosesAndTwistsOfLinksAgreeWithMujoco) {
 }
 
 /// The whole tick, solver included: effort motors change the velocities by dt times MuJoCo's acceleration.
-/// Only where nothing acts implicitly (no damping, no springs).
+/// Without damping and springs, which a tick takes implicitly.
 TEST_P(ForwardDynamics, OneTickWithEffortMotorsGivesMujocosAcceleration) {
     for (JointSpec& j : world_.prototypes[0].joints)
         for (AxisSpec& axis : j.axes) axis.damping = axis.spring_stiffness = 0;

@@ -1,0 +1,271 @@
+// compile(): trees however the joints point, welded links, several parts, fixed bases, scenery, loops, reach,
+// mobility.
+#include <gtest/gtest.h>
+
+#include <support/robots.h>
+
+#include "model/robot_state.h"
+
+namespace roboss::test {
+namespace {
+
+struct Compiled {
+    std::shared_ptr<const Model> model;
+    Diagnostics diagnostics;
+    const RobotType& type() const { return model->types.front(); }
+};
+
+Compiled compile_one(ModelSpec spec, const Pose& X_WM = {}) {
+    World world = empty_world(1e-3);
+    const std::string name = spec.name;
+    place(world, std::move(spec), name, X_WM);
+    Compiled c;
+    c.model = compile(world, {}, c.diagnostics);
+    return c;
+}
+
+bool has(const Diagnostics& diagnostics, const std::string& code) {
+    for (const Diagnostic& d : diagnostics.items())
+        if (d.code == code) return true;
+    return false;
+}
+
+/// Three boxes in a row along x, a meter apart.
+ModelSpec row_of_three() {
+    ModelSpec m;
+    m.name = "row";
+    m.canonical_link = "a";
+    const char* names[] = {"a", "b", "c"};
+    for (int i = 0; i < 3; ++i) {
+        LinkSpec l = link(names[i], 1.0 + i, box_inertia(1.0 + i, {0.2, 0.2, 0.2}), {{1.0 * i, 0, 0}, {}});
+        l.collisions.push_back(box_shape({0.2, 0.2, 0.2}, surface(0.5)));
+        m.links.push_back(l);
+    }
+    return m;
+}
+
+Pose at_x(double x) {
+    return {{x, 0, 0}, {}};
+}
+
+TEST(Compile, TreeOfHingesHasOneBodyALink) {
+    ModelSpec m = row_of_three();
+    m.joints.push_back(joint(JointSpecKind::kRevolute, "ab", "a", "b", at_x(0.5), {0, 0, 1}));
+    m.joints.push_back(joint(JointSpecKind::kRevolute, "bc", "b", "c", at_x(1.5), {0, 0, 1}));
+    const Compiled c = compile_one(m);
+    const RobotType& t = c.type();
+    EXPECT_TRUE(c.diagnostics.items().empty());
+    EXPECT_TRUE(t.free_base);
+    ASSERT_EQ(t.bodies.size(), 3u);
+    EXPECT_EQ(t.nv, 8);
+    EXPECT_EQ(t.nq, 9);
+    EXPECT_EQ(t.bodies[2].parent, 1);
+    EXPECT_EQ(t.bodies[2].X_PJ.p, (Vec3{1, 0, 0})) << "joint to joint";
+    EXPECT_EQ(t.bodies[2].p_BC, (Vec3{0.5, 0, 0}));
+    EXPECT_EQ(t.dof_parent, (std::vector<int>{-1, 0, 1, 2, 3, 4, 5, 6}));
+    EXPECT_DOUBLE_EQ(t.mass, 6.0);
+}
+
+/// "c" hangs on two parents; "b" is reached backwards, so its axis turns about.
+TEST(Compile, JointThatPointsTowardsTheRootIsReversed) {
+    ModelSpec m = row_of_three();
+    m.joints.push_back(joint(JointSpecKind::kRevolute, "ac", "a", "c", at_x(1.5), {0, 0, 1}));
+    m.joints.push_back(joint(JointSpecKind::kRevolute, "bc", "b", "c", at_x(1.2), {0, 1, 0}));
+    const Compiled c = compile_one(m);
+    const RobotType& t = c.type();
+    ASSERT_EQ(c.model->robots.size(), 1u);
+    ASSERT_EQ(t.bodies.size(), 3u);
+    const Link& b = t.links[t.find_link("b")->index()];
+    EXPECT_EQ(b.body, 2);
+    EXPECT_EQ(t.bodies[2].parent, 1);
+    EXPECT_EQ(t.bodies[2].axis_J, (Vec3{0, -1, 0}));
+    EXPECT_EQ(t.bodies[1].axis_J, (Vec3{0, 0, 1}));
+}
+
+TEST(Compile, LinksWeldedByFixedJointsAreOneBody) {
+    ModelSpec m = row_of_three();
+    m.joints.push_back(joint(JointSpecKind::kFixed, "ab", "a", "b", at_x(1)));
+    m.joints.push_back(joint(JointSpecKind::kFixed, "bc", "b", "c", at_x(2)));
+    const Compiled c = compile_one(m);
+    const RobotType& t = c.type();
+    ASSERT_EQ(t.bodies.size(), 1u);
+    EXPECT_EQ(t.links.size(), 3u);
+    EXPECT_EQ(t.shapes.size(), 3u);
+    EXPECT_DOUBLE_EQ(t.bodies[0].mass, 6.0);
+    const double centre = (0.0 * 1 + 1.0 * 2 + 2.0 * 3) / 6;
+    EXPECT_NEAR(t.bodies[0].p_BC.x, centre, 1e-15);
+    const double own = 6.0 / 12 * (0.04 + 0.04);
+    const double expected =
+        own + 1 * centre * centre + 2 * (1 - centre) * (1 - centre) + 3 * (2 - centre) * (2 - centre);
+    EXPECT_NEAR(t.bodies[0].inertia_C(2, 2), expected, 1e-14);
+    EXPECT_NEAR(t.bodies[0].inertia_C(0, 0), own, 1e-14);
+    EXPECT_EQ(t.links[2].X_BL.p, (Vec3{2, 0, 0}));
+}
+
+TEST(Compile, JointToTheWorldFixesTheBase) {
+    const Compiled c = compile_one(arm(), {{1, 2, 3}, from_rpy(0, 0, 1)});
+    const RobotType& t = c.type();
+    EXPECT_FALSE(t.free_base);
+    EXPECT_EQ(t.nv, 4);
+    EXPECT_EQ(t.nq, 11);
+    EXPECT_EQ(t.bodies[0].parent, -1);
+    const RobotState state = initial_state(*c.model, RobotId(std::size_t{0}));
+    EXPECT_EQ(base_pose(state).p, (Vec3{1, 2, 3}));
+}
+
+TEST(Compile, LinkWeldedToTheWorldBelongsToTheBase) {
+    ModelSpec m = row_of_three();
+    m.joints.push_back(joint(JointSpecKind::kFixed, "wa", "world", "a", {}));
+    m.joints.push_back(joint(JointSpecKind::kRevolute, "ab", "a", "b", at_x(0.5), {0, 0, 1}));
+    m.joints.push_back(joint(JointSpecKind::kPrismatic, "bc", "b", "c", at_x(1.5), {1, 0, 0}));
+    const Compiled c = compile_one(m);
+    const RobotType& t = c.type();
+    ASSERT_EQ(t.bodies.size(), 2u);
+    EXPECT_EQ(t.links[t.find_link("a")->index()].body, -1);
+    EXPECT_DOUBLE_EQ(t.mass, 5.0) << "what is welded to the world does not move";
+    EXPECT_EQ(t.joints[t.find_joint("wa")->index()].nv, 0);
+    EXPECT_EQ(t.joints[t.find_joint("bc")->index()].v_index, 1);
+}
+
+TEST(Compile, UnconnectedPartsAreRobotsOfOneFamily) {
+    ModelSpec m = row_of_three();
+    m.joints.push_back(joint(JointSpecKind::kRevolute, "bc", "b", "c", at_x(1.5), {0, 0, 1}));
+    const Compiled c = compile_one(m, {{0, 0, 5}, {}});
+    ASSERT_EQ(c.model->robots.size(), 2u);
+    EXPECT_TRUE(has(c.diagnostics, "unconnected-parts"));
+    EXPECT_EQ(c.model->robots[0].name, "row");
+    EXPECT_EQ(c.model->robots[1].name, "row::b");
+    EXPECT_EQ(c.model->robots[0].family, c.model->robots[1].family);
+    const RobotState b = initial_state(*c.model, RobotId(std::size_t{1}));
+    EXPECT_EQ(base_pose(b).p, (Vec3{1, 0, 5})) << "the part starts where its root link was";
+}
+
+TEST(Compile, LoopIsReportedAndOpened) {
+    ModelSpec m = row_of_three();
+    m.joints.push_back(joint(JointSpecKind::kRevolute, "ab", "a", "b", at_x(0.5), {0, 0, 1}));
+    m.joints.push_back(joint(JointSpecKind::kRevolute, "bc", "b", "c", at_x(1.5), {0, 0, 1}));
+    m.joints.push_back(joint(JointSpecKind::kRevolute, "ac", "a", "c", at_x(1.0), {0, 0, 1}));
+    m.joints.back().where = {"loop.sdf", 42};
+    const Compiled c = compile_one(m);
+    ASSERT_NE(c.model, nullptr) << "a warning, not an error";
+    ASSERT_TRUE(has(c.diagnostics, "kinematic-loop"));
+    EXPECT_EQ(c.diagnostics.items()[0].where.line, 42);
+    EXPECT_NE(c.diagnostics.items()[0].message.find("'ac'"), std::string::npos);
+    EXPECT_EQ(c.type().bodies.size(), 3u);
+}
+
+TEST(Compile, UniversalJointIsTwoHinges) {
+    ModelSpec m = row_of_three();
+    m.links.pop_back();
+    m.joints.push_back(joint(JointSpecKind::kUniversal, "ab", "a", "b", at_x(0.5), {0, 0, 1}));
+    m.joints[0].axes.push_back({});
+    m.joints[0].axes[1].xyz = {0, 1, 0};
+    m.joints[0].axes[1].upper = 0.5;
+    const Compiled c = compile_one(m);
+    const RobotType& t = c.type();
+    ASSERT_EQ(t.bodies.size(), 3u);
+    EXPECT_EQ(t.bodies[1].axis_J, (Vec3{0, 0, 1}));
+    EXPECT_EQ(t.bodies[2].axis_J, (Vec3{0, 1, 0}));
+    EXPECT_EQ(t.bodies[2].X_PJ.p, (Vec3{0, 0, 0}));
+    EXPECT_DOUBLE_EQ(t.bodies[1].mass, 0.0);
+    EXPECT_EQ(t.joints[0].nv, 2);
+    EXPECT_DOUBLE_EQ(t.dofs[1].upper, 0.5);
+    EXPECT_GT(t.dofs[0].inverse_inertia, 0);
+}
+
+TEST(Compile, StaticModelsBecomeScenery) {
+    World world = empty_world(1e-3);
+    place(world, ground(surface(0.5)), "ground");
+    place(world, scenery(box_shape({1, 2, 3}, surface(0.3), {{0, 0, 1}, {}})), "wall", {{5, 0, 0}, {}});
+    place(world, solid_sphere(1, 0.1, surface(0.2)), "ball");
+    Diagnostics diagnostics;
+    const auto model = compile(world, {}, diagnostics);
+    ASSERT_EQ(model->robots.size(), 1u);
+    ASSERT_EQ(model->statics.size(), 2u);
+    EXPECT_EQ(model->statics[1].X_WS.p, (Vec3{5, 0, 1}));
+    EXPECT_EQ(model->statics[1].shape.half, (Vec3{0.5, 1, 1.5}));
+    EXPECT_EQ(model->statics[1].name, "wall::link::collision");
+    EXPECT_EQ(model->statics[1].material.mu, 0.3);
+}
+
+TEST(Compile, EqualRobotsShareOneType) {
+    World world = empty_world(1e-3);
+    place(world, car(), "car_0");
+    world.instances.push_back({"car_1", 0, {{3, 0, 0}, {}}, {}});
+    place(world, car(), "car_2");  // another prototype with the same numbers
+    CarOptions slippery;
+    slippery.mu = 0.1;
+    place(world, car(slippery), "car_3");
+    Diagnostics diagnostics;
+    const auto model = compile(world, {}, diagnostics);
+    EXPECT_EQ(model->types.size(), 2u);
+    EXPECT_EQ(model->robots[2].type, model->robots[0].type);
+    EXPECT_NE(model->robots[3].type, model->robots[0].type);
+}
+
+TEST(Compile, ReachHoldsEveryShapeInEveryPose) {
+    const Compiled c = compile_one(car());
+    const double wheel = std::hypot(0.15, 0.13) + std::hypot(0.05, 0.02);
+    const double chassis = 0.02 + 0.5 * std::sqrt(0.4 * 0.4 + 0.2 * 0.2 + 0.1 * 0.1);
+    EXPECT_NEAR(c.type().reach, std::fmax(wheel, chassis), 1e-12);
+
+    ModelSpec m = row_of_three();
+    m.joints.push_back(joint(JointSpecKind::kPrismatic, "ab", "a", "b", at_x(1), {1, 0, 0}));
+    m.joints.back().axes[0].lower = -2, m.joints.back().axes[0].upper = 0.5;
+    m.joints.push_back(joint(JointSpecKind::kRevolute, "bc", "b", "c", at_x(1.5), {0, 0, 1}));
+    EXPECT_NEAR(compile_one(m).type().reach, 1 + 2 + 0.5 + 0.5 + 0.1 * std::sqrt(3), 1e-12);
+}
+
+TEST(Compile, MobilityIsTheInverseMassWhereNothingElseMoves) {
+    const Compiled box = compile_one(solid_box(2.0, {0.1, 0.2, 0.3}, surface(0.5)));
+    EXPECT_NEAR(box.type().bodies[0].inverse_mass_linear, 0.5, 1e-12);
+    const Mat3 I = box_inertia(2.0, {0.1, 0.2, 0.3});
+    EXPECT_NEAR(box.type().bodies[0].inverse_inertia_angular, (1 / I(0, 0) + 1 / I(1, 1) + 1 / I(2, 2)) / 3,
+                1e-9);
+
+    ModelSpec m = pendulum(2.0, 0.8);
+    m.joints[0].axes[0].armature = 0.3;
+    const Compiled hinge = compile_one(m);
+    const double inertia = m.links[0].inertia_C(1, 1) + 2.0 * 0.4 * 0.4 + 0.3;
+    EXPECT_NEAR(hinge.type().dofs[0].inverse_inertia, 1 / inertia, 1e-12);
+}
+
+TEST(Compile, LimitsOfTheAxisReachTheDof) {
+    ModelSpec m = pendulum();
+    AxisSpec& axis = m.joints[0].axes[0];
+    axis.lower = -0.5, axis.max_effort = 7, axis.max_velocity = 3, axis.initial_position = 0.25;
+    const Compiled c = compile_one(m);
+    const Dof& dof = c.type().dofs[0];
+    EXPECT_EQ(dof.lower, -0.5);
+    EXPECT_TRUE(std::isinf(dof.upper)) << "1e16 means none";
+    EXPECT_EQ(dof.max_effort, 7);
+    EXPECT_EQ(dof.max_velocity, 3);
+    EXPECT_EQ(initial_state(*c.model, RobotId(std::size_t{0})).q[7], 0.25);
+    m.joints[0].kind = JointSpecKind::kContinuous;
+    EXPECT_TRUE(std::isinf(compile_one(m).type().dofs[0].lower)) << "a continuous joint has no limits";
+}
+
+TEST(Compile, StepThatIsNoStepIsAnError) {
+    World world = empty_world(0.0);
+    Diagnostics diagnostics;
+    EXPECT_EQ(compile(world, {}, diagnostics), nullptr);
+    EXPECT_TRUE(has(diagnostics, "bad-step"));
+    CompileOptions options;
+    options.dt_s = 0.004;
+    Diagnostics none;
+    const auto model = compile(world, options, none);
+    ASSERT_NE(model, nullptr);
+    EXPECT_EQ(model->dt_s, 0.004);
+}
+
+TEST(Compile, LinksOfOneRobotCollideOnlyIfAskedAndNotWithTheirNeighbours) {
+    ModelSpec m = row_of_three();
+    m.joints.push_back(joint(JointSpecKind::kRevolute, "ab", "a", "b", at_x(0.5), {0, 0, 1}));
+    m.joints.push_back(joint(JointSpecKind::kRevolute, "bc", "b", "c", at_x(1.5), {0, 0, 1}));
+    EXPECT_TRUE(compile_one(m).type().self_pairs.empty());
+    m.self_collide = true;
+    EXPECT_EQ(compile_one(m).type().self_pairs, (std::vector<std::pair<int, int>>{{0, 2}}));
+}
+
+}  // namespace
+}  // namespace roboss::test
