@@ -19,13 +19,13 @@ std::size_t count(const std::string& text, const std::string& what) {
 
 Model small_world() {
     Model model;
-    model.statics.push_back({{ShapeKind::kPlane, {}, 0, 0}, {}, {}, "ground::link::plane"});
+    model.statics.push_back({{ShapeKind::kPlane, {}, 0, 0}, {}, {}, "ground::link::plane", {}, {}});
     model.statics.push_back(
-        {{ShapeKind::kBox, {2, 1, 3}, 0, 0}, {Mat3::identity(), {5, 0, 3}}, {}, "house::link::part"});
+        {{ShapeKind::kBox, {2, 1, 3}, 0, 0}, {Mat3::identity(), {5, 0, 3}}, {}, "house::link::part", {}, {}});
     model.statics.push_back(
-        {{ShapeKind::kCylinder, {}, 0.5, 1}, {Mat3::identity(), {0, 5, 1}}, {}, "tree::link::part"});
+        {{ShapeKind::kCylinder, {}, 0.5, 1}, {Mat3::identity(), {0, 5, 1}}, {}, "tree::link::part", {}, {}});
     model.statics.push_back(
-        {{ShapeKind::kSphere, {}, 0.5, 0}, {Mat3::identity(), {0, -5, 0}}, {}, "ball::link::part"});
+        {{ShapeKind::kSphere, {}, 0.5, 0}, {Mat3::identity(), {0, -5, 0}}, {}, "ball::link::part", {}, {}});
     return model;
 }
 
