@@ -280,8 +280,8 @@ void Picture::paint_header() {
 
 /// A bar of 1, 2 or 5 times a power of ten metres, about a seventh of the width.
 void Picture::paint_scale_bar(double y) {
-    double metres = 1;
-    for (double decade = 0.1; decade < 1e7; decade *= 10)
+    double metres = 0.1, decade = 0.1;
+    for (int i = 0; i < 8; ++i, decade *= 10)
         for (double step : {1.0, 2.0, 5.0})
             if (step * decade * scale_ <= map_width_ / 7) metres = step * decade;
     const double right = kMargin + map_width_, left = right - metres * scale_;

@@ -18,6 +18,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// min.
 std::vector<SinCos> beams(int count, double min_angle, double max_angle) {
     std::vector<SinCos> directions;
+    directions.reserve(static_cast<std::size_t>(count));
     const double step = count > 1 ? (max_angle - min_angle) / (count - 1) : 0.0;
     for (int i = 0; i < count; ++i) directions.push_back(fixed_sincos(min_angle + step * i));
     return directions;

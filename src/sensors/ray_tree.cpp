@@ -37,7 +37,7 @@ void check_device(RTCDevice device, const char* doing) {
 /// What one ray carries through Embree to the callback. The Embree part comes first, so its address is the
 /// query's.
 struct Query {
-    RTCIntersectContext embree;
+    RTCIntersectContext embree{};
     const RayTree::Target* target = nullptr;
     double nearest = kInfinity;  // m from the true origin
     double start = 0;            // m from the true origin to where Embree's ray starts

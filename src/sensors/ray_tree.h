@@ -30,10 +30,8 @@ class RayTree {
 
     /// Distance in m along the ray to item number `item`, or +infinity.
     struct Target {
+        virtual ~Target() = default;
         virtual double distance(std::uint32_t item) const = 0;
-
-      protected:
-        ~Target() = default;
     };
 
     RayTree(const RayDevice& device, Use use);

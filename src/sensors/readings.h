@@ -68,6 +68,7 @@ class RayScene {
 /// Readings of sensor number `sensor` (of RobotType::sensors, of the matching kind) of a robot in `state`.
 /// Noise is a pure function of (seed, robot, sensor, tick): SDF's mean, stddev, and a bias drawn once a run
 /// from (bias_mean, bias_stddev).
+/// <update_rate> is not applied: a reading is that of the tick at which it is asked for.
 ///
 /// Laser: beam (row, column) points along (cos e cos a, cos e sin a, sin e) of the sensor frame, a in
 /// [min_angle, max_angle], e in the vertical range, ends included (a single sample: the smaller end).

@@ -1,4 +1,5 @@
-// Sensors on static models: a lidar on a mast is read like any other, does not see its mast, and cannot be ordered about.
+// Sensors on static models: a lidar on a mast is read like any other, does not see its mast, and cannot be
+// ordered about.
 #include <gtest/gtest.h>
 
 #include "model/order.h"
