@@ -12,10 +12,11 @@ if [[ $# -eq 0 ]]; then
     exec "$program" --benchmark_list_tests
 fi
 name=$1
+rows=build/bench/${name//\//_}.json
 shift
 filter=$name
 [[ $name != all ]] || filter=.
 ROBOSS_COMMIT=$(git describe --always --dirty 2>/dev/null || printf 'unknown') \
     "$program" --benchmark_filter="$filter" --benchmark_counters_tabular=true \
-    --benchmark_out="build/bench/$name.json" --benchmark_out_format=json "$@"
-printf 'rows as JSON: build/bench/%s.json\n' "$name"
+    --benchmark_out="$rows" --benchmark_out_format=json "$@"
+printf 'rows as JSON: %s\n' "$rows"

@@ -3,8 +3,8 @@
 // harder case for the solver).
 #include <benchmark/benchmark.h>
 
-#include "support/allocation_counter.h"
-#include "support/car_field.h"
+#include "allocation_counter.h"
+#include "car_field.h"
 
 namespace {
 
@@ -12,7 +12,7 @@ constexpr double kDt = 0.002;
 constexpr int kSettlingTicks = 250;  // buffers grown, motion steady
 
 void step_cars(benchmark::State& state, double left, double right) {
-    roboss::test::CarField field(static_cast<int>(state.range(0)), kDt);
+    roboss::bench::CarField field(static_cast<int>(state.range(0)), kDt);
     field.drive(left, right);
     for (int tick = 0; tick < kSettlingTicks; ++tick) field.step();
     const std::int64_t contacts = field.contacts();
@@ -23,9 +23,9 @@ void step_cars(benchmark::State& state, double left, double right) {
         benchmark::Counter(car_steps, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
     state.counters["contacts_per_car"] = static_cast<double>(field.contacts() - contacts) / car_steps;
     // Counted apart from the timing, whose own bookkeeping allocates.
-    const std::uint64_t allocated = roboss::test::allocations();
+    const std::uint64_t allocated = roboss::bench::allocations();
     for (int tick = 0; tick < kSettlingTicks; ++tick) field.step();
-    state.counters["allocations"] = static_cast<double>(roboss::test::allocations() - allocated);
+    state.counters["allocations"] = static_cast<double>(roboss::bench::allocations() - allocated);
     state.counters["robots"] = static_cast<double>(field.cars());
     state.counters["residual_max"] = field.residual_max();
     state.SetLabel("world=car_field dt=2ms threads=1");

@@ -17,4 +17,4 @@ endif()
 run(${CMAKE_COMMAND} -S ${PROGRAM_DIR} -B ${WORK_DIR}/build -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=${CXX}
   -DCMAKE_PREFIX_PATH=${WORK_DIR}/moved ${flags})
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
-run(${WORK_DIR}/build/outside)
+run(${WORK_DIR}/build/outside ${PROGRAM_DIR}/ball.sdf)

@@ -1,6 +1,6 @@
 // The global operator new and delete, with a counter. All other forms (arrays, nothrow) end in these by the
 // standard's rules.
-#include "support/allocation_counter.h"
+#include "allocation_counter.h"
 
 #include <atomic>
 #include <cstdlib>
@@ -10,13 +10,13 @@ namespace {
 std::atomic<std::uint64_t> counted{0};
 }
 
-namespace roboss::test {
+namespace roboss::bench {
 
 std::uint64_t allocations() {
     return counted.load();
 }
 
-}  // namespace roboss::test
+}  // namespace roboss::bench
 
 void* operator new(std::size_t size) {
     counted.fetch_add(1);

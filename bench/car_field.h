@@ -1,5 +1,5 @@
-// Cars on a plane, far enough apart never to meet: the work that the benchmark times and the allocation test
-// watches. Each car is an island of its own, stepped one after the other, as a Simulator does.
+// Cars on a plane, far enough apart never to meet: the work that the benchmark times. Each car is an island
+// of its own, stepped one after the other, as a Simulator does.
 #pragma once
 
 #include <algorithm>
@@ -9,14 +9,14 @@
 #include "physics/step.h"
 #include "support/robots.h"
 
-namespace roboss::test {
+namespace roboss::bench {
 
 inline World car_field_world(int cars, double dt_s) {
     World world;
     world.name = "car_field";
     world.dt_s = dt_s;
-    world.prototypes.push_back(scenery(collision(GeometryKind::kPlane, surface(0.9))));
-    world.prototypes.push_back(car());
+    world.prototypes.push_back(test::scenery(test::collision(GeometryKind::kPlane, test::surface(0.9))));
+    world.prototypes.push_back(test::car());
     world.instances.push_back({"ground", 0, {}, {}});
     for (int i = 0; i < cars; ++i) {
         const Pose X_WM{{2.0 * (i % 25), 2.0 * (i / 25), 0}, from_rpy(0, 0, 0.1 * i)};
@@ -75,4 +75,4 @@ class CarField {
     double residual_max_ = 0;
 };
 
-}  // namespace roboss::test
+}  // namespace roboss::bench

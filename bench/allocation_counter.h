@@ -1,12 +1,12 @@
 // Counts the allocations of the whole program. The source file replaces the global operator new, so it is
-// linked only into tests and benchmarks that ask for it.
+// linked only into benchmarks.
 #pragma once
 
 #include <cstdint>
 
-namespace roboss::test {
+namespace roboss::bench {
 
 /// How often operator new was called since the program's start, by any thread.
 std::uint64_t allocations();
 
-}  // namespace roboss::test
+}  // namespace roboss::bench
