@@ -58,6 +58,21 @@ struct Counters {
     std::size_t simulators = 0, islands_now = 0;
 };
 
+/// A committed tick that somebody still wants to fetch.
+struct WantedTick {
+    Tick tick = 0;
+    std::vector<std::uint32_t> holder;  // by RobotId: place, or kLost
+    std::vector<ClientId> clients;
+    bool checkpoint = false;
+    bool open() const { return checkpoint || !clients.empty(); }
+};
+
+struct RecoveryCheckpoint {
+    Tick tick = 0;
+    std::vector<RobotState> states;  // by RobotId
+    UnionFind touched;               // robots that may have interacted since
+};
+
 class Controller {
   public:
     Controller(std::shared_ptr<const Model> model, const ControllerOptions& options, StartingPoint start);
@@ -100,20 +115,6 @@ class Controller {
     const Islands& islands() const { return islands_; }
 
   private:
-    /// A committed tick that somebody still wants to fetch.
-    struct Want {
-        Tick tick = 0;
-        std::vector<std::uint32_t> holder;  // by RobotId: place, or kLost
-        std::vector<ClientId> clients;
-        bool checkpoint = false;
-        bool open() const { return checkpoint || !clients.empty(); }
-    };
-    struct Checkpoint {
-        Tick tick = 0;
-        std::vector<RobotState> states;
-        UnionFind touched;  // robots that may have interacted since
-    };
-
     // controller.cpp: messages in
     void handle(Bus& bus, Envelope& envelope);
     void take_hello(Bus& bus, const Address& from, const Hello& hello);
@@ -134,7 +135,7 @@ class Controller {
     void drop_client(ClientId id);
     void notice_client_losses(Bus& bus);
     void send_observations(Bus& bus, bool again_now);
-    Want& want_at_this_tick();
+    WantedTick& want_at_this_tick();
     Tick plannable() const { return round_ && !round_->span().recovery ? round_->span().until : tick_; }
 
     // controller_window.cpp
@@ -185,12 +186,13 @@ class Controller {
     UnionFind sets_;
     Sweep sweep_;
 
-    Checkpoint base_;
-    std::optional<Checkpoint> next_base_;  // being fetched, or waiting until nobody wants an earlier tick
+    RecoveryCheckpoint base_;
+    std::optional<RecoveryCheckpoint>
+        next_base_;  // being fetched, or waiting until nobody wants an earlier tick
     StatePull pull_;
     double work_since_s_ = 0;  // of the busiest Simulator since the last checkpoint
     bool states_wanted_ = false;
-    std::vector<Want> wants_;
+    std::vector<WantedTick> wants_;
     std::uint64_t busiest_ns_ = 0;     // of the attempt under way
     std::vector<RobotId> recovering_;  // robots of the recovery under way, ascending
     bool tell_again_ = false;

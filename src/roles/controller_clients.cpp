@@ -89,7 +89,7 @@ void Controller::notice_client_losses(Bus& bus) {
     }
 }
 
-Controller::Want& Controller::want_at_this_tick() {
+WantedTick& Controller::want_at_this_tick() {
     if (wants_.empty() || wants_.back().tick != tick_) {
         wants_.push_back({});
         wants_.back().tick = tick_;
@@ -114,9 +114,9 @@ void Controller::tell_observer(ClientId id, Tick tick) {
 }
 
 void Controller::forget(ClientId id, Tick tick) {
-    for (Want& want : wants_)
+    for (WantedTick& want : wants_)
         if (want.tick == tick) std::erase(want.clients, id);
-    std::erase_if(wants_, [](const Want& want) { return !want.open(); });
+    std::erase_if(wants_, [](const WantedTick& want) { return !want.open(); });
 }
 
 void Controller::send_observations(Bus& bus, bool again_now) {
@@ -125,7 +125,7 @@ void Controller::send_observations(Bus& bus, bool again_now) {
         ClientSeat& seat = desk_.seats()[i];
         if (seat.unanswered.empty() || (!again_now && now - seat.told_ms < options_.resend_ms)) continue;
         seat.told_ms = now;
-        for (const Want& want : wants_) {
+        for (const WantedTick& want : wants_) {
             if (std::find(want.clients.begin(), want.clients.end(), ClientId(i)) == want.clients.end())
                 continue;
             Observation observation{want.tick, seat.last_word, {}};

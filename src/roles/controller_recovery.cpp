@@ -46,9 +46,9 @@ void Controller::begin_checkpoint() {
 }
 
 void Controller::finish_checkpoint() {
-    for (Want& want : wants_)
+    for (WantedTick& want : wants_)
         if (want.tick == next_base_->tick) want.checkpoint = false;
-    std::erase_if(wants_, [](const Want& want) { return !want.open(); });
+    std::erase_if(wants_, [](const WantedTick& want) { return !want.open(); });
     // An earlier tick that is still wanted could not be made again from the new checkpoint.
     if (!wants_.empty() && wants_.front().tick < next_base_->tick) return;
     base_ = std::move(*next_base_);
@@ -74,7 +74,7 @@ bool Controller::let_leavers_go(Bus& bus) {
         if (!seat.alive || !seat.leaving) continue;
         for (std::uint32_t& holder : holder_)
             if (holder == place) holder = kAtController;
-        for (Want& want : wants_)
+        for (WantedTick& want : wants_)
             for (std::uint32_t& holder : want.holder)
                 if (holder == place) holder = kAtController;
         seat.alive = false;
@@ -100,8 +100,8 @@ void Controller::notice_losses(Bus& bus) {
         if (next_base_ && !pull_.complete()) {
             pull_.cancel();
             next_base_.reset();
-            for (Want& want : wants_) want.checkpoint = false;
-            std::erase_if(wants_, [](const Want& want) { return !want.open(); });
+            for (WantedTick& want : wants_) want.checkpoint = false;
+            std::erase_if(wants_, [](const WantedTick& want) { return !want.open(); });
         }
         notice("simulator " + std::to_string(place) + " was silent for " +
                std::to_string(now - seat.heard_ms) + " ms and is given up at tick " + std::to_string(tick_));
@@ -112,7 +112,7 @@ void Controller::notice_losses(Bus& bus) {
 bool Controller::anything_lost() const {
     const auto lost = [this](std::uint32_t place) { return is_lost(place); };
     return std::any_of(holder_.begin(), holder_.end(), lost) ||
-           std::any_of(wants_.begin(), wants_.end(), [&](const Want& want) {
+           std::any_of(wants_.begin(), wants_.end(), [&](const WantedTick& want) {
                return std::any_of(want.holder.begin(), want.holder.end(), lost);
            });
 }
@@ -124,7 +124,7 @@ std::vector<RobotId> Controller::closure_of_lost() {
     std::vector<bool> root_lost(n, false);
     for (std::uint32_t r = 0; r < n; ++r) {
         bool lost = is_lost(holder_[r]);
-        for (const Want& want : wants_) lost = lost || is_lost(want.holder[r]);
+        for (const WantedTick& want : wants_) lost = lost || is_lost(want.holder[r]);
         if (lost) root_lost[base_.touched.find(r)] = true;
     }
     std::vector<RobotId> closure;
@@ -143,7 +143,7 @@ void Controller::begin_recovery() {
     // until it is done.
     const std::uint32_t place = base_.tick == tick_ ? kAtController : kLost;
     for (const RobotId robot : recovering_) holder_[robot.index()] = place;
-    for (Want& want : wants_)
+    for (WantedTick& want : wants_)
         for (const RobotId robot : recovering_)
             want.holder[robot.index()] = want.tick == base_.tick ? kAtController : kLost;
     tell_again_ = true;
@@ -153,7 +153,7 @@ void Controller::begin_recovery() {
 /// Steps the recovering robots from `from` to the next tick that is wanted, or to the committed one.
 void Controller::begin_leg(Tick from) {
     Tick until = tick_;
-    for (const Want& want : wants_)
+    for (const WantedTick& want : wants_)
         if (want.tick > from) until = std::min(until, want.tick);
     std::vector<std::uint32_t> source = round_ ? std::vector(round_->seats().begin(), round_->seats().end())
                                                : std::vector(holder_.size(), kAtController);
@@ -187,7 +187,7 @@ void Controller::begin_leg(Tick from) {
 
 void Controller::finish_leg() {
     const Tick until = round_->span().until;
-    for (Want& want : wants_)
+    for (WantedTick& want : wants_)
         if (want.tick == until)
             for (const RobotId robot : recovering_)
                 if (is_lost(want.holder[robot.index()])) want.holder[robot.index()] = round_->seat_of(robot);
