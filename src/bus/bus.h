@@ -1,5 +1,6 @@
-// Bus: how roles talk. Values go in, values come out; nothing is promised (a message may be lost, late, doubled or out
-// of order), so the same roles run over queues in one process, over a faulty bus in tests, and over a network.
+// Bus: how roles talk. Values go in, values come out; nothing is promised (a message may be lost, late,
+// doubled or out of order), so the same roles run over queues in one process, over a faulty bus in tests, and
+// over a network.
 #pragma once
 
 #include <cstdint>

@@ -20,7 +20,8 @@ TEST(InProcessBus, DeliversEverythingOnceAndInOrder) {
     EXPECT_TRUE(inbox.empty());
     bus.drain(kB, inbox);
     ASSERT_EQ(inbox.size(), 5u);
-    for (std::uint32_t i = 0; i < 5; ++i) EXPECT_EQ(std::get<Alive>(inbox[i].message).simulator, SimulatorId(i));
+    for (std::uint32_t i = 0; i < 5; ++i)
+        EXPECT_EQ(std::get<Alive>(inbox[i].message).simulator, SimulatorId(i));
     bus.drain(kB, inbox);
     EXPECT_TRUE(inbox.empty());
     EXPECT_TRUE(bus.quiet());

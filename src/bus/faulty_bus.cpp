@@ -20,7 +20,8 @@ bool FaultyBus::chance(double probability) {
 }
 
 void FaultyBus::post(const Address& to, std::vector<std::uint8_t> bytes) {
-    const auto delay = static_cast<std::int64_t>(random(static_cast<std::uint64_t>(options_.delay_ms_max) + 1));
+    const auto delay =
+        static_cast<std::int64_t>(random(static_cast<std::uint64_t>(options_.delay_ms_max) + 1));
     // a random serial number breaks ties, so that messages of one moment are reordered too
     under_way_[to].emplace(std::pair{now_ms_ + delay, random(1u << 20) << 40 | ++serial_}, std::move(bytes));
 }

@@ -1,5 +1,6 @@
-// A Bus that behaves as badly as a network may, by seed: drops, doubles, delays and reorders, on a logical clock that
-// advances when told. It carries encoded bytes, so that every message also passes the codec. For tests.
+// A Bus that behaves as badly as a network may, by seed: drops, doubles, delays and reorders, on a logical
+// clock that advances when told. It carries encoded bytes, so that every message also passes the codec. For
+// tests.
 #pragma once
 
 #include <map>

@@ -1,4 +1,5 @@
-// A Bus within one process and one thread: a queue an address; messages are moved, not encoded, and never lost.
+// A Bus within one process and one thread: a queue an address; messages are moved, not encoded, and never
+// lost.
 #pragma once
 
 #include <map>

@@ -52,7 +52,8 @@ void StatePull::advance(Bus& bus, const Address& self, std::int64_t resend_ms) {
     }
 }
 
-std::optional<RobotState> StatePull::take(const Model& model, const StateBlock& block, std::size_t i, std::size_t offset) {
+std::optional<RobotState> StatePull::take(const Model& model, const StateBlock& block, std::size_t i,
+                                          std::size_t offset) {
     const RobotId robot = block.robots[i];
     if (robot.index() >= wanted_.size() || !wanted_[robot.index()]) return std::nullopt;
     Result<RobotState> state = decode_state(state_bytes(block, i, offset), model.type_of(robot));

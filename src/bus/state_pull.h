@@ -1,5 +1,5 @@
-// StatePull: fetches the exact states of some robots at one tick from whoever holds them, asking again until all have
-// come. Simulators use it for hand-offs, Clients for observations, the Controller for checkpoints.
+// StatePull: fetches the exact states of some robots at one tick from whoever holds them, asking again until
+// all have come. Simulators use it for hand-offs, Clients for observations, the Controller for checkpoints.
 #pragma once
 
 #include <optional>
@@ -40,7 +40,8 @@ class StatePull {
     }
 
   private:
-    std::optional<RobotState> take(const Model& model, const StateBlock& block, std::size_t i, std::size_t offset);
+    std::optional<RobotState> take(const Model& model, const StateBlock& block, std::size_t i,
+                                   std::size_t offset);
 
     bool active_ = false;
     Tick tick_ = 0;

@@ -37,12 +37,14 @@ void BusClient::handle(Envelope& envelope) {
     if (auto* observation = std::get_if<Observation>(&envelope.message)) {
         take_observation(*observation);
     } else if (const auto* reply = std::get_if<StateReply>(&envelope.message)) {
-        pull_.accept(*model_, *reply, [&](RobotId robot, RobotState&& s) { coming_[robot.index()] = std::move(s); });
+        pull_.accept(*model_, *reply,
+                     [&](RobotId robot, RobotState&& s) { coming_[robot.index()] = std::move(s); });
     } else if (const auto* ack = std::get_if<WordAck>(&envelope.message)) {
         if (ack->client != id_) return;
         const bool news = !words_.empty() && words_.front().word <= ack->word;
         if (news)
-            for (const RefusedOrder& r : ack->refused) refusals_.push_back("order " + std::to_string(r.sequence) + ": " + r.reason);
+            for (const RefusedOrder& r : ack->refused)
+                refusals_.push_back("order " + std::to_string(r.sequence) + ": " + r.reason);
         heard_up_to(ack->word);
     } else if (const auto* welcome = std::get_if<ClientWelcome>(&envelope.message)) {
         if (id_.valid()) return;
@@ -108,7 +110,8 @@ void BusClient::say_again(Bus& bus) {
     said_ms_ = now;
     if (!id_.valid())
         bus.send(self_, kControllerAddress,
-                 ClientHello{options_.name, model_->hash, options_.period, options_.latency, options_.synchronous});
+                 ClientHello{options_.name, model_->hash, options_.period, options_.latency,
+                             options_.synchronous});
     for (const ClientWord& word : words_) bus.send(self_, kControllerAddress, word);
     if (bye_) bus.send(self_, kControllerAddress, *bye_);
 }

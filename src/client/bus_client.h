@@ -1,5 +1,6 @@
-// BusClient: a Client over a Bus, the same in this process and elsewhere. It joins, fetches the exact state of each
-// observation from whoever holds it, and says one word for each, again and again until the Controller has it.
+// BusClient: a Client over a Bus, the same in this process and elsewhere. It joins, fetches the exact state
+// of each observation from whoever holds it, and says one word for each, again and again until the Controller
+// has it.
 #pragma once
 
 #include <deque>

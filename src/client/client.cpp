@@ -22,14 +22,17 @@ Result<> Client::set_velocity(RobotId robot, const Vec3& linear, const Vec3& ang
     return order(robot, SetVelocity{linear, angular});
 }
 
-Result<> Client::apply_wrench(RobotId robot, LinkId link, const Vec3& force, const Vec3& torque, double duration_s) {
+Result<> Client::apply_wrench(RobotId robot, LinkId link, const Vec3& force, const Vec3& torque,
+                              double duration_s) {
     if (!(duration_s > 0) || duration_s > 1e9)
-        return Error{"a wrench for " + std::to_string(duration_s) + " s", "give a duration between 0 and 1e9 s"};
+        return Error{"a wrench for " + std::to_string(duration_s) + " s",
+                     "give a duration between 0 and 1e9 s"};
     const auto ticks = static_cast<Tick>(std::floor(duration_s / model().dt_s + 0.5));
     return order(robot, ApplyWrench{link, force, torque, std::max<Tick>(ticks, 1)});
 }
 
-Result<> Client::set_joint(RobotId robot, JointId joint, MotorMode mode, double target, double max_effort, int axis) {
+Result<> Client::set_joint(RobotId robot, JointId joint, MotorMode mode, double target, double max_effort,
+                           int axis) {
     return order(robot, SetJoint{joint, axis, mode, target, max_effort});
 }
 

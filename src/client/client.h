@@ -1,5 +1,6 @@
-// Client: the communication library (the paper's section 4.3). One API whether the world runs in this process or elsewhere:
-// the whole state, orders on four levels, and sensors, which are computed here so that Simulators and network stay free.
+// Client: the communication library (the paper's section 4.3). One API whether the world runs in this process
+// or elsewhere: the whole state, orders on four levels, and sensors, which are computed here so that
+// Simulators and network stay free.
 #pragma once
 
 #include <cstdint>
@@ -22,24 +23,29 @@ class Client {
   public:
     virtual ~Client() = default;
 
-    // --- the world -------------------------------------------------------------------------------------------------
+    // --- the world
+    // -------------------------------------------------------------------------------------------------
     virtual const Model& model() const = 0;
     virtual Tick tick() const = 0;  // the tick observed now
     double time_s() const { return static_cast<double>(tick()) * model().dt_s; }
     virtual const RobotState& state(RobotId robot) const = 0;
     virtual std::uint64_t seed() const = 0;  // of the run; for noise and for the program's own random numbers
-    Transform pose(RobotId robot, LinkId link) const;   // X_WL
-    Twist twist(RobotId robot, LinkId link) const;      // of the link's origin, world axes
+    Transform pose(RobotId robot, LinkId link) const;  // X_WL
+    Twist twist(RobotId robot, LinkId link) const;     // of the link's origin, world axes
 
-    // --- orders (checked at once; an Error says what is wrong and nothing is sent) -----------------------------------
+    // --- orders (checked at once; an Error says what is wrong and nothing is sent)
+    // -----------------------------------
     Result<> set_pose(RobotId robot, const Pose& X_WR);
     Result<> set_velocity(RobotId robot, const Vec3& linear, const Vec3& angular);
-    Result<> apply_wrench(RobotId robot, LinkId link, const Vec3& force, const Vec3& torque, double duration_s);
-    Result<> set_joint(RobotId robot, JointId joint, MotorMode mode, double target, double max_effort = -1, int axis = 0);
+    Result<> apply_wrench(RobotId robot, LinkId link, const Vec3& force, const Vec3& torque,
+                          double duration_s);
+    Result<> set_joint(RobotId robot, JointId joint, MotorMode mode, double target, double max_effort = -1,
+                       int axis = 0);
     virtual Result<> order(RobotId robot, const Action& action) = 0;
 
-    // --- sensors: `sensor` is an index into RobotType::sensors ------------------------------------------------------
-    // Readings include the sensor's noise, a pure function of (seed, robot, sensor, tick).
+    // --- sensors: `sensor` is an index into RobotType::sensors
+    // ------------------------------------------------------ Readings include the sensor's noise, a pure
+    // function of (seed, robot, sensor, tick).
     LaserReading laser(RobotId robot, std::size_t sensor);
     OdometerReading odometer(RobotId robot, std::size_t sensor);
     GpsReading gps(RobotId robot, std::size_t sensor);

@@ -1,5 +1,6 @@
-// A control program: an ordinary Client written as a class. `roboss run --client lib.so` loads it from a shared library;
-// the same source links into a process of its own. It sees the whole state, computes sensors here, and gives orders.
+// A control program: an ordinary Client written as a class. `roboss run --client lib.so` loads it from a
+// shared library; the same source links into a process of its own. It sees the whole state, computes sensors
+// here, and gives orders.
 #pragma once
 
 #include <memory>
@@ -21,10 +22,12 @@ class ControlProgram {
     virtual ControlOptions options() const { return {}; }
     /// Once, before the first control(); the state is that of the first observation.
     virtual void start(Client&) {}
-    /// Once a control period. An exception ends the run with its text; the world stays intact and can be saved.
+    /// Once a control period. An exception ends the run with its text; the world stays intact and can be
+    /// saved.
     virtual void control(Client&) = 0;
-    /// What the program remembers from one control() to the next, as bytes. A saved run takes it along and gives it to restore(),
-    /// after start(), when it continues; so a program that remembers anything must have both for saved runs to continue exactly.
+    /// What the program remembers from one control() to the next, as bytes. A saved run takes it along and
+    /// gives it to restore(), after start(), when it continues; so a program that remembers anything must
+    /// have both for saved runs to continue exactly.
     virtual std::string memory() const { return {}; }
     virtual void restore(const std::string&) {}
 };
@@ -35,6 +38,10 @@ inline constexpr int kControlProgramAbi = 2;
 }  // namespace roboss
 
 /// In exactly one source file of the library: the entry point.
-#define ROBOSS_CONTROL_PROGRAM(Class)                                             \
-    extern "C" int roboss_control_program_abi() { return ::roboss::kControlProgramAbi; } \
-    extern "C" ::roboss::ControlProgram* roboss_control_program() { return new Class(); }
+#define ROBOSS_CONTROL_PROGRAM(Class)                               \
+    extern "C" int roboss_control_program_abi() {                   \
+        return ::roboss::kControlProgramAbi;                        \
+    }                                                               \
+    extern "C" ::roboss::ControlProgram* roboss_control_program() { \
+        return new Class();                                         \
+    }

@@ -11,7 +11,8 @@ namespace roboss {
 namespace {
 
 constexpr const char* kRemedy =
-    "put ROBOSS_CONTROL_PROGRAM(YourClass) into one source file and link it as a shared library against roboss::client";
+    "put ROBOSS_CONTROL_PROGRAM(YourClass) into one source file and link it as a shared library against "
+    "roboss::client";
 
 std::string loader_says() {
     const char* text = dlerror();
@@ -24,9 +25,11 @@ Result<std::unique_ptr<ControlProgram>> load_control_program(const std::string& 
     std::error_code error;
     const std::filesystem::path file = std::filesystem::absolute(path, error);
     if (error || !std::filesystem::is_regular_file(file, error))
-        return Error{"control program " + path + ": there is no such file", "give the path of a shared library (.so)"};
+        return Error{"control program " + path + ": there is no such file",
+                     "give the path of a shared library (.so)"};
     void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (library == nullptr) return Error{"control program " + path + " cannot be loaded: " + loader_says(), kRemedy};
+    if (library == nullptr)
+        return Error{"control program " + path + " cannot be loaded: " + loader_says(), kRemedy};
     using Version = int();
     using Make = ControlProgram*();
     auto* version = reinterpret_cast<Version*>(dlsym(library, "roboss_control_program_abi"));
@@ -34,17 +37,19 @@ Result<std::unique_ptr<ControlProgram>> load_control_program(const std::string& 
     if (version == nullptr || make == nullptr)
         return Error{"control program " + path + " has no entry point: " + loader_says(), kRemedy};
     if (const int abi = version(); abi != kControlProgramAbi)
-        return Error{"control program " + path + " was built for interface version " + std::to_string(abi) + ", this is version " +
-                         std::to_string(kControlProgramAbi),
+        return Error{"control program " + path + " was built for interface version " + std::to_string(abi) +
+                         ", this is version " + std::to_string(kControlProgramAbi),
                      "build it again against this version of RoBOSS"};
     try {
         std::unique_ptr<ControlProgram> program(make());
         if (program) return program;
         return Error{"control program " + path + ": its entry point gave nothing", kRemedy};
     } catch (const std::exception& e) {
-        return Error{"control program " + path + ": its constructor threw: " + e.what(), "mend the control program"};
+        return Error{"control program " + path + ": its constructor threw: " + e.what(),
+                     "mend the control program"};
     } catch (...) {
-        return Error{"control program " + path + ": its constructor threw something", "mend the control program"};
+        return Error{"control program " + path + ": its constructor threw something",
+                     "mend the control program"};
     }
 }
 

@@ -9,8 +9,9 @@
 
 namespace roboss {
 
-/// The program out of the library at `path`. The library stays loaded for the rest of the process, since objects made by
-/// its code may outlive the program. An Error says what is missing: the file, the entry point, or the right version.
+/// The program out of the library at `path`. The library stays loaded for the rest of the process, since
+/// objects made by its code may outlive the program. An Error says what is missing: the file, the entry
+/// point, or the right version.
 Result<std::unique_ptr<ControlProgram>> load_control_program(const std::string& path);
 
 }  // namespace roboss

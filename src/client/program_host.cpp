@@ -7,11 +7,15 @@
 
 namespace roboss {
 
-Result<BusClientOptions> client_options(const ControlOptions& options, const Model& model, const std::string& name) {
+Result<BusClientOptions> client_options(const ControlOptions& options, const Model& model,
+                                        const std::string& name) {
     const double latency_s = options.latency_s < 0 ? options.period_s : options.latency_s;
-    const auto ticks = [&](double seconds) { return static_cast<Tick>(std::floor(seconds / model.dt_s + 0.5)); };
+    const auto ticks = [&](double seconds) {
+        return static_cast<Tick>(std::floor(seconds / model.dt_s + 0.5));
+    };
     if (!(options.period_s > 0) || options.period_s > 1e9 || !(latency_s < 1e9))
-        return Error{"control program '" + name + "' asks for a control period of " + std::to_string(options.period_s) + " s",
+        return Error{"control program '" + name + "' asks for a control period of " +
+                         std::to_string(options.period_s) + " s",
                      "give a period above 0 in ControlProgram::options()"};
     BusClientOptions result;
     result.name = name;
@@ -23,7 +27,8 @@ Result<BusClientOptions> client_options(const ControlOptions& options, const Mod
 
 namespace {
 
-BusClientOptions options_or_default(const ControlProgram& program, const Model& model, const std::string& name) {
+BusClientOptions options_or_default(const ControlProgram& program, const Model& model,
+                                    const std::string& name) {
     Result<BusClientOptions> options = client_options(program.options(), model, name);
     ROBOSS_CHECK(options.ok(), "check client_options() before making a ProgramHost");
     return std::move(options).value();
@@ -33,7 +38,9 @@ BusClientOptions options_or_default(const ControlProgram& program, const Model& 
 
 ProgramHost::ProgramHost(std::shared_ptr<const Model> model, const Address& self, std::string name,
                          std::unique_ptr<ControlProgram> program)
-    : name_(std::move(name)), program_(std::move(program)), client_(model, self, options_or_default(*program_, *model, name_)) {}
+    : name_(std::move(name)),
+      program_(std::move(program)),
+      client_(model, self, options_or_default(*program_, *model, name_)) {}
 
 template <class Call>
 bool ProgramHost::guarded(Bus& bus, const char* what, Call&& call) {

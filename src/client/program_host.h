@@ -1,4 +1,5 @@
-// ProgramHost: runs a control program as a Client. The program's exceptions end here: they become the Client's last word.
+// ProgramHost: runs a control program as a Client. The program's exceptions end here: they become the
+// Client's last word.
 #pragma once
 
 #include <memory>
@@ -42,6 +43,7 @@ class ProgramHost {
 };
 
 /// The times of a control program in ticks of this world. `name` is for the message of an Error.
-Result<BusClientOptions> client_options(const ControlOptions& options, const Model& model, const std::string& name);
+Result<BusClientOptions> client_options(const ControlOptions& options, const Model& model,
+                                        const std::string& name);
 
 }  // namespace roboss

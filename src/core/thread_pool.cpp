@@ -1,6 +1,8 @@
 // The pool: workers sleep between batches and claim items with one atomic counter.
 #include "core/thread_pool.h"
 
+#include <chrono>
+
 namespace roboss {
 
 ThreadPool::ThreadPool(unsigned threads) {
@@ -17,10 +19,11 @@ ThreadPool::~ThreadPool() {
 }
 
 void ThreadPool::claim_all(std::size_t worker) {
-    for (std::size_t item = next_.fetch_add(1); item < count_; item = next_.fetch_add(1)) (*work_)(item, worker);
+    for (std::size_t item = next_.fetch_add(1); item < count_; item = next_.fetch_add(1))
+        (*work_)(item, worker);
 }
 
-void ThreadPool::run(std::size_t count, const Work& work) {
+void ThreadPool::run(std::size_t count, const Work& work, const std::function<void()>& idle) {
     if (workers_.empty() || count < 2) {
         for (std::size_t item = 0; item < count; ++item) work(item, 0);
         return;
@@ -36,7 +39,13 @@ void ThreadPool::run(std::size_t count, const Work& work) {
     start_.notify_all();
     claim_all(0);
     std::unique_lock lock(mutex_);
-    done_.wait(lock, [this] { return busy_ == 0; });
+    const auto all_done = [this] { return busy_ == 0; };
+    while (idle && !done_.wait_for(lock, std::chrono::milliseconds(10), all_done)) {
+        lock.unlock();
+        idle();
+        lock.lock();
+    }
+    done_.wait(lock, all_done);
 }
 
 void ThreadPool::serve(std::size_t worker) {

@@ -1,6 +1,6 @@
-// A pool of threads that runs a batch of independent items. Which thread runs an item is open, so no result may depend on
-// it; items are claimed in ascending order, so put the largest first. The calling thread works too: a pool of one thread
-// starts none.
+// A pool of threads that runs a batch of independent items. Which thread runs an item is open, so no result
+// may depend on it; items are claimed in ascending order, so put the largest first. The calling thread works
+// too: a pool of one thread starts none.
 #pragma once
 
 #include <atomic>
@@ -25,9 +25,10 @@ class ThreadPool {
 
     std::size_t threads() const { return workers_.size() + 1; }
 
-    /// Calls work(item, worker) once for every item in 0 .. count-1 and returns when all are done. worker < threads();
-    /// the calling thread is worker 0. One run at a time.
-    void run(std::size_t count, const Work& work);
+    /// Calls work(item, worker) once for every item in 0 .. count-1 and returns when all are done. worker <
+    /// threads(); the calling thread is worker 0; while it waits for the others it calls `idle`, if given,
+    /// every few milliseconds. One run at a time.
+    void run(std::size_t count, const Work& work, const std::function<void()>& idle = {});
 
   private:
     void serve(std::size_t worker);
@@ -39,8 +40,8 @@ class ThreadPool {
     const Work* work_ = nullptr;
     std::size_t count_ = 0;
     std::atomic<std::size_t> next_{0};
-    std::size_t busy_ = 0;       // workers that have not finished this batch
-    std::uint64_t batch_ = 0;    // number of the batch, so that no worker serves one twice
+    std::size_t busy_ = 0;     // workers that have not finished this batch
+    std::uint64_t batch_ = 0;  // number of the batch, so that no worker serves one twice
     bool ending_ = false;
 };
 

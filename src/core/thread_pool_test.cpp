@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 namespace roboss {
 namespace {
 
@@ -18,6 +20,22 @@ TEST(ThreadPool, RunsEveryItemOnceInEveryBatch) {
             for (const int hit : hits) ASSERT_EQ(hit, 1);
         }
     }
+}
+
+TEST(ThreadPool, ShowsSignsOfLifeWhileTheCallerWaitsForOthers) {
+    using namespace std::chrono;
+    ThreadPool pool(2);
+    std::atomic<bool> was_idle{false};
+    std::atomic<int> taken{0};
+    const auto work = [&](std::size_t, std::size_t worker) {
+        ++taken;
+        while (taken < 2) std::this_thread::yield();  // so each thread has one item
+        const auto end = steady_clock::now() + seconds(20);
+        while (worker != 0 && !was_idle && steady_clock::now() < end)
+            std::this_thread::sleep_for(milliseconds(1));
+    };
+    pool.run(2, work, [&] { was_idle = true; });
+    EXPECT_TRUE(was_idle);
 }
 
 }  // namespace

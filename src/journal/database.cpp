@@ -19,18 +19,22 @@ Statement prepare(sqlite3* db, const std::string& sql) {
 }
 
 void bind(sqlite3_stmt* s, int at, const Value& value) {
-    if (const auto* number = std::get_if<std::int64_t>(&value)) sqlite3_bind_int64(s, at, *number);
+    if (const auto* number = std::get_if<std::int64_t>(&value))
+        sqlite3_bind_int64(s, at, *number);
     else if (const auto* text = std::get_if<std::string>(&value))
         sqlite3_bind_text(s, at, text->data(), static_cast<int>(text->size()), SQLITE_TRANSIENT);
     else if (const auto* blob = std::get_if<Blob>(&value))
-        sqlite3_bind_blob64(s, at, blob->empty() ? static_cast<const void*>("") : blob->data(), blob->size(), SQLITE_TRANSIENT);
+        sqlite3_bind_blob64(s, at, blob->empty() ? static_cast<const void*>("") : blob->data(), blob->size(),
+                            SQLITE_TRANSIENT);
 }
 
 Value column(sqlite3_stmt* s, int at) {
     const auto size = static_cast<std::size_t>(sqlite3_column_bytes(s, at));
     switch (sqlite3_column_type(s, at)) {
-        case SQLITE_INTEGER: return static_cast<std::int64_t>(sqlite3_column_int64(s, at));
-        case SQLITE_TEXT: return std::string(reinterpret_cast<const char*>(sqlite3_column_text(s, at)), size);
+        case SQLITE_INTEGER:
+            return static_cast<std::int64_t>(sqlite3_column_int64(s, at));
+        case SQLITE_TEXT:
+            return std::string(reinterpret_cast<const char*>(sqlite3_column_text(s, at)), size);
         default: {
             const auto* bytes = static_cast<const std::uint8_t*>(sqlite3_column_blob(s, at));
             return bytes == nullptr ? Blob{} : Blob(bytes, bytes + size);
@@ -45,7 +49,8 @@ void Database::Close::operator()(sqlite3* db) const {
 }
 
 Error Database::error(const std::string& doing) const {
-    return {path_ + ": " + doing + ": " + sqlite3_errmsg(db_.get()), "check the path, the permissions and the free space"};
+    return {path_ + ": " + doing + ": " + sqlite3_errmsg(db_.get()),
+            "check the path, the permissions and the free space"};
 }
 
 Result<Database> Database::create(const std::string& path) {
@@ -69,7 +74,8 @@ Result<Database> Database::open_read(const std::string& path) {
 }
 
 Result<> Database::run(const std::string& sql) {
-    if (sqlite3_exec(db_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) return error("cannot write it");
+    if (sqlite3_exec(db_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
+        return error("cannot write it");
     return Ok{};
 }
 
@@ -91,7 +97,8 @@ Result<std::vector<Row>> Database::select(const std::string& sql) const {
     int rc = SQLITE_ROW;
     while ((rc = sqlite3_step(statement.get())) == SQLITE_ROW) {
         Row& row = rows.emplace_back();
-        for (int i = 0; i < sqlite3_column_count(statement.get()); ++i) row.push_back(column(statement.get(), i));
+        for (int i = 0; i < sqlite3_column_count(statement.get()); ++i)
+            row.push_back(column(statement.get(), i));
     }
     if (rc != SQLITE_DONE) return error("cannot read it");
     return rows;

@@ -22,7 +22,9 @@ constexpr const char* kSaveAgain = "save the run again, or start without --from"
 
 /// Everything beside the states, so that no damage goes unnoticed.
 std::uint64_t rest_hash(const Blob& orders, const SavedRun& run) {
-    const auto text = [](const Blob& b) { return std::string_view(reinterpret_cast<const char*>(b.data()), b.size()); };
+    const auto text = [](const Blob& b) {
+        return std::string_view(reinterpret_cast<const char*>(b.data()), b.size());
+    };
     Hash hash;
     hash.add(static_cast<std::uint64_t>(run.tick));
     hash.add(run.seed);
@@ -61,7 +63,8 @@ Result<> write(const std::string& path, const Model& model, const SavedRun& run)
         encode(run.states[i], bytes);
         states.push_back({static_cast<std::int64_t>(i), std::move(bytes)});
     }
-    for (const auto& [client, bytes] : run.memory) memory.push_back({client, Blob(bytes.begin(), bytes.end())});
+    for (const auto& [client, bytes] : run.memory)
+        memory.push_back({client, Blob(bytes.begin(), bytes.end())});
     if (Result<> r = db.run(std::string("BEGIN;") + kTables); !r) return r;
     if (Result<> r = db.insert("INSERT INTO meta VALUES(?,?)", meta_rows(model, run, orders)); !r) return r;
     if (Result<> r = db.insert("INSERT INTO states VALUES(?,?)", states); !r) return r;
@@ -101,14 +104,15 @@ Result<> check_meta(const std::string& path, const Model& model, Meta& meta) {
     const auto format = meta.get<std::int64_t>("format");
     if (!meta.missing().empty()) return damaged(path, "it has no '" + meta.missing() + "'");
     if (format != kFormat)
-        return Error{path + " has checkpoint format " + std::to_string(format) + ", this program reads " + std::to_string(kFormat),
+        return Error{path + " has checkpoint format " + std::to_string(format) + ", this program reads " +
+                         std::to_string(kFormat),
                      "use the version of RoBOSS that wrote it"};
     const auto hash = meta.get<std::string>("model_hash"), file = meta.get<std::string>("world_file");
     const auto dt = meta.get<std::string>("dt_s");
     if (!meta.missing().empty()) return damaged(path, "it has no '" + meta.missing() + "'");
     if (hash != to_hex(model.hash))
-        return Error{path + " was saved from another world: " + file + ", step " + dt + " s, model hash " + hash +
-                         "; this one has model hash " + to_hex(model.hash),
+        return Error{path + " was saved from another world: " + file + ", step " + dt + " s, model hash " +
+                         hash + "; this one has model hash " + to_hex(model.hash),
                      "give the world file, the step and the version of RoBOSS that it was saved with"};
     return Ok{};
 }
@@ -122,7 +126,8 @@ Result<std::vector<RobotState>> read_states(const std::string& path, const Datab
     std::vector<RobotState> states;
     for (std::size_t i = 0; i < rows.value().size(); ++i) {
         const Blob* bytes = std::get_if<Blob>(&rows.value()[i][1]);
-        if (bytes == nullptr) return damaged(path, "the state of robot " + std::to_string(i) + " is not a blob");
+        if (bytes == nullptr)
+            return damaged(path, "the state of robot " + std::to_string(i) + " is not a blob");
         Result<RobotState> state = decode_state(*bytes, model.type_of(RobotId(i)));
         if (!state) return damaged(path, "robot '" + model.robots[i].name + "': " + state.error().message);
         states.push_back(std::move(state).value());
@@ -139,7 +144,8 @@ Result<Blob> read_rest(const std::string& path, const Database& db, const Model&
     for (const Row& row : memory.value()) {
         const auto* client = std::get_if<std::string>(&row[0]);
         const auto* bytes = std::get_if<Blob>(&row[1]);
-        if (client == nullptr || bytes == nullptr) return damaged(path, "a Client's memory is of the wrong type");
+        if (client == nullptr || bytes == nullptr)
+            return damaged(path, "a Client's memory is of the wrong type");
         run.memory[*client] = std::string(bytes->begin(), bytes->end());
     }
     Blob bytes = std::get<Blob>(orders.value()[0][0]);
@@ -147,7 +153,8 @@ Result<Blob> read_rest(const std::string& path, const Database& db, const Model&
     if (!decoded) return damaged(path, decoded.error().message);
     run.orders = std::move(decoded).value();
     for (const Order& order : run.orders)
-        if (Result<> checked = check_order(model, order); !checked) return damaged(path, checked.error().message);
+        if (Result<> checked = check_order(model, order); !checked)
+            return damaged(path, checked.error().message);
     return bytes;
 }
 
@@ -155,7 +162,8 @@ Result<Blob> read_rest(const std::string& path, const Database& db, const Model&
 
 std::uint64_t state_hash_of(const Model& model, const SavedRun& run) {
     std::vector<std::uint64_t> hashes;
-    for (std::size_t i = 0; i < run.states.size(); ++i) hashes.push_back(state_hash(RobotId(i), run.tick, run.states[i]));
+    for (std::size_t i = 0; i < run.states.size(); ++i)
+        hashes.push_back(state_hash(RobotId(i), run.tick, run.states[i]));
     return world_hash(model.hash, hashes);
 }
 
@@ -169,18 +177,23 @@ Result<> save_run(const std::string& path, const Model& model, const SavedRun& r
     }
     std::error_code error;
     std::filesystem::rename(beside, path, error);
-    if (error) return Error{"cannot rename " + beside + " to " + path + ": " + error.message(), "check the path and the permissions"};
+    if (error)
+        return Error{"cannot rename " + beside + " to " + path + ": " + error.message(),
+                     "check the path and the permissions"};
     return Ok{};
 }
 
 Result<SavedRun> load_run(const std::string& path, const Model& model) {
     std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) return Error{path + ": there is no such file", "give a file that --save wrote"};
+    if (!std::filesystem::is_regular_file(path, error))
+        return Error{path + ": there is no such file", "give a file that --save wrote"};
     Result<Database> opened = Database::open_read(path);
     if (!opened) return opened.error();
     const Database& db = opened.value();
     Result<std::vector<Row>> rows = db.select("SELECT key, value FROM meta");
-    if (!rows) return Error{path + " is not a checkpoint of RoBOSS, or is truncated: " + rows.error().message, kSaveAgain};
+    if (!rows)
+        return Error{path + " is not a checkpoint of RoBOSS, or is truncated: " + rows.error().message,
+                     kSaveAgain};
     Result<std::vector<Row>> sound = db.select("PRAGMA integrity_check(1)");
     if (!sound || sound.value().size() != 1 || sound.value()[0][0] != Value(std::string("ok")))
         return damaged(path, "it is truncated or was changed");
@@ -191,14 +204,16 @@ Result<SavedRun> load_run(const std::string& path, const Model& model) {
     run.world_file = meta.get<std::string>("world_file");
     run.tick = meta.get<std::int64_t>("tick");
     run.seed = std::bit_cast<std::uint64_t>(meta.get<std::int64_t>("seed"));
-    const auto states_hash = meta.get<std::string>("state_hash"), others_hash = meta.get<std::string>("rest_hash");
+    const auto states_hash = meta.get<std::string>("state_hash"),
+               others_hash = meta.get<std::string>("rest_hash");
     if (!meta.missing().empty()) return damaged(path, "it has no '" + meta.missing() + "'");
     Result<std::vector<RobotState>> states = read_states(path, db, model);
     if (!states) return states.error();
     run.states = std::move(states).value();
     Result<Blob> orders = read_rest(path, db, model, run);
     if (!orders) return orders.error();
-    if (to_hex(state_hash_of(model, run)) != states_hash) return damaged(path, "its states do not have the hash that was saved");
+    if (to_hex(state_hash_of(model, run)) != states_hash)
+        return damaged(path, "its states do not have the hash that was saved");
     if (to_hex(rest_hash(orders.value(), run)) != others_hash)
         return damaged(path, "its orders or what goes with them do not have the hash that was saved");
     return run;

@@ -1,5 +1,5 @@
-// The checkpoint file of a run (SQLite): all that is needed to go on exactly. A file is written beside its name and then
-// renamed, so there is always a whole one; a load believes nothing that it has not checked.
+// The checkpoint file of a run (SQLite): all that is needed to go on exactly. A file is written beside its
+// name and then renamed, so there is always a whole one; a load believes nothing that it has not checked.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,8 @@ std::uint64_t state_hash_of(const Model& model, const SavedRun& run);
 
 Result<> save_run(const std::string& path, const Model& model, const SavedRun& run);
 
-/// Refuses, saying why: no such file, not a checkpoint, another format version, another world or step, damaged or truncated.
+/// Refuses, saying why: no such file, not a checkpoint, another format version, another world or step,
+/// damaged or truncated.
 Result<SavedRun> load_run(const std::string& path, const Model& model);
 
 }  // namespace roboss

@@ -1,5 +1,6 @@
-// A box in single precision that surely contains its double original: what swept bounds travel as (24 bytes). Rounded
-// outward, so it can only make two robots look closer than they are, which costs time and never truth.
+// A box in single precision that surely contains its double original: what swept bounds travel as (24 bytes).
+// Rounded outward, so it can only make two robots look closer than they are, which costs time and never
+// truth.
 #pragma once
 
 #include <array>

@@ -39,7 +39,8 @@ struct Placing {
     double done = 0;  // when the last Simulator would be
 };
 
-/// Islands in `order`; each stays at home while home's load with it is within `bound` (a time), else it goes where it is soonest done.
+/// Islands in `order`; each stays at home while home's load with it is within `bound` (a time), else it goes
+/// where it is soonest done.
 Placing place_all(const AssignRequest& r, std::span<const double> cost, std::span<const std::uint32_t> order,
                   std::span<const std::uint32_t> home, double bound) {
     Placing result{std::vector<std::uint32_t>(cost.size()), 0};
@@ -63,13 +64,16 @@ std::vector<std::uint32_t> assign(const AssignRequest& r) {
     std::vector<double> cost(count, 0.0), weight(r.speed.size(), 0.0);
     std::vector<std::uint32_t> order(count), home(count);
     for (std::uint32_t i = 0; i < count; ++i) {
-        for (const RobotId robot : r.islands.of(i)) cost[i] += static_cast<double>(r.robot_cost[robot.index()]);
+        for (const RobotId robot : r.islands.of(i))
+            cost[i] += static_cast<double>(r.robot_cost[robot.index()]);
         home[i] = home_of(r, i, weight);
         order[i] = i;
     }
-    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return cost[a] != cost[b] ? cost[a] > cost[b] : a < b; });
+    std::sort(order.begin(), order.end(),
+              [&](auto a, auto b) { return cost[a] != cost[b] ? cost[a] > cost[b] : a < b; });
 
-    // How soon all could be done if moving were free; nobody moves as long as staying is not much worse than that.
+    // How soon all could be done if moving were free; nobody moves as long as staying is not much worse than
+    // that.
     const Placing free = place_all(r, cost, order, home, -1);
     return place_all(r, cost, order, home, (1 + r.slack) * free.done).place;
 }

@@ -1,6 +1,7 @@
-// Assignment of islands to Simulators: the dearest island first, each to the Simulator that would be done with it first
-// (longest processing time, Graham 1969), by measured cost and measured speed; but an island stays where most of it is
-// as long as that Simulator's share allows, because moving a robot costs a hand-off.
+// Assignment of islands to Simulators: the dearest island first, each to the Simulator that would be done
+// with it first (longest processing time, Graham 1969), by measured cost and measured speed; but an island
+// stays where most of it is as long as that Simulator's share allows, because moving a robot costs a
+// hand-off.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +16,11 @@ inline constexpr std::uint32_t kNowhere = 0xFFFFFFFFu;
 
 struct AssignRequest {
     const Islands& islands;
-    std::span<const float> robot_cost;           // by RobotId, any common unit, > 0
-    std::span<const std::uint32_t> robot_place;  // by RobotId: index of the Simulator that has it, or kNowhere
-    std::span<const double> speed;               // by Simulator index: work a second, relative; > 0
-    double slack = 0.1;                          // how far above the even share a Simulator may get to avoid a move
+    std::span<const float> robot_cost;  // by RobotId, any common unit, > 0
+    std::span<const std::uint32_t>
+        robot_place;                // by RobotId: index of the Simulator that has it, or kNowhere
+    std::span<const double> speed;  // by Simulator index: work a second, relative; > 0
+    double slack = 0.1;             // how far above the even share a Simulator may get to avoid a move
 };
 
 /// For each island the index of its Simulator. `speed` must not be empty.

@@ -8,8 +8,8 @@ namespace roboss {
 
 namespace {
 
-constexpr double kTurn = 0.15;           // share of the way that a turn may bend sideways
-constexpr double kAcceleration = 15.0;   // m/s^2: a fall, a hard start or stop
+constexpr double kTurn = 0.15;          // share of the way that a turn may bend sideways
+constexpr double kAcceleration = 15.0;  // m/s^2: a fall, a hard start or stop
 
 std::array<float, 3> to_floats(const Vec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};

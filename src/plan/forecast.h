@@ -1,5 +1,5 @@
-// Forecast: where each robot will probably be during the next window, and so which islands to step together. A wrong
-// forecast makes the window be repeated for the islands that touched; it never changes a result.
+// Forecast: where each robot will probably be during the next window, and so which islands to step together.
+// A wrong forecast makes the window be repeated for the islands that touched; it never changes a result.
 #pragma once
 
 #include <array>
@@ -25,9 +25,9 @@ struct RobotMotion {
 RobotMotion motion_of(const Model& model, RobotId robot, const RobotState& state);
 
 struct ForecastOptions {
-    bool merge_all = false;   // one island of all robots
-    double reach_scale = 1;   // of the way expected in the window; 0 is a fault for tests
-    bool blind = false;       // a fault for tests: every robot an island of its own
+    bool merge_all = false;  // one island of all robots
+    double reach_scale = 1;  // of the way expected in the window; 0 is a fault for tests
+    bool blind = false;      // a fault for tests: every robot an island of its own
 };
 
 class Forecast {

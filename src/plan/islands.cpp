@@ -18,7 +18,8 @@ std::size_t Islands::largest() const {
 }
 
 void collect_islands(UnionFind& sets, std::span<const RobotId> only, Islands& out) {
-    // Robots come in ascending order, so the first of a set to come opens its island and islands ascend by root.
+    // Robots come in ascending order, so the first of a set to come opens its island and islands ascend by
+    // root.
     std::vector<std::uint32_t> island_of(sets.size(), RobotId::kNone), number(only.size());
     std::uint32_t count = 0;
     for (std::size_t i = 0; i < only.size(); ++i) {

@@ -1,5 +1,5 @@
-// Islands: a partition of the robots. Canonical: an island's root is its lowest robot, islands ascend by root, robots
-// ascend within an island; so the partition is the same however it was found.
+// Islands: a partition of the robots. Canonical: an island's root is its lowest robot, islands ascend by
+// root, robots ascend within an island; so the partition is the same however it was found.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +44,8 @@ struct Islands {
     std::size_t largest() const;
 };
 
-/// The sets of `sets` as islands. With `only` (ascending), just the sets that hold these robots, restricted to them.
+/// The sets of `sets` as islands. With `only` (ascending), just the sets that hold these robots, restricted
+/// to them.
 void collect_islands(UnionFind& sets, Islands& out);
 void collect_islands(UnionFind& sets, std::span<const RobotId> only, Islands& out);
 

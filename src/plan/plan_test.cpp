@@ -11,7 +11,8 @@
 namespace roboss {
 namespace {
 
-std::vector<OwnedBox> random_boxes(std::mt19937_64& random, std::uint32_t owners, double extent, double size) {
+std::vector<OwnedBox> random_boxes(std::mt19937_64& random, std::uint32_t owners, double extent,
+                                   double size) {
     std::uniform_real_distribution<double> place(-extent, extent), edge(0, size);
     std::vector<OwnedBox> boxes;
     for (std::uint32_t i = 0; i < owners; ++i) {
@@ -26,7 +27,8 @@ TEST(Sweep, FindsExactlyTheSetsOfOverlappingBoxes) {
     for (const std::uint32_t n : {0u, 1u, 10u, 63u, 64u, 400u, 1500u})
         for (const double size : {0.1, 1.0, 8.0}) {
             std::vector<OwnedBox> boxes = random_boxes(random, n, 40, size);
-            for (std::uint32_t i = 0; i + 1 < n / 10; ++i) boxes.push_back(random_boxes(random, 1, 40, size)[0]);  // owner 0 has more
+            for (std::uint32_t i = 0; i + 1 < n / 10; ++i)
+                boxes.push_back(random_boxes(random, 1, 40, size)[0]);  // owner 0 has more
             if (n > 70) {  // a pillar over everything, an endless box, an empty one
                 boxes.push_back({Box32{{1, -1e30f, 0}, {1.5f, 1e30f, 1}}, 5});
                 boxes.push_back({Box32{}, 6});
@@ -39,7 +41,8 @@ TEST(Sweep, FindsExactlyTheSetsOfOverlappingBoxes) {
                 for (std::size_t j = 0; j < i; ++j)
                     if (overlaps(boxes[i].box, boxes[j].box)) expected.unite(boxes[i].owner, boxes[j].owner);
             Sweep().unite_overlapping(boxes, found);
-            for (std::uint32_t i = 0; i < n; ++i) ASSERT_EQ(found.find(i), expected.find(i)) << n << " boxes, robot " << i;
+            for (std::uint32_t i = 0; i < n; ++i)
+                ASSERT_EQ(found.find(i), expected.find(i)) << n << " boxes, robot " << i;
         }
 }
 
@@ -59,7 +62,8 @@ TEST(Islands, AreCanonicalHoweverTheyWereFound) {
     collect_islands(a, ia), collect_islands(b, ib);
     EXPECT_EQ(ia.robots, ib.robots);
     EXPECT_EQ(ia.offsets, (std::vector<std::uint32_t>{0, 1, 4, 6}));
-    EXPECT_EQ(ia.robots, (std::vector<RobotId>{RobotId(0u), RobotId(1u), RobotId(3u), RobotId(5u), RobotId(2u), RobotId(4u)}));
+    EXPECT_EQ(ia.robots, (std::vector<RobotId>{RobotId(0u), RobotId(1u), RobotId(3u), RobotId(5u),
+                                               RobotId(2u), RobotId(4u)}));
     Islands some;
     const std::vector<RobotId> only{RobotId(2u), RobotId(3u), RobotId(5u)};
     collect_islands(a, only, some);
@@ -94,7 +98,8 @@ TEST(Assign, MovesNobodyWhileStayingIsNearlyAsGood) {
     const Islands islands = single_islands(40);
     std::vector<std::uint32_t> here(40);
     std::vector<float> cost(40);
-    for (std::uint32_t i = 0; i < 40; ++i) here[i] = i % 2, cost[i] = 1.0f + 0.001f * static_cast<float>(i % 3);
+    for (std::uint32_t i = 0; i < 40; ++i)
+        here[i] = i % 2, cost[i] = 1.0f + 0.001f * static_cast<float>(i % 3);
     EXPECT_EQ(assign({islands, cost, here, std::vector<double>{1, 1}}), here);
 }
 

@@ -30,8 +30,10 @@ Sweep::Strips Sweep::cut(std::span<const OwnedBox> boxes) {
     }
     Strips strips;
     if (n < 64) return strips;
-    // a few mean box heights a strip, and no more strips than sqrt(n), so that tall boxes are not repeated often
-    const double wanted = std::max(4.0 * heights / static_cast<double>(n), (high - low) / std::sqrt(static_cast<double>(n)));
+    // a few mean box heights a strip, and no more strips than sqrt(n), so that tall boxes are not repeated
+    // often
+    const double wanted =
+        std::max(4.0 * heights / static_cast<double>(n), (high - low) / std::sqrt(static_cast<double>(n)));
     if (!(wanted > 0) || !std::isfinite(wanted)) return strips;
     strips.origin = low;
     strips.height = wanted;
@@ -42,12 +44,14 @@ Sweep::Strips Sweep::cut(std::span<const OwnedBox> boxes) {
 void Sweep::fill(std::span<const OwnedBox> boxes, const Strips& strips) {
     offsets_.assign(strips.count + 1, 0);
     for (const OwnedBox& b : boxes)
-        for (std::uint32_t s = strips.of(b.box.min[1]), last = strips.of(b.box.max[1]); s <= last; ++s) ++offsets_[s + 1];
+        for (std::uint32_t s = strips.of(b.box.min[1]), last = strips.of(b.box.max[1]); s <= last; ++s)
+            ++offsets_[s + 1];
     std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
     entries_.resize(offsets_.back());
     std::vector<std::uint32_t> next(offsets_.begin(), offsets_.end() - 1);
     for (std::uint32_t i = 0; i < boxes.size(); ++i)
-        for (std::uint32_t s = strips.of(boxes[i].box.min[1]), last = strips.of(boxes[i].box.max[1]); s <= last; ++s)
+        for (std::uint32_t s = strips.of(boxes[i].box.min[1]), last = strips.of(boxes[i].box.max[1]);
+             s <= last; ++s)
             entries_[next[s]++] = i;
 }
 

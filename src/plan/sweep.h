@@ -1,5 +1,6 @@
-// Sweep and prune (Baraff 1992; Cohen et al. 1995): all overlapping pairs among many boxes. Boxes are cut into strips
-// along y and each strip is swept along x, so that a wide crowd costs O(n log n) too. A robot may own several boxes.
+// Sweep and prune (Baraff 1992; Cohen et al. 1995): all overlapping pairs among many boxes. Boxes are cut
+// into strips along y and each strip is swept along x, so that a wide crowd costs O(n log n) too. A robot may
+// own several boxes.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +30,8 @@ class Sweep {
     };
     static Strips cut(std::span<const OwnedBox> boxes);
     void fill(std::span<const OwnedBox> boxes, const Strips& strips);
-    static std::size_t sweep(std::span<const OwnedBox> boxes, std::span<std::uint32_t> strip, UnionFind& sets);
+    static std::size_t sweep(std::span<const OwnedBox> boxes, std::span<std::uint32_t> strip,
+                             UnionFind& sets);
 
     std::vector<std::uint32_t> offsets_, entries_;  // strip -> numbers of its boxes
 };

@@ -20,10 +20,12 @@ ClientDesk::ClientDesk(const std::vector<std::string>& expected) {
 }
 
 ClientId ClientDesk::welcome(const Address& address, const ClientHello& hello, Tick earliest, bool& is_new) {
-    auto seat = std::find_if(seats_.begin(), seats_.end(), [&](const ClientSeat& s) { return s.joined && s.address == address; });
+    auto seat = std::find_if(seats_.begin(), seats_.end(),
+                             [&](const ClientSeat& s) { return s.joined && s.address == address; });
     is_new = seat == seats_.end();
     if (is_new) {
-        seat = std::find_if(seats_.begin(), seats_.end(), [&](const ClientSeat& s) { return !s.joined && s.name == hello.name; });
+        seat = std::find_if(seats_.begin(), seats_.end(),
+                            [&](const ClientSeat& s) { return !s.joined && s.name == hello.name; });
         if (seat == seats_.end()) seat = seats_.insert(seats_.end(), ClientSeat{});
         seat->name = hello.name;
         seat->address = address;

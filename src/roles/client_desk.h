@@ -1,5 +1,6 @@
-// The Clients that the Controller serves: who observes which ticks, whose words are still to come, and so how far the
-// world may go. Words are numbered and accepted in order, so it does not matter how the Bus treats them.
+// The Clients that the Controller serves: who observes which ticks, whose words are still to come, and so how
+// far the world may go. Words are numbered and accepted in order, so it does not matter how the Bus treats
+// them.
 #pragma once
 
 #include <deque>
@@ -16,20 +17,22 @@ struct ClientSeat {
     Tick period = 1, latency = 1;
     bool synchronous = true;
     bool joined = false, gone = false;
-    Tick first = 0;                    // tick of its first observation
+    Tick first = 0;  // tick of its first observation
     std::uint64_t last_word = 0;
     std::vector<RefusedOrder> refused;  // of the last word
-    std::deque<Tick> unanswered;       // observations told and not answered, ascending
-    std::int64_t told_ms = 0;
+    std::deque<Tick> unanswered;        // observations told and not answered, ascending
+    std::int64_t told_ms = 0, heard_ms = 0;
     bool serves() const { return joined && !gone; }
 };
 
 class ClientDesk {
   public:
-    /// A run waits for these Clients before its first window; their ids are their places here, whoever comes first.
+    /// A run waits for these Clients before its first window; their ids are their places here, whoever comes
+    /// first.
     explicit ClientDesk(const std::vector<std::string>& expected);
 
-    /// Takes a Client in; `earliest`: the first tick that is not planned yet. The seat is joined() already if the hello came twice.
+    /// Takes a Client in; `earliest`: the first tick that is not planned yet. The seat is joined() already if
+    /// the hello came twice.
     ClientId welcome(const Address& address, const ClientHello& hello, Tick earliest, bool& is_new);
     bool all_joined() const;
 
@@ -40,8 +43,9 @@ class ClientDesk {
     static bool observes(const ClientSeat& seat, Tick tick) {
         return seat.serves() && tick >= seat.first && tick % seat.period == 0;
     }
-    /// The furthest tick to which the world may be planned from `tick`: not beyond the next observation, nor beyond what a
-    /// synchronous Client that has not answered yet may still order. May be `tick` itself: wait.
+    /// The furthest tick to which the world may be planned from `tick`: not beyond the next observation, nor
+    /// beyond what a synchronous Client that has not answered yet may still order. May be `tick` itself:
+    /// wait.
     Tick limit(Tick tick) const;
 
   private:

@@ -10,11 +10,13 @@ namespace roboss {
 
 StartingPoint beginning_of(const Model& model) {
     StartingPoint start;
-    for (std::size_t i = 0; i < model.robots.size(); ++i) start.states.push_back(initial_state(model, RobotId(i)));
+    for (std::size_t i = 0; i < model.robots.size(); ++i)
+        start.states.push_back(initial_state(model, RobotId(i)));
     return start;
 }
 
-Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptions& options, StartingPoint start)
+Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptions& options,
+                       StartingPoint start)
     : model_(std::move(model)),
       options_(options),
       desk_(options.clients),
@@ -42,6 +44,7 @@ void Controller::advance(Bus& bus) {
     bus.drain(kControllerAddress, inbox_);
     for (Envelope& envelope : inbox_) handle(bus, envelope);
     notice_losses(bus);
+    notice_client_losses(bus);
     pull_.advance(bus, kControllerAddress, options_.resend_ms);
     if (round_ && round_->all_answered()) finish_round();
     if (!round_) at_boundary(bus);
@@ -59,8 +62,9 @@ void Controller::handle(Bus& bus, Envelope& envelope) {
         serve(bus, from, *request);
     } else if (const auto* reply = std::get_if<StateReply>(&envelope.message)) {
         if (next_base_)
-            pull_.accept(*model_, *reply,
-                         [&](RobotId robot, RobotState&& s) { next_base_->states[robot.index()] = std::move(s); });
+            pull_.accept(*model_, *reply, [&](RobotId robot, RobotState&& s) {
+                next_base_->states[robot.index()] = std::move(s);
+            });
     } else if (const auto* word = std::get_if<ClientWord>(&envelope.message)) {
         take_word(bus, *word);
     } else if (const auto* hello = std::get_if<Hello>(&envelope.message)) {
@@ -77,10 +81,11 @@ void Controller::handle(Bus& bus, Envelope& envelope) {
 void Controller::take_hello(Bus& bus, const Address& from, const Hello& hello) {
     if (hello.model_hash != model_->hash)
         return bus.send(kControllerAddress, from,
-                        Refused{"its world (model hash " + to_hex(hello.model_hash) + ") is not this run's (" +
-                                to_hex(model_->hash) + ")"});
+                        Refused{"its world (model hash " + to_hex(hello.model_hash) +
+                                ") is not this run's (" + to_hex(model_->hash) + ")"});
     bool is_new = false;
     const SimulatorId id = roster_.seat_for(from, hello.threads, bus.now_ms(), is_new);
+    if (!id.valid()) return;
     if (is_new) notice("simulator " + std::to_string(id.value) + " joined at tick " + std::to_string(tick_));
     counters_.simulators = roster_.alive_count();
     bus.send(kControllerAddress, from, Welcome{id});
@@ -116,7 +121,8 @@ void Controller::serve(Bus& bus, const Address& from, const StateRequest& reques
 }
 
 bool Controller::settled() const {
-    return resting() && std::all_of(desk_.seats().begin(), desk_.seats().end(), [this](const ClientSeat& seat) {
+    return resting() &&
+           std::all_of(desk_.seats().begin(), desk_.seats().end(), [this](const ClientSeat& seat) {
                return !seat.synchronous || seat.unanswered.empty() || seat.unanswered.front() >= tick_;
            });
 }
@@ -129,8 +135,8 @@ const std::vector<RobotState>* Controller::states() const {
 Result<> Controller::submit(const Order& order) {
     if (Result<> checked = check_order(*model_, order); !checked) return checked;
     if (order.apply_at < plannable())
-        return Error{"an order for tick " + std::to_string(order.apply_at) + " comes too late, the world is at tick " +
-                         std::to_string(plannable()),
+        return Error{"an order for tick " + std::to_string(order.apply_at) +
+                         " comes too late, the world is at tick " + std::to_string(plannable()),
                      "give a later time"};
     book_.add(order, OrderBook::kGiven);
     return Ok{};

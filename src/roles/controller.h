@@ -1,11 +1,13 @@
-// The Controller role (the paper's section 3): plans windows, validates what came of them, commits, stamps orders, serves
-// observations, and brings back what a lost Simulator had. It steps nothing. The truth is in its committed tick, the robots' hashes
-// there, the last checkpoint and the order log; everything else can be asked for again.
+// The Controller role (the paper's section 3): plans windows, validates what came of them, commits, stamps
+// orders, serves observations, and brings back what a lost Simulator had. It steps nothing. The truth is in
+// its committed tick, the robots' hashes there, the last checkpoint and the order log; everything else can be
+// asked for again.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bus/bus.h"
@@ -23,13 +25,15 @@ struct ControllerOptions {
     Tick window = 0;       // ticks; 0: adaptive
     Tick window_max = 64;  // of the adaptive one
     ForecastOptions forecast;
-    std::size_t simulators = 1;         // the first window waits for so many
-    std::vector<std::string> clients;   // and for these; their ids are their places here
-    std::uint64_t seed = 1;             // told to Clients
+    std::size_t simulators = 1;        // the first window waits for so many
+    std::vector<std::string> clients;  // and for these; their ids are their places here
+    std::uint64_t seed = 1;            // told to Clients
     std::int64_t resend_ms = 100;
-    std::int64_t loss_ms = 0;           // a Simulator silent for so long is given up; 0: never
-    Tick checkpoint_ticks = 0;          // recovery checkpoints at most so far apart; 0: none by ticks
-    double checkpoint_work_s = 0;       // and so much stepping CPU time of the busiest Simulator apart; 0: none by work
+    std::int64_t loss_ms = 0;         // a Simulator silent for so long is given up; 0: never
+    std::int64_t client_loss_ms = 0;  // so is a Client that does not answer an observation; 0: never
+    Tick checkpoint_ticks = 0;        // recovery checkpoints at most so far apart; 0: none by ticks
+    double checkpoint_work_s =
+        0;  // and so much stepping CPU time of the busiest Simulator apart; 0: none by work
 };
 
 /// Where a run starts: the world's beginning, or a saved run.
@@ -48,9 +52,25 @@ struct Counters {
     std::uint64_t ticks = 0;             // committed by this run
     std::uint64_t island_ticks = 0;      // islands times ticks: islands_mean = island_ticks / ticks
     std::uint64_t contacts = 0, static_contacts = 0;  // summed over ticks
-    double step_cpu_s = 0;               // all stepping, repeats included
+    double step_cpu_s = 0;                            // all stepping, repeats included
+    double critical_cpu_s = 0;  // of the busiest Simulator of each attempt: what many machines would wait for
     std::uint64_t losses = 0, recoveries = 0, migrations = 0, checkpoints = 0, orders_refused = 0;
     std::size_t simulators = 0, islands_now = 0;
+};
+
+/// A committed tick that somebody still wants to fetch.
+struct WantedTick {
+    Tick tick = 0;
+    std::vector<std::uint32_t> holder;  // by RobotId: place, or kLost
+    std::vector<ClientId> clients;
+    bool checkpoint = false;
+    bool open() const { return checkpoint || !clients.empty(); }
+};
+
+struct RecoveryCheckpoint {
+    Tick tick = 0;
+    std::vector<RobotState> states;  // by RobotId
+    UnionFind touched;               // robots that may have interacted since
 };
 
 class Controller {
@@ -60,7 +80,8 @@ class Controller {
     /// Handles what has come and starts what is due. Never waits.
     void advance(Bus& bus);
 
-    /// The world goes on until this tick and stops there. An earlier one than tick() pauses at the next boundary.
+    /// The world goes on until this tick and stops there. An earlier one than tick() pauses at the next
+    /// boundary.
     void run_until(Tick target) { target_ = target; }
     Tick target() const { return target_; }
     Tick tick() const { return tick_; }  // committed
@@ -76,7 +97,8 @@ class Controller {
     /// The 64-bit hash of the world at tick().
     std::uint64_t hash() const { return world_hash(model_->hash, hashes_); }
     std::uint64_t robot_hash(RobotId robot) const { return hashes_[robot.index()]; }
-    /// Fetches all states at tick(); only while resting (or failed). Then states() has them after some advances.
+    /// Fetches all states at tick(); only while resting (or failed). Then states() has them after some
+    /// advances.
     void request_states() { states_wanted_ = true; }
     const std::vector<RobotState>* states() const;
 
@@ -93,20 +115,6 @@ class Controller {
     const Islands& islands() const { return islands_; }
 
   private:
-    /// A committed tick that somebody still wants to fetch.
-    struct Want {
-        Tick tick = 0;
-        std::vector<std::uint32_t> holder;  // by RobotId: place, or kLost
-        std::vector<ClientId> clients;
-        bool checkpoint = false;
-        bool open() const { return checkpoint || !clients.empty(); }
-    };
-    struct Checkpoint {
-        Tick tick = 0;
-        std::vector<RobotState> states;
-        UnionFind touched;  // robots that may have interacted since
-    };
-
     // controller.cpp: messages in
     void handle(Bus& bus, Envelope& envelope);
     void take_hello(Bus& bus, const Address& from, const Hello& hello);
@@ -124,8 +132,10 @@ class Controller {
     void tell_observers();
     void tell_observer(ClientId id, Tick tick);
     void forget(ClientId id, Tick tick);
+    void drop_client(ClientId id);
+    void notice_client_losses(Bus& bus);
     void send_observations(Bus& bus, bool again_now);
-    Want& want_at_this_tick();
+    WantedTick& want_at_this_tick();
     Tick plannable() const { return round_ && !round_->span().recovery ? round_->span().until : tick_; }
 
     // controller_window.cpp
@@ -176,12 +186,14 @@ class Controller {
     UnionFind sets_;
     Sweep sweep_;
 
-    Checkpoint base_;
-    std::optional<Checkpoint> next_base_;  // being fetched, or waiting until nobody wants an earlier tick
+    RecoveryCheckpoint base_;
+    std::optional<RecoveryCheckpoint>
+        next_base_;  // being fetched, or waiting until nobody wants an earlier tick
     StatePull pull_;
     double work_since_s_ = 0;  // of the busiest Simulator since the last checkpoint
     bool states_wanted_ = false;
-    std::vector<Want> wants_;
+    std::vector<WantedTick> wants_;
+    std::uint64_t busiest_ns_ = 0;     // of the attempt under way
     std::vector<RobotId> recovering_;  // robots of the recovery under way, ascending
     bool tell_again_ = false;
 

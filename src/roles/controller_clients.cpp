@@ -1,5 +1,6 @@
 // The Controller towards Clients: words in, observations out.
 #include <algorithm>
+#include <utility>
 
 #include "roles/controller.h"
 
@@ -21,6 +22,7 @@ void Controller::take_client_hello(Bus& bus, const Address& from, const ClientHe
 void Controller::take_word(Bus& bus, const ClientWord& word) {
     ClientSeat* seat = desk_.find(word.client);
     if (seat == nullptr || !seat->serves()) return;
+    seat->heard_ms = bus.now_ms();
     if (word.word == seat->last_word + 1) {
         seat->last_word = word.word;
         take_orders(*seat, word);
@@ -34,13 +36,15 @@ void Controller::take_word(Bus& bus, const ClientWord& word) {
 
 void Controller::take_orders(ClientSeat& seat, const ClientWord& word) {
     seat.refused.clear();
-    const Tick apply_at = seat.synchronous ? std::max(word.observed + seat.latency, plannable()) : plannable();
+    const Tick apply_at =
+        seat.synchronous ? std::max(word.observed + seat.latency, plannable()) : plannable();
     for (const ClientOrder& given : word.orders) {
         const Order order{apply_at, word.client, given.sequence, given.robot, given.action};
         if (Result<> checked = check_order(*model_, order); !checked) {
             seat.refused.push_back({given.sequence, checked.error().text()});
             ++counters_.orders_refused;
-            notice("order " + std::to_string(given.sequence) + " of client '" + seat.name + "' refused: " + checked.error().message);
+            notice("order " + std::to_string(given.sequence) + " of client '" + seat.name +
+                   "' refused: " + checked.error().message);
             continue;
         }
         book_.add(order, word.observed);
@@ -52,10 +56,8 @@ void Controller::take_bye(Bus& bus, const ClientBye& bye) {
     if (seat == nullptr || !seat->joined || bye.word > seat->last_word + 1) return;
     bus.send(kControllerAddress, seat->address, WordAck{bye.client, bye.word, {}});
     if (seat->gone || bye.word <= seat->last_word) return;
-    seat->gone = true;
     seat->last_word = bye.word;
-    for (const Tick tick : seat->unanswered) forget(bye.client, tick);
-    seat->unanswered.clear();
+    drop_client(bye.client);
     if (bye.failed)
         fail({"client '" + seat->name + "' failed at tick " + std::to_string(tick_) + ": " + bye.reason,
               "mend the control program; the world up to this tick is intact and can be saved"});
@@ -63,7 +65,31 @@ void Controller::take_bye(Bus& bus, const ClientBye& bye) {
         notice("client '" + seat->name + "' left");
 }
 
-Controller::Want& Controller::want_at_this_tick() {
+void Controller::drop_client(ClientId id) {
+    ClientSeat& seat = desk_.seats()[id.index()];
+    seat.gone = true;
+    for (const Tick tick : std::exchange(seat.unanswered, {})) forget(id, tick);
+}
+
+void Controller::notice_client_losses(Bus& bus) {
+    if (options_.client_loss_ms <= 0) return;
+    const std::int64_t now = bus.now_ms();
+    for (std::size_t i = 0; i < desk_.seats().size(); ++i) {
+        ClientSeat& seat = desk_.seats()[i];
+        if (seat.unanswered.empty()) seat.heard_ms = now;
+        if (!seat.serves() || now - seat.heard_ms <= options_.client_loss_ms) continue;
+        drop_client(ClientId(i));
+        const std::string what =
+            "client '" + seat.name + "' has not answered for " + std::to_string(now - seat.heard_ms) + " ms";
+        if (seat.synchronous)
+            fail({what + " at tick " + std::to_string(tick_),
+                  "see why it hangs; the world up to this tick is intact and can be saved"});
+        else
+            notice(what + " and is given up");
+    }
+}
+
+WantedTick& Controller::want_at_this_tick() {
     if (wants_.empty() || wants_.back().tick != tick_) {
         wants_.push_back({});
         wants_.back().tick = tick_;
@@ -79,7 +105,8 @@ void Controller::tell_observers() {
 
 void Controller::tell_observer(ClientId id, Tick tick) {
     ClientSeat& seat = desk_.seats()[id.index()];
-    if (!seat.synchronous && !seat.unanswered.empty()) return;  // it is busy with an earlier one; the world does not wait
+    if (!seat.synchronous && !seat.unanswered.empty())
+        return;  // it is busy with an earlier one; the world does not wait
     seat.unanswered.push_back(tick);
     seat.told_ms = 0;
     want_at_this_tick().clients.push_back(id);
@@ -87,9 +114,9 @@ void Controller::tell_observer(ClientId id, Tick tick) {
 }
 
 void Controller::forget(ClientId id, Tick tick) {
-    for (Want& want : wants_)
+    for (WantedTick& want : wants_)
         if (want.tick == tick) std::erase(want.clients, id);
-    std::erase_if(wants_, [](const Want& want) { return !want.open(); });
+    std::erase_if(wants_, [](const WantedTick& want) { return !want.open(); });
 }
 
 void Controller::send_observations(Bus& bus, bool again_now) {
@@ -98,8 +125,9 @@ void Controller::send_observations(Bus& bus, bool again_now) {
         ClientSeat& seat = desk_.seats()[i];
         if (seat.unanswered.empty() || (!again_now && now - seat.told_ms < options_.resend_ms)) continue;
         seat.told_ms = now;
-        for (const Want& want : wants_) {
-            if (std::find(want.clients.begin(), want.clients.end(), ClientId(i)) == want.clients.end()) continue;
+        for (const WantedTick& want : wants_) {
+            if (std::find(want.clients.begin(), want.clients.end(), ClientId(i)) == want.clients.end())
+                continue;
             Observation observation{want.tick, seat.last_word, {}};
             std::vector<std::uint32_t> places;
             for (std::size_t r = 0; r < want.holder.size(); ++r) {

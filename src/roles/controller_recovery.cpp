@@ -1,5 +1,6 @@
-// Checkpoints, leaving, and losses. A lost robot's state is made again: it and every robot that it may have touched since
-// the last checkpoint are stepped from there with the logged orders, and must come to the committed hashes.
+// Checkpoints, leaving, and losses. A lost robot's state is made again: it and every robot that it may have
+// touched since the last checkpoint are stepped from there with the logged orders, and must come to the
+// committed hashes.
 #include <algorithm>
 
 #include "plan/assign.h"
@@ -45,9 +46,9 @@ void Controller::begin_checkpoint() {
 }
 
 void Controller::finish_checkpoint() {
-    for (Want& want : wants_)
+    for (WantedTick& want : wants_)
         if (want.tick == next_base_->tick) want.checkpoint = false;
-    std::erase_if(wants_, [](const Want& want) { return !want.open(); });
+    std::erase_if(wants_, [](const WantedTick& want) { return !want.open(); });
     // An earlier tick that is still wanted could not be made again from the new checkpoint.
     if (!wants_.empty() && wants_.front().tick < next_base_->tick) return;
     base_ = std::move(*next_base_);
@@ -73,7 +74,7 @@ bool Controller::let_leavers_go(Bus& bus) {
         if (!seat.alive || !seat.leaving) continue;
         for (std::uint32_t& holder : holder_)
             if (holder == place) holder = kAtController;
-        for (Want& want : wants_)
+        for (WantedTick& want : wants_)
             for (std::uint32_t& holder : want.holder)
                 if (holder == place) holder = kAtController;
         seat.alive = false;
@@ -99,11 +100,11 @@ void Controller::notice_losses(Bus& bus) {
         if (next_base_ && !pull_.complete()) {
             pull_.cancel();
             next_base_.reset();
-            for (Want& want : wants_) want.checkpoint = false;
-            std::erase_if(wants_, [](const Want& want) { return !want.open(); });
+            for (WantedTick& want : wants_) want.checkpoint = false;
+            std::erase_if(wants_, [](const WantedTick& want) { return !want.open(); });
         }
-        notice("simulator " + std::to_string(place) + " was silent for " + std::to_string(now - seat.heard_ms) +
-               " ms and is given up at tick " + std::to_string(tick_));
+        notice("simulator " + std::to_string(place) + " was silent for " +
+               std::to_string(now - seat.heard_ms) + " ms and is given up at tick " + std::to_string(tick_));
     }
     counters_.simulators = roster_.alive_count();
 }
@@ -111,18 +112,19 @@ void Controller::notice_losses(Bus& bus) {
 bool Controller::anything_lost() const {
     const auto lost = [this](std::uint32_t place) { return is_lost(place); };
     return std::any_of(holder_.begin(), holder_.end(), lost) ||
-           std::any_of(wants_.begin(), wants_.end(),
-                       [&](const Want& want) { return std::any_of(want.holder.begin(), want.holder.end(), lost); });
+           std::any_of(wants_.begin(), wants_.end(), [&](const WantedTick& want) {
+               return std::any_of(want.holder.begin(), want.holder.end(), lost);
+           });
 }
 
-/// Robots to be made again: those lost, now or at a tick that is still wanted, and all that they may have touched since
-/// the checkpoint. Ascending.
+/// Robots to be made again: those lost, now or at a tick that is still wanted, and all that they may have
+/// touched since the checkpoint. Ascending.
 std::vector<RobotId> Controller::closure_of_lost() {
     const std::size_t n = holder_.size();
     std::vector<bool> root_lost(n, false);
     for (std::uint32_t r = 0; r < n; ++r) {
         bool lost = is_lost(holder_[r]);
-        for (const Want& want : wants_) lost = lost || is_lost(want.holder[r]);
+        for (const WantedTick& want : wants_) lost = lost || is_lost(want.holder[r]);
         if (lost) root_lost[base_.touched.find(r)] = true;
     }
     std::vector<RobotId> closure;
@@ -137,10 +139,11 @@ void Controller::begin_recovery() {
     ++counters_.recoveries;
     notice("bringing back " + std::to_string(recovering_.size()) + " robots from the checkpoint at tick " +
            std::to_string(base_.tick));
-    // Stepping them again overwrites what Simulators have of them; only what the Controller has is certain until it is done.
+    // Stepping them again overwrites what Simulators have of them; only what the Controller has is certain
+    // until it is done.
     const std::uint32_t place = base_.tick == tick_ ? kAtController : kLost;
     for (const RobotId robot : recovering_) holder_[robot.index()] = place;
-    for (Want& want : wants_)
+    for (WantedTick& want : wants_)
         for (const RobotId robot : recovering_)
             want.holder[robot.index()] = want.tick == base_.tick ? kAtController : kLost;
     tell_again_ = true;
@@ -150,7 +153,7 @@ void Controller::begin_recovery() {
 /// Steps the recovering robots from `from` to the next tick that is wanted, or to the committed one.
 void Controller::begin_leg(Tick from) {
     Tick until = tick_;
-    for (const Want& want : wants_)
+    for (const WantedTick& want : wants_)
         if (want.tick > from) until = std::min(until, want.tick);
     std::vector<std::uint32_t> source = round_ ? std::vector(round_->seats().begin(), round_->seats().end())
                                                : std::vector(holder_.size(), kAtController);
@@ -167,7 +170,8 @@ void Controller::begin_leg(Tick from) {
         place = assign({islands, cost_, nowhere, speeds});
         for (std::uint32_t& seat : place) seat = workers[seat];
     } else {
-        for (std::size_t i = 0; i < islands.count(); ++i) place.push_back(source[islands.of(i).front().index()]);
+        for (std::size_t i = 0; i < islands.count(); ++i)
+            place.push_back(source[islands.of(i).front().index()]);
     }
     round.plan(islands, place, source, roster_);
     if (!first) {
@@ -183,7 +187,7 @@ void Controller::begin_leg(Tick from) {
 
 void Controller::finish_leg() {
     const Tick until = round_->span().until;
-    for (Want& want : wants_)
+    for (WantedTick& want : wants_)
         if (want.tick == until)
             for (const RobotId robot : recovering_)
                 if (is_lost(want.holder[robot.index()])) want.holder[robot.index()] = round_->seat_of(robot);
@@ -194,7 +198,8 @@ void Controller::finish_leg() {
             round_.reset();
             return fail({"robot '" + model_->robots[robot.index()].name + "' came to another state at tick " +
                              std::to_string(tick_) + " when it was stepped again after a loss",
-                         "a Simulator computes other bits: compare the machines with `roboss check`, and report this"});
+                         "a Simulator computes other bits: compare the machines with `roboss check`, and "
+                         "report this"});
         }
         holder_[robot.index()] = round_->seat_of(robot);
     }

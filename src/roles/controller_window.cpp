@@ -1,5 +1,7 @@
-// The life of a window: forecast, assign, publish; then frames, validation, repeats where islands touched, commit.
+// The life of a window: forecast, assign, publish; then frames, validation, repeats where islands touched,
+// commit.
 #include <algorithm>
+#include <utility>
 
 #include "plan/assign.h"
 #include "roles/controller.h"
@@ -26,8 +28,9 @@ std::vector<double> speeds_of(const Roster& roster, std::span<const std::uint32_
 }
 
 /// assign() for seats: places in and out are seats, of which only `workers` may get islands.
-std::vector<std::uint32_t> assign_to_seats(const Islands& islands, std::span<const float> cost, const Roster& roster,
-                                           std::span<const std::uint32_t> holder, double slack) {
+std::vector<std::uint32_t> assign_to_seats(const Islands& islands, std::span<const float> cost,
+                                           const Roster& roster, std::span<const std::uint32_t> holder,
+                                           double slack) {
     const std::vector<std::uint32_t> workers = roster.workers();
     std::vector<std::uint32_t> index_of(roster.size(), kNowhere), place(holder.size(), kNowhere);
     for (std::uint32_t i = 0; i < workers.size(); ++i) index_of[workers[i]] = i;
@@ -63,7 +66,8 @@ bool Controller::may_plan() const {
 
 void Controller::plan_window() {
     const Tick until = std::min({tick_ + length_.ticks(), target_, desk_.limit(tick_)});
-    round_.emplace(RoundSpan{epoch_, ++window_, tick_, until, false}, book_.between(tick_, until), model_->robots.size());
+    round_.emplace(RoundSpan{epoch_, ++window_, tick_, until, false}, book_.between(tick_, until),
+                   model_->robots.size());
     forecast_.islands(motions_, round_->orders(), until - tick_, options_.forecast, round_->islands);
     const std::vector<std::uint32_t> place = assign_to_seats(round_->islands, cost_, roster_, holder_, 0.1);
     round_->plan(round_->islands, place, holder_, roster_);
@@ -98,11 +102,13 @@ void Controller::take_frame(const Frame& frame) {
         round_->outcome[plan->robots[plan->island_offsets[i]].index()] = frame.islands[i];
         cost_ns += frame.islands[i].cost_ns;
     }
+    busiest_ns_ = std::max(busiest_ns_, cost_ns);
     counters_.step_cpu_s += 1e-9 * static_cast<double>(cost_ns);
     round_->earlier.insert(round_->earlier.end(), frame.earlier.begin(), frame.earlier.end());
 }
 
 void Controller::finish_round() {
+    counters_.critical_cpu_s += 1e-9 * static_cast<double>(std::exchange(busiest_ns_, 0));
     if (round_->span().recovery) return finish_leg();
     if (merge_touching()) return;
     if (std::optional<Error> error = failed_island()) {
@@ -150,15 +156,16 @@ std::optional<Error> Controller::failed_island() const {
     for (std::size_t i = 0; i < round_->islands.count(); ++i) {
         const IslandFrame& outcome = round_->outcome[round_->islands.of(i).front().index()];
         if (!outcome.failed.valid()) continue;
-        if (first == nullptr || std::pair(outcome.failed_at, outcome.failed) < std::pair(first->failed_at, first->failed))
+        if (first == nullptr ||
+            std::pair(outcome.failed_at, outcome.failed) < std::pair(first->failed_at, first->failed))
             first = &outcome;
     }
     if (first == nullptr) return std::nullopt;
-    return Error{"the state of robot '" + model_->robots[first->failed.index()].name + "' is no longer finite after tick " +
-                     std::to_string(first->failed_at) + " (" +
+    return Error{"the state of robot '" + model_->robots[first->failed.index()].name +
+                     "' is no longer finite after tick " + std::to_string(first->failed_at) + " (" +
                      std::to_string(static_cast<double>(first->failed_at) * model_->dt_s) + " s)",
-                 "look for extreme orders or masses, or take a shorter step; the world up to tick " + std::to_string(tick_) +
-                     " is intact and can be saved"};
+                 "look for extreme orders or masses, or take a shorter step; the world up to tick " +
+                     std::to_string(tick_) + " is intact and can be saved"};
 }
 
 void Controller::commit() {
@@ -205,7 +212,8 @@ void Controller::learn_costs() {
         for (const RobotId robot : robots) freedoms += 4 + model_->type_of(robot).nv;
         work[place] += freedoms * ticks + static_cast<double>(outcome.contacts);
         spent_ns[place] += static_cast<double>(outcome.cost_ns);
-        const double each = rate * static_cast<double>(outcome.cost_ns) / (ticks * static_cast<double>(robots.size()));
+        const double each =
+            rate * static_cast<double>(outcome.cost_ns) / (ticks * static_cast<double>(robots.size()));
         for (const RobotId robot : robots) {
             float& cost = cost_[robot.index()];
             cost += kNewCostShare * (static_cast<float>(std::max(each, 1e-3)) - cost);

@@ -7,7 +7,8 @@ namespace roboss {
 
 bool OrderBook::add(const Order& order, Tick observed) {
     // only given orders can come twice (from a file and from a saved run); words of Clients are numbered
-    if (observed == kGiven && !given_.insert({order.apply_at, order.client, order.sequence}).second) return false;
+    if (observed == kGiven && !given_.insert({order.apply_at, order.client, order.sequence}).second)
+        return false;
     fresh_.push_back({order, observed});
     return true;
 }

@@ -1,5 +1,5 @@
-// The order log: every accepted order in canonical order, from the last recovery checkpoint on. What a window applies and
-// what a recovery applies again both come from here.
+// The order log: every accepted order in canonical order, from the last recovery checkpoint on. What a window
+// applies and what a recovery applies again both come from here.
 #pragma once
 
 #include <set>
@@ -14,13 +14,13 @@ class OrderBook {
   public:
     static constexpr Tick kGiven = -1;  // not the answer to an observation (a file's order, say)
 
-    /// Takes an order that was checked and stamped. `observed`: the tick it answers, or kGiven. False: an order with this
-    /// (apply_at, client, sequence) is here already, and nothing changes.
+    /// Takes an order that was checked and stamped. `observed`: the tick it answers, or kGiven. False: an
+    /// order with this (apply_at, client, sequence) is here already, and nothing changes.
     bool add(const Order& order, Tick observed);
     /// Those with from <= apply_at < until, canonical order.
     std::vector<Order> between(Tick from, Tick until);
-    /// What a run saved at `tick` must take along: orders still to come that do not answer an observation of `tick` or later
-    /// (the restored run observes those ticks itself).
+    /// What a run saved at `tick` must take along: orders still to come that do not answer an observation of
+    /// `tick` or later (the restored run observes those ticks itself).
     std::vector<Order> pending(Tick tick);
     /// Forgets orders with apply_at < tick.
     void trim(Tick tick);

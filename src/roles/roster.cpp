@@ -7,11 +7,16 @@
 
 namespace roboss {
 
-SimulatorId Roster::seat_for(const Address& address, std::uint32_t threads, std::int64_t now_ms, bool& is_new) {
+SimulatorId Roster::seat_for(const Address& address, std::uint32_t threads, std::int64_t now_ms,
+                             bool& is_new) {
     const auto here = std::find_if(seats_.begin(), seats_.end(),
                                    [&](const SimulatorSeat& s) { return s.alive && s.address == address; });
     is_new = here == seats_.end();
     if (!is_new) return SimulatorId(static_cast<std::size_t>(here - seats_.begin()));
+    const bool has_left = std::any_of(seats_.begin(), seats_.end(), [&](const SimulatorSeat& s) {
+        return !s.alive && s.leaving && s.address == address;
+    });
+    if (has_left) return is_new = false, SimulatorId();
     SimulatorSeat seat;
     seat.address = address;
     seat.threads = std::max(threads, 1u);
@@ -21,7 +26,8 @@ SimulatorId Roster::seat_for(const Address& address, std::uint32_t threads, std:
 }
 
 std::size_t Roster::alive_count() const {
-    return static_cast<std::size_t>(std::count_if(seats_.begin(), seats_.end(), [](const auto& s) { return s.alive; }));
+    return static_cast<std::size_t>(
+        std::count_if(seats_.begin(), seats_.end(), [](const auto& s) { return s.alive; }));
 }
 
 std::vector<std::uint32_t> Roster::workers() const {

@@ -1,5 +1,5 @@
-// The Simulators that the Controller knows. A seat is never given twice, so a message that names a lost Simulator's seat
-// can be told from one of its successor.
+// The Simulators that the Controller knows. A seat is never given twice, so a message that names a lost
+// Simulator's seat can be told from one of its successor.
 #pragma once
 
 #include <cstdint>
@@ -16,17 +16,18 @@ inline constexpr std::uint32_t kLost = 0xFFFFFFFDu;
 struct SimulatorSeat {
     Address address;
     bool alive = true;
-    bool leaving = false;        // asked to go; with !alive: has gone in good order
+    bool leaving = false;  // asked to go; with !alive: has gone in good order
     std::uint32_t threads = 1;
     std::int64_t heard_ms = 0;
-    double rate = 1;             // measured: work per ns of CPU time
+    double rate = 1;  // measured: work per ns of CPU time
     bool rate_known = false;
     double speed() const { return rate * threads; }
 };
 
 class Roster {
   public:
-    /// The seat of the living Simulator at this address; a new one if there is none.
+    /// The seat of the living Simulator at this address; a new one if there is none. Invalid if it has left
+    /// in good order: then the hello is a late copy.
     SimulatorId seat_for(const Address& address, std::uint32_t threads, std::int64_t now_ms, bool& is_new);
     bool known(SimulatorId id) const { return id.index() < seats_.size(); }
     bool alive(std::uint32_t place) const { return place < seats_.size() && seats_[place].alive; }

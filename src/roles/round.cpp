@@ -9,7 +9,8 @@ Round::Round(const RoundSpan& span, std::vector<Order> orders, std::size_t robot
     : outcome(robots), span_(span), orders_(std::move(orders)), seat_(robots, kLost) {}
 
 Plan& Round::plan_for(std::uint32_t place) {
-    const auto here = std::find_if(sent_.begin(), sent_.end(), [place](const Sent& s) { return s.place == place; });
+    const auto here =
+        std::find_if(sent_.begin(), sent_.end(), [place](const Sent& s) { return s.place == place; });
     if (here != sent_.end()) return here->plan;
     Sent& sent = sent_.emplace_back();
     sent.place = place;
@@ -23,11 +24,12 @@ Plan& Round::plan_for(std::uint32_t place) {
     return sent.plan;
 }
 
-void Round::plan(const Islands& part, std::span<const std::uint32_t> place, std::span<const std::uint32_t> source,
-                 const Roster& roster) {
+void Round::plan(const Islands& part, std::span<const std::uint32_t> place,
+                 std::span<const std::uint32_t> source, const Roster& roster) {
     if (planned_) ++attempt_;
     planned_ = true;
-    std::vector<std::uint32_t> from(source.begin(), source.end());  // `source` may be seats(), which change below
+    std::vector<std::uint32_t> from(source.begin(),
+                                    source.end());  // `source` may be seats(), which change below
     std::vector<bool> in_part(seat_.size(), false);
     for (std::size_t i = 0; i < part.count(); ++i) {
         Plan& plan = plan_for(place[i]);
@@ -38,7 +40,8 @@ void Round::plan(const Islands& part, std::span<const std::uint32_t> place, std:
             if (from[robot.index()] == place[i]) continue;
             const Address address = roster.address_of(from[robot.index()]);
             auto& holdings = plan.hand_offs;
-            auto holding = std::find_if(holdings.begin(), holdings.end(), [&](const Holding& h) { return h.source == address; });
+            auto holding = std::find_if(holdings.begin(), holdings.end(),
+                                        [&](const Holding& h) { return h.source == address; });
             if (holding == holdings.end()) holding = holdings.insert(holdings.end(), Holding{address, {}});
             holding->robots.push_back(robot);
         }
@@ -66,11 +69,14 @@ void Round::send(Bus& bus, const Roster& roster, std::int64_t resend_ms) {
 }
 
 std::optional<Plan> Round::answered_by(const Frame& frame) {
-    if (frame.epoch != span_.epoch || frame.window != span_.window || frame.attempt != attempt_) return std::nullopt;
-    const auto sent = std::find_if(sent_.begin(), sent_.end(), [&](const Sent& s) { return s.plan.simulator == frame.simulator; });
+    if (frame.epoch != span_.epoch || frame.window != span_.window || frame.attempt != attempt_)
+        return std::nullopt;
+    const auto sent = std::find_if(sent_.begin(), sent_.end(),
+                                   [&](const Sent& s) { return s.plan.simulator == frame.simulator; });
     if (sent == sent_.end()) return std::nullopt;
     const Plan& plan = sent->plan;
-    const bool fits = frame.robots.size() == plan.robots.size() && frame.islands.size() + 1 == plan.island_offsets.size() &&
+    const bool fits = frame.robots.size() == plan.robots.size() &&
+                      frame.islands.size() + 1 == plan.island_offsets.size() &&
                       std::equal(plan.robots.begin(), plan.robots.end(), frame.robots.begin(),
                                  [](RobotId robot, const RobotFrame& f) { return robot == f.robot; }) &&
                       std::all_of(frame.earlier.begin(), frame.earlier.end(),

@@ -1,5 +1,6 @@
-// Round: one attempt at a window under way: which Simulator has which islands, the plans sent and not answered, and what the
-// answers said so far. Kept by RobotId in flat arrays, so merging islands moves nothing.
+// Round: one attempt at a window under way: which Simulator has which islands, the plans sent and not
+// answered, and what the answers said so far. Kept by RobotId in flat arrays, so merging islands moves
+// nothing.
 #pragma once
 
 #include <functional>
@@ -28,10 +29,10 @@ class Round {
     const std::vector<Order>& orders() const { return orders_; }
     std::uint32_t attempt() const { return attempt_; }
 
-    /// Writes plans: islands.of(i) to seat place[i]; `source`[robot]: where its state at `from` is. Later calls are further
-    /// attempts, for the islands given only.
-    void plan(const Islands& islands, std::span<const std::uint32_t> place, std::span<const std::uint32_t> source,
-              const Roster& roster);
+    /// Writes plans: islands.of(i) to seat place[i]; `source`[robot]: where its state at `from` is. Later
+    /// calls are further attempts, for the islands given only.
+    void plan(const Islands& islands, std::span<const std::uint32_t> place,
+              std::span<const std::uint32_t> source, const Roster& roster);
     /// To be kept by the Simulator at `place` on receiving the plan; writes an empty plan if it has none.
     void keep(std::uint32_t place, std::vector<RobotId> robots);
     void release_before(Tick tick);
@@ -46,8 +47,8 @@ class Round {
     std::uint32_t seat_of(RobotId robot) const { return seat_[robot.index()]; }
     std::span<const std::uint32_t> seats() const { return seat_; }
 
-    Islands islands;                      // of the whole window so far
-    std::vector<IslandFrame> outcome;     // by the island's root
+    Islands islands;                   // of the whole window so far
+    std::vector<IslandFrame> outcome;  // by the island's root
     std::vector<EarlierBox> earlier;
 
   private:

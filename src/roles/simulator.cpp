@@ -18,7 +18,8 @@ bool is_newer(const A& a, const B& b) {
     return std::tie(a.epoch, a.window, a.attempt) > std::tie(b.epoch, b.window, b.attempt);
 }
 
-/// Whether the plan makes sense for this Model: robots that exist, none twice, ascending in their islands; good orders.
+/// Whether the plan makes sense for this Model: robots that exist, none twice, ascending in their islands;
+/// good orders.
 bool plausible(const Model& model, const Plan& plan) {
     const std::size_t n = model.robots.size();
     std::vector<bool> seen(n, false);
@@ -31,13 +32,19 @@ bool plausible(const Model& model, const Plan& plan) {
         }
     return std::all_of(plan.keep.begin(), plan.keep.end(), [&](RobotId r) { return r.index() < n; }) &&
            std::is_sorted(plan.orders.begin(), plan.orders.end(), comes_before) &&
-           std::all_of(plan.orders.begin(), plan.orders.end(), [&](const Order& o) { return check_order(model, o).ok(); });
+           std::all_of(plan.orders.begin(), plan.orders.end(),
+                       [&](const Order& o) { return check_order(model, o).ok(); });
 }
 
 }  // namespace
 
-Simulator::Simulator(std::shared_ptr<const Model> model, const Address& self, const SimulatorOptions& options, ThreadPool& pool)
-    : model_(std::move(model)), self_(self), options_(options), store_(*model_), stepper_(model_, pool, options.measure_cpu) {}
+Simulator::Simulator(std::shared_ptr<const Model> model, const Address& self, const SimulatorOptions& options,
+                     ThreadPool& pool)
+    : model_(std::move(model)),
+      self_(self),
+      options_(options),
+      store_(*model_),
+      stepper_(model_, pool, options.measure_cpu) {}
 
 void Simulator::advance(Bus& bus) {
     if (gone_) return;
@@ -58,7 +65,8 @@ void Simulator::handle(Bus& bus, Envelope& envelope) {
         serve(bus, envelope.from, *request);
     } else if (const auto* reply = std::get_if<StateReply>(&envelope.message)) {
         const Tick tick = reply->states.tick;
-        pull_.accept(*model_, *reply, [&](RobotId robot, RobotState&& state) { store_.put(robot, tick, std::move(state)); });
+        pull_.accept(*model_, *reply,
+                     [&](RobotId robot, RobotState&& state) { store_.put(robot, tick, std::move(state)); });
     } else if (const auto* welcome = std::get_if<Welcome>(&envelope.message)) {
         if (id_.valid() && welcome->simulator <= id_) return;  // an old one
         start_over();
@@ -89,8 +97,8 @@ void Simulator::adopt(Plan& plan) {
             if (robot.index() < comes.size()) comes[robot.index()] = true;
     for (const RobotId robot : plan.robots)
         ROBOSS_CHECK(comes[robot.index()] || store_.start(robot, plan.from),
-                     "simulator " + std::to_string(id_.value) + " lacks robot " + std::to_string(robot.value) + " at tick " +
-                         std::to_string(plan.from));
+                     "simulator " + std::to_string(id_.value) + " lacks robot " +
+                         std::to_string(robot.value) + " at tick " + std::to_string(plan.from));
     pull_.begin(*model_, plan.from, plan.hand_offs);
     plan_ = std::move(plan);
 }
@@ -106,7 +114,9 @@ void Simulator::keep_in_touch(Bus& bus) {
     const std::int64_t now = bus.now_ms();
     if (id_.valid()) say_alive(bus);
     if (now - asked_ms_ < options_.resend_ms) return;
-    if (!id_.valid()) bus.send(self_, kControllerAddress, Hello{model_->hash, static_cast<std::uint32_t>(stepper_.threads())});
+    if (!id_.valid())
+        bus.send(self_, kControllerAddress,
+                 Hello{model_->hash, static_cast<std::uint32_t>(stepper_.threads())});
     if (id_.valid() && leaving_) bus.send(self_, kControllerAddress, LeaveRequest{id_});
     asked_ms_ = now;
 }

@@ -1,6 +1,6 @@
-// The Simulator role (the paper's section 3): takes a window's plan, fetches the states it lacks, steps its islands
-// through the window without talking to anyone, and answers with a frame. It knows nothing of other Simulators' plans and decides
-// nothing; a plan that comes twice is answered from memory.
+// The Simulator role (the paper's section 3): takes a window's plan, fetches the states it lacks, steps its
+// islands through the window without talking to anyone, and answers with a frame. It knows nothing of other
+// Simulators' plans and decides nothing; a plan that comes twice is answered from memory.
 #pragma once
 
 #include <memory>
@@ -24,7 +24,8 @@ struct SimulatorOptions {
 class Simulator {
   public:
     /// `pool` steps the islands; it may be shared by Simulators that advance in one thread.
-    Simulator(std::shared_ptr<const Model> model, const Address& self, const SimulatorOptions& options, ThreadPool& pool);
+    Simulator(std::shared_ptr<const Model> model, const Address& self, const SimulatorOptions& options,
+              ThreadPool& pool);
 
     /// Handles what has come and does the work that is due. Never waits.
     void advance(Bus& bus);

@@ -54,8 +54,9 @@ bool StateStore::copy_to(StateBlock& out, RobotId robot, Tick tick) const {
         append(out, robot, *state);
         return true;
     }
-    return std::any_of(kept_.begin(), kept_.end(),
-                       [&](const StateShelf& shelf) { return shelf.tick() == tick && shelf.copy_to(out, robot); });
+    return std::any_of(kept_.begin(), kept_.end(), [&](const StateShelf& shelf) {
+        return shelf.tick() == tick && shelf.copy_to(out, robot);
+    });
 }
 
 void StateStore::clear() {

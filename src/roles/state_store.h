@@ -1,6 +1,6 @@
-// A Simulator's states: of each robot that at the window's start and that at its end, and copies that were kept because
-// somebody still wants an earlier tick. A state is found by (robot, tick), never by "the current one", so late and doubled requests
-// get the right bits or nothing.
+// A Simulator's states: of each robot that at the window's start and that at its end, and copies that were
+// kept because somebody still wants an earlier tick. A state is found by (robot, tick), never by "the current
+// one", so late and doubled requests get the right bits or nothing.
 #pragma once
 
 #include <memory>

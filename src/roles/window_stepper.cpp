@@ -10,8 +10,8 @@ namespace roboss {
 
 namespace {
 
-constexpr std::size_t kRobotsPerBatch = 8;   // a look at the clock costs about a tenth of a robot's step
-constexpr std::size_t kLargeIsland = 64;     // robots; such islands show signs of life every tick
+constexpr std::size_t kRobotsPerBatch = 8;  // a look at the clock costs about a tenth of a robot's step
+constexpr std::size_t kLargeIsland = 64;    // robots; such islands show signs of life every tick
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const Aabb kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
@@ -58,7 +58,9 @@ void WindowStepper::sort_orders(const Plan& plan) {
         for (std::size_t k = plan.island_offsets[i]; k < plan.island_offsets[i + 1]; ++k)
             island_of_[plan.robots[k].index()] = i;
     order_offsets_.assign(islands + 1, 0);
-    const auto concerns = [&](const Order& order) { return island_of_[order.robot.index()] != RobotId::kNone; };
+    const auto concerns = [&](const Order& order) {
+        return island_of_[order.robot.index()] != RobotId::kNone;
+    };
     for (const Order& order : plan.orders)
         if (concerns(order)) ++order_offsets_[island_of_[order.robot.index()] + 1];
     std::partial_sum(order_offsets_.begin(), order_offsets_.end(), order_offsets_.begin());
@@ -96,7 +98,9 @@ Frame WindowStepper::step(const Plan& plan, StateStore& store, const std::functi
     Job job{plan, between, Frame{plan.epoch, plan.window, plan.attempt, plan.simulator, {}, {}, {}}};
     job.frame.robots.resize(n);
     job.frame.islands.resize(plan.island_offsets.size() - 1);
-    pool_.run(batch_offsets_.size() - 1, [&](std::size_t b, std::size_t worker) { step_batch(job, b, worker); });
+    pool_.run(
+        batch_offsets_.size() - 1, [&](std::size_t b, std::size_t worker) { step_batch(job, b, worker); },
+        between);
     for (auto& boxes : earlier_) {
         job.frame.earlier.insert(job.frame.earlier.end(), boxes.begin(), boxes.end());
         boxes.clear();
@@ -105,19 +109,23 @@ Frame WindowStepper::step(const Plan& plan, StateStore& store, const std::functi
 }
 
 void WindowStepper::step_batch(Job& job, std::size_t batch, std::size_t worker) {
-    const auto islands = std::span(sequence_).subspan(batch_offsets_[batch], batch_offsets_[batch + 1] - batch_offsets_[batch]);
+    const auto islands = std::span(sequence_).subspan(batch_offsets_[batch],
+                                                      batch_offsets_[batch + 1] - batch_offsets_[batch]);
     const std::uint64_t start_ns = measure_cpu_ ? thread_cpu_ns() : 0;
     std::uint64_t work = 0;  // robot-ticks and contacts, to share the measured time out
     const auto ticks = static_cast<std::uint64_t>(job.plan.until - job.plan.from);
-    const auto work_of = [&](std::uint32_t i) { return 4 * ticks * job.robots(i).size() + job.frame.islands[i].contacts; };
+    const auto work_of = [&](std::uint32_t i) {
+        return 4 * ticks * job.robots(i).size() + job.frame.islands[i].contacts;
+    };
     for (const std::uint32_t island : islands) {
         step_island_through(job, island, worker);
         work += work_of(island);
     }
     const std::uint64_t spent_ns = measure_cpu_ ? thread_cpu_ns() - start_ns : work;
     for (const std::uint32_t island : islands)
-        job.frame.islands[island].cost_ns = static_cast<std::uint64_t>(
-            static_cast<double>(spent_ns) * static_cast<double>(work_of(island)) / static_cast<double>(std::max<std::uint64_t>(work, 1)));
+        job.frame.islands[island].cost_ns =
+            static_cast<std::uint64_t>(static_cast<double>(spent_ns) * static_cast<double>(work_of(island)) /
+                                       static_cast<double>(std::max<std::uint64_t>(work, 1)));
     if (worker == 0) job.between();
 }
 
@@ -133,15 +141,18 @@ void WindowStepper::step_island_through(Job& job, std::size_t island, std::size_
     report_robots(job, island);
 }
 
-bool WindowStepper::step_tick(Job& job, std::size_t island, Tick tick, std::span<const Order> orders, std::size_t worker) {
+bool WindowStepper::step_tick(Job& job, std::size_t island, Tick tick, std::span<const Order> orders,
+                              std::size_t worker) {
     const std::size_t first = job.plan.island_offsets[island];
     const std::span<const RobotId> robots = job.robots(island);
-    const StepReport report = step_island(*model_, tick, robots, std::span(states_).subspan(first, robots.size()), orders,
-                                          std::span(bounds_).subspan(first, robots.size()), scratch_[worker]);
+    const StepReport report =
+        step_island(*model_, tick, robots, std::span(states_).subspan(first, robots.size()), orders,
+                    std::span(bounds_).subspan(first, robots.size()), scratch_[worker]);
     for (const Order& order : orders) {
         if (!teleports(order)) continue;
-        const auto k = first + static_cast<std::size_t>(
-                                   std::lower_bound(robots.begin(), robots.end(), order.robot) - robots.begin());
+        const auto k =
+            first + static_cast<std::size_t>(std::lower_bound(robots.begin(), robots.end(), order.robot) -
+                                             robots.begin());
         if (!swept_[k].empty()) earlier_[island].push_back({order.robot, outward(swept_[k])});
         swept_[k] = Aabb{};
     }
@@ -153,7 +164,8 @@ bool WindowStepper::step_tick(Job& job, std::size_t island, Tick tick, std::span
     if (!report.not_finite.valid()) return true;
     outcome.failed = report.not_finite;
     outcome.failed_at = tick;
-    for (std::size_t k = 0; k < robots.size(); ++k) {  // the bounds so far must still be compared with others'
+    for (std::size_t k = 0; k < robots.size();
+         ++k) {  // the bounds so far must still be compared with others'
         job.frame.robots[first + k].robot = robots[k];
         job.frame.robots[first + k].swept = outward(swept_[first + k]);
     }
@@ -167,7 +179,8 @@ void WindowStepper::report_robots(Job& job, std::size_t island) {
         out.robot = job.plan.robots[k];
         out.swept = outward(swept_[k]);
         out.centre = to_floats(bounds_[k].centre());
-        if (model_->type_of(out.robot).free_base) out.velocity = to_floats({state.v[3], state.v[4], state.v[5]});
+        if (model_->type_of(out.robot).free_base)
+            out.velocity = to_floats({state.v[3], state.v[4], state.v[5]});
         out.hash = state_hash(out.robot, job.plan.until, state);
     }
 }

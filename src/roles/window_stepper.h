@@ -1,5 +1,6 @@
-// Steps a plan's islands through its window on the thread pool and measures what the frame reports. Islands touch
-// disjoint robots and the step is a pure function, so it does not matter which thread takes which island.
+// Steps a plan's islands through its window on the thread pool and measures what the frame reports. Islands
+// touch disjoint robots and the step is a pure function, so it does not matter which thread takes which
+// island.
 #pragma once
 
 #include <functional>
@@ -16,10 +17,12 @@ namespace roboss {
 
 class WindowStepper {
   public:
-    /// `measure_cpu` false: costs are counted work instead of thread CPU time, so that a seeded test repeats exactly.
+    /// `measure_cpu` false: costs are counted work instead of thread CPU time, so that a seeded test repeats
+    /// exactly.
     WindowStepper(std::shared_ptr<const Model> model, ThreadPool& pool, bool measure_cpu);
 
-    /// All robots of the plan must have been started in the store. `between` is called now and then from the calling thread.
+    /// All robots of the plan must have been started in the store. `between` is called now and then from the
+    /// calling thread.
     Frame step(const Plan& plan, StateStore& store, const std::function<void()>& between);
     std::size_t threads() const { return scratch_.size(); }
 
@@ -30,7 +33,8 @@ class WindowStepper {
     void cut_batches(const Plan& plan);
     void step_batch(Job& job, std::size_t batch, std::size_t worker);
     void step_island_through(Job& job, std::size_t island, std::size_t worker);
-    bool step_tick(Job& job, std::size_t island, Tick tick, std::span<const Order> orders, std::size_t worker);
+    bool step_tick(Job& job, std::size_t island, Tick tick, std::span<const Order> orders,
+                   std::size_t worker);
     void report_robots(Job& job, std::size_t island);
 
     std::shared_ptr<const Model> model_;

@@ -7,7 +7,8 @@ namespace roboss {
 
 namespace {
 
-ControllerOptions controller_options(const SimulationOptions& options, const std::vector<NamedProgram>& programs) {
+ControllerOptions controller_options(const SimulationOptions& options,
+                                     const std::vector<NamedProgram>& programs) {
     ControllerOptions result = options.controller;
     result.simulators = options.simulators;
     result.clients.clear();
@@ -22,14 +23,18 @@ StartingPoint starting_point(const Model& model, const SavedRun* from) {
 
 }  // namespace
 
-Result<std::unique_ptr<Simulation>> Simulation::create(std::shared_ptr<const Model> model, const SimulationOptions& options,
-                                                       std::vector<NamedProgram> programs, const SavedRun* from) {
-    if (options.simulators < 1) return Error{"a run needs at least one Simulator", "give --simulators 1 or more"};
+Result<std::unique_ptr<Simulation>> Simulation::create(std::shared_ptr<const Model> model,
+                                                       const SimulationOptions& options,
+                                                       std::vector<NamedProgram> programs,
+                                                       const SavedRun* from) {
+    if (options.simulators < 1)
+        return Error{"a run needs at least one Simulator", "give --simulators 1 or more"};
     std::set<std::string> names;
     for (const NamedProgram& program : programs) {
         if (!names.insert(program.name).second)
             return Error{"two control programs are called '" + program.name + "'", "give each its own name"};
-        if (Result<BusClientOptions> times = client_options(program.program->options(), *model, program.name); !times)
+        if (Result<BusClientOptions> times = client_options(program.program->options(), *model, program.name);
+            !times)
             return times.error();
     }
     return std::unique_ptr<Simulation>(new Simulation(std::move(model), options, std::move(programs), from));
@@ -44,15 +49,15 @@ Simulation::Simulation(std::shared_ptr<const Model> model, const SimulationOptio
       controller_(model_, controller_options(options, programs), starting_point(*model_, from)) {
     std::uint64_t instance = 0;
     for (NamedProgram& program : programs) {
-        hosts_.push_back(std::make_unique<ProgramHost>(model_, Address{Role::kClient, ++instance}, program.name,
-                                                       std::move(program.program)));
+        hosts_.push_back(std::make_unique<ProgramHost>(model_, Address{Role::kClient, ++instance},
+                                                       program.name, std::move(program.program)));
         if (from == nullptr) continue;
         const auto memory = from->memory.find(program.name);
         if (memory != from->memory.end()) hosts_.back()->restore(memory->second);
     }
     for (std::size_t i = 0; i < options.simulators; ++i)
-        simulators_.push_back(
-            std::make_unique<Simulator>(model_, Address{Role::kSimulator, ++instance}, SimulatorOptions{}, pool_));
+        simulators_.push_back(std::make_unique<Simulator>(model_, Address{Role::kSimulator, ++instance},
+                                                          SimulatorOptions{}, pool_));
 }
 
 void Simulation::turn() {
@@ -86,7 +91,8 @@ SavedRun Simulation::saved_run() {
     run.states = states();
     run.orders = controller_.pending_orders();
     for (const auto& host : hosts_)
-        if (std::string memory = host->memory_at(run.tick); !memory.empty()) run.memory[host->name()] = std::move(memory);
+        if (std::string memory = host->memory_at(run.tick); !memory.empty())
+            run.memory[host->name()] = std::move(memory);
     return run;
 }
 

@@ -1,5 +1,6 @@
-// Simulation: a whole cluster in one process: Controller, Simulators, control programs, and a Bus between them. It only
-// gives each role its turn; everything else is the roles' own, the same as in a cluster of machines.
+// Simulation: a whole cluster in one process: Controller, Simulators, control programs, and a Bus between
+// them. It only gives each role its turn; everything else is the roles' own, the same as in a cluster of
+// machines.
 #pragma once
 
 #include <functional>
@@ -24,22 +25,26 @@ struct NamedProgram {
 
 struct SimulationOptions {
     std::size_t simulators = 1;
-    unsigned threads = 1;        // that step islands, shared by all Simulators
-    std::string world_file;      // for saved runs
+    unsigned threads = 1;          // that step islands, shared by all Simulators
+    std::string world_file;        // for saved runs
     ControllerOptions controller;  // its `simulators` and `clients` are set from here
 };
 
 class Simulation {
   public:
-    /// At the world's beginning, or where `from` was saved. Orders with equal ticks sort by the programs' places.
-    static Result<std::unique_ptr<Simulation>> create(std::shared_ptr<const Model> model, const SimulationOptions& options,
-                                                      std::vector<NamedProgram> programs = {}, const SavedRun* from = nullptr);
+    /// At the world's beginning, or where `from` was saved. Orders with equal ticks sort by the programs'
+    /// places.
+    static Result<std::unique_ptr<Simulation>> create(std::shared_ptr<const Model> model,
+                                                      const SimulationOptions& options,
+                                                      std::vector<NamedProgram> programs = {},
+                                                      const SavedRun* from = nullptr);
 
     /// An order with its tick, from a file say; refused if it makes no sense or comes too late.
     Result<> submit(const Order& order) { return controller_.submit(order); }
 
-    /// Runs until the world is at `target`. An Error: the run cannot go on (a state not finite, a control program that
-    /// threw); the world is intact at tick() and can be saved. `go_on` is asked now and then; false ends the run at the next window's end.
+    /// Runs until the world is at `target`. An Error: the run cannot go on (a state not finite, a control
+    /// program that threw); the world is intact at tick() and can be saved. `go_on` is asked now and then;
+    /// false ends the run at the next window's end.
     Result<> run_until(Tick target, const std::function<bool()>& go_on = {});
 
     Tick tick() const { return controller_.tick(); }
@@ -58,8 +63,8 @@ class Simulation {
     Controller& controller() { return controller_; }
 
   private:
-    Simulation(std::shared_ptr<const Model> model, const SimulationOptions& options, std::vector<NamedProgram> programs,
-               const SavedRun* from);
+    Simulation(std::shared_ptr<const Model> model, const SimulationOptions& options,
+               std::vector<NamedProgram> programs, const SavedRun* from);
     void turn();
 
     std::shared_ptr<const Model> model_;

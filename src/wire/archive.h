@@ -1,6 +1,7 @@
-// Writing and reading plain values as little-endian bytes. A message describes its fields once, as a function template
-// over the archive, so that encoder and decoder cannot disagree. Reading past the end or an impossible count sets the
-// reader's failure and gives zeros; it never throws and never allocates by a count that the bytes cannot hold.
+// Writing and reading plain values as little-endian bytes. A message describes its fields once, as a function
+// template over the archive, so that encoder and decoder cannot disagree. Reading past the end or an
+// impossible count sets the reader's failure and gives zeros; it never throws and never allocates by a count
+// that the bytes cannot hold.
 #pragma once
 
 #include <array>
@@ -17,7 +18,8 @@
 
 namespace roboss::wire {
 
-static_assert(std::endian::native == std::endian::little, "the encoding is the memory of a little-endian machine");
+static_assert(std::endian::native == std::endian::little,
+              "the encoding is the memory of a little-endian machine");
 
 template <class T>
 concept Scalar = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -90,8 +92,7 @@ template <class Archive, class T>
 using Of = std::conditional_t<Archive::kReading, T, const T>;
 
 template <class Archive, Scalar T>
-    requires(!std::same_as<T, bool>)
-void field(Archive& a, T& value) {
+requires(!std::same_as<T, bool>) void field(Archive& a, T& value) {
     a.scalar(const_cast<std::remove_const_t<T>&>(value));
 }
 

@@ -12,7 +12,8 @@ namespace {
 
 /// Types whose memory is their encoding, so that a vector of them is copied at once.
 template <class T>
-constexpr bool kPlain = std::is_same_v<T, std::uint8_t> || std::is_same_v<T, std::uint32_t> || std::is_same_v<T, RobotId>;
+constexpr bool kPlain =
+    std::is_same_v<T, std::uint8_t> || std::is_same_v<T, std::uint32_t> || std::is_same_v<T, RobotId>;
 static_assert(sizeof(RobotId) == 4);
 
 template <class A, class... Fields>
@@ -149,7 +150,9 @@ const char* broken_rule(const StateReply& reply) {
 
 const char* broken_rule(const ClientHello& hello) {
     constexpr Tick kLongest = Tick{1} << 50;
-    return hello.period < 1 || hello.period > kLongest || hello.latency < 0 || hello.latency > kLongest ? "its period or latency is out of range" : nullptr;
+    return hello.period < 1 || hello.period > kLongest || hello.latency < 0 || hello.latency > kLongest
+               ? "its period or latency is out of range"
+               : nullptr;
 }
 
 template <class T>
@@ -166,8 +169,9 @@ const char* role_rule(const Envelope& e) {
 
 const char* message_name(const Message& message) {
     static constexpr const char* kNames[] = {
-        "Hello", "Welcome",      "Refused",    "Expelled",    "Alive",         "LeaveRequest", "Goodbye",    "Plan",    "Frame",
-        "StateRequest", "StateReply", "ClientHello", "ClientWelcome", "Observation",  "ClientWord", "WordAck", "ClientBye"};
+        "Hello",         "Welcome",     "Refused",    "Expelled",     "Alive",      "LeaveRequest",
+        "Goodbye",       "Plan",        "Frame",      "StateRequest", "StateReply", "ClientHello",
+        "ClientWelcome", "Observation", "ClientWord", "WordAck",      "ClientBye"};
     static_assert(std::size(kNames) == std::variant_size_v<Message>);
     return kNames[message.index()];
 }
@@ -196,8 +200,8 @@ Result<Envelope> decode_envelope(std::span<const std::uint8_t> bytes) {
         if (broken != nullptr) a.fail(broken);
     }
     if (!a.failed()) return envelope;
-    return Error{"a damaged message of " + std::to_string(bytes.size()) + " bytes (" + message_name(envelope.message) +
-                     "): " + a.failure(),
+    return Error{"a damaged message of " + std::to_string(bytes.size()) + " bytes (" +
+                     message_name(envelope.message) + "): " + a.failure(),
                  "check the network, or what else sends on this domain"};
 }
 

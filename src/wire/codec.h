@@ -1,6 +1,6 @@
-// Envelopes as bytes and back. The encoding is little-endian, field by field, in the order of message.h. The decoder is
-// total: any bytes give an Envelope or an Error that names the message and what is wrong with it; it allocates no more
-// than a small multiple of the bytes it was given.
+// Envelopes as bytes and back. The encoding is little-endian, field by field, in the order of message.h. The
+// decoder is total: any bytes give an Envelope or an Error that names the message and what is wrong with it;
+// it allocates no more than a small multiple of the bytes it was given.
 #pragma once
 
 #include <cstdint>

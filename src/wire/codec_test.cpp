@@ -19,9 +19,25 @@ std::vector<Order> some_orders() {
 }
 
 std::vector<Message> one_of_each() {
-    Plan plan{2, 17, 1, SimulatorId(3u), 10, 26, {0, 1, 2}, {kRobot, kOther}, {{{Role::kSimulator, 5}, {kOther}}}, some_orders(),
-              {kRobot}, 8};
-    Frame frame{2, 17, 1, SimulatorId(3u), {{kRobot, {}, {1, 2, 3}, {4, 5, 6}, 77}}, {{kRobot, {}}}, {{100, 5, 2, kRobot, 12}}};
+    Plan plan{2,
+              17,
+              1,
+              SimulatorId(3u),
+              10,
+              26,
+              {0, 1, 2},
+              {kRobot, kOther},
+              {{{Role::kSimulator, 5}, {kOther}}},
+              some_orders(),
+              {kRobot},
+              8};
+    Frame frame{2,
+                17,
+                1,
+                SimulatorId(3u),
+                {{kRobot, {}, {1, 2, 3}, {4, 5, 6}, 77}},
+                {{kRobot, {}}},
+                {{100, 5, 2, kRobot, 12}}};
     StateReply reply{{12, {kRobot, kOther}, {2, 3}, {1, 2, 3, 4, 5}}};
     std::vector<ClientOrder> orders;
     for (const Order& o : some_orders()) orders.push_back({o.sequence, o.robot, o.action});
@@ -71,7 +87,8 @@ TEST(Codec, KeepsTheFieldsOfPlansAndFrames) {
             EXPECT_EQ(got.until, 26);
             EXPECT_EQ(got.hand_offs, plan->hand_offs);
             ASSERT_EQ(got.orders.size(), 4u);
-            EXPECT_EQ(std::get<SetPose>(got.orders[0].action).X_WR, std::get<SetPose>(plan->orders[0].action).X_WR);
+            EXPECT_EQ(std::get<SetPose>(got.orders[0].action).X_WR,
+                      std::get<SetPose>(plan->orders[0].action).X_WR);
             EXPECT_EQ(std::get<ApplyWrench>(got.orders[2].action).duration, 12);
             EXPECT_EQ(std::get<SetJoint>(got.orders[3].action).mode, MotorMode::kPosition);
         }
@@ -98,7 +115,8 @@ TEST(Codec, RefusesOrUnderstandsEveryMutation) {
         const std::vector<std::uint8_t> good = encode(envelope_of(message));
         for (int i = 0; i < 3000; ++i) {
             std::vector<std::uint8_t> bytes = good;
-            for (std::uint64_t k = 0; k < 1 + random() % 3; ++k) bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
+            for (std::uint64_t k = 0; k < 1 + random() % 3; ++k)
+                bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
             const Result<Envelope> back = decode_envelope(bytes);
             back.ok() ? ++understood : ++refused;
             if (back.ok()) {

@@ -1,6 +1,6 @@
-// Every message that Controller, Simulators and Clients exchange, as plain data. A Bus may drop, double, delay or reorder
-// any of them: requests are sent again until answered, and every answer names what it answers, so nothing here is
-// harmful when it comes late or twice.
+// Every message that Controller, Simulators and Clients exchange, as plain data. A Bus may drop, double,
+// delay or reorder any of them: requests are sent again until answered, and every answer names what it
+// answers, so nothing here is harmful when it comes late or twice.
 #pragma once
 
 #include <array>
@@ -18,7 +18,8 @@ namespace roboss {
 
 enum class Role : std::uint8_t { kController, kSimulator, kClient };
 
-/// Who a message is from or for. `instance` is chosen by whoever starts the role and never used twice; the Controller is 0.
+/// Who a message is from or for. `instance` is chosen by whoever starts the role and never used twice; the
+/// Controller is 0.
 struct Address {
     Role role = Role::kController;
     std::uint64_t instance = 0;
@@ -41,7 +42,8 @@ struct Holding {
     friend bool operator==(const Holding&, const Holding&) = default;
 };
 
-// --- joining and leaving -------------------------------------------------------------------------------------------------
+// --- joining and leaving
+// -------------------------------------------------------------------------------------------------
 
 struct Hello {  // Simulator -> Controller
     std::uint64_t model_hash = 0;
@@ -66,9 +68,11 @@ struct Goodbye {  // Controller -> Simulator: nothing depends on it any more
     SimulatorId simulator;
 };
 
-// --- windows -------------------------------------------------------------------------------------------------------------
+// --- windows
+// -------------------------------------------------------------------------------------------------------------
 
-/// One Simulator's part of an attempt at a window. Island i is robots[island_offsets[i] .. island_offsets[i + 1]).
+/// One Simulator's part of an attempt at a window. Island i is robots[island_offsets[i] .. island_offsets[i +
+/// 1]).
 struct Plan {
     std::uint32_t epoch = 0;    // grows when a Simulator is lost
     std::uint64_t window = 0;   // grows with every window planned
@@ -77,20 +81,21 @@ struct Plan {
     Tick from = 0, until = 0;
     std::vector<std::uint32_t> island_offsets;
     std::vector<RobotId> robots;
-    std::vector<Holding> hand_offs;  // robots whose states at `from` must be fetched; the others are here already
-    std::vector<Order> orders;       // for these robots, from <= apply_at < until, canonical order
-    std::vector<RobotId> keep;       // robots of this Simulator whose states at `from` somebody still wants
-    Tick release_before = 0;         // states kept for earlier ticks may go
+    std::vector<Holding>
+        hand_offs;              // robots whose states at `from` must be fetched; the others are here already
+    std::vector<Order> orders;  // for these robots, from <= apply_at < until, canonical order
+    std::vector<RobotId> keep;  // robots of this Simulator whose states at `from` somebody still wants
+    Tick release_before = 0;    // states kept for earlier ticks may go
     friend bool operator==(const Plan&, const Plan&);
 };
 
 /// What the Controller learns of a robot from a window: 60 bytes.
 struct RobotFrame {
     RobotId robot;
-    Box32 swept;                     // all interaction bounds since the window's start, or since the last teleport
-    std::array<float, 3> centre{};   // of the last bound, m
+    Box32 swept;  // all interaction bounds since the window's start, or since the last teleport
+    std::array<float, 3> centre{};    // of the last bound, m
     std::array<float, 3> velocity{};  // of the base at the end, m/s
-    std::uint64_t hash = 0;          // state_hash at the end of the window
+    std::uint64_t hash = 0;           // state_hash at the end of the window
     friend bool operator==(const RobotFrame&, const RobotFrame&) = default;
 };
 
@@ -102,9 +107,10 @@ struct EarlierBox {
 };
 
 struct IslandFrame {
-    std::uint64_t cost_ns = 0;  // thread CPU time of the stepping; for balance and telemetry, never for results
+    std::uint64_t cost_ns =
+        0;  // thread CPU time of the stepping; for balance and telemetry, never for results
     std::uint64_t contacts = 0, static_contacts = 0;  // summed over the ticks
-    RobotId failed;             // valid: this robot's state was not finite after the step from tick `failed_at`
+    RobotId failed;  // valid: this robot's state was not finite after the step from tick `failed_at`
     Tick failed_at = 0;
     friend bool operator==(const IslandFrame&, const IslandFrame&) = default;
 };
@@ -120,7 +126,8 @@ struct Frame {  // Simulator -> Controller: the answer to a Plan, robots and isl
     friend bool operator==(const Frame&, const Frame&) = default;
 };
 
-// --- states --------------------------------------------------------------------------------------------------------------
+// --- states
+// --------------------------------------------------------------------------------------------------------------
 
 struct StateRequest {  // anyone -> whoever holds the robots
     Tick tick = 0;
@@ -130,7 +137,8 @@ struct StateReply {
     StateBlock states;  // may lack robots that are not here (yet)
 };
 
-// --- Clients -------------------------------------------------------------------------------------------------------------
+// --- Clients
+// -------------------------------------------------------------------------------------------------------------
 
 struct ClientHello {
     std::string name;
@@ -144,7 +152,8 @@ struct ClientWelcome {
     Tick first = 0;  // tick of its first observation
     std::uint64_t seed = 0;
 };
-/// Controller -> Client: the world at `tick` is committed and may be fetched. Sent again until the Client's word comes.
+/// Controller -> Client: the world at `tick` is committed and may be fetched. Sent again until the Client's
+/// word comes.
 struct Observation {
     Tick tick = 0;
     std::uint64_t last_word = 0;  // the Client's last word that the Controller has
@@ -155,7 +164,8 @@ struct ClientOrder {
     RobotId robot;
     Action action;
 };
-/// Client -> Controller, numbered 1, 2, 3 ...; accepted in this order. One for each observation, with its orders.
+/// Client -> Controller, numbered 1, 2, 3 ...; accepted in this order. One for each observation, with its
+/// orders.
 struct ClientWord {
     ClientId client;
     std::uint64_t word = 0;
@@ -168,7 +178,7 @@ struct RefusedOrder {
 };
 struct WordAck {
     ClientId client;
-    std::uint64_t word = 0;  // the last word accepted
+    std::uint64_t word = 0;             // the last word accepted
     std::vector<RefusedOrder> refused;  // orders of that word that were refused
 };
 /// Client -> Controller: its last word; it takes no part any more. A failure ends the run.
@@ -179,8 +189,9 @@ struct ClientBye {
     std::string reason;
 };
 
-using Message = std::variant<Hello, Welcome, Refused, Expelled, Alive, LeaveRequest, Goodbye, Plan, Frame, StateRequest,
-                             StateReply, ClientHello, ClientWelcome, Observation, ClientWord, WordAck, ClientBye>;
+using Message =
+    std::variant<Hello, Welcome, Refused, Expelled, Alive, LeaveRequest, Goodbye, Plan, Frame, StateRequest,
+                 StateReply, ClientHello, ClientWelcome, Observation, ClientWord, WordAck, ClientBye>;
 
 struct Envelope {
     Address from, to;

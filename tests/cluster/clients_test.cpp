@@ -22,8 +22,8 @@ class Calling : public ControlProgram {
     Call call_;
 };
 
-std::unique_ptr<Simulation> make(const std::shared_ptr<const Model>& model, const ControlOptions& options, Call call,
-                                 std::size_t simulators = 2) {
+std::unique_ptr<Simulation> make(const std::shared_ptr<const Model>& model, const ControlOptions& options,
+                                 Call call, std::size_t simulators = 2) {
     std::vector<NamedProgram> programs;
     programs.push_back({"caller", std::make_unique<Calling>(options, std::move(call))});
     SimulationOptions simulation;
@@ -40,7 +40,8 @@ TEST(Clients, SeeEveryPeriodTheExactCommittedState) {
     auto simulation = make(model, options, [&](Client& client) {
         ticks.push_back(client.tick());
         std::vector<std::uint64_t> robots;
-        for (std::size_t i = 0; i < 4; ++i) robots.push_back(state_hash(RobotId(i), client.tick(), client.state(RobotId(i))));
+        for (std::size_t i = 0; i < 4; ++i)
+            robots.push_back(state_hash(RobotId(i), client.tick(), client.state(RobotId(i))));
         hashes.push_back(world_hash(client.model().hash, robots));
     });
     std::vector<std::uint64_t> expected;
@@ -66,7 +67,9 @@ TEST(Clients, OrdersTakeEffectAfterTheDeclaredLatency) {
             EXPECT_TRUE(client.set_velocity(RobotId(3u), {3, 0, 0}, {}).ok());
         });
         auto reference = Simulation::create(model, {});
-        ASSERT_TRUE(reference.value()->submit({20 + latency, ClientId(), 1, RobotId(3u), SetVelocity{{3, 0, 0}, {}}}).ok());
+        ASSERT_TRUE(reference.value()
+                        ->submit({20 + latency, ClientId(), 1, RobotId(3u), SetVelocity{{3, 0, 0}, {}}})
+                        .ok());
         ASSERT_TRUE(reference.value()->run_until(70).ok());
         ASSERT_TRUE(simulation->run_until(70).ok());
         EXPECT_EQ(simulation->hash(), reference.value()->hash()) << "latency " << latency;
@@ -125,7 +128,8 @@ TEST(Clients, OneThatThrowsEndsTheRunWithItsWordsAndNothingIsLost) {
 
 TEST(Clients, TwoProgramsOfOneNameAreRefused) {
     std::vector<NamedProgram> programs;
-    for (int i = 0; i < 2; ++i) programs.push_back({"twin", std::make_unique<Calling>(ControlOptions{}, [](Client&) {})});
+    for (int i = 0; i < 2; ++i)
+        programs.push_back({"twin", std::make_unique<Calling>(ControlOptions{}, [](Client&) {})});
     const auto made = Simulation::create(pair_world(), {}, std::move(programs));
     ASSERT_FALSE(made.ok());
     EXPECT_NE(made.error().message.find("twin"), std::string::npos);

@@ -72,7 +72,7 @@ TEST(Faults, AHundredSeedsOfABadBusWithKillsEndWithTheUndisturbedHash) {
         recoveries += cluster.controller().counters().recoveries;
         checkpoints += cluster.controller().counters().checkpoints;
     }
-    EXPECT_GT(losses, 100u);      // else this test did not test
+    EXPECT_GT(losses, 100u);  // else this test did not test
     EXPECT_GT(recoveries, 50u);
     EXPECT_GT(checkpoints, 300u);
     RecordProperty("losses", std::to_string(losses));
@@ -101,7 +101,8 @@ TEST(Faults, AllSimulatorsLostAndANewOneJoinedEndsWithTheSameHash) {
 TEST(Faults, JoiningLateAndLeavingInGoodOrderLosesNothing) {
     const auto model = carts_world(4);
     const std::uint64_t expected = undisturbed_hash(model);
-    FaultyCluster cluster(model, {}, {7, 0.05, 0.05, 5}, {}, 1);  // no checkpoints but those that leaving needs
+    FaultyCluster cluster(model, {}, {7, 0.05, 0.05, 5}, {},
+                          1);  // no checkpoints but those that leaving needs
     add_programs(cluster);
     ASSERT_TRUE(cluster.run_until(60));
     cluster.add_simulator();
@@ -119,6 +120,51 @@ TEST(Faults, JoiningLateAndLeavingInGoodOrderLosesNothing) {
     EXPECT_EQ(cluster.controller().hash(), expected);
     EXPECT_EQ(cluster.controller().counters().losses, 0u);
     EXPECT_EQ(cluster.controller().counters().recoveries, 0u);
+}
+
+TEST(Faults, AClientThatFallsSilentIsGivenUp) {
+    const auto model = carts_world(2);
+    for (const bool synchronous : {true, false}) {
+        ControlOptions options = quick();
+        options.synchronous = synchronous;
+        ControllerOptions controller;
+        controller.client_loss_ms = 500;
+        controller.checkpoint_ticks = 20;
+        FaultyCluster cluster(model, controller, {11, 0.02, 0.02, 3}, {}, 2);
+        cluster.add_program("mute", options);
+        ASSERT_TRUE(cluster.run_until(50));
+        cluster.bus().cut_off({Role::kClient, 3});
+        EXPECT_EQ(cluster.run_until(kTicks), !synchronous) << "the world waits for a synchronous Client only";
+        EXPECT_EQ(cluster.controller().failure().has_value(), synchronous);
+        if (synchronous) {
+            EXPECT_NE(cluster.controller().failure()->message.find("'mute' has not answered"),
+                      std::string::npos);
+        } else {
+            for (int i = 0; i < 600; ++i) cluster.turn();
+            const std::uint64_t before = cluster.controller().counters().checkpoints;
+            ASSERT_TRUE(cluster.run_until(2 * kTicks));
+            EXPECT_GT(cluster.controller().counters().checkpoints, before + 2)
+                << "what it never fetched holds checkpoints up";
+        }
+    }
+}
+
+TEST(Faults, ASimulatorOfAnotherWorldIsRefusedInWords) {
+    const auto model = carts_world(2), other = carts_world(3);
+    InProcessBus bus;
+    ThreadPool pool(1);
+    Controller controller(model, {}, beginning_of(*model));
+    Simulator stranger(other, {Role::kSimulator, 1}, {}, pool),
+        friendly(model, {Role::kSimulator, 2}, {}, pool);
+    controller.run_until(10);
+    for (int i = 0; i < 20; ++i) {
+        controller.advance(bus);
+        stranger.advance(bus);
+        friendly.advance(bus);
+    }
+    EXPECT_TRUE(stranger.gone());
+    EXPECT_NE(stranger.refusal().find("model hash"), std::string::npos) << stranger.refusal();
+    EXPECT_EQ(controller.tick(), 10);
 }
 
 }  // namespace

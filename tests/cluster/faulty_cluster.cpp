@@ -5,8 +5,8 @@
 
 namespace roboss::test {
 
-FaultyCluster::FaultyCluster(std::shared_ptr<const Model> model, ControllerOptions options, const FaultOptions& faults,
-                             const Trouble& trouble, std::size_t simulators)
+FaultyCluster::FaultyCluster(std::shared_ptr<const Model> model, ControllerOptions options,
+                             const FaultOptions& faults, const Trouble& trouble, std::size_t simulators)
     : model_(std::move(model)), options_(std::move(options)), trouble_(trouble), bus_(faults) {
     options_.simulators = simulators;
     options_.resend_ms = 20;
@@ -41,8 +41,10 @@ void FaultyCluster::kill_all() {
 
 void FaultyCluster::make_trouble() {
     if (!simulators_.empty() && happens(trouble_.kill)) kill(bus_.random(simulators_.size()));
-    if (!simulators_.empty() && happens(trouble_.hang)) simulators_[bus_.random(simulators_.size())].hangs_for = 400;
-    if (!simulators_.empty() && happens(trouble_.leave)) simulators_[bus_.random(simulators_.size())].role->leave();
+    if (!simulators_.empty() && happens(trouble_.hang))
+        simulators_[bus_.random(simulators_.size())].hangs_for = 400;
+    if (!simulators_.empty() && happens(trouble_.leave))
+        simulators_[bus_.random(simulators_.size())].role->leave();
     if (happens(trouble_.join) && simulators_.size() < 6) add_simulator();
     if (simulators_.empty() && happens(trouble_.rescue)) add_simulator();
 }
@@ -61,8 +63,10 @@ void FaultyCluster::turn() {
             hosts_[i - 1]->advance(bus_);
         } else {
             Member& member = simulators_[i - 1 - hosts_.size()];
-            if (member.hangs_for > 0) --member.hangs_for;
-            else member.role->advance(bus_);
+            if (member.hangs_for > 0)
+                --member.hangs_for;
+            else
+                member.role->advance(bus_);
         }
     }
     std::erase_if(simulators_, [](const Member& m) { return m.role->gone(); });

@@ -1,5 +1,5 @@
-// A cluster on a FaultyBus, all in one thread and by one seed: roles take turns in random order, Simulators are killed,
-// hang, leave and join at random moments.
+// A cluster on a FaultyBus, all in one thread and by one seed: roles take turns in random order, Simulators
+// are killed, hang, leave and join at random moments.
 #pragma once
 
 #include <memory>
@@ -29,7 +29,8 @@ class FaultyCluster {
     void kill(std::size_t i);
     void kill_all();
 
-    /// Gives everybody turns until the world rests at `target`; false: it did not come to it in so many turns.
+    /// Gives everybody turns until the world rests at `target`; false: it did not come to it in so many
+    /// turns.
     bool run_until(Tick target, int turns_max = 400'000);
     void turn();
 

@@ -1,4 +1,5 @@
-// The one idea: the same bits for any number of Simulators and threads, any windows, any grouping into islands.
+// The one idea: the same bits for any number of Simulators and threads, any windows, any grouping into
+// islands.
 #include <gtest/gtest.h>
 
 #include "simulation/simulation.h"
@@ -18,7 +19,8 @@ struct Outcome {
     Counters counters;
 };
 
-Outcome run(const std::shared_ptr<const Model>& model, const SimulationOptions& options, Tick ticks, bool driven) {
+Outcome run(const std::shared_ptr<const Model>& model, const SimulationOptions& options, Tick ticks,
+            bool driven) {
     auto made = Simulation::create(model, options, driven ? driver({}) : std::vector<NamedProgram>{});
     EXPECT_TRUE(made.ok()) << made.error().text();
     Simulation& simulation = *made.value();
@@ -49,8 +51,8 @@ TEST(Grouping, GivesTheSameHashForAnySimulatorsThreadsWindowsAndIslands) {
                         options.controller.window = window;
                         options.controller.forecast.merge_all = merge;
                         EXPECT_EQ(run(world.model, options, 400, world.driven).hash, expected.hash)
-                            << world.model->name << ", simulators " << simulators << ", window " << window << ", threads "
-                            << threads << ", merge " << merge;
+                            << world.model->name << ", simulators " << simulators << ", window " << window
+                            << ", threads " << threads << ", merge " << merge;
                     }
     }
 }

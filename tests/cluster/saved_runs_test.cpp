@@ -15,8 +15,9 @@ namespace fs = std::filesystem;
 class SavedRuns : public ::testing::Test {
   protected:
     void SetUp() override {
-        folder_ = fs::path(::testing::TempDir()) /
-                  ("roboss_saved_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+        folder_ =
+            fs::path(::testing::TempDir()) /
+            ("roboss_saved_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
         fs::create_directories(folder_);
     }
     void TearDown() override { fs::remove_all(folder_); }
@@ -58,7 +59,8 @@ TEST_F(SavedRuns, GoOnToTheSameHash) {
     const auto model = carts_world(4);
     auto whole = make(model);
     ASSERT_TRUE(whole->run_until(400).ok());
-    for (const Tick half : {0, 1, 105, 150, 203, 210}) {  // on and between the Clients' observations and the orders
+    for (const Tick half :
+         {0, 1, 105, 150, 203, 210}) {  // on and between the Clients' observations and the orders
         auto first = make(model);
         ASSERT_TRUE(first->run_until(half).ok());
         ASSERT_TRUE(first->save(file("half.roboss")).ok());
@@ -89,7 +91,8 @@ void expect_refused(const std::string& path, const Model& model, const std::stri
 TEST_F(SavedRuns, FilesThatAreNoneAreRefusedByName) {
     const auto model = carts_world(2);
     expect_refused(file("nothing.roboss"), *model, "no such file");
-    std::ofstream(file("text.roboss")) << "this is not a checkpoint, only some text that is long enough to be looked at";
+    std::ofstream(file("text.roboss"))
+        << "this is not a checkpoint, only some text that is long enough to be looked at";
     expect_refused(file("text.roboss"), *model, "not a checkpoint");
     std::ofstream(file("empty.roboss")).flush();
     expect_refused(file("empty.roboss"), *model, "not a checkpoint");
@@ -111,7 +114,8 @@ TEST_F(SavedRuns, NoDamageGoesUnnoticed) {
     std::ifstream in(file("run.roboss"), std::ios::binary);
     const std::string good((std::istreambuf_iterator<char>(in)), {});
     const auto write = [&](const std::string& bytes) {
-        std::ofstream(file("bad.roboss"), std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        std::ofstream(file("bad.roboss"), std::ios::binary)
+            .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     };
     for (std::size_t size = 0; size < good.size(); size += 1 + good.size() / 40) {
         write(good.substr(0, size));

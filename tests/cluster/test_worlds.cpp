@@ -16,7 +16,8 @@ Mat3 box_inertia(double mass, const Vec3& size) {
                           k * (size.x * size.x + size.y * size.y));
 }
 
-CollisionSpec collision(const std::string& name, GeometryKind kind, const Vec3& size, double radius, double length) {
+CollisionSpec collision(const std::string& name, GeometryKind kind, const Vec3& size, double radius,
+                        double length) {
     CollisionSpec c;
     c.name = name;
     c.geometry.kind = kind;
@@ -27,7 +28,8 @@ CollisionSpec collision(const std::string& name, GeometryKind kind, const Vec3& 
     return c;
 }
 
-LinkSpec link(const std::string& name, double mass, const Mat3& inertia, CollisionSpec shape, const Pose& X_ML = {}) {
+LinkSpec link(const std::string& name, double mass, const Mat3& inertia, CollisionSpec shape,
+              const Pose& X_ML = {}) {
     LinkSpec l;
     l.name = name;
     l.mass = mass;
@@ -46,20 +48,23 @@ ModelSpec one_link_model(const std::string& name, LinkSpec only) {
 }
 
 ModelSpec ground() {
-    ModelSpec m = one_link_model("ground", link("link", 1, Mat3::identity(), collision("plane", GeometryKind::kPlane, {1, 1, 0}, 0, 0)));
+    ModelSpec m = one_link_model("ground", link("link", 1, Mat3::identity(),
+                                                collision("plane", GeometryKind::kPlane, {1, 1, 0}, 0, 0)));
     m.is_static = true;
     return m;
 }
 
 ModelSpec wall() {
-    ModelSpec m = one_link_model("wall", link("link", 1, Mat3::identity(), collision("box", GeometryKind::kBox, {0.4, 6, 1}, 0, 0)));
+    ModelSpec m = one_link_model(
+        "wall", link("link", 1, Mat3::identity(), collision("box", GeometryKind::kBox, {0.4, 6, 1}, 0, 0)));
     m.is_static = true;
     return m;
 }
 
 ModelSpec crate() {
     const Vec3 size{0.4, 0.4, 0.4};
-    return one_link_model("crate", link("link", 2, box_inertia(2, size), collision("box", GeometryKind::kBox, size, 0, 0)));
+    return one_link_model(
+        "crate", link("link", 2, box_inertia(2, size), collision("box", GeometryKind::kBox, size, 0, 0)));
 }
 
 ModelSpec ball() {
@@ -70,8 +75,9 @@ ModelSpec ball() {
 
 ModelSpec cart() {
     const Vec3 size{0.8, 0.5, 0.2};
-    ModelSpec m = one_link_model("cart", link("body", 10, box_inertia(10, size), collision("box", GeometryKind::kBox, size, 0, 0),
-                                              {{0, 0, 0.25}, {}}));
+    ModelSpec m =
+        one_link_model("cart", link("body", 10, box_inertia(10, size),
+                                    collision("box", GeometryKind::kBox, size, 0, 0), {{0, 0, 0.25}, {}}));
     int i = 0;
     for (const double x : {-0.3, 0.3})
         for (const double y : {-0.32, 0.32}) {
@@ -120,8 +126,10 @@ std::shared_ptr<const Model> heaps_world(int heaps) {
     for (int h = 0; h < heaps; ++h) {
         const double x = 2.5 * h;
         for (int i = 0; i < 3; ++i)
-            world.instances.push_back({"crate_" + std::to_string(n++), 1, {{x + 0.1 * i, 0.05 * i, 0.21 + 0.45 * i}, {}}, {}});
-        world.instances.push_back({"ball_" + std::to_string(n++), 2, {{x - 0.8, 0.1, 1.5 + 0.3 * h}, {}}, {}});
+            world.instances.push_back(
+                {"crate_" + std::to_string(n++), 1, {{x + 0.1 * i, 0.05 * i, 0.21 + 0.45 * i}, {}}, {}});
+        world.instances.push_back(
+            {"ball_" + std::to_string(n++), 2, {{x - 0.8, 0.1, 1.5 + 0.3 * h}, {}}, {}});
     }
     for (int i = 0; i < 5; ++i)
         world.instances.push_back({"row_" + std::to_string(i), 1, {{0.55 * i, 4, 0.2}, {}}, {}});
@@ -147,8 +155,10 @@ std::shared_ptr<const Model> carts_world(int carts) {
     world.instances.push_back({"wall", 1, {{5, 0, 0.5}, {}}, {}});
     for (int i = 0; i < carts; ++i) {
         const Quat turn = axis_angle({0, 0, 1}, 0.9 * i);
-        world.instances.push_back({"cart_" + std::to_string(i), 2, {{1.6 * (i % 3), 1.4 * (i / 3), 0.01}, turn}, {}});
-        world.instances.push_back({"ball_" + std::to_string(i), 3, {{1.6 * (i % 3) + 0.9, 1.4 * (i / 3) + 0.5, 0.3}, {}}, {}});
+        world.instances.push_back(
+            {"cart_" + std::to_string(i), 2, {{1.6 * (i % 3), 1.4 * (i / 3), 0.01}, turn}, {}});
+        world.instances.push_back(
+            {"ball_" + std::to_string(i), 3, {{1.6 * (i % 3) + 0.9, 1.4 * (i / 3) + 0.5, 0.3}, {}}, {}});
     }
     return compiled(world);
 }
@@ -162,7 +172,9 @@ void DrivingProgram::control(Client& client) {
         const RobotState& state = client.state(robot);
         if (type.joints.empty()) {
             if (calls_ % 7 == static_cast<int>(r % 7))
-                if (!client.apply_wrench(robot, LinkId(0u), {3 * state.q[1] - 2 * state.q[0], 4, 1}, {}, 0.05)) return;
+                if (!client.apply_wrench(robot, LinkId(0u), {3 * state.q[1] - 2 * state.q[0], 4, 1}, {},
+                                         0.05))
+                    return;
             continue;
         }
         const double pull = state.q[0] * 0.7 - state.q[1] * 0.4;  // what it does depends on where it is

@@ -15,10 +15,12 @@ std::shared_ptr<const Model> heaps_world(int heaps = 4);
 /// Four-wheeled carts on a plane around a wall, to be driven by a DrivingProgram; they bump into each other.
 std::shared_ptr<const Model> carts_world(int carts = 6);
 
-/// A crate that falls on a crate (robots 0 and 1), and far from them a lone crate and a lone ball (robots 2 and 3).
+/// A crate that falls on a crate (robots 0 and 1), and far from them a lone crate and a lone ball (robots 2
+/// and 3).
 std::shared_ptr<const Model> pair_world();
 
-/// Gives every cart wheel speeds that depend on what it observes, a shove now and then, and remembers how often it was called.
+/// Gives every cart wheel speeds that depend on what it observes, a shove now and then, and remembers how
+/// often it was called.
 class DrivingProgram : public ControlProgram {
   public:
     explicit DrivingProgram(const ControlOptions& options) : options_(options) {}

@@ -7,7 +7,8 @@
 namespace roboss::test {
 namespace {
 
-std::unique_ptr<Simulation> make(const std::shared_ptr<const Model>& model, const SimulationOptions& options) {
+std::unique_ptr<Simulation> make(const std::shared_ptr<const Model>& model,
+                                 const SimulationOptions& options) {
     auto made = Simulation::create(model, options);
     EXPECT_TRUE(made.ok()) << made.error().text();
     return std::move(made).value();
@@ -34,7 +35,8 @@ TEST(Windows, AWrongForecastRepeatsOnlyTheTouchingIslandsAndKeepsTheHash) {
         EXPECT_EQ(simulation->hash(), reference->hash());
         EXPECT_EQ(simulation->counters().windows, 10u);
         EXPECT_EQ(simulation->counters().windows_repeated, 10u);
-        EXPECT_EQ(simulation->counters().robots_repeated, 20u) << "only the two crates of the pair, once a window";
+        EXPECT_EQ(simulation->counters().robots_repeated, 20u)
+            << "only the two crates of the pair, once a window";
         EXPECT_EQ(simulation->counters().islands, 30u);
     }
 }
@@ -96,7 +98,8 @@ TEST(Windows, OrdersMayBeGivenInAnySequence) {
     const auto model = pair_world();
     std::vector<Order> orders;
     for (std::uint64_t i = 0; i < 12; ++i)
-        orders.push_back({static_cast<Tick>(10 + 3 * (i / 4)), ClientId(), i, RobotId(static_cast<std::uint32_t>(i % 4)),
+        orders.push_back({static_cast<Tick>(10 + 3 * (i / 4)), ClientId(), i,
+                          RobotId(static_cast<std::uint32_t>(i % 4)),
                           SetVelocity{{0.2 * static_cast<double>(i), 0.5, 1}, {0, 0, 1}}});
     auto forward = make(model, {}), backward = make(model, {});
     for (std::size_t i = 0; i < orders.size(); ++i) {
@@ -143,7 +146,9 @@ TEST(Windows, AStateThatIsNotFiniteStopsTheRunAndNamesRobotAndTick) {
         options.simulators = simulators;
         options.controller.window = 16;
         auto simulation = make(model, options);
-        ASSERT_TRUE(simulation->submit({25, ClientId(), 1, RobotId(3u), SetVelocity{{0, 0, 1.7e308}, {1e300, 0, 0}}}).ok());
+        ASSERT_TRUE(
+            simulation->submit({25, ClientId(), 1, RobotId(3u), SetVelocity{{0, 0, 1.7e308}, {1e300, 0, 0}}})
+                .ok());
         const Result<> ran = simulation->run_until(100);
         ASSERT_FALSE(ran.ok());
         EXPECT_NE(ran.error().message.find("lone_ball"), std::string::npos) << ran.error().text();
