@@ -37,9 +37,15 @@ std::unique_ptr<ReadModel> LibsdformatReader::read(Skeleton skeleton) {
     return std::make_unique<ReadModel>(entry->second, std::move(skeleton), includes_);
 }
 
+struct LibsdformatReader::Heard {
+    sdf::Errors errors;
+    std::vector<ConsoleLine> printed;
+};
+
 std::shared_ptr<const sdf::Root> LibsdformatReader::parse(const Skeleton& skeleton) {
     auto root = std::make_shared<sdf::Root>();
-    sdf::Errors errors;
+    Heard heard;
+    sdf::Errors& errors = heard.errors;
     {
         const ConsoleCapture capture;
         if (!document_) {
@@ -60,20 +66,28 @@ std::shared_ptr<const sdf::Root> LibsdformatReader::parse(const Skeleton& skelet
             errors.emplace_back(sdf::ErrorCode::STRING_READ,
                                 std::string("libsdformat failed: ") + exception.what());
         }
+        heard.printed = capture.lines();
     }
     const bool readable = root->Model() != nullptr;
-    report(errors, skeleton, readable);
+    report(heard, skeleton, readable);
     return readable ? root : nullptr;
 }
 
-void LibsdformatReader::report(const sdf::Errors& errors, const Skeleton& skeleton, bool readable) {
+void LibsdformatReader::report(const Heard& heard, const Skeleton& skeleton, bool readable) {
     const Element model = skeleton.lines.front();
     const auto locate = [&](const sdf::Error& error) {
         if (!error.LineNumber()) return Element{};
         const Skeleton* included = includes_.skeleton_of(error.FilePath().value_or(""));
         return element_at(included ? *included : skeleton, *error.LineNumber());
     };
-    const std::size_t reported = report_libsdformat_errors(errors, model, locate, diagnostics_);
+    const std::size_t reported = report_libsdformat_errors(heard.errors, model, locate, diagnostics_);
+    // What it prints beside its errors: repetitions of them, or warnings that have no other way out.
+    if (readable) {
+        for (const ConsoleLine& line : heard.printed) {
+            if (!line.is_error)
+                diagnostics_.warning(model.where(), "sdf", "model '" + model.name() + "': " + line.text);
+        }
+    }
     if (!readable && reported == 0) {
         diagnostics_.error(model.where(), "sdf", "model '" + model.name() + "' cannot be read by libsdformat",
                            "Check it with: gz sdf --check FILE.");
