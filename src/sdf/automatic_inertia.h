@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "sdf/model_conversion.h"
+#include "sdf/conversion.h"
 
 namespace roboss::sdf_import {
 

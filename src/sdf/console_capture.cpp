@@ -7,11 +7,6 @@
 namespace roboss::sdf_import {
 namespace {
 
-std::mutex& console_mutex() {
-    static std::mutex mutex;  // guards the process-wide streams, which are global whether we like it or not
-    return mutex;
-}
-
 /// Takes "\033[1;33m" and the like away.
 std::string without_colours(const std::string& text) {
     std::string result;
@@ -43,7 +38,7 @@ ConsoleLine parsed(const std::string& line) {
 
 }  // namespace
 
-ConsoleCapture::ConsoleCapture() : lock_(console_mutex()) {
+ConsoleCapture::ConsoleCapture() {
     auto& stream = sdf::Console::Instance()->GetMsgStream();
     console_before_ = stream.GetStream();
     stream.SetStream(&captured_);

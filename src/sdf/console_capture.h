@@ -3,7 +3,6 @@
 // inside libsdformat at a time.
 #pragma once
 
-#include <mutex>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -25,7 +24,6 @@ class ConsoleCapture {
     std::vector<ConsoleLine> lines() const;
 
   private:
-    std::unique_lock<std::mutex> lock_;
     std::ostringstream captured_;
     std::ostream* console_before_ = nullptr;
     std::streambuf* cerr_before_ = nullptr;

@@ -21,6 +21,10 @@ std::optional<double> parse_number(std::string_view text);
 
 /// The words of a text between white space.
 std::vector<std::string_view> words_of(std::string_view text);
+inline std::vector<std::string_view> words_of(const char* text) {
+    return words_of(std::string_view(text));
+}
+std::vector<std::string_view> words_of(std::string&& text) = delete;  // the words would outlive it
 
 class ElementReader {
   public:

@@ -2,7 +2,7 @@
 #include <cstring>
 #include <sstream>
 
-#include "sdf/model_conversion.h"
+#include "sdf/conversion.h"
 
 namespace roboss::sdf_import {
 namespace {

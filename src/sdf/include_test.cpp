@@ -55,6 +55,15 @@ TEST(Include, LooksWhereTheEnvironmentSays) {
     }
 }
 
+TEST(Include, LooksInTheFolderModelsBesideTheWorld) {
+    const TestFolder folder;
+    folder.write("models/ball/model.sdf", model_file("ball", link("a")));
+    folder.write("world.sdf", world_file("<include><uri>model://ball</uri></include>"));
+    const Loaded loaded = folder.load("world.sdf");
+    ASSERT_TRUE(loaded.world);
+    EXPECT_EQ(loaded.world->instances.size(), 1u) << loaded.text();
+}
+
 TEST(Include, UnderstandsEveryKindOfUri) {
     const TestFolder folder;
     const std::string file = folder.write("parts/ball/model.sdf", model_file("ball", link("a")));

@@ -2,7 +2,7 @@
 #include <cstring>
 
 #include "sdf/automatic_inertia.h"
-#include "sdf/model_conversion.h"
+#include "sdf/conversion.h"
 
 namespace roboss::sdf_import {
 namespace {

@@ -1,8 +1,9 @@
 // Joints: type, links and frames from libsdformat, numbers of the axes and <roboss:motor> from the source.
+#include "sdf/joint_conversion.h"
+
 #include <cmath>
 #include <limits>
-
-#include "sdf/model_conversion.h"
+#include <sdf/JointAxis.hh>
 
 namespace roboss::sdf_import {
 namespace {

@@ -40,7 +40,8 @@ class LibsdformatReader {
 
   private:
     std::shared_ptr<const sdf::Root> parse(const Skeleton& skeleton);
-    void report(const sdf::Errors& errors, const Skeleton& skeleton, bool readable);
+    struct Heard;  // what libsdformat said
+    void report(const Heard& heard, const Skeleton& skeleton, bool readable);
 
     const IncludeStore& includes_;
     Diagnostics& diagnostics_;

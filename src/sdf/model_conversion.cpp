@@ -3,6 +3,8 @@
 
 #include <cstring>
 
+#include "sdf/joint_conversion.h"
+#include "sdf/libsdformat_reader.h"
 #include "sdf/newer_versions.h"
 
 namespace roboss::sdf_import {
@@ -14,6 +16,11 @@ struct Scope {
     std::string prefix;  // "" or "inner::"
     Pose X_MS;           // this model's frame in the outermost model's
 };
+
+Pose to_pose(const ignition::math::Pose3d& pose) {
+    return {{pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z()},
+            {pose.Rot().W(), pose.Rot().X(), pose.Rot().Y(), pose.Rot().Z()}};
+}
 
 template <class Posed>
 Pose resolved(const Posed& posed, const std::string& in) {
@@ -128,11 +135,6 @@ class ModelConverter {
 };
 
 }  // namespace
-
-Pose to_pose(const ignition::math::Pose3d& pose) {
-    return {{pose.Pos().X(), pose.Pos().Y(), pose.Pos().Z()},
-            {pose.Rot().W(), pose.Rot().X(), pose.Rot().Y(), pose.Rot().Z()}};
-}
 
 ModelSpec convert_model(const ReadModel& read, bool is_static, const Import& import) {
     ModelSpec spec;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "sdf/conversion.h"
 #include "sdf/include_store.h"
-#include "sdf/model_conversion.h"
 
 namespace roboss::sdf_import {
 

@@ -105,6 +105,8 @@ Resolved ResourcePaths::resolve(const std::string& uri, const std::string& base)
         return result;
     }
     try_path(fs::path(base) / path, result);
+    // A folder "models" beside the world is where most projects keep them.
+    if (scheme != std::string::npos) try_path(fs::path(base) / "models" / path, result);
     for (const std::string& folder : folders_) try_path(fs::path(folder) / path, result);
     // --path may name the model's own folder: model://car/meshes/a.stl is then <folder>/meshes/a.stl.
     for (const std::string& folder : folders_) {

@@ -1,7 +1,7 @@
 // Sensors: laser (ray, lidar and their gpu_ names), gps, and our odometer and gyrocompass.
 #include <cmath>
 
-#include "sdf/model_conversion.h"
+#include "sdf/conversion.h"
 
 namespace roboss::sdf_import {
 namespace {

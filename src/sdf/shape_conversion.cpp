@@ -1,7 +1,7 @@
 // Geometry, surfaces, collisions and visuals.
 #include <cstring>
 
-#include "sdf/model_conversion.h"
+#include "sdf/conversion.h"
 
 namespace roboss::sdf_import {
 namespace {
@@ -21,7 +21,7 @@ void read_plane(const Element& plane, const Import& import, GeometrySpec& spec, 
     } else {
         X.q = X.q * from_z_to(normal / length);
     }
-    const auto words = words_of(plane.text("size"));
+    const auto words = words_of(plane.node.child("size").text().get());
     const auto x = words.size() == 2 ? parse_number(words[0]) : std::nullopt;
     const auto y = words.size() == 2 ? parse_number(words[1]) : std::nullopt;
     spec.size = {x.value_or(1), y.value_or(1), 0};
@@ -233,7 +233,7 @@ VisualSpec convert_visual(const Element& visual, const Pose& X_LV, const Import&
         spec.geometry = *known;
     const Element material = visual.child("material");
     for (const char* colour : {"diffuse", "ambient"}) {
-        const auto words = words_of(material.text(colour));
+        const auto words = words_of(material.node.child(colour).text().get());
         if (words.size() < 3) continue;
         spec.rgb = {parse_number(words[0]).value_or(spec.rgb.x), parse_number(words[1]).value_or(spec.rgb.y),
                     parse_number(words[2]).value_or(spec.rgb.z)};

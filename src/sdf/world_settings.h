@@ -2,7 +2,7 @@
 // simulated.
 #pragma once
 
-#include "sdf/model_conversion.h"
+#include "sdf/conversion.h"
 
 namespace roboss::sdf_import {
 

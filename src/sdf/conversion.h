@@ -1,0 +1,41 @@
+// The parts of a model's conversion: elements of the source to the World's plain data. No libsdformat here.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sdf/element_reader.h"
+#include "sdf/resource_paths.h"
+#include "world/world.h"
+
+namespace roboss::sdf_import {
+
+/// What every conversion needs.
+struct Import {
+    const ResourcePaths& paths;
+    ElementReader reader;
+    Diagnostics& diagnostics() const { return reader.diagnostics(); }
+};
+
+/// Mass, centre and inertia of a link, as written, as SDF's defaults (reported), or automatic (auto="true").
+void convert_inertial(const Element& link, const Import& import, LinkSpec& spec);
+
+/// nullopt for <empty> or a shape that is not known. `X` is the pose of the element that holds the geometry;
+/// a plane's normal is folded into it.
+std::optional<GeometrySpec> convert_geometry(const Element& geometry, const Import& import, Pose& X);
+
+SurfaceSpec convert_surface(const Element& collision, const Import& import);
+std::optional<CollisionSpec> convert_collision(const Element& collision, const Pose& X_LS,
+                                               const Import& import);
+VisualSpec convert_visual(const Element& visual, const Pose& X_LV, const Import& import);
+
+/// A <sensor> or <roboss:sensor>; `scope` is the prefix of the names in a nested model ("inner::" or "").
+SensorSpec convert_sensor(const Element& sensor, const Pose& X_LS, const std::string& scope,
+                          const Import& import);
+
+/// Reports plugins and other extensions under `parent`, and keeps the plugins.
+void convert_extensions(const Element& parent, const Import& import,
+                        std::vector<ExtensionElement>& extensions);
+
+}  // namespace roboss::sdf_import
