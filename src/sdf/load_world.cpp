@@ -11,7 +11,6 @@
 #include "sdf/newer_versions.h"
 #include "sdf/placements.h"
 #include "sdf/same_model.h"
-#include "sdf/static_sensors.h"
 #include "sdf/urdf.h"
 #include "sdf/world_frames.h"
 #include "sdf/world_settings.h"
@@ -104,7 +103,6 @@ class WorldLoader {
                                  "Give it a link, or remove it.");
             return;
         }
-        keep_sensors_of_static(spec, diagnostics_);
         world.prototypes.push_back(std::move(spec));
         distinct.prototype = world.prototypes.size() - 1;
     }
