@@ -16,7 +16,10 @@ struct CompiledPrototype {
 };
 
 bool has_sensors(const ModelSpec& spec) {
-    return std::any_of(spec.links.begin(), spec.links.end(), [](const LinkSpec& link) { return !link.sensors.empty(); });
+    return std::any_of(spec.links.begin(), spec.links.end(), [](const LinkSpec& link) {
+        return std::any_of(link.sensors.begin(), link.sensors.end(),
+                           [](const SensorSpec& s) { return s.kind != SensorKind::kUnsupported; });
+    });
 }
 
 /// Shapes of a static model; `owner`: the robot that carries its sensors, if any.

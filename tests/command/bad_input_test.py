@@ -1,0 +1,83 @@
+"""Bad input: clear words with the file's name, the documented exit code, and nothing lost."""
+import json
+import unittest
+
+from running import DRIVER, FOLDER, WORLDS, roboss, summary
+
+HEAP = WORLDS / "heap.sdf"
+
+
+def written(name, text):
+    file = FOLDER / name
+    file.write_text(text)
+    return file
+
+
+class BadInput(unittest.TestCase):
+    def refused(self, arguments, exit_code, *words):
+        done = roboss(*arguments)
+        self.assertEqual(done.returncode, exit_code, done.stderr + done.stdout)
+        for word in words:
+            self.assertIn(word, done.stderr + done.stdout)
+        return done
+
+    def test_a_world_that_is_not_there_or_no_xml(self):
+        self.refused(["run", "no/such.sdf", "--duration", "1"], 1, "no/such.sdf")
+        broken = written("broken.sdf", "<sdf version='1.9'>\n<world name='w'>\n<model name='m'>\n</wrong></world></sdf>")
+        self.refused(["run", broken, "--duration", "1"], 1, "broken.sdf:4")
+
+    def test_every_fault_of_a_world_is_told_at_once_with_its_line(self):
+        text = HEAP.read_text().replace("<mass>2</mass>", "<mass>0</mass>").replace("<child>upper</child>", "<child>uper</child>")
+        bad = written("bad.sdf", text)
+        done = self.refused(["run", bad, "--duration", "1"], 1, "bad.sdf:", "uper", "mass")
+        self.assertGreaterEqual(done.stderr.count("error:"), 2)
+
+    def test_nan_in_a_world(self):
+        bad = written("nan.sdf", HEAP.read_text().replace("<radius>0.09</radius>", "<radius>nan</radius>"))
+        self.refused(["run", bad, "--duration", "1"], 1, "nan.sdf:")
+
+    def test_wrong_usage(self):
+        self.refused(["run"], 2, "world")
+        self.refused(["run", HEAP, "--speed", "fast"], 2, "--speed")
+        self.refused(["run", HEAP, "--no-such-option"], 2, "--no-such-option")
+        self.refused(["fly"], 2)
+
+    def test_an_order_to_an_unknown_robot_stops_before_the_start(self):
+        orders = written("orders.jsonl", '{"t":0,"robot":"arm","joint":{"name":"shoulder","effort":1}}\n{"t":0,"robot":"nobody","joint":{}}\n')
+        self.refused(["run", HEAP, "--duration", "1", "--orders", orders], 1, "orders.jsonl:2", "nobody")
+
+    def test_a_control_program_that_is_none(self):
+        self.refused(["run", HEAP, "--duration", "1", "--client", "no/such.so"], 1, "no/such.so")
+        self.refused(["run", HEAP, "--duration", "1", "--client", written("text.so", "not a library")], 1, "text.so")
+
+    def test_a_saved_state_of_another_world_or_damaged(self):
+        saved = FOLDER / "heap.roboss"
+        summary(HEAP, "--duration", 0.1, "--save", saved)
+        self.refused(["run", WORLDS / "crossroads.sdf", "--duration", "1", "--from", saved], 1, "heap.roboss")
+        whole = saved.read_bytes()
+        damaged = FOLDER / "damaged.roboss"
+        damaged.write_bytes(whole[: len(whole) // 2])
+        self.refused(["run", HEAP, "--duration", "1", "--from", damaged], 1, "damaged.roboss")
+
+    def test_a_folder_that_cannot_be_written(self):
+        done = self.refused(["run", HEAP, "--duration", "0.1", "--quiet", "--save", "no/such/folder/x.roboss"], 3, "no/such/folder")
+        self.assertIn("state hash", done.stdout, "the summary is there all the same")
+
+    def test_a_run_that_blows_up_says_who_and_keeps_what_was(self):
+        orders = written("boom.jsonl", '{"t":0.05,"robot":"arm","wrench":{"link":"lower","force":[1e300,0,0],"duration":0.1}}\n')
+        saved = FOLDER / "before.roboss"
+        self.refused(["run", HEAP, "--duration", "1", "--quiet", "--orders", orders, "--save", saved], 3, "arm")
+        again = summary(HEAP, "--duration", 0.0, "--from", saved)
+        self.assertGreater(again["sim_time_s"], 0.04)
+
+    def test_check_tells_programs_the_same(self):
+        done = roboss("check", WORLDS / "city.sdf", "--json")
+        self.assertEqual(done.returncode, 0)
+        self.assertEqual(json.loads(done.stdout)["robots"], 50)
+
+    def test_the_control_program_is_a_good_one_after_all(self):
+        self.assertEqual(summary(WORLDS / "city.sdf", "--client", DRIVER, "--duration", 0.2)["robots"], 50)
+
+
+if __name__ == "__main__":
+    unittest.main()

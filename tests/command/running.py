@@ -1,0 +1,24 @@
+"""Runs the roboss command for tests. Arguments of a test script: ROBOSS CITY_DRIVER WORLDS_FOLDER."""
+import json
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROBOSS, DRIVER, WORLDS = sys.argv[1], sys.argv[2], Path(sys.argv[3])
+del sys.argv[1:4]
+FOLDER = Path(tempfile.mkdtemp(prefix="roboss_test_"))
+
+
+def roboss(*arguments):
+    """The finished process; its output is text."""
+    return subprocess.run([ROBOSS, *map(str, arguments)], capture_output=True, text=True, timeout=600)
+
+
+def summary(*arguments):
+    """What `roboss run ... --json` wrote; fails if the run did."""
+    file = FOLDER / "summary.json"
+    done = roboss("run", *arguments, "--quiet", "--json", file)
+    if done.returncode != 0:
+        raise AssertionError(f"roboss run {arguments} ended with {done.returncode}:\n{done.stderr}")
+    return json.loads(file.read_text())
