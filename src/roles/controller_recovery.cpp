@@ -36,7 +36,7 @@ void Controller::begin_checkpoint() {
     if (next_base_) return;
     states_wanted_ = false;
     if (base_.tick == tick_ || anything_lost()) return;
-    next_base_ = Checkpoint{};  // clang 14 cannot emplace() a nested struct with default member values
+    next_base_.emplace();
     next_base_->tick = tick_;
     next_base_->states.resize(model_->robots.size());
     next_base_->touched.reset(model_->robots.size());
