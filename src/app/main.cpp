@@ -6,8 +6,9 @@
 #include "app/run_command.h"
 
 int main(int argc, char** argv) {
-    CLI::App app{"RoBOSS simulates many robots in one physical world, exactly, on any number of machines.\n"
-                 "Start with:  roboss check WORLD   then   roboss run WORLD --duration 10"};
+    CLI::App app{
+        "RoBOSS simulates many robots in one physical world, exactly, on any number of machines.\n"
+        "Start with:  roboss check WORLD   then   roboss run WORLD --duration 10"};
     app.require_subcommand(1);
     app.set_help_all_flag("--help-all", "help of all subcommands");
     int exit_code = 0;

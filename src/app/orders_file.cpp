@@ -15,12 +15,14 @@ using nlohmann::json;
 
 /// A fault in one line; caught in parse_orders, where it becomes a diagnostic.
 struct LineFault : std::runtime_error {
-    LineFault(const std::string& message, std::string what_to_do) : std::runtime_error(message), remedy(std::move(what_to_do)) {}
+    LineFault(const std::string& message, std::string what_to_do)
+        : std::runtime_error(message), remedy(std::move(what_to_do)) {}
     std::string remedy;
 };
 
 void only_keys(const json& object, const char* what, std::initializer_list<const char*> keys) {
-    if (!object.is_object()) throw LineFault(std::string(what) + " is not a JSON object", "write {\"...\": ...}");
+    if (!object.is_object())
+        throw LineFault(std::string(what) + " is not a JSON object", "write {\"...\": ...}");
     for (const auto& [key, value] : object.items()) {
         bool known = false;
         std::string all;
@@ -31,7 +33,8 @@ void only_keys(const json& object, const char* what, std::initializer_list<const
 
 double number(const json& object, const char* key) {
     if (!object.contains(key)) throw LineFault(std::string("'") + key + "' is missing", "add it");
-    if (!object[key].is_number()) throw LineFault(std::string("'") + key + "' is not a number", "give a finite number");
+    if (!object[key].is_number())
+        throw LineFault(std::string("'") + key + "' is not a number", "give a finite number");
     return object[key].get<double>();
 }
 
@@ -39,10 +42,13 @@ std::vector<double> numbers(const json& object, const char* key, std::size_t cou
     if (!object.contains(key)) return {};
     const json& list = object[key];
     if (!list.is_array() || list.size() != count)
-        throw LineFault(std::string("'") + key + "' is not a list of " + std::to_string(count) + " numbers", "give all of them");
+        throw LineFault(std::string("'") + key + "' is not a list of " + std::to_string(count) + " numbers",
+                        "give all of them");
     std::vector<double> values;
     for (const json& x : list) {
-        if (!x.is_number()) throw LineFault(std::string("'") + key + "' holds something that is not a number", "give finite numbers");
+        if (!x.is_number())
+            throw LineFault(std::string("'") + key + "' holds something that is not a number",
+                            "give finite numbers");
         values.push_back(x.get<double>());
     }
     return values;
@@ -67,7 +73,9 @@ Action parse_pose(const json& o) {
     if (!q.empty()) {
         const double size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
         if (!(std::fabs(size - 1.0) < 1e-3))
-            throw LineFault("'orientation' is not a unit quaternion (its norm is " + std::to_string(size) + ")", "give [w, x, y, z]");
+            throw LineFault(
+                "'orientation' is not a unit quaternion (its norm is " + std::to_string(size) + ")",
+                "give [w, x, y, z]");
         X_WR.q = normalized(Quat{q[0], q[1], q[2], q[3]});
     }
     return SetPose{X_WR};
@@ -82,9 +90,12 @@ Action parse_wrench(const json& o, const Model& model, const RobotType& type, co
     only_keys(o, "wrench", {"link", "force", "torque", "duration"});
     const std::string name = text(o, "link");
     const auto link = type.find_link(name);
-    if (!link) throw LineFault("robot '" + robot + "' has no link '" + name + "'", "its first link is '" + type.links.front().name + "'");
+    if (!link)
+        throw LineFault("robot '" + robot + "' has no link '" + name + "'",
+                        "its first link is '" + type.links.front().name + "'");
     const double duration = o.contains("duration") ? number(o, "duration") : model.dt_s;
-    if (!(duration > 0 && duration < 1e9)) throw LineFault("'duration' is not in (0, 1e9) s", "give the time the wrench acts, in s");
+    if (!(duration > 0 && duration < 1e9))
+        throw LineFault("'duration' is not in (0, 1e9) s", "give the time the wrench acts, in s");
     const Tick ticks = std::max<Tick>(1, tick_at(duration, model.dt_s));
     return ApplyWrench{*link, vector(o, "force"), vector(o, "torque"), ticks};
 }
@@ -94,23 +105,29 @@ Action parse_joint(const json& o, const RobotType& type, const std::string& robo
     const std::string name = text(o, "name");
     const auto joint = type.find_joint(name);
     if (!joint) {
-        const std::string hint = type.joints.empty() ? "it has no joints" : "its first joint is '" + type.joints.front().name + "'";
+        const std::string hint = type.joints.empty()
+                                     ? "it has no joints"
+                                     : "its first joint is '" + type.joints.front().name + "'";
         throw LineFault("robot '" + robot + "' has no joint '" + name + "'", hint);
     }
     SetJoint order;
     order.joint = *joint;
     int modes = 0;
-    for (const auto& [key, mode] : {std::pair{"velocity", MotorMode::kVelocity}, std::pair{"position", MotorMode::kPosition},
-                                    std::pair{"effort", MotorMode::kEffort}}) {
+    for (const auto& [key, mode] :
+         {std::pair{"velocity", MotorMode::kVelocity}, std::pair{"position", MotorMode::kPosition},
+          std::pair{"effort", MotorMode::kEffort}}) {
         if (!o.contains(key)) continue;
         order.mode = mode;
         order.target = number(o, key);
         ++modes;
     }
-    if (modes != 1) throw LineFault("the joint order names " + std::to_string(modes) + " of velocity, position, effort", "name exactly one");
+    if (modes != 1)
+        throw LineFault("the joint order names " + std::to_string(modes) + " of velocity, position, effort",
+                        "name exactly one");
     if (o.contains("max_effort")) {
         order.max_effort = number(o, "max_effort");
-        if (order.max_effort < 0) throw LineFault("'max_effort' is negative", "give a bound >= 0, or leave it out");
+        if (order.max_effort < 0)
+            throw LineFault("'max_effort' is negative", "give a bound >= 0, or leave it out");
     }
     if (o.contains("axis")) order.axis = static_cast<int>(number(o, "axis"));
     return order;
@@ -125,13 +142,18 @@ Order parse_line(const std::string& line, const Model& model) {
     }
     only_keys(o, "an order", {"t", "robot", "set_pose", "set_velocity", "wrench", "joint"});
     const double time_s = number(o, "t");
-    if (!(time_s >= 0 && time_s < 1e12)) throw LineFault("'t' is not in [0, 1e12) s", "give the time of the order, in s");
+    if (!(time_s >= 0 && time_s < 1e12))
+        throw LineFault("'t' is not in [0, 1e12) s", "give the time of the order, in s");
     const std::string robot = text(o, "robot");
     const auto id = model.find_robot(robot);
-    if (!id) throw LineFault("there is no robot '" + robot + "' in the world", "`roboss check WORLD` lists the robots");
+    if (!id)
+        throw LineFault("there is no robot '" + robot + "' in the world",
+                        "`roboss check WORLD` lists the robots");
     const RobotType& type = model.type_of(*id);
     const int actions = static_cast<int>(o.size()) - 2;
-    if (actions != 1) throw LineFault("the order has " + std::to_string(actions) + " actions", "name one of set_pose, set_velocity, wrench, joint");
+    if (actions != 1)
+        throw LineFault("the order has " + std::to_string(actions) + " actions",
+                        "name one of set_pose, set_velocity, wrench, joint");
     Order order;
     order.apply_at = tick_at(time_s, model.dt_s);
     order.robot = *id;
@@ -150,7 +172,8 @@ Tick tick_at(double time_s, double dt_s) {
     return static_cast<Tick>(std::floor(time_s / dt_s + 0.5));
 }
 
-std::vector<Order> parse_orders(std::string_view content, const std::string& file, const Model& model, Diagnostics& diagnostics) {
+std::vector<Order> parse_orders(std::string_view content, const std::string& file, const Model& model,
+                                Diagnostics& diagnostics) {
     std::vector<Order> orders;
     std::istringstream lines{std::string(content)};
     std::string line;
@@ -171,7 +194,8 @@ std::vector<Order> load_orders(const std::string& file, const Model& model, Diag
     std::ifstream in(file, std::ios::binary);
     std::stringstream content;
     if (!in || !(content << in.rdbuf() || in.peek() == EOF)) {
-        diagnostics.error({file, 0}, "no-file", "cannot read the orders file", "check the path after --orders");
+        diagnostics.error({file, 0}, "no-file", "cannot read the orders file",
+                          "check the path after --orders");
         return {};
     }
     return parse_orders(content.str(), file, model, diagnostics);

@@ -17,9 +17,11 @@ void Progress::show(const Simulation& simulation) {
     const Counters& c = simulation.counters();
     const double factor = last_time_s_ < 0 ? 0.0 : (simulation.time_s() - last_time_s_) / since_s;
     const std::uint64_t ticks = c.ticks - last_ticks_;
-    const double contacts = ticks > 0 ? static_cast<double>(c.contacts - last_contacts_) / static_cast<double>(ticks) : 0.0;
-    const std::string line = fmt::format("\r{:9.2f} s  {:6.1f} x real time  {} robots  {} islands  {:.0f} contacts   ",
-                                         simulation.time_s(), factor, simulation.model().robots.size(), c.islands_now, contacts);
+    const double contacts =
+        ticks > 0 ? static_cast<double>(c.contacts - last_contacts_) / static_cast<double>(ticks) : 0.0;
+    const std::string line =
+        fmt::format("\r{:9.2f} s  {:6.1f} x real time  {} robots  {} islands  {:.0f} contacts   ",
+                    simulation.time_s(), factor, simulation.model().robots.size(), c.islands_now, contacts);
     std::fputs(line.c_str(), stderr);
     std::fflush(stderr);
     line_open_ = true;

@@ -1,4 +1,5 @@
-// Loads, runs, watches and ends one run. Everything that decides a result is in the roles; here are files, clock and terminal.
+// Loads, runs, watches and ends one run. Everything that decides a result is in the roles; here are files,
+// clock and terminal.
 #include "app/run_command.h"
 
 #include <fmt/format.h>
@@ -49,8 +50,12 @@ void print(const Diagnostics& diagnostics, const std::string& world) {
 /// Something due each so many ticks; never if `every` is 0.
 class Due {
   public:
-    Due(double every_s, double dt_s, Tick start) : every_(every_s > 0 ? std::max<Tick>(1, tick_at(every_s, dt_s)) : 0), start_(start) {}
-    Tick next(Tick now) const { return every_ == 0 ? std::numeric_limits<Tick>::max() : start_ + ((now - start_) / every_ + 1) * every_; }
+    Due(double every_s, double dt_s, Tick start)
+        : every_(every_s > 0 ? std::max<Tick>(1, tick_at(every_s, dt_s)) : 0), start_(start) {}
+    Tick next(Tick now) const {
+        return every_ == 0 ? std::numeric_limits<Tick>::max()
+                           : start_ + ((now - start_) / every_ + 1) * every_;
+    }
     bool at(Tick now) const { return every_ != 0 && (now - start_) % every_ == 0; }
 
   private:
@@ -131,7 +136,8 @@ class Run {
     /// True at the end of the duration or on Ctrl-C, false if the run failed.
     bool drive(Clock::time_point began) {
         const double dt = model_->dt_s;
-        const Tick end = o_.duration_s ? start_ + tick_at(*o_.duration_s, dt) : std::numeric_limits<Tick>::max();
+        const Tick end =
+            o_.duration_s ? start_ + tick_at(*o_.duration_s, dt) : std::numeric_limits<Tick>::max();
         const double speed = o_.speed == "max" ? 0.0 : std::stod(o_.speed);
         const Due trace(trace_ ? (o_.trace_every_s > 0 ? o_.trace_every_s : dt) : 0.0, dt, start_);
         const Due hash(o_.hash_every_s, dt, start_);
@@ -142,16 +148,21 @@ class Run {
         std::signal(SIGTERM, on_interrupt);
         for (Tick now = start_;; now = simulation_->tick()) {
             if (trace.at(now) && !write_trace()) return false;
-            if (hash.at(now)) fmt::print("{:.6f} s  {}\n", simulation_->time_s(), to_hex(simulation_->hash()));
+            if (hash.at(now))
+                fmt::print("{:.6f} s  {}\n", simulation_->time_s(), to_hex(simulation_->hash()));
             if (picture.at(now)) collect_paths();
             if (now >= end || g_interrupted) return true;
-            const Tick next = std::min({end, trace.next(now), hash.next(now), picture.next(now), pace.next(now)});
-            const Result<> stepped = simulation_->run_until(next, [&] { return progress_.show(*simulation_), g_interrupted == 0; });
-            for (const std::string& notice : simulation_->take_notices()) progress_.clear(), fmt::print(stderr, "roboss: {}\n", notice);
+            const Tick next =
+                std::min({end, trace.next(now), hash.next(now), picture.next(now), pace.next(now)});
+            const Result<> stepped = simulation_->run_until(
+                next, [&] { return progress_.show(*simulation_), g_interrupted == 0; });
+            for (const std::string& notice : simulation_->take_notices())
+                progress_.clear(), fmt::print(stderr, "roboss: {}\n", notice);
             if (!stepped) return progress_.clear(), print(stepped.error()), false;
             if (speed > 0) {
                 const double due_s = static_cast<double>(simulation_->tick() - start_) * dt / speed;
-                std::this_thread::sleep_until(began + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due_s)));
+                std::this_thread::sleep_until(began + std::chrono::duration_cast<Clock::duration>(
+                                                          std::chrono::duration<double>(due_s)));
             }
         }
     }
@@ -203,8 +214,9 @@ class Run {
         if (!o_.save.empty()) check(simulation_->save(o_.save));
         if (!o_.json.empty()) check(write_json(s, o_.json));
         if (!o_.paths_picture.empty()) {
-            const std::string subtitle = fmt::format("{} robots, {:.1f} s simulated, state hash {}", s.robots,
-                                                     static_cast<double>(s.ticks) * s.dt_s, to_hex(s.state_hash));
+            const std::string subtitle =
+                fmt::format("{} robots, {:.1f} s simulated, state hash {}", s.robots,
+                            static_cast<double>(s.ticks) * s.dt_s, to_hex(s.state_hash));
             check(write_path_picture(o_.paths_picture, *model_, paths_, {model_->name, subtitle}));
         }
         fmt::print("{}", to_text(s));

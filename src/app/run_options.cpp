@@ -39,25 +39,42 @@ CLI::Validator number_or(const std::string& word) {
 void add_run_options(CLI::App& command, RunOptions& o) {
     command.footer(kFooter);
     command.add_option("world", o.world, "the world: an SDF or URDF file")->required();
-    command.add_option("--path", o.paths, "folder to look up model:// and package:// URIs in (may be given again)");
-    command.add_option("--duration", o.duration_s, "simulated time to run, s (default: until Ctrl-C)")->check(CLI::NonNegativeNumber);
-    command.add_option("--dt", o.dt_s, "time step, s (default: the world's max_step_size)")->check(CLI::PositiveNumber);
-    command.add_option("--speed", o.speed, "simulated seconds a real second, or max")->check(number_or("max"))->capture_default_str();
-    command.add_option("--threads", o.threads, "threads a Simulator steps its islands with")->check(CLI::Range(1, 1024))->capture_default_str();
-    command.add_option("--simulators", o.simulators, "Simulators that share the robots")->check(CLI::Range(1, 1024))->capture_default_str();
-    command.add_option("--window", o.window, "ticks between two talks with the Controller, or auto")->check(number_or("auto"))->capture_default_str();
-    command.add_flag("--merge-islands", o.merge_islands, "put all robots into one island (same result, slower)");
+    command.add_option("--path", o.paths,
+                       "folder to look up model:// and package:// URIs in (may be given again)");
+    command.add_option("--duration", o.duration_s, "simulated time to run, s (default: until Ctrl-C)")
+        ->check(CLI::NonNegativeNumber);
+    command.add_option("--dt", o.dt_s, "time step, s (default: the world's max_step_size)")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--speed", o.speed, "simulated seconds a real second, or max")
+        ->check(number_or("max"))
+        ->capture_default_str();
+    command.add_option("--threads", o.threads, "threads a Simulator steps its islands with")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    command.add_option("--simulators", o.simulators, "Simulators that share the robots")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    command.add_option("--window", o.window, "ticks between two talks with the Controller, or auto")
+        ->check(number_or("auto"))
+        ->capture_default_str();
+    command.add_flag("--merge-islands", o.merge_islands,
+                     "put all robots into one island (same result, slower)");
     command.add_option("--client", o.clients, "control program: a shared library (may be given again)");
     command.add_option("--orders", o.orders, "orders from a file, one JSON object a line");
     command.add_option("--trace", o.trace, "write poses and velocities of all links to this CSV file");
-    command.add_option("--trace-every", o.trace_every_s, "simulated time between two traces, s (default: every step)")->check(CLI::PositiveNumber);
-    command.add_option("--hash-every", o.hash_every_s, "print the state hash each so many simulated seconds")->check(CLI::PositiveNumber);
+    command
+        .add_option("--trace-every", o.trace_every_s,
+                    "simulated time between two traces, s (default: every step)")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--hash-every", o.hash_every_s, "print the state hash each so many simulated seconds")
+        ->check(CLI::PositiveNumber);
     command.add_option("--json", o.json, "write the summary to this file");
     command.add_option("--seed", o.seed, "seed of sensor noise and control programs")->capture_default_str();
     command.add_option("--save", o.save, "write the state at the end to this file");
     command.add_option("--from", o.from, "start from a state written by --save");
     command.add_option("--picture", o.paths_picture, "draw where the robots went into this SVG file");
-    command.add_flag("--headless", o.headless, "no viewer (there is none yet; for scripts that will meet one)");
+    command.add_flag("--headless", o.headless,
+                     "no viewer (there is none yet; for scripts that will meet one)");
     command.add_flag("--quiet", o.quiet, "no progress, only the summary");
 }
 

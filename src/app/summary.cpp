@@ -41,18 +41,22 @@ std::string to_text(const Summary& s) {
         "contacts          {:.1f} points a step, {:.4f} of them with buildings and walls\n"
         "model hash        {}\n"
         "state hash        {}\n",
-        s.world, s.robots, static_cast<double>(s.ticks) * s.dt_s, s.ticks, s.dt_s * 1e3, s.sim_time_s, s.wall_time_s,
-        s.real_time_factor, s.step_cpu_s,
-        s.ticks > 0 && s.robots > 0 ? s.step_cpu_s * 1e6 / (static_cast<double>(s.ticks) * static_cast<double>(s.robots)) : 0.0,
-        s.windows, s.windows_repeated, s.islands_mean, s.contacts_mean, s.building_contacts_mean, to_hex(s.model_hash),
-        to_hex(s.state_hash));
+        s.world, s.robots, static_cast<double>(s.ticks) * s.dt_s, s.ticks, s.dt_s * 1e3, s.sim_time_s,
+        s.wall_time_s, s.real_time_factor, s.step_cpu_s,
+        s.ticks > 0 && s.robots > 0
+            ? s.step_cpu_s * 1e6 / (static_cast<double>(s.ticks) * static_cast<double>(s.robots))
+            : 0.0,
+        s.windows, s.windows_repeated, s.islands_mean, s.contacts_mean, s.building_contacts_mean,
+        to_hex(s.model_hash), to_hex(s.state_hash));
 }
 
 Result<> write_json(const Summary& summary, const std::string& file) {
     std::ofstream out(file);
     out << to_json(summary);
     out.close();
-    if (!out) return Error{"cannot write the summary to '" + file + "'", "check the folder, its rights and the space left"};
+    if (!out)
+        return Error{"cannot write the summary to '" + file + "'",
+                     "check the folder, its rights and the space left"};
     return Ok{};
 }
 

@@ -14,14 +14,14 @@ struct Summary {
     std::size_t robots = 0;
     Tick ticks = 0;  // of this run (from its start, not from the world's)
     double dt_s = 0;
-    double sim_time_s = 0;   // world time at the end
+    double sim_time_s = 0;  // world time at the end
     double wall_time_s = 0;
     double real_time_factor = 0;
-    double step_cpu_s = 0;   // thread CPU time of stepping alone
+    double step_cpu_s = 0;  // thread CPU time of stepping alone
     std::uint64_t windows = 0, windows_repeated = 0;
-    double islands_mean = 0;   // per window
-    double contacts_mean = 0;  // contact points per tick
-    double building_contacts_mean = 0;   // of these with static scenery other than planes, per tick
+    double islands_mean = 0;            // per window
+    double contacts_mean = 0;           // contact points per tick
+    double building_contacts_mean = 0;  // of these with static scenery other than planes, per tick
     std::uint64_t model_hash = 0, state_hash = 0;
 };
 

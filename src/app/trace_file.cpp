@@ -10,7 +10,8 @@ namespace roboss {
 namespace {
 
 Error cannot_write(const std::string& path) {
-    return Error{"cannot write '" + path + "': " + std::strerror(errno), "check the folder, its rights and the space left"};
+    return Error{"cannot write '" + path + "': " + std::strerror(errno),
+                 "check the folder, its rights and the space left"};
 }
 
 }  // namespace
@@ -31,9 +32,12 @@ Result<> TraceFile::write(const Model& model, Tick tick, std::span<const RobotSt
         for (std::size_t l = 0; l < type.links.size(); ++l) {
             const Pose X = to_pose(link_pose(type, states[r], LinkId(l)));
             const Twist v = link_twist(type, states[r], LinkId(l));
-            std::fprintf(file_.get(), "%.17g,%s,%s,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n",
-                         time_s, model.robots[r].name.c_str(), type.links[l].name.c_str(), X.p.x, X.p.y, X.p.z, X.q.w, X.q.x,
-                         X.q.y, X.q.z, v.linear.x, v.linear.y, v.linear.z, v.angular.x, v.angular.y, v.angular.z);
+            std::fprintf(
+                file_.get(),
+                "%.17g,%s,%s,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n",
+                time_s, model.robots[r].name.c_str(), type.links[l].name.c_str(), X.p.x, X.p.y, X.p.z, X.q.w,
+                X.q.x, X.q.y, X.q.z, v.linear.x, v.linear.y, v.linear.z, v.angular.x, v.angular.y,
+                v.angular.z);
         }
     }
     if (std::ferror(file_.get())) return cannot_write(path_);

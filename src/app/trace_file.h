@@ -1,4 +1,5 @@
-// --trace: the poses and velocities of all links as CSV, with all digits, so that another program can compare them.
+// --trace: the poses and velocities of all links as CSV, with all digits, so that another program can compare
+// them.
 #pragma once
 
 #include <cstdio>

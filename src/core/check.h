@@ -1,4 +1,5 @@
-// ROBOSS_CHECK: a broken invariant of ours. Always on; prints the values and ends the program. Never for bad input.
+// ROBOSS_CHECK: a broken invariant of ours. Always on; prints the values and ends the program. Never for bad
+// input.
 #pragma once
 
 #include <string>
@@ -9,8 +10,8 @@ namespace roboss {
 
 }  // namespace roboss
 
-#define ROBOSS_CHECK(condition, detail)                                            \
-    do {                                                                           \
-        if (!(condition)) [[unlikely]]                                             \
-            ::roboss::check_failed(__FILE__, __LINE__, #condition, (detail));      \
+#define ROBOSS_CHECK(condition, detail)                                       \
+    do {                                                                      \
+        if (!(condition)) [[unlikely]]                                        \
+            ::roboss::check_failed(__FILE__, __LINE__, #condition, (detail)); \
     } while (false)

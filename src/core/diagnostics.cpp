@@ -8,9 +8,12 @@ namespace roboss {
 
 const char* to_text(Severity severity) {
     switch (severity) {
-        case Severity::kNote: return "note";
-        case Severity::kWarning: return "warning";
-        case Severity::kError: return "error";
+        case Severity::kNote:
+            return "note";
+        case Severity::kWarning:
+            return "warning";
+        case Severity::kError:
+            return "error";
     }
     return "?";
 }
@@ -38,8 +41,8 @@ void Diagnostics::error(SourceLocation where, std::string code, std::string mess
 }
 
 std::size_t Diagnostics::count(Severity severity) const {
-    return static_cast<std::size_t>(
-        std::count_if(items_.begin(), items_.end(), [&](const Diagnostic& d) { return d.severity == severity; }));
+    return static_cast<std::size_t>(std::count_if(
+        items_.begin(), items_.end(), [&](const Diagnostic& d) { return d.severity == severity; }));
 }
 
 bool Diagnostics::has_errors() const {

@@ -1,4 +1,5 @@
-// Diagnostics: everything worth telling about an input file, all at once, each with file, line and what to do.
+// Diagnostics: everything worth telling about an input file, all at once, each with file, line and what to
+// do.
 #pragma once
 
 #include <string>

@@ -1,7 +1,8 @@
-// Elementary functions with the same bits on every processor and compiler: only + - * / and sqrt, in a fixed order.
-// libm picks other code on processors with FMA, so nothing in the step path or in sensors may call it. Polynomials and
-// reduction constants are those of fdlibm (Sun Microsystems, 1993); errors below 2 units in the last place for
-// |x| < 1e6 (beyond, the reduction loses digits slowly but the bits stay the same everywhere).
+// Elementary functions with the same bits on every processor and compiler: only + - * / and sqrt, in a fixed
+// order. libm picks other code on processors with FMA, so nothing in the step path or in sensors may call it.
+// Polynomials and reduction constants are those of fdlibm (Sun Microsystems, 1993); errors below 2 units in
+// the last place for |x| < 1e6 (beyond, the reduction loses digits slowly but the bits stay the same
+// everywhere).
 #pragma once
 
 namespace roboss {

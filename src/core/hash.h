@@ -1,5 +1,6 @@
-// The 64-bit state hash: a fixed, portable function of a sequence of 64-bit words (multiply-rotate-xor; finaliser of
-// MurmurHash3 by Appleby, public domain constants). Doubles enter by their bits, so one changed bit changes the hash.
+// The 64-bit state hash: a fixed, portable function of a sequence of 64-bit words (multiply-rotate-xor;
+// finaliser of MurmurHash3 by Appleby, public domain constants). Doubles enter by their bits, so one changed
+// bit changes the hash.
 #pragma once
 
 #include <bit>

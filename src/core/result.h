@@ -1,5 +1,5 @@
-// Result<T>: a value, or one Error with a message that names the thing and the remedy. For the outside world: files,
-// network, users. World files report through Diagnostics instead (all findings at once).
+// Result<T>: a value, or one Error with a message that names the thing and the remedy. For the outside world:
+// files, network, users. World files report through Diagnostics instead (all findings at once).
 #pragma once
 
 #include <string>

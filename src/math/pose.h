@@ -1,5 +1,5 @@
-// Poses: X_AB is the pose of frame B in frame A. `Pose` keeps a quaternion (compact, for storage and messages);
-// `Transform` keeps the rotation matrix (fast, for computing).
+// Poses: X_AB is the pose of frame B in frame A. `Pose` keeps a quaternion (compact, for storage and
+// messages); `Transform` keeps the rotation matrix (fast, for computing).
 #pragma once
 
 #include "math/quat.h"
@@ -50,7 +50,8 @@ inline Transform inverse(const Transform& X_AB) {
 }
 
 inline bool is_finite(const Pose& X) {
-    return is_finite(X.p) && std::isfinite(X.q.w) && std::isfinite(X.q.x) && std::isfinite(X.q.y) && std::isfinite(X.q.z);
+    return is_finite(X.p) && std::isfinite(X.q.w) && std::isfinite(X.q.x) && std::isfinite(X.q.y) &&
+           std::isfinite(X.q.z);
 }
 
 }  // namespace roboss

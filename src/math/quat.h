@@ -1,4 +1,5 @@
-// Unit quaternions (w, x, y, z), Hamilton product; q_AB turns vectors given in B into A: v_A = rotate(q_AB, v_B).
+// Unit quaternions (w, x, y, z), Hamilton product; q_AB turns vectors given in B into A: v_A = rotate(q_AB,
+// v_B).
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,6 @@
-// Spatial vectors (Featherstone, Rigid Body Dynamics Algorithms, 2008) in world axes about one common reference point O, so
-// that the links of a robot add up without transforms: a motion is (angular, linear velocity of the body point at O), a
-// force is (moment about O, force).
+// Spatial vectors (Featherstone, Rigid Body Dynamics Algorithms, 2008) in world axes about one common
+// reference point O, so that the links of a robot add up without transforms: a motion is (angular, linear
+// velocity of the body point at O), a force is (moment about O, force).
 #pragma once
 
 #include "math/vec3.h"
@@ -11,8 +11,12 @@ template <class T>
 struct SpatialT {
     Vec3T<T> angular, linear;
 
-    friend SpatialT operator+(const SpatialT& a, const SpatialT& b) { return {a.angular + b.angular, a.linear + b.linear}; }
-    friend SpatialT operator-(const SpatialT& a, const SpatialT& b) { return {a.angular - b.angular, a.linear - b.linear}; }
+    friend SpatialT operator+(const SpatialT& a, const SpatialT& b) {
+        return {a.angular + b.angular, a.linear + b.linear};
+    }
+    friend SpatialT operator-(const SpatialT& a, const SpatialT& b) {
+        return {a.angular - b.angular, a.linear - b.linear};
+    }
     friend SpatialT operator*(const SpatialT& a, T s) { return {a.angular * s, a.linear * s}; }
     SpatialT& operator+=(const SpatialT& b) { return angular += b.angular, linear += b.linear, *this; }
 };
@@ -68,7 +72,8 @@ struct SpatialInertiaT {
     }
     /// Momentum of motion v.
     friend SpatialT<T> operator*(const SpatialInertiaT& I, const SpatialT<T>& v) {
-        return {I.inertia * v.angular + cross(I.moment, v.linear), v.linear * I.mass + cross(v.angular, I.moment)};
+        return {I.inertia * v.angular + cross(I.moment, v.linear),
+                v.linear * I.mass + cross(v.angular, I.moment)};
     }
 };
 

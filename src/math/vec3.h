@@ -1,5 +1,6 @@
-// Three-vectors and 3x3 matrices over a scalar T (double, or later a register of lanes). Fixed order of operations: a
-// sum of three is always (x + y) + z, so the bits are the same for every compiler and every instruction set.
+// Three-vectors and 3x3 matrices over a scalar T (double, or later a register of lanes). Fixed order of
+// operations: a sum of three is always (x + y) + z, so the bits are the same for every compiler and every
+// instruction set.
 #pragma once
 
 #include <cmath>
@@ -65,7 +66,9 @@ struct Mat3T {
     const T& operator()(std::size_t i, std::size_t j) const { return row(i)[j]; }
     Vec3T<T> col(std::size_t j) const { return {r0[j], r1[j], r2[j]}; }
 
-    friend Vec3T<T> operator*(const Mat3T& m, const Vec3T<T>& v) { return {dot(m.r0, v), dot(m.r1, v), dot(m.r2, v)}; }
+    friend Vec3T<T> operator*(const Mat3T& m, const Vec3T<T>& v) {
+        return {dot(m.r0, v), dot(m.r1, v), dot(m.r2, v)};
+    }
     friend Mat3T operator+(const Mat3T& a, const Mat3T& b) { return {a.r0 + b.r0, a.r1 + b.r1, a.r2 + b.r2}; }
     friend Mat3T operator-(const Mat3T& a, const Mat3T& b) { return {a.r0 - b.r0, a.r1 - b.r1, a.r2 - b.r2}; }
     friend Mat3T operator*(const Mat3T& a, T s) { return {a.r0 * s, a.r1 * s, a.r2 * s}; }
@@ -92,7 +95,8 @@ Vec3T<T> transpose_times(const Mat3T<T>& m, const Vec3T<T>& v) {
 using Vec3 = Vec3T<double>;
 using Mat3 = Mat3T<double>;
 
-/// Two unit vectors that complete n to a right-handed frame (Duff et al., "Building an Orthonormal Basis, Revisited", 2017).
+/// Two unit vectors that complete n to a right-handed frame (Duff et al., "Building an Orthonormal Basis,
+/// Revisited", 2017).
 inline void tangents(const Vec3& n, Vec3& t1, Vec3& t2) {
     const double sign = n.z >= 0.0 ? 1.0 : -1.0;
     const double a = -1.0 / (sign + n.z);

@@ -1,4 +1,5 @@
-// compile(World) -> Model: types once, robots placed, static scenery flattened and put into its BVH, everything hashed.
+// compile(World) -> Model: types once, robots placed, static scenery flattened and put into its BVH,
+// everything hashed.
 #include <algorithm>
 #include <map>
 #include <span>
@@ -46,7 +47,8 @@ TypeId intern_type(RobotType type, Model& model, std::map<std::uint64_t, TypeId>
     return entry->second;
 }
 
-std::vector<CompiledPrototype> compile_prototypes(const World& world, Model& model, Diagnostics& diagnostics) {
+std::vector<CompiledPrototype> compile_prototypes(const World& world, Model& model,
+                                                  Diagnostics& diagnostics) {
     std::vector<CompiledPrototype> prototypes(world.prototypes.size());
     std::map<std::uint64_t, TypeId> known;
     for (std::size_t p = 0; p < world.prototypes.size(); ++p) {
@@ -75,7 +77,8 @@ std::uint64_t model_hash(const Model& model) {
     for (const Vec3& v : {model.gravity, model.magnetic_field_T}) hash.add(v.x), hash.add(v.y), hash.add(v.z);
     if (const auto& s = model.spherical)
         for (double x : {s->latitude_rad, s->longitude_rad, s->elevation_m, s->heading_rad}) hash.add(x);
-    for (double x : {model.accuracy.tolerance, model.accuracy.friction_tolerance, model.accuracy.compliance}) hash.add(x);
+    for (double x : {model.accuracy.tolerance, model.accuracy.friction_tolerance, model.accuracy.compliance})
+        hash.add(x);
     hash.add(static_cast<std::uint64_t>(model.accuracy.newton_max));
     hash.add(static_cast<std::uint64_t>(model.accuracy.friction_max));
     for (const RobotType& type : model.types) hash.add(type.hash);
@@ -89,12 +92,28 @@ std::uint64_t model_hash(const Model& model) {
     }
     for (const StaticShape& s : model.statics) {
         hash.add(static_cast<std::uint64_t>(s.shape.kind));
-        const double numbers[] = {s.shape.half.x,   s.shape.half.y,   s.shape.half.z,        s.shape.radius,
-                                  s.shape.half_length, s.X_WS.p.x,    s.X_WS.p.y,            s.X_WS.p.z,
-                                  s.X_WS.R.r0.x,    s.X_WS.R.r0.y,    s.X_WS.R.r0.z,         s.X_WS.R.r1.x,
-                                  s.X_WS.R.r1.y,    s.X_WS.R.r1.z,    s.X_WS.R.r2.x,         s.X_WS.R.r2.y,
-                                  s.X_WS.R.r2.z,    s.material.mu,    s.material.restitution, s.material.bounce_threshold,
-                                  s.material.torsional, s.material.rolling};
+        const double numbers[] = {s.shape.half.x,
+                                  s.shape.half.y,
+                                  s.shape.half.z,
+                                  s.shape.radius,
+                                  s.shape.half_length,
+                                  s.X_WS.p.x,
+                                  s.X_WS.p.y,
+                                  s.X_WS.p.z,
+                                  s.X_WS.R.r0.x,
+                                  s.X_WS.R.r0.y,
+                                  s.X_WS.R.r0.z,
+                                  s.X_WS.R.r1.x,
+                                  s.X_WS.R.r1.y,
+                                  s.X_WS.R.r1.z,
+                                  s.X_WS.R.r2.x,
+                                  s.X_WS.R.r2.y,
+                                  s.X_WS.R.r2.z,
+                                  s.material.mu,
+                                  s.material.restitution,
+                                  s.material.bounce_threshold,
+                                  s.material.torsional,
+                                  s.material.rolling};
         hash.add(std::span<const double>(numbers));
         hash.add(static_cast<std::uint64_t>(s.material.collide_bitmask));
     }
@@ -103,7 +122,8 @@ std::uint64_t model_hash(const Model& model) {
 
 }  // namespace
 
-std::shared_ptr<const Model> compile(const World& world, const CompileOptions& options, Diagnostics& diagnostics) {
+std::shared_ptr<const Model> compile(const World& world, const CompileOptions& options,
+                                     Diagnostics& diagnostics) {
     const std::size_t errors = diagnostics.count(Severity::kError);
     auto model = std::make_shared<Model>();
     model->name = world.name;
@@ -113,7 +133,8 @@ std::shared_ptr<const Model> compile(const World& world, const CompileOptions& o
     model->spherical = world.spherical;
     model->accuracy = options.accuracy;
     if (!(model->dt_s > 0 && model->dt_s <= 1.0))
-        diagnostics.error({world.file, 0}, "bad-step", "the step of " + std::to_string(model->dt_s) + " s is not in (0, 1] s",
+        diagnostics.error({world.file, 0}, "bad-step",
+                          "the step of " + std::to_string(model->dt_s) + " s is not in (0, 1] s",
                           "set <physics><max_step_size> or --dt to a few milliseconds");
 
     const std::vector<CompiledPrototype> prototypes = compile_prototypes(world, *model, diagnostics);
@@ -121,11 +142,13 @@ std::shared_ptr<const Model> compile(const World& world, const CompileOptions& o
         const ModelInstance& instance = world.instances[i];
         const ModelSpec& spec = world.prototypes[instance.prototype];
         const CompiledPrototype& prototype = prototypes[instance.prototype];
-        if (spec.is_static) add_statics(spec, instance, prototype.parts.empty() ? RobotId() : RobotId(model->robots.size()), *model);
+        if (spec.is_static)
+            add_statics(spec, instance, prototype.parts.empty() ? RobotId() : RobotId(model->robots.size()),
+                        *model);
         for (std::size_t p = 0; p < prototype.parts.size(); ++p) {
             const CompiledPart& part = prototype.parts[p];
-            model->robots.push_back({instance.name + part.suffix, prototype.types[p], instance.X_WM * part.X_MR,
-                                     static_cast<std::uint32_t>(i)});
+            model->robots.push_back({instance.name + part.suffix, prototype.types[p],
+                                     instance.X_WM * part.X_MR, static_cast<std::uint32_t>(i)});
         }
     }
     build_bvh(*model);

@@ -1,5 +1,6 @@
-// Builds the dynamics tree of one robot: spanning tree over the joints, links welded into bodies, all poses taken at the
-// zero configuration in the SDF model frame, where every joint frame coincides in parent and child.
+// Builds the dynamics tree of one robot: spanning tree over the joints, links welded into bodies, all poses
+// taken at the zero configuration in the SDF model frame, where every joint frame coincides in parent and
+// child.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -38,7 +39,8 @@ Graph build_graph(const ModelSpec& spec) {
         const JointSpec& joint = spec.joints[j];
         if (joint.kind == JointSpecKind::kGearbox) continue;  // couples joints, connects nothing
         const auto child = link_index(spec, joint.child);
-        const auto parent = joint.parent == "world" ? std::optional(graph.world) : link_index(spec, joint.parent);
+        const auto parent =
+            joint.parent == "world" ? std::optional(graph.world) : link_index(spec, joint.parent);
         if (!child || !parent) continue;  // reported by validate()
         graph.edges[*parent].push_back({j, *child, false});
         graph.edges[*child].push_back({j, *parent, true});
@@ -142,9 +144,10 @@ class PartBuilder {
 
     void close_loop(const Edge& edge) {
         const JointSpec& joint = spec_.joints[edge.joint];
-        diagnostics_.warning(joint.where, "kinematic-loop",
-                             "joint '" + joint.name + "' of model '" + spec_.name + "' closes a kinematic loop; it is ignored",
-                             "loops are still to come: open the loop or expect these links to move apart");
+        diagnostics_.warning(
+            joint.where, "kinematic-loop",
+            "joint '" + joint.name + "' of model '" + spec_.name + "' closes a kinematic loop; it is ignored",
+            "loops are still to come: open the loop or expect these links to move apart");
     }
 
     int add_joint(const Edge& edge, int parent_body) {
@@ -158,8 +161,10 @@ class PartBuilder {
         if (spec.kind == JointSpecKind::kBall) {
             body = add_body(parent_body, spec, JointKind::kBall, AxisSpec{}, edge.reversed, id, joint);
         } else if (spec.kind != JointSpecKind::kFixed && spec.kind != JointSpecKind::kScrew) {
-            const JointKind kind = spec.kind == JointSpecKind::kPrismatic ? JointKind::kPrismatic : JointKind::kRevolute;
-            const std::size_t axes = spec.kind == JointSpecKind::kUniversal || spec.kind == JointSpecKind::kRevolute2 ? 2 : 1;
+            const JointKind kind =
+                spec.kind == JointSpecKind::kPrismatic ? JointKind::kPrismatic : JointKind::kRevolute;
+            const std::size_t axes =
+                spec.kind == JointSpecKind::kUniversal || spec.kind == JointSpecKind::kRevolute2 ? 2 : 1;
             for (std::size_t a = 0; a < axes && a < spec.axes.size(); ++a) {
                 const std::size_t pick = edge.reversed ? std::min(axes, spec.axes.size()) - 1 - a : a;
                 body = add_body(body, spec, kind, spec.axes[pick], edge.reversed, id, joint);
@@ -170,8 +175,8 @@ class PartBuilder {
         return body;
     }
 
-    int add_body(int parent, const JointSpec& spec, JointKind kind, const AxisSpec& axis, bool reversed, JointId id,
-                 Joint& joint) {
+    int add_body(int parent, const JointSpec& spec, JointKind kind, const AxisSpec& axis, bool reversed,
+                 JointId id, Joint& joint) {
         RobotType& type = part_.type;
         const Transform X_MJ = to_transform(spec.X_MJ);
         Body body;
@@ -311,7 +316,9 @@ class PartBuilder {
 
     void add_self_pairs() {
         RobotType& type = part_.type;
-        const auto parent = [&](int b) { return b < 0 ? -2 : type.bodies[static_cast<std::size_t>(b)].parent; };
+        const auto parent = [&](int b) {
+            return b < 0 ? -2 : type.bodies[static_cast<std::size_t>(b)].parent;
+        };
         for (std::size_t a = 0; a < type.shapes.size(); ++a) {
             for (std::size_t b = a + 1; b < type.shapes.size(); ++b) {
                 const int ba = type.shapes[a].body, bb = type.shapes[b].body;
@@ -338,12 +345,23 @@ bool to_shape(const GeometrySpec& geometry, Shape& shape) {
     shape.half_length = 0.5 * geometry.length;
     shape.half = geometry.size * 0.5;
     switch (geometry.kind) {
-        case GeometryKind::kPlane: shape.kind = ShapeKind::kPlane; return true;
-        case GeometryKind::kBox: shape.kind = ShapeKind::kBox; return true;
-        case GeometryKind::kSphere: shape.kind = ShapeKind::kSphere; return true;
-        case GeometryKind::kCylinder: shape.kind = ShapeKind::kCylinder; return true;
-        case GeometryKind::kCapsule: shape.kind = ShapeKind::kCapsule; return true;
-        default: return false;
+        case GeometryKind::kPlane:
+            shape.kind = ShapeKind::kPlane;
+            return true;
+        case GeometryKind::kBox:
+            shape.kind = ShapeKind::kBox;
+            return true;
+        case GeometryKind::kSphere:
+            shape.kind = ShapeKind::kSphere;
+            return true;
+        case GeometryKind::kCylinder:
+            shape.kind = ShapeKind::kCylinder;
+            return true;
+        case GeometryKind::kCapsule:
+            shape.kind = ShapeKind::kCapsule;
+            return true;
+        default:
+            return false;
     }
 }
 
@@ -381,16 +399,20 @@ std::vector<CompiledPart> compile_parts(const ModelSpec& spec, Diagnostics& diag
         if (seen[l]) continue;
         bool fixed_base = false;
         const std::vector<std::size_t> links = connected_links(graph, l, seen, fixed_base);
-        const bool is_main =
-            std::any_of(links.begin(), links.end(), [&](std::size_t i) { return spec.links[i].name == spec.canonical_link; });
-        parts.push_back(PartBuilder(spec, graph, diagnostics).build(links, fixed_base, is_main || spec.canonical_link.empty()));
+        const bool is_main = std::any_of(links.begin(), links.end(), [&](std::size_t i) {
+            return spec.links[i].name == spec.canonical_link;
+        });
+        parts.push_back(PartBuilder(spec, graph, diagnostics)
+                            .build(links, fixed_base, is_main || spec.canonical_link.empty()));
     }
-    const bool has_main = std::any_of(parts.begin(), parts.end(), [](const CompiledPart& p) { return p.suffix.empty(); });
+    const bool has_main =
+        std::any_of(parts.begin(), parts.end(), [](const CompiledPart& p) { return p.suffix.empty(); });
     if (!has_main && !parts.empty()) parts.front().suffix.clear();
     if (parts.size() > 1)
         diagnostics.note(spec.where, "unconnected-parts",
                          "model '" + spec.name + "' has " + std::to_string(parts.size()) +
-                             " parts that no joint connects; each is a robot of its own (" + spec.name + parts.back().suffix + " ...)",
+                             " parts that no joint connects; each is a robot of its own (" + spec.name +
+                             parts.back().suffix + " ...)",
                          "connect them with a fixed joint if they are one body");
     return parts;
 }

@@ -1,5 +1,5 @@
-// One ModelSpec becomes one RobotType for each of its connected parts (links that no joint connects are robots of their
-// own: a bigger unit would only make islands larger). Internal to the model floor.
+// One ModelSpec becomes one RobotType for each of its connected parts (links that no joint connects are
+// robots of their own: a bigger unit would only make islands larger). Internal to the model floor.
 #pragma once
 
 #include <string>
@@ -17,14 +17,16 @@ struct CompiledPart {
 
 std::vector<CompiledPart> compile_parts(const ModelSpec& spec, Diagnostics& diagnostics);
 
-/// The links and sensors of a static model as a type with a fixed base, without shapes: its shapes are scenery.
+/// The links and sensors of a static model as a type with a fixed base, without shapes: its shapes are
+/// scenery.
 RobotType sensor_stand(const ModelSpec& spec);
 
 /// A collision element as a Shape; false if its geometry takes no part in the physics yet.
 bool to_shape(const GeometrySpec& geometry, Shape& shape);
 Material to_material(const SurfaceSpec& surface);
 
-/// Fills Body::inverse_mass_linear, inverse_inertia_angular and Dof::inverse_inertia from the mass matrix at the zero pose.
+/// Fills Body::inverse_mass_linear, inverse_inertia_angular and Dof::inverse_inertia from the mass matrix at
+/// the zero pose.
 void compute_mobility(RobotType& type);
 
 /// Hash over every number of the type that the physics reads.

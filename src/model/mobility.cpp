@@ -1,5 +1,5 @@
-// How easily each body and joint of a type moves at its zero pose: the diagonal of J M^-1 J^T, with a dense mass matrix.
-// Only scales the solver's regularisation, computed once a type, so clarity goes before speed.
+// How easily each body and joint of a type moves at its zero pose: the diagonal of J M^-1 J^T, with a dense
+// mass matrix. Only scales the solver's regularisation, computed once a type, so clarity goes before speed.
 #include <cmath>
 #include <vector>
 
@@ -80,7 +80,8 @@ class Mobility {
             const Mat3 inertia = X_WB_[b].R * body.inertia_C * transpose(X_WB_[b].R);
             for (std::size_t i = 0; i < n_; ++i)
                 for (std::size_t j = 0; j < n_; ++j)
-                    m_[i * n_ + j] += body.mass * dot(J[i].linear, J[j].linear) + dot(J[i].angular, inertia * J[j].angular);
+                    m_[i * n_ + j] +=
+                        body.mass * dot(J[i].linear, J[j].linear) + dot(J[i].angular, inertia * J[j].angular);
         }
         for (std::size_t d = 0; d < type_.dofs.size(); ++d) {
             const std::size_t i = d + static_cast<std::size_t>(type_.base_nv());

@@ -33,22 +33,25 @@ void add(Hash& hash, int value) {
 }
 
 void add_body(Hash& hash, const Body& body) {
-    add(hash, body.parent), add(hash, static_cast<int>(body.joint)), add(hash, body.X_PJ), add(hash, body.axis_J);
+    add(hash, body.parent), add(hash, static_cast<int>(body.joint)), add(hash, body.X_PJ),
+        add(hash, body.axis_J);
     add(hash, body.inertia_C), add(hash, body.p_BC), add(hash, body.p_BG);
-    for (double x : {body.mass, body.gravity_mass, body.inverse_mass_linear, body.inverse_inertia_angular}) hash.add(x);
+    for (double x : {body.mass, body.gravity_mass, body.inverse_mass_linear, body.inverse_inertia_angular})
+        hash.add(x);
 }
 
 void add_dof(Hash& hash, const Dof& dof) {
     add(hash, dof.body);
-    for (double x : {dof.lower, dof.upper, dof.max_effort, dof.max_velocity, dof.damping, dof.friction, dof.spring_stiffness,
-                     dof.spring_reference, dof.armature, dof.position_gain, dof.velocity_gain, dof.inverse_inertia})
+    for (double x : {dof.lower, dof.upper, dof.max_effort, dof.max_velocity, dof.damping, dof.friction,
+                     dof.spring_stiffness, dof.spring_reference, dof.armature, dof.position_gain,
+                     dof.velocity_gain, dof.inverse_inertia})
         hash.add(x);
 }
 
 void add_shape(Hash& hash, const BodyShape& s) {
     add(hash, static_cast<int>(s.shape.kind)), add(hash, s.body), add(hash, s.X_BS), add(hash, s.shape.half);
-    for (double x : {s.shape.radius, s.shape.half_length, s.material.mu, s.material.restitution, s.material.bounce_threshold,
-                     s.material.torsional, s.material.rolling})
+    for (double x : {s.shape.radius, s.shape.half_length, s.material.mu, s.material.restitution,
+                     s.material.bounce_threshold, s.material.torsional, s.material.rolling})
         hash.add(x);
     hash.add(static_cast<std::uint64_t>(s.material.collide_bitmask));
 }
@@ -56,13 +59,15 @@ void add_shape(Hash& hash, const BodyShape& s) {
 void add_sensor(Hash& hash, const SensorInfo& info) {
     const SensorSpec& s = info.spec;
     hash.add(std::string_view(s.name)), hash.add(std::string_view(s.sdf_type)), add(hash, s.X_LS.p);
-    for (double x : {s.X_LS.q.w, s.X_LS.q.x, s.X_LS.q.y, s.X_LS.q.z, s.update_rate_hz, s.min_angle, s.max_angle,
-                     s.vertical_min_angle, s.vertical_max_angle, s.range_min, s.range_max, s.range_resolution, s.wheel_radius})
+    for (double x : {s.X_LS.q.w, s.X_LS.q.x, s.X_LS.q.y, s.X_LS.q.z, s.update_rate_hz, s.min_angle,
+                     s.max_angle, s.vertical_min_angle, s.vertical_max_angle, s.range_min, s.range_max,
+                     s.range_resolution, s.wheel_radius})
         hash.add(x);
-    for (const NoiseSpec& n : {s.noise, s.position_horizontal_noise, s.position_vertical_noise, s.velocity_horizontal_noise,
-                               s.velocity_vertical_noise})
+    for (const NoiseSpec& n : {s.noise, s.position_horizontal_noise, s.position_vertical_noise,
+                               s.velocity_horizontal_noise, s.velocity_vertical_noise})
         for (double x : {n.mean, n.stddev, n.bias_mean, n.bias_stddev, n.precision}) hash.add(x);
-    for (int x : {static_cast<int>(s.kind), s.samples, s.vertical_samples, static_cast<int>(info.link.value)}) add(hash, x);
+    for (int x : {static_cast<int>(s.kind), s.samples, s.vertical_samples, static_cast<int>(info.link.value)})
+        add(hash, x);
     for (const std::string& joint : s.joints) hash.add(std::string_view(joint));
 }
 
@@ -70,13 +75,17 @@ void add_sensor(Hash& hash, const SensorInfo& info) {
 
 std::uint64_t type_hash(const RobotType& type) {
     Hash hash;
-    add(hash, type.free_base ? 1 : 0), add(hash, type.self_collide ? 1 : 0), add(hash, type.is_static ? 1 : 0), add(hash, type.X_RB);
+    add(hash, type.free_base ? 1 : 0), add(hash, type.self_collide ? 1 : 0),
+        add(hash, type.is_static ? 1 : 0), add(hash, type.X_RB);
     for (const Body& body : type.bodies) add_body(hash, body);
     for (const Dof& dof : type.dofs) add_dof(hash, dof);
     for (const BodyShape& shape : type.shapes) add_shape(hash, shape);
     for (const SensorInfo& sensor : type.sensors) add_sensor(hash, sensor);
-    for (const Link& link : type.links) hash.add(std::string_view(link.name)), add(hash, link.body), add(hash, link.X_BL), add(hash, link.p_BC);
-    for (const Joint& joint : type.joints) hash.add(std::string_view(joint.name)), add(hash, joint.v_index), add(hash, joint.reversed ? 1 : 0);
+    for (const Link& link : type.links)
+        hash.add(std::string_view(link.name)), add(hash, link.body), add(hash, link.X_BL),
+            add(hash, link.p_BC);
+    for (const Joint& joint : type.joints)
+        hash.add(std::string_view(joint.name)), add(hash, joint.v_index), add(hash, joint.reversed ? 1 : 0);
     hash.add(std::span<const double>(type.initial_q));
     return hash.value();
 }

@@ -1,9 +1,11 @@
-// Model: the compiled, immutable, hashed world that every Simulator and Client shares. A RobotType is compiled once
-// however many robots are of it. Links welded by fixed joints are one Body of the dynamics tree.
+// Model: the compiled, immutable, hashed world that every Simulator and Client shares. A RobotType is
+// compiled once however many robots are of it. Links welded by fixed joints are one Body of the dynamics
+// tree.
 //
-// Coordinates of a robot: q = [base position p_WB0 (3), base orientation (w x y z) (4), joint coordinates], v = [base
-// angular velocity w_WB0 (3), base linear velocity v_WB0 of the base origin (3), both in world axes] for a free base, then
-// joint velocities. A fixed base has the 7 base coordinates too (its place in the world) but no base velocity.
+// Coordinates of a robot: q = [base position p_WB0 (3), base orientation (w x y z) (4), joint coordinates], v
+// = [base angular velocity w_WB0 (3), base linear velocity v_WB0 of the base origin (3), both in world axes]
+// for a free base, then joint velocities. A fixed base has the 7 base coordinates too (its place in the
+// world) but no base velocity.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +26,8 @@ namespace roboss {
 
 enum class JointKind : std::uint8_t { kFree, kRevolute, kPrismatic, kBall };
 
-/// A rigid body of the tree. Its frame B sits at its joint: X_PB(q) = X_PJ * motion(q); bodies come parents first.
+/// A rigid body of the tree. Its frame B sits at its joint: X_PB(q) = X_PJ * motion(q); bodies come parents
+/// first.
 struct Body {
     int parent = -1;  // -1: the base frame (fixed base) or the world (body 0 of a free base)
     JointKind joint = JointKind::kFree;
@@ -35,10 +38,11 @@ struct Body {
     int nv = 0;
     double mass = 0;
     double gravity_mass = 0;  // of the links that feel gravity
-    Vec3 p_BC;          // centre of mass
-    Vec3 p_BG;          // centre of the gravity mass
-    Mat3 inertia_C;     // about the centre of mass, axes of B
-    // 1/kg and 1/(kg m^2): mobility of the centre of mass at the zero pose; scales the solver's regularisation.
+    Vec3 p_BC;                // centre of mass
+    Vec3 p_BG;                // centre of the gravity mass
+    Mat3 inertia_C;           // about the centre of mass, axes of B
+    // 1/kg and 1/(kg m^2): mobility of the centre of mass at the zero pose; scales the solver's
+    // regularisation.
     double inverse_mass_linear = 0, inverse_inertia_angular = 0;
 };
 
@@ -68,13 +72,17 @@ struct Joint {
     int q_index = -1;  // first coordinate, -1 for fixed
     int v_index = -1;
     int nv = 0;
-    bool reversed = false;  // the tree walks it from child to parent: of two axes, the second comes first in q and v
+    bool reversed =
+        false;  // the tree walks it from child to parent: of two axes, the second comes first in q and v
 
     /// Where axis `axis` of the file stands behind q_index and v_index (joints of one or two axes).
-    int axis_offset(int axis) const { return reversed && kind != JointSpecKind::kBall ? nv - 1 - axis : axis; }
+    int axis_offset(int axis) const {
+        return reversed && kind != JointSpecKind::kBall ? nv - 1 - axis : axis;
+    }
 };
 
-/// Friction etc. of one shape; a pair combines: mu = min, restitution = max, threshold = max, others = min (documented in physics).
+/// Friction etc. of one shape; a pair combines: mu = min, restitution = max, threshold = max, others = min
+/// (documented in physics).
 struct Material {
     double mu = 1, restitution = 0, bounce_threshold = 0.01, torsional = 0, rolling = 0;
     std::uint32_t collide_bitmask = 0xFFFF;
@@ -98,10 +106,12 @@ struct RobotType {
     bool free_base = true;
     bool is_static = false;  // a static model that carries sensors: no order moves it
     bool self_collide = false;
-    Transform X_RB;  // free base: body 0's frame in the robot (SDF model) frame at the start; fixed base: identity
+    Transform
+        X_RB;  // free base: body 0's frame in the robot (SDF model) frame at the start; fixed base: identity
     std::vector<Body> bodies;
-    std::vector<Dof> dofs;          // dofs[i] is v[base_nv() + i]
-    std::vector<int> dof_parent;    // for each entry of v: the previous one on its path to the root, -1 at the root
+    std::vector<Dof> dofs;  // dofs[i] is v[base_nv() + i]
+    std::vector<int>
+        dof_parent;  // for each entry of v: the previous one on its path to the root, -1 at the root
     std::vector<Link> links;
     std::vector<Joint> joints;
     std::vector<BodyShape> shapes;
@@ -119,12 +129,14 @@ struct RobotType {
     std::optional<std::size_t> find_sensor(const std::string& name) const;
 };
 
-/// Something with a state of its own. A static model that carries sensors is one too, fixed and without shapes (these are scenery).
+/// Something with a state of its own. A static model that carries sensors is one too, fixed and without
+/// shapes (these are scenery).
 struct Robot {
     std::string name;
     TypeId type;
-    Pose X_WR;                // robot (SDF model) frame at the start
-    std::uint32_t family = 0;  // robots made of one SDF model share a family and do not collide unless self_collide
+    Pose X_WR;  // robot (SDF model) frame at the start
+    std::uint32_t family =
+        0;  // robots made of one SDF model share a family and do not collide unless self_collide
 };
 
 struct StaticShape {
@@ -138,11 +150,11 @@ struct StaticShape {
 
 /// What the user may trade for speed; part of the Model, so part of its hash.
 struct Accuracy {
-    double tolerance = 1e-9;        // relative residual of the momentum balance
+    double tolerance = 1e-9;           // relative residual of the momentum balance
     double friction_tolerance = 1e-4;  // relative error of the friction bound mu * normal impulse
-    int newton_max = 60;            // Newton iterations of a contact island and tick
-    int friction_max = 20;          // updates of its friction bounds
-    double compliance = 1e-6;       // regularisation of hard rows, relative to the mobility they act on
+    int newton_max = 60;               // Newton iterations of a contact island and tick
+    int friction_max = 20;             // updates of its friction bounds
+    double compliance = 1e-6;          // regularisation of hard rows, relative to the mobility they act on
 };
 
 struct Model {
@@ -168,6 +180,7 @@ struct CompileOptions {
 };
 
 /// World to Model. Findings go to `diagnostics`; nullptr if any of them is an error.
-std::shared_ptr<const Model> compile(const World& world, const CompileOptions& options, Diagnostics& diagnostics);
+std::shared_ptr<const Model> compile(const World& world, const CompileOptions& options,
+                                     Diagnostics& diagnostics);
 
 }  // namespace roboss

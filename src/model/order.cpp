@@ -22,12 +22,16 @@ struct Check {
     const RobotType& type;
 
     Result<> operator()(const SetPose& a) const {
-        if (!is_finite(a.X_WR)) return Error{"set_pose of " + called(model, order) + " is not finite", kFiniteRemedy};
-        if (type.is_static) return Error{"set_pose: " + called(model, order) + " is static", "make the model movable (<static>false)"};
+        if (!is_finite(a.X_WR))
+            return Error{"set_pose of " + called(model, order) + " is not finite", kFiniteRemedy};
+        if (type.is_static)
+            return Error{"set_pose: " + called(model, order) + " is static",
+                         "make the model movable (<static>false)"};
         const Quat& q = a.X_WR.q;
         const double n = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
         if (std::fabs(n - 1.0) > 1e-6)
-            return Error{"set_pose of " + called(model, order) + " has a quaternion of norm " + std::to_string(std::sqrt(n)),
+            return Error{"set_pose of " + called(model, order) + " has a quaternion of norm " +
+                             std::to_string(std::sqrt(n)),
                          "give a unit quaternion [w, x, y, z]"};
         return Ok{};
     }
@@ -35,31 +39,40 @@ struct Check {
         if (!is_finite(a.linear) || !is_finite(a.angular))
             return Error{"set_velocity of " + called(model, order) + " is not finite", kFiniteRemedy};
         if (!type.free_base)
-            return Error{"set_velocity: the base of " + called(model, order) + " is fixed to the world", "order its joints instead"};
+            return Error{"set_velocity: the base of " + called(model, order) + " is fixed to the world",
+                         "order its joints instead"};
         return Ok{};
     }
     Result<> operator()(const ApplyWrench& a) const {
         if (a.link.index() >= type.links.size())
-            return Error{"wrench on a link that " + called(model, order) + " does not have", "see `roboss check` for its links"};
+            return Error{"wrench on a link that " + called(model, order) + " does not have",
+                         "see `roboss check` for its links"};
         if (!is_finite(a.force) || !is_finite(a.torque))
             return Error{"wrench on " + called(model, order) + " is not finite", kFiniteRemedy};
         if (a.duration > kDurationMax)
-            return Error{"the duration of the wrench on " + called(model, order) + " is longer than any run", "give a duration in ticks below 2^60"};
-        if (a.duration < 1) return Error{"wrench on " + called(model, order) + " lasts less than one tick", "give a duration > 0"};
+            return Error{"the duration of the wrench on " + called(model, order) + " is longer than any run",
+                         "give a duration in ticks below 2^60"};
+        if (a.duration < 1)
+            return Error{"wrench on " + called(model, order) + " lasts less than one tick",
+                         "give a duration > 0"};
         return Ok{};
     }
     Result<> operator()(const SetJoint& a) const {
         if (a.joint.index() >= type.joints.size())
-            return Error{"order for a joint that " + called(model, order) + " does not have", "see `roboss check` for its joints"};
+            return Error{"order for a joint that " + called(model, order) + " does not have",
+                         "see `roboss check` for its joints"};
         const Joint& joint = type.joints[a.joint.index()];
         if (a.axis < 0 || a.axis >= joint.nv)
-            return Error{"joint '" + joint.name + "' of " + called(model, order) + " has " + std::to_string(joint.nv) +
-                             " degrees of freedom; axis " + std::to_string(a.axis) + " is not one of them",
+            return Error{"joint '" + joint.name + "' of " + called(model, order) + " has " +
+                             std::to_string(joint.nv) + " degrees of freedom; axis " +
+                             std::to_string(a.axis) + " is not one of them",
                          joint.nv == 0 ? "fixed joints take no orders" : "count axes from 0"};
         if (joint.kind == JointSpecKind::kBall && a.mode == MotorMode::kPosition)
-            return Error{"ball joint '" + joint.name + "' takes no position order per axis", "order its velocity or effort"};
+            return Error{"ball joint '" + joint.name + "' takes no position order per axis",
+                         "order its velocity or effort"};
         if (!std::isfinite(a.target) || std::isnan(a.max_effort))
-            return Error{"order for joint '" + joint.name + "' of " + called(model, order) + " is not finite", kFiniteRemedy};
+            return Error{"order for joint '" + joint.name + "' of " + called(model, order) + " is not finite",
+                         kFiniteRemedy};
         return Ok{};
     }
 };

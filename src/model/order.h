@@ -1,4 +1,5 @@
-// Orders: the four levels on which a Client changes the world (the paper's section 4.3). Only the Controller sets apply_at.
+// Orders: the four levels on which a Client changes the world (the paper's section 4.3). Only the Controller
+// sets apply_at.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +27,8 @@ struct ApplyWrench {
     Tick duration = 1;
 };
 
-/// Level 4: latches a setpoint of one degree of freedom of a joint. A negative max_effort means the joint's own bound.
+/// Level 4: latches a setpoint of one degree of freedom of a joint. A negative max_effort means the joint's
+/// own bound.
 struct SetJoint {
     JointId joint;
     int axis = 0;
@@ -48,8 +50,8 @@ struct Order {
 /// Canonical order: (apply_at, client, sequence).
 bool comes_before(const Order& a, const Order& b);
 
-/// What is wrong with the order for this Model (unknown robot, link or joint, number that is not finite, velocity of a
-/// fixed base ...), in words, or Ok.
+/// What is wrong with the order for this Model (unknown robot, link or joint, number that is not finite,
+/// velocity of a fixed base ...), in words, or Ok.
 Result<> check_order(const Model& model, const Order& order);
 
 /// Applies a checked order to the robot's state.

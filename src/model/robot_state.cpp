@@ -108,24 +108,31 @@ constexpr std::size_t kContactWords = 3;
 
 void encode(const RobotState& state, std::vector<std::uint8_t>& out) {
     Writer w(out);
-    for (std::size_t n : {state.q.size(), state.v.size(), state.motors.size(), state.wrenches.size(), state.contacts.size()})
+    for (std::size_t n :
+         {state.q.size(), state.v.size(), state.motors.size(), state.wrenches.size(), state.contacts.size()})
         w.word(n);
     for (double x : state.q) w.number(x);
     for (double x : state.v) w.number(x);
-    for (const MotorSetpoint& m : state.motors) w.word(static_cast<std::uint64_t>(m.mode)), w.number(m.target), w.number(m.max_effort);
+    for (const MotorSetpoint& m : state.motors)
+        w.word(static_cast<std::uint64_t>(m.mode)), w.number(m.target), w.number(m.max_effort);
     for (const TimedWrench& t : state.wrenches)
-        w.word(t.link.value), w.vector(t.force), w.vector(t.torque), w.word(static_cast<std::uint64_t>(t.until));
+        w.word(t.link.value), w.vector(t.force), w.vector(t.torque),
+            w.word(static_cast<std::uint64_t>(t.until));
     for (const ContactMemory& c : state.contacts)
         w.pair(c.other_robot, c.shape), w.pair(c.other_shape, c.feature), w.number(c.impulse);
 }
 
 Result<RobotState> decode_state(std::span<const std::uint8_t> bytes, const RobotType& type) {
     Reader r(bytes);
-    const std::uint64_t nq = r.word(), nv = r.word(), motors = r.word(), wrenches = r.word(), contacts = r.word();
-    if (nq != static_cast<std::uint64_t>(type.nq) || nv != static_cast<std::uint64_t>(type.nv) || motors != type.dofs.size())
-        return Error{"the bytes of a state do not fit robot type '" + type.name + "'", "they belong to another world or version"};
+    const std::uint64_t nq = r.word(), nv = r.word(), motors = r.word(), wrenches = r.word(),
+                        contacts = r.word();
+    if (nq != static_cast<std::uint64_t>(type.nq) || nv != static_cast<std::uint64_t>(type.nv) ||
+        motors != type.dofs.size())
+        return Error{"the bytes of a state do not fit robot type '" + type.name + "'",
+                     "they belong to another world or version"};
     if (wrenches > r.left() / kWrenchWords || contacts > r.left() / kContactWords)
-        return Error{"the bytes of a state of type '" + type.name + "' are truncated", "fetch or save the state again"};
+        return Error{"the bytes of a state of type '" + type.name + "' are truncated",
+                     "fetch or save the state again"};
     RobotState state;
     state.q.resize(nq), state.v.resize(nv), state.motors.resize(motors);
     state.wrenches.resize(wrenches), state.contacts.resize(contacts);
@@ -134,13 +141,15 @@ Result<RobotState> decode_state(std::span<const std::uint8_t> bytes, const Robot
     for (MotorSetpoint& m : state.motors) {
         const std::uint64_t mode = r.word();
         m.mode = static_cast<MotorMode>(mode);
-        if (mode > static_cast<std::uint64_t>(MotorMode::kEffort)) return Error{"a state names a motor mode that does not exist", "the bytes are damaged"};
+        if (mode > static_cast<std::uint64_t>(MotorMode::kEffort))
+            return Error{"a state names a motor mode that does not exist", "the bytes are damaged"};
         m.target = r.number(), m.max_effort = r.number();
     }
     for (TimedWrench& t : state.wrenches) {
         const std::uint64_t link = r.word();
         t.link = LinkId(static_cast<std::uint32_t>(link));
-        if (link >= type.links.size()) return Error{"a state names a link that does not exist", "the bytes are damaged"};
+        if (link >= type.links.size())
+            return Error{"a state names a link that does not exist", "the bytes are damaged"};
         t.force = r.vector(), t.torque = r.vector(), t.until = static_cast<Tick>(r.word());
     }
     for (ContactMemory& c : state.contacts) {
@@ -149,7 +158,9 @@ Result<RobotState> decode_state(std::span<const std::uint8_t> bytes, const Robot
         c.other_shape = static_cast<std::uint32_t>(b >> 32), c.feature = static_cast<std::uint32_t>(b);
         c.impulse = r.number();
     }
-    if (!r.complete()) return Error{"the bytes of a state of type '" + type.name + "' have the wrong length", "fetch or save it again"};
+    if (!r.complete())
+        return Error{"the bytes of a state of type '" + type.name + "' have the wrong length",
+                     "fetch or save it again"};
     return state;
 }
 

@@ -1,4 +1,5 @@
-// RobotState: ALL that the next step reads of a robot. Copying it moves the robot to another machine, bit for bit.
+// RobotState: ALL that the next step reads of a robot. Copying it moves the robot to another machine, bit for
+// bit.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +30,9 @@ struct TimedWrench {
     friend bool operator==(const TimedWrench&, const TimedWrench&) = default;
 };
 
-/// The normal impulse of a contact at the last tick, the solver's first guess of the friction bound. Owned by the lower
-/// robot id of the pair; dropped at the first tick without the contact. Kept sorted by key (all members but the impulse).
+/// The normal impulse of a contact at the last tick, the solver's first guess of the friction bound. Owned by
+/// the lower robot id of the pair; dropped at the first tick without the contact. Kept sorted by key (all
+/// members but the impulse).
 struct ContactMemory {
     std::uint32_t other_robot = 0;  // RobotId of the other, Id::kNone for static scenery
     std::uint32_t shape = 0;        // of this robot
@@ -58,7 +60,8 @@ void set_base_pose(RobotState& state, const Pose& X_WB);
 /// Hash of one robot's whole state with its id and the tick.
 std::uint64_t state_hash(RobotId robot, Tick tick, const RobotState& state);
 
-/// The world's state hash, from the robots' hashes in ascending order of ids: the number that must be equal everywhere.
+/// The world's state hash, from the robots' hashes in ascending order of ids: the number that must be equal
+/// everywhere.
 std::uint64_t world_hash(std::uint64_t model_hash, std::span<const std::uint64_t> robot_hashes);
 
 /// The state as bytes (little-endian, versioned by the Model hash that travels beside it) and back.

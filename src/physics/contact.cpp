@@ -1,5 +1,6 @@
-// Broad phase as in the paper (robot boxes, then shape boxes, static scenery through its BVH), then the narrow phase.
-// Two robots meet here only if their interaction bounds overlap: that is what makes grouping into islands invisible.
+// Broad phase as in the paper (robot boxes, then shape boxes, static scenery through its BVH), then the
+// narrow phase. Two robots meet here only if their interaction bounds overlap: that is what makes grouping
+// into islands invisible.
 #include "physics/contact.h"
 
 #include <algorithm>
@@ -32,8 +33,8 @@ void add_points(const Manifold& manifold, Contact contact, const Material& a, co
 }
 
 /// Collides two placed shapes of robots; `contact` names the pair.
-void collide_shapes(const BodyShape& a, const ShapeWork& wa, const BodyShape& b, const ShapeWork& wb, Contact contact,
-                    std::vector<Contact>& contacts) {
+void collide_shapes(const BodyShape& a, const ShapeWork& wa, const BodyShape& b, const ShapeWork& wb,
+                    Contact contact, std::vector<Contact>& contacts) {
     if (!overlaps(wa.box, wb.box) || !may_collide(a.material, b.material)) return;
     contact.body_a = a.body;
     contact.body_b = b.body;
@@ -57,10 +58,11 @@ void ContactFinder::find(const Model& model, std::span<RobotWork> robots, std::v
         for (; pair < pairs_.size() && pairs_[pair].first == a; ++pair)
             with_robot(model, robots, a, pairs_[pair].second, contacts);
         with_statics(model, robots, a, contacts);
-        std::sort(contacts.begin() + static_cast<std::ptrdiff_t>(first), contacts.end(), [&](const Contact& x, const Contact& y) {
-            return std::tuple(other_id(robots, x), x.shape_a, x.shape_b, x.feature) <
-                   std::tuple(other_id(robots, y), y.shape_a, y.shape_b, y.feature);
-        });
+        std::sort(contacts.begin() + static_cast<std::ptrdiff_t>(first), contacts.end(),
+                  [&](const Contact& x, const Contact& y) {
+                      return std::tuple(other_id(robots, x), x.shape_a, x.shape_b, x.feature) <
+                             std::tuple(other_id(robots, y), y.shape_a, y.shape_b, y.feature);
+                  });
     }
     for (const Contact& c : contacts) {
         RobotWork& a = robots[static_cast<std::size_t>(c.robot_a)];
@@ -85,7 +87,8 @@ void ContactFinder::with_statics(const Model& model, std::span<RobotWork> robots
             const ShapeWork& placed = work.shapes[s];
             if (shape.body < 0 || (!is_plane && !overlaps(placed.box, box))) continue;
             if (!may_collide(shape.material, scenery.material)) continue;
-            const Manifold manifold = collide(shape.shape, placed.X_WS, scenery.shape, scenery.X_WS, placed.margin);
+            const Manifold manifold =
+                collide(shape.shape, placed.X_WS, scenery.shape, scenery.X_WS, placed.margin);
             Contact contact;
             contact.robot_a = static_cast<int>(a);
             contact.shape_a = static_cast<std::uint32_t>(s);
@@ -104,7 +107,8 @@ void ContactFinder::with_itself(std::span<RobotWork> robots, std::size_t a, std:
         contact.robot_a = contact.robot_b = static_cast<int>(a);
         contact.shape_a = static_cast<std::uint32_t>(s);
         contact.shape_b = static_cast<std::uint32_t>(t);
-        collide_shapes(work.type->shapes[i], work.shapes[i], work.type->shapes[j], work.shapes[j], contact, contacts);
+        collide_shapes(work.type->shapes[i], work.shapes[i], work.type->shapes[j], work.shapes[j], contact,
+                       contacts);
     }
 }
 
@@ -112,7 +116,8 @@ void ContactFinder::with_robot(const Model& model, std::span<RobotWork> robots, 
                                std::vector<Contact>& contacts) {
     const RobotWork& wa = robots[a];
     const RobotWork& wb = robots[b];
-    if (model.robots[wa.id.index()].family == model.robots[wb.id.index()].family && !wa.type->self_collide) return;
+    if (model.robots[wa.id.index()].family == model.robots[wb.id.index()].family && !wa.type->self_collide)
+        return;
     for (std::size_t s = 0; s < wa.shapes.size(); ++s) {
         if (!overlaps(wa.shapes[s].box, wb.box)) continue;
         for (std::size_t t = 0; t < wb.shapes.size(); ++t) {
@@ -122,7 +127,8 @@ void ContactFinder::with_robot(const Model& model, std::span<RobotWork> robots, 
             contact.robot_b = static_cast<int>(b);
             contact.shape_a = static_cast<std::uint32_t>(s);
             contact.shape_b = static_cast<std::uint32_t>(t);
-            collide_shapes(wa.type->shapes[s], wa.shapes[s], wb.type->shapes[t], wb.shapes[t], contact, contacts);
+            collide_shapes(wa.type->shapes[s], wa.shapes[s], wb.type->shapes[t], wb.shapes[t], contact,
+                           contacts);
         }
     }
 }
@@ -151,8 +157,11 @@ void recall_impulses(std::span<RobotWork> robots, std::span<Contact> contacts) {
         auto m = memory.begin();
         for (; c < contacts.size() && contacts[c].robot_a == static_cast<int>(a); ++c) {
             Contact& contact = contacts[c];
-            const auto key = std::tuple(other_id(robots, contact), contact.shape_a, contact.shape_b, contact.feature);
-            const auto key_of = [](const ContactMemory& x) { return std::tuple(x.other_robot, x.shape, x.other_shape, x.feature); };
+            const auto key =
+                std::tuple(other_id(robots, contact), contact.shape_a, contact.shape_b, contact.feature);
+            const auto key_of = [](const ContactMemory& x) {
+                return std::tuple(x.other_robot, x.shape, x.other_shape, x.feature);
+            };
             while (m != memory.end() && key_of(*m) < key) ++m;
             contact.impulse = m != memory.end() && key_of(*m) == key ? m->impulse : 0.0;
         }

@@ -9,7 +9,8 @@
 
 namespace roboss {
 
-/// One contact point. Side A is the robot that owns it (the lower id), side B another robot, itself, or static scenery.
+/// One contact point. Side A is the robot that owns it (the lower id), side B another robot, itself, or
+/// static scenery.
 struct Contact {
     int robot_a = 0;   // index into the island's robots
     int robot_b = -1;  // -1: static scenery
@@ -21,13 +22,15 @@ struct Contact {
     double impulse = 0;  // normal, N s: remembered, then solved
 };
 
-/// Finds all contacts of the island. `robots` ascending by id. Result sorted by (robot_a, other id, shapes, feature).
+/// Finds all contacts of the island. `robots` ascending by id. Result sorted by (robot_a, other id, shapes,
+/// feature).
 class ContactFinder {
   public:
     void find(const Model& model, std::span<RobotWork> robots, std::vector<Contact>& contacts);
 
   private:
-    void with_statics(const Model& model, std::span<RobotWork> robots, std::size_t a, std::vector<Contact>& contacts);
+    void with_statics(const Model& model, std::span<RobotWork> robots, std::size_t a,
+                      std::vector<Contact>& contacts);
     void with_itself(std::span<RobotWork> robots, std::size_t a, std::vector<Contact>& contacts);
     void with_robot(const Model& model, std::span<RobotWork> robots, std::size_t a, std::size_t b,
                     std::vector<Contact>& contacts);
@@ -38,7 +41,8 @@ class ContactFinder {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;  // sorted
 };
 
-/// Takes the remembered impulses of the last tick from the owners' states into the contacts, and writes the solved back.
+/// Takes the remembered impulses of the last tick from the owners' states into the contacts, and writes the
+/// solved back.
 void recall_impulses(std::span<RobotWork> robots, std::span<Contact> contacts);
 void remember_impulses(std::span<RobotWork> robots, std::span<const Contact> contacts);
 

@@ -7,20 +7,22 @@
 namespace roboss {
 namespace {
 
-constexpr double kSlop = 1e-5;              // m, penetration that is left alone
-constexpr double kMendShare = 0.3;          // of the penetration beyond it mended in one tick
-constexpr double kMendSpeedMax = 2.0;       // m/s, while mending; it never enters the velocity, so it adds no energy
+constexpr double kSlop = 1e-5;      // m, penetration that is left alone
+constexpr double kMendShare = 0.3;  // of the penetration beyond it mended in one tick
+constexpr double kMendSpeedMax =
+    2.0;  // m/s, while mending; it never enters the velocity, so it adds no energy
 
 struct Frame {
     Vec3 n, t1, t2;
 };
 
-void add_columns(const RobotWork& robot, int body, int offset, double sign, const Vec3& p_W, const Frame& frame,
-                 std::vector<ContactColumn>& columns) {
+void add_columns(const RobotWork& robot, int body, int offset, double sign, const Vec3& p_W,
+                 const Frame& frame, std::vector<ContactColumn>& columns) {
     if (body < 0) return;
     const Vec3 p = p_W - robot.origin;
     const Body& info = robot.type->bodies[static_cast<std::size_t>(body)];
-    for (int i = info.v_index + info.nv - 1; i >= 0; i = robot.type->dof_parent[static_cast<std::size_t>(i)]) {
+    for (int i = info.v_index + info.nv - 1; i >= 0;
+         i = robot.type->dof_parent[static_cast<std::size_t>(i)]) {
         const Spatial& axis = robot.axes[static_cast<std::size_t>(i)];
         const Vec3 u = (axis.linear + cross(axis.angular, p)) * sign;
         columns.push_back({offset + i, dot(frame.n, u), dot(frame.t1, u), dot(frame.t2, u)});
@@ -62,8 +64,9 @@ bool set_impact(const Contact& c, double approach, double gravity_n, double dt, 
 
 }  // namespace
 
-bool add_contact_row(const Model& model, const Contact& c, std::span<const RobotWork> robots, std::span<const int> offsets,
-                     std::vector<ContactColumn>& columns, std::vector<ContactRow>& rows) {
+bool add_contact_row(const Model& model, const Contact& c, std::span<const RobotWork> robots,
+                     std::span<const int> offsets, std::vector<ContactColumn>& columns,
+                     std::vector<ContactRow>& rows) {
     const RobotWork& a = robots[static_cast<std::size_t>(c.robot_a)];
     const double dt = model.dt_s;
     Frame frame{c.normal, {}, {}};

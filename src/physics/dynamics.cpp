@@ -1,5 +1,6 @@
-// Articulated dynamics in world axes about the base origin: recursive Newton-Euler for the bias, composite rigid bodies
-// for the mass matrix (Featherstone 2008, chapters 5 and 6), with springs and damping taken implicitly.
+// Articulated dynamics in world axes about the base origin: recursive Newton-Euler for the bias, composite
+// rigid bodies for the mass matrix (Featherstone 2008, chapters 5 and 6), with springs and damping taken
+// implicitly.
 #include <algorithm>
 #include <cmath>
 
@@ -27,7 +28,9 @@ void set_axes(const Body& body, const Mat3& R_WJ, const Vec3& anchor, Spatial* a
             axes[0] = {a, cross(anchor, a)};
             break;
         }
-        case JointKind::kPrismatic: axes[0] = {{}, R_WJ * body.axis_J}; break;
+        case JointKind::kPrismatic:
+            axes[0] = {{}, R_WJ * body.axis_J};
+            break;
         case JointKind::kBall:
             for (std::size_t k = 0; k < 3; ++k) axes[k] = {R_WJ.col(k), cross(anchor, R_WJ.col(k))};
             break;
@@ -43,10 +46,14 @@ void set_axes(const Body& body, const Mat3& R_WJ, const Vec3& anchor, Spatial* a
 Transform moved(const Body& body, const Transform& X_WJ, std::span<const double> q) {
     const auto i = static_cast<std::size_t>(body.q_index);
     switch (body.joint) {
-        case JointKind::kRevolute: return {X_WJ.R * rotation_about(body.axis_J, q[i]), X_WJ.p};
-        case JointKind::kPrismatic: return {X_WJ.R, X_WJ.p + X_WJ.R * (body.axis_J * q[i])};
-        case JointKind::kBall: return {X_WJ.R * to_matrix(Quat{q[i], q[i + 1], q[i + 2], q[i + 3]}), X_WJ.p};
-        case JointKind::kFree: break;
+        case JointKind::kRevolute:
+            return {X_WJ.R * rotation_about(body.axis_J, q[i]), X_WJ.p};
+        case JointKind::kPrismatic:
+            return {X_WJ.R, X_WJ.p + X_WJ.R * (body.axis_J * q[i])};
+        case JointKind::kBall:
+            return {X_WJ.R * to_matrix(Quat{q[i], q[i + 1], q[i + 2], q[i + 3]}), X_WJ.p};
+        case JointKind::kFree:
+            break;
     }
     return X_WJ;
 }
@@ -71,7 +78,8 @@ void add_joint_impulses(const RobotType& type, double dt, double momentum_weight
         if (dof.armature != 0) work.impulse[i] += momentum_weight * dof.armature * v[i];
         if (dof.spring_stiffness != 0) {
             const Body& body = type.bodies[static_cast<std::size_t>(dof.body)];
-            work.impulse[i] -= dt * dof.spring_stiffness * (q[static_cast<std::size_t>(body.q_index)] - dof.spring_reference);
+            work.impulse[i] -= dt * dof.spring_stiffness *
+                               (q[static_cast<std::size_t>(body.q_index)] - dof.spring_reference);
         }
     }
 }
@@ -88,7 +96,8 @@ void place_bodies(const RobotType& type, std::span<const double> q, RobotWork& w
         BodyWork& w = work.bodies[b];
         Transform X_WJ = X_WR;
         if (body.joint != JointKind::kFree)
-            X_WJ = (body.parent < 0 ? X_WR : work.bodies[static_cast<std::size_t>(body.parent)].X_WB) * body.X_PJ;
+            X_WJ = (body.parent < 0 ? X_WR : work.bodies[static_cast<std::size_t>(body.parent)].X_WB) *
+                   body.X_PJ;
         w.X_WB = moved(body, X_WJ, q);
         w.centre = w.X_WB * body.p_BC - work.origin;
         set_axes(body, X_WJ.R, w.X_WB.p - work.origin, &work.axes[static_cast<std::size_t>(body.v_index)]);
@@ -102,12 +111,14 @@ void move_bodies(const RobotType& type, std::span<const double> v, RobotWork& wo
         const auto first = static_cast<std::size_t>(body.v_index);
         if (body.joint == JointKind::kFree) {
             w.velocity = {{v[first], v[first + 1], v[first + 2]}, {v[first + 3], v[first + 4], v[first + 5]}};
-            // A base whose origin does not accelerate: its spatial acceleration about the fixed point O is -w x v.
+            // A base whose origin does not accelerate: its spatial acceleration about the fixed point O is -w
+            // x v.
             w.bias = {{}, -cross(w.velocity.angular, w.velocity.linear)};
             continue;
         }
         Spatial joint{};
-        for (std::size_t k = 0; k < static_cast<std::size_t>(body.nv); ++k) joint += work.axes[first + k] * v[first + k];
+        for (std::size_t k = 0; k < static_cast<std::size_t>(body.nv); ++k)
+            joint += work.axes[first + k] * v[first + k];
         if (body.parent < 0) {
             w.velocity = joint;
             w.bias = {};
@@ -133,7 +144,8 @@ void place_shapes(const RobotType& type, double dt, RobotWork& work) {
             w.X_WS = body.X_WB * shape.X_BS;
             const Vec3 at_shape = body.velocity.linear + cross(body.velocity.angular, w.X_WS.p - work.origin);
             const double radius = bounding_radius(shape.shape);
-            const double speed = norm(at_shape) + (std::isfinite(radius) ? norm(body.velocity.angular) * radius : 0.0);
+            const double speed =
+                norm(at_shape) + (std::isfinite(radius) ? norm(body.velocity.angular) * radius : 0.0);
             w.margin = kBaseMargin + dt * speed;
         }
         w.box = bounds(shape.shape, w.X_WS).inflated(w.margin);
@@ -151,7 +163,8 @@ void compute_impulse(const Model& model, double dt, double momentum_weight, std:
         const Spatial momentum = w.inertia * w.velocity;
         const Vec3 weight = model.gravity * body.gravity_mass;
         const Vec3 feels = body.gravity_mass == body.mass ? w.centre : w.X_WB * body.p_BG - work.origin;
-        const Spatial force = Spatial{cross(feels, weight), weight} - w.inertia * w.bias - cross_force(w.velocity, momentum);
+        const Spatial force =
+            Spatial{cross(feels, weight), weight} - w.inertia * w.bias - cross_force(w.velocity, momentum);
         w.impulse = momentum * momentum_weight + force * dt;
     }
     add_wrenches(type, *work.state, dt, work);
@@ -178,7 +191,8 @@ void compute_mass_matrix(const RobotType& type, double dt, RobotWork& work) {
             const auto i = static_cast<std::size_t>(body.v_index + k);
             const Spatial momentum = subtree * work.axes[i];
             for (int j = static_cast<int>(i); j >= 0; j = type.dof_parent[static_cast<std::size_t>(j)])
-                work.mass_matrix[i * n + static_cast<std::size_t>(j)] = dot(work.axes[static_cast<std::size_t>(j)], momentum);
+                work.mass_matrix[i * n + static_cast<std::size_t>(j)] =
+                    dot(work.axes[static_cast<std::size_t>(j)], momentum);
         }
         if (body.parent >= 0) work.bodies[static_cast<std::size_t>(body.parent)].inertia += subtree;
     }

@@ -1,5 +1,5 @@
-// Coordinates and their rates; quaternions are integrated as four numbers with q' = 1/2 w q and normalised, which keeps the
-// method's order (Hairer, Lubich, Wanner 2006, IV.4: projection after the step).
+// Coordinates and their rates; quaternions are integrated as four numbers with q' = 1/2 w q and normalised,
+// which keeps the method's order (Hairer, Lubich, Wanner 2006, IV.4: projection after the step).
 #include "physics/integrate.h"
 
 #include <algorithm>
@@ -28,7 +28,8 @@ Vec3 get_vec(std::span<const double> v, std::size_t i) {
 }
 
 /// dq/dt of all coordinates; `rate` has the size of q.
-void coordinate_rate(const RobotType& type, std::span<const double> q, std::span<const double> v, std::span<double> rate) {
+void coordinate_rate(const RobotType& type, std::span<const double> q, std::span<const double> v,
+                     std::span<double> rate) {
     std::fill(rate.begin(), rate.end(), 0.0);
     for (const Body& body : type.bodies) {
         const auto i = static_cast<std::size_t>(body.q_index);
@@ -72,7 +73,8 @@ void advance_coordinates(const RobotType& type, std::span<const double> v, doubl
 namespace {
 
 /// Acceleration of the free robot at (q, v), explicit damping included, into buffer.velocity.
-void free_acceleration(const Model& model, std::span<const double> q, std::span<const double> v, RobotWork& buffer) {
+void free_acceleration(const Model& model, std::span<const double> q, std::span<const double> v,
+                       RobotWork& buffer) {
     const RobotType& type = *buffer.type;
     place_bodies(type, q, buffer);
     move_bodies(type, v, buffer);

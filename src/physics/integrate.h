@@ -13,9 +13,9 @@ struct FreeBuffer {
     std::vector<double> q, q_rate, q_sum, v, v_rate, v_sum;
 };
 
-/// One step of the classical Runge-Kutta method (fourth order) for a robot that nothing touches and no row drives: writes the
-/// coordinates and velocities into its state. For contact-free motion it keeps energy and momentum far better than
-/// any first-order step. `work` holds the placed robot.
+/// One step of the classical Runge-Kutta method (fourth order) for a robot that nothing touches and no row
+/// drives: writes the coordinates and velocities into its state. For contact-free motion it keeps energy and
+/// momentum far better than any first-order step. `work` holds the placed robot.
 void advance_freely(const Model& model, RobotWork& work, FreeBuffer& buffer);
 
 }  // namespace roboss

@@ -1,6 +1,7 @@
-// A primal-dual interior point method (Boyd and Vandenberghe, Convex Optimization, 2004, section 11.7) for a contact island with
-// fixed friction bounds: impulses stay strictly inside their bounds, multipliers stay positive, and their products go
-// to zero together. It uses the same sparse system in the velocities as Newton's method, with other row curvatures.
+// A primal-dual interior point method (Boyd and Vandenberghe, Convex Optimization, 2004, section 11.7) for a
+// contact island with fixed friction bounds: impulses stay strictly inside their bounds, multipliers stay
+// positive, and their products go to zero together. It uses the same sparse system in the velocities as
+// Newton's method, with other row curvatures.
 #include <algorithm>
 #include <cmath>
 
@@ -97,13 +98,16 @@ Gap measure_gap(std::span<const JointRow> joints, std::span<const ContactRow> co
 }
 
 /// A start in the middle of all bounds, at a speed scale that fits the island.
-void start_inside(const Accuracy& accuracy, std::span<JointRow> joints, std::span<ContactRow> contacts, double speed) {
+void start_inside(const Accuracy& accuracy, std::span<JointRow> joints, std::span<ContactRow> contacts,
+                  double speed) {
     for (JointRow& row : joints) {
         const double reach = speed / mobility(row.compliance, accuracy);
         if (std::isfinite(row.low) && std::isfinite(row.high)) {
             row.impulse = 0.5 * (row.low + row.high);
         } else {
-            row.impulse = std::isfinite(row.low) ? row.low + reach : std::isfinite(row.high) ? row.high - reach : 0.0;
+            row.impulse = std::isfinite(row.low)    ? row.low + reach
+                          : std::isfinite(row.high) ? row.high - reach
+                                                    : 0.0;
         }
         const double product = speed * reach;
         row.slack_low = std::isfinite(row.low) ? product / (row.impulse - row.low) : 0.0;
@@ -122,7 +126,8 @@ void start_inside(const Accuracy& accuracy, std::span<JointRow> joints, std::spa
 void IslandSolver::interior_point(const Problem& p, std::vector<double>& v, SolveReport& report) {
     double speed = 0.1;  // m/s: generous, so that the start is more central than right
     for (const ContactRow& row : p.contacts)
-        speed = std::max({speed, std::fabs(p.target(row) - row.u_n), std::fabs(row.u_t1), std::fabs(row.u_t2)});
+        speed =
+            std::max({speed, std::fabs(p.target(row) - row.u_n), std::fabs(row.u_t1), std::fabs(row.u_t2)});
     start_inside(p.accuracy, p.joints, p.contacts, speed);
     const double gap_start = measure_gap(p.joints, p.contacts).mean();
     double centring = 0.2;

@@ -1,5 +1,5 @@
-// Motors, joint friction and limits as bounded rows: the solver gives exactly the bound when a motor stalls, and exactly
-// the target velocity when it does not.
+// Motors, joint friction and limits as bounded rows: the solver gives exactly the bound when a motor stalls,
+// and exactly the target velocity when it does not.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,9 +10,10 @@ namespace roboss {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kLimitShare = 0.2;      // of a violated limit mended in one tick
-constexpr double kLimitSlop = 1e-6;      // rad or m beyond a limit that are left alone
-constexpr double kLimitSpeedMax = 1.0;   // rad/s or m/s, while mending; it never enters the velocity, so it adds no energy
+constexpr double kLimitShare = 0.2;  // of a violated limit mended in one tick
+constexpr double kLimitSlop = 1e-6;  // rad or m beyond a limit that are left alone
+constexpr double kLimitSpeedMax =
+    1.0;  // rad/s or m/s, while mending; it never enters the velocity, so it adds no energy
 
 /// Everything about one degree of freedom that its rows need.
 struct DofState {
@@ -29,7 +30,8 @@ JointRow bounded_row(int dof, double target, double compliance, double low, doub
     return row;
 }
 
-/// Speed towards a position that the motor's force can still brake: sqrt(2 a e), with half of the force kept in hand.
+/// Speed towards a position that the motor's force can still brake: sqrt(2 a e), with half of the force kept
+/// in hand.
 double braking_speed(const DofState& s, double error) {
     const double acceleration = 0.5 * s.motor.max_effort * s.dof.inverse_inertia;
     return std::isfinite(acceleration) ? std::sqrt(2.0 * acceleration * std::fabs(error)) : kInfinity;
@@ -58,13 +60,16 @@ void add_motor(const DofState& s, int dof, std::vector<JointRow>& rows) {
     const double impulse_max = s.motor.max_effort * s.dt;
     JointRow row;
     switch (s.motor.mode) {
-        case MotorMode::kPassive: return;
+        case MotorMode::kPassive:
+            return;
         case MotorMode::kVelocity:
             row.target = std::clamp(s.motor.target, -s.dof.max_velocity, s.dof.max_velocity);
             row.compliance = s.dof.velocity_gain > 0 ? 1.0 / (s.dt * s.dof.velocity_gain) : s.compliance;
             row.low = -impulse_max, row.high = impulse_max;
             break;
-        case MotorMode::kPosition: row = position_motor(s, impulse_max); break;
+        case MotorMode::kPosition:
+            row = position_motor(s, impulse_max);
+            break;
         case MotorMode::kEffort: {
             // The ordered force, as long as it does not drive the joint beyond its maximum velocity.
             const double impulse = std::clamp(s.motor.target, -s.motor.max_effort, s.motor.max_effort) * s.dt;
@@ -87,13 +92,15 @@ bool add_limits(const DofState& s, int dof, std::vector<JointRow>& rows) {
     const auto mend = [&](double room) {
         return std::clamp((-room - kLimitSlop) * kLimitShare / s.dt, 0.0, kLimitSpeedMax);
     };
-    if (below < reach) rows.push_back(bounded_row(dof, -target(below), s.compliance, 0.0, kInfinity, mend(below)));
-    if (above < reach) rows.push_back(bounded_row(dof, target(above), s.compliance, -kInfinity, 0.0, -mend(above)));
+    if (below < reach)
+        rows.push_back(bounded_row(dof, -target(below), s.compliance, 0.0, kInfinity, mend(below)));
+    if (above < reach)
+        rows.push_back(bounded_row(dof, target(above), s.compliance, -kInfinity, 0.0, -mend(above)));
     return std::min(below, above) < -kLimitSlop;
 }
 
-/// Springs or damping so stiff that the explicit Runge-Kutta step would not follow them; its limit is 2.8, but the mobility is that
-/// of the zero pose. The solver takes them implicitly.
+/// Springs or damping so stiff that the explicit Runge-Kutta step would not follow them; its limit is 2.8,
+/// but the mobility is that of the zero pose. The solver takes them implicitly.
 bool is_stiff(const Dof& dof, double dt) {
     constexpr double kRateMax = 0.25;  // a tick times the damping's rate or the spring's frequency
     const double damping = dt * dof.damping * dof.inverse_inertia;
@@ -116,12 +123,15 @@ bool add_joint_rows(const Model& model, const RobotWork& robot, int offset, std:
         const Dof& dof = type.dofs[d];
         const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
         const Body& body = type.bodies[static_cast<std::size_t>(dof.body)];
-        const double q = body.joint == JointKind::kBall ? 0.0 : state.q[static_cast<std::size_t>(body.q_index)];
-        const DofState s{dof, state.motors[d], q, state.v[i], model.dt_s, model.accuracy.compliance * dof.inverse_inertia};
+        const double q =
+            body.joint == JointKind::kBall ? 0.0 : state.q[static_cast<std::size_t>(body.q_index)];
+        const DofState s{dof,        state.motors[d], q,
+                         state.v[i], model.dt_s,      model.accuracy.compliance * dof.inverse_inertia};
         const int island_dof = offset + static_cast<int>(i);
         add_motor(s, island_dof, rows);
         if (dof.friction > 0)
-            rows.push_back(bounded_row(island_dof, 0.0, s.compliance, -dof.friction * model.dt_s, dof.friction * model.dt_s, 0.0));
+            rows.push_back(bounded_row(island_dof, 0.0, s.compliance, -dof.friction * model.dt_s,
+                                       dof.friction * model.dt_s, 0.0));
         if (body.joint != JointKind::kBall) mends |= add_limits(s, island_dof, rows);
     }
     return mends;
@@ -132,7 +142,8 @@ bool moves_freely(const Model& model, const RobotWork& robot) {
     const RobotState& state = *robot.state;
     for (std::size_t d = 0; d < type.dofs.size(); ++d) {
         const Dof& dof = type.dofs[d];
-        if (state.motors[d].mode != MotorMode::kPassive || dof.friction > 0 || is_stiff(dof, model.dt_s)) return false;
+        if (state.motors[d].mode != MotorMode::kPassive || dof.friction > 0 || is_stiff(dof, model.dt_s))
+            return false;
         const Body& body = type.bodies[static_cast<std::size_t>(dof.body)];
         if (body.joint == JointKind::kBall) continue;
         const double v = state.v[d + static_cast<std::size_t>(type.base_nv())];

@@ -16,7 +16,8 @@ struct Twist {
     Vec3 linear;   // m/s, of the frame's origin, world axes
 };
 
-/// Pose and velocity of one link (walks from the link to the root; for tools, traces and sensors, not for the step).
+/// Pose and velocity of one link (walks from the link to the root; for tools, traces and sensors, not for the
+/// step).
 Transform link_pose(const RobotType& type, const RobotState& state, LinkId link);
 Twist link_twist(const RobotType& type, const RobotState& state, LinkId link);
 

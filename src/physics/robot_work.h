@@ -1,5 +1,5 @@
-// What one tick computes of one robot before anything is solved: poses, motion axes, mass matrix, free impulse. Buffers
-// are kept from tick to tick, so that nothing is allocated once they have grown.
+// What one tick computes of one robot before anything is solved: poses, motion axes, mass matrix, free
+// impulse. Buffers are kept from tick to tick, so that nothing is allocated once they have grown.
 #pragma once
 
 #include <span>
@@ -34,12 +34,13 @@ struct RobotWork {
     Vec3 origin;  // O: the base origin, m, world
     std::vector<BodyWork> bodies;
     std::vector<Spatial> axes;        // one a degree of freedom: motion of its body per unit of v, about O
-    std::vector<double> mass_matrix;  // nv x nv, lower triangle filled on the tree's pattern; implicit damping and springs included
+    std::vector<double> mass_matrix;  // nv x nv, lower triangle filled on the tree's pattern; implicit
+                                      // damping and springs included
     std::vector<double> impulse;      // nv: M v + dt (applied - bias); the free velocity is M^-1 of it
     std::vector<double> velocity;     // nv: solved
     std::vector<ShapeWork> shapes;
-    Aabb box;  // interaction bound
-    int contacts = 0;          // contact points that involve this robot
+    Aabb box;                    // interaction bound
+    int contacts = 0;            // contact points that involve this robot
     bool touches_robot = false;  // has a contact with another robot or itself
     bool pushed = false;         // a contact gives it an impulse in this tick
 };
@@ -52,6 +53,5 @@ void place_shapes(const RobotType& type, double dt, RobotWork& work);
 void compute_impulse(const Model& model, double dt, double momentum_weight, std::span<const double> q,
                      std::span<const double> v, RobotWork& work);
 void compute_mass_matrix(const RobotType& type, double dt, RobotWork& work);
-
 
 }  // namespace roboss

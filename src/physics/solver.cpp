@@ -1,4 +1,5 @@
-// Newton's method for a contact island. Every sum runs in a fixed order, so the bits depend on the island alone.
+// Newton's method for a contact island. Every sum runs in a fixed order, so the bits depend on the island
+// alone.
 #include "physics/solver.h"
 
 #include <algorithm>
@@ -26,13 +27,14 @@ Tangential friction(const ContactRow& row, double u_t1, double u_t2, double boun
     return {t1 * cut, t2 * cut};
 }
 
-/// Moves the friction bound towards mu times the normal impulse. Where more friction means less pressure the plain update swings
-/// for ever between two values, so a swing that hardly shrinks halves the step.
+/// Moves the friction bound towards mu times the normal impulse. Where more friction means less pressure the
+/// plain update swings for ever between two values, so a swing that hardly shrinks halves the step.
 void update_bound(ContactRow& row) {
     constexpr double kSlowest = 0.05, kRecovery = 1.2;
     const double error = row.mu * row.impulse_n - row.bound;
     const bool swings = error * row.bound_error < 0 && std::fabs(error) > 0.8 * std::fabs(row.bound_error);
-    row.relaxation = swings ? std::max(0.5 * row.relaxation, kSlowest) : std::min(kRecovery * row.relaxation, 1.0);
+    row.relaxation =
+        swings ? std::max(0.5 * row.relaxation, kSlowest) : std::min(kRecovery * row.relaxation, 1.0);
     row.bound_error = error;
     row.bound += row.relaxation * error;
 }
@@ -42,7 +44,8 @@ void update_bound(ContactRow& row) {
 void IslandSolver::times_mass(const Problem& p, std::span<const double> x, std::vector<double>& y) const {
     for (std::size_t r = 0; r < p.robots.size(); ++r) {
         const auto offset = static_cast<std::size_t>(p.offsets[r]);
-        tree_times(p.robots[r]->type->dof_parent, p.robots[r]->mass_matrix, x.data() + offset, y.data() + offset);
+        tree_times(p.robots[r]->type->dof_parent, p.robots[r]->mass_matrix, x.data() + offset,
+                   y.data() + offset);
     }
 }
 
@@ -68,8 +71,9 @@ void IslandSolver::start(const Problem& p, std::span<const double> v) {
     if (!tree_) set_profile(p);
 }
 
-/// Impulses of all contact rows at the present velocities. With `update_bounds` the friction bounds follow the normal impulses;
-/// returns how much friction that would change at full step, relative to the largest normal impulse.
+/// Impulses of all contact rows at the present velocities. With `update_bounds` the friction bounds follow
+/// the normal impulses; returns how much friction that would change at full step, relative to the largest
+/// normal impulse.
 double IslandSolver::update_impulses(const Problem& p, std::span<const double> v, bool update_bounds) {
     for (JointRow& row : p.joints) row.impulse = clamped_impulse(row, v[static_cast<std::size_t>(row.dof)]);
     double largest = 0, change = 0;
@@ -89,7 +93,8 @@ double IslandSolver::update_impulses(const Problem& p, std::span<const double> v
     return largest > 0 ? change / largest : 0.0;
 }
 
-/// g = M v - p - J^T impulses; returns its size relative to the momenta in play, both measured in the metric of M's diagonal.
+/// g = M v - p - J^T impulses; returns its size relative to the momenta in play, both measured in the metric
+/// of M's diagonal.
 double IslandSolver::gradient(const Problem& p) {
     for (std::size_t i = 0; i < n_; ++i) step_[i] = 0;  // applied impulses, for now
     for (const JointRow& row : p.joints) {
@@ -99,7 +104,8 @@ double IslandSolver::gradient(const Problem& p) {
     for (const ContactRow& row : p.contacts) {
         for (std::size_t c = row.first; c < row.last; ++c) {
             const ContactColumn& k = p.columns[c];
-            step_[static_cast<std::size_t>(k.dof)] += k.n * row.impulse_n + k.t1 * row.impulse_t1 + k.t2 * row.impulse_t2;
+            step_[static_cast<std::size_t>(k.dof)] +=
+                k.n * row.impulse_n + k.t1 * row.impulse_t1 + k.t2 * row.impulse_t2;
         }
     }
     double error = 0, scale = 0;
@@ -124,7 +130,8 @@ void IslandSolver::set_profile(const Problem& p) {
     row_at_.resize(n_);
     for (std::size_t r = 0; r < p.robots.size(); ++r) {
         const auto begin = static_cast<std::size_t>(p.offsets[r]);
-        for (std::size_t k = 0; k < static_cast<std::size_t>(p.robots[r]->type->nv); ++k) first_[begin + k] = begin;
+        for (std::size_t k = 0; k < static_cast<std::size_t>(p.robots[r]->type->nv); ++k)
+            first_[begin + k] = begin;
     }
     for (const ContactRow& row : p.contacts) {
         std::size_t lowest = n_;
@@ -153,8 +160,10 @@ void IslandSolver::assemble(const Problem& p) {
             const auto nv = static_cast<std::size_t>(robot.type->nv);
             const auto offset = static_cast<std::size_t>(p.offsets[r]);
             for (std::size_t i = 0; i < nv; ++i)
-                for (int j = static_cast<int>(i); j >= 0; j = robot.type->dof_parent[static_cast<std::size_t>(j)])
-                    row_of(offset + i)[offset + static_cast<std::size_t>(j)] = robot.mass_matrix[i * nv + static_cast<std::size_t>(j)];
+                for (int j = static_cast<int>(i); j >= 0;
+                     j = robot.type->dof_parent[static_cast<std::size_t>(j)])
+                    row_of(offset + i)[offset + static_cast<std::size_t>(j)] =
+                        robot.mass_matrix[i * nv + static_cast<std::size_t>(j)];
         }
     }
     for (const JointRow& row : p.joints) row_of(static_cast<std::size_t>(row.dof))[row.dof] += row.d;
@@ -187,7 +196,8 @@ void IslandSolver::add_contact(const Problem& p, const ContactRow& row) {
     const ContactColumn* columns = p.columns.data();
     for (std::size_t a = row.first; a < row.last; ++a) {
         const ContactColumn& x = columns[a];
-        const double n = row.d_n * x.n, t1 = row.d_11 * x.t1 + row.d_12 * x.t2, t2 = row.d_12 * x.t1 + row.d_22 * x.t2;
+        const double n = row.d_n * x.n, t1 = row.d_11 * x.t1 + row.d_12 * x.t2,
+                     t2 = row.d_12 * x.t1 + row.d_22 * x.t2;
         double* h = row_of(static_cast<std::size_t>(x.dof));
         // Columns of one path descend, so in a tree the lower triangle is all that follows.
         for (std::size_t b = tree_ ? a : row.first; b < row.last; ++b) {
@@ -209,7 +219,8 @@ void IslandSolver::factor_and_solve(const Problem& p) {
     }
 }
 
-/// Exact minimum along the step: the root of the derivative, which is monotone; nearly always 1 is good enough.
+/// Exact minimum along the step: the root of the derivative, which is monotone; nearly always 1 is good
+/// enough.
 double IslandSolver::line_search(const Problem& p, std::span<const double> v) {
     double slope0 = 0, quadratic = 0;  // of the smooth part
     for (std::size_t r = 0; r < p.robots.size(); ++r) {
@@ -227,7 +238,8 @@ double IslandSolver::line_search(const Problem& p, std::span<const double> v) {
         }
         for (const ContactRow& row : p.contacts) {
             const double u_n = row.u_n + alpha * row.du_n;
-            const Tangential t = friction(row, row.u_t1 + alpha * row.du_t1, row.u_t2 + alpha * row.du_t2, row.bound);
+            const Tangential t =
+                friction(row, row.u_t1 + alpha * row.du_t1, row.u_t2 + alpha * row.du_t2, row.bound);
             s -= std::max(0.0, (p.target(row) - u_n) / row.compliance_n) * row.du_n;
             s -= t.t1 * row.du_t1 + t.t2 * row.du_t2;
         }
@@ -238,7 +250,8 @@ double IslandSolver::line_search(const Problem& p, std::span<const double> v) {
     if (!(at_zero < 0) || std::fabs(s_high) <= -0.05 * at_zero) return 1.0;
     for (int i = 0; i < 20 && s_high < 0; ++i) low = high, s_low = s_high, high *= 2, s_high = slope(high);
     int side = 0;  // of the last point: -1 below the root
-    for (int i = 0; i < 60; ++i) {  // regula falsi with the Illinois rule; each third time a bisection, for the kinks are sharp
+    for (int i = 0; i < 60;
+         ++i) {  // regula falsi with the Illinois rule; each third time a bisection, for the kinks are sharp
         const double share = i % 3 == 2 ? 0.5 : s_low / (s_low - s_high);
         const double alpha = low + (high - low) * share;
         const double s = slope(alpha);
@@ -274,10 +287,12 @@ void IslandSolver::find_step(const Problem& p) {
     set_contact_steps(p, step_.data());
 }
 
-/// Newton's method until momentum balances and friction bounds agree. False if it does not come near a balance.
+/// Newton's method until momentum balances and friction bounds agree. False if it does not come near a
+/// balance.
 bool IslandSolver::newton(const Problem& p, std::vector<double>& v, SolveReport& report) {
     constexpr double kRoughly = 1e-4;  // bounds are updated once the momentum balance is this good
-    constexpr double kFar = 1e-2;      // a residual that shows that the set of sliding and open contacts is not found yet
+    constexpr double kFar =
+        1e-2;  // a residual that shows that the set of sliding and open contacts is not found yet
     constexpr int kFarMax = 8;
     constexpr double kRounding = 1e-8;  // below, a residual that no longer falls is taken for rounding
     int far = 0, bound_updates = 0, stalls = 0;
@@ -306,17 +321,18 @@ bool IslandSolver::newton(const Problem& p, std::vector<double>& v, SolveReport&
 
 SolveReport IslandSolver::solve(const Accuracy& accuracy, std::span<const RobotWork* const> robots,
                                 std::span<const int> offsets, std::span<JointRow> joints,
-                                std::span<const ContactColumn> columns, std::span<ContactRow> contacts, bool position,
-                                std::vector<double>& v) {
+                                std::span<const ContactColumn> columns, std::span<ContactRow> contacts,
+                                bool position, std::vector<double>& v) {
     const Problem p{accuracy, robots, offsets, joints, columns, contacts, position};
     start(p, v);
     SolveReport report;
     start_bounds_.clear();
     for (const ContactRow& row : contacts) start_bounds_.push_back(row.bound);
     if (newton(p, v, report)) return report;
-    // Where many contacts stand between sticking and sliding, each Newton step turns only one of them: the potential of hard
-    // rows is all edges. The interior point method goes through the middle, in a number of steps that hardly depends on the
-    // problem: once with the bounds of the last tick, once with those that follow from it.
+    // Where many contacts stand between sticking and sliding, each Newton step turns only one of them: the
+    // potential of hard rows is all edges. The interior point method goes through the middle, in a number of
+    // steps that hardly depends on the problem: once with the bounds of the last tick, once with those that
+    // follow from it.
     for (std::size_t c = 0; c < contacts.size(); ++c) contacts[c].bound = start_bounds_[c];
     interior_point(p, v, report);
     if (position) return report;

@@ -95,9 +95,10 @@ void mark_pushed(Impl& s) {
     }
 }
 
-/// Writes the solved velocities into the states and moves the coordinates. A robot that is near something but not pushed moves
-/// freely, else a ball would lose height in every tick that it spends close to the ground.
-void finish_island(const Model& model, Impl& s, std::span<const std::uint32_t> members, std::span<const double> way) {
+/// Writes the solved velocities into the states and moves the coordinates. A robot that is near something but
+/// not pushed moves freely, else a ball would lose height in every tick that it spends close to the ground.
+void finish_island(const Model& model, Impl& s, std::span<const std::uint32_t> members,
+                   std::span<const double> way) {
     for (std::size_t m = 0; m < members.size(); ++m) {
         RobotWork& work = s.robots[members[m]];
         const auto offset = static_cast<std::size_t>(s.island_offsets[m]);
@@ -111,8 +112,10 @@ void finish_island(const Model& model, Impl& s, std::span<const std::uint32_t> m
     }
 }
 
-/// Gathers rows and first guess of one contact island; true if the way of the tick needs a solution of its own.
-bool gather_island(const Model& model, Impl& s, std::span<const std::uint32_t> members, std::span<Contact> contacts) {
+/// Gathers rows and first guess of one contact island; true if the way of the tick needs a solution of its
+/// own.
+bool gather_island(const Model& model, Impl& s, std::span<const std::uint32_t> members,
+                   std::span<Contact> contacts) {
     s.island_robots.clear(), s.island_offsets.clear();
     s.joints.clear(), s.columns.clear(), s.rows.clear(), s.v.clear();
     s.offsets.resize(s.robots.size());
@@ -144,19 +147,23 @@ void solve_island(const Model& model, Impl& s, std::span<const std::uint32_t> me
     if (members.size() == 1) {
         RobotWork& work = s.robots[members[0]];
         if (work.type->nv == 0) return;
-        if (work.contacts == 0 && moves_freely(model, work)) return advance_freely(model, work, s.free_buffer);
+        if (work.contacts == 0 && moves_freely(model, work))
+            return advance_freely(model, work, s.free_buffer);
     }
     const bool split = gather_island(model, s, members, s.contacts);
     s.v_before = s.v;
-    const SolveReport solved = s.solver.solve(model.accuracy, s.island_robots, s.island_offsets, s.joints, s.columns, s.rows, false, s.v);
+    const SolveReport solved = s.solver.solve(model.accuracy, s.island_robots, s.island_offsets, s.joints,
+                                              s.columns, s.rows, false, s.v);
     report.iterations += solved.iterations;
     report.residual = std::max(report.residual, solved.residual);
     for (std::size_t c = 0; c < s.rows.size(); ++c) s.island_contacts[c]->impulse = s.rows[c].impulse_n;
     if (split) {
         for (ContactRow& row : s.rows) row.bound = row.mu * row.impulse_n;
         for (JointRow& row : s.joints) row.target += row.mend;
-        report.iterations += s.solver.solve(model.accuracy, s.island_robots, s.island_offsets, s.joints, s.columns, s.rows, true,
-                                            s.v_before).iterations;
+        report.iterations += s.solver
+                                 .solve(model.accuracy, s.island_robots, s.island_offsets, s.joints,
+                                        s.columns, s.rows, true, s.v_before)
+                                 .iterations;
     }
     mark_pushed(s);
     finish_island(model, s, members, split ? s.v_before : s.v);
@@ -173,7 +180,8 @@ void count_contacts(const Model& model, std::span<const Contact> contacts, StepR
     for (const Contact& c : contacts) {
         if (c.impulse <= 0) continue;
         ++report.contacts;
-        if (c.robot_b < 0 && model.statics[c.shape_b].shape.kind != ShapeKind::kPlane) ++report.static_contacts;
+        if (c.robot_b < 0 && model.statics[c.shape_b].shape.kind != ShapeKind::kPlane)
+            ++report.static_contacts;
     }
 }
 
@@ -191,8 +199,9 @@ Aabb interaction_bound(const Model& model, RobotId robot, const RobotState& stat
     return work.box;
 }
 
-StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> robots, std::span<RobotState* const> states,
-                       std::span<const Order> orders, std::span<Aabb> bounds, StepScratch& scratch) {
+StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> robots,
+                       std::span<RobotState* const> states, std::span<const Order> orders,
+                       std::span<Aabb> bounds, StepScratch& scratch) {
     const ExactFloatScope exact;
     Impl& s = scratch.impl();
     const std::size_t count = robots.size();

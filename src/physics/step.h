@@ -1,5 +1,6 @@
-// One tick of one island: the pure function of DESIGN. The result of a robot depends on (model, states, orders) only,
-// never on which other robots happen to share the island: two robots affect each other only if their interaction bounds meet.
+// One tick of one island: the pure function of DESIGN. The result of a robot depends on (model, states,
+// orders) only, never on which other robots happen to share the island: two robots affect each other only if
+// their interaction bounds meet.
 #pragma once
 
 #include <memory>
@@ -12,8 +13,9 @@
 
 namespace roboss {
 
-/// Covers all that detection reads of the robot at this tick (shapes, contact margin, speculative reach at its speed),
-/// rounded outward. Feeds both the broad phase and the swept bounds of a window. Call it after the tick's orders.
+/// Covers all that detection reads of the robot at this tick (shapes, contact margin, speculative reach at
+/// its speed), rounded outward. Feeds both the broad phase and the swept bounds of a window. Call it after
+/// the tick's orders.
 Aabb interaction_bound(const Model& model, RobotId robot, const RobotState& state);
 
 struct StepReport {
@@ -38,10 +40,11 @@ class StepScratch {
     std::unique_ptr<Impl> impl_;
 };
 
-/// Steps the island from `tick` to `tick` + 1. `robots` ascending, states[i] of robots[i]; `orders`: those with apply_at ==
-/// tick for these robots, in canonical order. bounds[i] receives the interaction bound of robots[i] at this tick.
+/// Steps the island from `tick` to `tick` + 1. `robots` ascending, states[i] of robots[i]; `orders`: those
+/// with apply_at == tick for these robots, in canonical order. bounds[i] receives the interaction bound of
+/// robots[i] at this tick.
 StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> robots,
-                       std::span<RobotState* const> states, std::span<const Order> orders, std::span<Aabb> bounds,
-                       StepScratch& scratch);
+                       std::span<RobotState* const> states, std::span<const Order> orders,
+                       std::span<Aabb> bounds, StepScratch& scratch);
 
 }  // namespace roboss

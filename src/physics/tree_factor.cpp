@@ -39,13 +39,16 @@ void tree_factor(std::span<const int> parent, std::span<double> a) {
 void tree_solve(std::span<const int> parent, std::span<const double> a, double* x) {
     const std::size_t n = parent.size();
     for (std::size_t i = n; i-- > 0;)
-        for (int j = parent[i]; j >= 0; j = parent[static_cast<std::size_t>(j)]) x[j] -= a[i * n + static_cast<std::size_t>(j)] * x[i];
+        for (int j = parent[i]; j >= 0; j = parent[static_cast<std::size_t>(j)])
+            x[j] -= a[i * n + static_cast<std::size_t>(j)] * x[i];
     for (std::size_t i = 0; i < n; ++i) x[i] *= a[i * n + i];
     for (std::size_t i = 0; i < n; ++i)
-        for (int j = parent[i]; j >= 0; j = parent[static_cast<std::size_t>(j)]) x[i] -= a[i * n + static_cast<std::size_t>(j)] * x[j];
+        for (int j = parent[i]; j >= 0; j = parent[static_cast<std::size_t>(j)])
+            x[i] -= a[i * n + static_cast<std::size_t>(j)] * x[j];
 }
 
-void skyline_factor(std::span<double> a, std::span<const std::size_t> first, std::span<const std::size_t> row_at) {
+void skyline_factor(std::span<double> a, std::span<const std::size_t> first,
+                    std::span<const std::size_t> row_at) {
     for (std::size_t i = 0; i < first.size(); ++i) {
         double* row_i = a.data() + row_at[i];
         for (std::size_t j = first[i]; j <= i; ++j) {
@@ -57,8 +60,8 @@ void skyline_factor(std::span<double> a, std::span<const std::size_t> first, std
     }
 }
 
-void skyline_solve(std::span<const double> a, std::span<const std::size_t> first, std::span<const std::size_t> row_at,
-                   std::span<double> x) {
+void skyline_solve(std::span<const double> a, std::span<const std::size_t> first,
+                   std::span<const std::size_t> row_at, std::span<double> x) {
     for (std::size_t i = 0; i < x.size(); ++i) {
         const double* row = a.data() + row_at[i];
         for (std::size_t k = first[i]; k < i; ++k) x[i] -= row[k] * x[k];

@@ -282,7 +282,7 @@ TEST(LoadWorld, AFileWithAModelOnlyIsAWorld) {
     EXPECT_EQ(loaded.world->instances.size(), 1u);
 }
 
-TEST(LoadWorld, AStaticModelWithALaserBecomesAWeldedRobot) {
+TEST(LoadWorld, AStaticModelStaysStaticAndKeepsItsSensors) {
     const std::string laser =
         "<sensor name='s' type='lidar'><lidar><scan><horizontal><samples>3</samples><min_angle>0</min_angle>"
         "<max_angle>1</max_angle></horizontal></scan><range><min>0.1</min><max>9</max></range></lidar></"
@@ -290,9 +290,9 @@ TEST(LoadWorld, AStaticModelWithALaserBecomesAWeldedRobot) {
     const Loaded loaded =
         load_elements("<model name='m'><static>1</static><link name='a'>" + laser + "</link></model>");
     ASSERT_TRUE(loaded.world) << loaded.text();
-    EXPECT_FALSE(loaded.world->prototypes[0].is_static);
-    ASSERT_EQ(loaded.world->prototypes[0].joints.size(), 1u);
-    EXPECT_EQ(loaded.world->prototypes[0].joints[0].parent, "world");
+    EXPECT_TRUE(loaded.world->prototypes[0].is_static);
+    ASSERT_EQ(loaded.world->prototypes[0].links[0].sensors.size(), 1u);
+    EXPECT_EQ(loaded.world->prototypes[0].links[0].sensors[0].kind, SensorKind::kLaser);
 }
 
 TEST(LoadWorld, TwoThousandSixWheeledCarsLoadQuickly) {
