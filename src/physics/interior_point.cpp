@@ -13,6 +13,9 @@ namespace {
 constexpr int kStepsMax = 40;
 constexpr double kGapEnd = 1e-11;     // of the first gap: Newton's method does the rest
 constexpr double kBalanced = 1e-8;    // relative residual of the momentum balance
+constexpr double kLeastRoom = 1e-14;  // of a friction disc
+constexpr double kLeastBound =
+    1e-9;  // of the start's normal impulse; a smaller friction bound counts as none
 constexpr double kToBoundary = 0.98;  // share of the way to the nearest bound that a step may take
 
 /// Mobility that a hard row acts on, from its compliance.
@@ -20,9 +23,16 @@ double mobility(double compliance, const Accuracy& accuracy) {
     return compliance / accuracy.compliance;
 }
 
-/// Half of the squared room left in the friction disc.
+/// Half of the squared room left in the friction disc, kept above rounding.
 double room(const ContactRow& row) {
-    return 0.5 * (row.bound * row.bound - row.impulse_t1 * row.impulse_t1 - row.impulse_t2 * row.impulse_t2);
+    const double full = row.bound * row.bound;
+    const double left = full - row.impulse_t1 * row.impulse_t1 - row.impulse_t2 * row.impulse_t2;
+    return 0.5 * std::max(left, kLeastRoom * full);
+}
+
+/// Bounds that leave no room (a motor without effort): the impulse is what it is.
+bool is_fixed(const JointRow& row) {
+    return !(row.high > row.low);
 }
 
 /// Right-hand side and step of one row's impulses: change = offset - D * (change of velocity).
@@ -49,6 +59,7 @@ Offsets prepare(ContactRow& row, double target, double mu) {
 
 /// The same for a joint row; bounds that are infinite have no multiplier.
 double prepare(JointRow& row, double v, double mu) {
+    if (is_fixed(row)) return row.d = 0;
     double stiffness = row.compliance, rest = row.target - v - row.compliance * row.impulse;
     if (std::isfinite(row.low)) {
         stiffness += row.slack_low / (row.impulse - row.low);
@@ -87,6 +98,7 @@ struct Gap {
 Gap measure_gap(std::span<const JointRow> joints, std::span<const ContactRow> contacts) {
     Gap gap;
     for (const JointRow& row : joints) {
+        if (is_fixed(row)) continue;
         if (std::isfinite(row.low)) gap.add(row.slack_low * (row.impulse - row.low));
         if (std::isfinite(row.high)) gap.add(row.slack_high * (row.high - row.impulse));
     }
@@ -101,6 +113,9 @@ Gap measure_gap(std::span<const JointRow> joints, std::span<const ContactRow> co
 void start_inside(const Accuracy& accuracy, std::span<JointRow> joints, std::span<ContactRow> contacts,
                   double speed) {
     for (JointRow& row : joints) {
+        row.slack_low = row.slack_high = row.slack_low_step = row.slack_high_step = 0;
+        row.impulse = row.low;
+        if (is_fixed(row)) continue;
         const double reach = speed / mobility(row.compliance, accuracy);
         if (std::isfinite(row.low) && std::isfinite(row.high)) {
             row.impulse = 0.5 * (row.low + row.high);
@@ -117,6 +132,8 @@ void start_inside(const Accuracy& accuracy, std::span<JointRow> joints, std::spa
         row.impulse_n = speed / mobility(row.compliance_n, accuracy);
         row.slack_n = speed;
         row.impulse_t1 = row.impulse_t2 = 0;
+        row.slack_t = row.slack_t_step = 0;
+        if (row.bound < kLeastBound * row.impulse_n) row.bound = 0;
         if (row.bound > 0) row.slack_t = row.slack_n * row.impulse_n / room(row);
     }
 }
@@ -136,30 +153,20 @@ void IslandSolver::interior_point(const Problem& p, std::vector<double>& v, Solv
         report.residual = gradient(p);
         if (gap <= kGapEnd * gap_start && report.residual <= kBalanced) return;
         const double alpha = interior_step(p, centring * gap, v);
+        if (alpha == 0) return;
         centring = alpha > 0.9 ? 0.02 : alpha > 0.5 ? 0.2 : 0.5;
         ++report.iterations;
     }
 }
 
-double IslandSolver::interior_step(const Problem& p, double mu, std::vector<double>& v) {
-    offsets_.clear();  // what the impulses would change by if the velocities did not
-    for (JointRow& row : p.joints) {
-        offsets_.push_back(prepare(row, v[static_cast<std::size_t>(row.dof)], mu));
-        g_[static_cast<std::size_t>(row.dof)] -= offsets_.back();
-    }
-    for (ContactRow& row : p.contacts) {
-        const Offsets e = prepare(row, p.target(row), mu);
-        for (double x : {e.n, e.t1, e.t2}) offsets_.push_back(x);
-        for (std::size_t c = row.first; c < row.last; ++c) {
-            const ContactColumn& k = p.columns[c];
-            g_[static_cast<std::size_t>(k.dof)] -= k.n * e.n + k.t1 * e.t1 + k.t2 * e.t2;
-        }
-    }
-    find_step(p);
+/// Steps of all impulses and multipliers that follow from that of the velocities, and the largest share of
+/// them that keeps everything inside its bounds.
+double IslandSolver::longest_step(const Problem& p, double mu) {
     double alpha = 1;
     std::size_t at = 0;
     for (JointRow& row : p.joints) {
         double& change = offsets_[at++];
+        if (is_fixed(row)) continue;
         change -= row.d * step_[static_cast<std::size_t>(row.dof)];
         if (std::isfinite(row.low)) {
             const double x = row.impulse - row.low;
@@ -185,8 +192,31 @@ double IslandSolver::interior_step(const Problem& p, double mu, std::vector<doub
         row.slack_t_step = (mu - row.slack_t * (left - row.impulse_t1 * *t1 - row.impulse_t2 * *t2)) / left;
         alpha = limit_disc(limit(alpha, row.slack_t, row.slack_t_step), row, *t1, *t2);
     }
+    return alpha;
+}
+
+/// One Newton step towards complementarity `mu`; returns its length, 0 if rounding has left no step to take.
+double IslandSolver::interior_step(const Problem& p, double mu, std::vector<double>& v) {
+    offsets_.clear();  // what the impulses would change by if the velocities did not
+    for (JointRow& row : p.joints) {
+        offsets_.push_back(prepare(row, v[static_cast<std::size_t>(row.dof)], mu));
+        g_[static_cast<std::size_t>(row.dof)] -= offsets_.back();
+    }
+    for (ContactRow& row : p.contacts) {
+        const Offsets e = prepare(row, p.target(row), mu);
+        for (double x : {e.n, e.t1, e.t2}) offsets_.push_back(x);
+        for (std::size_t c = row.first; c < row.last; ++c) {
+            const ContactColumn& k = p.columns[c];
+            g_[static_cast<std::size_t>(k.dof)] -= k.n * e.n + k.t1 * e.t1 + k.t2 * e.t2;
+        }
+    }
+    find_step(p);
+    const double alpha = longest_step(p, mu);
+    double finite = alpha - alpha;
+    for (double x : step_) finite += x - x;
+    if (finite != 0) return 0;
     move(p, alpha, v);
-    at = 0;
+    std::size_t at = 0;
     for (JointRow& row : p.joints) {
         row.impulse += alpha * offsets_[at++];
         row.slack_low += alpha * row.slack_low_step;

@@ -63,6 +63,7 @@ class IslandSolver {
     bool newton(const Problem& p, std::vector<double>& v, SolveReport& report);
     // interior_point.cpp
     void interior_point(const Problem& p, std::vector<double>& v, SolveReport& report);
+    double longest_step(const Problem& p, double mu);
     double interior_step(const Problem& p, double mu, std::vector<double>& v);
 
     std::size_t n_ = 0;

@@ -6,7 +6,7 @@ from running import DRIVER, FOLDER, WORLDS, roboss, summary
 
 RUNS = {
     "city": ([WORLDS / "city.sdf", "--client", DRIVER], 3.0),
-    "crossroads": ([WORLDS / "crossroads.sdf", "--orders", WORLDS / "crossroads.jsonl"], 3.2),
+    "crossroads": ([WORLDS / "crossroads.sdf", "--orders", WORLDS / "crossroads.jsonl"], 2.3),
     "heap": ([WORLDS / "heap.sdf"], 2.0),
 }
 WAYS = [
@@ -47,7 +47,7 @@ class SameBits(unittest.TestCase):
 
     def test_hashes_on_the_way_are_the_same_too(self):
         world, duration = RUNS["crossroads"]
-        lines = [roboss("run", *world, "--duration", duration, "--quiet", "--hash-every", "0.4", *way).stdout.splitlines()[:8]
+        lines = [roboss("run", *world, "--duration", duration, "--quiet", "--hash-every", "0.25", *way).stdout.splitlines()[:8]
                  for way in ([], ["--simulators", "5", "--window", "7"])]
         self.assertEqual(lines[0], lines[1])
         self.assertEqual(len(set(line.split()[-1] for line in lines[0])), 8, "each time has a hash of its own")
