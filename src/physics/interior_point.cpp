@@ -13,6 +13,7 @@ namespace {
 constexpr int kStepsMax = 40;
 constexpr double kGapEnd = 1e-11;     // of the first gap: Newton's method does the rest
 constexpr double kBalanced = 1e-8;    // relative residual of the momentum balance
+constexpr double kNoFriction = 1e-14; // of the starting impulse: a friction bound below it is none
 constexpr double kToBoundary = 0.98;  // share of the way to the nearest bound that a step may take
 
 /// Mobility that a hard row acts on, from its compliance.
@@ -20,9 +21,11 @@ double mobility(double compliance, const Accuracy& accuracy) {
     return compliance / accuracy.compliance;
 }
 
-/// Half of the squared room left in the friction disc.
+/// Half of the squared room left in the friction disc; never below its rounding, for it divides.
 double room(const ContactRow& row) {
-    return 0.5 * (row.bound * row.bound - row.impulse_t1 * row.impulse_t1 - row.impulse_t2 * row.impulse_t2);
+    const double bound2 = row.bound * row.bound;
+    const double left = bound2 - row.impulse_t1 * row.impulse_t1 - row.impulse_t2 * row.impulse_t2;
+    return 0.5 * std::max(left, 1e-16 * bound2);
 }
 
 /// Right-hand side and step of one row's impulses: change = offset - D * (change of velocity).
@@ -115,6 +118,8 @@ void start_inside(const Accuracy& accuracy, std::span<JointRow> joints, std::spa
     }
     for (ContactRow& row : contacts) {
         row.impulse_n = speed / mobility(row.compliance_n, accuracy);
+        // An open contact leaves this method with an impulse like 1e-180: its disc has no inside that numbers could tell.
+        if (row.bound <= kNoFriction * row.impulse_n) row.bound = 0;
         row.slack_n = speed;
         row.impulse_t1 = row.impulse_t2 = 0;
         if (row.bound > 0) row.slack_t = row.slack_n * row.impulse_n / room(row);
