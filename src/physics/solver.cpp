@@ -123,7 +123,8 @@ double IslandSolver::gradient(const Problem& p) {
         }
     }
     if (scale == 0) return 0.0;
-    return std::isfinite(error) ? std::sqrt(error / scale) : std::numeric_limits<double>::infinity();  // never taken for solved
+    return std::isfinite(error) ? std::sqrt(error / scale)
+                                : std::numeric_limits<double>::infinity();  // never taken for solved
 }
 
 /// Skyline of the Hessian: a robot's rows reach back to the first dof of the lowest robot it touches.
