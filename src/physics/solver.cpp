@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "physics/tree_factor.h"
 
@@ -121,7 +122,9 @@ double IslandSolver::gradient(const Problem& p) {
             scale += (mv_[i] * mv_[i] + free * free + step_[i] * step_[i]) / m;
         }
     }
-    return scale > 0 ? std::sqrt(error / scale) : 0.0;
+    if (scale == 0) return 0.0;
+    return std::isfinite(error) ? std::sqrt(error / scale)
+                                : std::numeric_limits<double>::infinity();  // never taken for solved
 }
 
 /// Skyline of the Hessian: a robot's rows reach back to the first dof of the lowest robot it touches.
