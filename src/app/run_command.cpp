@@ -157,7 +157,7 @@ class Run {
             const Result<> stepped = simulation_->run_until(
                 next, [&] { return progress_.show(*simulation_), g_interrupted == 0; });
             for (const std::string& notice : simulation_->take_notices())
-                progress_.clear(), fmt::print(stderr, "roboss: {}\n", notice);
+                if (!o_.quiet) progress_.clear(), fmt::print(stderr, "roboss: {}\n", notice);
             if (!stepped) return progress_.clear(), print(stepped.error()), false;
             if (speed > 0) {
                 const double due_s = static_cast<double>(simulation_->tick() - start_) * dt / speed;

@@ -1,0 +1,65 @@
+"""What a run leaves behind: trace, summary, picture, saved state; and its end by Ctrl-C."""
+import csv
+import json
+import signal
+import subprocess
+import time
+import unittest
+
+from running import DRIVER, FOLDER, ROBOSS, WORLDS, roboss, summary
+
+HEADER = "time_s,robot,link,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz"
+KEYS = {"world", "robots", "ticks", "dt_s", "sim_time_s", "wall_time_s", "real_time_factor", "step_cpu_s", "windows",
+        "windows_repeated", "islands_mean", "contacts_mean", "model_hash", "state_hash"}
+
+
+class Outputs(unittest.TestCase):
+    def test_the_trace_has_all_links_at_the_times_asked_for_and_shows_the_orders(self):
+        trace, orders = FOLDER / "trace.csv", FOLDER / "orders.jsonl"
+        orders.write_text('{"t":0.1,"robot":"car_3","set_pose":{"position":[8,9,3],"orientation":[1,0,0,0]}}\n'
+                          '{"t":0.1,"robot":"car_3","set_velocity":{"linear":[1,0,0],"angular":[0,0,2]}}\n')
+        summary(WORLDS / "crossroads.sdf", "--duration", 0.3, "--orders", orders, "--trace", trace, "--trace-every", 0.1)
+        lines = trace.read_text().splitlines()
+        self.assertEqual(lines[0], HEADER)
+        rows = list(csv.DictReader(lines))
+        self.assertEqual(len(rows), 4 * 16 * 5, "4 times, 16 cars of 5 links")
+        flying = [r for r in rows if r["robot"] == "car_3" and r["link"] == "chassis" and abs(float(r["time_s"]) - 0.2) < 1e-9]
+        self.assertEqual(len(flying), 1)
+        row = {k: float(v) for k, v in flying[0].items() if k not in ("robot", "link")}
+        self.assertAlmostEqual(row["z"], 3.08 - 0.5 * 9.8 * 0.01, delta=2e-3, msg="0.1 s of free fall from 3 m (chassis .08 higher)")
+        self.assertAlmostEqual(row["wz"], 2.0, delta=1e-3)
+
+    def test_the_summary_has_its_keys_and_the_terminal_the_same_hash(self):
+        file = FOLDER / "s.json"
+        done = roboss("run", WORLDS / "heap.sdf", "--duration", 0.2, "--json", file)
+        data = json.loads(file.read_text())
+        self.assertLessEqual(KEYS, set(data))
+        self.assertEqual(data["ticks"], 100)
+        self.assertRegex(data["state_hash"], "^[0-9a-f]{16}$")
+        self.assertIn(data["state_hash"], done.stdout)
+
+    def test_the_picture_is_an_svg_with_a_path_for_each_car(self):
+        picture = FOLDER / "city.svg"
+        summary(WORLDS / "city.sdf", "--client", DRIVER, "--duration", 1, "--picture", picture)
+        text = picture.read_text()
+        self.assertTrue(text.startswith("<svg") or text.startswith("<?xml"))
+        self.assertGreaterEqual(text.count("<poly") + text.count("<path"), 50)
+
+    def test_ctrl_c_ends_a_run_with_its_summary_and_its_state(self):
+        saved = FOLDER / "interrupted.roboss"
+        run = subprocess.Popen([ROBOSS, "run", WORLDS / "heap.sdf", "--speed", "1", "--save", saved],
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        time.sleep(1.5)
+        run.send_signal(signal.SIGINT)
+        output, _ = run.communicate(timeout=60)
+        self.assertEqual(run.returncode, 130)
+        self.assertIn("state hash", output)
+        self.assertGreater(summary(WORLDS / "heap.sdf", "--from", saved, "--duration", 0)["sim_time_s"], 0.1)
+
+    def test_speed_follows_the_clock(self):
+        data = summary(WORLDS / "crossroads.sdf", "--duration", 1.0, "--speed", 2)
+        self.assertGreater(data["wall_time_s"], 0.49, "never faster than asked for")
+
+
+if __name__ == "__main__":
+    unittest.main()
