@@ -16,7 +16,7 @@ namespace roboss {
 std::vector<Order> load_orders(const std::string& file, const Model& model, Diagnostics& diagnostics);
 
 /// The same from text; `file` is only named in the diagnostics.
-std::vector<Order> parse_orders(std::string_view text, const std::string& file, const Model& model,
+std::vector<Order> parse_orders(std::string_view content, const std::string& file, const Model& model,
                                 Diagnostics& diagnostics);
 
 /// The tick at which something due at `time_s` happens: the nearest one.

@@ -36,7 +36,7 @@ BusClientOptions options_or_default(const ControlProgram& program, const Model& 
 
 }  // namespace
 
-ProgramHost::ProgramHost(std::shared_ptr<const Model> model, const Address& self, std::string name,
+ProgramHost::ProgramHost(const std::shared_ptr<const Model>& model, const Address& self, std::string name,
                          std::unique_ptr<ControlProgram> program)
     : name_(std::move(name)),
       program_(std::move(program)),

@@ -13,7 +13,7 @@ namespace roboss {
 
 class ProgramHost {
   public:
-    ProgramHost(std::shared_ptr<const Model> model, const Address& self, std::string name,
+    ProgramHost(const std::shared_ptr<const Model>& model, const Address& self, std::string name,
                 std::unique_ptr<ControlProgram> program);
 
     /// What a saved run kept of this program; before the first advance().

@@ -80,6 +80,7 @@ void Bvh::query(const Aabb& box, std::vector<std::uint32_t>& out) const {
     for (std::size_t i = 0; i < infinite_.size(); ++i) {
         if (overlaps(item_boxes_[items_.size() + i], box)) out.push_back(infinite_[i]);
     }
+    // Read below `depth` only. NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
     std::array<std::uint32_t, kStackDepth> stack;
     std::size_t depth = 0;
     if (!nodes_.empty()) stack[depth++] = 0;

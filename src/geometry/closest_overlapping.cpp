@@ -22,6 +22,8 @@ struct Face {
 
 class Polytope {
   public:
+    // The arrays are read below their counts only.
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
     explicit Polytope(const ConvexSum& sum) : sum_(sum) {}
 
     /// An octahedron of three pairs of opposite support points; false when the sum is flat.

@@ -18,7 +18,7 @@ class Candidates {
     explicit Candidates(double tolerance) : tolerance_(tolerance) {}
 
     /// Points closer than the tolerance to an earlier one are merged with it (the deeper position stays).
-    void add(const ClippedPoint& point);
+    void add(const ClippedPoint& candidate);
     /// Leaves at most 8: the deepest, then always the one furthest from those taken.
     void reduce();
     double deepest() const;
@@ -40,8 +40,8 @@ struct FaceRegion {
     std::size_t axis = 2;  // the owner's axis across the face
     bool upper = false;    // which of the two
 
-    /// The face of a box across `axis`, or a cylinder's cap; on the side that looks along d.
-    FaceRegion(const Posed& owner, std::size_t axis, const Vec3& d);
+    /// The face of a box across its axis `across`, or a cylinder's cap; on the side that looks along d.
+    FaceRegion(const Posed& shape, std::size_t across, const Vec3& d);
 
     Vec3 local(const Vec3& p_W) const { return local_vector(p_W - centre); }
     Vec3 local_vector(const Vec3& d_W) const { return {dot(ex, d_W), dot(ey, d_W), dot(n, d_W)}; }

@@ -124,9 +124,9 @@ struct RobotType {
     std::uint64_t hash = 0;
 
     int base_nv() const { return free_base ? 6 : 0; }
-    std::optional<LinkId> find_link(const std::string& name) const;
-    std::optional<JointId> find_joint(const std::string& name) const;
-    std::optional<std::size_t> find_sensor(const std::string& name) const;
+    std::optional<LinkId> find_link(const std::string& wanted) const;
+    std::optional<JointId> find_joint(const std::string& wanted) const;
+    std::optional<std::size_t> find_sensor(const std::string& wanted) const;
 };
 
 /// Something with a state of its own. A static model that carries sensors is one too, fixed and without
@@ -171,7 +171,7 @@ struct Model {
     std::uint64_t hash = 0;
 
     const RobotType& type_of(RobotId robot) const { return types[robots[robot.index()].type.index()]; }
-    std::optional<RobotId> find_robot(const std::string& name) const;
+    std::optional<RobotId> find_robot(const std::string& wanted) const;
 };
 
 struct CompileOptions {

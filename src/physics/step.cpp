@@ -189,6 +189,13 @@ void expire_wrenches(Tick tick, RobotState& state) {
     std::erase_if(state.wrenches, [&](const TimedWrench& w) { return w.until <= tick + 1; });
 }
 
+/// A robot so fast that its way in one tick is no number: it would meet everybody, and spoil them.
+bool is_beyond_numbers(const RobotWork& work) {
+    for (const ShapeWork& shape : work.shapes)
+        if (!std::isfinite(shape.margin)) return true;
+    return !is_finite(work.origin);
+}
+
 }  // namespace
 
 Aabb interaction_bound(const Model& model, RobotId robot, const RobotState& state) {
@@ -211,12 +218,17 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
         place_robot(model, robots[i], *states[i], s.robots[i]);
         bounds[i] = s.robots[i].box;
     }
+    StepReport report;
     const std::span<RobotWork> works(s.robots.data(), count);
+    for (const RobotWork& work : works) {
+        if (!is_beyond_numbers(work)) continue;
+        report.not_finite = work.id;
+        return report;
+    }
     s.finder.find(model, works, s.contacts);
     recall_impulses(works, s.contacts);
     build_contact_islands(s, count);
 
-    StepReport report;
     for (std::size_t first = 0; first < count;) {
         std::size_t last = first + 1;
         while (last < count && s.group[s.members[last]] == s.group[s.members[first]]) ++last;

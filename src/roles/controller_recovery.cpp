@@ -166,6 +166,7 @@ void Controller::begin_leg(Tick from) {
         const std::vector<std::uint32_t> workers = roster_.workers();
         const std::vector<std::uint32_t> nowhere(holder_.size(), kNowhere);
         std::vector<double> speeds;
+        speeds.reserve(workers.size());
         for (const std::uint32_t worker : workers) speeds.push_back(roster_.seat(worker).threads);
         place = assign({islands, cost_, nowhere, speeds});
         for (std::uint32_t& seat : place) seat = workers[seat];

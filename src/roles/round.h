@@ -29,9 +29,9 @@ class Round {
     const std::vector<Order>& orders() const { return orders_; }
     std::uint32_t attempt() const { return attempt_; }
 
-    /// Writes plans: islands.of(i) to seat place[i]; `source`[robot]: where its state at `from` is. Later
-    /// calls are further attempts, for the islands given only.
-    void plan(const Islands& islands, std::span<const std::uint32_t> place,
+    /// Writes plans: part.of(i) to seat place[i]; `source`[robot]: where its state at `from` is. Later
+    /// calls are further attempts, for those islands only.
+    void plan(const Islands& part, std::span<const std::uint32_t> place,
               std::span<const std::uint32_t> source, const Roster& roster);
     /// To be kept by the Simulator at `place` on receiving the plan; writes an empty plan if it has none.
     void keep(std::uint32_t place, std::vector<RobotId> robots);

@@ -1,7 +1,7 @@
 // The stepping of a window: batches of islands, tick by tick, with their actual bounds.
 #include "roles/window_stepper.h"
 
-#include <time.h>
+#include <ctime>
 
 #include <algorithm>
 #include <numeric>
