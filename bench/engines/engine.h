@@ -1,0 +1,81 @@
+// One physics engine on one World, behind the same few calls: so that an accuracy case or a speed benchmark
+// is written once and does the same work on RoBOSS and on every peer. A World is the library's own plain data
+// (read from SDF or made in code); each adapter builds its engine's scene from it and says what it cannot
+// express.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "math/pose.h"
+#include "world/world.h"
+
+namespace roboss::bench {
+
+/// A link of an instance: indices into World::instances and its prototype's links.
+struct LinkRef {
+    std::size_t instance = 0, link = 0;
+};
+
+/// Axis `axis` of a joint of an instance.
+struct JointRef {
+    std::size_t instance = 0, joint = 0, axis = 0;
+};
+
+struct LinkState {
+    Pose X_WL;           // of the link frame
+    Vec3 angular, v_WC;  // rad/s; m/s of the centre of mass; world axes
+};
+
+struct JointState {
+    double position = 0, velocity = 0;  // rad, rad/s (or m, m/s)
+};
+
+struct EngineOptions {
+    double dt_s = 0.002;
+    double accuracy = 1;  // 1: as a careful user would set the engine up; each adapter says what it does
+};
+
+class Engine {
+  public:
+    virtual ~Engine() = default;
+    Engine() = default;
+    Engine(const Engine&) = delete;
+    Engine& operator=(const Engine&) = delete;
+
+    virtual std::string name() const = 0;      // with version: "MuJoCo 2.2.2"
+    virtual std::string settings() const = 0;  // solver, iterations, ...: how it was tuned, for the tables
+    virtual void step(int ticks) = 0;
+
+    virtual LinkState link(LinkRef link) const = 0;
+    virtual JointState joint(JointRef joint) const = 0;
+
+    virtual void set_joint(JointRef joint, JointState state) = 0;  // before the first step
+    virtual void set_base(std::size_t instance, const Pose& X_WM, const Vec3& angular,
+                          const Vec3& linear) = 0;
+
+    /// A motor with at most `max_effort` (N m, N) that holds `velocity`.
+    virtual void drive_velocity(JointRef joint, double velocity, double max_effort) = 0;
+    /// A servo: effort = clamp(stiffness (position - q) - damping qd, +-max_effort), implicit where the
+    /// engine can.
+    struct Servo {
+        double position = 0, stiffness = 0, damping = 0, max_effort = 0;
+    };
+    virtual void drive_position(JointRef joint, const Servo& servo) = 0;
+    virtual void drive_effort(JointRef joint, double effort) = 0;
+};
+
+using EngineMaker = std::unique_ptr<Engine> (*)(const World&, const EngineOptions&);
+
+/// nullptr with a reason where the engine cannot express the World.
+struct EngineKind {
+    std::string name;
+    EngineMaker make = nullptr;
+};
+
+/// RoBOSS first, then the peers that were built in.
+std::span<const EngineKind> engines();
+
+}  // namespace roboss::bench
