@@ -77,7 +77,8 @@ std::uint64_t model_hash(const Model& model) {
     for (const Vec3& v : {model.gravity, model.magnetic_field_T}) hash.add(v.x), hash.add(v.y), hash.add(v.z);
     if (const auto& s = model.spherical)
         for (double x : {s->latitude_rad, s->longitude_rad, s->elevation_m, s->heading_rad}) hash.add(x);
-    for (double x : {model.accuracy.tolerance, model.accuracy.friction_tolerance, model.accuracy.compliance})
+    for (double x : {model.accuracy.tolerance, model.accuracy.friction_tolerance, model.accuracy.compliance,
+                     model.accuracy.contact_compliance})
         hash.add(x);
     hash.add(static_cast<std::uint64_t>(model.accuracy.newton_max));
     hash.add(static_cast<std::uint64_t>(model.accuracy.friction_max));

@@ -157,9 +157,9 @@ TEST(ModelHash, ChangesWithSensors) {
 TEST(ModelHash, ChangesWithTheAccuracy) {
     const std::uint64_t before = hash_of(base_world());
     const std::function<void(Accuracy&)> changes[] = {
-        [](Accuracy& a) { a.tolerance *= 2; }, [](Accuracy& a) { a.friction_tolerance *= 2; },
-        [](Accuracy& a) { a.newton_max++; }, [](Accuracy& a) { a.friction_max++; },
-        [](Accuracy& a) { a.compliance *= 2; }};
+        [](Accuracy& a) { a.tolerance *= 2; },  [](Accuracy& a) { a.friction_tolerance *= 2; },
+        [](Accuracy& a) { a.newton_max++; },    [](Accuracy& a) { a.friction_max++; },
+        [](Accuracy& a) { a.compliance *= 2; }, [](Accuracy& a) { a.contact_compliance *= 2; }};
     for (const auto& change : changes) {
         CompileOptions options;
         change(options.accuracy);

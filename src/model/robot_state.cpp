@@ -46,7 +46,7 @@ std::uint64_t state_hash(RobotId robot, Tick tick, const RobotState& state) {
     for (const ContactMemory& c : state.contacts) {
         hash.add(static_cast<std::uint64_t>(c.other_robot) << 32 | c.shape);
         hash.add(static_cast<std::uint64_t>(c.other_shape) << 32 | c.feature);
-        hash.add(c.impulse);
+        for (double x : {c.impulse, c.load, c.friction.x, c.friction.y, c.friction.z}) hash.add(x);
     }
     return hash.value();
 }
@@ -102,7 +102,7 @@ class Reader {
 };
 
 constexpr std::size_t kWrenchWords = 8;
-constexpr std::size_t kContactWords = 3;
+constexpr std::size_t kContactWords = 7;
 
 }  // namespace
 
@@ -119,7 +119,8 @@ void encode(const RobotState& state, std::vector<std::uint8_t>& out) {
         w.word(t.link.value), w.vector(t.force), w.vector(t.torque),
             w.word(static_cast<std::uint64_t>(t.until));
     for (const ContactMemory& c : state.contacts)
-        w.pair(c.other_robot, c.shape), w.pair(c.other_shape, c.feature), w.number(c.impulse);
+        w.pair(c.other_robot, c.shape), w.pair(c.other_shape, c.feature), w.number(c.impulse),
+            w.number(c.load), w.vector(c.friction);
 }
 
 Result<RobotState> decode_state(std::span<const std::uint8_t> bytes, const RobotType& type) {
@@ -156,7 +157,7 @@ Result<RobotState> decode_state(std::span<const std::uint8_t> bytes, const Robot
         const std::uint64_t a = r.word(), b = r.word();
         c.other_robot = static_cast<std::uint32_t>(a >> 32), c.shape = static_cast<std::uint32_t>(a);
         c.other_shape = static_cast<std::uint32_t>(b >> 32), c.feature = static_cast<std::uint32_t>(b);
-        c.impulse = r.number();
+        c.impulse = r.number(), c.load = r.number(), c.friction = r.vector();
     }
     if (!r.complete())
         return Error{"the bytes of a state of type '" + type.name + "' have the wrong length",

@@ -30,15 +30,17 @@ struct TimedWrench {
     friend bool operator==(const TimedWrench&, const TimedWrench&) = default;
 };
 
-/// The normal impulse of a contact at the last tick, the solver's first guess of the friction bound. Owned by
-/// the lower robot id of the pair; dropped at the first tick without the contact. Kept sorted by key (all
-/// members but the impulse).
+/// The impulses of a contact at the last tick: the solver's first guess of the friction bound, and the load
+/// that its rows start from. Owned by the lower robot id of the pair; dropped at the first tick without the
+/// contact. Kept sorted by key (the first four members).
 struct ContactMemory {
     std::uint32_t other_robot = 0;  // RobotId of the other, Id::kNone for static scenery
     std::uint32_t shape = 0;        // of this robot
     std::uint32_t other_shape = 0;  // of the other robot or of Model::statics
     std::uint32_t feature = 0;
-    double impulse = 0;  // N s
+    double impulse = 0;  // normal, N s
+    double load = 0;     // the smaller of the last two normal impulses, N s: what is no blow
+    Vec3 friction;       // N s, world axes
     friend bool operator==(const ContactMemory&, const ContactMemory&) = default;
 };
 

@@ -163,7 +163,10 @@ void recall_impulses(std::span<RobotWork> robots, std::span<Contact> contacts) {
                 return std::tuple(x.other_robot, x.shape, x.other_shape, x.feature);
             };
             while (m != memory.end() && key_of(*m) < key) ++m;
-            contact.impulse = m != memory.end() && key_of(*m) == key ? m->impulse : 0.0;
+            const bool known = m != memory.end() && key_of(*m) == key;
+            contact.impulse = known ? m->impulse : 0.0;
+            contact.load = known ? m->load : 0.0;
+            contact.friction = known ? m->friction : Vec3{};
         }
     }
 }
@@ -173,7 +176,7 @@ void remember_impulses(std::span<RobotWork> robots, std::span<const Contact> con
     for (const Contact& c : contacts) {
         if (c.impulse <= 0) continue;
         robots[static_cast<std::size_t>(c.robot_a)].state->contacts.push_back(
-            {other_id(robots, c), c.shape_a, c.shape_b, c.feature, c.impulse});
+            {other_id(robots, c), c.shape_a, c.shape_b, c.feature, c.impulse, c.load, c.friction});
     }
 }
 

@@ -20,6 +20,8 @@ struct Contact {
     double gap = 0;
     double mu = 0, restitution = 0, bounce_threshold = 0;
     double impulse = 0;  // normal, N s: remembered, then solved
+    Vec3 friction;       // tangential, N s, world axes: likewise
+    double load = 0;     // normal, N s: the smaller of the impulses of the last two ticks, so not a blow
 };
 
 /// Finds all contacts of the island. `robots` ascending by id. Result sorted by (robot_a, other id, shapes,

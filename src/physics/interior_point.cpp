@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/row_math.h"
 #include "physics/solver.h"
 
 namespace roboss {
@@ -18,49 +19,23 @@ constexpr double kLeastBound =
     1e-9;  // of the start's normal impulse; a smaller friction bound counts as none
 constexpr double kToBoundary = 0.98;  // share of the way to the nearest bound that a step may take
 
-/// Mobility that a hard row acts on, from its compliance.
-double mobility(double compliance, const Accuracy& accuracy) {
-    return compliance / accuracy.compliance;
-}
-
 /// Half of the squared room left in the friction disc, kept above rounding.
-double room(const ContactRow& row) {
-    const double full = row.bound * row.bound;
-    const double left = full - row.impulse_t1 * row.impulse_t1 - row.impulse_t2 * row.impulse_t2;
+double room(const FrictionDisc& disc) {
+    const double full = disc.bound * disc.bound;
+    const double left = full - disc.impulse_1 * disc.impulse_1 - disc.impulse_2 * disc.impulse_2;
     return 0.5 * std::max(left, kLeastRoom * full);
 }
 
 /// Bounds that leave no room (a motor without effort): the impulse is what it is.
-bool is_fixed(const JointRow& row) {
+bool is_fixed(const BoundedRow& row) {
     return !(row.high > row.low);
 }
 
-/// Right-hand side and step of one row's impulses: change = offset - D * (change of velocity).
-struct Offsets {
-    double n = 0, t1 = 0, t2 = 0;
-};
-
-Offsets prepare(ContactRow& row, double target, double mu) {
-    Offsets e;
-    row.d_n = 1.0 / (row.compliance_n + row.slack_n / row.impulse_n);
-    e.n = row.d_n * (target - row.u_n - row.compliance_n * row.impulse_n + mu / row.impulse_n);
-    row.d_11 = row.d_12 = row.d_22 = 0;
-    if (row.bound <= 0) return e;
-    const double left = room(row), x = row.impulse_t1, y = row.impulse_t2;
-    const double a = row.compliance_t + row.slack_t, s = row.slack_t / left;
-    const double a11 = a + s * x * x, a12 = s * x * y, a22 = a + s * y * y;
-    const double inverse = 1.0 / (a11 * a22 - a12 * a12);
-    row.d_11 = a22 * inverse, row.d_12 = -a12 * inverse, row.d_22 = a11 * inverse;
-    const double k = row.compliance_t + mu / left;
-    const double r1 = -row.u_t1 - k * x, r2 = -row.u_t2 - k * y;
-    e.t1 = row.d_11 * r1 + row.d_12 * r2, e.t2 = row.d_12 * r1 + row.d_22 * r2;
-    return e;
-}
-
-/// The same for a joint row; bounds that are infinite have no multiplier.
-double prepare(JointRow& row, double v, double mu) {
+/// Curvature of one row, and what its impulse would change by if the velocity did not: change = offset - D *
+/// (change of velocity). Bounds that are infinite have no multiplier.
+double prepare(BoundedRow& row, double mu) {
     if (is_fixed(row)) return row.d = 0;
-    double stiffness = row.compliance, rest = row.target - v - row.compliance * row.impulse;
+    double stiffness = row.compliance, rest = row.target - row.u - row.compliance * row.impulse;
     if (std::isfinite(row.low)) {
         stiffness += row.slack_low / (row.impulse - row.low);
         rest += mu / (row.impulse - row.low);
@@ -73,68 +48,91 @@ double prepare(JointRow& row, double v, double mu) {
     return row.d * rest;
 }
 
-/// Largest step <= alpha that keeps x + alpha * dx above a fifth of nothing.
+Tangential prepare(FrictionDisc& disc, double mu) {
+    disc.d_11 = disc.d_12 = disc.d_22 = 0;
+    if (disc.bound <= 0) return {};
+    const double left = room(disc), x = disc.impulse_1, y = disc.impulse_2;
+    const double a = disc.compliance + disc.slack, s = disc.slack / left;
+    const double a11 = a + s * x * x, a12 = s * x * y, a22 = a + s * y * y;
+    const double inverse = 1.0 / (a11 * a22 - a12 * a12);
+    disc.d_11 = a22 * inverse, disc.d_12 = -a12 * inverse, disc.d_22 = a11 * inverse;
+    const double k = disc.compliance + mu / left;
+    const double r1 = -disc.u_1 - k * x, r2 = -disc.u_2 - k * y;
+    return {disc.d_11 * r1 + disc.d_12 * r2, disc.d_12 * r1 + disc.d_22 * r2};
+}
+
+/// Largest step <= alpha that keeps x + alpha * dx above zero.
 double limit(double alpha, double x, double dx) {
     return dx < 0 ? std::min(alpha, -kToBoundary * x / dx) : alpha;
 }
 
 /// Largest step <= alpha that keeps the friction impulse inside its disc.
-double limit_disc(double alpha, const ContactRow& row, double d1, double d2) {
+double limit_disc(double alpha, const FrictionDisc& disc, double d1, double d2) {
     const double a = d1 * d1 + d2 * d2;
     if (a == 0) return alpha;
-    const double b = row.impulse_t1 * d1 + row.impulse_t2 * d2;
-    const double c = -2.0 * room(row);  // negative inside
+    const double b = disc.impulse_1 * d1 + disc.impulse_2 * d2;
+    const double c = -2.0 * room(disc);  // negative inside
     const double root = (-b + std::sqrt(b * b - a * c)) / a;
     return std::min(alpha, kToBoundary * root);
 }
 
-struct Gap {
+/// Mean product of a bound's room and its multiplier: what the method drives to zero.
+double mean_gap(IslandRows& rows) {
     double sum = 0;
     int count = 0;
-    void add(double product) { sum += product, ++count; }
-    double mean() const { return count > 0 ? sum / count : 0.0; }
-};
+    const auto add = [&](double product) { sum += product, ++count; };
+    for_each_bounded(rows, [&](BoundedRow& row) {
+        if (is_fixed(row)) return;
+        if (std::isfinite(row.low)) add(row.slack_low * (row.impulse - row.low));
+        if (std::isfinite(row.high)) add(row.slack_high * (row.high - row.impulse));
+    });
+    for_each_disc(rows, [&](FrictionDisc& disc) {
+        if (disc.bound > 0) add(disc.slack * room(disc));
+    });
+    return count > 0 ? sum / count : 0.0;
+}
 
-Gap measure_gap(std::span<const JointRow> joints, std::span<const ContactRow> contacts) {
-    Gap gap;
-    for (const JointRow& row : joints) {
-        if (is_fixed(row)) continue;
-        if (std::isfinite(row.low)) gap.add(row.slack_low * (row.impulse - row.low));
-        if (std::isfinite(row.high)) gap.add(row.slack_high * (row.high - row.impulse));
+/// In the middle of the bounds; `reach`: an impulse that fits the island's speed, where a bound is infinite.
+void start_inside(BoundedRow& row, double speed, double reach) {
+    row.slack_low = row.slack_high = row.slack_low_step = row.slack_high_step = 0;
+    row.impulse = row.low;
+    if (is_fixed(row)) return;
+    if (std::isfinite(row.low) && std::isfinite(row.high)) {
+        row.impulse = 0.5 * (row.low + row.high);
+    } else {
+        row.impulse = std::isfinite(row.low)    ? row.low + reach
+                      : std::isfinite(row.high) ? row.high - reach
+                                                : 0.0;
     }
-    for (const ContactRow& row : contacts) {
-        gap.add(row.slack_n * row.impulse_n);
-        if (row.bound > 0) gap.add(row.slack_t * room(row));
-    }
-    return gap;
+    const double product = speed * reach;
+    row.slack_low = std::isfinite(row.low) ? product / (row.impulse - row.low) : 0.0;
+    row.slack_high = std::isfinite(row.high) ? product / (row.high - row.impulse) : 0.0;
+}
+
+/// `normal`: the start's normal impulse, `product`: that of bounds and multipliers.
+void start_inside(FrictionDisc& disc, double normal, double product) {
+    disc.impulse_1 = disc.impulse_2 = 0;
+    disc.slack = disc.slack_step = 0;
+    if (disc.bound < kLeastBound * normal) disc.bound = 0;
+    if (disc.bound > 0) disc.slack = product / room(disc);
 }
 
 /// A start in the middle of all bounds, at a speed scale that fits the island.
-void start_inside(const Accuracy& accuracy, std::span<JointRow> joints, std::span<ContactRow> contacts,
-                  double speed) {
-    for (JointRow& row : joints) {
-        row.slack_low = row.slack_high = row.slack_low_step = row.slack_high_step = 0;
-        row.impulse = row.low;
-        if (is_fixed(row)) continue;
-        const double reach = speed / mobility(row.compliance, accuracy);
-        if (std::isfinite(row.low) && std::isfinite(row.high)) {
-            row.impulse = 0.5 * (row.low + row.high);
-        } else {
-            row.impulse = std::isfinite(row.low)    ? row.low + reach
-                          : std::isfinite(row.high) ? row.high - reach
-                                                    : 0.0;
-        }
-        const double product = speed * reach;
-        row.slack_low = std::isfinite(row.low) ? product / (row.impulse - row.low) : 0.0;
-        row.slack_high = std::isfinite(row.high) ? product / (row.high - row.impulse) : 0.0;
+void start_inside(const Accuracy& accuracy, IslandRows& rows, double speed) {
+    const auto reach = [&](const BoundedRow& row, double relative) {
+        return speed * relative / row.compliance;  // a row's compliance over `relative` is its mobility
+    };
+    for (JointRow& row : rows.joints) start_inside(row, speed, reach(row, accuracy.compliance));
+    for (CouplingRow& row : rows.couplings) start_inside(row, speed, reach(row, accuracy.compliance));
+    for (ContactRow& row : rows.contacts) {
+        const double normal = reach(row.normal, accuracy.contact_compliance);
+        start_inside(row.normal, speed, normal);
+        start_inside(row.slip, normal, speed * normal);
     }
-    for (ContactRow& row : contacts) {
-        row.impulse_n = speed / mobility(row.compliance_n, accuracy);
-        row.slack_n = speed;
-        row.impulse_t1 = row.impulse_t2 = 0;
-        row.slack_t = row.slack_t_step = 0;
-        if (row.bound < kLeastBound * row.impulse_n) row.bound = 0;
-        if (row.bound > 0) row.slack_t = row.slack_n * row.impulse_n / room(row);
+    for (AngularRow& row : rows.angulars) {
+        const double normal = rows.contacts[row.contact].normal.impulse;
+        start_inside(row.spin, speed, normal);
+        start_inside(row.roll, normal, speed * normal);
     }
 }
 
@@ -142,14 +140,14 @@ void start_inside(const Accuracy& accuracy, std::span<JointRow> joints, std::spa
 
 void IslandSolver::interior_point(const Problem& p, std::vector<double>& v, SolveReport& report) {
     double speed = 0.1;  // m/s: generous, so that the start is more central than right
-    for (const ContactRow& row : p.contacts)
-        speed =
-            std::max({speed, std::fabs(p.target(row) - row.u_n), std::fabs(row.u_t1), std::fabs(row.u_t2)});
-    start_inside(p.accuracy, p.joints, p.contacts, speed);
-    const double gap_start = measure_gap(p.joints, p.contacts).mean();
+    for (const ContactRow& row : p.rows.contacts)
+        speed = std::max({speed, std::fabs(row.normal.target - row.normal.u), std::fabs(row.slip.u_1),
+                          std::fabs(row.slip.u_2)});
+    start_inside(p.accuracy, p.rows, speed);
+    const double gap_start = mean_gap(p.rows);
     double centring = 0.2;
     for (int i = 0; i < kStepsMax; ++i) {
-        const double gap = measure_gap(p.joints, p.contacts).mean();
+        const double gap = mean_gap(p.rows);
         report.residual = gradient(p);
         if (gap <= kGapEnd * gap_start && report.residual <= kBalanced) return;
         const double alpha = interior_step(p, centring * gap, v);
@@ -160,14 +158,14 @@ void IslandSolver::interior_point(const Problem& p, std::vector<double>& v, Solv
 }
 
 /// Steps of all impulses and multipliers that follow from that of the velocities, and the largest share of
-/// them that keeps everything inside its bounds.
+/// them that keeps everything inside its bounds. `changes_` starts as the offsets of prepare.
 double IslandSolver::longest_step(const Problem& p, double mu) {
     double alpha = 1;
     std::size_t at = 0;
-    for (JointRow& row : p.joints) {
-        double& change = offsets_[at++];
-        if (is_fixed(row)) continue;
-        change -= row.d * step_[static_cast<std::size_t>(row.dof)];
+    for_each_bounded(p.rows, [&](BoundedRow& row) {
+        double& change = changes_[at++];
+        if (is_fixed(row)) return;
+        change -= row.d * row.du;
         if (std::isfinite(row.low)) {
             const double x = row.impulse - row.low;
             row.slack_low_step = (mu - row.slack_low * (x + change)) / x;
@@ -178,56 +176,56 @@ double IslandSolver::longest_step(const Problem& p, double mu) {
             row.slack_high_step = (mu - row.slack_high * (x - change)) / x;
             alpha = limit(limit(alpha, x, -change), row.slack_high, row.slack_high_step);
         }
-    }
-    for (ContactRow& row : p.contacts) {
-        double *n = &offsets_[at], *t1 = n + 1, *t2 = n + 2;
-        at += 3;
-        *n -= row.d_n * row.du_n;
-        *t1 -= row.d_11 * row.du_t1 + row.d_12 * row.du_t2;
-        *t2 -= row.d_12 * row.du_t1 + row.d_22 * row.du_t2;
-        row.slack_n_step = (mu - row.slack_n * (row.impulse_n + *n)) / row.impulse_n;
-        alpha = limit(limit(alpha, row.impulse_n, *n), row.slack_n, row.slack_n_step);
-        if (row.bound <= 0) continue;
-        const double left = room(row);
-        row.slack_t_step = (mu - row.slack_t * (left - row.impulse_t1 * *t1 - row.impulse_t2 * *t2)) / left;
-        alpha = limit_disc(limit(alpha, row.slack_t, row.slack_t_step), row, *t1, *t2);
-    }
+    });
+    for_each_disc(p.rows, [&](FrictionDisc& disc) {
+        double &t1 = changes_[at], &t2 = changes_[at + 1];
+        at += 2;
+        t1 -= disc.d_11 * disc.du_1 + disc.d_12 * disc.du_2;
+        t2 -= disc.d_12 * disc.du_1 + disc.d_22 * disc.du_2;
+        if (disc.bound <= 0) return;
+        const double left = room(disc);
+        disc.slack_step = (mu - disc.slack * (left - disc.impulse_1 * t1 - disc.impulse_2 * t2)) / left;
+        alpha = limit_disc(limit(alpha, disc.slack, disc.slack_step), disc, t1, t2);
+    });
     return alpha;
 }
 
 /// One Newton step towards complementarity `mu`; returns its length, 0 if rounding has left no step to take.
 double IslandSolver::interior_step(const Problem& p, double mu, std::vector<double>& v) {
-    offsets_.clear();  // what the impulses would change by if the velocities did not
-    for (JointRow& row : p.joints) {
-        offsets_.push_back(prepare(row, v[static_cast<std::size_t>(row.dof)], mu));
-        g_[static_cast<std::size_t>(row.dof)] -= offsets_.back();
-    }
-    for (ContactRow& row : p.contacts) {
-        const Offsets e = prepare(row, p.target(row), mu);
-        for (double x : {e.n, e.t1, e.t2}) offsets_.push_back(x);
-        for (std::size_t c = row.first; c < row.last; ++c) {
-            const ContactColumn& k = p.columns[c];
-            g_[static_cast<std::size_t>(k.dof)] -= k.n * e.n + k.t1 * e.t1 + k.t2 * e.t2;
-        }
-    }
+    changes_.clear();
+    for_each_bounded(p.rows, [&](BoundedRow& row) {
+        changes_.push_back(prepare(row, mu));
+        std::swap(row.impulse, changes_.back());  // for add_impulses
+    });
+    for_each_disc(p.rows, [&](FrictionDisc& disc) {
+        const Tangential t = prepare(disc, mu);
+        changes_.push_back(disc.impulse_1), changes_.push_back(disc.impulse_2);
+        disc.impulse_1 = t.t1, disc.impulse_2 = t.t2;
+    });
+    std::fill(step_.begin(), step_.end(), 0.0);
+    add_impulses(p.rows, step_);
+    for (std::size_t i = 0; i < n_; ++i) g_[i] -= step_[i];
+    std::size_t at = 0;
+    for_each_bounded(p.rows, [&](BoundedRow& row) { std::swap(row.impulse, changes_[at++]); });
+    for_each_disc(p.rows, [&](FrictionDisc& disc) {
+        std::swap(disc.impulse_1, changes_[at++]), std::swap(disc.impulse_2, changes_[at++]);
+    });
     find_step(p);
     const double alpha = longest_step(p, mu);
     double finite = alpha - alpha;
     for (double x : step_) finite += x - x;
     if (finite != 0) return 0;
     move(p, alpha, v);
-    std::size_t at = 0;
-    for (JointRow& row : p.joints) {
-        row.impulse += alpha * offsets_[at++];
+    at = 0;
+    for_each_bounded(p.rows, [&](BoundedRow& row) {
+        row.impulse += alpha * changes_[at++];
         row.slack_low += alpha * row.slack_low_step;
         row.slack_high += alpha * row.slack_high_step;
-    }
-    for (ContactRow& row : p.contacts) {
-        row.impulse_n += alpha * offsets_[at];
-        row.impulse_t1 += alpha * offsets_[at + 1], row.impulse_t2 += alpha * offsets_[at + 2];
-        row.slack_n += alpha * row.slack_n_step, row.slack_t += alpha * row.slack_t_step;
-        at += 3;
-    }
+    });
+    for_each_disc(p.rows, [&](FrictionDisc& disc) {
+        disc.impulse_1 += alpha * changes_[at++], disc.impulse_2 += alpha * changes_[at++];
+        disc.slack += alpha * disc.slack_step;
+    });
     return alpha;
 }
 

@@ -26,7 +26,7 @@ struct DofState {
 JointRow bounded_row(int dof, double target, double compliance, double low, double high, double mend) {
     JointRow row;
     row.dof = dof, row.target = target, row.compliance = compliance;
-    row.low = low, row.high = high, row.mend = mend;
+    row.low = low, row.high = high, row.position_target = target + mend;
     return row;
 }
 
@@ -80,6 +80,7 @@ void add_motor(const DofState& s, int dof, std::vector<JointRow>& rows) {
             break;
         }
     }
+    row.position_target = row.target;
     row.dof = dof;
     rows.push_back(row);
 }

@@ -1,48 +1,92 @@
 // The rows of a contact island: everything that pushes besides inertia and explicit forces, in one form each.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "physics/contact.h"
 
 namespace roboss {
 
-/// A bounded row on one degree of freedom (motor, joint friction, limit): impulse = clamp((target - v) /
-/// compliance, low, high).
-struct JointRow {
-    int dof = 0;  // in the contact island
-    double target = 0, compliance = 1, low = 0, high = 0;
-    double mend =
-        0;  // added to the target for the way of this tick: a violated limit is mended without speed
+/// One direction with a bounded impulse: clamp((target - u) / compliance, low, high).
+struct BoundedRow {
+    double target = 0;           // for the velocity
+    double position_target = 0;  // for the way of this tick, where what is violated is mended without speed
+    double compliance = 1, low = 0, high = 0;
+    double u = 0, du = 0;  // velocity along it; per unit step of the line search
     double impulse = 0;
     double d = 0;                          // minus the derivative of the impulse by the velocity
     double slack_low = 0, slack_high = 0;  // multipliers of the bounds (interior point), and their steps
     double slack_low_step = 0, slack_high_step = 0;
 };
 
+/// Friction in a plane: impulse = (target - u) / compliance, cut to the disc of radius `bound` = coefficient
+/// * normal impulse (isotropic Coulomb).
+struct FrictionDisc {
+    double coefficient = 0, bound = 0, compliance = 1;
+    double target_1 = 0, target_2 = 0;
+    double u_1 = 0, u_2 = 0, du_1 = 0, du_2 = 0;  // velocity minus target; per unit step of the line search
+    double impulse_1 = 0, impulse_2 = 0;
+    double d_11 = 0, d_12 = 0, d_22 = 0;  // minus the derivative of the impulses by the velocity
+    double slack = 0, slack_step = 0;     // multiplier of the bound (interior point)
+    double bound_error = 0,
+           relaxation = 1;  // of the last update of the bound: what it lacked, the share given
+};
+
+/// Motor, joint friction or limit: a row on one degree of freedom.
+struct JointRow : BoundedRow {
+    int dof = 0;  // in the contact island
+};
+
+/// One entry of a coupling row's Jacobian.
+struct CouplingColumn {
+    int dof = 0;  // in the contact island
+    double j = 0;
+};
+
+/// A row over several degrees of freedom of one robot (gearbox, mimic, closed loop): u = sum of j * v.
+struct CouplingRow : BoundedRow {
+    std::size_t first = 0, last = 0;  // columns
+};
+
 /// One column of a contact's Jacobian: velocity of A against B at the point, along (normal, tangent 1,
-/// tangent 2), per unit of one degree of freedom.
+/// tangent 2), per unit of one degree of freedom. In an AngularRow: angular velocity.
 struct ContactColumn {
     int dof = 0;
     double n = 0, t1 = 0, t2 = 0;
 };
 
-/// A contact point as rows. Normal: impulse = max(0, (target - u_n) / compliance). Friction: impulse = -u_t /
-/// compliance_t, cut to the disc of radius `bound` = mu * normal impulse (isotropic Coulomb).
+/// A contact point: normal (low 0, no high) and friction at the point.
 struct ContactRow {
     std::size_t first = 0, last = 0;  // columns
-    double target = 0;                // for the velocity
-    double position_target = 0;       // for the way of this tick
-    double compliance_n = 1, compliance_t = 1;
-    double mu = 0, bound = 0;
-    double u_n = 0, u_t1 = 0, u_t2 = 0;  // velocity at the point
-    double impulse_n = 0, impulse_t1 = 0, impulse_t2 = 0;
-    double du_n = 0, du_t1 = 0, du_t2 = 0;         // per unit step of the line search
-    double d_n = 0, d_11 = 0, d_12 = 0, d_22 = 0;  // minus the derivative of the impulses by the velocity
-    double slack_n = 0, slack_t = 0;  // multipliers of the bounds (interior point), and their steps
-    double slack_n_step = 0, slack_t_step = 0;
-    double bound_error = 0,
-           relaxation = 1;  // of the last update of the bound: what it lacked, the share that was given
+    BoundedRow normal;
+    FrictionDisc slip;
+};
+
+/// Torsional friction about the normal and rolling friction about the tangents, bounded by the normal impulse
+/// of a contact of the same island.
+struct AngularRow {
+    std::size_t first = 0, last = 0;  // contact columns
+    std::size_t contact = 0;          // index of the ContactRow whose normal impulse bounds it
+    double torsional = 0;             // m: torque per normal force
+    BoundedRow spin;
+    double spin_error = 0, spin_relaxation = 1;  // as FrictionDisc::bound_error and relaxation
+    FrictionDisc roll;                           // coefficient in m
+};
+
+/// All rows of one contact island.
+struct IslandRows {
+    std::vector<JointRow> joints;
+    std::vector<CouplingColumn> coupling_columns;
+    std::vector<CouplingRow> couplings;
+    std::vector<ContactColumn> columns;
+    std::vector<ContactRow> contacts;
+    std::vector<AngularRow> angulars;
+
+    void clear() {
+        joints.clear(), coupling_columns.clear(), couplings.clear();
+        columns.clear(), contacts.clear(), angulars.clear();
+    }
 };
 
 /// Motors, joint friction, limits of one robot; `offset` is its first dof in the contact island. Returns true
@@ -56,7 +100,6 @@ bool moves_freely(const Model& model, const RobotWork& robot);
 /// Rows of one contact; offsets[i] is the first dof of robots[i] in the contact island. Returns true if the
 /// way of this tick needs another target than the velocity (penetration to mend, an impact inside the tick).
 bool add_contact_row(const Model& model, const Contact& contact, std::span<const RobotWork> robots,
-                     std::span<const int> offsets, std::vector<ContactColumn>& columns,
-                     std::vector<ContactRow>& rows);
+                     std::span<const int> offsets, IslandRows& rows);
 
 }  // namespace roboss

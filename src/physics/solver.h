@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "physics/hessian.h"
 #include "physics/rows.h"
 
 namespace roboss {
@@ -24,42 +25,28 @@ struct SolveReport {
 
 class IslandSolver {
   public:
-    /// `robots`: the contact island, `offsets` their first dofs; v (size n) starts as the velocities before
-    /// the tick and ends as the solution. `position`: solve for the way of the tick (position targets)
-    /// instead of the velocity.
-    SolveReport solve(const Accuracy& accuracy, std::span<const RobotWork* const> robots,
-                      std::span<const int> offsets, std::span<JointRow> joints,
-                      std::span<const ContactColumn> columns, std::span<ContactRow> contacts, bool position,
-                      std::vector<double>& v);
-
-  private:
+    /// What is asked for: `robots`, the contact island, and `offsets`, their first dofs. `position`: solve
+    /// for the way of the tick (position targets) instead of the velocity.
     struct Problem {
         const Accuracy& accuracy;
         std::span<const RobotWork* const> robots;
         std::span<const int> offsets;
-        std::span<JointRow> joints;
-        std::span<const ContactColumn> columns;
-        std::span<ContactRow> contacts;
+        IslandRows& rows;
         bool position = false;
-        double target(const ContactRow& row) const { return position ? row.position_target : row.target; }
     };
+
+    /// v (size n) starts as the velocities before the tick and ends as the solution; the rows end with their
+    /// impulses.
+    SolveReport solve(const Problem& problem, std::vector<double>& v);
+
+  private:
     // solver.cpp: shared pieces, then Newton's method
     void start(const Problem& p, std::span<const double> v);
-    void set_profile(const Problem& p);
     void times_mass(const Problem& p, std::span<const double> x, std::vector<double>& y) const;
-    void set_contact_steps(const Problem& p, const double* x) const;
-    double* row_of(std::size_t i) {
-        return h_.data() + (tree_ ? i * n_ : row_at_[i]);
-    }  // Hessian row, by column
-    void assemble(const Problem& p);
-    void add_contact(const Problem& p, const ContactRow& row);
-    void factor_and_solve(const Problem& p);
     void find_step(const Problem& p);
     void move(const Problem& p, double alpha, std::vector<double>& v);
     double gradient(const Problem& p);
-    double update_impulses(const Problem& p, std::span<const double> v, bool update_bounds);
-    void set_curvatures(const Problem& p, std::span<const double> v);
-    double line_search(const Problem& p, std::span<const double> v);
+    double line_search(const Problem& p);
     bool newton(const Problem& p, std::vector<double>& v, SolveReport& report);
     // interior_point.cpp
     void interior_point(const Problem& p, std::vector<double>& v, SolveReport& report);
@@ -67,16 +54,12 @@ class IslandSolver {
     double interior_step(const Problem& p, double mu, std::vector<double>& v);
 
     std::size_t n_ = 0;
-    bool tree_ = false;       // one robot without self contact: the mass matrix' pattern has no fill-in
+    Hessian hessian_;
     std::vector<double> mv_;  // M v
     std::vector<double> g_;   // gradient
     std::vector<double> step_, m_step_;
     std::vector<double> start_bounds_;  // friction bounds of the last tick
-    std::vector<double> offsets_;       // interior point: changes of the impulses
-    std::vector<double> h_;             // Hessian: tree: n x n; else skyline rows
-    std::vector<std::size_t> first_;    // skyline: first column of a row
-    std::vector<std::size_t>
-        row_at_;  // skyline: h_ index of column 0 of a row (may wrap below zero, unsigned)
+    std::vector<double> changes_;       // interior point: steps of the impulses
 };
 
 }  // namespace roboss

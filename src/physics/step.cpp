@@ -20,9 +20,7 @@ struct StepScratch::Impl {
     std::vector<Contact*> island_contacts;
     std::vector<const RobotWork*> island_robots;
     std::vector<int> offsets, island_offsets;
-    std::vector<JointRow> joints;
-    std::vector<ContactColumn> columns;
-    std::vector<ContactRow> rows;
+    IslandRows rows;
     std::vector<double> v, v_before;
     IslandSolver solver;
     FreeBuffer free_buffer;
@@ -87,9 +85,9 @@ void build_contact_islands(Impl& s, std::size_t count) {
 
 /// Marks the robots that a contact pushes, in their velocity or on their way.
 void mark_pushed(Impl& s) {
-    for (std::size_t c = 0; c < s.rows.size(); ++c) {
+    for (std::size_t c = 0; c < s.rows.contacts.size(); ++c) {
         const Contact& contact = *s.island_contacts[c];
-        if (contact.impulse <= 0 && s.rows[c].impulse_n <= 0) continue;
+        if (contact.impulse <= 0 && s.rows.contacts[c].normal.impulse <= 0) continue;
         s.robots[static_cast<std::size_t>(contact.robot_a)].pushed = true;
         if (contact.robot_b >= 0) s.robots[static_cast<std::size_t>(contact.robot_b)].pushed = true;
     }
@@ -117,7 +115,7 @@ void finish_island(const Model& model, Impl& s, std::span<const std::uint32_t> m
 bool gather_island(const Model& model, Impl& s, std::span<const std::uint32_t> members,
                    std::span<Contact> contacts) {
     s.island_robots.clear(), s.island_offsets.clear();
-    s.joints.clear(), s.columns.clear(), s.rows.clear(), s.v.clear();
+    s.rows.clear(), s.v.clear();
     s.offsets.resize(s.robots.size());
     bool split = false;
     for (std::uint32_t m : members) {
@@ -128,18 +126,31 @@ bool gather_island(const Model& model, Impl& s, std::span<const std::uint32_t> m
         s.island_offsets.push_back(offset);
         compute_impulse(model, model.dt_s, 1.0, work.state->q, work.state->v, work);
         compute_mass_matrix(*work.type, model.dt_s, work);
-        split |= add_joint_rows(model, work, offset, s.joints);
+        split |= add_joint_rows(model, work, offset, s.rows.joints);
         s.v.insert(s.v.end(), work.state->v.begin(), work.state->v.end());
     }
     for (std::uint32_t m : members) {  // contacts are sorted by their first robot
         const auto first = std::lower_bound(contacts.begin(), contacts.end(), static_cast<int>(m),
                                             [](const Contact& c, int robot) { return c.robot_a < robot; });
         for (auto c = first; c != contacts.end() && c->robot_a == static_cast<int>(m); ++c) {
-            split |= add_contact_row(model, *c, s.robots, s.offsets, s.columns, s.rows);
+            split |= add_contact_row(model, *c, s.robots, s.offsets, s.rows);
             s.island_contacts.push_back(&*c);
         }
     }
     return split;
+}
+
+/// The solved impulses, into the contacts: what the next tick starts from.
+void take_impulses(Impl& s) {
+    for (std::size_t c = 0; c < s.rows.contacts.size(); ++c) {
+        const ContactRow& row = s.rows.contacts[c];
+        Contact& contact = *s.island_contacts[c];
+        Vec3 t1, t2;
+        tangents(contact.normal, t1, t2);
+        contact.load = std::min(contact.impulse, row.normal.impulse);
+        contact.impulse = row.normal.impulse;
+        contact.friction = t1 * row.slip.impulse_1 + t2 * row.slip.impulse_2;
+    }
 }
 
 void solve_island(const Model& model, Impl& s, std::span<const std::uint32_t> members, StepReport& report) {
@@ -152,18 +163,16 @@ void solve_island(const Model& model, Impl& s, std::span<const std::uint32_t> me
     }
     const bool split = gather_island(model, s, members, s.contacts);
     s.v_before = s.v;
-    const SolveReport solved = s.solver.solve(model.accuracy, s.island_robots, s.island_offsets, s.joints,
-                                              s.columns, s.rows, false, s.v);
+    const SolveReport solved =
+        s.solver.solve({model.accuracy, s.island_robots, s.island_offsets, s.rows}, s.v);
     report.iterations += solved.iterations;
     report.residual = std::max(report.residual, solved.residual);
-    for (std::size_t c = 0; c < s.rows.size(); ++c) s.island_contacts[c]->impulse = s.rows[c].impulse_n;
+    take_impulses(s);
     if (split) {
-        for (ContactRow& row : s.rows) row.bound = row.mu * row.impulse_n;
-        for (JointRow& row : s.joints) row.target += row.mend;
-        report.iterations += s.solver
-                                 .solve(model.accuracy, s.island_robots, s.island_offsets, s.joints,
-                                        s.columns, s.rows, true, s.v_before)
-                                 .iterations;
+        for (ContactRow& row : s.rows.contacts) row.slip.bound = row.slip.coefficient * row.normal.impulse;
+        report.iterations +=
+            s.solver.solve({model.accuracy, s.island_robots, s.island_offsets, s.rows, true}, s.v_before)
+                .iterations;
     }
     mark_pushed(s);
     finish_island(model, s, members, split ? s.v_before : s.v);

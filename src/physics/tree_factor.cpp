@@ -47,31 +47,4 @@ void tree_solve(std::span<const int> parent, std::span<const double> a, double* 
             x[i] -= a[i * n + static_cast<std::size_t>(j)] * x[j];
 }
 
-void skyline_factor(std::span<double> a, std::span<const std::size_t> first,
-                    std::span<const std::size_t> row_at) {
-    for (std::size_t i = 0; i < first.size(); ++i) {
-        double* row_i = a.data() + row_at[i];
-        for (std::size_t j = first[i]; j <= i; ++j) {
-            const double* row_j = a.data() + row_at[j];
-            double sum = row_i[j];
-            for (std::size_t k = std::max(first[i], first[j]); k < j; ++k) sum -= row_i[k] * row_j[k];
-            row_i[j] = j == i ? 1.0 / std::sqrt(sum) : sum * row_j[j];
-        }
-    }
-}
-
-void skyline_solve(std::span<const double> a, std::span<const std::size_t> first,
-                   std::span<const std::size_t> row_at, std::span<double> x) {
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        const double* row = a.data() + row_at[i];
-        for (std::size_t k = first[i]; k < i; ++k) x[i] -= row[k] * x[k];
-        x[i] *= row[i];
-    }
-    for (std::size_t i = x.size(); i-- > 0;) {
-        const double* row = a.data() + row_at[i];
-        x[i] *= row[i];
-        for (std::size_t k = first[i]; k < i; ++k) x[k] -= row[k] * x[i];
-    }
-}
-
 }  // namespace roboss

@@ -1,5 +1,5 @@
-// Factorisations of the solver: a tree's matrix without fill-in (LTDL, Featherstone 2008, section 6.5), and a
-// skyline Cholesky for contact islands of several robots. All in a fixed order of operations.
+// Factorisation of a tree's matrix without fill-in (LTDL, Featherstone 2008, section 6.5), in a fixed order
+// of operations.
 #pragma once
 
 #include <span>
@@ -14,12 +14,5 @@ void tree_times(std::span<const int> parent, std::span<const double> a, const do
 void tree_factor(std::span<const int> parent, std::span<double> a);
 /// x := A^-1 x with the factor of tree_factor.
 void tree_solve(std::span<const int> parent, std::span<const double> a, double* x);
-
-/// A = L L^T in place. Row i holds the columns first[i] .. i, column j at a[row_at[i] + j]; diagonal of L
-/// kept as reciprocals.
-void skyline_factor(std::span<double> a, std::span<const std::size_t> first,
-                    std::span<const std::size_t> row_at);
-void skyline_solve(std::span<const double> a, std::span<const std::size_t> first,
-                   std::span<const std::size_t> row_at, std::span<double> x);
 
 }  // namespace roboss

@@ -1,0 +1,73 @@
+// Sparse Cholesky factorisation by fronts (Duff and Reid 1983; Davis, Direct Methods for Sparse Linear
+// Systems, 2006) for contact islands of several robots. The unknowns of one robot are a group; groups are
+// eliminated in the order of minimum degree; each front is a small dense matrix of the group's unknowns and
+// of those of later groups that they are coupled to. A car in the middle of a pile costs what its neighbours
+// cost, not the pile. All in a fixed order of operations that depends on the island alone.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace roboss {
+
+class FrontFactor {
+  public:
+    /// Unknowns that a row couples: [first, last) of the list handed to analyse.
+    struct Clique {
+        std::size_t first = 0, last = 0;
+    };
+
+    /// Where the entries of a clique go: matrix[local[i] * stride + local[j]] for local[i] <= local[j].
+    struct Place {
+        double* matrix = nullptr;
+        std::size_t stride = 0;
+        const int* local = nullptr;
+    };
+
+    /// Group g holds the unknowns group_first[g] .. group_first[g + 1] - 1. A clique touches at most two
+    /// groups.
+    void analyse(std::span<const int> group_first, std::span<const int> unknowns,
+                 std::span<const Clique> cliques);
+
+    void clear();  // all entries to zero
+    Place place(std::size_t clique);
+    /// Entry of two unknowns of one group.
+    double& entry(std::size_t group, int i, int j);
+    void factor();
+    /// x := A^-1 x
+    void solve(std::span<double> x);
+
+  private:
+    struct Front {
+        std::size_t own = 0, size = 0;  // unknowns eliminated here, unknowns of the front
+        std::size_t index_at = 0;       // of the front's unknowns in index_
+        std::size_t matrix_at = 0;      // size x size, upper triangle, row by row
+        std::size_t update_at = 0;      // in to_parent_: where its boundary lies in the parent's front
+        int parent = -1;
+    };
+
+    void order_groups(std::span<const int> unknowns, std::span<const Clique> cliques);
+    void rank_unknowns();
+    void assign_cliques(std::span<const int> unknowns, std::span<const Clique> cliques);
+    void gather_front(std::size_t group, std::span<const int> unknowns, std::span<const Clique> cliques);
+    void map_to_parents();
+    void localise(std::span<const int> unknowns, std::span<const Clique> cliques);
+    void add_to_parent(const Front& front);
+    static void eliminate(double* a, std::size_t own, std::size_t size);
+
+    std::size_t groups_ = 0;
+    std::vector<int> group_first_, group_of_;   // of the groups; of the unknowns
+    std::vector<std::vector<int>> neighbours_;  // groups, sorted, while ordering
+    std::vector<int> merged_;
+    std::vector<int> order_, position_;  // groups as eliminated; and back
+    std::vector<int> rank_;              // of the unknowns: when they are eliminated
+    std::vector<int> clique_front_;      // group of each clique
+    std::vector<std::size_t> clique_start_, cliques_by_front_, clique_first_;
+    std::vector<std::vector<int>> children_;
+    std::vector<Front> fronts_;  // by group
+    std::vector<int> index_, to_parent_, local_, mark_, where_;
+    std::vector<double> a_;
+};
+
+}  // namespace roboss
