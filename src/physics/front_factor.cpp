@@ -177,7 +177,8 @@ void FrontFactor::localise(std::span<const int> unknowns, std::span<const Clique
     for (std::size_t c = 0; c < cliques.size(); ++c) clique_first_[c] = cliques[c].first;
 }
 
-void FrontFactor::clear() {
+void FrontFactor::clear(bool symmetric) {
+    symmetric_ = symmetric;
     std::fill(a_.begin(), a_.end(), 0.0);
 }
 
@@ -186,17 +187,18 @@ FrontFactor::Place FrontFactor::place(std::size_t clique) {
     return {a_.data() + front.matrix_at, front.size, local_.data() + clique_first_[clique]};
 }
 
-double& FrontFactor::entry(std::size_t group, int i, int j) {
+void FrontFactor::add(std::size_t group, int i, int j, double value) {
     const Front& front = fronts_[group];
     const int last = group_first_[group + 1] - 1;
-    const auto a = static_cast<std::size_t>(last - std::max(i, j)),
-               b = static_cast<std::size_t>(last - std::min(i, j));
-    return a_[front.matrix_at + a * front.size + b];
+    const auto a = static_cast<std::size_t>(last - i), b = static_cast<std::size_t>(last - j);  // a <= b
+    double* matrix = a_.data() + front.matrix_at;
+    matrix[a * front.size + b] += value;
+    if (!symmetric_ && a != b) matrix[b * front.size + a] += value;
 }
 
-/// The first `own` rows of the factor U (A = U^T U, its diagonal kept as reciprocals); what remains is the
-/// Schur complement of the others.
-void FrontFactor::eliminate(double* a, std::size_t own, std::size_t size) {
+/// The first `own` rows of the factor U, its diagonal kept as reciprocals; what remains is the Schur
+/// complement of the others.
+bool FrontFactor::eliminate(double* a, std::size_t own, std::size_t size) {
     for (std::size_t c = 0; c < own; ++c) {
         double* pivot = a + c * size;
         const double inverse = 1.0 / std::sqrt(pivot[c]);
@@ -209,6 +211,25 @@ void FrontFactor::eliminate(double* a, std::size_t own, std::size_t size) {
             for (std::size_t j = r; j < size; ++j) row[j] -= f * pivot[j];
         }
     }
+    return true;
+}
+
+/// The same for L U: L has a unit diagonal and stands below.
+bool FrontFactor::eliminate_general(double* a, std::size_t own, std::size_t size) {
+    for (std::size_t c = 0; c < own; ++c) {
+        double* pivot = a + c * size;
+        if (!(pivot[c] > 0)) return false;
+        const double inverse = 1.0 / pivot[c];
+        pivot[c] = inverse;
+        for (std::size_t r = c + 1; r < size; ++r) {
+            double* row = a + r * size;
+            if (row[c] == 0) continue;
+            const double l = row[c] * inverse;
+            row[c] = l;
+            for (std::size_t j = c + 1; j < size; ++j) row[j] -= l * pivot[j];
+        }
+    }
+    return true;
 }
 
 void FrontFactor::add_to_parent(const Front& front) {
@@ -218,29 +239,34 @@ void FrontFactor::add_to_parent(const Front& front) {
     const int* map = to_parent_.data() + front.update_at;
     for (std::size_t i = front.own; i < front.size; ++i) {
         double* row = to + static_cast<std::size_t>(map[i - front.own]) * parent.size;
-        for (std::size_t j = i; j < front.size; ++j) row[map[j - front.own]] += a[i * front.size + j];
+        for (std::size_t j = symmetric_ ? i : front.own; j < front.size; ++j)
+            row[map[j - front.own]] += a[i * front.size + j];
     }
 }
 
-void FrontFactor::factor() {
+bool FrontFactor::factor() {
     for (int g : order_) {
         const Front& front = fronts_[static_cast<std::size_t>(g)];
-        eliminate(a_.data() + front.matrix_at, front.own, front.size);
+        double* a = a_.data() + front.matrix_at;
+        if (!(symmetric_ ? eliminate(a, front.own, front.size) : eliminate_general(a, front.own, front.size)))
+            return false;
         if (front.parent >= 0) add_to_parent(front);
     }
+    return true;
 }
 
 void FrontFactor::solve(std::span<double> x) {
+    const auto at = [&](int i) -> double& { return x[static_cast<std::size_t>(i)]; };
     for (int g : order_) {
         const Front& front = fronts_[static_cast<std::size_t>(g)];
         const double* a = a_.data() + front.matrix_at;
         const int* index = index_.data() + front.index_at;
         for (std::size_t c = 0; c < front.own; ++c) {
-            const double* row = a + c * front.size;
-            const double value = x[static_cast<std::size_t>(index[c])] * row[c];
-            x[static_cast<std::size_t>(index[c])] = value;
+            if (symmetric_) at(index[c]) *= a[c * front.size + c];
+            const double value = at(index[c]);
+            if (value == 0) continue;
             for (std::size_t j = c + 1; j < front.size; ++j)
-                x[static_cast<std::size_t>(index[j])] -= row[j] * value;
+                at(index[j]) -= (symmetric_ ? a[c * front.size + j] : a[j * front.size + c]) * value;
         }
     }
     for (std::size_t k = order_.size(); k-- > 0;) {
@@ -249,10 +275,9 @@ void FrontFactor::solve(std::span<double> x) {
         const int* index = index_.data() + front.index_at;
         for (std::size_t c = front.own; c-- > 0;) {
             const double* row = a + c * front.size;
-            double value = x[static_cast<std::size_t>(index[c])];
-            for (std::size_t j = c + 1; j < front.size; ++j)
-                value -= row[j] * x[static_cast<std::size_t>(index[j])];
-            x[static_cast<std::size_t>(index[c])] = value * row[c];
+            double value = at(index[c]);
+            for (std::size_t j = c + 1; j < front.size; ++j) value -= row[j] * at(index[j]);
+            at(index[c]) = value * row[c];
         }
     }
 }

@@ -18,7 +18,7 @@ class FrontFactor {
         std::size_t first = 0, last = 0;
     };
 
-    /// Where the entries of a clique go: matrix[local[i] * stride + local[j]] for local[i] <= local[j].
+    /// Where the entries of a clique go: matrix[local[i] * stride + local[j]].
     struct Place {
         double* matrix = nullptr;
         std::size_t stride = 0;
@@ -30,11 +30,13 @@ class FrontFactor {
     void analyse(std::span<const int> group_first, std::span<const int> unknowns,
                  std::span<const Clique> cliques);
 
-    void clear();  // all entries to zero
+    /// All entries to zero. A `symmetric` matrix wants only the entries with local[i] <= local[j].
+    void clear(bool symmetric);
     Place place(std::size_t clique);
-    /// Entry of two unknowns of one group.
-    double& entry(std::size_t group, int i, int j);
-    void factor();
+    /// Adds to the entry of two unknowns of one group, i >= j, and to its mirror image.
+    void add(std::size_t group, int i, int j, double value);
+    /// A = U^T U, or A = L U without pivoting if it is not symmetric: false if a pivot is not positive.
+    bool factor();
     /// x := A^-1 x
     void solve(std::span<double> x);
 
@@ -54,9 +56,11 @@ class FrontFactor {
     void map_to_parents();
     void localise(std::span<const int> unknowns, std::span<const Clique> cliques);
     void add_to_parent(const Front& front);
-    static void eliminate(double* a, std::size_t own, std::size_t size);
+    static bool eliminate(double* a, std::size_t own, std::size_t size);
+    static bool eliminate_general(double* a, std::size_t own, std::size_t size);
 
     std::size_t groups_ = 0;
+    bool symmetric_ = true;
     std::vector<int> group_first_, group_of_;   // of the groups; of the unknowns
     std::vector<std::vector<int>> neighbours_;  // groups, sorted, while ordering
     std::vector<int> merged_;

@@ -1,6 +1,8 @@
 // See hessian.h.
 #include "physics/hessian.h"
 
+#include <algorithm>
+
 #include "physics/tree_factor.h"
 
 namespace roboss {
@@ -29,7 +31,8 @@ void Hessian::start_fronts(const IslandRows& rows) {
     fronts_.analyse(group_first_, unknowns_, cliques_);
 }
 
-void Hessian::assemble(const IslandRows& rows) {
+void Hessian::assemble(const IslandRows& rows, bool coupled) {
+    coupled_ = coupled;
     add_mass();
     if (tree_) {
         for (const JointRow& row : rows.joints) h_[static_cast<std::size_t>(row.dof) * (n_ + 1)] += row.d;
@@ -37,7 +40,7 @@ void Hessian::assemble(const IslandRows& rows) {
         std::size_t robot = 0;  // joint rows come robot by robot
         for (const JointRow& row : rows.joints) {
             while (row.dof >= group_first_[robot + 1]) ++robot;
-            fronts_.entry(robot, row.dof, row.dof) += row.d;
+            fronts_.add(robot, row.dof, row.dof, row.d);
         }
     }
     std::size_t clique = 0;
@@ -51,17 +54,18 @@ void Hessian::assemble(const IslandRows& rows) {
 void Hessian::add_mass() {
     if (tree_) {
         h_.assign(robots_[0]->mass_matrix.begin(), robots_[0]->mass_matrix.end());
+        if (coupled_) upper_.assign(h_.begin(), h_.end());
         return;
     }
-    fronts_.clear();
+    fronts_.clear(!coupled_);
     for (std::size_t r = 0; r < robots_.size(); ++r) {
         const RobotWork& robot = *robots_[r];
         const std::vector<int>& parent = robot.type->dof_parent;
         const std::size_t nv = parent.size();
         for (std::size_t i = 0; i < nv; ++i)
             for (int j = static_cast<int>(i); j >= 0; j = parent[static_cast<std::size_t>(j)])
-                fronts_.entry(r, offsets_[r] + static_cast<int>(i), offsets_[r] + j) +=
-                    robot.mass_matrix[i * nv + static_cast<std::size_t>(j)];
+                fronts_.add(r, offsets_[r] + static_cast<int>(i), offsets_[r] + j,
+                            robot.mass_matrix[i * nv + static_cast<std::size_t>(j)]);
     }
 }
 
@@ -69,27 +73,53 @@ void Hessian::add_mass() {
 void Hessian::add_block(const IslandRows& rows, std::size_t first, std::size_t last, std::size_t clique,
                         const BoundedRow& normal, const FrictionDisc& disc) {
     if (first == last || (normal.d == 0 && disc.d_11 == 0 && disc.d_22 == 0)) return;
-    const FrontFactor::Place place = tree_ ? FrontFactor::Place{} : fronts_.place(clique);
-    const ContactColumn* columns = rows.columns.data();
-    for (std::size_t a = first; a < last; ++a) {
+    const std::span columns(rows.columns.data() + first, last - first);
+    if (tree_) {
+        add_to_tree(columns, normal, disc);
+    } else {
+        add_to_front(columns, fronts_.place(clique), normal, disc);
+    }
+}
+
+/// Columns of one path descend: the lower triangle is all that follows.
+void Hessian::add_to_tree(std::span<const ContactColumn> columns, const BoundedRow& normal,
+                          const FrictionDisc& disc) {
+    for (std::size_t a = 0; a < columns.size(); ++a) {
         const ContactColumn& x = columns[a];
         const double n = normal.d * x.n, t1 = disc.d_11 * x.t1 + disc.d_12 * x.t2,
                      t2 = disc.d_12 * x.t1 + disc.d_22 * x.t2;
-        if (tree_) {  // columns of one path descend: the lower triangle is all that follows
-            double* h = h_.data() + static_cast<std::size_t>(x.dof) * n_;
-            for (std::size_t b = a; b < last; ++b) {
+        double* h = h_.data() + static_cast<std::size_t>(x.dof) * n_;
+        if (!coupled_) {
+            for (std::size_t b = a; b < columns.size(); ++b) {
                 const ContactColumn& y = columns[b];
                 h[y.dof] += n * y.n + t1 * y.t1 + t2 * y.t2;
             }
             continue;
         }
-        const int i = place.local[a - first];
-        for (std::size_t b = first; b < last; ++b) {  // both orders of a pair, of which one is kept
-            const int j = place.local[b - first];
-            if (j < i) continue;
+        const double slide = disc.d_1n * x.t1 + disc.d_2n * x.t2;  // along x, by the normal velocity
+        double* upper = upper_.data() + static_cast<std::size_t>(x.dof) * n_;
+        for (std::size_t b = a; b < columns.size(); ++b) {
             const ContactColumn& y = columns[b];
-            place.matrix[static_cast<std::size_t>(i) * place.stride + static_cast<std::size_t>(j)] +=
-                n * y.n + t1 * y.t1 + t2 * y.t2;
+            const double both = n * y.n + t1 * y.t1 + t2 * y.t2;
+            h[y.dof] += both + slide * y.n;
+            upper[y.dof] += both + (disc.d_1n * y.t1 + disc.d_2n * y.t2) * x.n;
+        }
+    }
+}
+
+void Hessian::add_to_front(std::span<const ContactColumn> columns, const FrontFactor::Place& place,
+                           const BoundedRow& normal, const FrictionDisc& disc) {
+    for (std::size_t a = 0; a < columns.size(); ++a) {
+        const ContactColumn& x = columns[a];
+        const double n = normal.d * x.n + disc.d_1n * x.t1 + disc.d_2n * x.t2,
+                     t1 = disc.d_11 * x.t1 + disc.d_12 * x.t2, t2 = disc.d_12 * x.t1 + disc.d_22 * x.t2;
+        const int i = place.local[a];
+        double* row = place.matrix + static_cast<std::size_t>(i) * place.stride;
+        for (std::size_t b = 0; b < columns.size(); ++b) {
+            const int j = place.local[b];
+            if (!coupled_ && j < i) continue;
+            const ContactColumn& y = columns[b];
+            row[j] += n * y.n + t1 * y.t1 + t2 * y.t2;
         }
     }
 }
@@ -103,21 +133,28 @@ void Hessian::add_coupling(const IslandRows& rows, const CouplingRow& row, std::
         const int i = place.local[a];
         for (std::size_t b = 0; b < count; ++b) {
             const int j = place.local[b];
-            if (j < i) continue;
+            if (!coupled_ && j < i) continue;
             place.matrix[static_cast<std::size_t>(i) * place.stride + static_cast<std::size_t>(j)] +=
                 row.d * columns[a].j * columns[b].j;
         }
     }
 }
 
-void Hessian::solve(std::span<double> x) {
-    if (tree_) {
-        tree_factor(robots_[0]->type->dof_parent, h_);
-        tree_solve(robots_[0]->type->dof_parent, h_, x.data());
-    } else {
-        fronts_.factor();
+bool Hessian::solve(std::span<double> x) {
+    if (!tree_) {
+        if (!fronts_.factor()) return false;
         fronts_.solve(x);
+        return true;
     }
+    const std::vector<int>& parent = robots_[0]->type->dof_parent;
+    if (coupled_) {
+        if (!tree_factor_general(parent, h_, upper_)) return false;
+        tree_solve_general(parent, h_, upper_, x.data());
+    } else {
+        tree_factor(parent, h_);
+        tree_solve(parent, h_, x.data());
+    }
+    return true;
 }
 
 }  // namespace roboss

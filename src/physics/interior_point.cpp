@@ -49,7 +49,7 @@ double prepare(BoundedRow& row, double mu) {
 }
 
 Tangential prepare(FrictionDisc& disc, double mu) {
-    disc.d_11 = disc.d_12 = disc.d_22 = 0;
+    disc.d_11 = disc.d_12 = disc.d_22 = disc.d_1n = disc.d_2n = 0;
     if (disc.bound <= 0) return {};
     const double left = room(disc), x = disc.impulse_1, y = disc.impulse_2;
     const double a = disc.compliance + disc.slack, s = disc.slack / left;
@@ -210,7 +210,7 @@ double IslandSolver::interior_step(const Problem& p, double mu, std::vector<doub
     for_each_disc(p.rows, [&](FrictionDisc& disc) {
         std::swap(disc.impulse_1, changes_[at++]), std::swap(disc.impulse_2, changes_[at++]);
     });
-    find_step(p);
+    find_step(p, false);
     const double alpha = longest_step(p, mu);
     double finite = alpha - alpha;
     for (double x : step_) finite += x - x;

@@ -28,6 +28,7 @@ struct FrictionDisc {
     double u_1 = 0, u_2 = 0, du_1 = 0, du_2 = 0;  // velocity minus target; per unit step of the line search
     double impulse_1 = 0, impulse_2 = 0;
     double d_11 = 0, d_12 = 0, d_22 = 0;  // minus the derivative of the impulses by the velocity
+    double d_1n = 0, d_2n = 0;            // by the normal velocity, where the bound moves with it
     double slack = 0, slack_step = 0;     // multiplier of the bound (interior point)
     double bound_error = 0,
            relaxation = 1;  // of the last update of the bound: what it lacked, the share given

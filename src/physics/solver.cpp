@@ -59,6 +59,41 @@ double update_bounds(IslandRows& rows) {
     return largest > 0 ? change / largest : 0.0;
 }
 
+/// Every friction bound as the normal impulse at the present velocity says.
+void tie_bounds(IslandRows& rows) {
+    for (ContactRow& row : rows.contacts)
+        row.slip.bound = row.slip.coefficient * impulse_at(row.normal, row.normal.u);
+    for (AngularRow& row : rows.angulars) {
+        const BoundedRow& normal = rows.contacts[row.contact].normal;
+        const double impulse = impulse_at(normal, normal.u);
+        row.roll.bound = row.roll.coefficient * impulse;
+        row.spin.high = row.torsional * impulse, row.spin.low = -row.spin.high;
+    }
+}
+
+/// Derivatives of sliding friction by the normal velocity; false if nothing slides.
+bool couple_bounds(IslandRows& rows) {
+    bool any = false;
+    for (ContactRow& row : rows.contacts) {
+        FrictionDisc& disc = row.slip;
+        if (row.normal.d == 0 || disc.bound <= 0) continue;
+        const double speed = std::sqrt(disc.u_1 * disc.u_1 + disc.u_2 * disc.u_2);
+        if (speed <= disc.bound * disc.compliance) continue;
+        const double share = -disc.coefficient * row.normal.d / speed;
+        disc.d_1n = share * disc.u_1, disc.d_2n = share * disc.u_2;
+        any = true;
+    }
+    return any;
+}
+
+/// Velocities along the rows := what set_steps has left.
+void take_velocities(IslandRows& rows) {
+    for_each_bounded(rows, [](BoundedRow& row) { row.u = row.du; });
+    for_each_disc(rows, [](FrictionDisc& disc) {
+        disc.u_1 = disc.du_1 - disc.target_1, disc.u_2 = disc.du_2 - disc.target_2;
+    });
+}
+
 /// Impulses of all rows at the present velocities.
 void update_impulses(IslandRows& rows) {
     for_each_bounded(rows, [](BoundedRow& row) { row.impulse = impulse_at(row, row.u); });
@@ -76,7 +111,7 @@ void set_curvatures(IslandRows& rows) {
         row.d = raw > row.low && raw < row.high ? 1.0 / row.compliance : 0.0;
     });
     for_each_disc(rows, [](FrictionDisc& disc) {
-        disc.d_11 = disc.d_12 = disc.d_22 = 0;
+        disc.d_11 = disc.d_12 = disc.d_22 = disc.d_1n = disc.d_2n = 0;
         if (disc.bound <= 0) return;
         const double speed = std::sqrt(disc.u_1 * disc.u_1 + disc.u_2 * disc.u_2);
         if (speed <= disc.bound * disc.compliance) {
@@ -117,13 +152,8 @@ void IslandSolver::start(const Problem& p, std::span<const double> v) {
     hessian_.start(p.robots, p.offsets, p.rows, n_);
     times_mass(p, v, mv_);
     set_steps(p.rows, v);
-    for_each_bounded(p.rows, [&](BoundedRow& row) {
-        row.u = row.du;
-        if (p.position) row.target = row.position_target;
-    });
-    for_each_disc(p.rows, [](FrictionDisc& disc) {
-        disc.u_1 = disc.du_1 - disc.target_1, disc.u_2 = disc.du_2 - disc.target_2;
-    });
+    take_velocities(p.rows);
+    if (p.position) for_each_bounded(p.rows, [](BoundedRow& row) { row.target = row.position_target; });
 }
 
 /// g = M v - p - J^T impulses; returns its size relative to the momenta in play, both measured in the metric
@@ -153,15 +183,16 @@ double IslandSolver::gradient(const Problem& p) {
 /// enough.
 double IslandSolver::line_search(const Problem& p) {
     double slope0 = 0, quadratic = 0;  // of the smooth part
+    double at_zero = 0;                // slope of the whole
     for (std::size_t r = 0; r < p.robots.size(); ++r) {
         for (std::size_t k = 0; k < static_cast<std::size_t>(p.robots[r]->type->nv); ++k) {
             const std::size_t i = static_cast<std::size_t>(p.offsets[r]) + k;
             slope0 += step_[i] * (mv_[i] - p.robots[r]->impulse[k]);
             quadratic += step_[i] * m_step_[i];
+            at_zero += step_[i] * g_[i];
         }
     }
     const auto slope = [&](double alpha) { return slope0 + alpha * quadratic - row_slope(p.rows, alpha); };
-    const double at_zero = slope(0.0);
     double low = 0, high = 1, s_low = at_zero, s_high = slope(1.0);
     if (!(at_zero < 0) || std::fabs(s_high) <= -0.05 * at_zero) return 1.0;
     for (int i = 0; i < 20 && s_high < 0; ++i) low = high, s_low = s_high, high *= 2, s_high = slope(high);
@@ -197,12 +228,40 @@ void IslandSolver::move(const Problem& p, double alpha, std::vector<double>& v) 
 }
 
 /// step = -H^-1 g with the rows' present curvatures, and what follows from it.
-void IslandSolver::find_step(const Problem& p) {
-    hessian_.assemble(p.rows);
+bool IslandSolver::find_step(const Problem& p, bool coupled) {
+    hessian_.assemble(p.rows, coupled);
     for (std::size_t i = 0; i < n_; ++i) step_[i] = -g_[i];
-    hessian_.solve(step_);
+    if (!hessian_.solve(step_)) return false;
     times_mass(p, step_, m_step_);
     set_steps(p.rows, step_);
+    return true;
+}
+
+/// Near the solution: Newton's method on the balance itself, friction bounds moving with the normal impulses,
+/// which finds both at once and quadratically. There is no potential to descend on, so it gives up, at the
+/// velocities where it began, as soon as the balance does not get better.
+bool IslandSolver::coupled_newton(const Problem& p, std::vector<double>& v, SolveReport& report) {
+    constexpr int kStepsMax = 8;
+    constexpr double kProgress = 0.5;  // of the residual in a step, at least
+    v_start_ = v, mv_start_ = mv_;
+    double best = std::numeric_limits<double>::infinity();
+    for (int i = 0;; ++i) {
+        tie_bounds(p.rows);
+        update_impulses(p.rows);
+        report.residual = gradient(p);
+        if (report.residual <= p.accuracy.tolerance) return true;
+        if (i == kStepsMax || !(report.residual <= kProgress * best)) break;
+        best = report.residual;
+        set_curvatures(p.rows);
+        const bool sliding = couple_bounds(p.rows);
+        if (!find_step(p, sliding)) break;
+        move(p, 1.0, v);
+        ++report.iterations;
+    }
+    v = v_start_, mv_ = mv_start_;
+    set_steps(p.rows, v);
+    take_velocities(p.rows);
+    return false;
 }
 
 /// Newton's method until momentum balances and friction bounds agree. False if it does not come near a
@@ -213,13 +272,18 @@ bool IslandSolver::newton(const Problem& p, std::vector<double>& v, SolveReport&
         1e-2;  // a residual that shows that the set of sliding and open contacts is not found yet
     constexpr int kFarMax = 16;
     constexpr double kRounding = 1e-8;  // below, a residual that no longer falls is taken for rounding
-    int far = 0, bound_updates = 0, stalls = 0;
+    constexpr int kCoupledTries = 3;
+    int far = 0, bound_updates = 0, stalls = 0, coupled_tries = 0;
     bool settled = p.position;  // the friction bounds
     double best = 1;
     for (int i = 0;; ++i) {
         update_impulses(p.rows);
         report.residual = gradient(p);
         if (report.residual <= kRoughly) {
+            if (!settled && coupled_tries < kCoupledTries) {
+                ++coupled_tries;
+                if (coupled_newton(p, v, report)) return true;
+            }
             if (!settled) {
                 settled = update_bounds(p.rows) <= p.accuracy.friction_tolerance ||
                           ++bound_updates >= p.accuracy.friction_max;
@@ -233,7 +297,7 @@ bool IslandSolver::newton(const Problem& p, std::vector<double>& v, SolveReport&
         if (report.residual > kFar) ++far;
         if (far > kFarMax || i == p.accuracy.newton_max) return report.residual <= kRoughly;
         set_curvatures(p.rows);
-        find_step(p);
+        find_step(p, false);
         move(p, line_search(p), v);
         ++report.iterations;
     }
@@ -262,6 +326,7 @@ SolveReport IslandSolver::solve(const Problem& p, std::vector<double>& v) {
         row.roll.bound = row.roll.coefficient * normal;
         row.spin.high = row.torsional * normal, row.spin.low = -row.spin.high;
     }
+    if (newton(p, v, report)) return report;
     interior_point(p, v, report);
     return report;
 }

@@ -43,11 +43,12 @@ class IslandSolver {
     // solver.cpp: shared pieces, then Newton's method
     void start(const Problem& p, std::span<const double> v);
     void times_mass(const Problem& p, std::span<const double> x, std::vector<double>& y) const;
-    void find_step(const Problem& p);
+    bool find_step(const Problem& p, bool coupled);
     void move(const Problem& p, double alpha, std::vector<double>& v);
     double gradient(const Problem& p);
     double line_search(const Problem& p);
     bool newton(const Problem& p, std::vector<double>& v, SolveReport& report);
+    bool coupled_newton(const Problem& p, std::vector<double>& v, SolveReport& report);
     // interior_point.cpp
     void interior_point(const Problem& p, std::vector<double>& v, SolveReport& report);
     double longest_step(const Problem& p, double mu);
@@ -58,8 +59,9 @@ class IslandSolver {
     std::vector<double> mv_;  // M v
     std::vector<double> g_;   // gradient
     std::vector<double> step_, m_step_;
-    std::vector<double> start_bounds_;  // friction bounds of the last tick
-    std::vector<double> changes_;       // interior point: steps of the impulses
+    std::vector<double> v_start_, mv_start_;  // where coupled Newton began
+    std::vector<double> start_bounds_;        // friction bounds of the last tick
+    std::vector<double> changes_;             // interior point: steps of the impulses
 };
 
 }  // namespace roboss

@@ -15,4 +15,10 @@ void tree_factor(std::span<const int> parent, std::span<double> a);
 /// x := A^-1 x with the factor of tree_factor.
 void tree_solve(std::span<const int> parent, std::span<const double> a, double* x);
 
+/// The same for a matrix that is not symmetric, on the same pattern: `lower` holds A(i, j) and `upper` A(j,
+/// i) at [i * n + j], j <= i (the diagonal in `lower`). No pivoting: false if a pivot is not positive.
+bool tree_factor_general(std::span<const int> parent, std::span<double> lower, std::span<double> upper);
+void tree_solve_general(std::span<const int> parent, std::span<const double> lower,
+                        std::span<const double> upper, double* x);
+
 }  // namespace roboss
