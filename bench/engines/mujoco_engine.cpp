@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <stdexcept>
@@ -24,15 +25,36 @@ struct FreeData {
 using ModelPointer = std::unique_ptr<mjModel, FreeModel>;
 using DataPointer = std::unique_ptr<mjData, FreeData>;
 
-constexpr double kBytesMax = 16e9;  // of constraint Jacobians; beyond, the machine swaps
+/// How many robots' worth of numbers MuJoCo has to hold.
+struct Sizes {
+    long bodies = 0, freedoms = 0;
+};
 
-std::size_t count_bodies(const World& world) {
-    std::size_t bodies = 0;
-    for (const ModelInstance& instance : world.instances) {
-        const ModelSpec& model = world.prototypes[instance.prototype];
-        if (!model.is_static) bodies += model.links.size();
+Sizes count(const World& world) {
+    std::vector<Sizes> prototypes;
+    for (const ModelSpec& model : world.prototypes) {
+        const Assembly assembly = assemble(model);
+        Sizes sizes;
+        for (const PartBody& body : assembly.bodies) ++sizes.bodies, sizes.freedoms += body.joint < 0 ? 6 : 0;
+        for (const PartJoint& joint : assembly.joints)
+            sizes.freedoms +=
+                joint.spec->kind == JointSpecKind::kBall ? 3 : static_cast<long>(joint.spec->axes.size());
+        prototypes.push_back(sizes);
     }
-    return bodies;
+    Sizes all;
+    for (const ModelInstance& instance : world.instances) {
+        all.bodies += prototypes[instance.prototype].bodies;
+        all.freedoms += prototypes[instance.prototype].freedoms;
+    }
+    return all;
+}
+
+/// Constraint rows for `wanted` contacts, or as many as MuJoCo 2 can hold: it counts its buffer, which takes
+/// rows x (freedoms + rows) numbers whatever is zero in them, in 32 bits.
+long rows_that_fit(long freedoms, long wanted) {
+    constexpr double kBytes = 2.0e9;
+    const double a = 12, b = 24.0 * static_cast<double>(freedoms) + 1000;
+    return std::min(wanted, static_cast<long>((std::sqrt(b * b + 4 * a * kBytes) - b) / (2 * a)));
 }
 
 ModelPointer load(const std::string& xml) {
@@ -83,6 +105,10 @@ class MujocoEngine final : public Engine {
             apply_motors();
             mj_step(model_.get(), data_.get());
         }
+        if (data_->warning[mjWARN_CONTACTFULL].number + data_->warning[mjWARN_CNSTRFULL].number > 0)
+            throw std::runtime_error(
+                "MuJoCo 2 holds at most " + std::to_string(model_->njmax) + " constraint rows at " +
+                std::to_string(model_->nv) + " degrees of freedom (its buffer is counted in 32 bits)");
         mj_kinematics(model_.get(), data_.get());  // poses of the state after the step
         mj_comPos(model_.get(), data_.get());
         mj_comVel(model_.get(), data_.get());
@@ -213,16 +239,18 @@ std::unique_ptr<Engine> make_mujoco(const World& world, const EngineOptions& opt
     mjcf.cone = environment("MJ_CONE", "elliptic");
     mjcf.jacobian = environment("MJ_JACOBIAN", "auto");
     mjcf.tolerance = std::atof(environment("MJ_TOLERANCE", "1e-8").c_str());
-    const std::size_t bodies = count_bodies(world);
-    mjcf.contacts_max = static_cast<long>(4 * bodies + 100);
-    mjcf.rows_max = 4 * mjcf.contacts_max;
+    mju_user_error = [](const char* message) {  // the library's own handler waits for a key
+        std::fprintf(stderr, "MuJoCo: %s\n", message);
+        std::_Exit(3);
+    };
+    const Sizes sizes = count(world);
+    mjcf.rows_max = rows_that_fit(sizes.freedoms, 20 * sizes.bodies + 300);
+    mjcf.contacts_max = mjcf.rows_max / 3;
+    mjcf.stack_numbers =
+        std::min(1000000 + 400 * mjcf.rows_max + 3 * sizes.freedoms * sizes.freedoms, 1000000000L);
     auto places = write_mjcf(world, mjcf);
     if (!places) return nullptr;
     ModelPointer model = load(places->xml);
-    const double bytes = 24.0 * model->njmax * model->nv;
-    if (bytes > kBytesMax)
-        throw std::runtime_error("MuJoCo's constraint Jacobians need " + std::to_string(int(bytes / 1e9)) +
-                                 " GB");
     const std::string settings = "double, Euler, " + mjcf.solver + ", " + mjcf.cone;
     return std::make_unique<MujocoEngine>(world, std::move(*places), std::move(model), settings);
 }
