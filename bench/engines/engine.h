@@ -52,7 +52,9 @@ class Engine {
     virtual LinkState link(LinkRef link) const = 0;
     virtual JointState joint(JointRef joint) const = 0;
 
-    virtual void set_joint(JointRef joint, JointState state) = 0;  // before the first step
+    // Both before the first step. set_base: for instances with a free base; X_WM places the model frame,
+    // `angular` and `linear` are the root link's (rad/s; m/s of its centre of mass; world axes).
+    virtual void set_joint(JointRef joint, JointState state) = 0;
     virtual void set_base(std::size_t instance, const Pose& X_WM, const Vec3& angular,
                           const Vec3& linear) = 0;
 
@@ -67,9 +69,9 @@ class Engine {
     virtual void drive_effort(JointRef joint, double effort) = 0;
 };
 
+/// The World must outlive the engine. nullptr where the engine cannot express it.
 using EngineMaker = std::unique_ptr<Engine> (*)(const World&, const EngineOptions&);
 
-/// nullptr with a reason where the engine cannot express the World.
 struct EngineKind {
     std::string name;
     EngineMaker make = nullptr;

@@ -1,0 +1,46 @@
+// The scenes on which engines are compared: a World, what drives it, and how to tell that an engine simulated
+// it rightly. Everything goes through the Engine interface, so every engine does the same work.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/types.h"
+#include "engines/engine.h"
+
+namespace roboss::bench {
+
+/// Whether the result is right, with the figures that say so.
+struct Verdict {
+    bool good = false;
+    std::string text;
+};
+
+struct Scene {
+    World world;
+    std::size_t robots = 0;                             // those that the figures count
+    std::function<void(Engine&)> start;                 // before the first tick
+    std::function<void(Engine&, Tick)> control;         // before every tick; may be empty
+    std::function<Verdict(const Engine&, Tick)> judge;  // after the tick before `Tick`
+};
+
+struct SceneKind {
+    std::string name;
+    std::string what;                 // one line for people
+    std::vector<std::size_t> robots;  // the sizes that are measured
+    std::function<Scene(std::size_t robots)> make;
+};
+
+std::span<const SceneKind> scenes();
+
+inline constexpr double kSceneDt = 0.002;
+
+// Cars 1.5 m apart on a plane, all driving forward: four wheels, velocity motors of 10 rad/s and .5 N m.
+Scene cars_scene(std::size_t cars);
+// The same cars among a hundred static boxes, at one car on .7 m^2, driving to and fro: they hit the boxes
+// and each other all the time.
+Scene city_scene(std::size_t cars);
+
+}  // namespace roboss::bench

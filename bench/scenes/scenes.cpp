@@ -1,0 +1,14 @@
+// All scenes and the sizes in which they are measured.
+#include "scenes/scene.h"
+
+namespace roboss::bench {
+
+std::span<const SceneKind> scenes() {
+    static const std::vector<SceneKind> kinds = {
+        {"cars", "four-wheeled cars driving on a plane, 1.5 m apart", {50, 500, 2000, 10000}, cars_scene},
+        {"city", "the same cars driving into 100 boxes and each other", {50, 500, 2000}, city_scene},
+    };
+    return kinds;
+}
+
+}  // namespace roboss::bench
