@@ -150,6 +150,12 @@ class PartBuilder {
             "loops are still to come: open the loop or expect these links to move apart");
     }
 
+    static JointKind kind_of(JointSpecKind kind) {
+        return kind == JointSpecKind::kPrismatic ? JointKind::kPrismatic
+               : kind == JointSpecKind::kScrew   ? JointKind::kScrew
+                                                 : JointKind::kRevolute;
+    }
+
     int add_joint(const Edge& edge, int parent_body) {
         const JointSpec& spec = spec_.joints[edge.joint];
         Joint joint;
@@ -160,9 +166,8 @@ class PartBuilder {
         int body = parent_body;
         if (spec.kind == JointSpecKind::kBall) {
             body = add_body(parent_body, spec, JointKind::kBall, AxisSpec{}, edge.reversed, id, joint);
-        } else if (spec.kind != JointSpecKind::kFixed && spec.kind != JointSpecKind::kScrew) {
-            const JointKind kind =
-                spec.kind == JointSpecKind::kPrismatic ? JointKind::kPrismatic : JointKind::kRevolute;
+        } else if (spec.kind != JointSpecKind::kFixed) {
+            const JointKind kind = kind_of(spec.kind);
             const std::size_t axes =
                 spec.kind == JointSpecKind::kUniversal || spec.kind == JointSpecKind::kRevolute2 ? 2 : 1;
             for (std::size_t a = 0; a < axes && a < spec.axes.size(); ++a) {
@@ -184,6 +189,8 @@ class PartBuilder {
         body.joint = kind;
         body.X_PJ = parent < 0 ? X_MJ : inverse(X_MB_[static_cast<std::size_t>(parent)]) * X_MJ;
         body.axis_J = reversed ? -axis.xyz : axis.xyz;
+        if (kind == JointKind::kScrew) body.pitch = spec.screw_pitch;
+        body.reversed_ball = reversed && kind == JointKind::kBall;
         body.q_index = type.nq;
         body.v_index = type.nv;
         body.nv = kind == JointKind::kBall ? 3 : 1;
@@ -303,10 +310,11 @@ class PartBuilder {
         for (std::size_t b = type.bodies.size(); b-- > 0;) {
             const Body& body = type.bodies[b];
             if (body.joint == JointKind::kFree) continue;
+            const double slide_per_unit = body.joint == JointKind::kPrismatic ? 1.0 : std::fabs(body.pitch);
             double slide = 0;
-            if (body.joint == JointKind::kPrismatic) {
+            if (slide_per_unit > 0) {
                 const Dof& dof = type.dofs[static_cast<std::size_t>(body.v_index - type.base_nv())];
-                slide = std::max(std::fabs(dof.lower), std::fabs(dof.upper));
+                slide = slide_per_unit * std::max(std::fabs(dof.lower), std::fabs(dof.upper));
             }
             double& e = extent[static_cast<std::size_t>(body.parent + 1)];
             e = std::max(e, norm(body.X_PJ.p) + slide + extent[b + 1]);

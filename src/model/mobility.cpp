@@ -60,6 +60,9 @@ class Mobility {
             } else if (body.joint == JointKind::kRevolute) {
                 const Vec3 axis = X.R * body.axis_J;
                 columns[first] = {axis, cross(axis, arm)};
+            } else if (body.joint == JointKind::kScrew) {
+                const Vec3 axis = X.R * body.axis_J;
+                columns[first] = {axis, cross(axis, arm) + axis * body.pitch};
             } else {
                 for (std::size_t k = 0; k < 3; ++k) {
                     Vec3 axis;

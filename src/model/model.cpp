@@ -38,6 +38,8 @@ void add_body(Hash& hash, const Body& body) {
     add(hash, body.inertia_C), add(hash, body.p_BC), add(hash, body.p_BG);
     for (double x : {body.mass, body.gravity_mass, body.inverse_mass_linear, body.inverse_inertia_angular})
         hash.add(x);
+    if (body.joint == JointKind::kScrew) hash.add(body.pitch);
+    if (body.reversed_ball) add(hash, 1);
 }
 
 void add_dof(Hash& hash, const Dof& dof) {

@@ -24,7 +24,7 @@
 
 namespace roboss {
 
-enum class JointKind : std::uint8_t { kFree, kRevolute, kPrismatic, kBall };
+enum class JointKind : std::uint8_t { kFree, kRevolute, kPrismatic, kBall, kScrew };
 
 /// A rigid body of the tree. Its frame B sits at its joint: X_PB(q) = X_PJ * motion(q); bodies come parents
 /// first.
@@ -33,6 +33,9 @@ struct Body {
     JointKind joint = JointKind::kFree;
     Transform X_PJ;
     Vec3 axis_J{0, 0, 1};
+    double pitch = 0;  // of a screw: way along the axis, m per radian
+    // The tree walks a ball joint from the file's child to its parent: q and v stay those of the file.
+    bool reversed_ball = false;
     int q_index = 0;  // first coordinate in RobotState::q
     int v_index = 0;  // first in RobotState::v
     int nv = 0;
