@@ -16,6 +16,10 @@ Transform base_transform(std::span<const double> q) {
     return {to_matrix(Quat{q[3], q[4], q[5], q[6]}), {q[0], q[1], q[2]}};
 }
 
+SpatialInertia inertia_of(const Body& body, const BodyWork& w) {
+    return spatial_inertia(body.mass, w.centre, rotated(w.X_WB.R, body.inertia_C));
+}
+
 /// Adds what Clients' wrenches do to the bodies' impulses (force at the link's centre of mass).
 void add_wrenches(const RobotType& type, const RobotState& state, double dt, RobotWork& work) {
     for (const TimedWrench& w : state.wrenches) {
@@ -118,7 +122,7 @@ void compute_impulse(const Model& model, double dt, double momentum_weight, std:
     for (std::size_t b = 0; b < type.bodies.size(); ++b) {
         const Body& body = type.bodies[b];
         BodyWork& w = work.bodies[b];
-        w.inertia = spatial_inertia(body.mass, w.centre, rotated(w.X_WB.R, body.inertia_C));
+        w.inertia = inertia_of(body, w);
         const Spatial momentum = w.inertia * w.velocity;
         const Vec3 weight = model.gravity * body.gravity_mass;
         const Vec3 feels = body.gravity_mass == body.mass ? w.centre : w.X_WB * body.p_BG - work.origin;
@@ -138,6 +142,11 @@ void compute_impulse(const Model& model, double dt, double momentum_weight, std:
         if (body.parent >= 0) work.bodies[static_cast<std::size_t>(body.parent)].impulse += w.impulse;
     }
     add_joint_impulses(type, dt, momentum_weight, q, v, work);
+}
+
+void compute_inertias(const RobotType& type, RobotWork& work) {
+    for (std::size_t b = 0; b < type.bodies.size(); ++b)
+        work.bodies[b].inertia = inertia_of(type.bodies[b], work.bodies[b]);
 }
 
 void compute_mass_matrix(const RobotType& type, double dt, RobotWork& work) {
