@@ -1,52 +1,14 @@
-// compile(): trees however the joints point, welded links, several parts, fixed bases, scenery, loops, reach,
+// compile(): trees however the joints point, welded links, several parts, fixed bases, scenery, reach,
 // mobility.
 #include <gtest/gtest.h>
 
+#include <support/compiling.h>
 #include <support/robots.h>
 
 #include "model/robot_state.h"
 
 namespace roboss::test {
 namespace {
-
-struct Compiled {
-    std::shared_ptr<const Model> model;
-    Diagnostics diagnostics;
-    const RobotType& type() const { return model->types.front(); }
-};
-
-Compiled compile_one(ModelSpec spec, const Pose& X_WM = {}) {
-    World world = empty_world(1e-3);
-    const std::string name = spec.name;
-    place(world, std::move(spec), name, X_WM);
-    Compiled c;
-    c.model = compile(world, {}, c.diagnostics);
-    return c;
-}
-
-bool has(const Diagnostics& diagnostics, const std::string& code) {
-    for (const Diagnostic& d : diagnostics.items())
-        if (d.code == code) return true;
-    return false;
-}
-
-/// Three boxes in a row along x, a meter apart.
-ModelSpec row_of_three() {
-    ModelSpec m;
-    m.name = "row";
-    m.canonical_link = "a";
-    const char* names[] = {"a", "b", "c"};
-    for (int i = 0; i < 3; ++i) {
-        LinkSpec l = link(names[i], 1.0 + i, box_inertia(1.0 + i, {0.2, 0.2, 0.2}), {{1.0 * i, 0, 0}, {}});
-        l.collisions.push_back(box_shape({0.2, 0.2, 0.2}, surface(0.5)));
-        m.links.push_back(l);
-    }
-    return m;
-}
-
-Pose at_x(double x) {
-    return {{x, 0, 0}, {}};
-}
 
 TEST(Compile, TreeOfHingesHasOneBodyALink) {
     ModelSpec m = row_of_three();
@@ -138,20 +100,6 @@ TEST(Compile, UnconnectedPartsAreRobotsOfOneFamily) {
     EXPECT_EQ(c.model->robots[0].family, c.model->robots[1].family);
     const RobotState b = initial_state(*c.model, RobotId(std::size_t{1}));
     EXPECT_EQ(base_pose(b).p, (Vec3{1, 0, 5})) << "the part starts where its root link was";
-}
-
-TEST(Compile, LoopIsReportedAndOpened) {
-    ModelSpec m = row_of_three();
-    m.joints.push_back(joint(JointSpecKind::kRevolute, "ab", "a", "b", at_x(0.5), {0, 0, 1}));
-    m.joints.push_back(joint(JointSpecKind::kRevolute, "bc", "b", "c", at_x(1.5), {0, 0, 1}));
-    m.joints.push_back(joint(JointSpecKind::kRevolute, "ac", "a", "c", at_x(1.0), {0, 0, 1}));
-    m.joints.back().where = {"loop.sdf", 42};
-    const Compiled c = compile_one(m);
-    ASSERT_NE(c.model, nullptr) << "a warning, not an error";
-    ASSERT_TRUE(has(c.diagnostics, "kinematic-loop"));
-    EXPECT_EQ(c.diagnostics.items()[0].where.line, 42);
-    EXPECT_NE(c.diagnostics.items()[0].message.find("'ac'"), std::string::npos);
-    EXPECT_EQ(c.type().bodies.size(), 3u);
 }
 
 TEST(Compile, UniversalJointIsTwoHinges) {

@@ -4,75 +4,21 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
+#include "model/compile_loops.h"
 #include "model/compile_type.h"
+#include "model/joint_graph.h"
 
 namespace roboss {
 namespace {
 
-constexpr double kUnlimited = 1e15;  // SDF writes 1e16 for "no limit"
-
-/// An edge of the joint graph as the tree walks it; `reversed`: from the SDF child to the SDF parent.
-struct Edge {
-    std::size_t joint = 0;
-    std::size_t to = 0;
-    bool reversed = false;
-};
-
-/// The joint graph of a ModelSpec; node links.size() is the world.
-struct Graph {
-    std::vector<std::vector<Edge>> edges;
-    std::size_t world = 0;
-};
-
-std::optional<std::size_t> link_index(const ModelSpec& spec, const std::string& name) {
-    for (std::size_t i = 0; i < spec.links.size(); ++i)
-        if (spec.links[i].name == name) return i;
-    return std::nullopt;
-}
-
-Graph build_graph(const ModelSpec& spec) {
-    Graph graph;
-    graph.world = spec.links.size();
-    graph.edges.resize(spec.links.size() + 1);
-    for (std::size_t j = 0; j < spec.joints.size(); ++j) {
-        const JointSpec& joint = spec.joints[j];
-        if (joint.kind == JointSpecKind::kGearbox) continue;  // couples joints, connects nothing
-        const auto child = link_index(spec, joint.child);
-        const auto parent =
-            joint.parent == "world" ? std::optional(graph.world) : link_index(spec, joint.parent);
-        if (!child || !parent) continue;  // reported by validate()
-        graph.edges[*parent].push_back({j, *child, false});
-        graph.edges[*child].push_back({j, *parent, true});
-    }
-    return graph;
-}
-
-/// All links connected with `start` (not walking through the world), ascending; sets `touches_world`.
-std::vector<std::size_t> connected_links(const Graph& graph, std::size_t start, std::vector<char>& seen,
-                                         bool& touches_world) {
-    std::vector<std::size_t> found{start};
-    seen[start] = 1;
-    touches_world = false;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        for (const Edge& edge : graph.edges[found[i]]) {
-            if (edge.to == graph.world) {
-                touches_world = true;
-            } else if (!seen[edge.to]) {
-                seen[edge.to] = 1;
-                found.push_back(edge.to);
-            }
-        }
-    }
-    std::sort(found.begin(), found.end());
-    return found;
-}
-
 /// Builds one RobotType by walking the joint graph from its root.
 class PartBuilder {
   public:
-    PartBuilder(const ModelSpec& spec, const Graph& graph, Diagnostics& diagnostics)
-        : spec_(spec), graph_(graph), diagnostics_(diagnostics) {}
+    PartBuilder(const ModelSpec& spec, const JointGraph& graph, const std::vector<CouplingSpec>& couplings,
+                Diagnostics& diagnostics)
+        : spec_(spec), graph_(graph), couplings_(couplings), diagnostics_(diagnostics) {}
 
     CompiledPart build(const std::vector<std::size_t>& links, bool fixed_base, bool is_main) {
         links_ = &links;
@@ -92,6 +38,8 @@ class PartBuilder {
             add_free_base(root, is_main);
         }
         walk(root);
+        for (std::size_t j : graph_.cut) add_loop(j);
+        add_couplings(couplings_, type, diagnostics_);
         add_links();
         finish();
         return std::move(part_);
@@ -103,9 +51,7 @@ class PartBuilder {
     std::size_t pick_root() const {
         std::optional<std::size_t> orphan;
         for (std::size_t l : *links_) {
-            const bool is_child = std::any_of(graph_.edges[l].begin(), graph_.edges[l].end(),
-                                              [](const Edge& e) { return e.reversed; });
-            if (is_child) continue;
+            if (graph_.is_child[l]) continue;
             if (spec_.links[l].name == spec_.canonical_link) return l;
             if (!orphan) orphan = l;
         }
@@ -127,14 +73,10 @@ class PartBuilder {
 
     /// Depth first, joints in file order; parents come before children in `bodies`.
     void walk(std::size_t node) {
-        for (const Edge& edge : graph_.edges[node]) {
+        for (const JointEdge& edge : graph_.edges[node]) {
             if (joint_done_[edge.joint]) continue;
             if (node == graph_.world && !in_part(edge.to)) continue;
             joint_done_[edge.joint] = 1;
-            if (body_of_link_[edge.to] != kUnplaced || edge.to == graph_.world) {
-                close_loop(edge);
-                continue;
-            }
             body_of_link_[edge.to] = add_joint(edge, body_of_link_[node]);
             walk(edge.to);
         }
@@ -142,15 +84,44 @@ class PartBuilder {
 
     bool in_part(std::size_t link) const { return std::binary_search(links_->begin(), links_->end(), link); }
 
-    void close_loop(const Edge& edge) {
-        const JointSpec& joint = spec_.joints[edge.joint];
-        diagnostics_.warning(
-            joint.where, "kinematic-loop",
-            "joint '" + joint.name + "' of model '" + spec_.name + "' closes a kinematic loop; it is ignored",
-            "loops are still to come: open the loop or expect these links to move apart");
+    /// Where a body's frame stands in the model frame at the zero configuration.
+    Transform placed(int body) const {
+        return body < 0 ? Transform{} : X_MB_[static_cast<std::size_t>(body)];
     }
 
-    int add_joint(const Edge& edge, int parent_body) {
+    void add_loop(std::size_t index) {
+        const JointSpec& spec = spec_.joints[index];
+        const std::size_t parent = *node_index(spec_, spec.parent), child = *link_index(spec_, spec.child);
+        if (!in_part(child)) return;
+        RobotType& type = part_.type;
+        Joint joint;
+        joint.name = spec.name;
+        joint.kind = spec.kind;
+        const int body_a = body_of_link_[parent], body_b = body_of_link_[child];
+        if (body_a == body_b) {  // other joints weld the two links together
+            if (spec.kind != JointSpecKind::kFixed) report_immobile(spec, spec_.name, diagnostics_);
+            type.joints.push_back(joint);
+            return;
+        }
+        LoopJoint loop = to_loop_joint(spec, placed(body_a), placed(body_b));
+        loop.joint = JointId(type.joints.size());
+        loop.body_a = body_a, loop.body_b = body_b;
+        loop.motor_index = static_cast<int>(type.motor_count());
+        for (Dof& dof : loop.dofs) dof.body = body_b, dof.joint = loop.joint;
+        joint.nv = static_cast<int>(loop.dofs.size());
+        joint.loop = static_cast<int>(type.loops.size());
+        type.joints.push_back(joint);
+        type.loops.push_back(loop);
+        report_loop(spec, spec_.name, diagnostics_);
+    }
+
+    static JointKind kind_of(JointSpecKind kind) {
+        return kind == JointSpecKind::kPrismatic ? JointKind::kPrismatic
+               : kind == JointSpecKind::kScrew   ? JointKind::kScrew
+                                                 : JointKind::kRevolute;
+    }
+
+    int add_joint(const JointEdge& edge, int parent_body) {
         const JointSpec& spec = spec_.joints[edge.joint];
         Joint joint;
         joint.name = spec.name;
@@ -160,9 +131,8 @@ class PartBuilder {
         int body = parent_body;
         if (spec.kind == JointSpecKind::kBall) {
             body = add_body(parent_body, spec, JointKind::kBall, AxisSpec{}, edge.reversed, id, joint);
-        } else if (spec.kind != JointSpecKind::kFixed && spec.kind != JointSpecKind::kScrew) {
-            const JointKind kind =
-                spec.kind == JointSpecKind::kPrismatic ? JointKind::kPrismatic : JointKind::kRevolute;
+        } else if (spec.kind != JointSpecKind::kFixed) {
+            const JointKind kind = kind_of(spec.kind);
             const std::size_t axes =
                 spec.kind == JointSpecKind::kUniversal || spec.kind == JointSpecKind::kRevolute2 ? 2 : 1;
             for (std::size_t a = 0; a < axes && a < spec.axes.size(); ++a) {
@@ -184,6 +154,8 @@ class PartBuilder {
         body.joint = kind;
         body.X_PJ = parent < 0 ? X_MJ : inverse(X_MB_[static_cast<std::size_t>(parent)]) * X_MJ;
         body.axis_J = reversed ? -axis.xyz : axis.xyz;
+        if (kind == JointKind::kScrew) body.pitch = spec.screw_pitch;
+        body.reversed_ball = reversed && kind == JointKind::kBall;
         body.q_index = type.nq;
         body.v_index = type.nv;
         body.nv = kind == JointKind::kBall ? 3 : 1;
@@ -193,7 +165,9 @@ class PartBuilder {
         const int parent_dof = parent < 0 ? -1 : last_dof(type.bodies[static_cast<std::size_t>(parent)]);
         for (int k = 0; k < body.nv; ++k) {
             type.dof_parent.push_back(k == 0 ? parent_dof : type.nv + k - 1);
-            type.dofs.push_back(to_dof(axis, kind, spec.kind == JointSpecKind::kContinuous, index, id));
+            type.dofs.push_back(
+                to_dof(axis, kind == JointKind::kBall || spec.kind == JointSpecKind::kContinuous));
+            type.dofs.back().body = index, type.dofs.back().joint = id;
         }
         if (kind == JointKind::kBall) {
             type.initial_q.insert(type.initial_q.end(), {1.0, 0.0, 0.0, 0.0});
@@ -208,25 +182,6 @@ class PartBuilder {
     }
 
     static int last_dof(const Body& body) { return body.v_index + body.nv - 1; }
-
-    static Dof to_dof(const AxisSpec& axis, JointKind kind, bool continuous, int body, JointId id) {
-        Dof dof;
-        dof.body = body;
-        dof.joint = id;
-        dof.damping = axis.damping;
-        dof.friction = axis.friction;
-        dof.armature = axis.armature;
-        if (kind == JointKind::kBall) return dof;
-        if (!continuous && axis.lower > -kUnlimited) dof.lower = axis.lower;
-        if (!continuous && axis.upper < kUnlimited) dof.upper = axis.upper;
-        if (axis.max_effort >= 0 && axis.max_effort < kUnlimited) dof.max_effort = axis.max_effort;
-        if (axis.max_velocity >= 0 && axis.max_velocity < kUnlimited) dof.max_velocity = axis.max_velocity;
-        dof.spring_stiffness = axis.spring_stiffness;
-        dof.spring_reference = axis.spring_reference;
-        dof.position_gain = axis.position_gain;
-        dof.velocity_gain = axis.velocity_gain;
-        return dof;
-    }
 
     void add_links() {
         for (std::size_t l : *links_) {
@@ -246,32 +201,6 @@ class PartBuilder {
         }
     }
 
-    /// Adds a link's inertia to its body: common centre of mass, parallel-axis theorem for both.
-    static void add_mass(Body& body, const LinkSpec& link, const Transform& X_BL) {
-        const Vec3 p_BC = X_BL * link.p_LC;
-        const Mat3 inertia = X_BL.R * link.inertia_C * transpose(X_BL.R);
-        const double total = body.mass + link.mass;
-        if (total <= 0) return;
-        const Vec3 centre = (body.p_BC * body.mass + p_BC * link.mass) * (1.0 / total);
-        body.inertia_C = body.inertia_C + point_inertia(body.mass, body.p_BC - centre) + inertia +
-                         point_inertia(link.mass, p_BC - centre);
-        if (link.gravity && link.mass > 0) {
-            const double felt = body.gravity_mass + link.mass;
-            body.p_BG = (body.p_BG * body.gravity_mass + p_BC * link.mass) * (1.0 / felt);
-            body.gravity_mass = felt;
-        }
-        body.p_BC = centre;
-        body.mass = total;
-    }
-
-    static Mat3 point_inertia(double mass, const Vec3& d) {
-        const double dd = norm_squared(d);
-        return Mat3{{dd - d.x * d.x, -d.x * d.y, -d.x * d.z},
-                    {-d.x * d.y, dd - d.y * d.y, -d.y * d.z},
-                    {-d.x * d.z, -d.y * d.z, dd - d.z * d.z}} *
-               mass;
-    }
-
     void add_shapes(const LinkSpec& spec, const Link& link, LinkId id) {
         for (const CollisionSpec& collision : spec.collisions) {
             BodyShape shape;
@@ -287,49 +216,16 @@ class PartBuilder {
     void finish() {
         RobotType& type = part_.type;
         for (const Body& body : type.bodies) type.mass += body.mass;
-        type.reach = reach();
-        if (type.self_collide) add_self_pairs();
+        type.reach = reach_of(type);
+        if (type.self_collide) add_self_pairs(type);
+        close_start(spec_, type, diagnostics_);
         compute_mobility(type);
         type.hash = type_hash(type);
     }
 
-    double reach() const {
-        const RobotType& type = part_.type;
-        std::vector<double> extent(type.bodies.size() + 1, 0.0);  // [0]: base frame, [1 + b]: body b
-        for (const BodyShape& s : type.shapes) {
-            double& e = extent[static_cast<std::size_t>(s.body + 1)];
-            e = std::max(e, norm(s.X_BS.p) + bounding_radius(s.shape));
-        }
-        for (std::size_t b = type.bodies.size(); b-- > 0;) {
-            const Body& body = type.bodies[b];
-            if (body.joint == JointKind::kFree) continue;
-            double slide = 0;
-            if (body.joint == JointKind::kPrismatic) {
-                const Dof& dof = type.dofs[static_cast<std::size_t>(body.v_index - type.base_nv())];
-                slide = std::max(std::fabs(dof.lower), std::fabs(dof.upper));
-            }
-            double& e = extent[static_cast<std::size_t>(body.parent + 1)];
-            e = std::max(e, norm(body.X_PJ.p) + slide + extent[b + 1]);
-        }
-        return std::max(extent[0], extent.size() > 1 && type.free_base ? extent[1] : 0.0);
-    }
-
-    void add_self_pairs() {
-        RobotType& type = part_.type;
-        const auto parent = [&](int b) {
-            return b < 0 ? -2 : type.bodies[static_cast<std::size_t>(b)].parent;
-        };
-        for (std::size_t a = 0; a < type.shapes.size(); ++a) {
-            for (std::size_t b = a + 1; b < type.shapes.size(); ++b) {
-                const int ba = type.shapes[a].body, bb = type.shapes[b].body;
-                if (ba == bb || parent(ba) == bb || parent(bb) == ba) continue;
-                type.self_pairs.emplace_back(static_cast<int>(a), static_cast<int>(b));
-            }
-        }
-    }
-
     const ModelSpec& spec_;
-    const Graph& graph_;
+    const JointGraph& graph_;
+    const std::vector<CouplingSpec>& couplings_;
     Diagnostics& diagnostics_;
     CompiledPart part_;
     const std::vector<std::size_t>* links_ = nullptr;
@@ -392,7 +288,8 @@ RobotType sensor_stand(const ModelSpec& spec) {
 }
 
 std::vector<CompiledPart> compile_parts(const ModelSpec& spec, Diagnostics& diagnostics) {
-    const Graph graph = build_graph(spec);
+    const JointGraph graph = build_joint_graph(spec);
+    const std::vector<CouplingSpec> couplings = find_couplings(spec, diagnostics);
     std::vector<char> seen(spec.links.size(), 0);
     std::vector<CompiledPart> parts;
     for (std::size_t l = 0; l < spec.links.size(); ++l) {
@@ -402,7 +299,7 @@ std::vector<CompiledPart> compile_parts(const ModelSpec& spec, Diagnostics& diag
         const bool is_main = std::any_of(links.begin(), links.end(), [&](std::size_t i) {
             return spec.links[i].name == spec.canonical_link;
         });
-        parts.push_back(PartBuilder(spec, graph, diagnostics)
+        parts.push_back(PartBuilder(spec, graph, couplings, diagnostics)
                             .build(links, fixed_base, is_main || spec.canonical_link.empty()));
     }
     const bool has_main =

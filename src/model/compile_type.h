@@ -25,6 +25,15 @@ RobotType sensor_stand(const ModelSpec& spec);
 bool to_shape(const GeometrySpec& geometry, Shape& shape);
 Material to_material(const SurfaceSpec& surface);
 
+/// Adds a link's inertia to its body: common centre of mass, parallel-axis theorem for both.
+void add_mass(Body& body, const LinkSpec& link, const Transform& X_BL);
+
+/// Radius of the sphere about the base origin that holds every shape in every pose.
+double reach_of(const RobotType& type);
+
+/// Fills RobotType::self_pairs: shapes of bodies that no joint joins.
+void add_self_pairs(RobotType& type);
+
 /// Fills Body::inverse_mass_linear, inverse_inertia_angular and Dof::inverse_inertia from the mass matrix at
 /// the zero pose.
 void compute_mobility(RobotType& type);

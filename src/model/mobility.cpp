@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "model/compile_type.h"
+#include "model/coordinates.h"
+#include "model/loop_closure.h"
 
 namespace roboss {
 namespace {
@@ -35,9 +37,46 @@ class Mobility {
             unit[d + static_cast<std::size_t>(type_.base_nv())] = 1;
             type_.dofs[d].inverse_inertia = inverse_norm(unit);
         }
+        if (!type_.has_equalities()) return;
+        std::vector<double> q(static_cast<std::size_t>(type_.nq), 0.0);
+        for (const Body& body : type_.bodies)
+            if (body.joint == JointKind::kBall) q[static_cast<std::size_t>(body.q_index)] = 1;
+        q[3] = 1;
+        place_tree(type_, q, placement_);
+        for (LoopJoint& loop : type_.loops) measure(loop);
+        for (CoordinateCoupling& coupling : type_.couplings) measure(coupling);
     }
 
   private:
+    /// Mobility of B against A under a wrench on B and its opposite on A.
+    double between(const LoopJoint& loop, const Spatial& wrench) const {
+        std::vector<double> row(n_, 0.0);
+        visit_between(type_, loop.body_a, loop.body_b,
+                      [&](std::size_t k, double sign) { row[k] = sign * dot(placement_.axes[k], wrench); });
+        return inverse_norm(row);
+    }
+
+    void measure(LoopJoint& loop) const {
+        const Transform A = placement_.of(loop.body_a), B = placement_.of(loop.body_b);
+        const Vec3 p = B * loop.X_BJ.p;
+        for (std::size_t k = 0; k < 3; ++k) {
+            Vec3 u;
+            u[k] = 1;
+            loop.inverse_mass += between(loop, {cross(p, u), u}) / 3;
+            loop.inverse_inertia += between(loop, {u, {}}) / 3;
+        }
+        const FreeDirections free = free_directions(loop, A, B);
+        for (std::size_t k = 0; k < free.count; ++k)
+            loop.dofs[k].inverse_inertia = between(loop, free.directions[k].wrench);
+    }
+
+    void measure(CoordinateCoupling& coupling) const {
+        std::vector<double> row(n_, 0.0);
+        row[static_cast<std::size_t>(coupling.follower + type_.base_nv())] = 1;
+        row[static_cast<std::size_t>(coupling.leader + type_.base_nv())] = -coupling.multiplier;
+        coupling.inverse_inertia = inverse_norm(row);
+    }
+
     void place_bodies() {
         X_WB_.resize(type_.bodies.size());
         for (std::size_t b = 0; b < type_.bodies.size(); ++b) {
@@ -60,6 +99,9 @@ class Mobility {
             } else if (body.joint == JointKind::kRevolute) {
                 const Vec3 axis = X.R * body.axis_J;
                 columns[first] = {axis, cross(axis, arm)};
+            } else if (body.joint == JointKind::kScrew) {
+                const Vec3 axis = X.R * body.axis_J;
+                columns[first] = {axis, cross(axis, arm) + axis * body.pitch};
             } else {
                 for (std::size_t k = 0; k < 3; ++k) {
                     Vec3 axis;
@@ -128,6 +170,7 @@ class Mobility {
     RobotType& type_;
     std::size_t n_;
     std::vector<Transform> X_WB_;
+    TreePlacement placement_;
     std::vector<double> m_;
 };
 

@@ -1,6 +1,7 @@
 // Look-ups by name, and the hash of a robot type.
 #include "model/model.h"
 
+#include <cmath>
 #include <span>
 
 #include "core/hash.h"
@@ -38,6 +39,8 @@ void add_body(Hash& hash, const Body& body) {
     add(hash, body.inertia_C), add(hash, body.p_BC), add(hash, body.p_BG);
     for (double x : {body.mass, body.gravity_mass, body.inverse_mass_linear, body.inverse_inertia_angular})
         hash.add(x);
+    if (body.joint == JointKind::kScrew) hash.add(body.pitch);
+    if (body.reversed_ball) add(hash, 1);
 }
 
 void add_dof(Hash& hash, const Dof& dof) {
@@ -46,6 +49,20 @@ void add_dof(Hash& hash, const Dof& dof) {
                      dof.spring_stiffness, dof.spring_reference, dof.armature, dof.position_gain,
                      dof.velocity_gain, dof.inverse_inertia})
         hash.add(x);
+    if (std::isfinite(dof.limit_stiffness)) hash.add(dof.limit_stiffness), hash.add(dof.limit_dissipation);
+}
+
+void add_loop(Hash& hash, const LoopJoint& loop) {
+    for (int x : {static_cast<int>(loop.joint.value), static_cast<int>(loop.kind), loop.body_a, loop.body_b})
+        add(hash, x);
+    add(hash, loop.X_AJ), add(hash, loop.X_BJ), add(hash, loop.axis_J), add(hash, loop.axis2_J);
+    for (double x : {loop.pitch, loop.inverse_mass, loop.inverse_inertia}) hash.add(x);
+    for (const Dof& dof : loop.dofs) add_dof(hash, dof);
+}
+
+void add_coupling(Hash& hash, const CoordinateCoupling& coupling) {
+    add(hash, coupling.follower), add(hash, coupling.leader);
+    for (double x : {coupling.multiplier, coupling.offset, coupling.inverse_inertia}) hash.add(x);
 }
 
 void add_shape(Hash& hash, const BodyShape& s) {
@@ -87,6 +104,8 @@ std::uint64_t type_hash(const RobotType& type) {
     for (const Joint& joint : type.joints)
         hash.add(std::string_view(joint.name)), add(hash, joint.v_index), add(hash, joint.reversed ? 1 : 0);
     hash.add(std::span<const double>(type.initial_q));
+    for (const LoopJoint& loop : type.loops) add_loop(hash, loop);
+    for (const CoordinateCoupling& coupling : type.couplings) add_coupling(hash, coupling);
     return hash.value();
 }
 

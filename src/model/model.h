@@ -24,7 +24,7 @@
 
 namespace roboss {
 
-enum class JointKind : std::uint8_t { kFree, kRevolute, kPrismatic, kBall };
+enum class JointKind : std::uint8_t { kFree, kRevolute, kPrismatic, kBall, kScrew };
 
 /// A rigid body of the tree. Its frame B sits at its joint: X_PB(q) = X_PJ * motion(q); bodies come parents
 /// first.
@@ -33,6 +33,9 @@ struct Body {
     JointKind joint = JointKind::kFree;
     Transform X_PJ;
     Vec3 axis_J{0, 0, 1};
+    double pitch = 0;  // of a screw: way along the axis, m per radian
+    // The tree walks a ball joint from the file's child to its parent: q and v stay those of the file.
+    bool reversed_ball = false;
     int q_index = 0;  // first coordinate in RobotState::q
     int v_index = 0;  // first in RobotState::v
     int nv = 0;
@@ -56,6 +59,8 @@ struct Dof {
     double damping = 0, friction = 0, spring_stiffness = 0, spring_reference = 0, armature = 0;
     double position_gain = 0, velocity_gain = 0;  // 0: as stiff as the solver allows
     double inverse_inertia = 0;                   // mobility at the zero pose
+    // Of a soft limit, N m/rad and N m s/rad; an infinite stiffness is a hard one.
+    double limit_stiffness = std::numeric_limits<double>::infinity(), limit_dissipation = 0;
 };
 
 struct Link {
@@ -73,12 +78,35 @@ struct Joint {
     int v_index = -1;
     int nv = 0;
     bool reversed =
-        false;  // the tree walks it from child to parent: of two axes, the second comes first in q and v
+        false;      // the tree walks it from child to parent: of two axes, the second comes first in q and v
+    int loop = -1;  // in RobotType::loops if it closes one: then it has no place in q and v
 
     /// Where axis `axis` of the file stands behind q_index and v_index (joints of one or two axes).
     int axis_offset(int axis) const {
         return reversed && kind != JointSpecKind::kBall ? nv - 1 - axis : axis;
     }
+};
+
+/// A joint that closes a kinematic loop: it is not in the tree; rows keep its two frames together.
+struct LoopJoint {
+    JointId joint;
+    JointSpecKind kind = JointSpecKind::kFixed;
+    int body_a = -1, body_b = -1;  // of the file's parent and child; -1: the fixed base
+    Transform X_AJ, X_BJ;          // the joint's frame in both; they coincide when the joint is at zero
+    Vec3 axis_J{0, 0, 1}, axis2_J{0, 1, 0};
+    double pitch = 0;       // of a screw, m per radian
+    std::vector<Dof> dofs;  // its free directions
+    int motor_index = 0;    // of the first of them in RobotState::motors
+    // 1/kg and 1/(kg m^2): mobility of B against A at the joint, at the zero pose.
+    double inverse_mass = 0, inverse_inertia = 0;
+};
+
+/// Gearbox or mimic: follower = multiplier * leader + offset, between coordinates of two degrees of freedom.
+struct CoordinateCoupling {
+    JointId joint;                 // of the follower
+    int follower = 0, leader = 0;  // in RobotType::dofs
+    double multiplier = 1, offset = 0;
+    double inverse_inertia = 0;  // mobility of the difference at the zero pose
 };
 
 /// Friction etc. of one shape; a pair combines: mu = min, restitution = max, threshold = max, others = min
@@ -114,6 +142,8 @@ struct RobotType {
         dof_parent;  // for each entry of v: the previous one on its path to the root, -1 at the root
     std::vector<Link> links;
     std::vector<Joint> joints;
+    std::vector<LoopJoint> loops;
+    std::vector<CoordinateCoupling> couplings;
     std::vector<BodyShape> shapes;
     std::vector<std::pair<int, int>> self_pairs;  // shapes of this robot that may collide with each other
     std::vector<SensorInfo> sensors;
@@ -124,6 +154,23 @@ struct RobotType {
     std::uint64_t hash = 0;
 
     int base_nv() const { return free_base ? 6 : 0; }
+    /// Motors: one a Dof of the tree, then one a free direction of the loop joints.
+    std::size_t motor_count() const {
+        return dofs.size() + (loops.empty() ? 0
+                                            : static_cast<std::size_t>(loops.back().motor_index) -
+                                                  dofs.size() + loops.back().dofs.size());
+    }
+    std::size_t motor_index(const Joint& joint, int axis) const {
+        const int first = joint.loop >= 0 ? loops[static_cast<std::size_t>(joint.loop)].motor_index + axis
+                                          : joint.v_index + joint.axis_offset(axis) - base_nv();
+        return static_cast<std::size_t>(first);
+    }
+    const Dof& dof(const Joint& joint, int axis) const {
+        return joint.loop >= 0
+                   ? loops[static_cast<std::size_t>(joint.loop)].dofs[static_cast<std::size_t>(axis)]
+                   : dofs[motor_index(joint, axis)];
+    }
+    bool has_equalities() const { return !loops.empty() || !couplings.empty(); }
     std::optional<LinkId> find_link(const std::string& wanted) const;
     std::optional<JointId> find_joint(const std::string& wanted) const;
     std::optional<std::size_t> find_sensor(const std::string& wanted) const;

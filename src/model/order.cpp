@@ -98,9 +98,9 @@ struct Apply {
     }
     void operator()(const SetJoint& a) const {
         const Joint& joint = type.joints[a.joint.index()];
-        const auto d = static_cast<std::size_t>(joint.v_index + joint.axis_offset(a.axis) - type.base_nv());
-        const double bound = type.dofs[d].max_effort;
-        state.motors[d] = {a.mode, a.target, a.max_effort < 0 ? bound : std::fmin(a.max_effort, bound)};
+        const double bound = type.dof(joint, a.axis).max_effort;
+        state.motors[type.motor_index(joint, a.axis)] = {
+            a.mode, a.target, a.max_effort < 0 ? bound : std::fmin(a.max_effort, bound)};
     }
 };
 

@@ -15,7 +15,7 @@ RobotState initial_state(const Model& model, RobotId robot) {
     set_base_pose(state, X_WB);
     state.q.insert(state.q.end(), type.initial_q.begin(), type.initial_q.end());
     state.v.assign(static_cast<std::size_t>(type.nv), 0.0);
-    state.motors.resize(type.dofs.size());
+    state.motors.resize(type.motor_count());
     return state;
 }
 
@@ -128,7 +128,7 @@ Result<RobotState> decode_state(std::span<const std::uint8_t> bytes, const Robot
     const std::uint64_t nq = r.word(), nv = r.word(), motors = r.word(), wrenches = r.word(),
                         contacts = r.word();
     if (nq != static_cast<std::uint64_t>(type.nq) || nv != static_cast<std::uint64_t>(type.nv) ||
-        motors != type.dofs.size())
+        motors != type.motor_count())
         return Error{"the bytes of a state do not fit robot type '" + type.name + "'",
                      "they belong to another world or version"};
     if (wrenches > r.left() / kWrenchWords || contacts > r.left() / kContactWords)

@@ -47,7 +47,7 @@ struct ContactMemory {
 struct RobotState {
     std::vector<double> q;  // see model.h
     std::vector<double> v;
-    std::vector<MotorSetpoint> motors;  // one a Dof
+    std::vector<MotorSetpoint> motors;  // RobotType::motor_count()
     std::vector<TimedWrench> wrenches;
     std::vector<ContactMemory> contacts;
     friend bool operator==(const RobotState&, const RobotState&) = default;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/joint_motion.h"
 #include "physics/robot_work.h"
 
 namespace roboss {
@@ -15,47 +16,8 @@ Transform base_transform(std::span<const double> q) {
     return {to_matrix(Quat{q[3], q[4], q[5], q[6]}), {q[0], q[1], q[2]}};
 }
 
-Mat3 rotation_about(const Vec3& a, double angle) {
-    const SinCos h = fixed_sincos(0.5 * angle);
-    return to_matrix(Quat{h.cos, a.x * h.sin, a.y * h.sin, a.z * h.sin});
-}
-
-/// Axes of one joint; anchor is the body's origin from O, R_WJ the joint frame before its motion.
-void set_axes(const Body& body, const Mat3& R_WJ, const Vec3& anchor, Spatial* axes) {
-    switch (body.joint) {
-        case JointKind::kRevolute: {
-            const Vec3 a = R_WJ * body.axis_J;
-            axes[0] = {a, cross(anchor, a)};
-            break;
-        }
-        case JointKind::kPrismatic:
-            axes[0] = {{}, R_WJ * body.axis_J};
-            break;
-        case JointKind::kBall:
-            for (std::size_t k = 0; k < 3; ++k) axes[k] = {R_WJ.col(k), cross(anchor, R_WJ.col(k))};
-            break;
-        case JointKind::kFree:
-            for (std::size_t k = 0; k < 3; ++k) {
-                axes[k] = axes[k + 3] = Spatial{};
-                axes[k].angular[k] = axes[k + 3].linear[k] = 1;
-            }
-            break;
-    }
-}
-
-Transform moved(const Body& body, const Transform& X_WJ, std::span<const double> q) {
-    const auto i = static_cast<std::size_t>(body.q_index);
-    switch (body.joint) {
-        case JointKind::kRevolute:
-            return {X_WJ.R * rotation_about(body.axis_J, q[i]), X_WJ.p};
-        case JointKind::kPrismatic:
-            return {X_WJ.R, X_WJ.p + X_WJ.R * (body.axis_J * q[i])};
-        case JointKind::kBall:
-            return {X_WJ.R * to_matrix(Quat{q[i], q[i + 1], q[i + 2], q[i + 3]}), X_WJ.p};
-        case JointKind::kFree:
-            break;
-    }
-    return X_WJ;
+SpatialInertia inertia_of(const Body& body, const BodyWork& w) {
+    return spatial_inertia(body.mass, w.centre, rotated(w.X_WB.R, body.inertia_C));
 }
 
 /// Adds what Clients' wrenches do to the bodies' impulses (force at the link's centre of mass).
@@ -98,9 +60,10 @@ void place_bodies(const RobotType& type, std::span<const double> q, RobotWork& w
         if (body.joint != JointKind::kFree)
             X_WJ = (body.parent < 0 ? X_WR : work.bodies[static_cast<std::size_t>(body.parent)].X_WB) *
                    body.X_PJ;
-        w.X_WB = moved(body, X_WJ, q);
+        w.X_WB = joint_motion(body, X_WJ, q);
         w.centre = w.X_WB * body.p_BC - work.origin;
-        set_axes(body, X_WJ.R, w.X_WB.p - work.origin, &work.axes[static_cast<std::size_t>(body.v_index)]);
+        joint_axes(body, X_WJ.R, {w.X_WB.R, w.X_WB.p - work.origin},
+                   &work.axes[static_cast<std::size_t>(body.v_index)]);
     }
 }
 
@@ -159,7 +122,7 @@ void compute_impulse(const Model& model, double dt, double momentum_weight, std:
     for (std::size_t b = 0; b < type.bodies.size(); ++b) {
         const Body& body = type.bodies[b];
         BodyWork& w = work.bodies[b];
-        w.inertia = spatial_inertia(body.mass, w.centre, rotated(w.X_WB.R, body.inertia_C));
+        w.inertia = inertia_of(body, w);
         const Spatial momentum = w.inertia * w.velocity;
         const Vec3 weight = model.gravity * body.gravity_mass;
         const Vec3 feels = body.gravity_mass == body.mass ? w.centre : w.X_WB * body.p_BG - work.origin;
@@ -179,6 +142,11 @@ void compute_impulse(const Model& model, double dt, double momentum_weight, std:
         if (body.parent >= 0) work.bodies[static_cast<std::size_t>(body.parent)].impulse += w.impulse;
     }
     add_joint_impulses(type, dt, momentum_weight, q, v, work);
+}
+
+void compute_inertias(const RobotType& type, RobotWork& work) {
+    for (std::size_t b = 0; b < type.bodies.size(); ++b)
+        work.bodies[b].inertia = inertia_of(type.bodies[b], work.bodies[b]);
 }
 
 void compute_mass_matrix(const RobotType& type, double dt, RobotWork& work) {

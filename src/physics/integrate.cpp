@@ -53,28 +53,24 @@ void normalise(const RobotType& type, std::span<double> q) {
     }
 }
 
-}  // namespace
-
-void advance_coordinates(const RobotType& type, std::span<const double> v, double dt, std::span<double> q) {
-    for (const Body& body : type.bodies) {
-        const auto i = static_cast<std::size_t>(body.q_index);
-        const auto k = static_cast<std::size_t>(body.v_index);
-        if (body.joint == JointKind::kFree) {
-            for (std::size_t a = 0; a < 3; ++a) q[a] += dt * v[k + 3 + a];
-            put_quat(q, 3, normalized(exponential(get_vec(v, k) * dt) * get_quat(q, 3)));
-        } else if (body.joint == JointKind::kBall) {
-            put_quat(q, i, normalized(exponential(get_vec(v, k) * dt) * get_quat(q, i)));
-        } else {
-            q[i] += dt * v[k];
-        }
-    }
+/// Adds what loops and couplings accelerate: so much that their second derivatives are zero.
+void add_equality_acceleration(FreeBuffer& free, std::span<const double> q) {
+    RobotWork& work = free.work;
+    const RobotType& type = *work.type;
+    gather_equalities(work, q, free.equalities);
+    free.solver.prepare(type, work.mass_matrix, free.equalities);
+    free.wanted.clear();
+    for (const EqualityRow& row : free.equalities.rows)
+        free.wanted.push_back(-row.curvature - times_row(free.equalities, row, work.velocity));
+    free.change.resize(work.velocity.size());
+    free.solver.solve(free.wanted, free.change);
+    for (std::size_t i = 0; i < free.change.size(); ++i) work.velocity[i] += free.change[i];
 }
 
-namespace {
-
-/// Acceleration of the free robot at (q, v), explicit damping included, into buffer.velocity.
+/// Acceleration of the free robot at (q, v), explicit damping included, into its work's velocity.
 void free_acceleration(const Model& model, std::span<const double> q, std::span<const double> v,
-                       RobotWork& buffer) {
+                       FreeBuffer& free) {
+    RobotWork& buffer = free.work;
     const RobotType& type = *buffer.type;
     place_bodies(type, q, buffer);
     move_bodies(type, v, buffer);
@@ -87,6 +83,7 @@ void free_acceleration(const Model& model, std::span<const double> q, std::span<
     tree_factor(type.dof_parent, buffer.mass_matrix);
     buffer.velocity = buffer.impulse;
     tree_solve(type.dof_parent, buffer.mass_matrix, buffer.velocity.data());
+    if (type.has_equalities()) add_equality_acceleration(free, q);
 }
 
 }  // namespace
@@ -108,7 +105,7 @@ void advance_freely(const Model& model, RobotWork& work, FreeBuffer& buffer) {
         for (std::size_t i = 0; i < nv; ++i) buffer.v[i] = state.v[i] + h * buffer.v_rate[i];
         normalise(type, buffer.q);
         coordinate_rate(type, buffer.q, buffer.v, buffer.q_rate);
-        free_acceleration(model, buffer.q, buffer.v, buffer.work);
+        free_acceleration(model, buffer.q, buffer.v, buffer);
         buffer.v_rate = buffer.work.velocity;
         for (std::size_t i = 0; i < nq; ++i) buffer.q_sum[i] += kWeight[stage] * buffer.q_rate[i];
         for (std::size_t i = 0; i < nv; ++i) buffer.v_sum[i] += kWeight[stage] * buffer.v_rate[i];
@@ -116,6 +113,9 @@ void advance_freely(const Model& model, RobotWork& work, FreeBuffer& buffer) {
     for (std::size_t i = 0; i < nq; ++i) state.q[i] += dt * buffer.q_sum[i];
     for (std::size_t i = 0; i < nv; ++i) state.v[i] += dt * buffer.v_sum[i];
     normalise(type, state.q);
+    if (!type.has_equalities()) return;
+    buffer.projection.close_coordinates(type, state.q);
+    buffer.projection.close_velocities(type, state.q, state.v);
 }
 
 }  // namespace roboss

@@ -114,6 +114,18 @@ bool near_limit(const Dof& dof, double q, double v, double dt) {
     return q - dof.lower < reach || dof.upper - q < reach;
 }
 
+/// True if the free directions of a loop joint are not all left to themselves.
+bool needs_rows(const LoopJoint& loop, const RobotState& state) {
+    for (std::size_t d = 0; d < loop.dofs.size(); ++d) {
+        const Dof& dof = loop.dofs[d];
+        if (state.motors[static_cast<std::size_t>(loop.motor_index) + d].mode != MotorMode::kPassive)
+            return true;
+        if (dof.friction > 0 || dof.damping > 0 || dof.spring_stiffness > 0) return true;
+        if (std::isfinite(dof.lower) || std::isfinite(dof.upper)) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 bool add_joint_rows(const Model& model, const RobotWork& robot, int offset, std::vector<JointRow>& rows) {
@@ -141,6 +153,8 @@ bool add_joint_rows(const Model& model, const RobotWork& robot, int offset, std:
 bool moves_freely(const Model& model, const RobotWork& robot) {
     const RobotType& type = *robot.type;
     const RobotState& state = *robot.state;
+    for (const LoopJoint& loop : type.loops)
+        if (needs_rows(loop, state)) return false;
     for (std::size_t d = 0; d < type.dofs.size(); ++d) {
         const Dof& dof = type.dofs[d];
         if (state.motors[d].mode != MotorMode::kPassive || dof.friction > 0 || is_stiff(dof, model.dt_s))

@@ -52,6 +52,8 @@ void place_shapes(const RobotType& type, double dt, RobotWork& work);
 /// work.impulse = momentum_weight * M v + dt * (applied - bias); with (1, 0) the generalised force alone.
 void compute_impulse(const Model& model, double dt, double momentum_weight, std::span<const double> q,
                      std::span<const double> v, RobotWork& work);
+/// Inertias of the bodies alone, as compute_impulse sets them on its way; compute_mass_matrix needs them.
+void compute_inertias(const RobotType& type, RobotWork& work);
 void compute_mass_matrix(const RobotType& type, double dt, RobotWork& work);
 
 }  // namespace roboss

@@ -126,12 +126,6 @@ double screw_pitch(const Element& source, const Import& import) {
 }
 
 void report_joint_to_come(const JointSpec& spec, const Element& source, const Import& import) {
-    if (spec.kind == JointSpecKind::kScrew) {
-        import.diagnostics().warning(
-            source.where(), "joint-to-come",
-            "joint '" + spec.name + "': screw joints are still to come; its links are welded together",
-            "Use a revolute and a prismatic joint, driven together.");
-    }
     if (spec.kind == JointSpecKind::kGearbox) {
         import.diagnostics().warning(
             source.where(), "joint-to-come",

@@ -147,8 +147,22 @@ TEST(LoadWorld, ReadsEveryKindOfJoint) {
     EXPECT_EQ(joints[4].kind, JointSpecKind::kBall);
     EXPECT_EQ(joints[4].axes.size(), 0u);
     EXPECT_EQ(joints[6].axes.size(), 2u);
-    ASSERT_NE(loaded.find("joint-to-come"), nullptr);
-    EXPECT_NE(loaded.find("joint-to-come")->message.find("screw"), std::string::npos);
+    EXPECT_EQ(joints[5].screw_pitch, -1) << "one radian a metre, left-handed, is SDFormat's default";
+    EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
+}
+
+TEST(LoadWorld, PitchOfAScrewIsReadInBothOfItsUnits) {
+    const auto pitch_of = [](const std::string& element) {
+        const Loaded loaded =
+            load_elements("<model name='m'>" + link("a") + link("b") +
+                          "<joint name='j' type='screw'><parent>a</parent><child>b</child>" + element +
+                          "<axis><xyz>0 0 1</xyz></axis></joint></model>");
+        EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
+        return loaded.world->prototypes[0].joints[0].screw_pitch;
+    };
+    EXPECT_DOUBLE_EQ(pitch_of("<screw_thread_pitch>0.01</screw_thread_pitch>"), 0.01 / (2 * kPi))
+        << "metres a turn";
+    EXPECT_DOUBLE_EQ(pitch_of("<thread_pitch>50</thread_pitch>"), -0.02) << "radians a metre, left-handed";
 }
 
 TEST(LoadWorld, FlattensNestedModels) {

@@ -142,6 +142,11 @@ class ModelCheck {
         if (!is_finite(joint.X_MJ))
             diagnostics_.error(joint.where, "not-finite", name + " has a pose that is not finite",
                                "Correct its <pose>.");
+        if (joint.kind == JointSpecKind::kScrew &&
+            !(std::isfinite(joint.screw_pitch) && joint.screw_pitch != 0)) {
+            diagnostics_.error(joint.where, "bad-pitch", name + " has a thread without pitch",
+                               "Write <screw_thread_pitch> in metres a turn, other than 0.");
+        }
         for (const AxisSpec& axis : joint.axes) check_axis(joint, axis);
     }
 

@@ -121,6 +121,15 @@ TEST(Validate, LimitsAndDynamicsMustMakeSense) {
     expect_one("bad-dynamics", Severity::kError, 9, [](World& w) { joint(w).axes[0].friction = kNan; });
 }
 
+TEST(Validate, AScrewMustHaveAPitch) {
+    const auto make_screw = [](World& w, double pitch) {
+        w.prototypes[0].joints[0].kind = JointSpecKind::kScrew;
+        w.prototypes[0].joints[0].screw_pitch = pitch;
+    };
+    EXPECT_TRUE(findings([&](World& w) { make_screw(w, -0.1); }).items().empty());
+    expect_one("bad-pitch", Severity::kError, 9, [&](World& w) { make_screw(w, 0.0); });
+}
+
 TEST(Validate, ShapesMustHaveASize) {
     expect_one("bad-size", Severity::kError, 0,
                [](World& w) { link_a(w).collisions[0].geometry.size.y = 0; });

@@ -115,6 +115,13 @@ enum class JointSpecKind {
     kGearbox
 };
 
+/// A joint axis that follows another: position = multiplier * (leader's position - reference) + offset.
+struct MimicSpec {
+    std::string joint;  // the leader's
+    int axis = 0;
+    double multiplier = 1, offset = 0, reference = 0;
+};
+
 /// One axis of a joint. Infinite limits mean none.
 struct AxisSpec {
     Vec3 xyz{0, 0, 1};                   // unit, in the joint frame
@@ -128,6 +135,7 @@ struct AxisSpec {
     // <roboss:motor>: gains of the position motor (0: as stiff as the solver allows)
     double position_gain = 0, velocity_gain = 0;
     double armature = 0;  // rotor inertia seen at the joint, kg m^2
+    std::optional<MimicSpec> mimic;
 };
 
 struct JointSpec {
@@ -138,6 +146,9 @@ struct JointSpec {
     Pose X_MJ;                   // joint frame in the model frame, all joints at zero
     std::vector<AxisSpec> axes;  // 0 (fixed, ball), 1, or 2 (universal, revolute2)
     double screw_pitch = 0;      // m per radian
+    // Gearbox: angle of the child against the reference link = -ratio * angle of the parent against it.
+    double gearbox_ratio = 1;
+    std::string gearbox_reference;  // link name or "world"
     SourceLocation where;
 };
 

@@ -1,0 +1,190 @@
+// Settles the start of a robot with loops or couplings: Newton's method with the shortest step (minimum norm)
+// on the joint coordinates, led from the zero configuration, where every loop of a file is closed, so that it
+// ends on the branch that the file draws.
+#include <algorithm>
+#include <cmath>
+
+#include "model/compile_loops.h"
+#include "model/coordinates.h"
+#include "model/loop_closure.h"
+
+namespace roboss {
+namespace {
+
+constexpr double kClosed = 1e-10;  // m or rad
+constexpr int kLeadSteps = 20;     // from zero to the start that the file asks for
+
+struct Gap {
+    double way = 0, angle = 0;  // largest, m and rad
+    bool closed() const { return way <= kClosed && angle <= kClosed; }
+};
+
+class StartClosure {
+  public:
+    explicit StartClosure(RobotType& type)
+        : type_(type), base_(static_cast<std::size_t>(type.base_nv())), q_{0, 0, 0, 1, 0, 0, 0} {
+        q_.insert(q_.end(), type.initial_q.begin(), type.initial_q.end());
+        held_.assign(static_cast<std::size_t>(type.nv), 0);
+    }
+
+    Gap gap() {
+        gather();
+        return gap_;
+    }
+
+    /// Leads the coordinates that the file gives from zero to their values; the others follow.
+    Gap lead() {
+        const std::vector<double> wanted = q_;
+        for (const Body& body : type_.bodies) {
+            if (body.nv != 1 || wanted[coordinate(body)] == 0) continue;
+            held_[static_cast<std::size_t>(body.v_index)] = 1;
+        }
+        for (const CoordinateCoupling& c : type_.couplings)
+            held_[base_ + static_cast<std::size_t>(c.follower)] = 0;
+        Gap left;
+        for (int step = 1; step <= kLeadSteps; ++step) {
+            for (const Body& body : type_.bodies) {
+                if (body.nv == 1 && held_[static_cast<std::size_t>(body.v_index)])
+                    q_[coordinate(body)] = wanted[coordinate(body)] * step / kLeadSteps;
+                else if (body.nv == 1 && step == 1)
+                    q_[coordinate(body)] = 0;
+            }
+            left = settle();
+        }
+        return left;
+    }
+
+    Gap lead_none() {
+        std::fill(held_.begin(), held_.end(), 0);
+        return settle();
+    }
+
+    std::vector<double> joint_coordinates() const { return {q_.begin() + 7, q_.end()}; }
+
+  private:
+    static std::size_t coordinate(const Body& body) { return static_cast<std::size_t>(body.q_index); }
+
+    Gap settle() {
+        constexpr int kStepsMax = 60;
+        for (int i = 0; i < kStepsMax; ++i) {
+            gather();
+            if (gap_.closed() && i > 0) break;
+            step();
+        }
+        return gap_;
+    }
+
+    /// Errors and Jacobian (row-major, over all of v) of loops and couplings.
+    void gather() {
+        place_tree(type_, q_, placement_);
+        errors_.clear(), jacobian_.clear();
+        gap_ = {};
+        for (const LoopJoint& loop : type_.loops) {
+            const BodyMotion a{placement_.of(loop.body_a), {}, {}}, b{placement_.of(loop.body_b), {}, {}};
+            for (const ClosureRow& row : closure_rows(loop, a, b).all()) {
+                const bool way = norm_squared(row.wrench.linear) > 0;
+                double* const j = add_row(row.error, way);
+                visit_between(type_, loop.body_a, loop.body_b, [&](std::size_t k, double sign) {
+                    j[k] = sign * dot(placement_.axes[k], row.wrench);
+                });
+            }
+        }
+        for (const CoordinateCoupling& c : type_.couplings) {
+            const auto f = static_cast<std::size_t>(c.follower), l = static_cast<std::size_t>(c.leader);
+            double* const j = add_row(value(f) - c.multiplier * value(l) - c.offset, false);
+            j[base_ + f] = 1, j[base_ + l] -= c.multiplier;
+        }
+    }
+
+    double value(std::size_t dof) const {
+        return q_[coordinate(type_.bodies[static_cast<std::size_t>(type_.dofs[dof].body)])];
+    }
+
+    double* add_row(double error, bool way) {
+        double& largest = way ? gap_.way : gap_.angle;
+        largest = std::max(largest, std::fabs(error));
+        errors_.push_back(error);
+        jacobian_.resize(jacobian_.size() + held_.size(), 0.0);
+        return jacobian_.data() + jacobian_.size() - held_.size();
+    }
+
+    /// q := q - J^T (J J^T + a little)^-1 errors, on the coordinates that are not held; at most 0.2 rad or m.
+    void step() {
+        constexpr double kRegularisation = 1e-10, kStepMax = 0.2;
+        const std::size_t m = errors_.size(), n = held_.size();
+        for (std::size_t i = 0; i < m; ++i)
+            for (std::size_t k = 0; k < n; ++k)
+                if (k < base_ || held_[k]) jacobian_[i * n + k] = 0;
+        std::vector<double> a(m * m), x = errors_;
+        double trace = 0;
+        for (std::size_t i = 0; i < m; ++i) {
+            for (std::size_t j = 0; j <= i; ++j)
+                for (std::size_t k = 0; k < n; ++k)
+                    a[i * m + j] += jacobian_[i * n + k] * jacobian_[j * n + k];
+            trace += a[i * m + i];
+        }
+        if (trace == 0) return;
+        for (std::size_t i = 0; i < m; ++i) a[i * m + i] += kRegularisation * trace;
+        solve_cholesky(a, x);
+        std::vector<double> change(n);
+        double largest = 0;
+        for (std::size_t k = 0; k < n; ++k) {
+            for (std::size_t i = 0; i < m; ++i) change[k] -= jacobian_[i * n + k] * x[i];
+            largest = std::max(largest, std::fabs(change[k]));
+        }
+        advance_coordinates(type_, change, largest > kStepMax ? kStepMax / largest : 1.0, q_);
+    }
+
+    /// x := a^-1 x; lower triangle, row-major.
+    static void solve_cholesky(std::vector<double>& a, std::vector<double>& x) {
+        const std::size_t m = x.size();
+        for (std::size_t i = 0; i < m; ++i) {
+            for (std::size_t j = 0; j <= i; ++j) {
+                double sum = a[i * m + j];
+                for (std::size_t k = 0; k < j; ++k) sum -= a[i * m + k] * a[j * m + k];
+                a[i * m + j] = i == j ? std::sqrt(sum) : sum / a[j * m + j];
+            }
+            for (std::size_t k = 0; k < i; ++k) x[i] -= a[i * m + k] * x[k];
+            x[i] /= a[i * m + i];
+        }
+        for (std::size_t i = m; i-- > 0;) {
+            for (std::size_t k = i + 1; k < m; ++k) x[i] -= a[k * m + i] * x[k];
+            x[i] /= a[i * m + i];
+        }
+    }
+
+    RobotType& type_;
+    std::size_t base_;
+    std::vector<double> q_;
+    std::vector<char> held_;  // one an entry of v
+    TreePlacement placement_;
+    std::vector<double> errors_, jacobian_;
+    Gap gap_;
+};
+
+}  // namespace
+
+void close_start(const ModelSpec& spec, RobotType& type, Diagnostics& diagnostics) {
+    if (!type.has_equalities()) return;
+    StartClosure closure(type);
+    if (closure.gap().closed()) return;
+    Gap gap = closure.lead();
+    const bool moved_given = !gap.closed();
+    if (moved_given) gap = closure.lead_none();
+    if (!gap.closed()) {
+        diagnostics.error(spec.where, "open-loop",
+                          "the loops of model '" + spec.name + "' cannot be closed at its start: a gap of " +
+                              std::to_string(gap.way) + " m or " + std::to_string(gap.angle) + " rad is left",
+                          "Correct <initial_position>, the joints' poses, or the offsets of mimic joints.");
+        return;
+    }
+    type.initial_q = closure.joint_coordinates();
+    if (moved_given)
+        diagnostics.warning(spec.where, "start-moved",
+                            "the loops of model '" + spec.name +
+                                "' do not close at the <initial_position>s given; "
+                                "the joints start elsewhere",
+                            "Give the start of as many joints as the mechanism is free to move.");
+}
+
+}  // namespace roboss

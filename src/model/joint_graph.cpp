@@ -1,0 +1,130 @@
+// Kruskal's algorithm over the joints, most needed first.
+#include "model/joint_graph.h"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+namespace roboss {
+namespace {
+
+constexpr double kUnlimited = 1e15;  // SDF writes 1e16 for "no limit"
+
+/// Joints whose coordinates others need: mimic leaders and followers, gearboxes' hinges, odometers.
+std::set<std::string> joints_in_use(const ModelSpec& spec) {
+    std::set<std::string> used;
+    for (const JointSpec& joint : spec.joints) {
+        for (const AxisSpec& axis : joint.axes)
+            if (axis.mimic) used.insert({joint.name, axis.mimic->joint});
+        if (joint.kind != JointSpecKind::kGearbox) continue;
+        for (const JointSpec& hinge : spec.joints)
+            for (const std::string& end : {joint.parent, joint.child})
+                if ((hinge.parent == joint.gearbox_reference && hinge.child == end) ||
+                    (hinge.child == joint.gearbox_reference && hinge.parent == end))
+                    used.insert(hinge.name);
+    }
+    for (const LinkSpec& link : spec.links)
+        for (const SensorSpec& sensor : link.sensors) used.insert(sensor.joints.begin(), sensor.joints.end());
+    return used;
+}
+
+/// How much a joint should be in the tree.
+int worth(const JointSpec& joint, bool in_use) {
+    if (joint.kind == JointSpecKind::kFixed) return 100;
+    int sum = in_use ? 50 : 0;
+    for (const AxisSpec& axis : joint.axes) {
+        const bool limited =
+            joint.kind != JointSpecKind::kContinuous && (axis.lower > -kUnlimited || axis.upper < kUnlimited);
+        if (axis.position_gain > 0 || axis.velocity_gain > 0 || axis.armature > 0) sum += 8;
+        if (limited || axis.friction > 0 || axis.initial_position != 0) sum += 4;
+        if (axis.damping > 0 || axis.spring_stiffness > 0) sum += 2;
+        if (axis.max_effort >= 0 && axis.max_effort < kUnlimited) sum += 1;
+    }
+    return sum;
+}
+
+std::size_t root_of(std::vector<std::size_t>& group, std::size_t i) {
+    while (group[i] != i) i = group[i] = group[group[i]];
+    return i;
+}
+
+/// Marks the joints of the spanning forest.
+std::vector<char> span_joints(const ModelSpec& spec) {
+    std::vector<std::size_t> order(spec.joints.size()), group(spec.links.size() + 1);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::iota(group.begin(), group.end(), std::size_t{0});
+    const std::set<std::string> used = joints_in_use(spec);
+    std::vector<int> worths;
+    for (const JointSpec& joint : spec.joints) worths.push_back(worth(joint, used.count(joint.name) > 0));
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return worths[a] > worths[b]; });
+    std::vector<char> in_tree(spec.joints.size(), 0);
+    for (std::size_t j : order) {
+        const JointSpec& joint = spec.joints[j];
+        const auto parent = node_index(spec, joint.parent), child = link_index(spec, joint.child);
+        if (joint.kind == JointSpecKind::kGearbox || !parent || !child) continue;
+        const std::size_t a = root_of(group, *parent), b = root_of(group, *child);
+        if (a == b) continue;
+        group[std::max(a, b)] = std::min(a, b);
+        in_tree[j] = 1;
+    }
+    return in_tree;
+}
+
+}  // namespace
+
+std::optional<std::size_t> link_index(const ModelSpec& spec, const std::string& name) {
+    for (std::size_t i = 0; i < spec.links.size(); ++i)
+        if (spec.links[i].name == name) return i;
+    return std::nullopt;
+}
+
+std::optional<std::size_t> node_index(const ModelSpec& spec, const std::string& name) {
+    return name == "world" ? std::optional(spec.links.size()) : link_index(spec, name);
+}
+
+JointGraph build_joint_graph(const ModelSpec& spec) {
+    JointGraph graph;
+    graph.world = spec.links.size();
+    graph.edges.resize(spec.links.size() + 1);
+    graph.neighbours.resize(spec.links.size() + 1);
+    graph.is_child.assign(spec.links.size() + 1, 0);
+    const std::vector<char> in_tree = span_joints(spec);
+    for (std::size_t j = 0; j < spec.joints.size(); ++j) {
+        const JointSpec& joint = spec.joints[j];
+        if (joint.kind == JointSpecKind::kGearbox) continue;  // couples joints, connects nothing
+        const auto parent = node_index(spec, joint.parent), child = link_index(spec, joint.child);
+        if (!child || !parent) continue;  // reported by validate()
+        graph.is_child[*child] = 1;
+        graph.neighbours[*parent].push_back(*child);
+        graph.neighbours[*child].push_back(*parent);
+        if (!in_tree[j]) {
+            graph.cut.push_back(j);
+            continue;
+        }
+        graph.edges[*parent].push_back({j, *child, false});
+        graph.edges[*child].push_back({j, *parent, true});
+    }
+    return graph;
+}
+
+std::vector<std::size_t> connected_links(const JointGraph& graph, std::size_t start, std::vector<char>& seen,
+                                         bool& touches_world) {
+    std::vector<std::size_t> found{start};
+    seen[start] = 1;
+    touches_world = false;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        for (const std::size_t to : graph.neighbours[found[i]]) {
+            if (to == graph.world) {
+                touches_world = true;
+            } else if (!seen[to]) {
+                seen[to] = 1;
+                found.push_back(to);
+            }
+        }
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+}  // namespace roboss

@@ -1,0 +1,44 @@
+// The joint graph of one SDF model, its connected parts, and the spanning tree that the dynamics walk: which
+// joints are cut where joints close kinematic loops.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "world/world.h"
+
+namespace roboss {
+
+/// An edge as the tree walks it; `reversed`: from the SDF child to the SDF parent.
+struct JointEdge {
+    std::size_t joint = 0;
+    std::size_t to = 0;
+    bool reversed = false;
+};
+
+/// A node is a link; node links.size() is the world.
+struct JointGraph {
+    std::vector<std::vector<JointEdge>> edges;         // of the spanning forest, joints in file order
+    std::vector<std::size_t> cut;                      // joints that would close a loop, ascending
+    std::vector<std::vector<std::size_t>> neighbours;  // by any joint, cut ones too
+    std::vector<char> is_child;                        // a link that some joint names as its child
+    std::size_t world = 0;
+};
+
+std::optional<std::size_t> link_index(const ModelSpec& spec, const std::string& name);
+/// The node of a joint's end: a link or the world; nullopt: no such link (validate() reports it).
+std::optional<std::size_t> node_index(const ModelSpec& spec, const std::string& name);
+
+/// Of the joints around a loop the one is cut that has least to do: fixed joints never where another one can
+/// be, joints that others follow or sensors read hardly, then those with motor gains, limits, friction,
+/// armature or a start position, then those with damping or a spring, then passive ones; of equals the last
+/// in the file.
+JointGraph build_joint_graph(const ModelSpec& spec);
+
+/// All links connected with `start` by any joint (not walking through the world), ascending; sets
+/// `touches_world`.
+std::vector<std::size_t> connected_links(const JointGraph& graph, std::size_t start, std::vector<char>& seen,
+                                         bool& touches_world);
+
+}  // namespace roboss

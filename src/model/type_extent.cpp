@@ -1,0 +1,77 @@
+// What the bodies of a type amount to: their masses, how far its shapes reach, which of them may meet.
+#include <algorithm>
+#include <cmath>
+
+#include "model/compile_type.h"
+
+namespace roboss {
+namespace {
+
+Mat3 point_inertia(double mass, const Vec3& d) {
+    const double dd = norm_squared(d);
+    return Mat3{{dd - d.x * d.x, -d.x * d.y, -d.x * d.z},
+                {-d.x * d.y, dd - d.y * d.y, -d.y * d.z},
+                {-d.x * d.z, -d.y * d.z, dd - d.z * d.z}} *
+           mass;
+}
+
+/// How far the joint of a body can slide along its axis.
+double slide_of(const RobotType& type, const Body& body) {
+    const double way = body.joint == JointKind::kPrismatic ? 1.0 : std::fabs(body.pitch);  // per unit
+    if (way == 0) return 0.0;
+    const Dof& dof = type.dofs[static_cast<std::size_t>(body.v_index - type.base_nv())];
+    return way * std::max(std::fabs(dof.lower), std::fabs(dof.upper));
+}
+
+bool loop_joins(const RobotType& type, int a, int b) {
+    return std::any_of(type.loops.begin(), type.loops.end(), [&](const LoopJoint& loop) {
+        return (loop.body_a == a && loop.body_b == b) || (loop.body_a == b && loop.body_b == a);
+    });
+}
+
+}  // namespace
+
+void add_mass(Body& body, const LinkSpec& link, const Transform& X_BL) {
+    const Vec3 p_BC = X_BL * link.p_LC;
+    const Mat3 inertia = X_BL.R * link.inertia_C * transpose(X_BL.R);
+    const double total = body.mass + link.mass;
+    if (total <= 0) return;
+    const Vec3 centre = (body.p_BC * body.mass + p_BC * link.mass) * (1.0 / total);
+    body.inertia_C = body.inertia_C + point_inertia(body.mass, body.p_BC - centre) + inertia +
+                     point_inertia(link.mass, p_BC - centre);
+    if (link.gravity && link.mass > 0) {
+        const double felt = body.gravity_mass + link.mass;
+        body.p_BG = (body.p_BG * body.gravity_mass + p_BC * link.mass) * (1.0 / felt);
+        body.gravity_mass = felt;
+    }
+    body.p_BC = centre;
+    body.mass = total;
+}
+
+double reach_of(const RobotType& type) {
+    std::vector<double> extent(type.bodies.size() + 1, 0.0);  // [0]: base frame, [1 + b]: body b
+    for (const BodyShape& s : type.shapes) {
+        double& e = extent[static_cast<std::size_t>(s.body + 1)];
+        e = std::max(e, norm(s.X_BS.p) + bounding_radius(s.shape));
+    }
+    for (std::size_t b = type.bodies.size(); b-- > 0;) {
+        const Body& body = type.bodies[b];
+        if (body.joint == JointKind::kFree) continue;
+        double& e = extent[static_cast<std::size_t>(body.parent + 1)];
+        e = std::max(e, norm(body.X_PJ.p) + slide_of(type, body) + extent[b + 1]);
+    }
+    return std::max(extent[0], extent.size() > 1 && type.free_base ? extent[1] : 0.0);
+}
+
+void add_self_pairs(RobotType& type) {
+    const auto parent = [&](int b) { return b < 0 ? -2 : type.bodies[static_cast<std::size_t>(b)].parent; };
+    for (std::size_t a = 0; a < type.shapes.size(); ++a) {
+        for (std::size_t b = a + 1; b < type.shapes.size(); ++b) {
+            const int ba = type.shapes[a].body, bb = type.shapes[b].body;
+            if (ba == bb || parent(ba) == bb || parent(bb) == ba || loop_joins(type, ba, bb)) continue;
+            type.self_pairs.emplace_back(static_cast<int>(a), static_cast<int>(b));
+        }
+    }
+}
+
+}  // namespace roboss

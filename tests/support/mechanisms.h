@@ -1,0 +1,111 @@
+// Mechanisms with closed loops, gearboxes and mimic joints for tests: planar and spatial, on the ground and
+// on a free base.
+#pragma once
+
+#include <support/bodies.h>
+
+namespace roboss::test {
+
+/// A rod of 0.1 kg a 0.1 m between two points, its frame at the first, its x axis towards the second.
+inline LinkSpec rod_between(const std::string& name, const Vec3& from, const Vec3& to) {
+    const Vec3 along = to - from;
+    const double length = norm(along);
+    const Vec3 x = along / length;
+    const Vec3 y = normalized(std::fabs(x.y) < 0.9 ? Vec3{0, 1, 0} - x * x.y : Vec3{0, 0, 1} - x * x.z);
+    const Vec3 z = cross(x, y);
+    const Mat3 R = transpose(Mat3{x, y, z});
+    LinkSpec l = link(name, length, box_inertia(length, {length, 0.02, 0.03}), {from, to_quat(R)});
+    l.p_LC = {0.5 * length, 0, 0};
+    return l;
+}
+
+struct FourBarOptions {
+    bool free_base = false;
+    JointSpecKind last = JointSpecKind::kRevolute;  // the joint that closes the loop
+};
+
+/// Crank 0.2 m, coupler 0.5 m, rocker 0.4 m, ground 0.5 m in the x-z plane; all hinges about y. Joints:
+/// crank, elbow, rocker, closing (rocker - coupler).
+inline ModelSpec four_bar(const FourBarOptions& options = {}) {
+    ModelSpec m;
+    m.name = "four_bar";
+    const Vec3 a{0, 0, 0}, b{0, 0, 0.2}, d{0.5, 0, 0};
+    // Where circles of 0.5 m about b and 0.4 m about d meet.
+    const Vec3 bd = d - b;
+    const double distance = norm(bd);
+    const double along = (0.25 - 0.16 + distance * distance) / (2 * distance);
+    const double up = std::sqrt(0.25 - along * along);
+    const Vec3 e = bd / distance;
+    const Vec3 c = b + e * along + Vec3{-e.z, 0, e.x} * up;
+    m.links = {rod_between("crank", a, b), rod_between("coupler", b, c), rod_between("rocker", d, c)};
+    m.canonical_link = "crank";
+    std::string ground = "world";
+    if (options.free_base) {
+        m.links.push_back(link("plate", 1.5, box_inertia(1.5, {0.6, 0.2, 0.1}), {{0.25, 0.02, -0.05}, {}}));
+        m.canonical_link = ground = "plate";
+    }
+    const auto hinge = [&](const char* name, const std::string& parent, const char* child, const Vec3& at) {
+        m.joints.push_back(joint(JointSpecKind::kRevolute, name, parent, child, {at, {}}, {0, 1, 0}));
+    };
+    hinge("crank", ground, "crank", a);
+    hinge("elbow", "crank", "coupler", b);
+    hinge("rocker", ground, "rocker", d);
+    hinge("closing", "rocker", "coupler", c);
+    m.joints.back().kind = options.last;
+    if (options.last == JointSpecKind::kBall) m.joints.back().axes.clear();
+    return m;
+}
+
+/// A platform on six struts (Stewart, Gough): each a universal joint below, a slide, a ball above.
+inline ModelSpec stewart() {
+    ModelSpec m;
+    m.name = "stewart";
+    m.canonical_link = "platform";
+    m.links.push_back(link("platform", 3.0, Mat3::diagonal(0.05, 0.06, 0.1), {{0, 0, 0.8}, {}}));
+    for (int i = 0; i < 6; ++i) {
+        const std::string n = std::to_string(i);
+        const double low = kPi / 3 * (i / 2) * 2 + (i % 2 == 0 ? -0.2 : 0.2);
+        const double high = kPi / 3 * (i / 2) * 2 + (i % 2 == 0 ? -0.8 : 0.8);
+        const Vec3 foot{0.6 * std::cos(low), 0.6 * std::sin(low), 0};
+        const Vec3 head{0.3 * std::cos(high), 0.3 * std::sin(high), 0.8};
+        const Vec3 middle = (foot + head) * 0.5;
+        m.links.push_back(rod_between("tube_" + n, foot, middle));
+        m.links.push_back(rod_between("piston_" + n, middle, head));
+        const Quat q = m.links.back().X_ML.q;
+        m.joints.push_back(
+            joint(JointSpecKind::kUniversal, "foot_" + n, "world", "tube_" + n, {foot, q}, {0, 1, 0}));
+        m.joints.back().axes.push_back(m.joints.back().axes[0]);
+        m.joints.back().axes[1].xyz = {0, 0, 1};
+        m.joints.push_back(joint(JointSpecKind::kPrismatic, "strut_" + n, "tube_" + n, "piston_" + n,
+                                 {middle, q}, {1, 0, 0}));
+        m.joints.push_back(joint(JointSpecKind::kBall, "head_" + n, "piston_" + n, "platform", {head, q}));
+    }
+    return m;
+}
+
+/// Two wheels on hinges about z of one frame, 0.02 and 0.05 kg m^2. `free_base`: the frame floats.
+inline ModelSpec two_wheels(bool free_base = false) {
+    ModelSpec m;
+    m.name = "wheels";
+    m.canonical_link = "frame";
+    m.links = {link("frame", 2.0, Mat3::diagonal(0.1, 0.1, 0.1)),
+               link("small", 0.5, Mat3::diagonal(0.01, 0.01, 0.02), {{0.3, 0, 0}, {}}),
+               link("large", 1.0, Mat3::diagonal(0.03, 0.03, 0.05), {{-0.3, 0, 0}, {}})};
+    m.joints = {joint(JointSpecKind::kContinuous, "small", "frame", "small", {{0.3, 0, 0}, {}}, {0, 0, 1}),
+                joint(JointSpecKind::kContinuous, "large", "frame", "large", {{-0.3, 0, 0}, {}}, {0, 0, 1})};
+    if (!free_base) m.joints.push_back(joint(JointSpecKind::kFixed, "ground", "world", "frame", {}));
+    return m;
+}
+
+/// The large wheel turns against the small one, `ratio` times as fast.
+inline ModelSpec geared_wheels(double ratio, bool free_base = false) {
+    ModelSpec m = two_wheels(free_base);
+    JointSpec gearbox = joint(JointSpecKind::kGearbox, "gearbox", "small", "large", {}, {0, 0, 1});
+    gearbox.axes.push_back(gearbox.axes[0]);
+    gearbox.gearbox_ratio = ratio;
+    gearbox.gearbox_reference = "frame";
+    m.joints.push_back(gearbox);
+    return m;
+}
+
+}  // namespace roboss::test
