@@ -93,30 +93,13 @@ std::uint64_t model_hash(const Model& model) {
     }
     for (const StaticShape& s : model.statics) {
         hash.add(static_cast<std::uint64_t>(s.shape.kind));
-        const double numbers[] = {s.shape.half.x,
-                                  s.shape.half.y,
-                                  s.shape.half.z,
-                                  s.shape.radius,
-                                  s.shape.half_length,
-                                  s.X_WS.p.x,
-                                  s.X_WS.p.y,
-                                  s.X_WS.p.z,
-                                  s.X_WS.R.r0.x,
-                                  s.X_WS.R.r0.y,
-                                  s.X_WS.R.r0.z,
-                                  s.X_WS.R.r1.x,
-                                  s.X_WS.R.r1.y,
-                                  s.X_WS.R.r1.z,
-                                  s.X_WS.R.r2.x,
-                                  s.X_WS.R.r2.y,
-                                  s.X_WS.R.r2.z,
-                                  s.material.mu,
-                                  s.material.restitution,
-                                  s.material.bounce_threshold,
-                                  s.material.torsional,
-                                  s.material.rolling};
+        const double numbers[] = {s.shape.half.x,      s.shape.half.y, s.shape.half.z, s.shape.radius,
+                                  s.shape.half_length, s.X_WS.p.x,     s.X_WS.p.y,     s.X_WS.p.z,
+                                  s.X_WS.R.r0.x,       s.X_WS.R.r0.y,  s.X_WS.R.r0.z,  s.X_WS.R.r1.x,
+                                  s.X_WS.R.r1.y,       s.X_WS.R.r1.z,  s.X_WS.R.r2.x,  s.X_WS.R.r2.y,
+                                  s.X_WS.R.r2.z};
         hash.add(std::span<const double>(numbers));
-        hash.add(static_cast<std::uint64_t>(s.material.collide_bitmask));
+        add_to_hash(hash, s.material);
     }
     return hash.value();
 }

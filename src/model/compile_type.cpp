@@ -365,17 +365,6 @@ bool to_shape(const GeometrySpec& geometry, Shape& shape) {
     }
 }
 
-Material to_material(const SurfaceSpec& surface) {
-    Material material;
-    material.mu = surface.mu;
-    material.restitution = surface.restitution;
-    material.bounce_threshold = surface.bounce_threshold;
-    material.torsional = surface.torsional_mu * surface.torsional_radius;
-    material.rolling = surface.rolling_mu;
-    material.collide_bitmask = surface.collide_bitmask;
-    return material;
-}
-
 RobotType sensor_stand(const ModelSpec& spec) {
     RobotType type;
     type.name = spec.name;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/hash.h"
 #include "model/model.h"
 
 namespace roboss {
@@ -24,6 +25,7 @@ RobotType sensor_stand(const ModelSpec& spec);
 /// A collision element as a Shape; false if its geometry takes no part in the physics yet.
 bool to_shape(const GeometrySpec& geometry, Shape& shape);
 Material to_material(const SurfaceSpec& surface);
+void add_to_hash(Hash& hash, const Material& material);
 
 /// Fills Body::inverse_mass_linear, inverse_inertia_angular and Dof::inverse_inertia from the mass matrix at
 /// the zero pose.

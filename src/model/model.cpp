@@ -50,10 +50,8 @@ void add_dof(Hash& hash, const Dof& dof) {
 
 void add_shape(Hash& hash, const BodyShape& s) {
     add(hash, static_cast<int>(s.shape.kind)), add(hash, s.body), add(hash, s.X_BS), add(hash, s.shape.half);
-    for (double x : {s.shape.radius, s.shape.half_length, s.material.mu, s.material.restitution,
-                     s.material.bounce_threshold, s.material.torsional, s.material.rolling})
-        hash.add(x);
-    hash.add(static_cast<std::uint64_t>(s.material.collide_bitmask));
+    for (double x : {s.shape.radius, s.shape.half_length}) hash.add(x);
+    add_to_hash(hash, s.material);
 }
 
 void add_sensor(Hash& hash, const SensorInfo& info) {

@@ -81,11 +81,18 @@ struct Joint {
     }
 };
 
-/// Friction etc. of one shape; a pair combines: mu = min, restitution = max, threshold = max, others = min
-/// (documented in physics).
+/// Friction, bounce and softness of one shape. How two of them combine: physics/surface_pair.h.
 struct Material {
-    double mu = 1, restitution = 0, bounce_threshold = 0.01, torsional = 0, rolling = 0;
-    std::uint32_t collide_bitmask = 0xFFFF;
+    double mu = 1, mu2 = 1;  // along and across direction_S
+    Vec3 direction_S;        // unit, in the shape's frame; zero: mu counts in all directions
+    double restitution = 0, bounce_threshold = 0.01;
+    double torsional_mu = 1, patch_radius = 0, surface_radius = 0;
+    double rolling = 0;                 // m
+    double stiffness = 0, damping = 0;  // N/m, N s/m of a soft contact; stiffness 0: rigid
+    double slop = 1e-5;                 // m, penetration that a rigid contact leaves alone
+    double mend_speed = 2;              // m/s at most, while mending; it never enters the velocity
+    std::uint32_t contacts_max = 0xFFFFFFFF;
+    std::uint32_t collide_bitmask = 0xFFFF, category_bitmask = 0xFFFF;
 };
 
 struct BodyShape {

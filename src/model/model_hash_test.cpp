@@ -107,6 +107,17 @@ TEST(ModelHash, ChangesWithLinksAndShapes) {
         {"bounce threshold", [](World& w) { robot_surface(w).bounce_threshold = 0.02; }},
         {"torsional friction",
          [](World& w) { robot_surface(w).torsional_mu = robot_surface(w).torsional_radius = 0.1; }},
+        {"torsional surface", [](World& w) { robot_surface(w).torsional_surface_radius = 0.1; }},
+        {"friction direction",
+         [](World& w) {
+             robot_surface(w).fdir1 = {1, 0, 0};
+         }},
+        {"stiffness", [](World& w) { robot_surface(w).stiffness = 1e4; }},
+        {"contact damping", [](World& w) { robot_surface(w).damping = 10; }},
+        {"depth left alone", [](World& w) { robot_surface(w).min_depth = 1e-3; }},
+        {"speed of mending", [](World& w) { robot_surface(w).max_vel = 0.1; }},
+        {"most contacts", [](World& w) { robot_surface(w).max_contacts = 3; }},
+        {"category bitmask", [](World& w) { robot_surface(w).category_bitmask = 4; }},
         {"rolling friction", [](World& w) { robot_surface(w).rolling_mu = 0.001; }},
         {"bitmask", [](World& w) { robot_surface(w).collide_bitmask = 2; }},
         {"self collision", [](World& w) { robot(w).self_collide = true; }},

@@ -15,6 +15,7 @@ namespace roboss::sdf_import {
 struct Import {
     const ResourcePaths& paths;
     ElementReader reader;
+    double dt_s = 0.001;  // the world's step, which some numbers for ODE depend on
     Diagnostics& diagnostics() const { return reader.diagnostics(); }
 };
 

@@ -32,7 +32,7 @@ class WorldLoader {
   public:
     WorldLoader(const LoadOptions& options, Diagnostics& diagnostics)
         : paths_(options.search_paths),
-          import_{paths_, ElementReader(diagnostics)},
+          import_{paths_, ElementReader(diagnostics), 0.001},
           includes_(paths_, diagnostics),
           libsdformat_(includes_, diagnostics),
           diagnostics_(diagnostics) {}
@@ -46,6 +46,7 @@ class WorldLoader {
         World result;
         result.file = path;
         read_world_settings(*world, import_, result);
+        import_.dt_s = result.dt_s;
         if (result.name.empty()) result.name = first_model(*file_).name();
         const auto placements = collect_placements(*world, includes_, import_);
         for (const Placement& placement : placements) distinct_of_.push_back(find_distinct(placement));

@@ -250,6 +250,48 @@ TEST(LoadWorld, ReadsSurfaces) {
     EXPECT_EQ(s.rolling_mu, 0.001);
 }
 
+Loaded with_surface(const std::string& surface) {
+    return load_elements("<model name='m'>" +
+                         link("a",
+                              "<collision name='c'><max_contacts>3</max_contacts><geometry><sphere><radius>1"
+                              "</radius></sphere></geometry><surface>" +
+                                  surface + "</surface></collision>") +
+                         "</model>");
+}
+
+TEST(LoadWorld, ReadsFrictionThatDependsOnTheDirection) {
+    const Loaded loaded =
+        with_surface("<friction><ode><mu>0.5</mu><mu2>0.2</mu2><fdir1>0 1 0</fdir1></ode></friction>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
+    const SurfaceSpec& s = loaded.world->prototypes[0].links[0].collisions[0].surface;
+    EXPECT_EQ(s.mu, 0.5);
+    EXPECT_EQ(s.mu2, 0.2);
+    EXPECT_EQ(s.fdir1, (Vec3{0, 1, 0}));
+    EXPECT_EQ(s.max_contacts, 3);
+    const Loaded without = with_surface("<friction><ode><mu>0.5</mu><mu2>0.2</mu2></ode></friction>");
+    EXPECT_TRUE(without.find("anisotropic-friction")) << without.text();
+}
+
+TEST(LoadWorld, ReadsSoftContacts) {
+    const auto spec = [](const std::string& ode) {
+        const Loaded loaded = with_surface("<contact><ode>" + ode + "</ode></contact>");
+        return loaded.world ? loaded.world->prototypes[0].links[0].collisions[0].surface : SurfaceSpec{};
+    };
+    EXPECT_EQ(spec("<kp>1e12</kp><kd>5</kd>").stiffness, 0) << "SDFormat's default is rigid";
+    EXPECT_EQ(spec("<kp>2e4</kp><kd>50</kd>").stiffness, 2e4);
+    EXPECT_EQ(spec("<kp>2e4</kp><kd>50</kd>").damping, 50);
+    // ERP and CFM at the default step of 1 ms
+    EXPECT_NEAR(spec("<soft_cfm>0.01</soft_cfm><soft_erp>0.25</soft_erp>").stiffness, 25000, 1e-9);
+    EXPECT_NEAR(spec("<soft_cfm>0.01</soft_cfm><soft_erp>0.25</soft_erp>").damping, 75, 1e-12);
+    EXPECT_EQ(spec("<max_vel>0.1</max_vel><min_depth>0.001</min_depth>").max_vel, 0.1);
+    EXPECT_EQ(spec("<max_vel>0.1</max_vel><min_depth>0.001</min_depth>").min_depth, 0.001);
+    const Loaded bad = with_surface("<contact><ode><kp>-5</kp></ode></contact>");
+    EXPECT_TRUE(bad.find("bad-value")) << bad.text();
+    const Loaded both = with_surface("<contact><ode><kp>1e5</kp><max_vel>0.1</max_vel></ode></contact>");
+    EXPECT_TRUE(both.find("surface-element")) << both.text();
+}
+
 TEST(LoadWorld, ReadsWhatTheWorldSays) {
     const Loaded loaded = load_elements(
         "<physics name='slow' type='x'><max_step_size>0.01</max_step_size></physics>"

@@ -112,9 +112,10 @@ class ModelCheck {
         }
         const SurfaceSpec& s = collision.surface;
         if (!(s.mu >= 0) || !(s.mu2 >= 0) || !(s.restitution >= 0) || !(s.torsional_mu >= 0) ||
-            !(s.rolling_mu >= 0)) {
+            !(s.torsional_radius >= 0) || !(s.torsional_surface_radius >= 0) || !(s.rolling_mu >= 0) ||
+            !(s.stiffness >= 0) || !(s.damping >= 0) || !(s.min_depth >= 0)) {
             diagnostics_.error(collision.where, "bad-surface",
-                               name + " has a negative coefficient of friction or restitution",
+                               name + " has a negative coefficient of friction, restitution or softness",
                                "Write coefficients of at least 0.");
         }
         if (s.restitution > 1) {

@@ -39,13 +39,20 @@ struct GeometrySpec {
 struct SurfaceSpec {
     double mu = 1.0;                 // SDF ode/mu
     double mu2 = 1.0;                // SDF ode/mu2
-    Vec3 fdir1;                      // zero: isotropic
+    Vec3 fdir1;                      // of mu, in the shape's own frame; zero: mu counts in all directions
     double restitution = 0.0;        // SDF bounce/restitution_coefficient
     double bounce_threshold = 0.01;  // m/s, below it nothing bounces
-    double torsional_mu = 0.0;       // dimensionless; acts with torsional_radius
-    double torsional_radius = 0.0;   // m
-    double rolling_mu = 0.0;         // m, <roboss:rolling_friction>
+    double torsional_mu = 1.0;       // dimensionless; acts with one of the two radii
+    double torsional_radius = 0.0;   // m, of the contact patch
+    double torsional_surface_radius = 0.0;  // m, of the surface: patch radius = sqrt(this * depth)
+    double rolling_mu = 0.0;                // m, <roboss:rolling_friction>
+    double stiffness = 0.0;                 // N/m, SDF kp; 0: rigid
+    double damping = 0.0;                   // N s/m, SDF kd; of a soft contact
+    double min_depth = 0.0;                 // m, penetration that a rigid contact leaves alone
+    double max_vel = -1.0;                  // m/s, with which penetration is mended; negative: as usual
+    int max_contacts = -1;                  // points kept of a pair of shapes; negative: all
     unsigned collide_bitmask = 0xFFFFu;
+    unsigned category_bitmask = 0xFFFFu;  // as SDF: the collide bitmask unless written
 };
 
 struct CollisionSpec {
