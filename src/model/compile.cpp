@@ -74,7 +74,9 @@ void build_bvh(Model& model) {
 std::uint64_t model_hash(const Model& model) {
     Hash hash;
     hash.add(model.dt_s);
-    for (const Vec3& v : {model.gravity, model.magnetic_field_T}) hash.add(v.x), hash.add(v.y), hash.add(v.z);
+    hash.add(model.air_density);
+    for (const Vec3& v : {model.gravity, model.magnetic_field_T, model.wind})
+        hash.add(v.x), hash.add(v.y), hash.add(v.z);
     if (const auto& s = model.spherical)
         for (double x : {s->latitude_rad, s->longitude_rad, s->elevation_m, s->heading_rad}) hash.add(x);
     for (double x : {model.accuracy.tolerance, model.accuracy.friction_tolerance, model.accuracy.compliance,
@@ -114,6 +116,8 @@ std::shared_ptr<const Model> compile(const World& world, const CompileOptions& o
     model->dt_s = options.dt_s.value_or(world.dt_s);
     model->gravity = world.gravity;
     model->magnetic_field_T = world.magnetic_field_T;
+    model->wind = world.wind;
+    model->air_density = world.air_density;
     model->spherical = world.spherical;
     model->accuracy = options.accuracy;
     if (!(model->dt_s > 0 && model->dt_s <= 1.0))

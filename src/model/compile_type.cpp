@@ -241,6 +241,9 @@ class PartBuilder {
             const LinkId id(part_.type.links.size());
             if (body >= 0) add_mass(part_.type.bodies[static_cast<std::size_t>(body)], spec, link.X_BL);
             add_shapes(spec, link, id);
+            if (spec.drag.acts && body >= 0)
+                part_.type.drags.push_back(
+                    {body, link.p_BC, link.X_BL.R, drag_area(spec), spec.drag.linear, spec.drag.wind});
             for (const SensorSpec& sensor : spec.sensors) part_.type.sensors.push_back({sensor, id});
             part_.type.links.push_back(link);
         }

@@ -27,6 +27,9 @@ bool to_shape(const GeometrySpec& geometry, Shape& shape);
 Material to_material(const SurfaceSpec& surface);
 void add_to_hash(Hash& hash, const Material& material);
 
+/// Projected areas of the link's shapes along its axes, times their coefficients (m^2).
+Vec3 drag_area(const LinkSpec& link);
+
 /// Fills Body::inverse_mass_linear, inverse_inertia_angular and Dof::inverse_inertia from the mass matrix at
 /// the zero pose.
 void compute_mobility(RobotType& type);

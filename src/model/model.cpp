@@ -54,6 +54,11 @@ void add_shape(Hash& hash, const BodyShape& s) {
     add_to_hash(hash, s.material);
 }
 
+void add_drag(Hash& hash, const LinkDrag& drag) {
+    add(hash, drag.body), add(hash, drag.p_BC), add(hash, drag.R_BL), add(hash, drag.area);
+    hash.add(drag.linear), add(hash, drag.wind ? 1 : 0);
+}
+
 void add_sensor(Hash& hash, const SensorInfo& info) {
     const SensorSpec& s = info.spec;
     hash.add(std::string_view(s.name)), hash.add(std::string_view(s.sdf_type)), add(hash, s.X_LS.p);
@@ -78,6 +83,7 @@ std::uint64_t type_hash(const RobotType& type) {
     for (const Body& body : type.bodies) add_body(hash, body);
     for (const Dof& dof : type.dofs) add_dof(hash, dof);
     for (const BodyShape& shape : type.shapes) add_shape(hash, shape);
+    for (const LinkDrag& drag : type.drags) add_drag(hash, drag);
     for (const SensorInfo& sensor : type.sensors) add_sensor(hash, sensor);
     for (const Link& link : type.links)
         hash.add(std::string_view(link.name)), add(hash, link.body), add(hash, link.X_BL),

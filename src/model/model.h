@@ -103,6 +103,18 @@ struct BodyShape {
     Material material;
 };
 
+/// Drag of one link: force = -(density / 2 * |A(u)| |u| + linear) * u at its centre of mass, with u its
+/// velocity through the air. A(u): projected area times coefficient, given along the link's axes, in between
+/// as an ellipsoid's.
+struct LinkDrag {
+    int body = 0;
+    Vec3 p_BC;  // the link's centre of mass
+    Mat3 R_BL = Mat3::identity();
+    Vec3 area;          // m^2
+    double linear = 0;  // N s/m
+    bool wind = false;  // u is measured against the wind, else against the world
+};
+
 struct SensorInfo {
     SensorSpec spec;
     LinkId link;
@@ -122,6 +134,7 @@ struct RobotType {
     std::vector<Link> links;
     std::vector<Joint> joints;
     std::vector<BodyShape> shapes;
+    std::vector<LinkDrag> drags;
     std::vector<std::pair<int, int>> self_pairs;  // shapes of this robot that may collide with each other
     std::vector<SensorInfo> sensors;
     std::vector<double> initial_q;  // joint coordinates behind the 7 base ones
@@ -170,6 +183,8 @@ struct Model {
     double dt_s = 0.001;
     Vec3 gravity{0, 0, -9.8};
     Vec3 magnetic_field_T;
+    Vec3 wind;                 // m/s
+    double air_density = 0.0;  // kg/m^3
     std::optional<SphericalCoordinates> spherical;
     Accuracy accuracy;
     std::vector<RobotType> types;

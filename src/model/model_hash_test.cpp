@@ -70,6 +70,11 @@ TEST(ModelHash, ChangesWithTheWorld) {
     expect_each_changes_the_hash({
         {"dt", [](World& w) { w.dt_s = 2e-3; }},
         {"gravity", [](World& w) { w.gravity.x = 1e-9; }},
+        {"wind",
+         [](World& w) {
+             w.wind = {1, 0, 0};
+         }},
+        {"air", [](World& w) { w.air_density = 1; }},
         {"magnetic field", [](World& w) { w.magnetic_field_T.y = 0; }},
         {"spherical coordinates",
          [](World& w) {
@@ -93,6 +98,10 @@ TEST(ModelHash, ChangesWithLinksAndShapes) {
         {"centre", [](World& w) { robot(w).links[3].p_LC.x += 1e-12; }},
         {"inertia", [](World& w) { robot(w).links[3].inertia_C(0, 0) *= 1.001; }},
         {"link place", [](World& w) { robot(w).links[3].X_ML.p.x += 1e-12; }},
+        {"drag",
+         [](World& w) {
+             robot(w).links[3].drag = {true, false, 1, 0.1, 0};
+         }},
         {"gravity off", [](World& w) { robot(w).links[3].gravity = false; }},
         {"gravity off of a welded link", [](World& w) { robot(w).links[1].gravity = false; }},
         {"link name", [](World& w) { robot(w).links[6].name = robot(w).joints.back().child = "paw"; }},

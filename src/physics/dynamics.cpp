@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/drag.h"
 #include "physics/robot_work.h"
 
 namespace roboss {
@@ -168,6 +169,7 @@ void compute_impulse(const Model& model, double dt, double momentum_weight, std:
         w.impulse = momentum * momentum_weight + force * dt;
     }
     add_wrenches(type, *work.state, dt, work);
+    if (!type.drags.empty()) add_drag(model, dt, momentum_weight != 0, work);
     work.impulse.resize(static_cast<std::size_t>(type.nv));
     for (std::size_t b = type.bodies.size(); b-- > 0;) {
         const Body& body = type.bodies[b];

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/drag.h"
 #include "physics/rows.h"
 
 namespace roboss {
@@ -141,6 +142,7 @@ bool add_joint_rows(const Model& model, const RobotWork& robot, int offset, std:
 bool moves_freely(const Model& model, const RobotWork& robot) {
     const RobotType& type = *robot.type;
     const RobotState& state = *robot.state;
+    if (drag_is_stiff(model, robot)) return false;
     for (std::size_t d = 0; d < type.dofs.size(); ++d) {
         const Dof& dof = type.dofs[d];
         if (state.motors[d].mode != MotorMode::kPassive || dof.friction > 0 || is_stiff(dof, model.dt_s))

@@ -22,6 +22,9 @@ struct Import {
 /// Mass, centre and inertia of a link, as written, as SDF's defaults (reported), or automatic (auto="true").
 void convert_inertial(const Element& link, const Import& import, LinkSpec& spec);
 
+/// <enable_wind> and <roboss:drag> of a link; `wind`: what the model says of <enable_wind>.
+void convert_drag(const Element& link, bool wind, const Import& import, LinkSpec& spec);
+
 /// nullopt for <empty> or a shape that is not known. `X` is the pose of the element that holds the geometry;
 /// a plane's normal is folded into it.
 std::optional<GeometrySpec> convert_geometry(const Element& geometry, const Import& import, Pose& X);

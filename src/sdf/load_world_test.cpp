@@ -273,6 +273,35 @@ TEST(LoadWorld, ReadsFrictionThatDependsOnTheDirection) {
     EXPECT_TRUE(without.find("anisotropic-friction")) << without.text();
 }
 
+TEST(LoadWorld, ReadsWindAirAndDrag) {
+    const Loaded loaded = load_elements(
+        "<wind><linear_velocity>3 0 0</linear_velocity></wind><atmosphere type='adiabatic'><temperature>300"
+        "</temperature><pressure>90000</pressure></atmosphere><model "
+        "name='m'><enable_wind>true</enable_wind>" +
+        link(
+            "a",
+            "<roboss:drag><coefficient>0.8</coefficient><area>0.1</area><linear>0.2</linear></roboss:drag>") +
+        link("b", "<enable_wind>false</enable_wind>") + link("c") + "</model>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_EQ(loaded.diagnostics.count(Severity::kWarning), 0u) << loaded.text();
+    EXPECT_EQ(loaded.world->wind, (Vec3{3, 0, 0}));
+    EXPECT_NEAR(loaded.world->air_density, 90000 / (287.0578 * 300), 1e-12);
+    const auto& links = loaded.world->prototypes[0].links;
+    EXPECT_TRUE(links[0].drag.acts && links[0].drag.wind);
+    EXPECT_EQ(links[0].drag.coefficient, 0.8);
+    EXPECT_EQ(links[0].drag.area, 0.1);
+    EXPECT_EQ(links[0].drag.linear, 0.2);
+    EXPECT_FALSE(links[1].drag.acts);
+    EXPECT_TRUE(links[2].drag.wind);
+    EXPECT_LT(links[2].drag.area, 0) << "of its shapes";
+}
+
+TEST(LoadWorld, WindThatActsOnNothingIsSaid) {
+    const Loaded loaded = load_elements(
+        "<wind><linear_velocity>3 0 0</linear_velocity></wind><model name='m'>" + link("a") + "</model>");
+    EXPECT_TRUE(loaded.find("wind")) << loaded.text();
+}
+
 TEST(LoadWorld, ReadsSoftContacts) {
     const auto spec = [](const std::string& ode) {
         const Loaded loaded = with_surface("<contact><ode>" + ode + "</ode></contact>");

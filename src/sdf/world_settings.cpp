@@ -69,6 +69,23 @@ void read_spherical(const Element& spherical, const Import& import, World& out) 
     }
 }
 
+/// Density of dry air at the temperature and pressure written, taken everywhere: the world is not that high.
+void read_atmosphere(const Element& atmosphere, const Import& import, World& out) {
+    constexpr double kGasConstant = 287.0578;  // J/(kg K), dry air
+    const double temperature = positive(atmosphere, "temperature", 288.15, import);
+    const double pressure = import.reader.number(atmosphere, "pressure", 101325.0);
+    if (pressure >= 0) {
+        out.air_density = pressure / (kGasConstant * temperature);
+    } else {
+        import.diagnostics().error(atmosphere.child("pressure").where(), "bad-value",
+                                   "<pressure> of the air is negative", "Write it in Pa, 0 for no air.");
+    }
+    if (atmosphere.child("temperature_gradient"))
+        import.diagnostics().note(
+            atmosphere.child("temperature_gradient").where(), "temperature-gradient",
+            "<temperature_gradient> has no effect: the air is equally dense everywhere");
+}
+
 void report_other(const Element& element, const Import& import, World& out) {
     const std::string name = element.node.name();
     if (name == "actor") {
@@ -109,9 +126,7 @@ void read_world_settings(const Element& world, const Import& import, World& out)
     read_physics(world, import, out);
     out.magnetic_field_T = import.reader.vector(world, "magnetic_field", out.magnetic_field_T);
     out.wind = import.reader.vector(world.child("wind"), "linear_velocity", {});
-    if (norm(out.wind) > 0) {
-        import.diagnostics().note(world.child("wind").where(), "wind", "wind does not act on links yet");
-    }
+    if (const Element atmosphere = world.child("atmosphere")) read_atmosphere(atmosphere, import, out);
     read_spherical(world.child("spherical_coordinates"), import, out);
     for (const auto node : world.node.children()) {
         if (node.type() != pugi::node_element) continue;

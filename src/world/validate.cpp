@@ -211,6 +211,18 @@ void check_instances(const World& world, Diagnostics& diagnostics) {
     }
 }
 
+void check_air(const World& world, Diagnostics& diagnostics) {
+    if (!is_finite(world.wind) || !(world.air_density >= 0) || !std::isfinite(world.air_density))
+        diagnostics.error({world.file, 0}, "not-finite", "wind or air are not finite",
+                          "Correct <wind> and <atmosphere>.");
+    if (world.wind == Vec3{}) return;
+    for (const ModelSpec& model : world.prototypes)
+        for (const LinkSpec& link : model.links)
+            if (link.drag.wind) return;
+    diagnostics.note({world.file, 0}, "wind", "there is wind, but it acts on no link",
+                     "Write <enable_wind>true</enable_wind> in the links that it carries.");
+}
+
 }  // namespace
 
 void validate(const World& world, Diagnostics& diagnostics) {
@@ -221,6 +233,7 @@ void validate(const World& world, Diagnostics& diagnostics) {
                           "Write <max_step_size> greater than 0.");
     }
     for (const ModelSpec& model : world.prototypes) ModelCheck(model, diagnostics).run();
+    check_air(world, diagnostics);
     check_instances(world, diagnostics);
 }
 

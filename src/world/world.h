@@ -97,6 +97,15 @@ struct SensorSpec {
     SourceLocation where;
 };
 
+/// Resistance of the air (SDF <enable_wind>, <roboss:drag>).
+struct DragSpec {
+    bool acts = false;        // false: no drag at all
+    bool wind = false;        // the wind carries the link; else it moves through still air
+    double coefficient = -1;  // of the area; negative: by the kind of shape
+    double area = -1;         // m^2, projected, in all directions; negative: of the shapes
+    double linear = 0;        // N s/m, proportional to the velocity
+};
+
 struct LinkSpec {
     std::string name;  // nested models: "inner::link"
     Pose X_ML;         // link in the (outer) model frame, all joints at zero
@@ -104,6 +113,7 @@ struct LinkSpec {
     Vec3 p_LC;                          // centre of mass
     Mat3 inertia_C = Mat3::identity();  // about the centre of mass, link axes, kg m^2
     bool gravity = true;
+    DragSpec drag;
     std::vector<CollisionSpec> collisions;
     std::vector<VisualSpec> visuals;
     std::vector<SensorSpec> sensors;
@@ -184,7 +194,8 @@ struct World {
     std::string file;
     Vec3 gravity{0, 0, -9.8};
     Vec3 magnetic_field_T{5.5645e-6, 22.8758e-6, -42.3884e-6};
-    Vec3 wind;
+    Vec3 wind;                     // m/s
+    double air_density = 1.22500;  // kg/m^3, at the world's origin
     double dt_s = 0.001;
     double real_time_factor = 1.0;
     std::optional<SphericalCoordinates> spherical;
