@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/hash.h"
+#include "model/accuracy.h"
 #include "model/compile_type.h"
 
 namespace roboss {
@@ -79,11 +80,7 @@ std::uint64_t model_hash(const Model& model) {
         hash.add(v.x), hash.add(v.y), hash.add(v.z);
     if (const auto& s = model.spherical)
         for (double x : {s->latitude_rad, s->longitude_rad, s->elevation_m, s->heading_rad}) hash.add(x);
-    for (double x : {model.accuracy.tolerance, model.accuracy.friction_tolerance, model.accuracy.compliance,
-                     model.accuracy.contact_compliance})
-        hash.add(x);
-    hash.add(static_cast<std::uint64_t>(model.accuracy.newton_max));
-    hash.add(static_cast<std::uint64_t>(model.accuracy.friction_max));
+    for (const AccuracyNumber& number : accuracy_numbers()) hash.add(number.get(model.accuracy));
     for (const RobotType& type : model.types) hash.add(type.hash);
     for (const Robot& robot : model.robots) {
         hash.add(robot.name);
@@ -119,7 +116,8 @@ std::shared_ptr<const Model> compile(const World& world, const CompileOptions& o
     model->wind = world.wind;
     model->air_density = world.air_density;
     model->spherical = world.spherical;
-    model->accuracy = options.accuracy;
+    for (const AccuracySpec& spec : world.accuracy) apply(spec, model->accuracy, diagnostics);
+    apply(options.accuracy, model->accuracy, diagnostics);
     if (!(model->dt_s > 0 && model->dt_s <= 1.0))
         diagnostics.error({world.file, 0}, "bad-step",
                           "the step of " + std::to_string(model->dt_s) + " s is not in (0, 1] s",

@@ -198,8 +198,8 @@ struct Model {
 };
 
 struct CompileOptions {
-    std::optional<double> dt_s;  // overrides the world's step
-    Accuracy accuracy;
+    std::optional<double> dt_s{};  // overrides the world's step
+    AccuracySpec accuracy{};       // after the world's own
 };
 
 /// World to Model. Findings go to `diagnostics`; nullptr if any of them is an error.

@@ -5,6 +5,7 @@
 
 #include <support/robots.h>
 
+#include "model/accuracy.h"
 #include "model/model.h"
 
 namespace roboss::test {
@@ -176,14 +177,13 @@ TEST(ModelHash, ChangesWithSensors) {
 
 TEST(ModelHash, ChangesWithTheAccuracy) {
     const std::uint64_t before = hash_of(base_world());
-    const std::function<void(Accuracy&)> changes[] = {
-        [](Accuracy& a) { a.tolerance *= 2; },  [](Accuracy& a) { a.friction_tolerance *= 2; },
-        [](Accuracy& a) { a.newton_max++; },    [](Accuracy& a) { a.friction_max++; },
-        [](Accuracy& a) { a.compliance *= 2; }, [](Accuracy& a) { a.contact_compliance *= 2; }};
-    for (const auto& change : changes) {
+    for (const AccuracyNumber& number : accuracy_numbers()) {
         CompileOptions options;
-        change(options.accuracy);
-        EXPECT_NE(hash_of(base_world(), options), before);
+        options.accuracy.numbers = {{number.name, number.high}};
+        EXPECT_NE(hash_of(base_world(), options), before) << number.name;
+        World world = base_world();
+        world.accuracy.push_back(options.accuracy);
+        EXPECT_EQ(hash_of(world), hash_of(base_world(), options)) << "from the file as from the command line";
     }
 }
 

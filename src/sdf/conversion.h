@@ -15,7 +15,8 @@ namespace roboss::sdf_import {
 struct Import {
     const ResourcePaths& paths;
     ElementReader reader;
-    double dt_s = 0.001;  // the world's step, which some numbers for ODE depend on
+    double dt_s = 0.001;    // the world's step, which some numbers for ODE depend on
+    int max_contacts = -1;  // of the world's physics, for collisions that do not say; negative: all
     Diagnostics& diagnostics() const { return reader.diagnostics(); }
 };
 

@@ -273,6 +273,46 @@ TEST(LoadWorld, ReadsFrictionThatDependsOnTheDirection) {
     EXPECT_TRUE(without.find("anisotropic-friction")) << without.text();
 }
 
+constexpr const char* kProfiles =
+    "<roboss:accuracy setting='high'/>"
+    "<physics name='coarse' "
+    "type='ode'><max_step_size>0.004</max_step_size><real_time_factor>2</real_time_factor>"
+    "<ode><solver><iters>20</iters></solver></ode></physics>"
+    "<physics name='fine' default='true' type='ode'><max_step_size>0.0005</max_step_size>"
+    "<real_time_update_rate>1000</real_time_update_rate><max_contacts>5</max_contacts>"
+    "<roboss:accuracy><tolerance>1e-11</tolerance><newton_max>80</newton_max></roboss:accuracy></physics>";
+
+TEST(LoadWorld, TakesTheDefaultPhysicsProfileOrTheOneAskedFor) {
+    const TestFolder folder;
+    folder.write("world.sdf", std::string("<sdf version='1.9' xmlns:roboss='urn:roboss:1'><world name='w'>") +
+                                  kProfiles + "<model name='m'>" + link("a") + "</model></world></sdf>");
+    const Loaded fine = folder.load("world.sdf");
+    ASSERT_TRUE(fine.world) << fine.text();
+    EXPECT_EQ(fine.world->profile, "fine");
+    EXPECT_EQ(fine.world->dt_s, 0.0005);
+    EXPECT_EQ(fine.world->real_time_factor, 0.5);
+    EXPECT_TRUE(fine.find("physics-profile")) << fine.text();
+    EXPECT_EQ(fine.diagnostics.count(Severity::kWarning), 0u) << fine.text();
+    ASSERT_EQ(fine.world->accuracy.size(), 2u);
+    EXPECT_EQ(fine.world->accuracy[0].setting, "high");
+    ASSERT_EQ(fine.world->accuracy[1].numbers.size(), 2u);
+    EXPECT_EQ(fine.world->accuracy[1].numbers[1].name, "newton_max");
+    EXPECT_EQ(fine.world->accuracy[1].numbers[1].value, 80);
+
+    LoadOptions options;
+    options.profile = "coarse";
+    const Loaded coarse = folder.load("world.sdf", options);
+    ASSERT_TRUE(coarse.world) << coarse.text();
+    EXPECT_EQ(coarse.world->dt_s, 0.004);
+    EXPECT_EQ(coarse.world->real_time_factor, 2);
+    EXPECT_TRUE(coarse.find("engine-settings")) << coarse.text();
+
+    options.profile = "finest";
+    const Loaded none = folder.load("world.sdf", options);
+    ASSERT_TRUE(none.find("no-profile")) << none.text();
+    EXPECT_NE(none.find("no-profile")->remedy.find("'fine'"), std::string::npos);
+}
+
 TEST(LoadWorld, ReadsWindAirAndDrag) {
     const Loaded loaded = load_elements(
         "<wind><linear_velocity>3 0 0</linear_velocity></wind><atmosphere type='adiabatic'><temperature>300"

@@ -144,7 +144,7 @@ SurfaceSpec convert_surface(const Element& collision, const Import& import) {
     }
     if (spec.stiffness > 0 && spec.restitution > 0)
         no_effect(surface, "bounce", "a soft contact gives back what its <kd> leaves", import);
-    spec.max_contacts = import.reader.integer(collision, "max_contacts", -1);
+    spec.max_contacts = import.reader.integer(collision, "max_contacts", import.max_contacts);
     spec.rolling_mu = import.reader.number(collision, "roboss:rolling_friction", 0.0);
     spec.rolling_mu = import.reader.number(surface, "roboss:rolling_friction", spec.rolling_mu);
     return spec;

@@ -189,6 +189,17 @@ struct SphericalCoordinates {
     double latitude_rad = 0, longitude_rad = 0, elevation_m = 0, heading_rad = 0;
 };
 
+/// What is asked of the solver: one of the three settings, then numbers by name (model/accuracy.h).
+struct AccuracySpec {
+    std::string setting;  // "fast", "standard", "high"; empty: as it is
+    struct Number {
+        std::string name;
+        double value = 0;
+    };
+    std::vector<Number> numbers;
+    SourceLocation where;
+};
+
 struct World {
     std::string name;
     std::string file;
@@ -197,7 +208,9 @@ struct World {
     Vec3 wind;                     // m/s
     double air_density = 1.22500;  // kg/m^3, at the world's origin
     double dt_s = 0.001;
-    double real_time_factor = 1.0;
+    double real_time_factor = 1.0;       // 0: as fast as possible
+    std::string profile;                 // name of the <physics> that was chosen
+    std::vector<AccuracySpec> accuracy;  // of the world, then of its profile: a later one wins
     std::optional<SphericalCoordinates> spherical;
     std::vector<ModelSpec> prototypes;
     std::vector<ModelInstance> instances;
