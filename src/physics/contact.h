@@ -24,9 +24,9 @@ struct Contact {
     double torsional = 0, rolling = 0;  // m: levers of the largest torques over the normal force
     double stiffness = 0, damping = 0;  // N/m, N s/m; stiffness 0: rigid
     double slop = 0, mend_speed = 0;    // of a rigid contact, m and m/s
-    double impulse = 0;  // normal, N s: remembered, then solved
-    Vec3 friction;       // tangential, N s, world axes: likewise
-    double load = 0;     // normal, N s: the smaller of the impulses of the last two ticks, so not a blow
+    double impulse = 0;                 // normal, N s: remembered, then solved
+    Vec3 friction;                      // tangential, N s, world axes: likewise
+    double load = 0;  // normal, N s: the smaller of the impulses of the last two ticks, so not a blow
 };
 
 /// Finds all contacts of the island. `robots` ascending by id. Result sorted by (robot_a, other id, shapes,

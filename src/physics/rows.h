@@ -110,4 +110,8 @@ ContactFrame frame_of(const Contact& contact);
 bool add_contact_row(const Model& model, const Contact& contact, std::span<const RobotWork> robots,
                      std::span<const int> offsets, IslandRows& rows);
 
+/// The row of torsional and rolling friction at the contact added last, if it has any.
+void add_angular_row(const Model& model, const Contact& contact, std::span<const RobotWork> robots,
+                     std::span<const int> offsets, IslandRows& rows);
+
 }  // namespace roboss

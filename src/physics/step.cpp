@@ -134,6 +134,7 @@ bool gather_island(const Model& model, Impl& s, std::span<const std::uint32_t> m
                                             [](const Contact& c, int robot) { return c.robot_a < robot; });
         for (auto c = first; c != contacts.end() && c->robot_a == static_cast<int>(m); ++c) {
             split |= add_contact_row(model, *c, s.robots, s.offsets, s.rows);
+            add_angular_row(model, *c, s.robots, s.offsets, s.rows);
             s.island_contacts.push_back(&*c);
         }
     }

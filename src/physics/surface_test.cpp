@@ -162,6 +162,76 @@ TEST(AnisotropicFriction, HoldsAlongTheRoughAxisOnly) {
     }
 }
 
+TEST(TorsionalFriction, ASpinningBallSlowsDownLinearly) {
+    constexpr double kMass = 2, kRadius = 0.1, kSpin = 30, kPatch = 0.01;
+    SurfaceSpec s = surface(0.5);
+    s.torsional_mu = 0.8;
+    s.torsional_radius = kPatch;
+    Simulation sim(ball_on_plane(1e-3, s, surface(0.5), 0));
+    sim.run(0.05);
+    sim.states[0].v[2] = kSpin;
+    const double deceleration = 3 * kPi / 16 * 0.8 * kPatch * kMass * kG / (0.4 * kMass * kRadius * kRadius);
+    const double start = sim.time(), stop = kSpin / deceleration;
+    sim.run(0.5 * stop);
+    EXPECT_NEAR(sim.states[0].v[2] / (kSpin - deceleration * (sim.time() - start)), 1, 1e-4);
+    sim.run(0.5 * stop + 0.01);
+    EXPECT_LT(std::fabs(sim.states[0].v[2]), 1e-6);
+    EXPECT_LT(std::hypot(sim.states[0].q[0], sim.states[0].q[1]), 1e-6) << "spins on the spot";
+}
+
+TEST(TorsionalFriction, TheSurfacesRadiusMakesAPatchOfTheDepth) {
+    // A soft ball sinks by m g / kp; its patch has the radius sqrt(R depth).
+    SurfaceSpec s = soft(1e4, 200);
+    s.torsional_mu = 1;
+    s.torsional_surface_radius = 0.1;
+    Simulation sim(ball_on_plane(1e-3, s, surface(0.5), 0));
+    sim.run(2);
+    sim.states[0].v[2] = 100;
+    sim.run(0.1);
+    const double patch = std::sqrt(0.1 * 2 * kG / 1e4);
+    const double deceleration = 3 * kPi / 16 * patch * kG / (0.4 * 0.01);
+    EXPECT_NEAR((100 - sim.states[0].v[2]) / (0.1 * deceleration), 1, 1e-4);
+}
+
+TEST(RollingFriction, ARollingBallStopsWhereItsLeverSays) {
+    constexpr double kSpeed = 1, kRadius = 0.1, kLever = 0.002;
+    SurfaceSpec s = surface(0.5);
+    s.rolling_mu = kLever;
+    for (const double angle : {0.0, 0.6}) {
+        Simulation sim(ball_on_plane(1e-3, s, surface(0.5), 0));
+        sim.run(0.05);
+        const double c = std::cos(angle), sn = std::sin(angle);
+        sim.states[0].v = {-sn * kSpeed / kRadius, c * kSpeed / kRadius, 0, c * kSpeed, sn * kSpeed, 0};
+        // moment lever * m g on a ball that rolls: inertia about the contact point 1.4 m r^2
+        const double a = kLever * kG / (1.4 * kRadius);
+        sim.run(kSpeed / a + 0.2);
+        const double way = std::hypot(sim.states[0].q[0], sim.states[0].q[1]);
+        EXPECT_NEAR(way / (kSpeed * kSpeed / (2 * a)), 1, 3e-3);
+        EXPECT_NEAR(std::atan2(sim.states[0].q[1], sim.states[0].q[0]), angle, 1e-4);
+        EXPECT_LT(std::hypot(sim.states[0].v[3], sim.states[0].v[4]), 1e-6) << "and stays";
+    }
+}
+
+TEST(RollingFriction, HoldsABallOnASlopeBelowTheLeverOverTheRadius) {
+    for (const bool holds : {true, false}) {
+        SurfaceSpec s = surface(0.5);
+        s.rolling_mu = holds ? 0.006 : 0.004;  // the slope's tangent is 0.05
+        const double slope = std::atan(0.05);
+        const Quat tilt = from_rpy(0, slope, 0);
+        World world = empty_world(1e-3);
+        place(world, ground(surface(0.5)), "ground", {{}, tilt});
+        place(world, solid_sphere(2.0, 0.1, s), "ball", {rotate(tilt, Vec3{0, 0, 0.1}), {}});
+        Simulation sim(world);
+        sim.run(1);
+        const double v = norm(Vec3{sim.states[0].v[3], sim.states[0].v[4], sim.states[0].v[5]});
+        if (holds) {
+            EXPECT_LT(v, 1e-6);
+        } else {
+            EXPECT_NEAR(v / ((kG * std::sin(slope) - 0.04 * kG * std::cos(slope)) / 1.4), 1, 2e-3);
+        }
+    }
+}
+
 TEST(Surface, AtMostSoManyContactsOfAPair) {
     SurfaceSpec s = surface(0.5);
     for (const int most : {0, 1, 3, 4, 9}) {
