@@ -79,8 +79,9 @@ class Run {
 
     bool prepare() {
         Diagnostics diagnostics;
-        const std::optional<World> world = load_world(o_.world, {o_.paths}, diagnostics);
-        if (world && !diagnostics.has_errors()) model_ = compile(*world, {o_.dt_s, {}}, diagnostics);
+        const std::optional<World> world = load_world(o_.world, {o_.paths, o_.profile}, diagnostics);
+        if (world && !diagnostics.has_errors()) model_ = compile(*world, {o_.dt_s, o_.accuracy}, diagnostics);
+        if (world) world_speed_ = world->real_time_factor;
         std::vector<Order> orders;
         if (model_ && !o_.orders.empty()) orders = load_orders(o_.orders, *model_, diagnostics);
         print(diagnostics, o_.world);
@@ -138,7 +139,9 @@ class Run {
         const double dt = model_->dt_s;
         const Tick end =
             o_.duration_s ? start_ + tick_at(*o_.duration_s, dt) : std::numeric_limits<Tick>::max();
-        const double speed = o_.speed == "max" ? 0.0 : std::stod(o_.speed);
+        const double speed = o_.speed == "max"     ? 0.0
+                             : o_.speed == "world" ? world_speed_
+                                                   : std::stod(o_.speed);
         const Due trace(trace_ ? (o_.trace_every_s > 0 ? o_.trace_every_s : dt) : 0.0, dt, start_);
         const Due hash(o_.hash_every_s, dt, start_);
         const Due picture(o_.paths_picture.empty() ? 0.0 : kPictureEvery_s, dt, start_);
@@ -230,6 +233,7 @@ class Run {
     std::unique_ptr<Simulation> simulation_;
     std::optional<TraceFile> trace_;
     std::vector<RobotPath> paths_;
+    double world_speed_ = 0;  // simulated seconds a real second; 0: as fast as possible
     Tick start_ = 0;
 };
 

@@ -1,6 +1,12 @@
 // Declares the options of `roboss run`; their texts are what --help teaches.
 #include "app/run_options.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "model/accuracy.h"
+
 namespace roboss {
 namespace {
 
@@ -9,6 +15,8 @@ const char* const kFooter = R"(Examples:
   roboss run world.sdf --orders orders.jsonl --trace trace.csv --trace-every 0.1
   roboss run world.sdf --duration 30 --save half.roboss      and later
   roboss run world.sdf --from half.roboss --duration 30      ends with the hash of an undisturbed 60 s run
+
+  roboss run world.sdf --profile precise --accuracy high --tolerance 1e-13
 
 An orders file has one JSON object a line:
   {"t":0.5,"robot":"car_7","joint":{"name":"wheel_0","velocity":10,"max_effort":0.4}}
@@ -19,19 +27,45 @@ An orders file has one JSON object a line:
 Exit codes: 0 done, 1 the world, orders or saved state have errors, 2 wrong usage, 3 the run failed (a Client threw,
 a state became infinite, a file could not be written), 130 ended by Ctrl-C (with the summary).)";
 
-/// Accepts a positive number or the given word.
-CLI::Validator number_or(const std::string& word) {
+/// Accepts a positive number or one of the given words.
+CLI::Validator number_or(const std::vector<std::string>& words) {
+    std::string known;
+    for (const std::string& word : words) known += (known.empty() ? "" : "|") + word;
     return CLI::Validator(
-        [word](std::string& text) -> std::string {
-            if (text == word) return {};
+        [words, known](std::string& text) -> std::string {
+            if (std::find(words.begin(), words.end(), text) != words.end()) return {};
             try {
                 std::size_t used = 0;
                 if (std::stod(text, &used) > 0 && used == text.size()) return {};
             } catch (const std::exception&) {
             }
-            return "'" + text + "' is neither a positive number nor '" + word + "'";
+            return "'" + text + "' is neither a positive number nor '" + known + "'";
         },
-        "NUMBER|" + word);
+        "NUMBER|" + known);
+}
+
+/// --accuracy and one option for each number, --newton-max for newton_max; on the command line as in the file
+/// the numbers count after the setting.
+void add_accuracy_options(CLI::App& command, AccuracySpec& spec) {
+    const std::string group = "Accuracy (part of the Model and its hash; docs/physics.md says what it costs)";
+    command
+        .add_option("--accuracy", spec.setting,
+                    "fast, standard or high (default: the world's <roboss:accuracy>, else standard)")
+        ->check(CLI::IsMember({"fast", "standard", "high"}))
+        ->group(group);
+    for (const AccuracyNumber& number : accuracy_numbers()) {
+        std::string name = number.name;
+        std::replace(name.begin(), name.end(), '_', '-');
+        const std::string key = number.name;
+        command
+            .add_option_function<double>(
+                "--" + name,
+                [&spec, key](const double& value) {
+                    spec.numbers.push_back({key, value});
+                },
+                fmt::format("{}: from {:g} to {:g}", number.meaning, number.low, number.high))
+            ->group(group);
+    }
 }
 
 }  // namespace
@@ -45,8 +79,15 @@ void add_run_options(CLI::App& command, RunOptions& o) {
         ->check(CLI::NonNegativeNumber);
     command.add_option("--dt", o.dt_s, "time step, s (default: the world's max_step_size)")
         ->check(CLI::PositiveNumber);
-    command.add_option("--speed", o.speed, "simulated seconds a real second, or max")
-        ->check(number_or("max"))
+    command.add_option(
+        "--profile", o.profile,
+        "name of the world's <physics> to use (default: the one with default=\"true\", else the "
+        "first)");
+    add_accuracy_options(command, o.accuracy);
+    command
+        .add_option("--speed", o.speed,
+                    "simulated seconds a real second, max, or world (its real_time_factor)")
+        ->check(number_or({"max", "world"}))
         ->capture_default_str();
     command.add_option("--threads", o.threads, "threads a Simulator steps its islands with")
         ->check(CLI::Range(1, 1024))
@@ -55,7 +96,7 @@ void add_run_options(CLI::App& command, RunOptions& o) {
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
     command.add_option("--window", o.window, "ticks between two talks with the Controller, or auto")
-        ->check(number_or("auto"))
+        ->check(number_or({"auto"}))
         ->capture_default_str();
     command.add_flag("--merge-islands", o.merge_islands,
                      "put all robots into one island (same result, slower)");

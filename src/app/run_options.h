@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "world/world.h"
+
 namespace roboss {
 
 struct RunOptions {
@@ -14,7 +16,9 @@ struct RunOptions {
     std::vector<std::string> paths;  // --path: where model:// and package:// URIs are looked up
     std::optional<double> duration_s;
     std::optional<double> dt_s;
-    std::string speed = "max";    // "max" or a factor of real time
+    std::string profile;          // of <physics>
+    AccuracySpec accuracy;        // --accuracy and each number by itself
+    std::string speed = "max";    // "max", "world" or a factor of real time
     std::string window = "auto";  // "auto" or a number of ticks
     int threads = 1;
     int simulators = 1;

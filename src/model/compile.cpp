@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/hash.h"
+#include "model/accuracy.h"
 #include "model/compile_type.h"
 
 namespace roboss {
@@ -74,14 +75,12 @@ void build_bvh(Model& model) {
 std::uint64_t model_hash(const Model& model) {
     Hash hash;
     hash.add(model.dt_s);
-    for (const Vec3& v : {model.gravity, model.magnetic_field_T}) hash.add(v.x), hash.add(v.y), hash.add(v.z);
+    hash.add(model.air_density);
+    for (const Vec3& v : {model.gravity, model.magnetic_field_T, model.wind})
+        hash.add(v.x), hash.add(v.y), hash.add(v.z);
     if (const auto& s = model.spherical)
         for (double x : {s->latitude_rad, s->longitude_rad, s->elevation_m, s->heading_rad}) hash.add(x);
-    for (double x : {model.accuracy.tolerance, model.accuracy.friction_tolerance, model.accuracy.compliance,
-                     model.accuracy.contact_compliance})
-        hash.add(x);
-    hash.add(static_cast<std::uint64_t>(model.accuracy.newton_max));
-    hash.add(static_cast<std::uint64_t>(model.accuracy.friction_max));
+    for (const AccuracyNumber& number : accuracy_numbers()) hash.add(number.get(model.accuracy));
     for (const RobotType& type : model.types) hash.add(type.hash);
     for (const Robot& robot : model.robots) {
         hash.add(robot.name);
@@ -93,30 +92,13 @@ std::uint64_t model_hash(const Model& model) {
     }
     for (const StaticShape& s : model.statics) {
         hash.add(static_cast<std::uint64_t>(s.shape.kind));
-        const double numbers[] = {s.shape.half.x,
-                                  s.shape.half.y,
-                                  s.shape.half.z,
-                                  s.shape.radius,
-                                  s.shape.half_length,
-                                  s.X_WS.p.x,
-                                  s.X_WS.p.y,
-                                  s.X_WS.p.z,
-                                  s.X_WS.R.r0.x,
-                                  s.X_WS.R.r0.y,
-                                  s.X_WS.R.r0.z,
-                                  s.X_WS.R.r1.x,
-                                  s.X_WS.R.r1.y,
-                                  s.X_WS.R.r1.z,
-                                  s.X_WS.R.r2.x,
-                                  s.X_WS.R.r2.y,
-                                  s.X_WS.R.r2.z,
-                                  s.material.mu,
-                                  s.material.restitution,
-                                  s.material.bounce_threshold,
-                                  s.material.torsional,
-                                  s.material.rolling};
+        const double numbers[] = {s.shape.half.x,      s.shape.half.y, s.shape.half.z, s.shape.radius,
+                                  s.shape.half_length, s.X_WS.p.x,     s.X_WS.p.y,     s.X_WS.p.z,
+                                  s.X_WS.R.r0.x,       s.X_WS.R.r0.y,  s.X_WS.R.r0.z,  s.X_WS.R.r1.x,
+                                  s.X_WS.R.r1.y,       s.X_WS.R.r1.z,  s.X_WS.R.r2.x,  s.X_WS.R.r2.y,
+                                  s.X_WS.R.r2.z};
         hash.add(std::span<const double>(numbers));
-        hash.add(static_cast<std::uint64_t>(s.material.collide_bitmask));
+        add_to_hash(hash, s.material);
     }
     return hash.value();
 }
@@ -131,8 +113,11 @@ std::shared_ptr<const Model> compile(const World& world, const CompileOptions& o
     model->dt_s = options.dt_s.value_or(world.dt_s);
     model->gravity = world.gravity;
     model->magnetic_field_T = world.magnetic_field_T;
+    model->wind = world.wind;
+    model->air_density = world.air_density;
     model->spherical = world.spherical;
-    model->accuracy = options.accuracy;
+    for (const AccuracySpec& spec : world.accuracy) apply(spec, model->accuracy, diagnostics);
+    apply(options.accuracy, model->accuracy, diagnostics);
     if (!(model->dt_s > 0 && model->dt_s <= 1.0))
         diagnostics.error({world.file, 0}, "bad-step",
                           "the step of " + std::to_string(model->dt_s) + " s is not in (0, 1] s",

@@ -196,6 +196,9 @@ class PartBuilder {
             const LinkId id(part_.type.links.size());
             if (body >= 0) add_mass(part_.type.bodies[static_cast<std::size_t>(body)], spec, link.X_BL);
             add_shapes(spec, link, id);
+            if (spec.drag.acts && body >= 0)
+                part_.type.drags.push_back(
+                    {body, link.p_BC, link.X_BL.R, drag_area(spec), spec.drag.linear, spec.drag.wind});
             for (const SensorSpec& sensor : spec.sensors) part_.type.sensors.push_back({sensor, id});
             part_.type.links.push_back(link);
         }
@@ -259,17 +262,6 @@ bool to_shape(const GeometrySpec& geometry, Shape& shape) {
         default:
             return false;
     }
-}
-
-Material to_material(const SurfaceSpec& surface) {
-    Material material;
-    material.mu = surface.mu;
-    material.restitution = surface.restitution;
-    material.bounce_threshold = surface.bounce_threshold;
-    material.torsional = surface.torsional_mu * surface.torsional_radius;
-    material.rolling = surface.rolling_mu;
-    material.collide_bitmask = surface.collide_bitmask;
-    return material;
 }
 
 RobotType sensor_stand(const ModelSpec& spec) {

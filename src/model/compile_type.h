@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/hash.h"
 #include "model/model.h"
 
 namespace roboss {
@@ -24,6 +25,10 @@ RobotType sensor_stand(const ModelSpec& spec);
 /// A collision element as a Shape; false if its geometry takes no part in the physics yet.
 bool to_shape(const GeometrySpec& geometry, Shape& shape);
 Material to_material(const SurfaceSpec& surface);
+void add_to_hash(Hash& hash, const Material& material);
+
+/// Projected areas of the link's shapes along its axes, times their coefficients (m^2).
+Vec3 drag_area(const LinkSpec& link);
 
 /// Adds a link's inertia to its body: common centre of mass, parallel-axis theorem for both.
 void add_mass(Body& body, const LinkSpec& link, const Transform& X_BL);

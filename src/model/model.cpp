@@ -67,10 +67,13 @@ void add_coupling(Hash& hash, const CoordinateCoupling& coupling) {
 
 void add_shape(Hash& hash, const BodyShape& s) {
     add(hash, static_cast<int>(s.shape.kind)), add(hash, s.body), add(hash, s.X_BS), add(hash, s.shape.half);
-    for (double x : {s.shape.radius, s.shape.half_length, s.material.mu, s.material.restitution,
-                     s.material.bounce_threshold, s.material.torsional, s.material.rolling})
-        hash.add(x);
-    hash.add(static_cast<std::uint64_t>(s.material.collide_bitmask));
+    for (double x : {s.shape.radius, s.shape.half_length}) hash.add(x);
+    add_to_hash(hash, s.material);
+}
+
+void add_drag(Hash& hash, const LinkDrag& drag) {
+    add(hash, drag.body), add(hash, drag.p_BC), add(hash, drag.R_BL), add(hash, drag.area);
+    hash.add(drag.linear), add(hash, drag.wind ? 1 : 0);
 }
 
 void add_sensor(Hash& hash, const SensorInfo& info) {
@@ -97,6 +100,7 @@ std::uint64_t type_hash(const RobotType& type) {
     for (const Body& body : type.bodies) add_body(hash, body);
     for (const Dof& dof : type.dofs) add_dof(hash, dof);
     for (const BodyShape& shape : type.shapes) add_shape(hash, shape);
+    for (const LinkDrag& drag : type.drags) add_drag(hash, drag);
     for (const SensorInfo& sensor : type.sensors) add_sensor(hash, sensor);
     for (const Link& link : type.links)
         hash.add(std::string_view(link.name)), add(hash, link.body), add(hash, link.X_BL),

@@ -109,11 +109,18 @@ struct CoordinateCoupling {
     double inverse_inertia = 0;  // mobility of the difference at the zero pose
 };
 
-/// Friction etc. of one shape; a pair combines: mu = min, restitution = max, threshold = max, others = min
-/// (documented in physics).
+/// Friction, bounce and softness of one shape. How two of them combine: physics/surface_pair.h.
 struct Material {
-    double mu = 1, restitution = 0, bounce_threshold = 0.01, torsional = 0, rolling = 0;
-    std::uint32_t collide_bitmask = 0xFFFF;
+    double mu = 1, mu2 = 1;  // along and across direction_S
+    Vec3 direction_S;        // unit, in the shape's frame; zero: mu counts in all directions
+    double restitution = 0, bounce_threshold = 0.01;
+    double torsional_mu = 1, patch_radius = 0, surface_radius = 0;
+    double rolling = 0;                 // m
+    double stiffness = 0, damping = 0;  // N/m, N s/m of a soft contact; stiffness 0: rigid
+    double slop = 1e-5;                 // m, penetration that a rigid contact leaves alone
+    double mend_speed = 2;              // m/s at most, while mending; it never enters the velocity
+    std::uint32_t contacts_max = 0xFFFFFFFF;
+    std::uint32_t collide_bitmask = 0xFFFF, category_bitmask = 0xFFFF;
 };
 
 struct BodyShape {
@@ -122,6 +129,18 @@ struct BodyShape {
     LinkId link;
     Transform X_BS;
     Material material;
+};
+
+/// Drag of one link: force = -(density / 2 * |A(u)| |u| + linear) * u at its centre of mass, with u its
+/// velocity through the air. A(u): projected area times coefficient, given along the link's axes, in between
+/// as an ellipsoid's.
+struct LinkDrag {
+    int body = 0;
+    Vec3 p_BC;  // the link's centre of mass
+    Mat3 R_BL = Mat3::identity();
+    Vec3 area;          // m^2
+    double linear = 0;  // N s/m
+    bool wind = false;  // u is measured against the wind, else against the world
 };
 
 struct SensorInfo {
@@ -145,6 +164,7 @@ struct RobotType {
     std::vector<LoopJoint> loops;
     std::vector<CoordinateCoupling> couplings;
     std::vector<BodyShape> shapes;
+    std::vector<LinkDrag> drags;
     std::vector<std::pair<int, int>> self_pairs;  // shapes of this robot that may collide with each other
     std::vector<SensorInfo> sensors;
     std::vector<double> initial_q;  // joint coordinates behind the 7 base ones
@@ -210,6 +230,8 @@ struct Model {
     double dt_s = 0.001;
     Vec3 gravity{0, 0, -9.8};
     Vec3 magnetic_field_T;
+    Vec3 wind;                 // m/s
+    double air_density = 0.0;  // kg/m^3
     std::optional<SphericalCoordinates> spherical;
     Accuracy accuracy;
     std::vector<RobotType> types;
@@ -223,8 +245,8 @@ struct Model {
 };
 
 struct CompileOptions {
-    std::optional<double> dt_s;  // overrides the world's step
-    Accuracy accuracy;
+    std::optional<double> dt_s{};  // overrides the world's step
+    AccuracySpec accuracy{};       // after the world's own
 };
 
 /// World to Model. Findings go to `diagnostics`; nullptr if any of them is an error.

@@ -5,6 +5,7 @@
 
 #include <support/robots.h>
 
+#include "model/accuracy.h"
 #include "model/model.h"
 
 namespace roboss::test {
@@ -70,6 +71,11 @@ TEST(ModelHash, ChangesWithTheWorld) {
     expect_each_changes_the_hash({
         {"dt", [](World& w) { w.dt_s = 2e-3; }},
         {"gravity", [](World& w) { w.gravity.x = 1e-9; }},
+        {"wind",
+         [](World& w) {
+             w.wind = {1, 0, 0};
+         }},
+        {"air", [](World& w) { w.air_density = 1; }},
         {"magnetic field", [](World& w) { w.magnetic_field_T.y = 0; }},
         {"spherical coordinates",
          [](World& w) {
@@ -93,6 +99,10 @@ TEST(ModelHash, ChangesWithLinksAndShapes) {
         {"centre", [](World& w) { robot(w).links[3].p_LC.x += 1e-12; }},
         {"inertia", [](World& w) { robot(w).links[3].inertia_C(0, 0) *= 1.001; }},
         {"link place", [](World& w) { robot(w).links[3].X_ML.p.x += 1e-12; }},
+        {"drag",
+         [](World& w) {
+             robot(w).links[3].drag = {true, false, 1, 0.1, 0};
+         }},
         {"gravity off", [](World& w) { robot(w).links[3].gravity = false; }},
         {"gravity off of a welded link", [](World& w) { robot(w).links[1].gravity = false; }},
         {"link name", [](World& w) { robot(w).links[6].name = robot(w).joints.back().child = "paw"; }},
@@ -107,6 +117,17 @@ TEST(ModelHash, ChangesWithLinksAndShapes) {
         {"bounce threshold", [](World& w) { robot_surface(w).bounce_threshold = 0.02; }},
         {"torsional friction",
          [](World& w) { robot_surface(w).torsional_mu = robot_surface(w).torsional_radius = 0.1; }},
+        {"torsional surface", [](World& w) { robot_surface(w).torsional_surface_radius = 0.1; }},
+        {"friction direction",
+         [](World& w) {
+             robot_surface(w).fdir1 = {1, 0, 0};
+         }},
+        {"stiffness", [](World& w) { robot_surface(w).stiffness = 1e4; }},
+        {"contact damping", [](World& w) { robot_surface(w).damping = 10; }},
+        {"depth left alone", [](World& w) { robot_surface(w).min_depth = 1e-3; }},
+        {"speed of mending", [](World& w) { robot_surface(w).max_vel = 0.1; }},
+        {"most contacts", [](World& w) { robot_surface(w).max_contacts = 3; }},
+        {"category bitmask", [](World& w) { robot_surface(w).category_bitmask = 4; }},
         {"rolling friction", [](World& w) { robot_surface(w).rolling_mu = 0.001; }},
         {"bitmask", [](World& w) { robot_surface(w).collide_bitmask = 2; }},
         {"self collision", [](World& w) { robot(w).self_collide = true; }},
@@ -156,14 +177,13 @@ TEST(ModelHash, ChangesWithSensors) {
 
 TEST(ModelHash, ChangesWithTheAccuracy) {
     const std::uint64_t before = hash_of(base_world());
-    const std::function<void(Accuracy&)> changes[] = {
-        [](Accuracy& a) { a.tolerance *= 2; },  [](Accuracy& a) { a.friction_tolerance *= 2; },
-        [](Accuracy& a) { a.newton_max++; },    [](Accuracy& a) { a.friction_max++; },
-        [](Accuracy& a) { a.compliance *= 2; }, [](Accuracy& a) { a.contact_compliance *= 2; }};
-    for (const auto& change : changes) {
+    for (const AccuracyNumber& number : accuracy_numbers()) {
         CompileOptions options;
-        change(options.accuracy);
-        EXPECT_NE(hash_of(base_world(), options), before);
+        options.accuracy.numbers = {{number.name, number.high}};
+        EXPECT_NE(hash_of(base_world(), options), before) << number.name;
+        World world = base_world();
+        world.accuracy.push_back(options.accuracy);
+        EXPECT_EQ(hash_of(world), hash_of(base_world(), options)) << "from the file as from the command line";
     }
 }
 

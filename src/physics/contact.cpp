@@ -7,27 +7,55 @@
 #include <tuple>
 
 #include "geometry/collide.h"
+#include "physics/surface_pair.h"
 
 namespace roboss {
 namespace {
 
 constexpr std::uint32_t kStatic = RobotId::kNone;
 
-bool may_collide(const Material& a, const Material& b) {
-    return (a.collide_bitmask & b.collide_bitmask) != 0;
+/// Drops all but the `keep` deepest points; of equal depth the first.
+std::uint32_t points_to_keep(const Manifold& manifold, std::uint32_t keep) {
+    const auto count = static_cast<std::uint32_t>(manifold.count);
+    std::uint32_t kept = (std::uint32_t{1} << count) - 1;
+    for (std::uint32_t left = count; left > keep; --left) {
+        std::uint32_t shallowest = count;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            if ((kept >> i & 1) == 0) continue;
+            if (shallowest == count || manifold.points[i].gap >= manifold.points[shallowest].gap)
+                shallowest = i;
+        }
+        kept &= ~(std::uint32_t{1} << shallowest);
+    }
+    return kept;
 }
 
-void add_points(const Manifold& manifold, Contact contact, const Material& a, const Material& b,
+struct Placed {
+    const Material& material;
+    const Mat3& R_WS;
+};
+
+void add_points(const Manifold& manifold, Contact contact, const Placed& pa, const Placed& pb,
                 std::vector<Contact>& contacts) {
+    if (manifold.count == 0) return;
+    const Material &a = pa.material, &b = pb.material;
     contact.normal = manifold.n_W;
-    contact.mu = std::min(a.mu, b.mu);
+    const FrictionEllipse friction = friction_of(a, pa.R_WS, b, pb.R_WS, manifold.n_W);
+    contact.mu = friction.mu, contact.friction_axis = friction.axis, contact.mu_across = friction.across;
     contact.restitution = std::max(a.restitution, b.restitution);
     contact.bounce_threshold = std::max(a.bounce_threshold, b.bounce_threshold);
+    contact.rolling = std::max(a.rolling, b.rolling);
+    const Softness soft = softness_of(a, b);
+    contact.stiffness = soft.stiffness, contact.damping = soft.damping;
+    contact.slop = std::max(a.slop, b.slop), contact.mend_speed = std::min(a.mend_speed, b.mend_speed);
+    const std::uint32_t kept = points_to_keep(manifold, std::min(a.contacts_max, b.contacts_max));
     for (int i = 0; i < manifold.count; ++i) {
+        if ((kept >> i & 1) == 0) continue;
         const ContactPoint& point = manifold.points[static_cast<std::size_t>(i)];
         contact.p_W = point.p_W;
         contact.gap = point.gap;
         contact.feature = point.feature;
+        contact.torsional = torsional_lever(a, b, -point.gap);
         contacts.push_back(contact);
     }
 }
@@ -39,7 +67,7 @@ void collide_shapes(const BodyShape& a, const ShapeWork& wa, const BodyShape& b,
     contact.body_a = a.body;
     contact.body_b = b.body;
     const Manifold manifold = collide(a.shape, wa.X_WS, b.shape, wb.X_WS, wa.margin + wb.margin);
-    add_points(manifold, contact, a.material, b.material, contacts);
+    add_points(manifold, contact, {a.material, wa.X_WS.R}, {b.material, wb.X_WS.R}, contacts);
 }
 
 std::uint32_t other_id(std::span<const RobotWork> robots, const Contact& c) {
@@ -94,7 +122,8 @@ void ContactFinder::with_statics(const Model& model, std::span<RobotWork> robots
             contact.shape_a = static_cast<std::uint32_t>(s);
             contact.shape_b = i;
             contact.body_a = shape.body;
-            add_points(manifold, contact, shape.material, scenery.material, contacts);
+            add_points(manifold, contact, {shape.material, placed.X_WS.R}, {scenery.material, scenery.X_WS.R},
+                       contacts);
         }
     }
 }

@@ -19,9 +19,14 @@ struct Contact {
     Vec3 p_W, normal;  // normal from B towards A
     double gap = 0;
     double mu = 0, restitution = 0, bounce_threshold = 0;
-    double impulse = 0;  // normal, N s: remembered, then solved
-    Vec3 friction;       // tangential, N s, world axes: likewise
-    double load = 0;     // normal, N s: the smaller of the impulses of the last two ticks, so not a blow
+    Vec3 friction_axis;                 // mu counts along it, mu * mu_across across; zero: in all directions
+    double mu_across = 1;               // from 0 to 1
+    double torsional = 0, rolling = 0;  // m: levers of the largest torques over the normal force
+    double stiffness = 0, damping = 0;  // N/m, N s/m; stiffness 0: rigid
+    double slop = 0, mend_speed = 0;    // of a rigid contact, m and m/s
+    double impulse = 0;                 // normal, N s: remembered, then solved
+    Vec3 friction;                      // tangential, N s, world axes: likewise
+    double load = 0;  // normal, N s: the smaller of the impulses of the last two ticks, so not a blow
 };
 
 /// Finds all contacts of the island. `robots` ascending by id. Result sorted by (robot_a, other id, shapes,

@@ -8,17 +8,10 @@
 namespace roboss {
 namespace {
 
-constexpr double kSlop = 1e-5;      // m, penetration that is left alone
-constexpr double kMendShare = 0.3;  // of the penetration beyond it mended in one tick
-constexpr double kMendSpeedMax =
-    2.0;  // m/s, while mending; it never enters the velocity, so it adds no energy
-
-struct Frame {
-    Vec3 n, t1, t2;
-};
+constexpr double kMendShare = 0.3;  // of the penetration beyond the slop mended in one tick
 
 void add_columns(const RobotWork& robot, int body, int offset, double sign, const Vec3& p_W,
-                 const Frame& frame, std::vector<ContactColumn>& columns) {
+                 const ContactFrame& frame, std::vector<ContactColumn>& columns) {
     if (body < 0) return;
     const Vec3 p = p_W - robot.origin;
     const Body& info = robot.type->bodies[static_cast<std::size_t>(body)];
@@ -63,29 +56,60 @@ bool set_impact(const Contact& c, double approach, double gravity_n, double dt, 
     return row.target > 0;
 }
 
+/// A spring and damper taken implicitly: force = stiffness * depth - damping * u with the depth and the
+/// velocity at the end of the tick, never pulling. A gap is closed first, and damps for its share of the
+/// tick. False if the contact is as hard as rigid ones, of compliance `rigid`.
+bool set_softness(const Contact& c, double dt, double rigid, BoundedRow& row) {
+    if (c.stiffness <= 0) return false;
+    const double compliance = 1.0 / (dt * dt * c.stiffness + dt * c.damping);
+    if (compliance < rigid) return false;
+    row.compliance = compliance;
+    row.target = c.gap > 0 ? -c.gap / dt : -c.gap * c.stiffness / (dt * c.stiffness + c.damping);
+    row.position_target = row.target;
+    return true;
+}
+
 /// Targets of the normal. The load of the last tick is where the row starts from (a proximal step): a contact
 /// at rest carries it without any velocity, however compliant the row. True if velocity and way differ.
 bool set_normal(const Contact& c, double approach, double gravity_n, double dt, double compliance,
                 BoundedRow& row) {
     row.compliance = compliance;
-    row.low = 0, row.high = std::numeric_limits<double>::infinity();
     if (set_impact(c, approach, gravity_n, dt, row)) return true;
     row.target = row.position_target = c.gap > 0 ? -c.gap / dt : 0.0;
-    const bool mends = c.gap < -kSlop;
-    if (mends) row.position_target = std::min(kMendShare * (-c.gap - kSlop) / dt, kMendSpeedMax);
+    const bool mends = c.gap < -c.slop;
+    if (mends) row.position_target = std::min(kMendShare * (-c.gap - c.slop) / dt, c.mend_speed);
     row.target += compliance * c.load;
     row.position_target += compliance * c.load;
     return mends;
 }
 
+/// Friction starts from that of the last tick, as the normal does; `share` makes velocities of its impulses.
+void set_friction_targets(const Contact& c, const ContactFrame& frame, double share, FrictionDisc& slip) {
+    slip.target_1 = share * dot(frame.t1, c.friction);
+    slip.target_2 = share * dot(frame.t2, c.friction);
+    if (c.mu_across == 1) return;
+    const double short2 = c.mu_across * c.mu_across;
+    slip.target_2 = short2 > 0 ? slip.target_2 / short2 : 0.0;
+}
+
 }  // namespace
+
+ContactFrame frame_of(const Contact& c) {
+    ContactFrame frame{c.normal, {}, {}};
+    if (c.friction_axis == Vec3{}) {
+        tangents(c.normal, frame.t1, frame.t2);
+    } else {
+        frame.t1 = c.friction_axis;
+        frame.t2 = cross(c.normal, c.friction_axis) * c.mu_across;
+    }
+    return frame;
+}
 
 bool add_contact_row(const Model& model, const Contact& c, std::span<const RobotWork> robots,
                      std::span<const int> offsets, IslandRows& rows) {
     const RobotWork& a = robots[static_cast<std::size_t>(c.robot_a)];
     const double dt = model.dt_s;
-    Frame frame{c.normal, {}, {}};
-    tangents(c.normal, frame.t1, frame.t2);
+    const ContactFrame frame = frame_of(c);
     ContactRow row;
     row.first = rows.columns.size();
     add_columns(a, c.body_a, offsets[static_cast<std::size_t>(c.robot_a)], 1.0, c.p_W, frame, rows.columns);
@@ -103,14 +127,14 @@ bool add_contact_row(const Model& model, const Contact& c, std::span<const Robot
     row.last = rows.columns.size();
     const bool loaded = c.load > 0;
     const double compliance = ease * (loaded ? model.accuracy.contact_compliance : model.accuracy.compliance);
-    const bool split = set_normal(c, approach, gravity_n, dt, compliance, row.normal);
+    row.normal.low = 0, row.normal.high = std::numeric_limits<double>::infinity();
+    const bool split = !set_softness(c, dt, ease * model.accuracy.compliance, row.normal) &&
+                       set_normal(c, approach, gravity_n, dt, compliance, row.normal);
     row.slip.coefficient = c.mu;
     row.slip.bound = c.mu * c.impulse;
     row.slip.compliance = compliance;
     if (loaded) {
-        const double share = compliance * (c.load / c.impulse);
-        row.slip.target_1 = share * dot(frame.t1, c.friction);
-        row.slip.target_2 = share * dot(frame.t2, c.friction);
+        set_friction_targets(c, frame, compliance * (c.load / c.impulse), row.slip);
     }
     rows.contacts.push_back(row);
     return split;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "model/joint_motion.h"
+#include "physics/drag.h"
 #include "physics/robot_work.h"
 
 namespace roboss {
@@ -131,6 +132,7 @@ void compute_impulse(const Model& model, double dt, double momentum_weight, std:
         w.impulse = momentum * momentum_weight + force * dt;
     }
     add_wrenches(type, *work.state, dt, work);
+    if (!type.drags.empty()) add_drag(model, dt, momentum_weight != 0, work);
     work.impulse.resize(static_cast<std::size_t>(type.nv));
     for (std::size_t b = type.bodies.size(); b-- > 0;) {
         const Body& body = type.bodies[b];

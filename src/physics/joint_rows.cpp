@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/drag.h"
 #include "physics/rows.h"
 
 namespace roboss {
@@ -155,6 +156,7 @@ bool moves_freely(const Model& model, const RobotWork& robot) {
     const RobotState& state = *robot.state;
     for (const LoopJoint& loop : type.loops)
         if (needs_rows(loop, state)) return false;
+    if (drag_is_stiff(model, robot)) return false;
     for (std::size_t d = 0; d < type.dofs.size(); ++d) {
         const Dof& dof = type.dofs[d];
         if (state.motors[d].mode != MotorMode::kPassive || dof.friction > 0 || is_stiff(dof, model.dt_s))

@@ -50,6 +50,8 @@ void place_bodies(const RobotType& type, std::span<const double> q, RobotWork& w
 void move_bodies(const RobotType& type, std::span<const double> v, RobotWork& work);
 void place_shapes(const RobotType& type, double dt, RobotWork& work);
 /// work.impulse = momentum_weight * M v + dt * (applied - bias); with (1, 0) the generalised force alone.
+/// With a weight, drag is taken implicitly: part of it then stands in the bodies' inertias, for
+/// compute_mass_matrix.
 void compute_impulse(const Model& model, double dt, double momentum_weight, std::span<const double> q,
                      std::span<const double> v, RobotWork& work);
 /// Inertias of the bodies alone, as compute_impulse sets them on its way; compute_mass_matrix needs them.

@@ -98,9 +98,21 @@ bool add_joint_rows(const Model& model, const RobotWork& robot, int offset, std:
 /// nothing touches it.
 bool moves_freely(const Model& model, const RobotWork& robot);
 
+/// Normal and tangents of a contact's row. Across the friction axis the tangent is shortened to the share of
+/// friction there: in these coordinates the ellipse of friction impulses is a disc, and what the solver finds
+/// in the disc (most dissipation) is what Coulomb's law says of the ellipse.
+struct ContactFrame {
+    Vec3 n, t1, t2;
+};
+ContactFrame frame_of(const Contact& contact);
+
 /// Rows of one contact; offsets[i] is the first dof of robots[i] in the contact island. Returns true if the
 /// way of this tick needs another target than the velocity (penetration to mend, an impact inside the tick).
 bool add_contact_row(const Model& model, const Contact& contact, std::span<const RobotWork> robots,
+                     std::span<const int> offsets, IslandRows& rows);
+
+/// The row of torsional and rolling friction at the contact added last, if it has any.
+void add_angular_row(const Model& model, const Contact& contact, std::span<const RobotWork> robots,
                      std::span<const int> offsets, IslandRows& rows);
 
 }  // namespace roboss

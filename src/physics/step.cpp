@@ -134,6 +134,7 @@ bool gather_island(const Model& model, Impl& s, std::span<const std::uint32_t> m
                                             [](const Contact& c, int robot) { return c.robot_a < robot; });
         for (auto c = first; c != contacts.end() && c->robot_a == static_cast<int>(m); ++c) {
             split |= add_contact_row(model, *c, s.robots, s.offsets, s.rows);
+            add_angular_row(model, *c, s.robots, s.offsets, s.rows);
             s.island_contacts.push_back(&*c);
         }
     }
@@ -145,11 +146,10 @@ void take_impulses(Impl& s) {
     for (std::size_t c = 0; c < s.rows.contacts.size(); ++c) {
         const ContactRow& row = s.rows.contacts[c];
         Contact& contact = *s.island_contacts[c];
-        Vec3 t1, t2;
-        tangents(contact.normal, t1, t2);
+        const ContactFrame frame = frame_of(contact);
         contact.load = std::min(contact.impulse, row.normal.impulse);
         contact.impulse = row.normal.impulse;
-        contact.friction = t1 * row.slip.impulse_1 + t2 * row.slip.impulse_2;
+        contact.friction = frame.t1 * row.slip.impulse_1 + frame.t2 * row.slip.impulse_2;
     }
 }
 

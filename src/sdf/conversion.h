@@ -15,11 +15,16 @@ namespace roboss::sdf_import {
 struct Import {
     const ResourcePaths& paths;
     ElementReader reader;
+    double dt_s = 0.001;    // the world's step, which some numbers for ODE depend on
+    int max_contacts = -1;  // of the world's physics, for collisions that do not say; negative: all
     Diagnostics& diagnostics() const { return reader.diagnostics(); }
 };
 
 /// Mass, centre and inertia of a link, as written, as SDF's defaults (reported), or automatic (auto="true").
 void convert_inertial(const Element& link, const Import& import, LinkSpec& spec);
+
+/// <enable_wind> and <roboss:drag> of a link; `wind`: what the model says of <enable_wind>.
+void convert_drag(const Element& link, bool wind, const Import& import, LinkSpec& spec);
 
 /// nullopt for <empty> or a shape that is not known. `X` is the pose of the element that holds the geometry;
 /// a plane's normal is folded into it.

@@ -15,7 +15,7 @@ ExtensionElement kept(const Element& element) {
 
 bool is_ours_here(const char* parent, const char* name) {
     const auto is = [](const char* a, const char* b) { return std::strcmp(a, b) == 0; };
-    if (is(name, "roboss:sensor")) return is(parent, "link");
+    if (is(name, "roboss:sensor") || is(name, "roboss:drag")) return is(parent, "link");
     if (is(name, "roboss:motor")) return is(parent, "joint") || is(parent, "axis") || is(parent, "axis2");
     if (is(name, "roboss:rolling_friction")) return is(parent, "collision") || is(parent, "surface");
     return false;
@@ -25,10 +25,11 @@ void report_foreign(const Element& element, const Import& import) {
     const std::string name = element.node.name(), parent = element.node.parent().name();
     if (is_ours_here(parent.c_str(), name.c_str())) return;
     if (name.rfind("roboss:", 0) == 0) {
-        import.diagnostics().warning(element.where(), "unknown-extension",
-                                     "<" + name + "> in <" + parent + "> is not known and is ignored",
-                                     "Known: <roboss:sensor> in a link, <roboss:motor> in a joint or axis, "
-                                     "<roboss:rolling_friction> in a collision or surface.");
+        import.diagnostics().warning(
+            element.where(), "unknown-extension",
+            "<" + name + "> in <" + parent + "> is not known and is ignored",
+            "Known: <roboss:sensor> and <roboss:drag> in a link, <roboss:motor> in a joint or axis, "
+            "<roboss:rolling_friction> in a collision or surface.");
     } else {
         import.diagnostics().note(element.where(), "foreign-element",
                                   "<" + name + "> is not for RoBOSS and is ignored");

@@ -32,10 +32,11 @@ class WorldLoader {
   public:
     WorldLoader(const LoadOptions& options, Diagnostics& diagnostics)
         : paths_(options.search_paths),
-          import_{paths_, ElementReader(diagnostics)},
+          import_{paths_, ElementReader(diagnostics), 0.001, -1},
           includes_(paths_, diagnostics),
           libsdformat_(includes_, diagnostics),
-          diagnostics_(diagnostics) {}
+          diagnostics_(diagnostics),
+          profile_(options.profile) {}
 
     std::optional<World> load(const std::string& path) {
         file_ = SourceFile::read(path, diagnostics_);
@@ -45,7 +46,7 @@ class WorldLoader {
         if (!world) return std::nullopt;
         World result;
         result.file = path;
-        read_world_settings(*world, import_, result);
+        read_world_settings(*world, profile_, import_, result);
         if (result.name.empty()) result.name = first_model(*file_).name();
         const auto placements = collect_placements(*world, includes_, import_);
         for (const Placement& placement : placements) distinct_of_.push_back(find_distinct(placement));
@@ -127,6 +128,7 @@ class WorldLoader {
     IncludeStore includes_;
     LibsdformatReader libsdformat_;
     Diagnostics& diagnostics_;
+    std::string profile_;
     std::unique_ptr<SourceFile> file_;
     std::vector<Distinct> distinct_;
     std::unordered_multimap<std::uint64_t, std::size_t> by_hash_;

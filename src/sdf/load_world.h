@@ -16,6 +16,8 @@ struct LoadOptions {
     /// Folders in which model://, package:// and relative URIs are looked for, before those of the
     /// environment (SDF_PATH, GZ_SIM_RESOURCE_PATH, IGN_GAZEBO_RESOURCE_PATH).
     std::vector<std::string> search_paths;
+    /// Name of the <physics> profile to use; empty: the one with default="true", else the first.
+    std::string profile{};
 };
 
 /// The world of `file` (its first one; a file with a model only becomes a world with that model), checked

@@ -264,6 +264,117 @@ TEST(LoadWorld, ReadsSurfaces) {
     EXPECT_EQ(s.rolling_mu, 0.001);
 }
 
+Loaded with_surface(const std::string& surface) {
+    return load_elements("<model name='m'>" +
+                         link("a",
+                              "<collision name='c'><max_contacts>3</max_contacts><geometry><sphere><radius>1"
+                              "</radius></sphere></geometry><surface>" +
+                                  surface + "</surface></collision>") +
+                         "</model>");
+}
+
+TEST(LoadWorld, ReadsFrictionThatDependsOnTheDirection) {
+    const Loaded loaded =
+        with_surface("<friction><ode><mu>0.5</mu><mu2>0.2</mu2><fdir1>0 1 0</fdir1></ode></friction>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
+    const SurfaceSpec& s = loaded.world->prototypes[0].links[0].collisions[0].surface;
+    EXPECT_EQ(s.mu, 0.5);
+    EXPECT_EQ(s.mu2, 0.2);
+    EXPECT_EQ(s.fdir1, (Vec3{0, 1, 0}));
+    EXPECT_EQ(s.max_contacts, 3);
+    const Loaded without = with_surface("<friction><ode><mu>0.5</mu><mu2>0.2</mu2></ode></friction>");
+    EXPECT_TRUE(without.find("anisotropic-friction")) << without.text();
+}
+
+constexpr const char* kProfiles =
+    "<roboss:accuracy setting='high'/>"
+    "<physics name='coarse' "
+    "type='ode'><max_step_size>0.004</max_step_size><real_time_factor>2</real_time_factor>"
+    "<ode><solver><iters>20</iters></solver></ode></physics>"
+    "<physics name='fine' default='true' type='ode'><max_step_size>0.0005</max_step_size>"
+    "<real_time_update_rate>1000</real_time_update_rate><max_contacts>5</max_contacts>"
+    "<roboss:accuracy><tolerance>1e-11</tolerance><newton_max>80</newton_max></roboss:accuracy></physics>";
+
+TEST(LoadWorld, TakesTheDefaultPhysicsProfileOrTheOneAskedFor) {
+    const TestFolder folder;
+    folder.write("world.sdf", std::string("<sdf version='1.9' xmlns:roboss='urn:roboss:1'><world name='w'>") +
+                                  kProfiles + "<model name='m'>" + link("a") + "</model></world></sdf>");
+    const Loaded fine = folder.load("world.sdf");
+    ASSERT_TRUE(fine.world) << fine.text();
+    EXPECT_EQ(fine.world->profile, "fine");
+    EXPECT_EQ(fine.world->dt_s, 0.0005);
+    EXPECT_EQ(fine.world->real_time_factor, 0.5);
+    EXPECT_TRUE(fine.find("physics-profile")) << fine.text();
+    EXPECT_EQ(fine.diagnostics.count(Severity::kWarning), 0u) << fine.text();
+    ASSERT_EQ(fine.world->accuracy.size(), 2u);
+    EXPECT_EQ(fine.world->accuracy[0].setting, "high");
+    ASSERT_EQ(fine.world->accuracy[1].numbers.size(), 2u);
+    EXPECT_EQ(fine.world->accuracy[1].numbers[1].name, "newton_max");
+    EXPECT_EQ(fine.world->accuracy[1].numbers[1].value, 80);
+
+    LoadOptions options;
+    options.profile = "coarse";
+    const Loaded coarse = folder.load("world.sdf", options);
+    ASSERT_TRUE(coarse.world) << coarse.text();
+    EXPECT_EQ(coarse.world->dt_s, 0.004);
+    EXPECT_EQ(coarse.world->real_time_factor, 2);
+    EXPECT_TRUE(coarse.find("engine-settings")) << coarse.text();
+
+    options.profile = "finest";
+    const Loaded none = folder.load("world.sdf", options);
+    ASSERT_TRUE(none.find("no-profile")) << none.text();
+    EXPECT_NE(none.find("no-profile")->remedy.find("'fine'"), std::string::npos);
+}
+
+TEST(LoadWorld, ReadsWindAirAndDrag) {
+    const Loaded loaded = load_elements(
+        "<wind><linear_velocity>3 0 0</linear_velocity></wind><atmosphere type='adiabatic'><temperature>300"
+        "</temperature><pressure>90000</pressure></atmosphere><model "
+        "name='m'><enable_wind>true</enable_wind>" +
+        link(
+            "a",
+            "<roboss:drag><coefficient>0.8</coefficient><area>0.1</area><linear>0.2</linear></roboss:drag>") +
+        link("b", "<enable_wind>false</enable_wind>") + link("c") + "</model>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_EQ(loaded.diagnostics.count(Severity::kWarning), 0u) << loaded.text();
+    EXPECT_EQ(loaded.world->wind, (Vec3{3, 0, 0}));
+    EXPECT_NEAR(loaded.world->air_density, 90000 / (287.0578 * 300), 1e-12);
+    const auto& links = loaded.world->prototypes[0].links;
+    EXPECT_TRUE(links[0].drag.acts && links[0].drag.wind);
+    EXPECT_EQ(links[0].drag.coefficient, 0.8);
+    EXPECT_EQ(links[0].drag.area, 0.1);
+    EXPECT_EQ(links[0].drag.linear, 0.2);
+    EXPECT_FALSE(links[1].drag.acts);
+    EXPECT_TRUE(links[2].drag.wind);
+    EXPECT_LT(links[2].drag.area, 0) << "of its shapes";
+}
+
+TEST(LoadWorld, WindThatActsOnNothingIsSaid) {
+    const Loaded loaded = load_elements(
+        "<wind><linear_velocity>3 0 0</linear_velocity></wind><model name='m'>" + link("a") + "</model>");
+    EXPECT_TRUE(loaded.find("wind")) << loaded.text();
+}
+
+TEST(LoadWorld, ReadsSoftContacts) {
+    const auto spec = [](const std::string& ode) {
+        const Loaded loaded = with_surface("<contact><ode>" + ode + "</ode></contact>");
+        return loaded.world ? loaded.world->prototypes[0].links[0].collisions[0].surface : SurfaceSpec{};
+    };
+    EXPECT_EQ(spec("<kp>1e12</kp><kd>5</kd>").stiffness, 0) << "SDFormat's default is rigid";
+    EXPECT_EQ(spec("<kp>2e4</kp><kd>50</kd>").stiffness, 2e4);
+    EXPECT_EQ(spec("<kp>2e4</kp><kd>50</kd>").damping, 50);
+    // ERP and CFM at the default step of 1 ms
+    EXPECT_NEAR(spec("<soft_cfm>0.01</soft_cfm><soft_erp>0.25</soft_erp>").stiffness, 25000, 1e-9);
+    EXPECT_NEAR(spec("<soft_cfm>0.01</soft_cfm><soft_erp>0.25</soft_erp>").damping, 75, 1e-12);
+    EXPECT_EQ(spec("<max_vel>0.1</max_vel><min_depth>0.001</min_depth>").max_vel, 0.1);
+    EXPECT_EQ(spec("<max_vel>0.1</max_vel><min_depth>0.001</min_depth>").min_depth, 0.001);
+    const Loaded bad = with_surface("<contact><ode><kp>-5</kp></ode></contact>");
+    EXPECT_TRUE(bad.find("bad-value")) << bad.text();
+    const Loaded both = with_surface("<contact><ode><kp>1e5</kp><max_vel>0.1</max_vel></ode></contact>");
+    EXPECT_TRUE(both.find("surface-element")) << both.text();
+}
+
 TEST(LoadWorld, ReadsWhatTheWorldSays) {
     const Loaded loaded = load_elements(
         "<physics name='slow' type='x'><max_step_size>0.01</max_step_size></physics>"

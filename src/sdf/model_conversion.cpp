@@ -15,6 +15,7 @@ struct Scope {
     const sdf::Model& model;
     std::string prefix;  // "" or "inner::"
     Pose X_MS;           // this model's frame in the outermost model's
+    bool wind = false;   // <enable_wind> of the model: for links that do not say otherwise
 };
 
 Pose to_pose(const ignition::math::Pose3d& pose) {
@@ -56,7 +57,8 @@ class ModelConverter {
                     "' is static, but the model around it is not; it is taken as movable",
                 "Make it a model of the world, or weld it to the world with a fixed joint.");
         }
-        convert({nested, outer.prefix + nested.Name() + "::", outer.X_MS * resolved(nested, "__model__")});
+        convert({nested, outer.prefix + nested.Name() + "::", outer.X_MS * resolved(nested, "__model__"),
+                 import_.reader.boolean(source, "enable_wind", outer.wind)});
     }
 
     void convert_link(const sdf::Link& link, const Scope& scope) {
@@ -74,6 +76,7 @@ class ModelConverter {
         }
         if (!spec_.is_static) convert_inertial(source, import_, spec);
         convert_link_flags(source, spec);
+        convert_drag(source, scope.wind, import_, spec);
         for (const auto node : source.node.children()) {
             if (node.type() == pugi::node_element) convert_part({source.source, node}, link, scope, spec);
         }
@@ -88,9 +91,6 @@ class ModelConverter {
                 source.where(), "kinematic",
                 "link '" + spec.name + "' is kinematic; it is simulated as a dynamic link",
                 "Move it with velocity orders, or make the model static.");
-        }
-        if (import_.reader.boolean(source, "enable_wind", false)) {
-            import_.diagnostics().note(source.where(), "wind", "wind does not act on links yet");
         }
     }
 
@@ -145,7 +145,8 @@ ModelSpec convert_model(const ReadModel& read, bool is_static, const Import& imp
     spec.self_collide = import.reader.boolean(source, "self_collide", false);
     spec.canonical_link = read.model().CanonicalLinkAndRelativeName().second;
     report_newer_elements(source, import.diagnostics());
-    ModelConverter(read, import, spec).convert({read.model(), "", {}});
+    ModelConverter(read, import, spec)
+        .convert({read.model(), "", {}, import.reader.boolean(source, "enable_wind", false)});
     return spec;
 }
 

@@ -1,4 +1,4 @@
-// Geometry, surfaces, collisions and visuals.
+// Geometry, collisions and visuals.
 #include <cstring>
 
 #include "sdf/conversion.h"
@@ -105,98 +105,12 @@ void does_not_collide(const Element& shape, const Import& import) {
                                  "Build the collision from planes, boxes, spheres, cylinders and capsules.");
 }
 
-bool has_number_other_than(const Element& parent, const char* child, double usual, const Import& import) {
-    return parent && parent.child(child) &&
-           import.reader.number(parent, child, usual, Finite::kInfinityAllowed) != usual;
-}
-
-void read_friction(const Element& friction, const Import& import, SurfaceSpec& spec) {
-    const ElementReader& reader = import.reader;
-    const Element ode = friction.child("ode");
-    if (ode) {
-        spec.mu = reader.number(ode, "mu", 1.0, Finite::kInfinityAllowed);
-        spec.mu2 = reader.number(ode, "mu2", spec.mu, Finite::kInfinityAllowed);
-        spec.fdir1 = reader.vector(ode, "fdir1", {});
-        if (has_number_other_than(ode, "slip1", 0, import) ||
-            has_number_other_than(ode, "slip2", 0, import)) {
-            import.diagnostics().note(ode.where(), "slip",
-                                      "<slip1> and <slip2> are ignored: friction is exact Coulomb");
-        }
-        if (spec.mu != spec.mu2) {
-            import.diagnostics().note(
-                ode.where(), "anisotropic-friction",
-                "<mu> and <mu2> differ; friction that depends on the direction is still to come",
-                "Give both the same value to say which one is meant.");
-        }
-    }
-    const Element torsional = friction.child("torsional");
-    if (torsional) {
-        spec.torsional_mu = reader.number(torsional, "coefficient", 1.0);
-        const double patch = reader.number(torsional, "patch_radius", 0.0);
-        const double surface = reader.number(torsional, "surface_radius", 0.0);
-        spec.torsional_radius = reader.boolean(torsional, "use_patch_radius", true) ? patch : surface;
-    }
-    const Element bullet = friction.child("bullet");
-    if (has_number_other_than(bullet, "rolling_friction", 1.0, import) && !ode) {
-        import.diagnostics().note(bullet.where(), "bullet-friction",
-                                  "friction for the Bullet engine is ignored",
-                                  "Use <friction><ode><mu> and <roboss:rolling_friction> (in metres).");
-    }
-}
-
-void read_contact(const Element& contact, const Import& import, SurfaceSpec& spec) {
-    if (contact.child("collide_bitmask")) {
-        const std::string text = contact.text("collide_bitmask");
-        char* end = nullptr;
-        const unsigned long mask = std::strtoul(text.c_str(), &end, 0);
-        if (text.empty() || end == nullptr || *end != '\0' || mask > 0xFFFFul) {
-            import.diagnostics().error(
-                contact.child("collide_bitmask").where(), "bad-value",
-                "<collide_bitmask> is '" + text + "', which is not a number from 0 to 65535",
-                "Write for instance 65535 or 0xffff.");
-        } else {
-            spec.collide_bitmask = static_cast<unsigned>(mask);
-        }
-    }
-    const Element ode = contact.child("ode");
-    if (has_number_other_than(ode, "kp", 1e12, import) || has_number_other_than(ode, "soft_cfm", 0, import)) {
-        import.diagnostics().note(
-            ode.where(), "softness",
-            "soft contacts (<kp>, <kd>, <soft_cfm>) are still to come; contacts are rigid");
-    }
-    if (import.reader.boolean(contact, "collide_without_contact", false)) {
-        import.diagnostics().warning(contact.where(), "collide-without-contact",
-                                     "<collide_without_contact> is ignored: the shape does collide",
-                                     "Give it a <collide_bitmask> of 0 to keep it from colliding.");
-    }
-}
-
 }  // namespace
 
 std::optional<GeometrySpec> convert_geometry(const Element& geometry, const Import& import, Pose& X) {
     const Element shape = shape_of(geometry);
     GeometrySpec spec;
     if (!shape || !read_shape(shape, import, spec, X)) return std::nullopt;
-    return spec;
-}
-
-SurfaceSpec convert_surface(const Element& collision, const Import& import) {
-    SurfaceSpec spec;
-    const Element surface = collision.child("surface");
-    if (surface.node.child("friction")) read_friction(surface.child("friction"), import, spec);
-    if (const Element bounce = surface.child("bounce")) {
-        spec.restitution = import.reader.number(bounce, "restitution_coefficient", 0.0);
-        // SDF's default threshold (100000 m/s) would switch every bounce off; only a written one counts.
-        const double threshold = import.reader.number(bounce, "threshold", spec.bounce_threshold);
-        spec.bounce_threshold = threshold;
-    }
-    if (surface.node.child("contact")) read_contact(surface.child("contact"), import, spec);
-    if (surface.node.child("soft_contact")) {
-        import.diagnostics().note(surface.where(), "softness",
-                                  "<soft_contact> is still to come; contacts are rigid");
-    }
-    spec.rolling_mu = import.reader.number(collision, "roboss:rolling_friction", 0.0);
-    spec.rolling_mu = import.reader.number(surface, "roboss:rolling_friction", spec.rolling_mu);
     return spec;
 }
 

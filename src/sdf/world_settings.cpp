@@ -1,9 +1,11 @@
-// Reads <physics>, <gravity>, <magnetic_field>, <wind>, <spherical_coordinates>; reports actors, world
-// joints, plugins.
+// Reads <magnetic_field>, <wind>, <atmosphere>, <spherical_coordinates>; reports actors, world joints,
+// plugins.
 #include "sdf/world_settings.h"
 
 #include <algorithm>
 #include <cstring>
+
+#include "sdf/physics_profile.h"
 
 namespace roboss::sdf_import {
 namespace {
@@ -12,37 +14,7 @@ namespace {
 constexpr const char* kSilent[] = {
     "light",   "gui",     "scene",      "audio",          "atmosphere",
     "physics", "gravity", "wind",       "magnetic_field", "spherical_coordinates",
-    "model",   "include", "population", "frame"};
-
-/// The profile with default="true", else the first.
-Element chosen_physics(const Element& world) {
-    for (const auto node : world.node.children("physics")) {
-        if (node.attribute("default").as_bool()) return {world.source, node};
-    }
-    return world.child("physics");
-}
-
-double positive(const Element& parent, const char* child, double usual, const Import& import) {
-    const double value = import.reader.number(parent, child, usual);
-    if (value > 0) return value;
-    import.diagnostics().error(
-        parent.child(child).where(), "bad-value",
-        "<" + std::string(child) + "> is " + std::to_string(value) + "; it must be greater than 0",
-        "Write for instance " + std::string(usual < 0.5 ? "0.001." : "1."));
-    return usual;
-}
-
-void read_physics(const Element& world, const Import& import, World& out) {
-    const Element physics = chosen_physics(world);
-    // Up to SDFormat 1.4 gravity stood in <physics>.
-    if (physics) {
-        out.dt_s = positive(physics, "max_step_size", 0.001, import);
-        const double factor = import.reader.number(physics, "real_time_factor", 1.0);
-        out.real_time_factor = factor > 0 ? factor : 0.0;  // 0 and less: as fast as possible
-        out.gravity = import.reader.vector(physics, "gravity", out.gravity);
-    }
-    out.gravity = import.reader.vector(world, "gravity", out.gravity);
-}
+    "model",   "include", "population", "frame",          "roboss:accuracy"};
 
 void read_spherical(const Element& spherical, const Import& import, World& out) {
     if (!spherical) return;
@@ -67,6 +39,23 @@ void read_spherical(const Element& spherical, const Import& import, World& out) 
             "the world frame orientation '" + orientation + "' is not supported; x is east, y north",
             "Use ENU.");
     }
+}
+
+/// Density of dry air at the temperature and pressure written, taken everywhere: the world is not that high.
+void read_atmosphere(const Element& atmosphere, const Import& import, World& out) {
+    constexpr double kGasConstant = 287.0578;  // J/(kg K), dry air
+    const double temperature = positive_number(atmosphere, "temperature", 288.15, import);
+    const double pressure = import.reader.number(atmosphere, "pressure", 101325.0);
+    if (pressure >= 0) {
+        out.air_density = pressure / (kGasConstant * temperature);
+    } else {
+        import.diagnostics().error(atmosphere.child("pressure").where(), "bad-value",
+                                   "<pressure> of the air is negative", "Write it in Pa, 0 for no air.");
+    }
+    if (atmosphere.child("temperature_gradient"))
+        import.diagnostics().note(
+            atmosphere.child("temperature_gradient").where(), "temperature-gradient",
+            "<temperature_gradient> has no effect: the air is equally dense everywhere");
 }
 
 void report_other(const Element& element, const Import& import, World& out) {
@@ -104,14 +93,14 @@ void report_other(const Element& element, const Import& import, World& out) {
 
 }  // namespace
 
-void read_world_settings(const Element& world, const Import& import, World& out) {
+void read_world_settings(const Element& world, const std::string& profile, Import& import, World& out) {
     out.name = world.name();
-    read_physics(world, import, out);
+    for (const auto node : world.node.children("roboss:accuracy"))
+        out.accuracy.push_back(read_accuracy({world.source, node}, import));
+    read_physics(world, profile, import, out);
     out.magnetic_field_T = import.reader.vector(world, "magnetic_field", out.magnetic_field_T);
     out.wind = import.reader.vector(world.child("wind"), "linear_velocity", {});
-    if (norm(out.wind) > 0) {
-        import.diagnostics().note(world.child("wind").where(), "wind", "wind does not act on links yet");
-    }
+    if (const Element atmosphere = world.child("atmosphere")) read_atmosphere(atmosphere, import, out);
     read_spherical(world.child("spherical_coordinates"), import, out);
     for (const auto node : world.node.children()) {
         if (node.type() != pugi::node_element) continue;

@@ -1,4 +1,4 @@
-// What a <world> says beside its models: time step, gravity, place on the Earth; and what of it is not
+// What a <world> says beside its models: time step, gravity, air, place on the Earth; and what of it is not
 // simulated.
 #pragma once
 
@@ -6,6 +6,8 @@
 
 namespace roboss::sdf_import {
 
-void read_world_settings(const Element& world, const Import& import, World& out);
+/// `profile`: the name of the <physics> wanted, empty: the world's own choice. Sets what of it concerns the
+/// models in `import`.
+void read_world_settings(const Element& world, const std::string& profile, Import& import, World& out);
 
 }  // namespace roboss::sdf_import

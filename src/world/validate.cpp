@@ -112,9 +112,10 @@ class ModelCheck {
         }
         const SurfaceSpec& s = collision.surface;
         if (!(s.mu >= 0) || !(s.mu2 >= 0) || !(s.restitution >= 0) || !(s.torsional_mu >= 0) ||
-            !(s.rolling_mu >= 0)) {
+            !(s.torsional_radius >= 0) || !(s.torsional_surface_radius >= 0) || !(s.rolling_mu >= 0) ||
+            !(s.stiffness >= 0) || !(s.damping >= 0) || !(s.min_depth >= 0)) {
             diagnostics_.error(collision.where, "bad-surface",
-                               name + " has a negative coefficient of friction or restitution",
+                               name + " has a negative coefficient of friction, restitution or softness",
                                "Write coefficients of at least 0.");
         }
         if (s.restitution > 1) {
@@ -215,6 +216,18 @@ void check_instances(const World& world, Diagnostics& diagnostics) {
     }
 }
 
+void check_air(const World& world, Diagnostics& diagnostics) {
+    if (!is_finite(world.wind) || !(world.air_density >= 0) || !std::isfinite(world.air_density))
+        diagnostics.error({world.file, 0}, "not-finite", "wind or air are not finite",
+                          "Correct <wind> and <atmosphere>.");
+    if (world.wind == Vec3{}) return;
+    for (const ModelSpec& model : world.prototypes)
+        for (const LinkSpec& link : model.links)
+            if (link.drag.wind) return;
+    diagnostics.note({world.file, 0}, "wind", "there is wind, but it acts on no link",
+                     "Write <enable_wind>true</enable_wind> in the links that it carries.");
+}
+
 }  // namespace
 
 void validate(const World& world, Diagnostics& diagnostics) {
@@ -225,6 +238,7 @@ void validate(const World& world, Diagnostics& diagnostics) {
                           "Write <max_step_size> greater than 0.");
     }
     for (const ModelSpec& model : world.prototypes) ModelCheck(model, diagnostics).run();
+    check_air(world, diagnostics);
     check_instances(world, diagnostics);
 }
 

@@ -39,13 +39,20 @@ struct GeometrySpec {
 struct SurfaceSpec {
     double mu = 1.0;                 // SDF ode/mu
     double mu2 = 1.0;                // SDF ode/mu2
-    Vec3 fdir1;                      // zero: isotropic
+    Vec3 fdir1;                      // of mu, in the shape's own frame; zero: mu counts in all directions
     double restitution = 0.0;        // SDF bounce/restitution_coefficient
     double bounce_threshold = 0.01;  // m/s, below it nothing bounces
-    double torsional_mu = 0.0;       // dimensionless; acts with torsional_radius
-    double torsional_radius = 0.0;   // m
-    double rolling_mu = 0.0;         // m, <roboss:rolling_friction>
+    double torsional_mu = 1.0;       // dimensionless; acts with one of the two radii
+    double torsional_radius = 0.0;   // m, of the contact patch
+    double torsional_surface_radius = 0.0;  // m, of the surface: patch radius = sqrt(this * depth)
+    double rolling_mu = 0.0;                // m, <roboss:rolling_friction>
+    double stiffness = 0.0;                 // N/m, SDF kp; 0: rigid
+    double damping = 0.0;                   // N s/m, SDF kd; of a soft contact
+    double min_depth = 0.0;                 // m, penetration that a rigid contact leaves alone
+    double max_vel = -1.0;                  // m/s, with which penetration is mended; negative: as usual
+    int max_contacts = -1;                  // points kept of a pair of shapes; negative: all
     unsigned collide_bitmask = 0xFFFFu;
+    unsigned category_bitmask = 0xFFFFu;  // as SDF: the collide bitmask unless written
 };
 
 struct CollisionSpec {
@@ -90,6 +97,15 @@ struct SensorSpec {
     SourceLocation where;
 };
 
+/// Resistance of the air (SDF <enable_wind>, <roboss:drag>).
+struct DragSpec {
+    bool acts = false;        // false: no drag at all
+    bool wind = false;        // the wind carries the link; else it moves through still air
+    double coefficient = -1;  // of the area; negative: by the kind of shape
+    double area = -1;         // m^2, projected, in all directions; negative: of the shapes
+    double linear = 0;        // N s/m, proportional to the velocity
+};
+
 struct LinkSpec {
     std::string name;  // nested models: "inner::link"
     Pose X_ML;         // link in the (outer) model frame, all joints at zero
@@ -97,6 +113,7 @@ struct LinkSpec {
     Vec3 p_LC;                          // centre of mass
     Mat3 inertia_C = Mat3::identity();  // about the centre of mass, link axes, kg m^2
     bool gravity = true;
+    DragSpec drag;
     std::vector<CollisionSpec> collisions;
     std::vector<VisualSpec> visuals;
     std::vector<SensorSpec> sensors;
@@ -183,14 +200,28 @@ struct SphericalCoordinates {
     double latitude_rad = 0, longitude_rad = 0, elevation_m = 0, heading_rad = 0;
 };
 
+/// What is asked of the solver: one of the three settings, then numbers by name (model/accuracy.h).
+struct AccuracySpec {
+    std::string setting;  // "fast", "standard", "high"; empty: as it is
+    struct Number {
+        std::string name;
+        double value = 0;
+    };
+    std::vector<Number> numbers;
+    SourceLocation where;
+};
+
 struct World {
     std::string name;
     std::string file;
     Vec3 gravity{0, 0, -9.8};
     Vec3 magnetic_field_T{5.5645e-6, 22.8758e-6, -42.3884e-6};
-    Vec3 wind;
+    Vec3 wind;                     // m/s
+    double air_density = 1.22500;  // kg/m^3, at the world's origin
     double dt_s = 0.001;
-    double real_time_factor = 1.0;
+    double real_time_factor = 1.0;       // 0: as fast as possible
+    std::string profile;                 // name of the <physics> that was chosen
+    std::vector<AccuracySpec> accuracy;  // of the world, then of its profile: a later one wins
     std::optional<SphericalCoordinates> spherical;
     std::vector<ModelSpec> prototypes;
     std::vector<ModelInstance> instances;

@@ -1,0 +1,33 @@
+// The numbers by which a user trades truth for speed, and the range that each may have. Within these ranges
+// the simulation stays honest (a skid-steer car whose motors are too weak to turn does not turn): beyond, it
+// would be a guess.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "core/diagnostics.h"
+#include "model/model.h"
+
+namespace roboss {
+
+struct AccuracyNumber {
+    const char* name;  // as in <roboss:accuracy>
+    const char* meaning;
+    double low, high;
+    double Accuracy::*real;  // one of the two is set
+    int Accuracy::*whole;
+
+    double get(const Accuracy& a) const { return real != nullptr ? a.*real : a.*whole; }
+};
+
+std::span<const AccuracyNumber> accuracy_numbers();
+
+/// "fast", "standard" or "high"; nullopt for any other name.
+std::optional<Accuracy> accuracy_setting(const std::string& name);
+
+/// First the setting, if one is named, then the numbers. What is unknown or out of range is an error and is
+/// left out.
+void apply(const AccuracySpec& spec, Accuracy& accuracy, Diagnostics& diagnostics);
+
+}  // namespace roboss

@@ -1,0 +1,39 @@
+// What two materials make of a contact between them.
+//
+// - Friction: mu and mu2 are each the smaller of the two. The direction is that of the shape that has one; of
+//   the one with the smaller mu if both have (the rule of Gazebo). It is laid into the tangent plane; where
+//   it stands on that plane, every tangent is across it and mu2 counts.
+// - Restitution and its threshold: the larger.
+// - Softness: two springs in series; their damping such that slow motion loses what both lose. A rigid
+// surface
+//   changes nothing in a soft one. A soft contact does not use restitution: its spring gives back what its
+//   damper leaves.
+// - Torsional friction: the smaller coefficient, the larger radius. Rolling friction: the larger.
+// - Penetration left alone: the larger. Speed of mending, points of contact: the smaller.
+#pragma once
+
+#include "model/model.h"
+
+namespace roboss {
+
+/// Friction directions at a contact point: the greater coefficient counts along `axis`, `across` times as
+/// much at right angles to it.
+struct FrictionEllipse {
+    double mu = 0;
+    Vec3 axis;          // unit, in the tangent plane; zero: the same in all directions
+    double across = 1;  // from 0 to 1
+};
+
+struct Softness {
+    double stiffness = 0, damping = 0;  // N/m, N s/m; stiffness 0: rigid
+};
+
+bool may_collide(const Material& a, const Material& b);
+FrictionEllipse friction_of(const Material& a, const Mat3& R_WA, const Material& b, const Mat3& R_WB,
+                            const Vec3& normal);
+Softness softness_of(const Material& a, const Material& b);
+/// Radius of the patch that turns against torsional friction, times its coefficient and 3 pi / 16: the lever
+/// of the largest torque over the normal force (pressure as Hertz says; SDFormat's <torsional>).
+double torsional_lever(const Material& a, const Material& b, double depth);
+
+}  // namespace roboss
