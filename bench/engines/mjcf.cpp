@@ -49,7 +49,8 @@ class Writer {
         return "<mujoco>\n<compiler angle=\"radian\" balanceinertia=\"false\" boundmass=\"0\" "
                "boundinertia=\"0\"/>\n<size njmax=\"" +
                std::to_string(options_.rows_max) + "\" nconmax=\"" + std::to_string(options_.contacts_max) +
-               "\" nstack=\"" + std::to_string(options_.stack_numbers) + "\"/>\n<option integrator=\"Euler\" solver=\"" + options_.solver + "\" cone=\"" +
+               "\" nstack=\"" + std::to_string(options_.stack_numbers) +
+               "\"/>\n<option integrator=\"Euler\" solver=\"" + options_.solver + "\" cone=\"" +
                options_.cone + "\" jacobian=\"" + options_.jacobian + "\" iterations=\"" +
                std::to_string(options_.iterations) + "\"" + attribute("timestep", {options_.dt_s}) +
                attribute("tolerance", {options_.tolerance}) + attribute("impratio", {options_.impratio}) +

@@ -106,9 +106,9 @@ class MujocoEngine final : public Engine {
             mj_step(model_.get(), data_.get());
         }
         if (data_->warning[mjWARN_CONTACTFULL].number + data_->warning[mjWARN_CNSTRFULL].number > 0)
-            throw std::runtime_error(
-                "MuJoCo 2 holds at most " + std::to_string(model_->njmax) + " constraint rows at " +
-                std::to_string(model_->nv) + " degrees of freedom (its buffer is counted in 32 bits)");
+            throw std::runtime_error("MuJoCo 2 holds at most " + std::to_string(model_->njmax) +
+                                     " constraint rows at " + std::to_string(model_->nv) +
+                                     " degrees of freedom (its buffer is counted in 32 bits)");
         mj_kinematics(model_.get(), data_.get());  // poses of the state after the step
         mj_comPos(model_.get(), data_.get());
         mj_comVel(model_.get(), data_.get());
