@@ -222,7 +222,7 @@ struct Accuracy {
     int newton_max = 60;               // Newton iterations of a contact island and tick
     int friction_max = 20;             // updates of its friction bounds
     double compliance = 1e-6;  // regularisation of hard joint rows, relative to the mobility they act on
-    double contact_compliance = 1e-4;  // of hard contacts; they start from the impulse of the last tick
+    double contact_compliance = 1e-3;  // of hard contacts; they start from the impulse of the last tick
 };
 
 struct Model {

@@ -8,6 +8,8 @@
 namespace roboss {
 namespace {
 
+constexpr double kWeights = 10;  // a load that a contact may take up at once, in weights of what it moves
+
 constexpr double kMendShare = 0.3;  // of the penetration beyond the slop mended in one tick
 
 void add_columns(const RobotWork& robot, int body, int offset, double sign, const Vec3& p_W,
@@ -25,6 +27,22 @@ void add_columns(const RobotWork& robot, int body, int offset, double sign, cons
 
 double mobility(const RobotWork& robot, int body) {
     return body < 0 ? 0.0 : robot.type->bodies[static_cast<std::size_t>(body)].inverse_mass_linear;
+}
+
+/// A robot in contact with itself: one column a degree of freedom, descending as on a single path.
+void merge_columns(std::size_t first, std::vector<ContactColumn>& columns) {
+    const auto begin = columns.begin() + static_cast<std::ptrdiff_t>(first);
+    std::sort(begin, columns.end(),
+              [](const ContactColumn& a, const ContactColumn& b) { return a.dof > b.dof; });
+    auto kept = begin;
+    for (auto c = begin; c != columns.end(); ++c) {
+        if (kept != begin && (kept - 1)->dof == c->dof) {
+            (kept - 1)->n += c->n, (kept - 1)->t1 += c->t1, (kept - 1)->t2 += c->t2;
+        } else {
+            *kept++ = *c;
+        }
+    }
+    columns.erase(kept, columns.end());
 }
 
 /// Gravity along the normal as the body feels it.
@@ -124,6 +142,7 @@ bool add_contact_row(const Model& model, const Contact& c, std::span<const Robot
         approach += normal_velocity(b, c.body_b, c.p_W, c.normal);
         gravity_n -= gravity_along(model, b, c.body_b, c.normal);
     }
+    if (c.robot_b == c.robot_a) merge_columns(row.first, rows.columns);
     row.last = rows.columns.size();
     const bool loaded = c.load > 0;
     const double compliance = ease * (loaded ? model.accuracy.contact_compliance : model.accuracy.compliance);
@@ -133,6 +152,7 @@ bool add_contact_row(const Model& model, const Contact& c, std::span<const Robot
     row.slip.coefficient = c.mu;
     row.slip.bound = c.mu * c.impulse;
     row.slip.compliance = compliance;
+    row.load_max = std::max(4 * c.load, kWeights * norm(model.gravity) * dt / ease);
     if (loaded) {
         set_friction_targets(c, frame, compliance * (c.load / c.impulse), row.slip);
     }

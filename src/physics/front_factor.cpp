@@ -2,7 +2,11 @@
 #include "physics/front_factor.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 
 namespace roboss {
 
@@ -19,8 +23,6 @@ void FrontFactor::analyse(std::span<const int> group_first, std::span<const int>
     rank_unknowns();
     assign_cliques(unknowns, cliques);
     fronts_.assign(groups_, {});
-    if (children_.size() < groups_) children_.resize(groups_);
-    for (std::size_t g = 0; g < groups_; ++g) children_[g].clear();
     index_.clear();
     mark_.assign(n, -1);
     for (int g : order_) gather_front(static_cast<std::size_t>(g), unknowns, cliques);
@@ -31,13 +33,49 @@ void FrontFactor::analyse(std::span<const int> group_first, std::span<const int>
 
 /// Minimum degree on the graph of groups; ties go to the lowest group.
 void FrontFactor::order_groups(std::span<const int> unknowns, std::span<const Clique> cliques) {
-    if (neighbours_.size() < groups_) neighbours_.resize(groups_);
-    for (std::size_t g = 0; g < groups_; ++g) neighbours_[g].clear();
+    links_.clear();
     for (const Clique& c : cliques) {
         if (c.first == c.last) continue;
         const int a = group_of_[static_cast<std::size_t>(unknowns[c.first])];
         const int b = group_of_[static_cast<std::size_t>(unknowns[c.last - 1])];
-        if (a == b) continue;
+        if (a != b) links_.push_back(std::minmax(a, b));
+    }
+    order_.clear();
+    position_.assign(groups_, -1);
+    if (groups_ <= kSmall) {
+        order_small();
+    } else {
+        order_large();
+    }
+}
+
+/// Neighbours as bits of a word.
+void FrontFactor::order_small() {
+    std::array<std::uint64_t, kSmall> near{};
+    for (const auto& [a, b] : links_) {
+        near[static_cast<std::size_t>(a)] |= std::uint64_t{1} << b;
+        near[static_cast<std::size_t>(b)] |= std::uint64_t{1} << a;
+    }
+    for (std::size_t k = 0; k < groups_; ++k) {
+        std::size_t best = groups_;
+        for (std::size_t g = 0; g < groups_; ++g)
+            if (position_[g] < 0 && (best == groups_ || std::popcount(near[g]) < std::popcount(near[best])))
+                best = g;
+        take_group(best);
+        const std::uint64_t front = near[best];
+        for (std::uint64_t left = front; left != 0;
+             left &= left - 1) {  // they become neighbours of each other
+            const auto u = static_cast<std::size_t>(std::countr_zero(left));
+            near[u] = (near[u] | front) & ~(std::uint64_t{1} << u) & ~(std::uint64_t{1} << best);
+        }
+    }
+}
+
+/// The same with sorted lists.
+void FrontFactor::order_large() {
+    if (neighbours_.size() < groups_) neighbours_.resize(groups_);
+    for (std::size_t g = 0; g < groups_; ++g) neighbours_[g].clear();
+    for (const auto& [a, b] : links_) {
         neighbours_[static_cast<std::size_t>(a)].push_back(b);
         neighbours_[static_cast<std::size_t>(b)].push_back(a);
     }
@@ -46,25 +84,26 @@ void FrontFactor::order_groups(std::span<const int> unknowns, std::span<const Cl
         std::sort(list.begin(), list.end());
         list.erase(std::unique(list.begin(), list.end()), list.end());
     }
-    order_.clear();
-    position_.assign(groups_, -1);
     for (std::size_t k = 0; k < groups_; ++k) {
         std::size_t best = groups_;
         for (std::size_t g = 0; g < groups_; ++g)
             if (position_[g] < 0 && (best == groups_ || neighbours_[g].size() < neighbours_[best].size()))
                 best = g;
-        const int taken = static_cast<int>(best);
-        position_[best] = static_cast<int>(k);
-        order_.push_back(taken);
+        take_group(best);
         const std::vector<int>& front = neighbours_[best];
-        for (int u : front) {  // the neighbours become neighbours of each other
+        for (int u : front) {
             std::vector<int>& list = neighbours_[static_cast<std::size_t>(u)];
             merged_.clear();
             std::set_union(list.begin(), list.end(), front.begin(), front.end(), std::back_inserter(merged_));
-            std::erase_if(merged_, [&](int x) { return x == u || x == taken; });
+            std::erase_if(merged_, [&](int x) { return x == u || x == static_cast<int>(best); });
             list.swap(merged_);
         }
     }
+}
+
+void FrontFactor::take_group(std::size_t group) {
+    position_[group] = static_cast<int>(order_.size());
+    order_.push_back(static_cast<int>(group));
 }
 
 /// Inside a group the last unknown goes first: a tree's leaves before its root, so that zeros stay zeros.
@@ -122,7 +161,8 @@ void FrontFactor::gather_front(std::size_t group, std::span<const int> unknowns,
         const Clique& c = cliques[cliques_by_front_[k]];
         for (std::size_t i = c.first; i < c.last; ++i) add(unknowns[i]);
     }
-    for (int child : children_[group]) {
+    for (int child = front.first_child; child >= 0;
+         child = fronts_[static_cast<std::size_t>(child)].sibling) {
         const Front& f = fronts_[static_cast<std::size_t>(child)];
         for (std::size_t i = f.own; i < f.size; ++i) add(index_[f.index_at + i]);
     }
@@ -133,7 +173,9 @@ void FrontFactor::gather_front(std::size_t group, std::span<const int> unknowns,
     });
     if (front.size == front.own) return;
     front.parent = group_of_[static_cast<std::size_t>(index_[front.index_at + front.own])];
-    children_[static_cast<std::size_t>(front.parent)].push_back(stamp);
+    Front& parent = fronts_[static_cast<std::size_t>(front.parent)];
+    front.sibling = parent.first_child;
+    parent.first_child = stamp;
 }
 
 void FrontFactor::map_to_parents() {
@@ -147,10 +189,11 @@ void FrontFactor::map_to_parents() {
     a_.resize(size);
     for (int g : order_) {  // g as a parent: where its unknowns stand, told to its children
         const Front& parent = fronts_[static_cast<std::size_t>(g)];
-        if (children_[static_cast<std::size_t>(g)].empty()) continue;
+        if (parent.first_child < 0) continue;
         for (std::size_t i = 0; i < parent.size; ++i)
             where_[static_cast<std::size_t>(index_[parent.index_at + i])] = static_cast<int>(i);
-        for (int child : children_[static_cast<std::size_t>(g)]) {
+        for (int child = parent.first_child; child >= 0;
+             child = fronts_[static_cast<std::size_t>(child)].sibling) {
             Front& f = fronts_[static_cast<std::size_t>(child)];
             f.update_at = to_parent_.size();
             for (std::size_t i = f.own; i < f.size; ++i)
@@ -177,12 +220,16 @@ void FrontFactor::localise(std::span<const int> unknowns, std::span<const Clique
     for (std::size_t c = 0; c < cliques.size(); ++c) clique_first_[c] = cliques[c].first;
 }
 
-void FrontFactor::clear(bool symmetric) {
-    symmetric_ = symmetric;
-    std::fill(a_.begin(), a_.end(), 0.0);
+void FrontFactor::clear() {
+    kept_.assign(a_.size(), 0.0);
 }
 
 FrontFactor::Place FrontFactor::place(std::size_t clique) {
+    const Front& front = fronts_[static_cast<std::size_t>(clique_front_[clique])];
+    return {kept_.data() + front.matrix_at, front.size, local_.data() + clique_first_[clique]};
+}
+
+FrontFactor::Place FrontFactor::unsymmetric_place(std::size_t clique) {
     const Front& front = fronts_[static_cast<std::size_t>(clique_front_[clique])];
     return {a_.data() + front.matrix_at, front.size, local_.data() + clique_first_[clique]};
 }
@@ -191,9 +238,18 @@ void FrontFactor::add(std::size_t group, int i, int j, double value) {
     const Front& front = fronts_[group];
     const int last = group_first_[group + 1] - 1;
     const auto a = static_cast<std::size_t>(last - i), b = static_cast<std::size_t>(last - j);  // a <= b
-    double* matrix = a_.data() + front.matrix_at;
-    matrix[a * front.size + b] += value;
-    if (!symmetric_ && a != b) matrix[b * front.size + a] += value;
+    kept_[front.matrix_at + a * front.size + b] += value;
+}
+
+void FrontFactor::begin_factor(bool symmetric) {
+    symmetric_ = symmetric;
+    std::copy(kept_.begin(), kept_.end(), a_.begin());
+    if (symmetric) return;
+    for (const Front& front : fronts_) {
+        double* a = a_.data() + front.matrix_at;
+        for (std::size_t r = 1; r < front.size; ++r)
+            for (std::size_t c = 0; c < r; ++c) a[r * front.size + c] = a[c * front.size + r];
+    }
 }
 
 /// The first `own` rows of the factor U, its diagonal kept as reciprocals; what remains is the Schur

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace roboss {
@@ -22,7 +23,7 @@ class FrontFactor {
     struct Place {
         double* matrix = nullptr;
         std::size_t stride = 0;
-        const int* local = nullptr;
+        int* local = nullptr;  // the caller may reorder it with what it stands for
     };
 
     /// Group g holds the unknowns group_first[g] .. group_first[g + 1] - 1. A clique touches at most two
@@ -30,26 +31,36 @@ class FrontFactor {
     void analyse(std::span<const int> group_first, std::span<const int> unknowns,
                  std::span<const Clique> cliques);
 
-    /// All entries to zero. A `symmetric` matrix wants only the entries with local[i] <= local[j].
-    void clear(bool symmetric);
+    /// All entries to zero.
+    void clear();
+    /// The symmetric matrix, kept from one factorisation to the next: its entries with local[i] <= local[j].
     Place place(std::size_t clique);
-    /// Adds to the entry of two unknowns of one group, i >= j, and to its mirror image.
+    /// Adds to the entry of two unknowns of one group, i >= j.
     void add(std::size_t group, int i, int j, double value);
+    /// Copies the matrix for the next factorisation; an unsymmetric one takes further entries, of all i and
+    /// j.
+    void begin_factor(bool symmetric);
+    Place unsymmetric_place(std::size_t clique);
     /// A = U^T U, or A = L U without pivoting if it is not symmetric: false if a pivot is not positive.
     bool factor();
     /// x := A^-1 x
     void solve(std::span<double> x);
 
   private:
+    static constexpr std::size_t kSmall = 64;
+
     struct Front {
         std::size_t own = 0, size = 0;  // unknowns eliminated here, unknowns of the front
         std::size_t index_at = 0;       // of the front's unknowns in index_
         std::size_t matrix_at = 0;      // size x size, upper triangle, row by row
         std::size_t update_at = 0;      // in to_parent_: where its boundary lies in the parent's front
-        int parent = -1;
+        int parent = -1, first_child = -1, sibling = -1;
     };
 
     void order_groups(std::span<const int> unknowns, std::span<const Clique> cliques);
+    void order_small();
+    void order_large();
+    void take_group(std::size_t group);
     void rank_unknowns();
     void assign_cliques(std::span<const int> unknowns, std::span<const Clique> cliques);
     void gather_front(std::size_t group, std::span<const int> unknowns, std::span<const Clique> cliques);
@@ -62,16 +73,16 @@ class FrontFactor {
     std::size_t groups_ = 0;
     bool symmetric_ = true;
     std::vector<int> group_first_, group_of_;   // of the groups; of the unknowns
-    std::vector<std::vector<int>> neighbours_;  // groups, sorted, while ordering
+    std::vector<std::pair<int, int>> links_;    // groups that a clique couples
+    std::vector<std::vector<int>> neighbours_;  // groups, sorted, while a large island is ordered
     std::vector<int> merged_;
     std::vector<int> order_, position_;  // groups as eliminated; and back
     std::vector<int> rank_;              // of the unknowns: when they are eliminated
     std::vector<int> clique_front_;      // group of each clique
     std::vector<std::size_t> clique_start_, cliques_by_front_, clique_first_;
-    std::vector<std::vector<int>> children_;
     std::vector<Front> fronts_;  // by group
     std::vector<int> index_, to_parent_, local_, mark_, where_;
-    std::vector<double> a_;
+    std::vector<double> a_, kept_;  // to factor; the symmetric matrix, its upper triangles
 };
 
 }  // namespace roboss

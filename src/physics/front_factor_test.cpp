@@ -36,7 +36,7 @@ struct Example {
         n = static_cast<std::size_t>(first.back());
         dense.assign(n * n, 0.0);
         fronts.analyse(first, unknowns, cliques);
-        fronts.clear(symmetric);
+        fronts.clear();
         const auto number = [&] { return static_cast<double>(random()) / 4294967296.0 - 0.5; };
         for (std::size_t g = 0; g + 1 < first.size(); ++g)
             for (int i = first[g]; i < first[g + 1]; ++i) at(i, i) += 1, fronts.add(g, i, i, 1);
@@ -47,12 +47,32 @@ struct Example {
             for (double& x : j) x = number();
             for (std::size_t a = 0; a < j.size(); ++a) {
                 for (std::size_t b = 0; b < j.size(); ++b) {
-                    const double skew = symmetric || a == b ? 0.0 : 0.3 * number();
-                    const double value = 9 * j[a] * j[b] + skew;
+                    const double value = 9 * j[a] * j[b];
                     at(unknowns[cliques[c].first + a], unknowns[cliques[c].first + b]) += value;
-                    if (!symmetric || place.local[b] >= place.local[a])
-                        place.matrix[static_cast<std::size_t>(place.local[a]) * place.stride +
-                                     static_cast<std::size_t>(place.local[b])] += value;
+                    if (place.local[b] >= place.local[a]) entry(place, a, b) += value;
+                }
+            }
+        }
+        fronts.begin_factor(symmetric);
+        if (!symmetric) add_skew(random);
+    }
+
+    static double& entry(const FrontFactor::Place& place, std::size_t a, std::size_t b) {
+        return place.matrix[static_cast<std::size_t>(place.local[a]) * place.stride +
+                            static_cast<std::size_t>(place.local[b])];
+    }
+
+    void add_skew(std::mt19937& random) {
+        for (std::size_t c = 0; c < cliques.size(); ++c) {
+            if (cliques[c].first == cliques[c].last) continue;
+            const FrontFactor::Place place = fronts.unsymmetric_place(c);
+            const std::size_t count = cliques[c].last - cliques[c].first;
+            for (std::size_t a = 0; a < count; ++a) {
+                for (std::size_t b = 0; b < count; ++b) {
+                    if (a == b) continue;
+                    const double value = 0.3 * (static_cast<double>(random()) / 4294967296.0 - 0.5);
+                    at(unknowns[cliques[c].first + a], unknowns[cliques[c].first + b]) += value;
+                    entry(place, a, b) += value;
                 }
             }
         }

@@ -12,31 +12,33 @@ namespace roboss {
 
 class Hessian {
   public:
-    /// Chooses the form and, for fronts, the order of elimination; `offsets`: first dof of each robot.
-    void start(std::span<const RobotWork* const> robots, std::span<const int> offsets, const IslandRows& rows,
+    /// Chooses the form and, for fronts, the order of elimination; `offsets`: first dof of each robot. The
+    /// rows' curvatures are not in yet.
+    void start(std::span<const RobotWork* const> robots, std::span<const int> offsets, IslandRows& rows,
                std::size_t n);
-    /// Takes the rows' curvatures `d`; with `coupled` also those of friction bounds that move with the normal
-    /// impulse, which make the matrix unsymmetric.
-    void assemble(const IslandRows& rows, bool coupled);
-    /// x := H^-1 x; the matrix is lost. False if an unsymmetric matrix has no factorisation without pivoting.
+    /// Takes the rows' curvatures, as far as they changed; with `coupled` also those of friction bounds that
+    /// move with the normal impulse, which make the matrix unsymmetric.
+    void assemble(IslandRows& rows, bool coupled);
+    /// x := H^-1 x, once after assemble. False if an unsymmetric matrix has no factorisation without
+    /// pivoting.
     bool solve(std::span<double> x);
 
   private:
-    void start_fronts(const IslandRows& rows);
+    void start_fronts(IslandRows& rows);
+    void sort_columns(IslandRows& rows);
     void add_mass();
-    void add_block(const IslandRows& rows, std::size_t first, std::size_t last, std::size_t clique,
-                   const BoundedRow& normal, const FrictionDisc& disc);
-    void add_to_tree(std::span<const ContactColumn> columns, const BoundedRow& normal,
-                     const FrictionDisc& disc);
-    void add_to_front(std::span<const ContactColumn> columns, const FrontFactor::Place& place,
-                      const BoundedRow& normal, const FrictionDisc& disc);
-    void add_coupling(const IslandRows& rows, const CouplingRow& row, std::size_t clique);
+    void add_changes(IslandRows& rows);
+    void add_block(std::span<const ContactColumn> columns, std::size_t clique, BoundedRow& normal,
+                   FrictionDisc& disc);
+    void add_coupling(const IslandRows& rows, CouplingRow& row, std::size_t clique);
+    void add_slides(const IslandRows& rows);
 
     std::span<const RobotWork* const> robots_;
     std::span<const int> offsets_;
     std::size_t n_ = 0;
     bool tree_ = false, coupled_ = false;
-    std::vector<double> h_, upper_;  // tree: n x n, lower triangle; coupled: upper triangle, transposed
+    // tree: n x n, lower triangle; to factor; coupled: upper triangle, transposed
+    std::vector<double> kept_, h_, upper_;
     FrontFactor fronts_;
     std::vector<int> group_first_, unknowns_;
     std::vector<FrontFactor::Clique> cliques_;  // of contacts, angulars, couplings, in this order

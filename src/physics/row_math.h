@@ -9,7 +9,7 @@
 namespace roboss {
 
 inline double impulse_at(const BoundedRow& row, double u) {
-    return std::clamp((row.target - u) / row.compliance, row.low, row.high);
+    return std::clamp((row.target - u) * row.stiffness, row.low, row.high);
 }
 
 struct Tangential {
@@ -18,7 +18,7 @@ struct Tangential {
 
 /// `u_1`, `u_2`: velocity minus target.
 inline Tangential impulse_at(const FrictionDisc& disc, double u_1, double u_2, double bound) {
-    const double t1 = -u_1 / disc.compliance, t2 = -u_2 / disc.compliance;
+    const double t1 = -u_1 * disc.stiffness, t2 = -u_2 * disc.stiffness;
     const double size2 = t1 * t1 + t2 * t2;
     if (size2 <= bound * bound) return {t1, t2};
     const double cut = bound / std::sqrt(size2);

@@ -13,9 +13,11 @@ struct BoundedRow {
     double target = 0;           // for the velocity
     double position_target = 0;  // for the way of this tick, where what is violated is mended without speed
     double compliance = 1, low = 0, high = 0;
+    double stiffness = 1;  // 1 / compliance, set by the solver
     double u = 0, du = 0;  // velocity along it; per unit step of the line search
     double impulse = 0;
     double d = 0;                          // minus the derivative of the impulse by the velocity
+    double d_held = 0;                     // of it, what the Hessian holds
     double slack_low = 0, slack_high = 0;  // multipliers of the bounds (interior point), and their steps
     double slack_low_step = 0, slack_high_step = 0;
 };
@@ -24,12 +26,14 @@ struct BoundedRow {
 /// * normal impulse (isotropic Coulomb).
 struct FrictionDisc {
     double coefficient = 0, bound = 0, compliance = 1;
+    double stiffness = 1;  // 1 / compliance, set by the solver
     double target_1 = 0, target_2 = 0;
     double u_1 = 0, u_2 = 0, du_1 = 0, du_2 = 0;  // velocity minus target; per unit step of the line search
     double impulse_1 = 0, impulse_2 = 0;
-    double d_11 = 0, d_12 = 0, d_22 = 0;  // minus the derivative of the impulses by the velocity
-    double d_1n = 0, d_2n = 0;            // by the normal velocity, where the bound moves with it
-    double slack = 0, slack_step = 0;     // multiplier of the bound (interior point)
+    double d_11 = 0, d_12 = 0, d_22 = 0;           // minus the derivative of the impulses by the velocity
+    double d_1n = 0, d_2n = 0;                     // by the normal velocity, where the bound moves with it
+    double held_11 = 0, held_12 = 0, held_22 = 0;  // what the Hessian holds
+    double slack = 0, slack_step = 0;              // multiplier of the bound (interior point)
     double bound_error = 0,
            relaxation = 1;  // of the last update of the bound: what it lacked, the share given
 };
@@ -62,6 +66,7 @@ struct ContactRow {
     std::size_t first = 0, last = 0;  // columns
     BoundedRow normal;
     FrictionDisc slip;
+    double load_max = 0;  // of its normal impulse, what may count as a load and not as a blow
 };
 
 /// Torsional friction about the normal and rolling friction about the tangents, bounded by the normal impulse

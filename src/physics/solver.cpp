@@ -107,15 +107,15 @@ void update_impulses(IslandRows& rows) {
 /// The rows' share of the Hessian at the present velocities.
 void set_curvatures(IslandRows& rows) {
     for_each_bounded(rows, [](BoundedRow& row) {
-        const double raw = (row.target - row.u) / row.compliance;
-        row.d = raw > row.low && raw < row.high ? 1.0 / row.compliance : 0.0;
+        const double raw = (row.target - row.u) * row.stiffness;
+        row.d = raw > row.low && raw < row.high ? row.stiffness : 0.0;
     });
     for_each_disc(rows, [](FrictionDisc& disc) {
         disc.d_11 = disc.d_12 = disc.d_22 = disc.d_1n = disc.d_2n = 0;
         if (disc.bound <= 0) return;
         const double speed = std::sqrt(disc.u_1 * disc.u_1 + disc.u_2 * disc.u_2);
         if (speed <= disc.bound * disc.compliance) {
-            disc.d_11 = disc.d_22 = 1.0 / disc.compliance;
+            disc.d_11 = disc.d_22 = disc.stiffness;
         } else {  // sliding: only turning the direction changes the impulse
             const double s = disc.bound / speed, e1 = disc.u_1 / speed, e2 = disc.u_2 / speed;
             disc.d_11 = s * (1.0 - e1 * e1), disc.d_12 = -s * e1 * e2, disc.d_22 = s * (1.0 - e2 * e2);
@@ -148,19 +148,26 @@ void IslandSolver::times_mass(const Problem& p, std::span<const double> x, std::
 
 void IslandSolver::start(const Problem& p, std::span<const double> v) {
     n_ = v.size();
-    for (auto* buffer : {&mv_, &g_, &step_, &m_step_}) buffer->resize(n_);
+    for (auto* buffer : {&mv_, &g_, &applied_, &step_, &m_step_}) buffer->resize(n_);
     hessian_.start(p.robots, p.offsets, p.rows, n_);
     times_mass(p, v, mv_);
     set_steps(p.rows, v);
+    for_each_bounded(p.rows, [](BoundedRow& row) { row.stiffness = 1.0 / row.compliance; });
+    for_each_disc(p.rows, [](FrictionDisc& disc) { disc.stiffness = 1.0 / disc.compliance; });
     take_velocities(p.rows);
     if (p.position) for_each_bounded(p.rows, [](BoundedRow& row) { row.target = row.position_target; });
 }
 
-/// g = M v - p - J^T impulses; returns its size relative to the momenta in play, both measured in the metric
-/// of M's diagonal.
+/// Impulses at the present velocities and g = M v - p - J^T impulses; returns its size relative to the
+/// momenta in play, both measured in the metric of M's diagonal.
+double IslandSolver::balance(const Problem& p) {
+    update_impulses(p.rows);
+    return gradient(p);
+}
+
 double IslandSolver::gradient(const Problem& p) {
-    std::fill(step_.begin(), step_.end(), 0.0);  // applied impulses, for now
-    add_impulses(p.rows, step_);
+    std::fill(applied_.begin(), applied_.end(), 0.0);
+    add_impulses(p.rows, applied_);
     double error = 0, scale = 0;
     for (std::size_t r = 0; r < p.robots.size(); ++r) {
         const RobotWork& robot = *p.robots[r];
@@ -168,10 +175,10 @@ double IslandSolver::gradient(const Problem& p) {
         for (std::size_t k = 0; k < nv; ++k) {
             const std::size_t i = static_cast<std::size_t>(p.offsets[r]) + k;
             const double free = robot.impulse[k];
-            g_[i] = mv_[i] - free - step_[i];
+            g_[i] = mv_[i] - free - applied_[i];
             const double m = robot.mass_matrix[k * nv + k];
             error += g_[i] * g_[i] / m;
-            scale += (mv_[i] * mv_[i] + free * free + step_[i] * step_[i]) / m;
+            scale += (mv_[i] * mv_[i] + free * free + applied_[i] * applied_[i]) / m;
         }
     }
     if (scale == 0) return 0.0;
@@ -179,41 +186,59 @@ double IslandSolver::gradient(const Problem& p) {
                                 : std::numeric_limits<double>::infinity();  // never taken for solved
 }
 
-/// Exact minimum along the step: the root of the derivative, which is monotone; nearly always 1 is good
-/// enough.
-double IslandSolver::line_search(const Problem& p) {
+/// The potential's derivative along the step.
+double IslandSolver::slope() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < n_; ++i) sum += step_[i] * g_[i];
+    return sum;
+}
+
+/// Goes along the step to the minimum; the whole step is nearly always good enough. Returns the balance
+/// there.
+double IslandSolver::take_step(const Problem& p, std::vector<double>& v) {
+    constexpr double kGoodEnough = 0.1;  // of the slope at the start may be left
+    const double at_start = slope();
+    move(p, 1.0, v);
+    const double residual = balance(p);
+    const double at_end = slope();
+    if (!(at_start < 0) || std::fabs(at_end) <= -kGoodEnough * at_start) return residual;
+    move(p, line_search(p, at_start, at_end), v);
+    return balance(p);
+}
+
+/// Exact minimum along the step, as its distance from the step's end, where we are: the root of the
+/// derivative, which is monotone.
+double IslandSolver::line_search(const Problem& p, double at_start, double at_end) {
     double slope0 = 0, quadratic = 0;  // of the smooth part
-    double at_zero = 0;                // slope of the whole
     for (std::size_t r = 0; r < p.robots.size(); ++r) {
         for (std::size_t k = 0; k < static_cast<std::size_t>(p.robots[r]->type->nv); ++k) {
             const std::size_t i = static_cast<std::size_t>(p.offsets[r]) + k;
             slope0 += step_[i] * (mv_[i] - p.robots[r]->impulse[k]);
             quadratic += step_[i] * m_step_[i];
-            at_zero += step_[i] * g_[i];
         }
     }
-    const auto slope = [&](double alpha) { return slope0 + alpha * quadratic - row_slope(p.rows, alpha); };
-    double low = 0, high = 1, s_low = at_zero, s_high = slope(1.0);
-    if (!(at_zero < 0) || std::fabs(s_high) <= -0.05 * at_zero) return 1.0;
-    for (int i = 0; i < 20 && s_high < 0; ++i) low = high, s_low = s_high, high *= 2, s_high = slope(high);
+    const auto slope_at = [&](double way) { return slope0 + way * quadratic - row_slope(p.rows, way); };
+    double low = -1, high = 0, s_low = at_start, s_high = at_end;
+    for (int i = 0; i < 20 && s_high < 0; ++i)
+        low = high, s_low = s_high, high = 2 * high + 1, s_high = slope_at(high);
     int side = 0;  // of the last point: -1 below the root
     for (int i = 0; i < 60;
          ++i) {  // regula falsi with the Illinois rule; each third time a bisection, for the kinks are sharp
         const double share = i % 3 == 2 ? 0.5 : s_low / (s_low - s_high);
-        const double alpha = low + (high - low) * share;
-        const double s = slope(alpha);
-        if (std::fabs(s) <= -0.01 * at_zero) return alpha;
+        const double way = low + (high - low) * share;
+        const double s = slope_at(way);
+        if (std::fabs(s) <= -0.05 * at_start) return way;
         if (s < 0) {
-            low = alpha, s_low = s;
+            low = way, s_low = s;
             if (side < 0) s_high *= 0.5;
             side = -1;
         } else {
-            high = alpha, s_high = s;
+            high = way, s_high = s;
             if (side > 0) s_low *= 0.5;
             side = 1;
         }
     }
-    return low > 0 ? low : high;
+    return low > -1 ? low : high;
 }
 
 /// v += alpha * step, with all that depends on it linearly.
@@ -247,8 +272,7 @@ bool IslandSolver::coupled_newton(const Problem& p, std::vector<double>& v, Solv
     double best = std::numeric_limits<double>::infinity();
     for (int i = 0;; ++i) {
         tie_bounds(p.rows);
-        update_impulses(p.rows);
-        report.residual = gradient(p);
+        report.residual = balance(p);
         if (report.residual <= p.accuracy.tolerance) return true;
         if (i == kStepsMax || !(report.residual <= kProgress * best)) break;
         best = report.residual;
@@ -276,19 +300,18 @@ bool IslandSolver::newton(const Problem& p, std::vector<double>& v, SolveReport&
     int far = 0, bound_updates = 0, stalls = 0, coupled_tries = 0;
     bool settled = p.position;  // the friction bounds
     double best = 1;
+    report.residual = balance(p);
     for (int i = 0;; ++i) {
-        update_impulses(p.rows);
-        report.residual = gradient(p);
         if (report.residual <= kRoughly) {
             if (!settled && coupled_tries < kCoupledTries) {
                 ++coupled_tries;
                 if (coupled_newton(p, v, report)) return true;
+                update_impulses(p.rows);
             }
             if (!settled) {
                 settled = update_bounds(p.rows) <= p.accuracy.friction_tolerance ||
                           ++bound_updates >= p.accuracy.friction_max;
-                update_impulses(p.rows);
-                report.residual = gradient(p);
+                report.residual = balance(p);
             }
             stalls = settled && report.residual <= kRounding && report.residual > 0.9 * best ? stalls + 1 : 0;
             best = settled ? std::min(best, report.residual) : 1.0;
@@ -298,7 +321,7 @@ bool IslandSolver::newton(const Problem& p, std::vector<double>& v, SolveReport&
         if (far > kFarMax || i == p.accuracy.newton_max) return report.residual <= kRoughly;
         set_curvatures(p.rows);
         find_step(p, false);
-        move(p, line_search(p), v);
+        report.residual = take_step(p, v);
         ++report.iterations;
     }
 }

@@ -45,8 +45,11 @@ class IslandSolver {
     void times_mass(const Problem& p, std::span<const double> x, std::vector<double>& y) const;
     bool find_step(const Problem& p, bool coupled);
     void move(const Problem& p, double alpha, std::vector<double>& v);
+    double balance(const Problem& p);
     double gradient(const Problem& p);
-    double line_search(const Problem& p);
+    double slope() const;
+    double take_step(const Problem& p, std::vector<double>& v);
+    double line_search(const Problem& p, double at_start, double at_end);
     bool newton(const Problem& p, std::vector<double>& v, SolveReport& report);
     bool coupled_newton(const Problem& p, std::vector<double>& v, SolveReport& report);
     // interior_point.cpp
@@ -56,8 +59,9 @@ class IslandSolver {
 
     std::size_t n_ = 0;
     Hessian hessian_;
-    std::vector<double> mv_;  // M v
-    std::vector<double> g_;   // gradient
+    std::vector<double> mv_;       // M v
+    std::vector<double> g_;        // gradient
+    std::vector<double> applied_;  // impulses of all rows on each degree of freedom
     std::vector<double> step_, m_step_;
     std::vector<double> v_start_, mv_start_;  // where coupled Newton began
     std::vector<double> start_bounds_;        // friction bounds of the last tick

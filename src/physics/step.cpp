@@ -147,7 +147,7 @@ void take_impulses(Impl& s) {
         const ContactRow& row = s.rows.contacts[c];
         Contact& contact = *s.island_contacts[c];
         const ContactFrame frame = frame_of(contact);
-        contact.load = std::min(contact.impulse, row.normal.impulse);
+        contact.load = std::min({contact.impulse, row.normal.impulse, row.load_max});
         contact.impulse = row.normal.impulse;
         contact.friction = frame.t1 * row.slip.impulse_1 + frame.t2 * row.slip.impulse_2;
     }
