@@ -145,8 +145,7 @@ class RobossEngine final : public Engine {
 std::unique_ptr<Engine> make_roboss(const World& world, const EngineOptions& options) {
     CompileOptions compiling;
     compiling.dt_s = options.dt_s;
-    compiling.accuracy.tolerance /= options.accuracy;
-    compiling.accuracy.friction_tolerance /= options.accuracy;
+    compiling.accuracy.setting = options.accuracy > 1 ? "high" : options.accuracy < 1 ? "fast" : "";
     Diagnostics diagnostics;
     const auto model = compile(world, compiling, diagnostics);
     if (!model) return nullptr;
