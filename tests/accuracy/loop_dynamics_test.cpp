@@ -132,7 +132,8 @@ TEST_P(LoopDynamics, AccelerationsAgreeWithADenseSolve) {
 }
 
 /// Acceleration of one tick through the contact island's solver, efforts as motors.
-std::vector<double> tick_acceleration(const Model& model, RobotState state, const std::vector<double>& forces) {
+std::vector<double> tick_acceleration(const Model& model, RobotState state,
+                                      const std::vector<double>& forces) {
     for (std::size_t d = 0; d < forces.size(); ++d) state.motors[d] = {MotorMode::kEffort, forces[d], 100};
     std::vector<double> change = state.v;
     RobotState* pointer = &state;
@@ -144,8 +145,8 @@ std::vector<double> tick_acceleration(const Model& model, RobotState state, cons
     return change;
 }
 
-/// The solver's hard rows give way in proportion to Accuracy::compliance: from two small ones follows what none
-/// would give, and that is the dense solve. Without damping and springs, which a tick takes implicitly.
+/// The solver's hard rows give way in proportion to Accuracy::compliance: from two small ones follows what
+/// none would give, and that is the dense solve. Without damping and springs, which a tick takes implicitly.
 TEST_P(LoopDynamics, OneTickOfTheSolverGivesTheSameBesideItsCompliance) {
     world_.dt_s = 1e-5;
     for (JointSpec& j : world_.prototypes[0].joints)
@@ -167,7 +168,8 @@ TEST_P(LoopDynamics, OneTickOfTheSolverGivesTheSameBesideItsCompliance) {
         for (std::size_t k = 0; k < a.size(); ++k) ours[k] = (10 * ours[k] - a[k]) / 9;
         worst = std::fmax(worst, relative_error(ours, theirs));
     }
-    std::printf("%s: compliance 1e-9: %.2e, extrapolated to none: %.2e\n", GetParam().name, worst_hard, worst);
+    std::printf("%s: compliance 1e-9: %.2e, extrapolated to none: %.2e\n", GetParam().name, worst_hard,
+                worst);
     EXPECT_LE(worst, kRelative);
 }
 
