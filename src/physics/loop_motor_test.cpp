@@ -76,6 +76,25 @@ TEST(DrivenLoop, EnergyErrorIsThatOfTheTreeAndShrinksWithTheTick) {
     EXPECT_NEAR(worst[0] / worst[1], 2, 0.3);
 }
 
+TEST(DrivenLoop, ParallelogramPassesItsFlatPoses) {
+    for (const bool driven : {true, false}) {
+        Simulation sim(with(parallelogram(), 1e-3, {}));
+        if (driven) drive(sim, "crank", MotorMode::kVelocity, 7);
+        if (!driven) sim.states[0].v = {7, -7, 7};
+        double open = 0, fastest = 0;
+        while (sim.time() < 10) {
+            sim.step();
+            open = std::fmax(open, gap(sim));
+            fastest = std::fmax(fastest, std::fabs(sim.states[0].v[2]));
+        }
+        tell("largest gap, m", open);
+        tell("fastest turn of the rocker, rad/s", fastest);
+        EXPECT_LT(open, 1e-6);
+        EXPECT_LT(fastest, 100);
+        EXPECT_GT(std::fabs(sim.states[0].q[7]), 6.0) << "it went around";
+    }
+}
+
 /// The hinge that closes the loop turns as its own motor says, and its reading tells so.
 TEST(DrivenLoop, JointThatClosesTheLoopHasAMotor) {
     Simulation sim(with(four_bar(), 1e-3, {}));

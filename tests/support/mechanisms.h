@@ -56,6 +56,15 @@ inline ModelSpec four_bar(const FourBarOptions& options = {}) {
     return m;
 }
 
+/// Cranks of 0.2 m, coupler and ground of 0.5 m: folds flat twice a turn, and may then go on crossed.
+inline ModelSpec parallelogram() {
+    ModelSpec m = four_bar();
+    const Vec3 a{0, 0, 0}, b{0, 0, 0.2}, c{0.5, 0, 0.2}, d{0.5, 0, 0};
+    m.links = {rod_between("crank", a, b), rod_between("coupler", b, c), rod_between("rocker", d, c)};
+    m.joints[3].X_MJ.p = c;
+    return m;
+}
+
 /// A platform on six struts (Stewart, Gough): each a universal joint below, a slide, a ball above.
 inline ModelSpec stewart() {
     ModelSpec m;
