@@ -1,0 +1,93 @@
+// A skid-steer car: its turn is decided by friction alone, and at too little torque it must not turn at all.
+// Friction pyramids, clamping axis by axis and solvers that stop early all show here.
+#include <support/reference/skid_turn.h>
+#include <support/robots.h>
+
+#include "accuracy/figures.h"
+#include "accuracy/trial.h"
+
+namespace roboss::bench {
+namespace {
+
+constexpr double kLeft = 4, kRight = 10;  // rad/s
+
+World car_world(bool sphere_wheels, double max_effort, double dt_s) {
+    World world = test::empty_world(dt_s);
+    test::place(world, test::ground(test::surface(0.9)), "ground");
+    test::CarOptions options;
+    options.sphere_wheels = sphere_wheels;
+    options.max_effort = max_effort;
+    test::place(world, test::car(options), "car");
+    return world;
+}
+
+void drive(Engine& engine, double max_effort) {
+    for (std::size_t wheel = 0; wheel < 4; ++wheel)
+        engine.drive_velocity({1, wheel, 0}, wheel % 2 == 0 ? kLeft : kRight, max_effort);
+}
+
+/// rad/s, by the balance of forces; points: one a wheel, or the two ends of a cylinder's line.
+double exact_yaw_rate(bool sphere_wheels) {
+    constexpr double kRadius = 0.05, kWheelMass = 0.3, kHalfWidth = 0.02;
+    test::SkidCar car;
+    car.mass = 5 + 4 * kWheelMass;
+    car.height = kRadius;
+    car.mu = 0.9;
+    for (const double x : {0.15, -0.15})
+        for (const double y : {0.13, -0.13})
+            for (const double side : {-1.0, 1.0}) {
+                const double at = y + (sphere_wheels ? 0 : side * kHalfWidth);
+                car.points.push_back({x, at, (y > 0 ? kLeft : kRight) * kRadius});
+            }
+    const double inertia = (sphere_wheels ? 0.4 : 0.5) * kWheelMass * kRadius * kRadius;
+    car.wheel_spin = inertia * 2 * (kLeft + kRight);
+    return test::skid_turn(car).yaw_rate;
+}
+
+/// Mean yaw rate from 2 s to 6 s, by the angle turned.
+Outcome turn(const Contender& contender, bool sphere_wheels) {
+    Trial trial(contender, car_world(sphere_wheels, 2.0, contender.dt_s));
+    if (!trial.possible()) return Trial::impossible(1);
+    drive(trial.engine(), 2.0);
+    trial.run(2);
+    double sum = 0;
+    int samples = 0;
+    trial.run(4, 0.01, [&] { sum += trial.link(1).angular.z, ++samples; });
+    return trial.outcome({sum / samples});
+}
+
+/// Largest yaw rate after the first second, at a torque that does not suffice to turn.
+Outcome refuse_to_turn(const Contender& contender, bool sphere_wheels) {
+    Trial trial(contender, car_world(sphere_wheels, 0.5, contender.dt_s));
+    if (!trial.possible()) return Trial::impossible(1);
+    drive(trial.engine(), 0.5);
+    trial.run(1);
+    double yaw_rate = 0;
+    trial.run(4, 0.01, [&] { yaw_rate = largest(yaw_rate, std::fabs(trial.link(1).angular.z)); });
+    return trial.outcome({yaw_rate});
+}
+
+}  // namespace
+
+std::vector<Case> car_cases() {
+    std::vector<Case> cases;
+    for (const bool spheres : {true, false}) {
+        const std::string wheels = spheres ? "sphere" : "cylinder";
+        const double exact = exact_yaw_rate(spheres);
+        cases.push_back(
+            {"turn-" + wheels,
+             "Skid-steer car, " + wheels + " wheels, 2 N m: wheels 4 and 10 rad/s",
+             "balance of forces with Coulomb friction at each point, load shift included, solved to 1e-12",
+             {{"yaw rate", "rad/s", 0.005 * exact, exact}},
+             [spheres](const Contender& c) { return turn(c, spheres); }});
+        cases.push_back({"no-turn-" + wheels,
+                         "Skid-steer car, " + wheels + " wheels, 0.5 N m",
+                         "it must not turn: the motors cannot break the tires loose",
+                         {{"largest yaw rate after 1 s", "rad/s", 1e-3}},
+                         [spheres](const Contender& c) { return refuse_to_turn(c, spheres); }});
+    }
+    for (Case& c : cases) c.also_coarse = true;
+    return cases;
+}
+
+}  // namespace roboss::bench
