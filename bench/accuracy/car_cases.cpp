@@ -67,6 +67,18 @@ Outcome refuse_to_turn(const Contender& contender, bool sphere_wheels) {
     return trial.outcome({yaw_rate});
 }
 
+/// The worst of all settings that trade accuracy for speed, from a thousandth to a hundred times the default.
+Outcome refuse_at_every_setting(const Contender& contender) {
+    double worst = 0;
+    for (const double accuracy : {1e-3, 1e-2, 1e-1, 1.0, 10.0, 100.0}) {
+        Contender at = contender;
+        at.accuracy = accuracy;
+        for (const bool spheres : {true, false})
+            worst = largest(worst, refuse_to_turn(at, spheres).figures[0]);
+    }
+    return {{worst}};
+}
+
 }  // namespace
 
 std::vector<Case> car_cases() {
@@ -86,6 +98,13 @@ std::vector<Case> car_cases() {
                          {{"largest yaw rate after 1 s", "rad/s", 1e-3}},
                          [spheres](const Contender& c) { return refuse_to_turn(c, spheres); }});
     }
+    cases.push_back(
+        {"no-turn-settings",
+         "The same, both kinds of wheels, at every accuracy setting",
+         "it must not turn, with tolerances from 1000 times wider to 100 times closer than the default",
+         {{"largest yaw rate after 1 s", "rad/s", 1e-3}},
+         refuse_at_every_setting});
+    cases.back().ours_only = true;
     for (Case& c : cases) c.also_coarse = true;
     return cases;
 }

@@ -18,6 +18,7 @@ namespace roboss::bench {
 struct Contender {
     const EngineKind* kind = nullptr;
     double dt_s = 1e-3;
+    double accuracy = 1;                                          // EngineOptions::accuracy
     double patience_s = std::numeric_limits<double>::infinity();  // wall time before a case is cut short
 };
 
@@ -46,6 +47,7 @@ struct Case {
     bool from_issue = true;    // false: beyond the list of must-haves
     bool ours_only = false;    // asks for what no peer has
     bool also_coarse = false;  // in the second table, at 2 ms
+    bool slow = false;         // some ten seconds: not for every test run
     std::string remark = {};   // what a reader should know about the figures
     double dt_s = 1e-3;
 };
