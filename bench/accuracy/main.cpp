@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <fstream>
 
 #include "accuracy/results.h"
@@ -89,6 +90,17 @@ EngineNote describe(const EngineKind& kind) {
     return {kind.name, engine->name(), engine->settings()};
 }
 
+/// An engine that gives up says why.
+Outcome run_case(const Case& c, const Contender& contender) {
+    try {
+        return c.run(contender);
+    } catch (const std::exception& error) {
+        Outcome out = Trial::impossible(c.quantities.size());
+        out.remark = error.what();
+        return out;
+    }
+}
+
 void measure(Results& all, std::size_t which, const EngineKind& kind, bool coarse, double patience_s) {
     const Case& c = all.cases[which];
     Contender contender{&kind, coarse ? 2e-3 : c.dt_s};
@@ -97,10 +109,10 @@ void measure(Results& all, std::size_t which, const EngineKind& kind, bool coars
     fmt::print(stderr, "{:18} {:8} dt {:g} ms ... ", c.name, kind.name, contender.dt_s * 1e3);
     std::fflush(stderr);
     const auto start = std::chrono::steady_clock::now();
-    Outcome outcome = c.run(contender);
+    const Outcome outcome = run_case(c, contender);
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     fmt::print(stderr, "{:.1f} s {}\n", spent.count(), outcome.remark);
-    all.results.push_back({which, kind.name, contender.dt_s, coarse, std::move(outcome), spent.count()});
+    all.results.push_back({which, kind.name, contender.dt_s, coarse, outcome, spent.count()});
 }
 
 void measure_all(Results& all, const Options& options) {

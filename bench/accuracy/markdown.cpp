@@ -51,7 +51,7 @@ class Footnotes {
 
 std::string cell(const Result* result, const Quantity& quantity, std::size_t i, Footnotes& notes) {
     if (result == nullptr) return "";
-    if (!result->outcome.possible) return "cannot";
+    if (!result->outcome.possible) return "cannot" + (i == 0 ? notes.mark(result->outcome.remark) : "");
     const double figure = result->outcome.figures[i];
     const std::string mark = passes(quantity, figure) ? "" : " ✗";
     return number(quantity, figure) + mark + (i == 0 ? notes.mark(result->outcome.remark) : "");
