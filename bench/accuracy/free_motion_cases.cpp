@@ -156,9 +156,7 @@ Outcome swing_chain(const Contender& contender) {
     const double energy = trial.energy();
     double gap = 0, drift = 0;
     trial.run(10, 0.1, [&] {
-        gap = largest(gap, norm(trial.place(0, 0, {}) - Vec3{0, 0, 6}));
-        for (std::size_t i = 0; i + 1 < kChainLinks; ++i)
-            gap = largest(gap, norm(trial.place(0, i, {0, 0, -kChainLink}) - trial.place(0, i + 1, {})));
+        gap = largest(gap, trial.widest_gap(0));
         drift = largest(drift, std::fabs(trial.energy() - energy) / (energy - lowest));
     });
     return trial.outcome({gap, drift});

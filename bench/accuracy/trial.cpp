@@ -50,6 +50,20 @@ void Trial::for_moving_links(Visit visit) const {
     }
 }
 
+double Trial::widest_gap(std::size_t instance) const {
+    const Pose& X_WM = world_.instances[instance].X_WM;
+    const ModelSpec& model = world_.prototypes[world_.instances[instance].prototype];
+    const auto place_in = [&](const std::string& name, const Vec3& p_M) {
+        for (std::size_t l = 0; l < model.links.size(); ++l)
+            if (model.links[l].name == name) return place(instance, l, inverse(model.links[l].X_ML) * p_M);
+        return X_WM * p_M;  // the world
+    };
+    double gap = 0;
+    for (const JointSpec& j : model.joints)
+        gap = largest(gap, norm(place_in(j.parent, j.X_MJ.p) - place_in(j.child, j.X_MJ.p)));
+    return gap;
+}
+
 double Trial::energy() const {
     double sum = 0;
     for_moving_links([&](const LinkSpec& spec, const LinkState& state) {

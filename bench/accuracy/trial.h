@@ -44,6 +44,9 @@ class Trial {
         return engine_->link({instance, link}).X_WL * p_L;
     }
 
+    /// Widest distance between the places of a joint in its two links, m, over all joints of the instance.
+    double widest_gap(std::size_t instance) const;
+
     double energy() const;  // J, kinetic and of gravity; not of scenery
     struct Momentum {
         Vec3 linear, angular;  // angular: about the world's origin

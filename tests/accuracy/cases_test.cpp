@@ -18,7 +18,6 @@ struct KnownMiss {
 /// Why and by how much stands in docs/accuracy.md.
 constexpr KnownMiss kKnownMisses[] = {
     {"arm", "end point at 2 s"},
-    {"slide", "way, relative"},
     {"velocity-limit", "at its target, swinging a load of 4.9 N m, worst"},
 };
 
