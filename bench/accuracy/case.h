@@ -62,6 +62,7 @@ std::vector<Case> car_cases();
 std::vector<Case> resting_cases();
 std::vector<Case> gripper_cases();
 std::vector<Case> motor_cases();
+std::vector<Case> walker_cases();
 
 /// All of them, in the order of the table.
 std::vector<Case> all_cases();

@@ -166,6 +166,10 @@ std::vector<Case> impact_cases() {
                       {"energy kept", "", {}}},
                      collide_boxes,
                      false});
+    cases.back().remark =
+        "Of first order in the step: the bodies move on while the impact of a tick acts (0.28 % at 1 ms, "
+        "0.06 % at "
+        "0.25 ms).";
     cases.push_back({"cradle",
                      "Newton's cradle: one sphere meets four, 5 mm apart, restitution 1",
                      "the last one takes the whole speed of 1 m/s",
@@ -180,6 +184,8 @@ std::vector<Case> impact_cases() {
                       {"place of the centre", "m", {}}},
                      roll_coin,
                      false});
+    cases.back().remark =
+        "Motion in contact is of first order in the step: 0.95 % of the height at 1 ms, 0.22 % at 0.25 ms.";
     cases.push_back({"bullet",
                      "Ball of 2 cm at 5 m/s against a wall of 1 cm, dt 2 ms",
                      "it stays before the wall",

@@ -14,7 +14,7 @@ namespace {
 using Text = fmt::memory_buffer;
 
 constexpr double kWidth = 860, kHeight = 460, kLeft = 74, kRight = 110, kTop = 56, kBottom = 50;  // px
-constexpr int kLowest = -16, kHighest = 1;                                                        // decades
+constexpr int kLowest = -14, kHighest = 2;                                                        // decades
 constexpr const char* kColours[] = {"#d1495b", "#2e86ab", "#e08e2b", "#3f9263", "#8a6bbf"};
 
 template <class... Args>
@@ -98,7 +98,7 @@ std::string to_svg(const Results& all) {
     add(text, R"(<text class="title" x="{}" y="26">Energy error of a freely swinging arm, dt 1 ms</text>)",
         20);
     add(text,
-        R"(<text x="{}" y="45">relative to the energy of the swing; an exact simulator stays at 0</text>)"
+        R"(<text x="{}" y="45">relative to the energy of the swing; lower is better</text>)"
         "\n",
         20);
     write_axes(text, time_max);
