@@ -61,6 +61,7 @@ std::vector<Case> impact_cases();
 std::vector<Case> car_cases();
 std::vector<Case> resting_cases();
 std::vector<Case> gripper_cases();
+std::vector<Case> loop_cases();
 std::vector<Case> motor_cases();
 std::vector<Case> walker_cases();
 

@@ -56,6 +56,7 @@ Outcome throw_block(const Contender& contender) {
     Trial trial(contender, world);
     if (!trial.possible()) return Trial::impossible(4);
     trial.engine().set_base(0, block.X_WB, rotate(block.X_WB.q, block.angular_B), block.linear);
+    trial.begin();
     test::TumblingBody exact = exact_motion(block);
     const double kinetic = trial.energy() + block.mass * dot(block.gravity, block.X_WB.p);
     const double energy = trial.energy();
@@ -80,7 +81,9 @@ constexpr double kLevel = -kPi / 2;  // about y: along +x
 
 /// Of all links hanging straight down.
 double lowest_energy(const Contender& contender, const World& world) {
-    return Trial(contender, world).energy();
+    Trial trial(contender, world);
+    trial.begin();
+    return trial.energy();
 }
 
 Outcome swing_arm(const Contender& contender) {
@@ -90,6 +93,7 @@ Outcome swing_arm(const Contender& contender) {
     if (!trial.possible()) return Trial::impossible(2);
     const double lowest = lowest_energy(contender, world);
     trial.engine().set_joint({0, 1, 0}, {kLevel, 0});
+    trial.begin();
     const double energy = trial.energy();
     const Vec3 tip_L{0, 0, -0.25};
     test::HingeChain chain(world.prototypes[0], world.gravity);
@@ -153,6 +157,7 @@ Outcome swing_chain(const Contender& contender) {
     if (!trial.possible()) return Trial::impossible(2);
     const double lowest = lowest_energy(contender, world);
     trial.engine().set_joint({0, 0, 0}, {-0.5, 0});
+    trial.begin();
     const double energy = trial.energy();
     double gap = 0, drift = 0;
     trial.run(10, 0.1, [&] {

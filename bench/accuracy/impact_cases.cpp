@@ -47,6 +47,7 @@ Outcome collide_boxes(const Contender& contender) {
     if (!trial.possible()) return Trial::impossible(3);
     trial.engine().set_base(0, a, {1, 2, -1}, {2, 0.2, 0});
     trial.engine().set_base(1, b, {-1, 0.5, 2}, {-1, 0, 0.1});
+    trial.begin();
     const Trial::Momentum before = trial.momentum();
     const double energy = trial.energy();
     trial.run(1);
@@ -111,6 +112,7 @@ Outcome roll_coin(const Contender& contender) {
     Trial trial(contender, world);
     if (!trial.possible()) return Trial::impossible(3);
     trial.engine().set_base(1, X, coin.angular(), {0, coin.turn * coin.circle, 0});
+    trial.begin();
     const double energy = trial.energy();
     double height = 0, drift = 0, way_off = 0;
     trial.run(5, 0.05, [&] {

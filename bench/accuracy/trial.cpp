@@ -15,7 +15,6 @@ Trial::Trial(const Contender& contender, World world)
     world_.dt_s = contender.dt_s;
     EngineOptions options;
     options.dt_s = contender.dt_s;
-    options.accuracy = contender.accuracy;
     engine_ = contender.kind->make(world_, options);
 }
 

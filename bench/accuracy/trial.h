@@ -22,6 +22,9 @@ class Trial {
     double dt_s() const { return world_.dt_s; }
     double time_s() const { return static_cast<double>(ticks_) * world_.dt_s; }
 
+    /// Once the start is set and before it is asked for: some engines take it over with their first step
+    /// only.
+    void begin() { engine_->step(0); }
     /// Steps on by `seconds`; false if the wall time granted ran out before.
     bool run(double seconds);
     /// The same, with `visit()` after every `every_s`.
