@@ -47,7 +47,8 @@ void add_options(CLI::App& app, Options& o) {
     app.add_flag("--list", o.list, "print the names of cases and engines, and end");
     app.add_flag("--skip-coarse", o.only_main, "leave out the second table, at dt 2 ms");
     app.add_option("--patience", o.patience_s,
-                   "wall time that a peer gets for a case, s; RoBOSS always finishes")
+                   "wall time that a peer gets for a case, s (four times as much for the slow ones); RoBOSS "
+                   "always finishes")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     app.add_option("--dt", o.dt_s,
@@ -105,7 +106,7 @@ void measure(Results& all, std::size_t which, const EngineKind& kind, bool coars
     const Case& c = all.cases[which];
     Contender contender{&kind, coarse ? 2e-3 : c.dt_s};
     const bool ours = kind.name == engines().front().name;
-    if (!ours) contender.patience_s = patience_s;
+    if (!ours) contender.patience_s = c.slow ? 4 * patience_s : patience_s;
     fmt::print(stderr, "{:18} {:8} dt {:g} ms ... ", c.name, kind.name, contender.dt_s * 1e3);
     std::fflush(stderr);
     const auto start = std::chrono::steady_clock::now();

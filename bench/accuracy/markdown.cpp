@@ -122,7 +122,7 @@ read alike and energies summed alike. This page is written by the program; `./be
 runs some, `--json FILE` gives the rows to programs).
 
 How to read the tables: figures are errors unless the unit says otherwise, and `✗` marks one that does not keep the bound in the column *must*.
-The bounds are for RoBOSS, at its default accuracy; the peers were not made for them and are shown for scale. *Stated* figures have no bound.
+The bounds are for RoBOSS, at its default accuracy; the peers, set up as in the benchmark of speed, were not made for them and are shown for scale. *Stated* figures have no bound.
 *Cannot*: the engine has no such thing. An engine that needs more than its share of time is cut short; the note says when.
 
 )";

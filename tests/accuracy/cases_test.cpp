@@ -3,11 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <ostream>
 
 #include "accuracy/case.h"
 #include "engines/makers.h"
 
 namespace roboss::bench {
+
+void PrintTo(const Case& c, std::ostream* out) {
+    *out << c.title;
+}
+
 namespace {
 
 struct KnownMiss {
