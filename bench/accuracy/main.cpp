@@ -105,7 +105,7 @@ Outcome run_case(const Case& c, const Contender& contender) {
 void measure(Results& all, std::size_t which, const EngineKind& kind, bool coarse, double patience_s) {
     const Case& c = all.cases[which];
     Contender contender{&kind, coarse ? 2e-3 : c.dt_s};
-    const bool ours = kind.name == engines().front().name;
+    const bool ours = kind.name == kOurs;
     if (!ours) contender.patience_s = c.slow ? 4 * patience_s : patience_s;
     fmt::print(stderr, "{:18} {:8} dt {:g} ms ... ", c.name, kind.name, contender.dt_s * 1e3);
     std::fflush(stderr);
@@ -126,7 +126,7 @@ void measure_all(Results& all, const Options& options) {
             if (coarse && (options.only_main || !c.also_coarse)) continue;
             for (const EngineKind& kind : engines()) {
                 if (!chosen(options.engines, kind.name)) continue;
-                if (c.ours_only && kind.name != engines().front().name) continue;
+                if (c.ours_only && kind.name != kOurs) continue;
                 measure(all, which, kind, coarse, options.patience_s);
             }
         }
@@ -152,17 +152,25 @@ void print_table(const Results& all) {
     }
 }
 
-bool write_file(const std::string& name, const std::string& text) {
-    if (name.empty()) return true;
-    std::ofstream file(name);
-    file << text;
-    file.close();
-    if (file) return true;
+bool refuse(const std::string& name) {
     fmt::print(
         stderr,
         "roboss-accuracy: could not write '{}'\n  remedy: does its folder exist, may you write there?\n",
         name);
     return false;
+}
+
+/// Opened for more, so what is there stays until there is something new.
+bool can_write(const std::string& name) {
+    return name.empty() || std::ofstream(name, std::ios::app) || refuse(name);
+}
+
+bool write_file(const std::string& name, const std::string& text) {
+    if (name.empty()) return true;
+    std::ofstream file(name);
+    file << text;
+    file.close();
+    return file ? true : refuse(name);
 }
 
 /// As the page's link: relative to the page's folder if the picture lies below it.
@@ -176,6 +184,8 @@ int run(const Options& options) {
         print_list();
         return 0;
     }
+    for (const std::string& file : {options.picture, options.json, options.markdown})
+        if (!can_write(file)) return 1;
     Results all = describe();
     if (options.dt_s > 0)
         for (Case& c : all.cases) c.dt_s = options.dt_s, c.also_coarse = false;

@@ -69,8 +69,11 @@ std::string verdict(const Result* ours, const Quantity& quantity, std::size_t i)
 
 void write_case(Text& text, const Results& all, std::size_t which, bool coarse, Footnotes& notes) {
     const Case& c = all.cases[which];
-    const Result* ours = find(all, which, all.engines.front().name, coarse);
-    if (ours == nullptr) return;
+    const Result* ours = find(all, which, kOurs, coarse);
+    const bool measured = std::any_of(all.results.begin(), all.results.end(), [&](const Result& r) {
+        return r.which == which && r.coarse == coarse;
+    });
+    if (!measured) return;
     for (std::size_t i = 0; i < c.quantities.size(); ++i) {
         const Quantity& q = c.quantities[i];
         add(text, "| {} |", i == 0 ? c.title + notes.mark(c.remark) : "");
@@ -101,7 +104,7 @@ void write_table(Text& text, const Results& all, bool coarse, Wanted wanted) {
 void write_misses(Text& text, const Results& all) {
     Text list;
     for (const Result& r : all.results) {
-        if (r.coarse || r.engine != all.engines.front().name) continue;
+        if (r.coarse || r.engine != kOurs) continue;
         const Case& c = all.cases[r.which];
         for (std::size_t i = 0; i < c.quantities.size(); ++i) {
             const Quantity& q = c.quantities[i];

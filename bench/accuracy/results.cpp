@@ -14,7 +14,7 @@ const Result* find(const Results& all, std::size_t which, const std::string& eng
 
 bool all_ours_pass(const Results& all) {
     for (const Result& r : all.results) {
-        if (r.coarse || r.engine != all.engines.front().name) continue;
+        if (r.coarse || r.engine != kOurs) continue;
         const std::vector<Quantity>& quantities = all.cases[r.which].quantities;
         if (!r.outcome.possible) return false;
         for (std::size_t i = 0; i < quantities.size(); ++i)

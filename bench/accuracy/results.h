@@ -8,6 +8,8 @@
 
 namespace roboss::bench {
 
+inline constexpr const char* kOurs = "RoBOSS";
+
 /// One case on one engine.
 struct Result {
     std::size_t which = 0;  // in Results::cases
@@ -24,7 +26,7 @@ struct EngineNote {
 
 struct Results {
     std::vector<Case> cases;
-    std::vector<EngineNote> engines;  // RoBOSS first
+    std::vector<EngineNote> engines;
     std::vector<Result> results;
     std::string commit, compiler, processor;
 };

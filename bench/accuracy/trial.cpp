@@ -23,14 +23,18 @@ int Trial::whole(double ticks) {
 }
 
 bool Trial::run(double seconds) {
-    constexpr int kChunk = 50;
+    using Seconds = std::chrono::duration<double>;
+    constexpr double kLongChunk_s = 0.1;
     wanted_s_ += seconds;
-    for (int left = whole(seconds / world_.dt_s); left > 0; left -= kChunk) {
-        const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
-        if (spent.count() > patience_s_) return false;
-        const int ticks = std::min(left, kChunk);
+    for (int left = whole(seconds / world_.dt_s); left > 0;) {
+        const auto before = std::chrono::steady_clock::now();
+        if (Seconds(before - start_).count() > patience_s_) return false;
+        const int ticks = std::min(left, chunk_);
         engine_->step(ticks);
         ticks_ += ticks;
+        left -= ticks;
+        const bool slow = Seconds(std::chrono::steady_clock::now() - before).count() > kLongChunk_s;
+        chunk_ = std::clamp(slow ? chunk_ / 2 : chunk_ * 2, 1, 64);
     }
     return true;
 }

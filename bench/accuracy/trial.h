@@ -70,6 +70,7 @@ class Trial {
     std::unique_ptr<Engine> engine_;
     double patience_s_;
     std::chrono::steady_clock::time_point start_;
+    int chunk_ = 1;  // ticks between two looks at the clock
     long ticks_ = 0;
     double wanted_s_ = 0;  // what all runs asked for
 };
