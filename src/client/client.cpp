@@ -14,6 +14,10 @@ Twist Client::twist(RobotId robot, LinkId link) const {
     return link_twist(model().type_of(robot), state(robot), link);
 }
 
+JointState Client::joint(RobotId robot, JointId joint, int axis) const {
+    return joint_state(model().type_of(robot), state(robot), joint, axis);
+}
+
 Result<> Client::set_pose(RobotId robot, const Pose& X_WR) {
     return order(robot, SetPose{X_WR});
 }

@@ -33,6 +33,9 @@ class Client {
     Transform pose(RobotId robot, LinkId link) const;  // X_WL
     Twist twist(RobotId robot, LinkId link) const;     // of the link's origin, world axes
 
+    /// Of any joint, those that close a loop included.
+    JointState joint(RobotId robot, JointId joint, int axis = 0) const;
+
     // --- orders (checked at once; an Error says what is wrong and nothing is sent)
     // -----------------------------------
     Result<> set_pose(RobotId robot, const Pose& X_WR);

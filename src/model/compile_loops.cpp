@@ -143,8 +143,15 @@ LoopJoint to_loop_joint(const JointSpec& spec, const Transform& X_MA, const Tran
     return loop;
 }
 
-void report_loop(const JointSpec& joint, const std::string& model, Diagnostics& diagnostics) {
-    const std::string name = "joint '" + joint.name + "' of model '" + model + "'";
+void report_loop(const JointSpec& joint, const ModelSpec& model, Diagnostics& diagnostics) {
+    const std::string name = "joint '" + joint.name + "' of model '" + model.name + "'";
+    for (const LinkSpec& link : model.links)
+        for (const SensorSpec& sensor : link.sensors)
+            if (std::count(sensor.joints.begin(), sensor.joints.end(), joint.name) > 0)
+                diagnostics.warning(joint.where, "loop-odometer",
+                                    name + " closes a loop: sensor '" + sensor.name +
+                                        "' reads its angle within (-pi, pi] only",
+                                    "Let it read other joints of the loop, or leave one of them unread.");
     diagnostics.note(joint.where, "kinematic-loop",
                      name + " closes a kinematic loop: conditions between its two links keep it together");
     const bool turns = joint.kind != JointSpecKind::kPrismatic && joint.kind != JointSpecKind::kContinuous;

@@ -17,7 +17,7 @@ Dof to_dof(const AxisSpec& axis, bool continuous);
 LoopJoint to_loop_joint(const JointSpec& spec, const Transform& X_MA, const Transform& X_MB);
 
 /// Tells that the joint closes a loop, and what of it that leaves out.
-void report_loop(const JointSpec& joint, const std::string& model, Diagnostics& diagnostics);
+void report_loop(const JointSpec& joint, const ModelSpec& model, Diagnostics& diagnostics);
 /// Tells that the joint cannot move because its links are welded together.
 void report_immobile(const JointSpec& joint, const std::string& model, Diagnostics& diagnostics);
 

@@ -112,7 +112,7 @@ class PartBuilder {
         joint.loop = static_cast<int>(type.loops.size());
         type.joints.push_back(joint);
         type.loops.push_back(loop);
-        report_loop(spec, spec_.name, diagnostics_);
+        report_loop(spec, spec_, diagnostics_);
     }
 
     static JointKind kind_of(JointSpecKind kind) {

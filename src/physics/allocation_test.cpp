@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <new>
 
+#include <support/mechanisms.h>
 #include <support/scenes.h>
 
 namespace {
@@ -83,6 +84,18 @@ TEST(Allocation, FreeFlightAndMotorsInTheAirAllocateNothing) {
     Simulation sim(world);
     sim.set_motor(2, 0, MotorMode::kPosition, 0.5);
     sim.states[0].wrenches.push_back({LinkId(std::size_t{0}), {1, 2, 3}, {}, 50});
+    EXPECT_EQ(allocations_of(sim, 200), 0u);
+}
+
+TEST(Allocation, LoopsAndGearsAllocateNothing) {
+    World world = empty_world(1e-3);
+    place(world, stewart(), "falling");
+    place(world, four_bar(), "driven", {{5, 0, 0}, {}});
+    place(world, geared_wheels(2), "wheels", {{9, 0, 0}, {}});
+    Simulation sim(world);
+    sim.states[1].motors[0] = {MotorMode::kVelocity, 5, 100};
+    sim.states[1].motors[3] = {MotorMode::kEffort, 0.1, 1};
+    sim.states[2].motors[0] = {MotorMode::kVelocity, 5, 100};
     EXPECT_EQ(allocations_of(sim, 200), 0u);
 }
 

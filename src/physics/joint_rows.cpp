@@ -1,118 +1,117 @@
-// Motors, joint friction and limits as bounded rows: the solver gives exactly the bound when a motor stalls,
-// and exactly the target velocity when it does not.
+// The rows of a robot's joints: those of the tree's axes on one degree of freedom each; loops, gearboxes,
+// mimic joints and the axes of loop joints over several.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "model/coordinates.h"
+#include "model/loop_closure.h"
+#include "physics/axis_rows.h"
 #include "physics/drag.h"
-#include "physics/rows.h"
 
 namespace roboss {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kLimitShare = 0.2;  // of a violated limit mended in one tick
-constexpr double kLimitSlop = 1e-6;  // rad or m beyond a limit that are left alone
-constexpr double kLimitSpeedMax =
-    1.0;  // rad/s or m/s, while mending; it never enters the velocity, so it adds no energy
 
-/// Everything about one degree of freedom that its rows need.
-struct DofState {
-    const Dof& dof;
-    const MotorSetpoint& motor;
-    double q, v, dt;
-    double compliance;  // of a hard row
+/// One degree of freedom of the tree.
+AxisState tree_axis(const Model& model, const RobotWork& robot, std::size_t d) {
+    const RobotType& type = *robot.type;
+    const RobotState& state = *robot.state;
+    const Dof& dof = type.dofs[d];
+    const Body& body = type.bodies[static_cast<std::size_t>(dof.body)];
+    const bool has_position = body.joint != JointKind::kBall;
+    return {dof,
+            state.motors[d],
+            has_position ? state.q[static_cast<std::size_t>(body.q_index)] : 0.0,
+            state.v[d + static_cast<std::size_t>(type.base_nv())],
+            model.dt_s,
+            model.accuracy.compliance * dof.inverse_inertia,
+            has_position};
+}
+
+/// Adds a row over the degrees of freedom that move B of the loop joint against A.
+class LoopRowWriter {
+  public:
+    LoopRowWriter(const RobotWork& robot, const LoopJoint& loop, int offset, IslandRows& rows)
+        : robot_(robot), loop_(loop), offset_(offset), rows_(rows) {}
+
+    void add(const BoundedRow& bounded, const Spatial& wrench) {
+        CouplingRow row;
+        static_cast<BoundedRow&>(row) = bounded;
+        row.first = rows_.coupling_columns.size();
+        visit_between(*robot_.type, loop_.body_a, loop_.body_b, [&](std::size_t k, double sign) {
+            rows_.coupling_columns.push_back(
+                {offset_ + static_cast<int>(k), sign * dot(robot_.axes[k], wrench)});
+        });
+        row.last = rows_.coupling_columns.size();
+        rows_.couplings.push_back(row);
+    }
+
+    double rate(const Spatial& wrench) const {
+        double sum = 0;
+        visit_between(*robot_.type, loop_.body_a, loop_.body_b, [&](std::size_t k, double sign) {
+            sum += sign * dot(robot_.axes[k], wrench) * robot_.state->v[k];
+        });
+        return sum;
+    }
+
+  private:
+    const RobotWork& robot_;
+    const LoopJoint& loop_;
+    int offset_;
+    IslandRows& rows_;
 };
 
-JointRow bounded_row(int dof, double target, double compliance, double low, double high, double mend) {
-    JointRow row;
-    row.dof = dof, row.target = target, row.compliance = compliance;
-    row.low = low, row.high = high, row.position_target = target + mend;
-    return row;
+/// The angle nearest to `aim`: without limits any number of turns is the same.
+double near(double angle, double aim, const LoopJoint& loop, const Dof& dof) {
+    const bool turns = loop.kind == JointSpecKind::kRevolute || loop.kind == JointSpecKind::kContinuous;
+    if (!turns || std::isfinite(dof.lower) || std::isfinite(dof.upper)) return angle;
+    return aim + wrap_angle(angle - aim);
 }
 
-/// Speed towards a position that the motor's force can still brake: sqrt(2 a e), with half of the force kept
-/// in hand.
-double braking_speed(const DofState& s, double error) {
-    const double acceleration = 0.5 * s.motor.max_effort * s.dof.inverse_inertia;
-    return std::isfinite(acceleration) ? std::sqrt(2.0 * acceleration * std::fabs(error)) : kInfinity;
+/// Damping and spring of a loop joint's axis, taken implicitly; those of the tree are in the mass matrix.
+void add_spring(const AxisState& axis, double q, const Spatial& wrench, LoopRowWriter& writer) {
+    const double damping = axis.dt * axis.dof.spring_stiffness + axis.dof.damping;
+    if (!(damping > 0)) return;
+    BoundedRow row;
+    row.target = row.position_target = -axis.dof.spring_stiffness * (q - axis.dof.spring_reference) / damping;
+    row.compliance = 1.0 / (axis.dt * damping);
+    row.low = -kInfinity, row.high = kInfinity;
+    writer.add(row, wrench);
 }
 
-JointRow position_motor(const DofState& s, double impulse_max) {
-    const double error = s.motor.target - s.q;
-    const double kp = s.dof.position_gain, kd = s.dof.velocity_gain;
-    JointRow row;
-    row.low = -impulse_max, row.high = impulse_max;
-    double speed_max = s.dof.max_velocity;
-    if (kp > 0) {  // implicit PD: force = kp (target - q - dt v) - kd v
-        const double damping = kp * s.dt + kd;
-        row.target = kp * error / damping;
-        row.compliance = 1.0 / (s.dt * damping);
-    } else {
-        row.target = error / s.dt;
-        row.compliance = s.compliance;
-        speed_max = std::min(speed_max, braking_speed(s, error));
-    }
-    row.target = std::clamp(row.target, -speed_max, speed_max);
-    return row;
-}
-
-void add_motor(const DofState& s, int dof, std::vector<JointRow>& rows) {
-    const double impulse_max = s.motor.max_effort * s.dt;
-    JointRow row;
-    switch (s.motor.mode) {
-        case MotorMode::kPassive:
-            return;
-        case MotorMode::kVelocity:
-            row.target = std::clamp(s.motor.target, -s.dof.max_velocity, s.dof.max_velocity);
-            row.compliance = s.dof.velocity_gain > 0 ? 1.0 / (s.dt * s.dof.velocity_gain) : s.compliance;
-            row.low = -impulse_max, row.high = impulse_max;
-            break;
-        case MotorMode::kPosition:
-            row = position_motor(s, impulse_max);
-            break;
-        case MotorMode::kEffort: {
-            // The ordered force, as long as it does not drive the joint beyond its maximum velocity.
-            const double impulse = std::clamp(s.motor.target, -s.motor.max_effort, s.motor.max_effort) * s.dt;
-            const double speed = std::isfinite(s.dof.max_velocity) ? s.dof.max_velocity : 1e6;
-            row.target = impulse < 0 ? -speed : speed;
-            row.compliance = s.compliance;
-            row.low = std::min(impulse, 0.0), row.high = std::max(impulse, 0.0);
-            break;
+/// Everything that acts along the free directions of a loop joint. Returns true if something is to be mended.
+bool add_loop_axes(const Model& model, const RobotWork& robot, const LoopJoint& loop, int offset,
+                   std::vector<BoundedRow>& buffer, IslandRows& rows) {
+    const auto placed = [&](int b) {
+        if (b < 0) {
+            const std::vector<double>& q = robot.state->q;
+            return Transform{to_matrix(Quat{q[3], q[4], q[5], q[6]}), {}};
         }
-    }
-    row.position_target = row.target;
-    row.dof = dof;
-    rows.push_back(row);
-}
-
-/// A limit pushes away from itself, and only if this tick could reach it. Returns true if it is violated.
-bool add_limits(const DofState& s, int dof, std::vector<JointRow>& rows) {
-    const double reach = s.dt * std::fabs(s.v) + 0.05;
-    const double below = s.q - s.dof.lower, above = s.dof.upper - s.q;  // way left, negative when violated
-    const auto target = [&](double room) { return std::max(room, 0.0) / s.dt; };
-    const auto mend = [&](double room) {
-        return std::clamp((-room - kLimitSlop) * kLimitShare / s.dt, 0.0, kLimitSpeedMax);
+        const Transform& X_WB = robot.bodies[static_cast<std::size_t>(b)].X_WB;
+        return Transform{X_WB.R, X_WB.p - robot.origin};
     };
-    if (below < reach)
-        rows.push_back(bounded_row(dof, -target(below), s.compliance, 0.0, kInfinity, mend(below)));
-    if (above < reach)
-        rows.push_back(bounded_row(dof, target(above), s.compliance, -kInfinity, 0.0, -mend(above)));
-    return std::min(below, above) < -kLimitSlop;
-}
-
-/// Springs or damping so stiff that the explicit Runge-Kutta step would not follow them; its limit is 2.8,
-/// but the mobility is that of the zero pose. The solver takes them implicitly.
-bool is_stiff(const Dof& dof, double dt) {
-    constexpr double kRateMax = 0.25;  // a tick times the damping's rate or the spring's frequency
-    const double damping = dt * dof.damping * dof.inverse_inertia;
-    const double spring = dt * dt * dof.spring_stiffness * dof.inverse_inertia;
-    return damping > kRateMax || spring > kRateMax * kRateMax;
-}
-
-bool near_limit(const Dof& dof, double q, double v, double dt) {
-    const double reach = dt * std::fabs(v) + 0.05;
-    return q - dof.lower < reach || dof.upper - q < reach;
+    LoopRowWriter writer(robot, loop, offset, rows);
+    const FreeDirections free = free_directions(loop, placed(loop.body_a), placed(loop.body_b));
+    bool mends = false;
+    for (std::size_t k = 0; k < free.count; ++k) {
+        const FreeDirection& direction = free.directions[k];
+        const Dof& dof = loop.dofs[k];
+        const MotorSetpoint& motor = robot.state->motors[static_cast<std::size_t>(loop.motor_index) + k];
+        const AxisState axis{dof,
+                             motor,
+                             near(direction.position, motor.target, loop, dof),
+                             writer.rate(direction.wrench),
+                             model.dt_s,
+                             model.accuracy.compliance * dof.inverse_inertia,
+                             loop.kind != JointSpecKind::kBall};
+        buffer.clear();
+        mends |= add_axis_rows(axis, buffer);
+        for (const BoundedRow& row : buffer) writer.add(row, direction.wrench);
+        add_spring(axis, near(direction.position, dof.spring_reference, loop, dof), direction.wrench, writer);
+    }
+    return mends;
 }
 
 /// True if the free directions of a loop joint are not all left to themselves.
@@ -127,45 +126,55 @@ bool needs_rows(const LoopJoint& loop, const RobotState& state) {
     return false;
 }
 
+/// Loops, gearboxes and mimic joints hold in the middle between the velocities before and after the tick:
+/// then what they push does no work (as in the leapfrog and SHAKE methods). What is left of an error is taken
+/// out of the coordinates after the tick.
+void add_equality_rows(const Model& model, const Equalities& equalities, int offset, IslandRows& rows) {
+    for (const EqualityRow& equality : equalities.rows) {
+        if (!(equality.mobility > 0)) continue;
+        CouplingRow row;
+        row.target = row.position_target = -0.5 * model.dt_s * equality.curvature;
+        row.compliance = model.accuracy.compliance * equality.mobility;
+        row.low = -kInfinity, row.high = kInfinity;
+        row.first = rows.coupling_columns.size();
+        for (std::size_t c = equality.first; c < equality.last; ++c)
+            rows.coupling_columns.push_back({offset + equalities.columns[c].dof, equalities.columns[c].j});
+        row.last = rows.coupling_columns.size();
+        rows.couplings.push_back(row);
+    }
+}
+
 }  // namespace
 
-bool add_joint_rows(const Model& model, const RobotWork& robot, int offset, std::vector<JointRow>& rows) {
+bool add_joint_rows(const Model& model, const RobotWork& robot, int offset, RowBuffer& buffer,
+                    IslandRows& rows) {
     const RobotType& type = *robot.type;
-    const RobotState& state = *robot.state;
     bool mends = false;
     for (std::size_t d = 0; d < type.dofs.size(); ++d) {
-        const Dof& dof = type.dofs[d];
-        const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
-        const Body& body = type.bodies[static_cast<std::size_t>(dof.body)];
-        const double q =
-            body.joint == JointKind::kBall ? 0.0 : state.q[static_cast<std::size_t>(body.q_index)];
-        const DofState s{dof,        state.motors[d], q,
-                         state.v[i], model.dt_s,      model.accuracy.compliance * dof.inverse_inertia};
-        const int island_dof = offset + static_cast<int>(i);
-        add_motor(s, island_dof, rows);
-        if (dof.friction > 0)
-            rows.push_back(bounded_row(island_dof, 0.0, s.compliance, -dof.friction * model.dt_s,
-                                       dof.friction * model.dt_s, 0.0));
-        if (body.joint != JointKind::kBall) mends |= add_limits(s, island_dof, rows);
+        buffer.axis.clear();
+        mends |= add_axis_rows(tree_axis(model, robot, d), buffer.axis);
+        for (const BoundedRow& bounded : buffer.axis) {
+            JointRow row;
+            static_cast<BoundedRow&>(row) = bounded;
+            row.dof = offset + type.base_nv() + static_cast<int>(d);
+            rows.joints.push_back(row);
+        }
     }
+    if (!type.has_equalities()) return mends;
+    gather_equalities(robot, robot.state->q, buffer.equalities);
+    add_equality_rows(model, buffer.equalities, offset, rows);
+    for (const LoopJoint& loop : type.loops)
+        mends |= add_loop_axes(model, robot, loop, offset, buffer.axis, rows);
     return mends;
 }
 
 bool moves_freely(const Model& model, const RobotWork& robot) {
     const RobotType& type = *robot.type;
-    const RobotState& state = *robot.state;
     for (const LoopJoint& loop : type.loops)
-        if (needs_rows(loop, state)) return false;
+        if (needs_rows(loop, *robot.state)) return false;
     if (drag_is_stiff(model, robot)) return false;
-    for (std::size_t d = 0; d < type.dofs.size(); ++d) {
-        const Dof& dof = type.dofs[d];
-        if (state.motors[d].mode != MotorMode::kPassive || dof.friction > 0 || is_stiff(dof, model.dt_s))
-            return false;
-        const Body& body = type.bodies[static_cast<std::size_t>(dof.body)];
-        if (body.joint == JointKind::kBall) continue;
-        const double v = state.v[d + static_cast<std::size_t>(type.base_nv())];
-        if (near_limit(dof, state.q[static_cast<std::size_t>(body.q_index)], v, model.dt_s)) return false;
-    }
+    for (std::size_t d = 0; d < type.dofs.size(); ++d)
+        if (is_stiff(type.dofs[d], model.dt_s) || !is_left_alone(tree_axis(model, robot, d))) return false;
     return true;
 }
 

@@ -1,9 +1,31 @@
 // Poses and velocities of bodies and links for tools, sensors and traces, through the same code as the step.
 #include "physics/kinematics.h"
 
+#include "model/loop_closure.h"
 #include "physics/robot_work.h"
 
 namespace roboss {
+namespace {
+
+JointState loop_joint_state(const RobotType& type, const RobotState& state, const LoopJoint& loop,
+                            std::size_t axis) {
+    RobotWork work;
+    place_bodies(type, state.q, work);
+    move_bodies(type, state.v, work);
+    const auto placed = [&](int b) {
+        const Transform X_WB =
+            b < 0 ? to_transform(base_pose(state)) : work.bodies[static_cast<std::size_t>(b)].X_WB;
+        return Transform{X_WB.R, X_WB.p - work.origin};
+    };
+    const auto velocity = [&](int b) {
+        return b < 0 ? Spatial{} : work.bodies[static_cast<std::size_t>(b)].velocity;
+    };
+    const FreeDirections free = free_directions(loop, placed(loop.body_a), placed(loop.body_b));
+    const FreeDirection& direction = free.directions[axis];
+    return {direction.position, dot(direction.wrench, velocity(loop.body_b) - velocity(loop.body_a))};
+}
+
+}  // namespace
 
 void body_poses(const RobotType& type, const RobotState& state, std::span<Transform> X_WB) {
     RobotWork work;
@@ -28,6 +50,20 @@ Twist link_twist(const RobotType& type, const RobotState& state, LinkId link) {
     const BodyWork& body = work.bodies[static_cast<std::size_t>(info.body)];
     const Vec3 p = body.X_WB * info.X_BL.p - work.origin;
     return {body.velocity.angular, body.velocity.linear + cross(body.velocity.angular, p)};
+}
+
+JointState joint_state(const RobotType& type, const RobotState& state, JointId id, int axis) {
+    const Joint& joint = type.joints[id.index()];
+    if (axis < 0 || axis >= joint.nv) return {};
+    if (joint.loop >= 0)
+        return loop_joint_state(type, state, type.loops[static_cast<std::size_t>(joint.loop)],
+                                static_cast<std::size_t>(axis));
+    const auto offset = static_cast<std::size_t>(joint.axis_offset(axis));
+    const auto q = static_cast<std::size_t>(joint.q_index),
+               v = static_cast<std::size_t>(joint.v_index) + offset;
+    if (joint.kind != JointSpecKind::kBall) return {state.q[q + offset], state.v[v]};
+    const Vec3 turned = logarithm(Quat{state.q[q], state.q[q + 1], state.q[q + 2], state.q[q + 3]});
+    return {turned[offset], state.v[v]};
 }
 
 }  // namespace roboss

@@ -21,4 +21,12 @@ struct Twist {
 Transform link_pose(const RobotType& type, const RobotState& state, LinkId link);
 Twist link_twist(const RobotType& type, const RobotState& state, LinkId link);
 
+/// Position and velocity of one axis of a joint, rad or m and a second. Of a joint that closes a loop from
+/// its two bodies: angles in (-pi, pi]. Of a ball joint: the rotation vector and the angular velocity of the
+/// file's child in the parent's joint frame. A joint that does not move: zeros.
+struct JointState {
+    double position = 0, velocity = 0;
+};
+JointState joint_state(const RobotType& type, const RobotState& state, JointId joint, int axis = 0);
+
 }  // namespace roboss

@@ -5,6 +5,7 @@
 #include <support/mechanisms.h>
 #include <support/simulation.h>
 
+#include "model/coordinates.h"
 #include "physics/equality.h"
 
 namespace roboss::test {
@@ -125,6 +126,61 @@ TEST(Mimic, FollowsWithMultiplierOffsetAndReference) {
     EXPECT_NEAR(sim.states[0].q[8], expected(), 1e-12);
     EXPECT_NEAR(sim.states[0].v[0], 4, 1e-12);
 }
+
+/// The frame of a joint as one of its links carries it.
+Transform joint_frame(const Simulation& sim, const JointSpec& j, const std::string& end) {
+    for (const LinkSpec& l : sim.world.prototypes[0].links)
+        if (l.name == end)
+            return link_pose(sim.type(0), sim.states[0], *sim.type(0).find_link(end)) *
+                   to_transform(inverse(l.X_ML) * j.X_MJ);
+    return {};
+}
+
+class LoopReading : public testing::TestWithParam<JointSpecKind> {};
+
+/// Readings of a joint that closes a loop, put into its motion, give how its two links stand; and they change
+/// at the velocities that are read.
+TEST_P(LoopReading, PositionsAndVelocitiesAreThoseOfItsLinks) {
+    Simulation sim(with(ring_of_all_kinds(GetParam())));
+    const RobotType& type = sim.type(0);
+    const JointSpec& j = sim.world.prototypes[0].joints.back();
+    const JointId id = *type.find_joint("closing");
+    const Joint& joint = type.joints[id.index()];
+    ASSERT_GE(joint.loop, 0);
+    for (std::size_t i = 0; i < sim.states[0].v.size(); ++i)
+        sim.states[0].v[i] = 0.3 - 0.1 * static_cast<double>(i % 5);
+    for (int round = 0; round < 5; ++round) {
+        sim.run(0.05);
+        const auto read = [&](int axis) { return joint_state(type, sim.states[0], id, axis); };
+        const Transform X = inverse(joint_frame(sim, j, j.parent)) * joint_frame(sim, j, j.child);
+        Transform expected;
+        if (j.kind == JointSpecKind::kBall)
+            expected.R = to_matrix(exponential({read(0).position, read(1).position, read(2).position}));
+        else if (j.kind != JointSpecKind::kPrismatic)
+            expected.R = to_matrix(axis_angle(j.axes[0].xyz, read(0).position));
+        if (j.kind == JointSpecKind::kPrismatic) expected.p = j.axes[0].xyz * read(0).position;
+        if (j.kind == JointSpecKind::kScrew) expected.p = j.axes[0].xyz * (j.screw_pitch * read(0).position);
+        if (j.kind == JointSpecKind::kUniversal)
+            expected.R = expected.R * to_matrix(axis_angle(j.axes[1].xyz, read(1).position));
+        EXPECT_LT(norm(X.p - expected.p), 1e-10);
+        for (std::size_t r = 0; r < 3; ++r) EXPECT_LT(norm(X.R.row(r) - expected.R.row(r)), 1e-10);
+        if (j.kind == JointSpecKind::kBall) continue;  // its velocity is no rate of the rotation vector
+        for (int axis = 0; axis < joint.nv; ++axis) {
+            RobotState before = sim.states[0], after = sim.states[0];
+            advance_coordinates(type, before.v, -1e-5, before.q);
+            advance_coordinates(type, after.v, 1e-5, after.q);
+            const double rate =
+                (joint_state(type, after, id, axis).position - joint_state(type, before, id, axis).position) /
+                2e-5;
+            EXPECT_NEAR(read(axis).velocity, rate, 1e-7);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, LoopReading,
+                         testing::Values(JointSpecKind::kRevolute, JointSpecKind::kPrismatic,
+                                         JointSpecKind::kScrew, JointSpecKind::kUniversal,
+                                         JointSpecKind::kBall));
 
 }  // namespace
 }  // namespace roboss::test

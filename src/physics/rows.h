@@ -90,12 +90,15 @@ struct IslandRows {
     }
 };
 
-/// Motors, joint friction, limits of one robot; `offset` is its first dof in the contact island. Returns true
-/// if a row has something to mend.
-bool add_joint_rows(const Model& model, const RobotWork& robot, int offset, std::vector<JointRow>& rows);
+struct RowBuffer;
 
-/// True if add_joint_rows would add nothing and no spring or damping is stiff: the robot moves smoothly when
-/// nothing touches it.
+/// Motors, joint friction, limits, loops and couplings of one robot; `offset` is its first dof in the contact
+/// island, `buffer` is overwritten. Returns true if a row has something to mend.
+bool add_joint_rows(const Model& model, const RobotWork& robot, int offset, RowBuffer& buffer,
+                    IslandRows& rows);
+
+/// True if add_joint_rows would add nothing but loops and couplings, and no spring or damping is stiff: the
+/// robot moves smoothly when nothing touches it.
 bool moves_freely(const Model& model, const RobotWork& robot);
 
 /// Normal and tangents of a contact's row. Across the friction axis the tangent is shortened to the share of

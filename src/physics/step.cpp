@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/float_env.h"
+#include "physics/axis_rows.h"
 #include "physics/integrate.h"
 #include "physics/solver.h"
 
@@ -23,6 +24,7 @@ struct StepScratch::Impl {
     IslandRows rows;
     std::vector<double> v, v_before;
     IslandSolver solver;
+    RowBuffer buffer;
     FreeBuffer free_buffer;
 };
 
@@ -107,6 +109,8 @@ void finish_island(const Model& model, Impl& s, std::span<const std::uint32_t> m
         }
         std::copy_n(s.v.begin() + static_cast<std::ptrdiff_t>(offset), nv, work.state->v.begin());
         advance_coordinates(*work.type, way.subspan(offset, nv), model.dt_s, work.state->q);
+        if (work.type->has_equalities())
+            s.free_buffer.projection.close_coordinates(*work.type, work.state->q);
     }
 }
 
@@ -126,7 +130,7 @@ bool gather_island(const Model& model, Impl& s, std::span<const std::uint32_t> m
         s.island_offsets.push_back(offset);
         compute_impulse(model, model.dt_s, 1.0, work.state->q, work.state->v, work);
         compute_mass_matrix(*work.type, model.dt_s, work);
-        split |= add_joint_rows(model, work, offset, s.rows.joints);
+        split |= add_joint_rows(model, work, offset, s.buffer, s.rows);
         s.v.insert(s.v.end(), work.state->v.begin(), work.state->v.end());
     }
     for (std::uint32_t m : members) {  // contacts are sorted by their first robot

@@ -84,6 +84,19 @@ void read_motor(const Element& motor, const ElementReader& reader, AxisSpec& spe
         spec.max_velocity = bound(reader.number(motor, "max_velocity", -1, kAny));
 }
 
+/// <mimic> of SDFormat 1.11; names of joints are those of the scope.
+std::optional<MimicSpec> read_mimic(const Element& mimic, const std::string& scope,
+                                    const ElementReader& reader) {
+    if (!mimic) return std::nullopt;
+    MimicSpec spec;
+    spec.joint = scope + mimic.node.attribute("joint").value();
+    spec.axis = std::string_view(mimic.node.attribute("axis").value()) == "axis2" ? 1 : 0;
+    spec.multiplier = reader.number(mimic, "multiplier", 1);
+    spec.offset = reader.number(mimic, "offset", 0);
+    spec.reference = reader.number(mimic, "reference", 0);
+    return spec;
+}
+
 Vec3 direction_of(const sdf::JointAxis* axis) {
     ignition::math::Vector3d xyz = ignition::math::Vector3d::UnitZ;
     if (axis == nullptr || !axis->ResolveXyz(xyz).empty()) return {0, 0, 1};
@@ -93,7 +106,7 @@ Vec3 direction_of(const sdf::JointAxis* axis) {
 }
 
 AxisSpec read_axis(const sdf::Joint& joint, const Element& source, unsigned index, JointSpecKind kind,
-                   const Import& import) {
+                   const std::string& scope, const Import& import) {
     const Element axis = source.child(index == 0 ? "axis" : "axis2");
     AxisSpec spec;
     spec.xyz = direction_of(joint.Axis(index));
@@ -110,6 +123,7 @@ AxisSpec read_axis(const sdf::Joint& joint, const Element& source, unsigned inde
     spec.initial_position = import.reader.number(axis, "initial_position", 0);
     read_motor(source.child("roboss:motor"), import.reader, spec);
     read_motor(axis.child("roboss:motor"), import.reader, spec);
+    spec.mimic = read_mimic(axis.child("mimic"), scope, import.reader);
     if (kind == JointSpecKind::kContinuous) {
         spec.lower = -std::numeric_limits<double>::infinity();
         spec.upper = std::numeric_limits<double>::infinity();
@@ -125,17 +139,47 @@ double screw_pitch(const Element& source, const Import& import) {
     return radians_a_metre != 0 ? -1.0 / radians_a_metre : 0.0;
 }
 
-void report_joint_to_come(const JointSpec& spec, const Element& source, const Import& import) {
-    if (spec.kind == JointSpecKind::kGearbox) {
-        import.diagnostics().warning(
-            source.where(), "joint-to-come",
-            "joint '" + spec.name + "': gearboxes are still to come; its links turn independently",
-            "Drive both joints from the control program.");
+/// An axis that this kind of joint does not have, but that says something.
+void report_unused_axis(const Element& source, const char* name, const Import& import) {
+    const Element axis = source.child(name);
+    if (!axis) return;
+    AxisSpec says;
+    read_limit(axis.child("limit"), import.reader, says);
+    read_dynamics(axis.child("dynamics"), import.reader, says);
+    const bool limited = says.lower > -1e15 || says.upper < 1e15;
+    const bool dynamic = says.damping != 0 || says.friction != 0 || says.spring_stiffness != 0;
+    if (!limited && !dynamic && !axis.child("mimic")) return;
+    import.diagnostics().warning(axis.where(), "unused-axis",
+                                 "joint '" + std::string(source.name()) + "' of type '" +
+                                     source.node.attribute("type").value() + "' has no <" + name +
+                                     ">: its limits, damping, friction, springs and mimic are ignored",
+                                 "Use a joint with that axis, or several hinges in a row.");
+}
+
+void report_unused(const JointSpec& spec, const Element& source, const Import& import) {
+    if (axes_of(spec.kind) < 1) report_unused_axis(source, "axis", import);
+    if (axes_of(spec.kind) < 2) report_unused_axis(source, "axis2", import);
+    if (const Element physics = source.child("physics")) {
+        import.diagnostics().note(
+            physics.where(), "joint-physics",
+            "joint '" + spec.name + "': <physics> holds numbers for other engines; they are ignored",
+            "Soft limits: <limit><stiffness> and <dissipation>.");
     }
     for (const auto node : source.node.children("sensor")) {
         import.diagnostics().warning({source.source->where(node)}, "sensor-to-come",
                                      "sensors of type '" + std::string(node.attribute("type").value()) +
                                          "' are still to come; they measure nothing");
+    }
+}
+
+void read_gearbox(const Element& source, const std::string& scope, const Import& import, JointSpec& spec) {
+    spec.gearbox_ratio = import.reader.number(source, "gearbox_ratio", 1);
+    const std::string reference = source.child("gearbox_reference_body").node.text().get();
+    spec.gearbox_reference = reference == "world" ? reference : scope + reference;
+    if (reference.empty()) {
+        import.diagnostics().error(source.where(), "gearbox-reference",
+                                   "gearbox '" + spec.name + "' has no <gearbox_reference_body>",
+                                   "Name the link that carries the hinges of both wheels.");
     }
 }
 
@@ -164,9 +208,10 @@ std::optional<JointSpec> convert_joint(const sdf::Joint& joint, const Element& s
     spec.child = link_name(joint.ChildLinkName(), scope,
                            [&](std::string& name) { return joint.ResolveChildLink(name); });
     for (unsigned i = 0; i < axes_of(*kind); ++i)
-        spec.axes.push_back(read_axis(joint, source, i, *kind, import));
+        spec.axes.push_back(read_axis(joint, source, i, *kind, scope, import));
     if (*kind == JointSpecKind::kScrew) spec.screw_pitch = screw_pitch(source, import);
-    report_joint_to_come(spec, source, import);
+    if (*kind == JointSpecKind::kGearbox) read_gearbox(source, scope, import, spec);
+    report_unused(spec, source, import);
     return spec;
 }
 

@@ -165,6 +165,41 @@ TEST(LoadWorld, PitchOfAScrewIsReadInBothOfItsUnits) {
     EXPECT_DOUBLE_EQ(pitch_of("<thread_pitch>50</thread_pitch>"), -0.02) << "radians a metre, left-handed";
 }
 
+TEST(LoadWorld, ReadsAGearbox) {
+    const auto load = [](const std::string& reference) {
+        return load_elements("<model name='m'>" + link("a") + link("b") +
+                             "<joint name='g' type='gearbox'><parent>a</parent><child>b</child>"
+                             "<gearbox_ratio>2.5</gearbox_ratio>" +
+                             reference +
+                             "<axis><xyz>0 0 1</xyz></axis><axis2><xyz>0 1 0</xyz></axis2></joint></model>");
+    };
+    const Loaded good = load("<gearbox_reference_body>frame</gearbox_reference_body>");
+    ASSERT_TRUE(good.world) << good.text();
+    EXPECT_TRUE(good.diagnostics.items().empty()) << good.text();
+    const JointSpec& gearbox = good.world->prototypes[0].joints[0];
+    EXPECT_EQ(gearbox.gearbox_ratio, 2.5);
+    EXPECT_EQ(gearbox.gearbox_reference, "frame");
+    EXPECT_NE(load("").find("gearbox-reference"), nullptr);
+}
+
+TEST(LoadWorld, WhatAJointCannotUseIsReported) {
+    const auto load = [](const std::string& type, const std::string& rest) {
+        return load_elements("<model name='m'>" + link("a") + link("b") + "<joint name='j' type='" + type +
+                             "'><parent>a</parent><child>b</child>" + rest + "</joint></model>");
+    };
+    const std::string damped = "<xyz>0 0 1</xyz><dynamics><damping>1</damping></dynamics>";
+    EXPECT_NE(load("ball", "<axis>" + damped + "</axis>").find("unused-axis"), nullptr);
+    EXPECT_NE(
+        load("revolute", "<axis><xyz>0 0 1</xyz></axis><axis2>" + damped + "</axis2>").find("unused-axis"),
+        nullptr);
+    EXPECT_EQ(
+        load("universal", "<axis>" + damped + "</axis><axis2>" + damped + "</axis2>").find("unused-axis"),
+        nullptr);
+    EXPECT_NE(
+        load("ball", "<physics><ode><cfm_damping>1</cfm_damping></ode></physics>").find("joint-physics"),
+        nullptr);
+}
+
 TEST(LoadWorld, FlattensNestedModels) {
     const Loaded loaded = load_elements(
         "<model name='m'>" + link("a") +

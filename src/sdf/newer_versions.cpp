@@ -15,10 +15,8 @@ struct NewerElement {
 };
 
 constexpr NewerElement kNewer[] = {
-    {"axis", "mimic", "mimic joints are still to come: the joint moves on its own",
-     "Drive both joints from the control program, or weld the follower."},
-    {"axis2", "mimic", "mimic joints are still to come: the joint moves on its own",
-     "Drive both joints from the control program, or weld the follower."},
+    {"axis", "mimic", nullptr, nullptr},
+    {"axis2", "mimic", nullptr, nullptr},
     {"inertial", "fluid_added_mass", "added mass of a fluid is not simulated",
      "Remove it, or add its mass to the link."},
     {"inertial", "density", nullptr, nullptr},

@@ -29,15 +29,25 @@ TEST(NewerVersions, EveryVersionFrom14To112Loads) {
     EXPECT_NE(load_elements("<model name='m'>" + link("a") + "</model>", "x").find("no-version"), nullptr);
 }
 
-TEST(NewerVersions, MimicIsReportedWithItsLine) {
+TEST(NewerVersions, MimicIsRead) {
     const Loaded loaded = load_elements(
-        "<model name='m'>" + link("a") + link("b") +
-            "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz>\n"
-            "<mimic joint='k'><multiplier>2</multiplier></mimic></axis></joint></model>",
+        "<model name='m'>" + link("a") + link("b") + link("c") +
+            "<joint name='k' type='universal'><parent>a</parent><child>c</child><axis><xyz>0 0 1</xyz></axis>"
+            "<axis2><xyz>0 1 0</xyz></axis2></joint>"
+            "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz>"
+            "<mimic joint='k' axis='axis2'><multiplier>2</multiplier><offset>0.1</offset>"
+            "<reference>-0.3</reference></mimic></axis></joint></model>",
         "1.11");
-    ASSERT_NE(loaded.find("newer-element"), nullptr) << loaded.text();
-    EXPECT_EQ(loaded.find("newer-element")->where.line, 2);
-    EXPECT_FALSE(loaded.diagnostics.has_errors());
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
+    const auto& mimic = loaded.world->prototypes[0].joints[1].axes[0].mimic;
+    ASSERT_TRUE(mimic.has_value());
+    EXPECT_EQ(mimic->joint, "k");
+    EXPECT_EQ(mimic->axis, 1);
+    EXPECT_EQ(mimic->multiplier, 2);
+    EXPECT_EQ(mimic->offset, 0.1);
+    EXPECT_EQ(mimic->reference, -0.3);
+    EXPECT_FALSE(loaded.world->prototypes[0].joints[0].axes[0].mimic.has_value());
 }
 
 TEST(NewerVersions, AutomaticInertiaIsComputedFromTheCollisions) {

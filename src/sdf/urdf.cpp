@@ -25,14 +25,22 @@ SourceLocation where_of(const std::string& message, const SourceFile& urdf) {
     return urdf.where(urdf.root());
 }
 
-/// What libsdformat leaves out of a URDF without a word.
-void report_left_out(const SourceFile& urdf, Diagnostics& diagnostics) {
+/// libsdformat 12 leaves <mimic> out of a URDF without a word: writes it into the joint's <axis>, on the same
+/// line, for the importer to read.
+void add_mimics(const SourceFile& urdf, std::string& sdf) {
     for (const auto joint : urdf.root().children("joint")) {
-        if (!joint.child("mimic")) continue;
-        diagnostics.warning(urdf.where(joint), "newer-element",
-                            "joint '" + std::string(joint.attribute("name").value()) +
-                                "': mimic joints are still to come: the joint moves on its own",
-                            "Drive both joints from the control program, or weld the follower.");
+        const auto mimic = joint.child("mimic");
+        if (!mimic) continue;
+        const std::size_t at = sdf.find("<joint name='" + std::string(joint.attribute("name").value()) + "'");
+        const std::size_t axis = at == std::string::npos ? at : sdf.find("<axis>", at);
+        if (axis == std::string::npos || axis > sdf.find("</joint>", at)) continue;
+        const auto number = [&](const char* name, const char* otherwise) {
+            return "<" + std::string(name) + ">" + mimic.attribute(name).as_string(otherwise) + "</" + name +
+                   ">";
+        };
+        sdf.insert(axis + 6, "<mimic joint='" + std::string(mimic.attribute("joint").value()) +
+                                 "' axis='axis'>" + number("multiplier", "1") + number("offset", "0") +
+                                 "</mimic>");
     }
 }
 
@@ -88,7 +96,6 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
         }
     }
     for (const sdf::Error& error : errors) diagnostics.error(where, "urdf", error.Message(), kRemedy);
-    report_left_out(urdf, diagnostics);
     if (text.empty()) {
         if (!diagnostics.has_errors()) {
             diagnostics.error(where, "urdf", "libsdformat cannot read this <robot> as URDF",
@@ -96,6 +103,7 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
         }
         return nullptr;
     }
+    add_mimics(urdf, text);
     std::vector<int> lines = map_lines(urdf, text);
     return SourceFile::from_text(urdf.path(), std::move(text), std::move(lines), diagnostics);
 }

@@ -48,6 +48,33 @@ TEST(Urdf, ThatIsBrokenIsAnErrorAtTheLink) {
     EXPECT_TRUE(load_text("<robot name='r'/>", "r.urdf").diagnostics.has_errors());
 }
 
+TEST(Urdf, MimicJointsFollow) {
+    std::string hand = kArm;
+    const std::string finger =
+        "<link name='finger'><inertial><mass value='1'/><inertia ixx='0.1' iyy='0.1' izz='0.01' ixy='0' "
+        "ixz='0' "
+        "iyz='0'/></inertial></link>\n"
+        "<joint name='follow' type='continuous'><parent link='upper'/><child link='finger'/><axis xyz='0 1 "
+        "0'/>"
+        "<mimic joint='shoulder' multiplier='-0.5' offset='0.2'/></joint>\n";
+    hand.insert(hand.find("</robot>"), finger);
+    const Loaded loaded = load_text(hand, "hand.urdf");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
+    for (const JointSpec& joint : loaded.world->prototypes.at(0).joints) {
+        const bool follows = joint.name == "follow";
+        if (joint.axes.empty()) continue;
+        ASSERT_EQ(joint.axes[0].mimic.has_value(), follows) << joint.name;
+        if (!follows) continue;
+        EXPECT_EQ(joint.axes[0].mimic->joint, "shoulder");
+        EXPECT_EQ(joint.axes[0].mimic->multiplier, -0.5);
+        EXPECT_EQ(joint.axes[0].mimic->offset, 0.2);
+    }
+    hand.replace(hand.find("'-0.5'"), 6, "'half'");
+    const Loaded broken = load_text(hand, "hand.urdf");
+    EXPECT_NE(broken.text().find("hand.urdf:9: error"), std::string::npos) << broken.text();
+}
+
 TEST(Urdf, CanBeIncludedInAWorld) {
     const TestFolder folder;
     folder.write("arm.urdf", kArm);

@@ -3,10 +3,22 @@
 // each tick disturbs the speed only (over a way of many ticks such draws cancel out).
 #include "core/check.h"
 #include "core/float_env.h"
+#include "physics/kinematics.h"
 #include "sensors/readings.h"
 #include "sensors/sensor_noise.h"
 
 namespace roboss {
+namespace {
+
+/// The joint's position at the start of the run; of a joint that closes a loop from its bodies' poses then.
+double start_of(const Model& model, RobotId robot, JointId id) {
+    const RobotType& type = model.type_of(robot);
+    const Joint& joint = type.joints[id.index()];
+    if (joint.loop < 0) return type.initial_q[static_cast<std::size_t>(joint.q_index) - 7];
+    return joint_state(type, initial_state(model, robot), id).position;
+}
+
+}  // namespace
 
 OdometerReading read_odometer(const Model& model, RobotId robot, std::size_t sensor, const RobotState& state,
                               Tick tick, std::uint64_t seed) {
@@ -22,11 +34,11 @@ OdometerReading read_odometer(const Model& model, RobotId robot, std::size_t sen
         ROBOSS_CHECK(id.has_value(), spec.name + " reads the unknown joint " + name);
         const Joint& joint = type.joints[id->index()];
         ROBOSS_CHECK(joint.nv == 1, spec.name + " reads joint " + name + ", which has not one axis");
-        const auto q = static_cast<std::size_t>(joint.q_index), v = static_cast<std::size_t>(joint.v_index);
-        reading.joint_positions.push_back(state.q[q]);
-        reading.joint_velocities.push_back(state.v[v]);
-        way += state.q[q] - type.initial_q[q - 7];
-        speed += state.v[v];
+        const JointState at = joint_state(type, state, *id);
+        reading.joint_positions.push_back(at.position);
+        reading.joint_velocities.push_back(at.velocity);
+        way += at.position - start_of(model, robot, *id);
+        speed += at.velocity;
     }
     if (spec.wheel_radius == 0.0 || spec.joints.empty()) return reading;
     const double metres = spec.wheel_radius / static_cast<double>(spec.joints.size());

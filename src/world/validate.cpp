@@ -168,9 +168,11 @@ class ModelCheck {
                                "Swap them.");
         }
         if (!(axis.damping >= 0) || !(axis.friction >= 0) || !(axis.spring_stiffness >= 0) ||
-            !(axis.armature >= 0)) {
+            !(axis.armature >= 0) || !(axis.limit_stiffness >= 0) || !(axis.limit_dissipation >= 0)) {
             diagnostics_.error(joint.where, "bad-dynamics",
-                               name + " has a negative damping, friction, spring or armature",
+                               name +
+                                   " has a negative damping, friction, spring, armature, or stiffness or "
+                                   "dissipation of its limits",
                                "Write values of at least 0.");
         }
     }

@@ -1,5 +1,6 @@
 """One world, one hash: for any threads, Simulators, windows, grouping, after save and load, run after run; and another
-hash as soon as one bit of the input is another. Three worlds with collisions, one with a control program in the loop."""
+hash as soon as one bit of the input is another. Five worlds with collisions, one with a control program in the loop, two of
+closed linkages, screws, gearboxes and mimic joints."""
 import unittest
 
 from running import DRIVER, FOLDER, WORLDS, roboss, summary
@@ -8,6 +9,8 @@ RUNS = {
     "city": ([WORLDS / "city.sdf", "--client", DRIVER], 3.0),
     "crossroads": ([WORLDS / "crossroads.sdf", "--orders", WORLDS / "crossroads.jsonl"], 2.3),
     "heap": ([WORLDS / "heap.sdf"], 2.0),
+    "four_bar": ([WORLDS / "four_bar.sdf", "--orders", WORLDS / "four_bar.jsonl"], 2.0),
+    "parallel": ([WORLDS / "parallel.sdf", "--orders", WORLDS / "parallel.jsonl"], 2.0),
 }
 WAYS = [
     ["--threads", "2"],

@@ -56,6 +56,15 @@ inline ModelSpec four_bar(const FourBarOptions& options = {}) {
     return m;
 }
 
+/// Cranks of 0.2 m, coupler and ground of 0.5 m: folds flat twice a turn, and may then go on crossed.
+inline ModelSpec parallelogram() {
+    ModelSpec m = four_bar();
+    const Vec3 a{0, 0, 0}, b{0, 0, 0.2}, c{0.5, 0, 0.2}, d{0.5, 0, 0};
+    m.links = {rod_between("crank", a, b), rod_between("coupler", b, c), rod_between("rocker", d, c)};
+    m.joints[3].X_MJ.p = c;
+    return m;
+}
+
 /// A platform on six struts (Stewart, Gough): each a universal joint below, a slide, a ball above.
 inline ModelSpec stewart() {
     ModelSpec m;
@@ -74,12 +83,63 @@ inline ModelSpec stewart() {
         const Quat q = m.links.back().X_ML.q;
         m.joints.push_back(
             joint(JointSpecKind::kUniversal, "foot_" + n, "world", "tube_" + n, {foot, q}, {0, 1, 0}));
-        m.joints.back().axes.push_back(m.joints.back().axes[0]);
+        m.joints.back().axes.emplace_back();
         m.joints.back().axes[1].xyz = {0, 0, 1};
         m.joints.push_back(joint(JointSpecKind::kPrismatic, "strut_" + n, "tube_" + n, "piston_" + n,
                                  {middle, q}, {1, 0, 0}));
         m.joints.push_back(joint(JointSpecKind::kBall, "head_" + n, "piston_" + n, "platform", {head, q}));
     }
+    return m;
+}
+
+/// A free base and a chain of every joint kind back to it, frames and inertias that agree with nothing;
+/// `closing` is the kind of the last joint. Two or more degrees of freedom are left beside the base's six.
+inline ModelSpec ring_of_all_kinds(JointSpecKind closing) {
+    ModelSpec m;
+    m.name = "ring";
+    m.canonical_link = "base";
+    const auto add_link = [&](const std::string& name, double mass, const Vec3& p, const Vec3& rpy) {
+        const Mat3 R = to_matrix(from_rpy(rpy.z, rpy.x, rpy.y));
+        m.links.push_back(link(name, mass, R * box_inertia(mass, {0.2, 0.3, 0.15}) * transpose(R),
+                               {p, from_rpy(rpy.x, rpy.y, rpy.z)}));
+        m.links.back().p_LC = {0.03, -0.02, 0.05};
+    };
+    add_link("base", 3.0, {0, 0, 0}, {0.1, 0.2, 0.3});
+    add_link("arm", 1.0, {0.3, 0.1, 0.2}, {0.4, 0, -0.3});
+    add_link("slider", 0.8, {0.5, 0.1, 0.4}, {0, 0.6, 0.2});
+    add_link("nut", 0.6, {0.6, 0.3, 0.5}, {0.7, 0.1, 0});
+    add_link("limb", 1.2, {0.4, 0.5, 0.4}, {-0.2, 0.5, 0.1});
+    add_link("hand", 0.5, {0.2, 0.5, 0.2}, {0.3, -0.6, 0.2});
+    const auto add = [&](JointSpecKind kind, const std::string& name, std::size_t to, const Vec3& axis) {
+        const Pose X =
+            m.links[to].X_ML * Pose{{-0.1, 0.02, -0.05}, from_rpy(0.3, 0.1 * static_cast<double>(to), 0)};
+        m.joints.push_back(joint(kind, name, m.links[to - 1].name, m.links[to].name, X, axis));
+        AxisSpec& first = m.joints.back().axes[0];
+        first.damping = 0.3, first.spring_stiffness = 2, first.armature = 0.01;
+        if (kind == JointSpecKind::kBall) m.joints.back().axes.clear();
+        if (kind == JointSpecKind::kScrew) m.joints.back().screw_pitch = 0.07;
+        if (kind != JointSpecKind::kUniversal && kind != JointSpecKind::kRevolute2) return;
+        AxisSpec second = first;
+        second.xyz = normalized(cross(first.xyz, Vec3{0.5, 0.2, -0.3}));
+        m.joints.back().axes.push_back(second);
+    };
+    add(JointSpecKind::kRevolute, "hinge", 1, {0.2, 1, 0.1});
+    add(JointSpecKind::kPrismatic, "slide", 2, {1, 0.3, 0.2});
+    add(JointSpecKind::kScrew, "thread", 3, {0.1, -0.4, 1});
+    add(JointSpecKind::kUniversal, "cardan", 4, {1, 0.2, 0});
+    add(JointSpecKind::kRevolute2, "wheel", 5, {0, 0.3, 1});
+    m.links.push_back(
+        link("tip", 0.4, box_inertia(0.4, {0.1, 0.2, 0.1}), {{0.05, 0.3, 0.1}, from_rpy(0.2, 0, 1)}));
+    add(JointSpecKind::kContinuous, "turn", 6, {0.4, 0.1, -1});
+    JointSpec last = joint(closing, "closing", "base", "tip", {{0.02, 0.2, 0.05}, from_rpy(0.1, 0.4, -0.2)},
+                           {0.3, -0.2, 1});
+    if (closing == JointSpecKind::kBall) last.axes.clear();
+    if (closing == JointSpecKind::kScrew) last.screw_pitch = -0.11;
+    if (closing == JointSpecKind::kUniversal) {
+        last.axes.emplace_back();
+        last.axes[1].xyz = normalized(Vec3{1, 0.4, 0.1});
+    }
+    m.joints.push_back(last);
     return m;
 }
 
@@ -101,7 +161,7 @@ inline ModelSpec two_wheels(bool free_base = false) {
 inline ModelSpec geared_wheels(double ratio, bool free_base = false) {
     ModelSpec m = two_wheels(free_base);
     JointSpec gearbox = joint(JointSpecKind::kGearbox, "gearbox", "small", "large", {}, {0, 0, 1});
-    gearbox.axes.push_back(gearbox.axes[0]);
+    gearbox.axes.emplace_back();
     gearbox.gearbox_ratio = ratio;
     gearbox.gearbox_reference = "frame";
     m.joints.push_back(gearbox);
