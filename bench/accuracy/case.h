@@ -55,6 +55,7 @@ struct Case {
 bool passes(const Quantity& quantity, double figure);
 
 std::vector<Case> free_motion_cases();
+std::vector<Case> dynamics_cases();
 std::vector<Case> convergence_cases();
 std::vector<Case> slope_cases();
 std::vector<Case> impact_cases();
