@@ -1,33 +1,64 @@
 #!/usr/bin/env bash
-# Sets up, builds and runs the benchmarks: ./bench.sh [NAME] [Google Benchmark flags]; without a name it lists them.
+# Sets up, builds and runs the benchmarks: ./bench.sh [NAME] [flags]; without a name it lists them.
+# A name is a program of its own (peers, accuracy), or a Google Benchmark of roboss-bench; flags go on to it.
 # Rows carry commit, compiler, CPU, world and number of robots; the same rows as JSON go to build/bench/NAME.json.
-# ./bench.sh accuracy [options of roboss-accuracy] measures against closed forms and peers; without options it also
-# writes docs/accuracy.md.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
-tools/setup.sh build bench
-if [[ ${1:-} == accuracy ]]; then
-    shift
-    tools/build.sh release -DROBOSS_BENCHMARKS=ON roboss-accuracy
-    mkdir -p build/bench
-    outputs=()
-    [[ $# -gt 0 ]] || outputs=(--markdown docs/accuracy.md --picture docs/images/arm_energy.svg --json build/bench/accuracy.json)
-    ROBOSS_COMMIT=$(git describe --always --dirty 2>/dev/null || printf 'unknown') \
-        exec build/release/bin/roboss-accuracy "${outputs[@]}" "$@"
-fi
-tools/build.sh release -DROBOSS_BENCHMARKS=ON roboss-bench
+ROBOSS_COMMIT=$(git describe --always --dirty 2>/dev/null || printf 'unknown')
+export ROBOSS_COMMIT
 mkdir -p build/bench
-program=build/release/bin/roboss-bench
-if [[ $# -eq 0 ]]; then
-    printf 'benchmarks (./bench.sh NAME runs one, ./bench.sh all runs them all; ./bench.sh accuracy measures truth):\n'
-    exec "$program" --benchmark_list_tests
-fi
-name=$1
-rows=build/bench/${name//\//_}.json
-shift
-filter=$name
-[[ $name != all ]] || filter=.
-ROBOSS_COMMIT=$(git describe --always --dirty 2>/dev/null || printf 'unknown') \
+
+# Builds the benchmark program given.
+build() {
+    tools/build.sh release -DROBOSS_BENCHMARKS=ON "$1"
+}
+
+# RoBOSS beside other engines. Only a whole run, without flags, changes docs/performance.md and its plot.
+peers() {
+    tools/setup.sh build bench peers
+    build roboss-peers
+    local rows=build/bench/peers.json
+    build/release/bin/roboss-peers --check-engines  # a second: an adapter that means something else would spoil it all
+    build/release/bin/roboss-peers --json "$rows" "$@"
+    if [[ $# -eq 0 ]]; then
+        tools/peers_report "$rows" --page docs/performance.md --plot docs/images/peers.svg
+    else
+        tools/peers_report "$rows" --plot build/bench/peers.svg
+    fi
+    printf 'rows as JSON: %s\n' "$rows"
+}
+
+# RoBOSS and other engines against motions whose truth is known. Only a whole run, without flags, changes
+# docs/accuracy.md and its picture; its exit code tells whether RoBOSS keeps every bound.
+accuracy() {
+    tools/setup.sh build bench peers
+    build roboss-accuracy
+    local outputs=(--json build/bench/accuracy.json)
+    [[ $# -gt 0 ]] || outputs+=(--markdown docs/accuracy.md --picture docs/images/arm_energy.svg)
+    build/release/bin/roboss-accuracy "${outputs[@]}" "$@"
+}
+
+# Google Benchmarks whose names match.
+google_benchmark() {
+    tools/setup.sh build bench
+    build roboss-bench
+    local program=build/release/bin/roboss-bench
+    if [[ $# -eq 0 ]]; then
+        printf 'benchmarks (./bench.sh NAME runs one, ./bench.sh all runs all but peers and accuracy):\n'
+        printf 'peers  (RoBOSS beside ODE, Bullet, MuJoCo, DART: about 12 minutes; --quick: two; --help)\n'
+        printf 'accuracy  (RoBOSS and the same engines against known truths: some minutes; --list; --help)\n'
+        exec "$program" --benchmark_list_tests
+    fi
+    local name=$1
+    local rows=build/bench/${name//\//_}.json filter=$name
+    shift
+    [[ $name != all ]] || filter=.
     "$program" --benchmark_filter="$filter" --benchmark_counters_tabular=true \
-    --benchmark_out="$rows" --benchmark_out_format=json "$@"
-printf 'rows as JSON: %s\n' "$rows"
+        --benchmark_out="$rows" --benchmark_out_format=json "$@"
+    printf 'rows as JSON: %s\n' "$rows"
+}
+
+case ${1:-} in
+    peers | accuracy) "$@" ;;
+    *) google_benchmark "$@" ;;
+esac
