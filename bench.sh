@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Sets up, builds and runs the benchmarks: ./bench.sh [NAME] [flags]; without a name it lists them.
-# A name is a program of its own (peers), or a Google Benchmark of roboss-bench; flags go on to it.
+# A name is a program of its own (peers, accuracy), or a Google Benchmark of roboss-bench; flags go on to it.
 # Rows carry commit, compiler, CPU, world and number of robots; the same rows as JSON go to build/bench/NAME.json.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -28,14 +28,25 @@ peers() {
     printf 'rows as JSON: %s\n' "$rows"
 }
 
+# RoBOSS and other engines against motions whose truth is known. Only a whole run, without flags, changes
+# docs/accuracy.md and its picture; its exit code tells whether RoBOSS keeps every bound.
+accuracy() {
+    tools/setup.sh build bench peers
+    build roboss-accuracy
+    local outputs=(--json build/bench/accuracy.json)
+    [[ $# -gt 0 ]] || outputs+=(--markdown docs/accuracy.md --picture docs/images/arm_energy.svg)
+    build/release/bin/roboss-accuracy "${outputs[@]}" "$@"
+}
+
 # Google Benchmarks whose names match.
 google_benchmark() {
     tools/setup.sh build bench
     build roboss-bench
     local program=build/release/bin/roboss-bench
     if [[ $# -eq 0 ]]; then
-        printf 'benchmarks (./bench.sh NAME runs one, ./bench.sh all runs all but peers):\n'
+        printf 'benchmarks (./bench.sh NAME runs one, ./bench.sh all runs all but peers and accuracy):\n'
         printf 'peers  (RoBOSS beside ODE, Bullet, MuJoCo, DART: about 12 minutes; --quick: two; --help)\n'
+        printf 'accuracy  (RoBOSS and the same engines against known truths: some minutes; --list; --help)\n'
         exec "$program" --benchmark_list_tests
     fi
     local name=$1
@@ -48,6 +59,6 @@ google_benchmark() {
 }
 
 case ${1:-} in
-    peers) "$@" ;;
+    peers | accuracy) "$@" ;;
     *) google_benchmark "$@" ;;
 esac

@@ -5,6 +5,7 @@
 #include <support/robots.h>
 #include <support/simulation.h>
 
+#include "accelerations.h"
 #include "mujoco_oracle.h"
 #include "physics/robot_work.h"
 #include "physics/tree_factor.h"
@@ -15,78 +16,11 @@ namespace {
 constexpr int kStates = 200;
 constexpr double kRelative = 1e-9;
 
-struct Case {
-    const char* name;
-    ModelSpec (*build)();
-};
-
-ModelSpec build_car() {
-    return car();
-}
-ModelSpec build_pendulum() {
-    return pendulum();
-}
-
-/// Our acceleration, through the pieces of the step, with explicit damping as in a continuous-time model.
-std::vector<double> our_acceleration(const Model& model, RobotState& state,
-                                     const std::vector<double>& joint_force) {
-    const RobotType& type = model.types[0];
-    RobotWork work;
-    work.type = &type;
-    work.state = &state;
-    place_bodies(type, state.q, work);
-    move_bodies(type, state.v, work);
-    compute_impulse(model, 1.0, 0.0, state.q, state.v, work);
-    compute_mass_matrix(type, 0.0, work);
-    for (std::size_t d = 0; d < type.dofs.size(); ++d) {
-        const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
-        work.impulse[i] += joint_force[d] - type.dofs[d].damping * state.v[i];
-    }
-    tree_factor(type.dof_parent, work.mass_matrix);
-    tree_solve(type.dof_parent, work.mass_matrix, work.impulse.data());
-    return work.impulse;
-}
-
-RobotState random_state(const Model& model, Random& random) {
-    const RobotType& type = model.types[0];
-    RobotState state = initial_state(model, RobotId(std::size_t{0}));
-    if (type.free_base) set_base_pose(state, {random.vector(10), random.rotation()});
-    for (const Body& body : type.bodies) {
-        const auto i = static_cast<std::size_t>(body.q_index);
-        if (body.joint == JointKind::kBall) {
-            const Quat q = random.rotation();
-            state.q[i] = q.w, state.q[i + 1] = q.x, state.q[i + 2] = q.y, state.q[i + 3] = q.z;
-        } else if (body.joint != JointKind::kFree) {
-            state.q[i] = random.uniform(-2, 2);
-        }
-    }
-    for (double& v : state.v) v = random.uniform(-5, 5);
-    for (std::size_t l = 0; l < type.links.size(); ++l)
-        state.wrenches.push_back({LinkId(l), random.vector(10), random.vector(3), 1000});
-    return state;
-}
-
-std::vector<double> random_forces(const RobotType& type, Random& random) {
-    std::vector<double> forces(type.dofs.size());
-    for (double& f : forces) f = random.uniform(-4, 4);
-    return forces;
-}
-
-/// Largest difference over largest size.
-double relative_error(const std::vector<double>& a, const std::vector<double>& b) {
-    double error = 0, size = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        error = std::fmax(error, std::fabs(a[i] - b[i]));
-        size = std::fmax(size, std::fabs(b[i]));
-    }
-    return error / size;
-}
-
-class ForwardDynamics : public testing::TestWithParam<Case> {
+class ForwardDynamics : public testing::TestWithParam<Mechanism> {
   protected:
     ForwardDynamics() {
         world_ = empty_world(1e-3, {0.3, -0.2, -9.81});
-        place(world_, GetParam().build(), "robot", X_WM_);
+        place(world_, GetParam().model, "robot", X_WM_);
         compile_and_load();
     }
     void compile_and_load() {
@@ -104,19 +38,19 @@ class ForwardDynamics : public testing::TestWithParam<Case> {
 TEST_P(ForwardDynamics, AccelerationsAgreeWithMujoco) {
     double worst = 0;
     for (int i = 0; i < kStates; ++i) {
-        RobotState state = random_state(*model_, random_);
+        RobotState state = random_tree_state(*model_, random_);
         const std::vector<double> forces = random_forces(model_->types[0], random_);
         oracle_->set(state, forces);
         const std::vector<double> theirs = oracle_->acceleration();
-        worst = std::fmax(worst, relative_error(our_acceleration(*model_, state, forces), theirs));
+        worst = std::fmax(worst, relative_error(free_acceleration(*model_, state, forces), theirs));
     }
-    std::printf("%s: worst relative error %.2e over %d states\n", GetParam().name, worst, kStates);
+    std::printf("%s: worst relative error %.2e over %d states\n", GetParam().name.c_str(), worst, kStates);
     EXPECT_LE(worst, kRelative);
 }
 
 TEST_P(ForwardDynamics, PosesAndTwistsOfLinksAgreeWithMujoco) {
     for (int i = 0; i < 20; ++i) {
-        const RobotState state = random_state(*model_, random_);
+        const RobotState state = random_tree_state(*model_, random_);
         oracle_->set(state, std::vector<double>(model_->types[0].dofs.size()));
         for (std::size_t l = 0; l < model_->types[0].links.size(); ++l) {
             const std::string& name = model_->types[0].links[l].name;
@@ -139,7 +73,7 @@ TEST_P(ForwardDynamics, OneTickWithEffortMotorsGivesMujocosAcceleration) {
     StepScratch scratch;
     double worst = 0;
     for (int i = 0; i < 50; ++i) {
-        RobotState state = random_state(*model_, random_);
+        RobotState state = random_tree_state(*model_, random_);
         std::vector<double> forces = random_forces(model_->types[0], random_);
         for (std::size_t d = 0; d < forces.size(); ++d) {
             const double bound = model_->types[0].dofs[d].max_effort;
@@ -159,13 +93,8 @@ TEST_P(ForwardDynamics, OneTickWithEffortMotorsGivesMujocosAcceleration) {
     EXPECT_LE(worst, 1e-8);  // the difference of two velocities loses three digits
 }
 
-INSTANTIATE_TEST_SUITE_P(Trees, ForwardDynamics,
-                         testing::Values(Case{"pendulum", build_pendulum},
-                                         Case{"double_pendulum", double_pendulum}, Case{"arm", arm},
-                                         Case{"car", build_car}, Case{"prismatic_chain", prismatic_chain},
-                                         Case{"spider", spider}, Case{"ball_chain", ball_chain},
-                                         Case{"mixed_tree", mixed_tree}),
-                         [](const auto& tree) { return std::string(tree.param.name); });
+INSTANTIATE_TEST_SUITE_P(Trees, ForwardDynamics, testing::ValuesIn(trees()),
+                         [](const auto& tree) { return tree.param.name; });
 
 }  // namespace
 }  // namespace roboss::test
