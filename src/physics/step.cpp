@@ -7,6 +7,7 @@
 
 #include "core/float_env.h"
 #include "physics/integrate.h"
+#include "physics/sleep.h"
 #include "physics/solver.h"
 
 namespace roboss {
@@ -24,6 +25,7 @@ struct StepScratch::Impl {
     std::vector<double> v, v_before;
     IslandSolver solver;
     FreeBuffer free_buffer;
+    WakeBuffers wake;
 };
 
 StepScratch::StepScratch() : impl_(std::make_unique<Impl>()) {}
@@ -35,25 +37,27 @@ namespace {
 
 using Impl = StepScratch::Impl;
 
-void place_robot(const Model& model, RobotId id, RobotState& state, RobotWork& work) {
-    const RobotType& type = model.type_of(id);
+/// A sleeper's box is in its state; the rest of it is computed only if something comes near.
+void place(const Model& model, RobotId id, RobotState& state, RobotWork& work) {
+    if (!state.rest.asleep) return place_robot(model, id, state, work);
     work.id = id;
-    work.type = &type;
+    work.type = &model.type_of(id);
     work.state = &state;
     work.contacts = 0;
-    work.touches_robot = work.pushed = false;
-    place_bodies(type, state.q, work);
-    move_bodies(type, state.v, work);
-    place_shapes(type, model.dt_s, work);
-    if (type.shapes.empty()) work.box.include(work.origin);
+    work.touches_robot = work.pushed = work.held = work.placed = false;
+    work.asleep = true;
+    work.box = state.rest.bound;
 }
 
 void apply_orders(const Model& model, std::span<const RobotId> robots, std::span<RobotState* const> states,
-                  std::span<const Order> orders) {
+                  std::span<const Order> orders, std::span<RobotWork> works) {
+    for (RobotWork& work : works) work.ordered = false;
     for (const Order& order : orders) {
         const auto found = std::lower_bound(robots.begin(), robots.end(), order.robot);
         if (found == robots.end() || *found != order.robot) continue;
-        apply_order(model, order, *states[static_cast<std::size_t>(found - robots.begin())]);
+        const auto i = static_cast<std::size_t>(found - robots.begin());
+        apply_order(model, order, *states[i]);
+        works[i].ordered = true;
     }
 }
 
@@ -66,7 +70,8 @@ int root_of(std::vector<int>& group, int i) {
     return i;
 }
 
-/// Joins robots in contact; afterwards group[i] is the lowest robot of i's contact island.
+/// Joins robots in contact; afterwards group[i] is the lowest robot of i's contact island, and `members` are
+/// the robots that are awake, island by island.
 void build_contact_islands(Impl& s, std::size_t count) {
     s.group.resize(count);
     for (std::size_t i = 0; i < count; ++i) s.group[i] = static_cast<int>(i);
@@ -76,8 +81,9 @@ void build_contact_islands(Impl& s, std::size_t count) {
         s.group[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
     }
     for (std::size_t i = 0; i < count; ++i) s.group[i] = root_of(s.group, static_cast<int>(i));
-    s.members.resize(count);
-    for (std::size_t i = 0; i < count; ++i) s.members[i] = static_cast<std::uint32_t>(i);
+    s.members.clear();
+    for (std::size_t i = 0; i < count; ++i)
+        if (!s.robots[i].asleep) s.members.push_back(static_cast<std::uint32_t>(i));
     std::sort(s.members.begin(), s.members.end(), [&](std::uint32_t i, std::uint32_t j) {
         return s.group[i] != s.group[j] ? s.group[i] < s.group[j] : i < j;
     });
@@ -105,6 +111,7 @@ void finish_island(const Model& model, Impl& s, std::span<const std::uint32_t> m
             advance_freely(model, work, s.free_buffer);
             continue;
         }
+        work.held = true;
         std::copy_n(s.v.begin() + static_cast<std::ptrdiff_t>(offset), nv, work.state->v.begin());
         advance_coordinates(*work.type, way.subspan(offset, nv), model.dt_s, work.state->q);
     }
@@ -221,32 +228,37 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
     const ExactFloatScope exact;
     Impl& s = scratch.impl();
     const std::size_t count = robots.size();
-    apply_orders(model, robots, states, orders);
     if (s.robots.size() < count) s.robots.resize(count);
+    const std::span<RobotWork> works(s.robots.data(), count);
+    apply_orders(model, robots, states, orders, works);
     for (std::size_t i = 0; i < count; ++i) {
-        place_robot(model, robots[i], *states[i], s.robots[i]);
-        bounds[i] = s.robots[i].box;
+        place(model, robots[i], *states[i], works[i]);
+        bounds[i] = works[i].box;
     }
     StepReport report;
-    const std::span<RobotWork> works(s.robots.data(), count);
     for (const RobotWork& work : works) {
-        if (!is_beyond_numbers(work)) continue;
+        if (work.asleep || !is_beyond_numbers(work)) continue;
         report.not_finite = work.id;
         return report;
     }
+    wake_sleepers(model, works, s.finder, s.wake);
     s.finder.find(model, works, s.contacts);
     recall_impulses(works, s.contacts);
     build_contact_islands(s, count);
 
-    for (std::size_t first = 0; first < count;) {
+    report.asleep = static_cast<int>(count - s.members.size());
+    for (std::size_t first = 0; first < s.members.size();) {
         std::size_t last = first + 1;
-        while (last < count && s.group[s.members[last]] == s.group[s.members[first]]) ++last;
-        solve_island(model, s, std::span(s.members).subspan(first, last - first), report);
+        while (last < s.members.size() && s.group[s.members[last]] == s.group[s.members[first]]) ++last;
+        const auto members = std::span<const std::uint32_t>(s.members).subspan(first, last - first);
         first = last;
+        solve_island(model, s, members, report);
+        settle_island(model, works, members, s.island_contacts);
     }
     remember_impulses(works, s.contacts);
     count_contacts(model, s.contacts, report);
     for (std::size_t i = 0; i < count; ++i) {
+        if (works[i].asleep) continue;
         expire_wrenches(tick, *states[i]);
         if (!report.not_finite.valid() && !is_finite(*states[i])) report.not_finite = robots[i];
     }

@@ -21,6 +21,7 @@ Aabb interaction_bound(const Model& model, RobotId robot, const RobotState& stat
 struct StepReport {
     int contacts = 0;         // contact points that carried force
     int static_contacts = 0;  // of these, with static scenery other than planes (buildings, walls)
+    int asleep = 0;           // robots that slept through the tick
     int iterations = 0;       // Newton iterations, summed over contact islands
     double residual = 0;      // worst relative residual of the contact islands
     RobotId not_finite;       // first robot whose state is not finite; the run must stop
