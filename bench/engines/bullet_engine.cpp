@@ -87,12 +87,8 @@ class BulletEngine final : public Engine {
         : world_(world),
           dt_(options.dt_s),
           iterations_(static_cast<int>(20 * std::max(1.0, options.accuracy))) {
-        gCalculateCombinedFrictionCallback = [](auto* a, auto* b) {
-            return least_friction(a, b);
-        };
-        gCalculateCombinedRestitutionCallback = [](auto* a, auto* b) {
-            return most_restitution(a, b);
-        };
+        gCalculateCombinedFrictionCallback = [](auto* a, auto* b) { return least_friction(a, b); };
+        gCalculateCombinedRestitutionCallback = [](auto* a, auto* b) { return most_restitution(a, b); };
         gContactBreakingThreshold = 0.005;  // the default of 2 cm suits bodies of a metre
         broadphase_.getOverlappingPairCache()->setOverlapFilterCallback(&filter_);
         bullet_.setGravity(to_bullet(world.gravity));

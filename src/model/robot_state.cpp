@@ -112,7 +112,11 @@ class Reader {
         if ((first & 0xFFFFFFFEu) != 0 || edges > left()) short_ = true;
         if (short_) return r;
         r.neighbours.resize(edges);
-        for (std::uint32_t& id : r.neighbours) id = static_cast<std::uint32_t>(word());
+        for (std::uint32_t& id : r.neighbours) {
+            const std::uint64_t wide = word();
+            id = static_cast<std::uint32_t>(wide);
+            if (id != wide) short_ = true;
+        }
         if (r.asleep) r.bound.min = vector(), r.bound.max = vector();
         return r;
     }

@@ -27,6 +27,7 @@ struct Contact {
     double impulse = 0;                 // normal, N s: remembered, then solved
     Vec3 friction;                      // tangential, N s, world axes: likewise
     double load = 0;  // normal, N s: the smaller of the impulses of the last two ticks, so not a blow
+    Vec3 moment;      // N m s, world axes: torsional and rolling friction, solved
 };
 
 /// Finds all contacts of the island. `robots` ascending by id. Result sorted by (robot_a, other id, shapes,

@@ -123,7 +123,13 @@ bool joints_rest(const RobotWork& work) {
         const double q = work.state->q[static_cast<std::size_t>(body.q_index)];
         if (!motor_rests(type.dofs[d], work.state->motors[d], q)) return false;
     }
-    return true;
+    // motors of joints that close loops: their coordinate is not in q
+    const std::vector<MotorSetpoint>& motors = work.state->motors;
+    return std::all_of(motors.begin() + static_cast<std::ptrdiff_t>(type.dofs.size()), motors.end(),
+                       [](const MotorSetpoint& m) {
+                           return m.mode == MotorMode::kPassive ||
+                                  (m.mode != MotorMode::kPosition && m.target == 0);
+                       });
 }
 
 bool is_at_rest(const RobotWork& work) {

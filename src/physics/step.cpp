@@ -158,6 +158,13 @@ void take_impulses(Impl& s) {
         contact.impulse = row.normal.impulse;
         contact.friction = frame.t1 * row.slip.impulse_1 + frame.t2 * row.slip.impulse_2;
     }
+    for (const AngularRow& row : s.rows.angulars) {
+        Contact& contact = *s.island_contacts[row.contact];
+        Vec3 t1, t2;
+        tangents(contact.normal, t1, t2);
+        contact.moment =
+            contact.normal * row.spin.impulse + t1 * row.roll.impulse_1 + t2 * row.roll.impulse_2;
+    }
 }
 
 void solve_island(const Model& model, Impl& s, std::span<const std::uint32_t> members, StepReport& report) {
@@ -263,6 +270,32 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
         if (!report.not_finite.valid() && !is_finite(*states[i])) report.not_finite = robots[i];
     }
     return report;
+}
+
+void read_contacts(StepScratch& scratch, std::vector<ContactReport>& reports) {
+    const Impl& s = scratch.impl();
+    reports.clear();
+    for (const Contact& c : s.contacts) {
+        if (c.impulse <= 0) continue;
+        const RobotWork& a = s.robots[static_cast<std::size_t>(c.robot_a)];
+        ContactReport report;
+        report.robot_a = a.id;
+        report.link_a = a.type->shapes[c.shape_a].link;
+        if (c.robot_b >= 0) {
+            const RobotWork& b = s.robots[static_cast<std::size_t>(c.robot_b)];
+            report.robot_b = b.id;
+            report.link_b = b.type->shapes[c.shape_b].link;
+        } else {
+            report.scenery = c.shape_b;
+        }
+        report.p_W = c.p_W, report.normal = c.normal, report.gap = c.gap;
+        report.impulse = c.impulse, report.friction = c.friction, report.moment = c.moment;
+        reports.push_back(report);
+    }
+}
+
+bool moved_freely(StepScratch& scratch, std::size_t index) {
+    return !scratch.impl().robots[index].held;
 }
 
 }  // namespace roboss
