@@ -10,6 +10,7 @@
 #include <set>
 #include <thread>
 
+#include "app/contacts_file.h"
 #include "app/orders_file.h"
 #include "app/path_picture.h"
 #include "app/progress.h"
@@ -80,13 +81,21 @@ class Run {
     bool prepare() {
         Diagnostics diagnostics;
         const std::optional<World> world = load_world(o_.world, {o_.paths, o_.profile}, diagnostics);
-        if (world && !diagnostics.has_errors()) model_ = compile(*world, {o_.dt_s, o_.accuracy}, diagnostics);
+        if (world && !diagnostics.has_errors()) model_ = compile(*world, compile_options(), diagnostics);
         if (world) world_speed_ = world->real_time_factor;
         std::vector<Order> orders;
         if (model_ && !o_.orders.empty()) orders = load_orders(o_.orders, *model_, diagnostics);
         print(diagnostics, o_.world);
         if (!model_ || diagnostics.has_errors()) return false;
         return create() && submit(orders) && open_files();
+    }
+
+    CompileOptions compile_options() const {
+        CompileOptions options;
+        options.dt_s = o_.dt_s;
+        options.accuracy = o_.accuracy;
+        if (o_.no_sleep) options.sleep = false;
+        return options;
     }
 
     bool create() {
@@ -127,6 +136,11 @@ class Run {
     }
 
     bool open_files() {
+        if (!o_.contacts.empty()) {
+            Result<ContactsFile> contacts = ContactsFile::create(o_.contacts);
+            if (!contacts) return print(contacts.error()), false;
+            contacts_ = std::move(contacts.value());
+        }
         if (o_.trace.empty()) return true;
         Result<TraceFile> trace = TraceFile::create(o_.trace);
         if (!trace) return print(trace.error()), false;
@@ -143,6 +157,8 @@ class Run {
                              : o_.speed == "world" ? world_speed_
                                                    : std::stod(o_.speed);
         const Due trace(trace_ ? (o_.trace_every_s > 0 ? o_.trace_every_s : dt) : 0.0, dt, start_);
+        const Due contacts(contacts_ ? (o_.contacts_every_s > 0 ? o_.contacts_every_s : dt) : 0.0, dt,
+                           start_);
         const Due hash(o_.hash_every_s, dt, start_);
         const Due picture(o_.paths_picture.empty() ? 0.0 : kPictureEvery_s, dt, start_);
         const Due pace(speed > 0 ? kPaceEvery_s * speed : 0.0, dt, start_);
@@ -151,12 +167,13 @@ class Run {
         std::signal(SIGTERM, on_interrupt);
         for (Tick now = start_;; now = simulation_->tick()) {
             if (trace.at(now) && !write_trace()) return false;
+            if (contacts.at(now) && !write_contacts()) return false;
             if (hash.at(now))
                 fmt::print("{:.6f} s  {}\n", simulation_->time_s(), to_hex(simulation_->hash()));
             if (picture.at(now)) collect_paths();
             if (now >= end || g_interrupted) return true;
-            const Tick next =
-                std::min({end, trace.next(now), hash.next(now), picture.next(now), pace.next(now)});
+            const Tick next = std::min({end, trace.next(now), contacts.next(now), hash.next(now),
+                                        picture.next(now), pace.next(now)});
             const Result<> stepped = simulation_->run_until(
                 next, [&] { return progress_.show(*simulation_), g_interrupted == 0; });
             for (const std::string& notice : simulation_->take_notices())
@@ -172,6 +189,12 @@ class Run {
 
     bool write_trace() {
         const Result<> written = trace_->write(*model_, simulation_->tick(), simulation_->states());
+        if (!written) print(written.error());
+        return written.ok();
+    }
+
+    bool write_contacts() {
+        const Result<> written = contacts_->write(*model_, simulation_->tick(), simulation_->contacts());
         if (!written) print(written.error());
         return written.ok();
     }
@@ -214,6 +237,7 @@ class Run {
             if (!result) print(result.error()), written = false;
         };
         if (trace_) check(trace_->close());
+        if (contacts_) check(contacts_->close());
         if (!o_.save.empty()) check(simulation_->save(o_.save));
         if (!o_.json.empty()) check(write_json(s, o_.json));
         if (!o_.paths_picture.empty()) {
@@ -232,6 +256,7 @@ class Run {
     std::shared_ptr<const Model> model_;
     std::unique_ptr<Simulation> simulation_;
     std::optional<TraceFile> trace_;
+    std::optional<ContactsFile> contacts_;
     std::vector<RobotPath> paths_;
     double world_speed_ = 0;  // simulated seconds a real second; 0: as fast as possible
     Tick start_ = 0;

@@ -84,6 +84,10 @@ void add_run_options(CLI::App& command, RunOptions& o) {
         "name of the world's <physics> to use (default: the one with default=\"true\", else the "
         "first)");
     add_accuracy_options(command, o.accuracy);
+    command.add_flag(
+        "--no-sleep", o.no_sleep,
+        "step robots at rest too (default: they sleep until something touches or orders them, unless "
+        "the world says <roboss:sleep>false)");
     command
         .add_option("--speed", o.speed,
                     "simulated seconds a real second, max, or world (its real_time_factor)")
@@ -106,6 +110,12 @@ void add_run_options(CLI::App& command, RunOptions& o) {
     command
         .add_option("--trace-every", o.trace_every_s,
                     "simulated time between two traces, s (default: every step)")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--contacts", o.contacts,
+                       "write who touches whom, where and how hard to this CSV file");
+    command
+        .add_option("--contacts-every", o.contacts_every_s,
+                    "simulated time between two looks at the contacts, s (default: every step)")
         ->check(CLI::PositiveNumber);
     command.add_option("--hash-every", o.hash_every_s, "print the state hash each so many simulated seconds")
         ->check(CLI::PositiveNumber);

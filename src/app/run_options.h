@@ -16,7 +16,8 @@ struct RunOptions {
     std::vector<std::string> paths;  // --path: where model:// and package:// URIs are looked up
     std::optional<double> duration_s;
     std::optional<double> dt_s;
-    std::string profile;          // of <physics>
+    std::string profile;  // of <physics>
+    bool no_sleep = false;
     AccuracySpec accuracy;        // --accuracy and each number by itself
     std::string speed = "max";    // "max", "world" or a factor of real time
     std::string window = "auto";  // "auto" or a number of ticks
@@ -27,6 +28,8 @@ struct RunOptions {
     std::string orders;                // JSON lines
     std::string trace;                 // CSV
     double trace_every_s = 0;
+    std::string contacts;  // CSV
+    double contacts_every_s = 0;
     double hash_every_s = 0;
     std::string json;
     std::uint64_t seed = 0;

@@ -52,6 +52,23 @@ GpsReading Client::gps(RobotId robot, std::size_t sensor) {
     return read_gps(model(), robot, sensor, state(robot), tick(), seed());
 }
 
+StepProbe& Client::probe() {
+    if (!probe_) probe_ = std::make_unique<StepProbe>(model());
+    if (probe_->tick() == tick()) return *probe_;
+    std::vector<const RobotState*> states;
+    for (std::size_t r = 0; r < model().robots.size(); ++r) states.push_back(&state(RobotId(r)));
+    probe_->step(tick(), states);
+    return *probe_;
+}
+
+std::span<const ContactReport> Client::contacts() {
+    return probe().contacts();
+}
+
+std::vector<JointReaction> Client::joint_reactions(RobotId robot) {
+    return probe().joint_reactions(robot);
+}
+
 CompassReading Client::compass(RobotId robot, std::size_t sensor) {
     return read_compass(model(), robot, sensor, state(robot), tick(), seed());
 }

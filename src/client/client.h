@@ -15,6 +15,7 @@
 #include "model/order.h"
 #include "model/robot_state.h"
 #include "physics/kinematics.h"
+#include "physics/probe.h"
 #include "sensors/readings.h"
 
 namespace roboss {
@@ -54,9 +55,20 @@ class Client {
     GpsReading gps(RobotId robot, std::size_t sensor);
     CompassReading compass(RobotId robot, std::size_t sensor);
 
+    // --- forces, of the tick that begins now as long as no order takes effect at it (physics/probe.h). The
+    // first question of a tick costs about as much as a step of the whole world.
+    /// All contact points of the world that carry an impulse.
+    std::span<const ContactReport> contacts();
+    /// What the joints of the robot bear.
+    std::vector<JointReaction> joint_reactions(RobotId robot);
+
   protected:
     /// The scene for rays at the observed tick; built when the first laser of a tick asks.
     virtual RayScene& ray_scene() = 0;
+
+  private:
+    StepProbe& probe();
+    std::unique_ptr<StepProbe> probe_;  // made by the first question
 };
 
 }  // namespace roboss

@@ -28,6 +28,7 @@ struct Aabb {
         const Vec3 m{margin, margin, margin};
         return {min - m, max + m};
     }
+    friend bool operator==(const Aabb&, const Aabb&) = default;
     Vec3 centre() const { return (min + max) * 0.5; }
 };
 

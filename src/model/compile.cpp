@@ -76,6 +76,7 @@ std::uint64_t model_hash(const Model& model) {
     Hash hash;
     hash.add(model.dt_s);
     hash.add(model.air_density);
+    hash.add(static_cast<std::uint64_t>(model.sleep));
     for (const Vec3& v : {model.gravity, model.magnetic_field_T, model.wind})
         hash.add(v.x), hash.add(v.y), hash.add(v.z);
     if (const auto& s = model.spherical)
@@ -116,6 +117,7 @@ std::shared_ptr<const Model> compile(const World& world, const CompileOptions& o
     model->wind = world.wind;
     model->air_density = world.air_density;
     model->spherical = world.spherical;
+    model->sleep = options.sleep.value_or(world.sleep);
     for (const AccuracySpec& spec : world.accuracy) apply(spec, model->accuracy, diagnostics);
     apply(options.accuracy, model->accuracy, diagnostics);
     if (!(model->dt_s > 0 && model->dt_s <= 1.0))

@@ -26,6 +26,7 @@ class PartBuilder {
         type.name = spec_.name;
         type.free_base = !fixed_base;
         type.self_collide = spec_.self_collide;
+        type.may_sleep = spec_.may_sleep;
         body_of_link_.assign(spec_.links.size() + 1, kUnplaced);
         X_MB_.clear();
         joint_done_.assign(spec_.joints.size(), 0);

@@ -96,7 +96,7 @@ void add_sensor(Hash& hash, const SensorInfo& info) {
 std::uint64_t type_hash(const RobotType& type) {
     Hash hash;
     add(hash, type.free_base ? 1 : 0), add(hash, type.self_collide ? 1 : 0),
-        add(hash, type.is_static ? 1 : 0), add(hash, type.X_RB);
+        add(hash, type.is_static ? 1 : 0), add(hash, type.may_sleep ? 1 : 0), add(hash, type.X_RB);
     for (const Body& body : type.bodies) add_body(hash, body);
     for (const Dof& dof : type.dofs) add_dof(hash, dof);
     for (const BodyShape& shape : type.shapes) add_shape(hash, shape);

@@ -153,6 +153,7 @@ struct RobotType {
     bool free_base = true;
     bool is_static = false;  // a static model that carries sensors: no order moves it
     bool self_collide = false;
+    bool may_sleep = true;
     Transform
         X_RB;  // free base: body 0's frame in the robot (SDF model) frame at the start; fixed base: identity
     std::vector<Body> bodies;
@@ -234,6 +235,7 @@ struct Model {
     double air_density = 0.0;  // kg/m^3
     std::optional<SphericalCoordinates> spherical;
     Accuracy accuracy;
+    bool sleep = false;  // robots at rest sleep (physics/sleep.h)
     std::vector<RobotType> types;
     std::vector<Robot> robots;
     std::vector<StaticShape> statics;
@@ -246,6 +248,7 @@ struct Model {
 
 struct CompileOptions {
     std::optional<double> dt_s{};  // overrides the world's step
+    std::optional<bool> sleep{};   // overrides the world's
     AccuracySpec accuracy{};       // after the world's own
 };
 

@@ -75,6 +75,7 @@ TEST(ModelHash, ChangesWithTheWorld) {
          [](World& w) {
              w.wind = {1, 0, 0};
          }},
+        {"sleep", [](World& w) { w.sleep = true; }},
         {"air", [](World& w) { w.air_density = 1; }},
         {"magnetic field", [](World& w) { w.magnetic_field_T.y = 0; }},
         {"spherical coordinates",
@@ -130,6 +131,7 @@ TEST(ModelHash, ChangesWithLinksAndShapes) {
         {"category bitmask", [](World& w) { robot_surface(w).category_bitmask = 4; }},
         {"rolling friction", [](World& w) { robot_surface(w).rolling_mu = 0.001; }},
         {"bitmask", [](World& w) { robot_surface(w).collide_bitmask = 2; }},
+        {"sleep forbidden", [](World& w) { robot(w).may_sleep = false; }},
         {"self collision", [](World& w) { robot(w).self_collide = true; }},
     });
 }

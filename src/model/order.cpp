@@ -119,6 +119,7 @@ Result<> check_order(const Model& model, const Order& order) {
 }
 
 void apply_order(const Model& model, const Order& order, RobotState& state) {
+    state.rest = {};
     std::visit(Apply{order, model.type_of(order.robot), state}, order.action);
 }
 

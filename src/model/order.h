@@ -54,7 +54,7 @@ bool comes_before(const Order& a, const Order& b);
 /// velocity of a fixed base ...), in words, or Ok.
 Result<> check_order(const Model& model, const Order& order);
 
-/// Applies a checked order to the robot's state.
+/// Applies a checked order to the robot's state, and wakes it.
 void apply_order(const Model& model, const Order& order, RobotState& state);
 
 }  // namespace roboss

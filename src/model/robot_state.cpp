@@ -48,6 +48,11 @@ std::uint64_t state_hash(RobotId robot, Tick tick, const RobotState& state) {
         hash.add(static_cast<std::uint64_t>(c.other_shape) << 32 | c.feature);
         for (double x : {c.impulse, c.load, c.friction.x, c.friction.y, c.friction.z}) hash.add(x);
     }
+    hash.add(static_cast<std::uint64_t>(state.rest.still_ticks) << 1 | (state.rest.asleep ? 1 : 0));
+    for (const std::uint32_t id : state.rest.neighbours) hash.add(static_cast<std::uint64_t>(id));
+    if (state.rest.asleep)
+        for (const Vec3& p : {state.rest.bound.min, state.rest.bound.max})
+            hash.add(p.x), hash.add(p.y), hash.add(p.z);
     return hash.value();
 }
 
@@ -68,6 +73,12 @@ class Writer {
     }
     void number(double x) { word(std::bit_cast<std::uint64_t>(x)); }
     void vector(const Vec3& v) { number(v.x), number(v.y), number(v.z); }
+    void rest(const Rest& r) {
+        pair(r.still_ticks, r.asleep ? 1 : 0);
+        word(r.neighbours.size());
+        for (const std::uint32_t id : r.neighbours) word(id);
+        if (r.asleep) vector(r.bound.min), vector(r.bound.max);
+    }
     void pair(std::uint32_t a, std::uint32_t b) { word(static_cast<std::uint64_t>(a) << 32 | b); }
 
   private:
@@ -91,6 +102,23 @@ class Reader {
     Vec3 vector() {
         const double x = number(), y = number(), z = number();
         return {x, y, z};
+    }
+    Rest rest() {
+        Rest r;
+        const std::uint64_t first = word();
+        r.still_ticks = static_cast<std::uint32_t>(first >> 32);
+        r.asleep = (first & 1) != 0;
+        const std::uint64_t edges = word();
+        if ((first & 0xFFFFFFFEu) != 0 || edges > left()) short_ = true;
+        if (short_) return r;
+        r.neighbours.resize(edges);
+        for (std::uint32_t& id : r.neighbours) {
+            const std::uint64_t wide = word();
+            id = static_cast<std::uint32_t>(wide);
+            if (id != wide) short_ = true;
+        }
+        if (r.asleep) r.bound.min = vector(), r.bound.max = vector();
+        return r;
     }
     std::size_t left() const { return (bytes_.size() - at_) / 8; }  // whole words
     bool complete() const { return !short_ && at_ == bytes_.size(); }
@@ -121,6 +149,7 @@ void encode(const RobotState& state, std::vector<std::uint8_t>& out) {
     for (const ContactMemory& c : state.contacts)
         w.pair(c.other_robot, c.shape), w.pair(c.other_shape, c.feature), w.number(c.impulse),
             w.number(c.load), w.vector(c.friction);
+    w.rest(state.rest);
 }
 
 Result<RobotState> decode_state(std::span<const std::uint8_t> bytes, const RobotType& type) {
@@ -159,6 +188,7 @@ Result<RobotState> decode_state(std::span<const std::uint8_t> bytes, const Robot
         c.other_shape = static_cast<std::uint32_t>(b >> 32), c.feature = static_cast<std::uint32_t>(b);
         c.impulse = r.number(), c.load = r.number(), c.friction = r.vector();
     }
+    state.rest = r.rest();
     if (!r.complete())
         return Error{"the bytes of a state of type '" + type.name + "' have the wrong length",
                      "fetch or save it again"};

@@ -44,12 +44,23 @@ struct ContactMemory {
     friend bool operator==(const ContactMemory&, const ContactMemory&) = default;
 };
 
+/// How long the robot has been at rest, and what a sleeper keeps (physics/sleep.h). A state with default
+/// values is awake and moving.
+struct Rest {
+    std::uint32_t still_ticks = 0;  // at rest so long, counted up to what sleep takes
+    bool asleep = false;
+    std::vector<std::uint32_t> neighbours;  // RobotIds that the sleeper touches, ascending
+    Aabb bound;                             // the sleeper's interaction bound
+    friend bool operator==(const Rest&, const Rest&) = default;
+};
+
 struct RobotState {
     std::vector<double> q;  // see model.h
     std::vector<double> v;
     std::vector<MotorSetpoint> motors;  // RobotType::motor_count()
     std::vector<TimedWrench> wrenches;
     std::vector<ContactMemory> contacts;
+    Rest rest;
     friend bool operator==(const RobotState&, const RobotState&) = default;
 };
 

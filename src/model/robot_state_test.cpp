@@ -28,6 +28,7 @@ class StateBytes : public testing::Test {
         state_.wrenches.push_back({LinkId(std::size_t{3}), {1, 2, 3}, {4, 5, 6}, -7});
         state_.contacts.push_back({RobotId::kNone, 1, 2, 3, 0.25, 0.125, {0.1, -0.2, 0.3}});
         state_.contacts.push_back({4, 0xFFFFFFFFu, 0xFFFFFFFEu, 0xFFFFFFFDu, 1e300, 0, {}});
+        state_.rest = {17, true, {3, 9}, {{1, 2, 3}, {4, 5, 6}}};
         encode(state_, bytes_);
     }
     const RobotType& type() const { return model_->types[0]; }

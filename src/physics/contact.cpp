@@ -78,14 +78,15 @@ std::uint32_t other_id(std::span<const RobotWork> robots, const Contact& c) {
 
 void ContactFinder::find(const Model& model, std::span<RobotWork> robots, std::vector<Contact>& contacts) {
     contacts.clear();
-    overlapping_pairs(robots);
     std::size_t pair = 0;
     for (std::size_t a = 0; a < robots.size(); ++a) {
         const std::size_t first = contacts.size();
-        if (!robots[a].type->self_pairs.empty()) with_itself(robots, a, contacts);
+        const bool awake = !robots[a].asleep;
+        if (awake && !robots[a].type->self_pairs.empty()) with_itself(robots, a, contacts);
         for (; pair < pairs_.size() && pairs_[pair].first == a; ++pair)
-            with_robot(model, robots, a, pairs_[pair].second, contacts);
-        with_statics(model, robots, a, contacts);
+            if (awake && !robots[pairs_[pair].second].asleep)
+                with_robot(model, robots, a, pairs_[pair].second, contacts);
+        if (awake) with_statics(model, robots, a, contacts);
         std::sort(contacts.begin() + static_cast<std::ptrdiff_t>(first), contacts.end(),
                   [&](const Contact& x, const Contact& y) {
                       return std::tuple(other_id(robots, x), x.shape_a, x.shape_b, x.feature) <
@@ -141,8 +142,8 @@ void ContactFinder::with_itself(std::span<RobotWork> robots, std::size_t a, std:
     }
 }
 
-void ContactFinder::with_robot(const Model& model, std::span<RobotWork> robots, std::size_t a, std::size_t b,
-                               std::vector<Contact>& contacts) {
+void ContactFinder::with_robot(const Model& model, std::span<const RobotWork> robots, std::size_t a,
+                               std::size_t b, std::vector<Contact>& contacts) {
     const RobotWork& wa = robots[a];
     const RobotWork& wb = robots[b];
     if (model.robots[wa.id.index()].family == model.robots[wb.id.index()].family && !wa.type->self_collide)
@@ -162,10 +163,27 @@ void ContactFinder::with_robot(const Model& model, std::span<RobotWork> robots, 
     }
 }
 
-/// Sweep along x: pairs (a, b), a < b, whose boxes overlap, sorted.
-void ContactFinder::overlapping_pairs(std::span<const RobotWork> robots) {
+/// Pairs (a, b), a < b, whose boxes overlap, sorted.
+void ContactFinder::find_pairs(std::span<const RobotWork> robots) {
+    constexpr std::size_t kFew = 12;  // awake among sleepers: each against all is quicker than sorting
     pairs_.clear();
-    if (robots.size() < 2) return;
+    awake_.clear();
+    for (std::uint32_t i = 0; i < robots.size(); ++i)
+        if (!robots[i].asleep) awake_.push_back(i);
+    if (awake_.empty() || robots.size() < 2) return;
+    if (awake_.size() <= kFew) {
+        for (const std::uint32_t i : awake_)
+            for (std::uint32_t j = 0; j < robots.size(); ++j)
+                if ((robots[j].asleep || j > i) && overlaps(robots[i].box, robots[j].box))
+                    pairs_.push_back(std::minmax(i, j));
+    } else {
+        sweep(robots);
+    }
+    std::sort(pairs_.begin(), pairs_.end());
+}
+
+/// Sweep along x.
+void ContactFinder::sweep(std::span<const RobotWork> robots) {
     by_x_.resize(robots.size());
     for (std::size_t i = 0; i < robots.size(); ++i) by_x_[i] = static_cast<std::uint32_t>(i);
     std::sort(by_x_.begin(), by_x_.end(), [&](std::uint32_t i, std::uint32_t j) {
@@ -174,9 +192,9 @@ void ContactFinder::overlapping_pairs(std::span<const RobotWork> robots) {
     for (std::size_t i = 0; i < by_x_.size(); ++i) {
         const Aabb& box = robots[by_x_[i]].box;
         for (std::size_t j = i + 1; j < by_x_.size() && robots[by_x_[j]].box.min.x <= box.max.x; ++j)
-            if (overlaps(box, robots[by_x_[j]].box)) pairs_.push_back(std::minmax(by_x_[i], by_x_[j]));
+            if (overlaps(box, robots[by_x_[j]].box) && !(robots[by_x_[i]].asleep && robots[by_x_[j]].asleep))
+                pairs_.push_back(std::minmax(by_x_[i], by_x_[j]));
     }
-    std::sort(pairs_.begin(), pairs_.end());
 }
 
 void recall_impulses(std::span<RobotWork> robots, std::span<Contact> contacts) {
@@ -201,7 +219,8 @@ void recall_impulses(std::span<RobotWork> robots, std::span<Contact> contacts) {
 }
 
 void remember_impulses(std::span<RobotWork> robots, std::span<const Contact> contacts) {
-    for (RobotWork& work : robots) work.state->contacts.clear();
+    for (RobotWork& work : robots)
+        if (!work.asleep) work.state->contacts.clear();
     for (const Contact& c : contacts) {
         if (c.impulse <= 0) continue;
         robots[static_cast<std::size_t>(c.robot_a)].state->contacts.push_back(

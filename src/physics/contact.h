@@ -27,24 +27,32 @@ struct Contact {
     double impulse = 0;                 // normal, N s: remembered, then solved
     Vec3 friction;                      // tangential, N s, world axes: likewise
     double load = 0;  // normal, N s: the smaller of the impulses of the last two ticks, so not a blow
+    Vec3 moment;      // N m s, world axes: torsional and rolling friction, solved
 };
 
 /// Finds all contacts of the island. `robots` ascending by id. Result sorted by (robot_a, other id, shapes,
 /// feature).
 class ContactFinder {
   public:
+    /// Pairs of robots whose interaction bounds overlap, at least one of them awake.
+    void find_pairs(std::span<const RobotWork> robots);
+    std::span<const std::pair<std::uint32_t, std::uint32_t>> pairs() const { return pairs_; }
+
+    /// Contacts of these pairs, of robots with themselves and with the scenery. Sleepers are left out.
     void find(const Model& model, std::span<RobotWork> robots, std::vector<Contact>& contacts);
 
+    /// Contacts of robots a < b, asleep or not (but placed).
+    void with_robot(const Model& model, std::span<const RobotWork> robots, std::size_t a, std::size_t b,
+                    std::vector<Contact>& contacts);
+
   private:
+    void sweep(std::span<const RobotWork> robots);
     void with_statics(const Model& model, std::span<RobotWork> robots, std::size_t a,
                       std::vector<Contact>& contacts);
     void with_itself(std::span<RobotWork> robots, std::size_t a, std::vector<Contact>& contacts);
-    void with_robot(const Model& model, std::span<RobotWork> robots, std::size_t a, std::size_t b,
-                    std::vector<Contact>& contacts);
-    void overlapping_pairs(std::span<const RobotWork> robots);
 
     std::vector<std::uint32_t> candidates_;
-    std::vector<std::uint32_t> by_x_;
+    std::vector<std::uint32_t> by_x_, awake_;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;  // sorted
 };
 

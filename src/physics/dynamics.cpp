@@ -97,6 +97,7 @@ void move_bodies(const RobotType& type, std::span<const double> v, RobotWork& wo
 void place_shapes(const RobotType& type, double dt, RobotWork& work) {
     work.shapes.resize(type.shapes.size());
     work.box = {};
+    work.speed = 0;
     for (std::size_t s = 0; s < type.shapes.size(); ++s) {
         const BodyShape& shape = type.shapes[s];
         ShapeWork& w = work.shapes[s];
@@ -111,10 +112,25 @@ void place_shapes(const RobotType& type, double dt, RobotWork& work) {
             const double speed =
                 norm(at_shape) + (std::isfinite(radius) ? norm(body.velocity.angular) * radius : 0.0);
             w.margin = kBaseMargin + dt * speed;
+            work.speed = std::fmax(work.speed, speed);
         }
         w.box = bounds(shape.shape, w.X_WS).inflated(w.margin);
         work.box.include(w.box);
     }
+}
+
+void place_robot(const Model& model, RobotId id, RobotState& state, RobotWork& work) {
+    const RobotType& type = model.type_of(id);
+    work.id = id;
+    work.type = &type;
+    work.state = &state;
+    work.contacts = 0;
+    work.touches_robot = work.pushed = work.held = work.asleep = false;
+    work.placed = true;
+    place_bodies(type, state.q, work);
+    move_bodies(type, state.v, work);
+    place_shapes(type, model.dt_s, work);
+    if (type.shapes.empty()) work.box.include(work.origin);
 }
 
 void compute_impulse(const Model& model, double dt, double momentum_weight, std::span<const double> q,

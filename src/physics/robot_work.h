@@ -42,8 +42,17 @@ struct RobotWork {
     Aabb box;                    // interaction bound
     int contacts = 0;            // contact points that involve this robot
     bool touches_robot = false;  // has a contact with another robot or itself
-    bool pushed = false;         // a contact gives it an impulse in this tick
+    double speed = 0;            // m/s, no point of its shapes is faster
+    bool ordered = false;        // an order changed it at this tick
+    bool asleep = false;         // then nothing but the box is known, unless `placed`
+    bool placed = false;
+    bool held = false;    // rows act on it: it does not move freely
+    bool pushed = false;  // a contact gives it an impulse in this tick
 };
+
+/// Everything up to the shapes and the interaction bound, for a robot that is awake; `ordered` is left as it
+/// is.
+void place_robot(const Model& model, RobotId id, RobotState& state, RobotWork& work);
 
 /// Parts of RobotWork in the order of computing. `dt` in s.
 void place_bodies(const RobotType& type, std::span<const double> q, RobotWork& work);

@@ -8,6 +8,7 @@
 #include "core/float_env.h"
 #include "physics/axis_rows.h"
 #include "physics/integrate.h"
+#include "physics/sleep.h"
 #include "physics/solver.h"
 
 namespace roboss {
@@ -26,6 +27,7 @@ struct StepScratch::Impl {
     IslandSolver solver;
     RowBuffer buffer;
     FreeBuffer free_buffer;
+    WakeBuffers wake;
 };
 
 StepScratch::StepScratch() : impl_(std::make_unique<Impl>()) {}
@@ -37,25 +39,27 @@ namespace {
 
 using Impl = StepScratch::Impl;
 
-void place_robot(const Model& model, RobotId id, RobotState& state, RobotWork& work) {
-    const RobotType& type = model.type_of(id);
+/// A sleeper's box is in its state; the rest of it is computed only if something comes near.
+void place(const Model& model, RobotId id, RobotState& state, RobotWork& work) {
+    if (!state.rest.asleep) return place_robot(model, id, state, work);
     work.id = id;
-    work.type = &type;
+    work.type = &model.type_of(id);
     work.state = &state;
     work.contacts = 0;
-    work.touches_robot = work.pushed = false;
-    place_bodies(type, state.q, work);
-    move_bodies(type, state.v, work);
-    place_shapes(type, model.dt_s, work);
-    if (type.shapes.empty()) work.box.include(work.origin);
+    work.touches_robot = work.pushed = work.held = work.placed = false;
+    work.asleep = true;
+    work.box = state.rest.bound;
 }
 
 void apply_orders(const Model& model, std::span<const RobotId> robots, std::span<RobotState* const> states,
-                  std::span<const Order> orders) {
+                  std::span<const Order> orders, std::span<RobotWork> works) {
+    for (RobotWork& work : works) work.ordered = false;
     for (const Order& order : orders) {
         const auto found = std::lower_bound(robots.begin(), robots.end(), order.robot);
         if (found == robots.end() || *found != order.robot) continue;
-        apply_order(model, order, *states[static_cast<std::size_t>(found - robots.begin())]);
+        const auto i = static_cast<std::size_t>(found - robots.begin());
+        apply_order(model, order, *states[i]);
+        works[i].ordered = true;
     }
 }
 
@@ -68,7 +72,8 @@ int root_of(std::vector<int>& group, int i) {
     return i;
 }
 
-/// Joins robots in contact; afterwards group[i] is the lowest robot of i's contact island.
+/// Joins robots in contact; afterwards group[i] is the lowest robot of i's contact island, and `members` are
+/// the robots that are awake, island by island.
 void build_contact_islands(Impl& s, std::size_t count) {
     s.group.resize(count);
     for (std::size_t i = 0; i < count; ++i) s.group[i] = static_cast<int>(i);
@@ -78,8 +83,9 @@ void build_contact_islands(Impl& s, std::size_t count) {
         s.group[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
     }
     for (std::size_t i = 0; i < count; ++i) s.group[i] = root_of(s.group, static_cast<int>(i));
-    s.members.resize(count);
-    for (std::size_t i = 0; i < count; ++i) s.members[i] = static_cast<std::uint32_t>(i);
+    s.members.clear();
+    for (std::size_t i = 0; i < count; ++i)
+        if (!s.robots[i].asleep) s.members.push_back(static_cast<std::uint32_t>(i));
     std::sort(s.members.begin(), s.members.end(), [&](std::uint32_t i, std::uint32_t j) {
         return s.group[i] != s.group[j] ? s.group[i] < s.group[j] : i < j;
     });
@@ -107,6 +113,7 @@ void finish_island(const Model& model, Impl& s, std::span<const std::uint32_t> m
             advance_freely(model, work, s.free_buffer);
             continue;
         }
+        work.held = true;
         std::copy_n(s.v.begin() + static_cast<std::ptrdiff_t>(offset), nv, work.state->v.begin());
         advance_coordinates(*work.type, way.subspan(offset, nv), model.dt_s, work.state->q);
         if (work.type->has_equalities())
@@ -154,6 +161,13 @@ void take_impulses(Impl& s) {
         contact.load = std::min({contact.impulse, row.normal.impulse, row.load_max});
         contact.impulse = row.normal.impulse;
         contact.friction = frame.t1 * row.slip.impulse_1 + frame.t2 * row.slip.impulse_2;
+    }
+    for (const AngularRow& row : s.rows.angulars) {
+        Contact& contact = *s.island_contacts[row.contact];
+        Vec3 t1, t2;
+        tangents(contact.normal, t1, t2);
+        contact.moment =
+            contact.normal * row.spin.impulse + t1 * row.roll.impulse_1 + t2 * row.roll.impulse_2;
     }
 }
 
@@ -225,36 +239,67 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
     const ExactFloatScope exact;
     Impl& s = scratch.impl();
     const std::size_t count = robots.size();
-    apply_orders(model, robots, states, orders);
     if (s.robots.size() < count) s.robots.resize(count);
+    const std::span<RobotWork> works(s.robots.data(), count);
+    apply_orders(model, robots, states, orders, works);
     for (std::size_t i = 0; i < count; ++i) {
-        place_robot(model, robots[i], *states[i], s.robots[i]);
-        bounds[i] = s.robots[i].box;
+        place(model, robots[i], *states[i], works[i]);
+        bounds[i] = works[i].box;
     }
     StepReport report;
-    const std::span<RobotWork> works(s.robots.data(), count);
     for (const RobotWork& work : works) {
-        if (!is_beyond_numbers(work)) continue;
+        if (work.asleep || !is_beyond_numbers(work)) continue;
         report.not_finite = work.id;
         return report;
     }
+    wake_sleepers(model, works, s.finder, s.wake);
     s.finder.find(model, works, s.contacts);
     recall_impulses(works, s.contacts);
     build_contact_islands(s, count);
 
-    for (std::size_t first = 0; first < count;) {
+    report.asleep = static_cast<int>(count - s.members.size());
+    for (std::size_t first = 0; first < s.members.size();) {
         std::size_t last = first + 1;
-        while (last < count && s.group[s.members[last]] == s.group[s.members[first]]) ++last;
-        solve_island(model, s, std::span(s.members).subspan(first, last - first), report);
+        while (last < s.members.size() && s.group[s.members[last]] == s.group[s.members[first]]) ++last;
+        const auto members = std::span<const std::uint32_t>(s.members).subspan(first, last - first);
         first = last;
+        solve_island(model, s, members, report);
+        settle_island(model, works, members, s.island_contacts);
     }
     remember_impulses(works, s.contacts);
     count_contacts(model, s.contacts, report);
     for (std::size_t i = 0; i < count; ++i) {
+        if (works[i].asleep) continue;
         expire_wrenches(tick, *states[i]);
         if (!report.not_finite.valid() && !is_finite(*states[i])) report.not_finite = robots[i];
     }
     return report;
+}
+
+void read_contacts(StepScratch& scratch, std::vector<ContactReport>& reports) {
+    const Impl& s = scratch.impl();
+    reports.clear();
+    for (const Contact& c : s.contacts) {
+        if (c.impulse <= 0) continue;
+        const RobotWork& a = s.robots[static_cast<std::size_t>(c.robot_a)];
+        ContactReport report;
+        report.robot_a = a.id;
+        report.link_a = a.type->shapes[c.shape_a].link;
+        if (c.robot_b >= 0) {
+            const RobotWork& b = s.robots[static_cast<std::size_t>(c.robot_b)];
+            report.robot_b = b.id;
+            report.link_b = b.type->shapes[c.shape_b].link;
+        } else {
+            report.scenery = c.shape_b;
+        }
+        report.p_W = c.p_W, report.normal = c.normal, report.gap = c.gap;
+        report.impulse = c.impulse, report.friction = c.friction, report.moment = c.moment;
+        reports.push_back(report);
+    }
+}
+
+bool moved_freely(StepScratch& scratch, std::size_t index) {
+    return !scratch.impl().robots[index].held;
 }
 
 }  // namespace roboss

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "math/aabb.h"
 #include "model/model.h"
@@ -21,6 +22,7 @@ Aabb interaction_bound(const Model& model, RobotId robot, const RobotState& stat
 struct StepReport {
     int contacts = 0;         // contact points that carried force
     int static_contacts = 0;  // of these, with static scenery other than planes (buildings, walls)
+    int asleep = 0;           // robots that slept through the tick
     int iterations = 0;       // Newton iterations, summed over contact islands
     double residual = 0;      // worst relative residual of the contact islands
     RobotId not_finite;       // first robot whose state is not finite; the run must stop
@@ -39,6 +41,25 @@ class StepScratch {
   private:
     std::unique_ptr<Impl> impl_;
 };
+
+/// One contact point that carried an impulse.
+struct ContactReport {
+    RobotId robot_a, robot_b;   // robot_b not valid: static scenery
+    LinkId link_a, link_b;      // link_b not valid: static scenery
+    std::uint32_t scenery = 0;  // index in Model::statics, if it is that
+    Vec3 p_W;                   // m, at the beginning of the tick
+    Vec3 normal;                // unit, from B towards A, world axes
+    double gap = 0;             // m, negative: penetration
+    double impulse = 0;         // N s along the normal, on A; divided by dt the mean force
+    Vec3 friction;              // N s on A, world axes, in the tangent plane
+    Vec3 moment;                // N m s on A, world axes: torsional and rolling friction
+};
+
+/// The contacts of the step made last with this scratch, for the robots that were awake.
+void read_contacts(StepScratch& scratch, std::vector<ContactReport>& reports);
+
+/// Whether robot number `index` of the last call moved without contact and rows, by the Runge-Kutta method.
+bool moved_freely(StepScratch& scratch, std::size_t index);
 
 /// Steps the island from `tick` to `tick` + 1. `robots` ascending, states[i] of robots[i]; `orders`: those
 /// with apply_at == tick for these robots, in canonical order. bounds[i] receives the interaction bound of

@@ -362,6 +362,20 @@ TEST(LoadWorld, TakesTheDefaultPhysicsProfileOrTheOneAskedFor) {
     EXPECT_NE(none.find("no-profile")->remedy.find("'fine'"), std::string::npos);
 }
 
+TEST(LoadWorld, ReadsWhoMaySleep) {
+    const Loaded usual = load_elements("<model name='m'><allow_auto_disable>false</allow_auto_disable>" +
+                                       link("a") + "</model><model name='n'>" + link("a") + "</model>");
+    ASSERT_TRUE(usual.world) << usual.text();
+    EXPECT_TRUE(usual.world->sleep);
+    EXPECT_FALSE(usual.world->prototypes[0].may_sleep);
+    EXPECT_TRUE(usual.world->prototypes[1].may_sleep);
+    const Loaded off =
+        load_elements("<roboss:sleep>false</roboss:sleep><model name='n'>" + link("a") + "</model>");
+    ASSERT_TRUE(off.world) << off.text();
+    EXPECT_FALSE(off.world->sleep);
+    EXPECT_TRUE(off.diagnostics.items().empty()) << off.text();
+}
+
 TEST(LoadWorld, ReadsWindAirAndDrag) {
     const Loaded loaded = load_elements(
         "<wind><linear_velocity>3 0 0</linear_velocity></wind><atmosphere type='adiabatic'><temperature>300"

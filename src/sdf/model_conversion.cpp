@@ -143,6 +143,7 @@ ModelSpec convert_model(const ReadModel& read, bool is_static, const Import& imp
     spec.where = source.where();
     spec.is_static = is_static;
     spec.self_collide = import.reader.boolean(source, "self_collide", false);
+    spec.may_sleep = import.reader.boolean(source, "allow_auto_disable", true);
     spec.canonical_link = read.model().CanonicalLinkAndRelativeName().second;
     report_newer_elements(source, import.diagnostics());
     ModelConverter(read, import, spec)

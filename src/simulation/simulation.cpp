@@ -46,7 +46,8 @@ Simulation::Simulation(std::shared_ptr<const Model> model, const SimulationOptio
       world_file_(options.world_file),
       seed_(options.controller.seed),
       pool_(options.threads),
-      controller_(model_, controller_options(options, programs), starting_point(*model_, from)) {
+      controller_(model_, controller_options(options, programs), starting_point(*model_, from)),
+      probe_(*model_) {
     std::uint64_t instance = 0;
     for (NamedProgram& program : programs) {
         hosts_.push_back(std::make_unique<ProgramHost>(model_, Address{Role::kClient, ++instance},
@@ -80,6 +81,14 @@ const std::vector<RobotState>& Simulation::states() {
     if (controller_.states() == nullptr) controller_.request_states();
     while (controller_.states() == nullptr) turn();
     return *controller_.states();
+}
+
+StepProbe& Simulation::probe() {
+    if (probe_.tick() == tick()) return probe_;
+    std::vector<const RobotState*> pointers;
+    for (const RobotState& state : states()) pointers.push_back(&state);
+    probe_.step(tick(), pointers);
+    return probe_;
 }
 
 SavedRun Simulation::saved_run() {

@@ -13,6 +13,7 @@
 #include "client/program_host.h"
 #include "core/thread_pool.h"
 #include "journal/journal.h"
+#include "physics/probe.h"
 #include "roles/controller.h"
 #include "roles/simulator.h"
 
@@ -53,6 +54,10 @@ class Simulation {
     std::uint64_t hash() const { return controller_.hash(); }
     /// All states at tick(), by RobotId. Valid until the next run_until().
     const std::vector<RobotState>& states();
+    /// All contact points of the tick that begins at tick(), as long as no order takes effect at it; and what
+    /// the joints of a robot bear in it (physics/probe.h). Valid until the next run_until().
+    std::span<const ContactReport> contacts() { return probe().contacts(); }
+    std::vector<JointReaction> joint_reactions(RobotId robot) { return probe().joint_reactions(robot); }
     /// Everything needed to go on exactly.
     SavedRun saved_run();
     Result<> save(const std::string& path) { return save_run(path, *model_, saved_run()); }
@@ -66,6 +71,7 @@ class Simulation {
     Simulation(std::shared_ptr<const Model> model, const SimulationOptions& options,
                std::vector<NamedProgram> programs, const SavedRun* from);
     void turn();
+    StepProbe& probe();
 
     std::shared_ptr<const Model> model_;
     std::string world_file_;
@@ -75,6 +81,7 @@ class Simulation {
     Controller controller_;
     std::vector<std::unique_ptr<ProgramHost>> hosts_;
     std::vector<std::unique_ptr<Simulator>> simulators_;
+    StepProbe probe_;
 };
 
 }  // namespace roboss

@@ -180,6 +180,7 @@ struct ModelSpec {
     std::string name;  // of the first instance; for messages
     bool is_static = false;
     bool self_collide = false;
+    bool may_sleep = true;  // SDF allow_auto_disable
     std::string canonical_link;
     std::vector<LinkSpec> links;
     std::vector<JointSpec> joints;
@@ -219,8 +220,9 @@ struct World {
     Vec3 wind;                     // m/s
     double air_density = 1.22500;  // kg/m^3, at the world's origin
     double dt_s = 0.001;
-    double real_time_factor = 1.0;       // 0: as fast as possible
-    std::string profile;                 // name of the <physics> that was chosen
+    double real_time_factor = 1.0;  // 0: as fast as possible
+    bool sleep = false;             // robots at rest sleep; the SDF importer switches it on, as in SDFormat
+    std::string profile;            // name of the <physics> that was chosen
     std::vector<AccuracySpec> accuracy;  // of the world, then of its profile: a later one wins
     std::optional<SphericalCoordinates> spherical;
     std::vector<ModelSpec> prototypes;

@@ -2,6 +2,8 @@
 // islands.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "simulation/simulation.h"
 #include "test_worlds.h"
 
@@ -55,6 +57,56 @@ TEST(Grouping, GivesTheSameHashForAnySimulatorsThreadsWindowsAndIslands) {
                             << ", threads " << threads << ", merge " << merge;
                     }
     }
+}
+
+std::size_t count_asleep(const std::vector<RobotState>& states) {
+    return static_cast<std::size_t>(
+        std::count_if(states.begin(), states.end(), [](const RobotState& s) { return s.rest.asleep; }));
+}
+
+struct Night {
+    std::size_t asleep_early = 0, asleep_between = 0, asleep_late = 0;
+    std::uint64_t hash = 0;
+};
+
+/// Sleepers, disturbed in four ways; counts who sleeps before, between and after.
+Night disturbed_night(const std::shared_ptr<const Model>& model, const SimulationOptions& options) {
+    std::vector<NamedProgram> programs;
+    programs.push_back({"disturber", std::make_unique<DisturbingProgram>()});
+    auto made = Simulation::create(model, options, std::move(programs));
+    EXPECT_TRUE(made.ok());
+    Simulation& simulation = *made.value();
+    Night night;
+    EXPECT_TRUE(simulation.run_until(390).ok());
+    night.asleep_early = count_asleep(simulation.states());
+    EXPECT_TRUE(simulation.run_until(430).ok());
+    night.asleep_between = count_asleep(simulation.states());
+    EXPECT_TRUE(simulation.run_until(2400).ok());
+    night.asleep_late = count_asleep(simulation.states());
+    night.hash = simulation.hash();
+    return night;
+}
+
+TEST(Grouping, SleepersWakeTheSameHoweverTheyAreGrouped) {
+    const std::shared_ptr<const Model> model = sleepers_world();
+    SimulationOptions reference;
+    reference.controller.forecast.merge_all = true;
+    reference.controller.window = 1;
+    const Night expected = disturbed_night(model, reference);
+    EXPECT_GE(expected.asleep_early, 12u) << "all stacks sleep";
+    EXPECT_LE(expected.asleep_between, expected.asleep_early - 3) << "a stack without its lowest crate wakes";
+    EXPECT_GE(expected.asleep_late, 9u) << "and most sleep again";
+    for (const std::size_t simulators : {1u, 3u})
+        for (const Tick window : {Tick{1}, Tick{7}, Tick{0}})
+            for (const bool blind : {false, true}) {
+                SimulationOptions options;
+                options.simulators = simulators;
+                options.threads = 2;
+                options.controller.window = window;
+                options.controller.forecast.blind = blind;
+                EXPECT_EQ(disturbed_night(model, options).hash, expected.hash)
+                    << "simulators " << simulators << ", window " << window << ", blind " << blind;
+            }
 }
 
 }  // namespace

@@ -103,6 +103,7 @@ World empty_world(const std::string& name) {
     World world;
     world.name = name;
     world.dt_s = 0.002;
+    world.sleep = true;
     world.prototypes.push_back(ground());
     world.instances.push_back({"ground", 0, {}, {}});
     return world;
@@ -133,6 +134,20 @@ std::shared_ptr<const Model> heaps_world(int heaps) {
     }
     for (int i = 0; i < 5; ++i)
         world.instances.push_back({"row_" + std::to_string(i), 1, {{0.55 * i, 4, 0.2}, {}}, {}});
+    return compiled(world);
+}
+
+std::shared_ptr<const Model> sleepers_world() {
+    World world = empty_world("sleepers");
+    world.prototypes.push_back(crate());
+    world.prototypes.push_back(ball());
+    for (int stack = 0; stack < 4; ++stack)
+        for (int i = 0; i < 3; ++i)
+            world.instances.push_back({"crate_" + std::to_string(3 * stack + i),
+                                       1,
+                                       {{1.5 * stack + 0.02 * i, 0, 0.2 + 0.401 * i}, {}},
+                                       {}});
+    world.instances.push_back({"ball", 2, {{0, 6, 0.2}, {}}, {}});
     return compiled(world);
 }
 
@@ -183,6 +198,17 @@ void DrivingProgram::control(Client& client) {
             if (!client.set_joint(robot, JointId(j), MotorMode::kVelocity, speed)) return;
         }
     }
+}
+
+void DisturbingProgram::control(Client& client) {
+    ++calls_;
+    Result<> given = Ok{};
+    if (calls_ == 40) given = client.set_pose(RobotId(0u), {{-4, 3, 0.2}, {}});  // from under its stack
+    if (calls_ == 55) given = client.set_pose(RobotId(12u), {{1.5, -2, 0.6}, {}});
+    if (calls_ == 56) given = client.set_velocity(RobotId(12u), {0, 6, 1}, {});  // at the second stack
+    if (calls_ == 70) given = client.apply_wrench(RobotId(8u), LinkId(0u), {0, 0, 60}, {}, 0.1);
+    if (calls_ == 80) given = client.set_pose(RobotId(11u), {{4.5, 0, 1.0}, {}});  // where it is already
+    ok_ = ok_ && given.ok();
 }
 
 }  // namespace roboss::test

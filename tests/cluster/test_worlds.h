@@ -19,6 +19,9 @@ std::shared_ptr<const Model> carts_world(int carts = 6);
 /// and 3).
 std::shared_ptr<const Model> pair_world();
 
+/// Four stacks of three crates that fall asleep, and a ball.
+std::shared_ptr<const Model> sleepers_world();
+
 /// Gives every cart wheel speeds that depend on what it observes, a shove now and then, and remembers how
 /// often it was called.
 class DrivingProgram : public ControlProgram {
@@ -32,6 +35,20 @@ class DrivingProgram : public ControlProgram {
   private:
     ControlOptions options_;
     int calls_ = 0;
+};
+
+/// Wakes the sleepers of sleepers_world() in four ways: takes the lowest of a stack away, throws a ball,
+/// pulls, orders one to be where it is.
+class DisturbingProgram : public ControlProgram {
+  public:
+    void control(Client& client) override;
+    std::string memory() const override { return std::to_string(calls_); }
+    void restore(const std::string& bytes) override { calls_ = std::stoi(bytes); }
+    bool ok() const { return ok_; }
+
+  private:
+    int calls_ = 0;
+    bool ok_ = true;
 };
 
 }  // namespace roboss::test

@@ -29,6 +29,21 @@ class Outputs(unittest.TestCase):
         self.assertAlmostEqual(row["z"], 3.08 - 0.5 * 9.8 * 0.01, delta=2e-3, msg="0.1 s of free fall from 3 m (chassis .08 higher)")
         self.assertAlmostEqual(row["wz"], 2.0, delta=1e-3)
 
+    def test_the_contacts_bear_the_weight_of_what_rests(self):
+        world, file = FOLDER / "rest.sdf", FOLDER / "contacts.csv"
+        world.write_text("""<sdf version="1.9"><world name="w"><gravity>0 0 -10</gravity>
+<physics type="ode"><max_step_size>0.002</max_step_size></physics>
+<model name="ground"><static>true</static><link name="l"><collision name="c"><geometry><plane/></geometry></collision></link></model>
+<model name="box"><pose>0 0 0.1 0 0 0</pose><link name="body"><inertial><mass>3</mass>
+<inertia><ixx>.02</ixx><iyy>.02</iyy><izz>.02</izz></inertia></inertial>
+<collision name="c"><geometry><box><size>.2 .2 .2</size></box></geometry></collision></link></model></world></sdf>""")
+        summary(world, "--duration", 1, "--contacts", file, "--contacts-every", 0.5)
+        rows = [r for r in csv.DictReader(file.read_text().splitlines()) if float(r["time_s"]) > 0.4]
+        self.assertEqual(len(rows), 2 * 4, "2 times, 4 corners")
+        self.assertEqual({(r["robot_a"], r["link_a"], r["robot_b"], r["link_b"]) for r in rows},
+                         {("box", "body", "", "ground::l::c")})
+        self.assertAlmostEqual(sum(float(r["impulse"]) for r in rows), 2 * 3 * 10 * 0.002, delta=1e-7)
+
     def test_the_summary_has_its_keys_and_the_terminal_the_same_hash(self):
         file = FOLDER / "s.json"
         done = roboss("run", WORLDS / "heap.sdf", "--duration", 0.2, "--json", file)

@@ -1,0 +1,47 @@
+// What touches whom, and what joints bear: computed on request by stepping copies of the states by one tick.
+// A step is a pure function, so these are the very impulses of the tick that begins at these states (as long
+// as no order takes effect at it), whoever asks and wherever. Sleepers are woken in the copies: what rests
+// has weight.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "physics/step.h"
+
+namespace roboss {
+
+/// What a joint passes to its child link, in the mean over the tick: with the motor's share.
+struct JointReaction {
+    JointId joint;
+    Vec3 force, torque;  // N, N m about the joint's origin, world axes
+};
+
+class StepProbe {
+  public:
+    /// The model must outlive the probe.
+    explicit StepProbe(const Model& model) : model_(model) {}
+
+    /// states[i] is that of RobotId i at `tick`.
+    void step(Tick tick, std::span<const RobotState* const> states);
+    Tick tick() const { return tick_; }  // -1: not stepped yet
+
+    /// By (robot_a, robot_b, shapes).
+    std::span<const ContactReport> contacts() const { return contacts_; }
+    /// Of all joints that move a body (fixed joints weld links together), in the order of RobotType::joints;
+    /// empty if the robot has loops or couplings: how these share the load is not unique to a joint.
+    std::vector<JointReaction> joint_reactions(RobotId robot) const;
+
+  private:
+    const Model& model_;
+    Tick tick_ = -1;
+    std::vector<RobotId> ids_;
+    std::vector<RobotState> before_, after_;
+    std::vector<RobotState*> pointers_;
+    std::vector<Aabb> bounds_;
+    std::vector<char> free_;  // moved by the Runge-Kutta method
+    std::vector<ContactReport> contacts_;
+    StepScratch scratch_;
+};
+
+}  // namespace roboss

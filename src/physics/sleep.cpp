@@ -1,0 +1,206 @@
+// See sleep.h.
+#include "physics/sleep.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace roboss {
+namespace {
+
+constexpr double kRestSpeed = 1e-3;      // m/s
+constexpr double kRestJoint = 1e-2;      // rad/s or m/s
+constexpr double kRestTime = 0.5;        // s
+constexpr double kTargetReached = 1e-4;  // rad or m
+constexpr double kTouching = 1e-3;       // m: what is nearer counts as touched when falling asleep
+constexpr double kReach = 2e-3;          // m: a moving robot this near wakes
+
+std::uint32_t index_of(std::span<const RobotWork> robots, const WakeBuffers& buffers, std::uint32_t id) {
+    const std::uint32_t i = id < buffers.place_of.size() ? buffers.place_of[id] : RobotId::kNone;
+    return i < robots.size() && robots[i].id.value == id ? i : RobotId::kNone;
+}
+
+void note_places(std::span<const RobotWork> robots, WakeBuffers& buffers) {
+    const std::size_t size = robots.empty() ? 0 : robots.back().id.index() + 1;
+    if (buffers.place_of.size() < size) buffers.place_of.resize(size, RobotId::kNone);
+    for (std::size_t i = 0; i < robots.size(); ++i)
+        buffers.place_of[robots[i].id.index()] = static_cast<std::uint32_t>(i);
+}
+
+/// Wakes the sleeper and all that are joined to it by frozen edges.
+void wake_from(const Model& model, std::span<RobotWork> robots, std::uint32_t first, WakeBuffers& buffers) {
+    buffers.stack.assign(1, first);
+    while (!buffers.stack.empty()) {
+        RobotWork& work = robots[buffers.stack.back()];
+        buffers.stack.pop_back();
+        if (!work.asleep) continue;
+        for (const std::uint32_t id : work.state->rest.neighbours)
+            if (const std::uint32_t i = index_of(robots, buffers, id);
+                i != RobotId::kNone && robots[i].asleep)
+                buffers.stack.push_back(i);
+        work.state->rest = {};
+        place_robot(model, work.id, *work.state, work);
+    }
+}
+
+/// A robot it touched is gone, or awake. One that is fixed to the world never sleeps; it counts when ordered.
+bool lost_a_neighbour(std::span<const RobotWork> robots, const RobotWork& sleeper,
+                      const WakeBuffers& buffers) {
+    return std::any_of(sleeper.state->rest.neighbours.begin(), sleeper.state->rest.neighbours.end(),
+                       [&](std::uint32_t id) {
+                           const std::uint32_t i = index_of(robots, buffers, id);
+                           if (i == RobotId::kNone) return true;
+                           return robots[i].type->nv == 0 ? robots[i].ordered : !robots[i].asleep;
+                       });
+}
+
+Vec3 velocity_at(const RobotWork& robot, int body, const Vec3& p_W) {
+    if (body < 0) return {};
+    const Spatial& v = robot.bodies[static_cast<std::size_t>(body)].velocity;
+    return v.linear + cross(v.angular, p_W - robot.origin);
+}
+
+/// Whether the awake robot will touch the sleeper in this tick; one that moves, or was moved, counts from
+/// afar.
+bool will_touch(const Model& model, std::span<RobotWork> robots, std::uint32_t awake, std::uint32_t sleeper,
+                ContactFinder& finder, WakeBuffers& buffers) {
+    const RobotWork& mover = robots[awake];
+    if (mover.type->nv == 0 && !mover.ordered) return false;
+    RobotWork& work = robots[sleeper];
+    if (!work.placed) {
+        place_robot(model, work.id, *work.state, work);
+        work.asleep = true;
+    }
+    const bool moves = mover.ordered || mover.state->rest.still_ticks == 0;
+    buffers.contacts.clear();
+    finder.with_robot(model, robots, std::min(awake, sleeper), std::max(awake, sleeper), buffers.contacts);
+    return std::any_of(buffers.contacts.begin(), buffers.contacts.end(), [&](const Contact& c) {
+        const bool mover_is_a = static_cast<std::uint32_t>(c.robot_a) == awake;
+        const Vec3 v =
+            velocity_at(mover, mover_is_a ? c.body_a : c.body_b, c.p_W) + model.gravity * model.dt_s;
+        const double apart = dot(c.normal, v) * (mover_is_a ? 1.0 : -1.0);
+        return c.gap + model.dt_s * apart < (moves ? kReach : 0.0);
+    });
+}
+
+bool wake_touched(const Model& model, std::span<RobotWork> robots, ContactFinder& finder,
+                  WakeBuffers& buffers) {
+    bool woken = false;
+    for (const auto& [a, b] : finder.pairs()) {
+        if (robots[a].asleep == robots[b].asleep) continue;
+        const std::uint32_t sleeper = robots[a].asleep ? a : b, awake = robots[a].asleep ? b : a;
+        if (!will_touch(model, robots, awake, sleeper, finder, buffers)) continue;
+        wake_from(model, robots, sleeper, buffers);
+        woken = true;
+    }
+    return woken;
+}
+
+bool motor_rests(const Dof& dof, const MotorSetpoint& motor, double q) {
+    switch (motor.mode) {
+        case MotorMode::kPassive:
+            return true;
+        case MotorMode::kVelocity:
+        case MotorMode::kEffort:
+            return motor.target == 0;
+        case MotorMode::kPosition:
+            return std::fabs(std::clamp(motor.target, dof.lower, dof.upper) - q) <= kTargetReached;
+    }
+    return false;
+}
+
+bool moves_slowly(const RobotWork& work) {
+    if (work.speed > kRestSpeed) return false;
+    for (const BodyWork& body : work.bodies)
+        if (norm(body.velocity.linear + cross(body.velocity.angular, body.centre)) > kRestSpeed) return false;
+    return true;
+}
+
+bool joints_rest(const RobotWork& work) {
+    const RobotType& type = *work.type;
+    for (std::size_t d = 0; d < type.dofs.size(); ++d) {
+        const Body& body = type.bodies[static_cast<std::size_t>(type.dofs[d].body)];
+        if (std::fabs(work.state->v[d + static_cast<std::size_t>(type.base_nv())]) > kRestJoint) return false;
+        const double q = work.state->q[static_cast<std::size_t>(body.q_index)];
+        if (!motor_rests(type.dofs[d], work.state->motors[d], q)) return false;
+    }
+    // motors of joints that close loops: their coordinate is not in q
+    const std::vector<MotorSetpoint>& motors = work.state->motors;
+    return std::all_of(motors.begin() + static_cast<std::ptrdiff_t>(type.dofs.size()), motors.end(),
+                       [](const MotorSetpoint& m) {
+                           return m.mode == MotorMode::kPassive ||
+                                  (m.mode != MotorMode::kPosition && m.target == 0);
+                       });
+}
+
+bool is_at_rest(const RobotWork& work) {
+    const bool is_held = work.held && (work.pushed || !work.type->free_base);
+    return work.type->may_sleep && is_held && !work.ordered && work.state->wrenches.empty() &&
+           moves_slowly(work) && joints_rest(work);
+}
+
+void fall_asleep(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
+                 std::span<Contact* const> contacts) {
+    for (const Contact* c : contacts)
+        if (c->impulse > 0 && c->gap > kTouching) return;  // about to touch
+    for (const std::uint32_t m : members) {
+        place_robot(model, robots[m].id, *robots[m].state, robots[m]);
+        if (!moves_slowly(robots[m])) return;
+    }
+    for (const std::uint32_t m : members) {
+        if (robots[m].type->nv == 0) continue;
+        RobotState& state = *robots[m].state;
+        std::fill(state.v.begin(), state.v.end(), 0.0);
+        place_robot(model, robots[m].id, state, robots[m]);
+        state.rest.asleep = true;
+        state.rest.bound = robots[m].box;
+    }
+    const auto add = [&](int of, int other) {
+        RobotWork& work = robots[static_cast<std::size_t>(of)];
+        if (work.type->nv > 0)
+            work.state->rest.neighbours.push_back(robots[static_cast<std::size_t>(other)].id.value);
+    };
+    for (const Contact* c : contacts) {
+        if (c->robot_b < 0 || c->robot_b == c->robot_a || (c->impulse <= 0 && c->gap > kTouching)) continue;
+        add(c->robot_a, c->robot_b);
+        add(c->robot_b, c->robot_a);
+    }
+    for (const std::uint32_t m : members) {
+        std::vector<std::uint32_t>& edges = robots[m].state->rest.neighbours;
+        std::sort(edges.begin(), edges.end());
+        edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    }
+}
+
+}  // namespace
+
+void wake_sleepers(const Model& model, std::span<RobotWork> robots, ContactFinder& finder,
+                   WakeBuffers& buffers) {
+    const bool any = std::any_of(robots.begin(), robots.end(), [](const RobotWork& w) { return w.asleep; });
+    if (any) {
+        note_places(robots, buffers);
+        for (std::uint32_t i = 0; i < robots.size(); ++i)
+            if (robots[i].asleep && lost_a_neighbour(robots, robots[i], buffers))
+                wake_from(model, robots, i, buffers);
+    }
+    finder.find_pairs(robots);
+    if (!any) return;
+    // The woken may touch others; pairs of two sleepers were left out.
+    while (wake_touched(model, robots, finder, buffers)) finder.find_pairs(robots);
+}
+
+void settle_island(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
+                   std::span<Contact* const> contacts) {
+    if (!model.sleep) return;
+    const auto enough = static_cast<std::uint32_t>(std::ceil(kRestTime / model.dt_s));
+    bool all = true, any = false;
+    for (const std::uint32_t m : members) {
+        if (robots[m].type->nv == 0) continue;
+        Rest& rest = robots[m].state->rest;
+        rest.still_ticks = is_at_rest(robots[m]) ? std::min(rest.still_ticks + 1, enough) : 0;
+        all = all && rest.still_ticks == enough;
+        any = true;
+    }
+    if (all && any) fall_asleep(model, robots, members, contacts);
+}
+
+}  // namespace roboss

@@ -1,0 +1,39 @@
+// Sleep: robots at rest cost nothing and do not change a bit of their state, deterministically.
+//
+// A contact island falls asleep as a whole when each of its robots has been at rest for half a second: no
+// point of it faster than 1 mm/s, no joint than 0.01 rad/s (or m/s), something holds it (a contact, a motor,
+// a limit: not a pendulum at its turning point), no timed wrench, and no motor that still works against
+// something. Its velocities then become exactly zero, which takes at most half a microjoule a kilogram. Each
+// sleeper keeps its interaction bound and the robots that it touches (frozen edges).
+//
+// A sleeper wakes, before the tick is solved, by an order (apply_order), by an awake robot that touches it or
+// comes to within 2 mm of it while moving, and when a robot that it touched is awake or not in the call. The
+// last cannot be told apart by who is in the call: robots that touch have bounds that overlap, so they are
+// always stepped together, unless an order has taken one of them away. So the rest of the argument in
+// docs/how-windows-work.md holds.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "physics/contact.h"
+
+namespace roboss {
+
+/// Buffers of the search for sleepers to wake.
+struct WakeBuffers {
+    std::vector<std::uint32_t> place_of;  // by RobotId: index in the call, if that robot is there
+    std::vector<std::uint32_t> stack;
+    std::vector<Contact> contacts;
+};
+
+/// Wakes all sleepers that must wake at this tick and places them; `finder` then knows the pairs of robots.
+void wake_sleepers(const Model& model, std::span<RobotWork> robots, ContactFinder& finder,
+                   WakeBuffers& buffers);
+
+/// Counts the ticks that the robots of a contact island have been at rest, and puts it to sleep when all are.
+/// `members` index `robots`; `contacts` are the island's, solved.
+void settle_island(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
+                   std::span<Contact* const> contacts);
+
+}  // namespace roboss

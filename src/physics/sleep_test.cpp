@@ -1,0 +1,346 @@
+// Sleep: who falls asleep, who wakes, what it costs, and that none of it depends on who else is in the call.
+#include <gtest/gtest.h>
+
+#include <ctime>
+
+#include <support/scenes.h>
+
+namespace roboss::test {
+namespace {
+
+constexpr double kEdge = 0.2;
+
+World sleepy_world(double dt_s = 2e-3) {
+    World world = empty_world(dt_s);
+    world.sleep = true;
+    place(world, ground(surface(0.7)), "ground");
+    return world;
+}
+
+/// Boxes one upon the other; the lowest is robot 0.
+World sleepy_stack(int boxes) {
+    World world = sleepy_world();
+    const std::size_t box = world.prototypes.size();
+    world.prototypes.push_back(solid_box(1.0, {kEdge, kEdge, kEdge}, surface(0.6)));
+    for (int i = 0; i < boxes; ++i)
+        world.instances.push_back(
+            {"box_" + std::to_string(i), box, {{0.01 * i, 0, kEdge * (0.5 + i)}, {}}, {}});
+    return world;
+}
+
+std::size_t count_asleep(const Simulation& sim) {
+    std::size_t n = 0;
+    for (const RobotState& s : sim.states) n += s.rest.asleep ? 1 : 0;
+    return n;
+}
+
+/// Steps until all sleep; false if they do not within `seconds`.
+bool fall_asleep(Simulation& sim, double seconds) {
+    while (sim.time() < seconds && count_asleep(sim) < sim.states.size()) sim.step();
+    return count_asleep(sim) == sim.states.size();
+}
+
+Order order_for(const Simulation& sim, std::size_t robot, Action action) {
+    return {sim.tick, ClientId(0u), 1, RobotId(robot), std::move(action)};
+}
+
+std::vector<std::uint8_t> bytes_of(const Simulation& sim) {
+    std::vector<std::uint8_t> bytes;
+    for (const RobotState& s : sim.states) encode(s, bytes);
+    return bytes;
+}
+
+World falling_heap(int boxes) {
+    World world = sleepy_world();
+    const std::size_t first = world.prototypes.size();
+    world.prototypes.push_back(solid_box(1.0, {0.2, 0.3, 0.1}, surface(0.6)));
+    world.prototypes.push_back(solid_box(0.5, {0.15, 0.15, 0.15}, surface(0.7)));
+    Random random(7);
+    for (int i = 0; i < boxes; ++i)
+        world.instances.push_back(
+            {"box_" + std::to_string(i),
+             first + static_cast<std::size_t>(i % 2),
+             {{random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), 0.2 + 0.12 * i}, random.rotation()},
+             {}});
+    return world;
+}
+
+TEST(Sleep, AHeapFallsAsleepAndThenChangesNoBit) {
+    Simulation sim(falling_heap(24));
+    ASSERT_TRUE(fall_asleep(sim, 60));
+    tell("a heap of 24 boxes sleeps after, s", sim.time());
+    const std::vector<std::uint8_t> before = bytes_of(sim);
+    sim.run(1);
+    EXPECT_EQ(sim.report.asleep, 24);
+    EXPECT_EQ(bytes_of(sim), before);
+}
+
+TEST(Sleep, TakesNoMoreEnergyThanItsThresholdAllows) {
+    World world = sleepy_world();
+    place(world, solid_sphere(2.0, 0.1, surface(0.5)), "slow ball", {{0, 0, 0.1}, {}});
+    place(world, solid_sphere(2.0, 0.1, surface(0.5)), "faster ball", {{3, 0, 0.1}, {}});
+    Simulation sim(world);
+    for (const std::size_t r : {0u, 1u}) {
+        const double v = r == 0 ? 4e-4 : 2e-3;
+        sim.states[r].v = {0, v / 0.1, 0, v, 0, 0};
+    }
+    const double before = sim.energy(0);
+    sim.run(2);
+    ASSERT_TRUE(sim.states[0].rest.asleep);
+    EXPECT_FALSE(sim.states[1].rest.asleep) << "2 mm/s is motion";
+    tell("energy taken by falling asleep, J a kg", (before - sim.energy(0)) / 2);
+    EXPECT_GT(before, sim.energy(0));
+    EXPECT_LT((before - sim.energy(0)) / 2, 1e-6);
+}
+
+TEST(Sleep, TakingTheLowestAwayWakesTheStack) {
+    Simulation sim(sleepy_stack(5));
+    ASSERT_TRUE(fall_asleep(sim, 10));
+    const double top = sim.states[4].q[2];
+    const Order away[] = {order_for(sim, 0, SetPose{{{30, 0, 0.1}, {}}})};
+    sim.step(away);
+    EXPECT_EQ(count_asleep(sim), 0u);
+    sim.run(0.15);
+    EXPECT_LT(sim.states[4].q[2], top - 0.1) << "they fall";
+    EXPECT_TRUE(fall_asleep(sim, 30)) << "and sleep again";
+}
+
+TEST(Sleep, TakingTheLowestAwayWakesTheRestAlsoWhenItIsSteppedElsewhere) {
+    // The order takes effect at the first tick of a window: box 0 is far away before anybody looks, and steps
+    // in a call of its own.
+    Simulation together(sleepy_stack(5)), apart(sleepy_stack(5));
+    ASSERT_TRUE(fall_asleep(together, 10));
+    ASSERT_TRUE(fall_asleep(apart, 10));
+    StepScratch here, there;
+    for (int i = 0; i < 600; ++i) {
+        std::vector<Order> orders;
+        if (i == 0) orders = {order_for(together, 0, SetPose{{{30, 0, 0.1}, {}}})};
+        together.step(orders);
+        std::vector<Aabb> bounds(5);
+        const std::span<const RobotId> ids(apart.ids);
+        const std::span<RobotState* const> states(apart.pointers);
+        step_island(*apart.model, apart.tick, ids.subspan(1), states.subspan(1), orders, bounds, here);
+        step_island(*apart.model, apart.tick, ids.first(1), states.first(1), orders, bounds, there);
+        ++apart.tick;
+        ASSERT_EQ(together.hash(), apart.hash()) << "tick " << i;
+    }
+}
+
+TEST(Sleep, AHitWakesAndMomentumIsHandedOn) {
+    World world = sleepy_world(1e-3);
+    place(world, solid_box(1.0, {kEdge, kEdge, kEdge}, surface(0)), "box", {{0, 0, 0.5 * kEdge}, {}});
+    place(world, solid_sphere(1.0, 0.05, surface(0)), "ball", {{-2, 0, 0.1}, {}});
+    Simulation sim(world);
+    // The ball keeps rolling about until it is sent on.
+    while (!sim.states[0].rest.asleep && sim.time() < 5) {
+        sim.states[1].q[0] = -2, sim.states[1].q[2] = 0.1, sim.states[1].v[3] = 1;
+        sim.step();
+    }
+    ASSERT_TRUE(sim.states[0].rest.asleep);
+    sim.states[1].q = {-0.5, 0, 0.1, 1, 0, 0, 0};
+    sim.states[1].v = {0, 0, 0, 2, 0, 0.3};
+    while (sim.states[0].rest.asleep && sim.time() < 8) sim.step();
+    sim.run(0.05);
+    EXPECT_NEAR(sim.momentum().linear.x, 2, 1e-6);
+    EXPECT_GT(sim.states[0].v[3], 0.5);
+}
+
+TEST(Sleep, WhatPassesByDoesNotWake) {
+    World world = sleepy_world();
+    place(world, solid_box(1.0, {kEdge, kEdge, kEdge}, surface(0.6)), "box", {{0, 0, 0.5 * kEdge}, {}});
+    place(world, solid_box(1.0, {kEdge, kEdge, kEdge}, surface(0)), "slider", {{-3, 0.205, 0.5 * kEdge}, {}});
+    Simulation sim(world);
+    while (!sim.states[0].rest.asleep && sim.time() < 5) {
+        sim.states[1].q[0] = -3, sim.states[1].v[3] = 1.5;
+        sim.step();
+    }
+    for (int i = 0; i < 2000; ++i) {
+        sim.step();
+        ASSERT_TRUE(sim.states[0].rest.asleep) << "at x = " << sim.states[1].q[0];
+    }
+    EXPECT_GT(sim.states[1].q[0], 1);
+}
+
+TEST(Sleep, AnyOrderWakes) {
+    const Action actions[] = {SetPose{{{0, 0, 0.1}, {}}}, SetVelocity{{0, 0, 0}, {0, 0, 0}},
+                              ApplyWrench{LinkId(0u), {0, 0, 0}, {}, 1}};
+    for (const Action& action : actions) {
+        Simulation sim(sleepy_stack(3));
+        ASSERT_TRUE(fall_asleep(sim, 10));
+        const Order order[] = {order_for(sim, 0, action)};
+        sim.step(order);
+        EXPECT_EQ(count_asleep(sim), 0u);
+        EXPECT_TRUE(fall_asleep(sim, 20));
+    }
+}
+
+TEST(Sleep, ABrakedCarSleepsADrivenOneDoesNot) {
+    for (const double target : {0.0, 8.0}) {
+        World world = sleepy_world();
+        place(world, scenery(box_shape({0.2, 4, 1}, surface(0.1))), "wall", {{0.5, 0, 0}, {}});
+        place(world, car(), "car");
+        Simulation sim(world);
+        for (std::size_t wheel = 0; wheel < 4; ++wheel) sim.set_motor(0, wheel, MotorMode::kVelocity, target);
+        sim.states[0].motors[0].max_effort = sim.states[0].motors[1].max_effort = 0.02;
+        sim.run(6);
+        EXPECT_EQ(sim.states[0].rest.asleep, target == 0);
+    }
+}
+
+TEST(Sleep, APendulumAtItsTurningPointAndASlowDriftStayAwake) {
+    World world = sleepy_world(1e-3);
+    world.gravity = {0, 0, -1e-5};  // so slow that its turn takes seconds
+    ModelSpec arm = one_link(link("rod", 1.0, box_inertia(1.0, {1, 0.1, 0.1}), {{0.5, 0, 5}, {}}));
+    arm.joints.push_back(
+        joint(JointSpecKind::kRevolute, "hinge", "world", "rod", {{0, 0, 5}, {}}, {0, 1, 0}));
+    place(world, arm, "pendulum");
+    place(world, solid_sphere(1, 0.1, surface(0.5)), "drifting", {{3, 0, 8}, {}});
+    Simulation sim(world);
+    sim.states[1].v[3] = 5e-4;
+    for (int i = 0; i < 3000; ++i) {
+        sim.step();
+        ASSERT_EQ(count_asleep(sim), 0u) << "tick " << i;
+    }
+}
+
+TEST(Sleep, CanBeForbiddenForAModelAndForTheWorld) {
+    for (const bool model : {true, false}) {
+        World world = sleepy_stack(3);
+        if (model) {
+            world.prototypes[1].may_sleep = false;
+        } else {
+            world.sleep = false;
+        }
+        Simulation sim(world);
+        sim.run(4);
+        EXPECT_EQ(count_asleep(sim), 0u);
+    }
+}
+
+TEST(Sleep, ARobotFixedToTheWorldBearsSleepersAndWakesThemWhenItIsMoved) {
+    World world = sleepy_world();
+    ModelSpec table = solid_box(5.0, {0.6, 0.6, 0.1}, surface(0.6));
+    table.joints.push_back(joint(JointSpecKind::kFixed, "bolt", "world", "box", {}));
+    place(world, table, "table", {{0, 0, 0.5}, {}});
+    place(world, solid_box(1.0, {kEdge, kEdge, kEdge}, surface(0.6)), "box", {{-0.15, 0, 0.65}, {}});
+    place(world, solid_box(1.0, {kEdge, kEdge, kEdge}, surface(0.6)), "late", {{0.15, 0, 3}, {}});
+    Simulation sim(world);
+    while (!sim.states[1].rest.asleep && sim.time() < 5) {
+        sim.states[2].q[2] = 3;
+        sim.step();
+    }
+    ASSERT_TRUE(sim.states[1].rest.asleep);
+    for (int i = 0; i < 1000; ++i) {
+        sim.step();
+        ASSERT_TRUE(sim.states[1].rest.asleep) << "the other falls on the table, not on the box";
+    }
+    ASSERT_TRUE(fall_asleep(sim, 10) || count_asleep(sim) == 2);
+    const Order order[] = {order_for(sim, 0, SetPose{{{9, 0, 0.5}, {}}})};
+    sim.step(order);
+    EXPECT_EQ(count_asleep(sim), 0u);
+    sim.run(0.3);
+    EXPECT_LT(sim.states[1].q[2], 0.4);
+}
+
+/// Heaps that sleep, and cars that drive into them one after the other.
+World heaps_and_cars() {
+    World world = falling_heap(8);
+    const std::size_t box = 1;
+    for (int i = 0; i < 3; ++i)
+        world.instances.push_back(
+            {"other_" + std::to_string(i), box, {{4, 0.02 * i, 0.06 + 0.11 * i}, {}}, {}});
+    for (int i = 0; i < 3; ++i) place(world, car(), "car_" + std::to_string(i), {{-2.0 - 1.5 * i, 0, 0}, {}});
+    return world;
+}
+
+TEST(Sleep, GroupingBytesAndScratchChangeNoBit) {
+    Simulation whole(heaps_and_cars()), grouped(heaps_and_cars()), through_bytes(heaps_and_cars());
+    GroupedStepper stepper;
+    std::size_t slept = 0, woken = 0, before = 0;
+    for (int i = 0; i < 7000; ++i) {
+        for (Simulation* sim : {&whole, &grouped, &through_bytes})
+            for (std::size_t c = 11; c < 14; ++c)
+                if (i == 2000 * static_cast<int>(c - 10))
+                    for (std::size_t wheel = 0; wheel < 4; ++wheel) {
+                        sim->states[c].rest = {};
+                        sim->set_motor(c, wheel, MotorMode::kVelocity, 20);
+                    }
+        whole.step();
+        stepper.step(grouped);
+        if (i % 10 == 0)
+            for (std::size_t r = 0; r < through_bytes.states.size(); ++r) {
+                std::vector<std::uint8_t> bytes;
+                encode(through_bytes.states[r], bytes);
+                through_bytes.states[r] = decode_state(bytes, through_bytes.type(r)).value();
+            }
+        through_bytes.scratch = StepScratch();
+        through_bytes.step();
+        ASSERT_EQ(whole.hash(), grouped.hash()) << "tick " << i;
+        ASSERT_EQ(whole.hash(), through_bytes.hash()) << "tick " << i;
+        const std::size_t now = count_asleep(whole);
+        slept += now > before ? now - before : 0;
+        woken += now < before ? before - now : 0;
+        before = now;
+    }
+    tell("robots that fell asleep", static_cast<double>(slept));
+    tell("robots that woke", static_cast<double>(woken));
+    EXPECT_GT(slept, 14u);
+    EXPECT_GT(woken, 8u);
+}
+
+TEST(Sleep, BoundsOfSleepersAreInteractionBounds) {
+    Simulation sim(sleepy_stack(4));
+    ASSERT_TRUE(fall_asleep(sim, 10));
+    sim.step();
+    for (std::size_t r = 0; r < sim.states.size(); ++r)
+        EXPECT_EQ(interaction_bound(*sim.model, sim.ids[r], sim.states[r]), sim.bounds[r]);
+}
+
+double cpu_seconds() {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+TEST(Sleep, AThousandSleepersCostLessThanATwentieth) {
+    World world = sleepy_world();
+    const std::size_t box = world.prototypes.size();
+    world.prototypes.push_back(solid_box(1.0, {kEdge, kEdge, kEdge}, surface(0.6)));
+    for (int i = 0; i < 1000; ++i)  // stacks of four
+        world.instances.push_back({"box_" + std::to_string(i),
+                                   box,
+                                   {{0.3 * (i / 4 % 16), 0.3 * (i / 64), kEdge * (0.5 + i % 4)}, {}},
+                                   {}});
+    Simulation sim(world);
+    sim.run(0.2);
+    double awake = 1e9, asleep = 1e9;
+    for (int i = 0; i < 20; ++i) {
+        const double began = cpu_seconds();
+        sim.step();
+        awake = std::fmin(awake, cpu_seconds() - began);
+    }
+    ASSERT_TRUE(fall_asleep(sim, 3));
+    for (int i = 0; i < 20; ++i) {
+        const double began = cpu_seconds();
+        sim.step();
+        asleep = std::fmin(asleep, cpu_seconds() - began);
+    }
+    double watched = 1e9;  // one awake among the sleepers
+    for (int i = 0; i < 20; ++i) {
+        const Order order[] = {order_for(sim, 999, SetPose{{{-5, 0, 3}, {}}})};
+        sim.step(order);
+        sim.run(0.02);
+        ASSERT_LT(count_asleep(sim), 1000u);
+        const double began = cpu_seconds();
+        sim.step();
+        watched = std::fmin(watched, cpu_seconds() - began);
+    }
+    tell("1 box awake, 999 asleep, us a tick", 1e6 * watched);
+    EXPECT_LT(watched, 0.05 * awake);
+    tell("1000 boxes awake, us a tick", 1e6 * awake);
+    tell("1000 boxes asleep, us a tick", 1e6 * asleep);
+    EXPECT_LT(asleep, 0.05 * awake);
+}
+
+}  // namespace
+}  // namespace roboss::test
