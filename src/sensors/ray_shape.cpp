@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/convex_hull.h"
+
 namespace roboss {
 namespace {
 
@@ -54,6 +56,21 @@ Interval tube(const Vec3& o, const Vec3& d, double radius) {
     return ball(o2, d2, radius);
 }
 
+Interval polytope(const ConvexHull& hull, const Vec3& o, const Vec3& d) {
+    Interval inside;
+    for (const ConvexHull::Face& face : hull.faces) {
+        const double height = dot(face.n, o) - face.offset, rise = dot(face.n, d);
+        if (std::fabs(rise) < 1e-300) {
+            if (height > 0.0) return kEmpty;
+        } else if (rise < 0.0) {
+            inside.enter = std::fmax(inside.enter, -height / rise);
+        } else {
+            inside.leave = std::fmin(inside.leave, -height / rise);
+        }
+    }
+    return inside;
+}
+
 Interval cross_shape(const Shape& shape, const Vec3& o, const Vec3& d) {
     switch (shape.kind) {
         case ShapeKind::kPlane: {
@@ -74,6 +91,14 @@ Interval cross_shape(const Shape& shape, const Vec3& o, const Vec3& d) {
             return hull(hull(ball(o - end, d, shape.radius), ball(o + end, d, shape.radius)),
                         middle.empty() ? kEmpty : middle);
         }
+        case ShapeKind::kEllipsoid: {  // stretched to the unit ball
+            const Vec3& r = shape.half;
+            return ball({o.x / r.x, o.y / r.y, o.z / r.z}, {d.x / r.x, d.y / r.y, d.z / r.z}, 1.0);
+        }
+        case ShapeKind::kHull:
+            return polytope(*shape.hull, o, d);
+        case ShapeKind::kSurface:
+            break;
     }
     return kEmpty;
 }
