@@ -17,7 +17,9 @@ constexpr double kTops = 1e-6;                   // sine by which a neighbour ma
 constexpr double kShallow = 0.05;                // of the body's size: deeper, a face may not be the way out
 constexpr double kBorder = 2e-6, kMerge = 1e-4;  // of the body's size
 constexpr double kSameDirection = 0.98;          // cosine within which contacts are reduced together
-constexpr double kDeeper = 1e-9;                 // m
+constexpr std::uint32_t kFace = 6;               // a triangle's part: inside it
+constexpr std::uint32_t kAnywhere = 0xFFFFF;
+constexpr double kDeeper = 1e-9;  // m
 
 class SurfaceCollider {
   public:
@@ -102,7 +104,9 @@ class SurfaceCollider {
     }
 
     void add(const Vec3& p, const Vec3& n, double gap, std::uint32_t part, std::uint32_t triangle_part) {
-        found_.push_back({p, n, gap, number_ << 12 | (part & 0xFFu) << 4 | (triangle_part & 0xFu)});
+        // A corner of the body keeps its name as it passes from triangle to triangle.
+        const std::uint32_t place = triangle_part == kFace ? kAnywhere : number_;
+        found_.push_back({p, n, gap, place << 12 | (part & 0xFFu) << 4 | (triangle_part & 0xFu)});
     }
 
     const ConvexBody& body_;
@@ -117,14 +121,10 @@ class SurfaceCollider {
 /// Takes the points of one cluster that count: at most 8, no two in one place.
 void reduce_cluster(SurfaceContacts& work, double merge) {
     const std::vector<SurfaceContact>& cluster = work.cluster;
-    Chosen chosen;
-    if (cluster.size() > 8) {
-        work.positions.clear(), work.gaps.clear();
-        for (const SurfaceContact& c : cluster) work.positions.push_back(c.p_W), work.gaps.push_back(c.gap);
-        chosen = choose_points(work.positions, work.gaps, cluster.front().n_W);
-    } else {
-        for (std::size_t i = 0; i < cluster.size(); ++i) chosen.number[chosen.count++] = i;
-    }
+    // Also where they are few: points on seams between the outermost ones would only come and go.
+    work.positions.clear(), work.gaps.clear();
+    for (const SurfaceContact& c : cluster) work.positions.push_back(c.p_W), work.gaps.push_back(c.gap);
+    const Chosen chosen = choose_points(work.positions, work.gaps, cluster.front().n_W);
     const std::size_t first = work.points.size();
     for (std::size_t k = 0; k < chosen.count; ++k) {
         const SurfaceContact& c = cluster[chosen.number[k]];
@@ -173,6 +173,7 @@ void collide_surface(const Shape& shape, const Transform& X_WA, const TriangleSu
                      const Transform& X_WS, double margin, SurfaceContacts& out) {
     out.points.clear();
     out.candidates.clear();
+    if (shape.kind == ShapeKind::kPlane || shape.kind == ShapeKind::kSurface) return;
     const Transform X_SA = inverse(X_WS) * X_WA;
     surface.query(bounds(shape, X_SA).inflated(margin), out.triangles);
     if (out.triangles.empty()) return;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/collide_surface.h"
 #include "physics/robot_work.h"
 
 namespace roboss {
@@ -43,6 +44,7 @@ class ContactFinder {
                     std::vector<Contact>& contacts);
     void overlapping_pairs(std::span<const RobotWork> robots);
 
+    SurfaceContacts surface_contacts_;
     std::vector<std::uint32_t> candidates_;
     std::vector<std::uint32_t> by_x_;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;  // sorted

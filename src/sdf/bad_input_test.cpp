@@ -113,7 +113,7 @@ TEST(BadInput, AMissingInertiaIsAWarningThatSaysTheDefault) {
     EXPECT_EQ(loaded.world->prototypes[0].links[0].mass, 1.0);
 }
 
-TEST(BadInput, AMissingMeshIsAWarningWithThePathsSearched) {
+TEST(BadInput, AMissingMeshThatShouldCollideIsAnErrorWithThePathsSearched) {
     const TestFolder folder;
     folder.write(
         "world.sdf",
@@ -124,10 +124,9 @@ TEST(BadInput, AMissingMeshIsAWarningWithThePathsSearched) {
             "</model></world></sdf>");
     const Loaded loaded = folder.load("world.sdf", {{"/some/where"}});
     ASSERT_NE(loaded.find("file-not-found"), nullptr) << loaded.text();
-    EXPECT_EQ(loaded.find("file-not-found")->severity, Severity::kWarning);
+    EXPECT_EQ(loaded.find("file-not-found")->severity, Severity::kError);
     EXPECT_NE(loaded.find("file-not-found")->message.find("/some/where/car/body.stl"), std::string::npos);
-    ASSERT_NE(loaded.find("shape-to-come"), nullptr);
-    EXPECT_FALSE(loaded.diagnostics.has_errors());
+    EXPECT_FALSE(loaded.world);
 }
 
 TEST(BadInput, TwoModelsOfOneNameAreAnError) {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "geometry/convex_hull.h"
+#include "geometry/triangle_surface.h"
 
 namespace roboss {
 namespace {
@@ -109,6 +110,7 @@ double ray_distance(const Shape& shape, const Transform& X_WS, const Vec3& origi
                     const Vec3& direction_W) {
     const Vec3 o = transpose_times(X_WS.R, origin_W - X_WS.p);
     const Vec3 d = transpose_times(X_WS.R, direction_W);
+    if (shape.kind == ShapeKind::kSurface) return shape.surface->ray(o, d, kInfinity);
     const Interval inside = cross_shape(shape, o, d);
     if (inside.empty() || inside.leave < 0.0) return kInfinity;
     return inside.enter >= 0.0 ? inside.enter : inside.leave;
