@@ -123,10 +123,18 @@ ClippedFeature clip_over(const Feature& face, const Feature& incident, double ba
     ClippedFeature out;
     for (std::size_t i = 0; i < polygon.count; ++i) {
         const Corner& c = polygon.corners[i];
-        const bool known = std::any_of(out.points.begin(), out.points.begin() + static_cast<long>(out.count),
-                                       [&](const OverFace& o) { return norm(o.p - c.p) <= merge; });
-        if (known && polygon.count > 1) continue;
-        out.points[out.count++] = {c.p, dot(face.n, c.p - face.points[0]) - ball, c.part, c.reference_part};
+        const OverFace point{c.p, dot(face.n, c.p - face.points[0]) - ball, c.part, c.reference_part};
+        const auto end = out.points.begin() + static_cast<long>(out.count);
+        const auto known = std::find_if(out.points.begin(), end,
+                                        [&](const OverFace& o) { return norm(o.p - c.p) <= merge; });
+        if (known == end) {
+            out.points[out.count++] = point;
+            continue;
+        }
+        // The deeper place counts, and a corner's name rather than a crossing's.
+        if (point.gap < known->gap) known->p = point.p, known->gap = point.gap;
+        if (point.reference_part == face.face_part && known->reference_part != face.face_part)
+            known->part = point.part, known->reference_part = point.reference_part;
     }
     return out;
 }

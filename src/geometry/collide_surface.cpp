@@ -46,7 +46,7 @@ class SurfaceCollider {
         const bool ridge = std::any_of(triangle_.fold.begin(), triangle_.fold.end(),
                                        [](double fold) { return fold < kRidge; });
         const bool over_it = over.count > 0 && over.deepest() <= s_face + 1e-6 * body_.size();
-        if (shallow && (!ridge || over_it)) return add_face(over);
+        if ((shallow && (!ridge || over_it)) || height < 0.0) return add_face(over);
         collide_ridge(sheet, over, shallow);
     }
 

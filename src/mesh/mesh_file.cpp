@@ -138,6 +138,7 @@ Result<MeshFile> read_mesh(const MeshRequest& request) {
                      "Convert it to STL, OBJ or DAE (COLLADA)."};
     Assimp::Importer importer;
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
     const aiScene* scene = importer.ReadFile(request.path, aiProcess_Triangulate);
     if (scene == nullptr)
         return Error{"is no mesh that can be read: " + std::string(importer.GetErrorString()),

@@ -27,7 +27,7 @@ void expect_error(const std::string& model, const std::string& code, int line, c
 TEST(BadInput, AMissingFileIsAnError) {
     Loaded loaded;
     loaded.world = load_world("/no/such/file.sdf", {}, loaded.diagnostics);
-    EXPECT_FALSE(loaded.world);
+    EXPECT_TRUE(loaded.diagnostics.has_errors());
     ASSERT_NE(loaded.find("cannot-read"), nullptr);
     EXPECT_EQ(loaded.find("cannot-read")->where.file, "/no/such/file.sdf");
 }
@@ -35,7 +35,7 @@ TEST(BadInput, AMissingFileIsAnError) {
 TEST(BadInput, MalformedXmlNamesLineAndColumn) {
     const Loaded loaded =
         load_text("<sdf version='1.9'>\n<world name='w'>\n  <model name='m'></world></sdf>");
-    EXPECT_FALSE(loaded.world);
+    EXPECT_TRUE(loaded.diagnostics.has_errors());
     ASSERT_NE(loaded.find("malformed-xml"), nullptr) << loaded.text();
     EXPECT_EQ(loaded.find("malformed-xml")->where.line, 3);
     EXPECT_NE(loaded.find("malformed-xml")->message.find("column"), std::string::npos);
@@ -126,7 +126,7 @@ TEST(BadInput, AMissingMeshThatShouldCollideIsAnErrorWithThePathsSearched) {
     ASSERT_NE(loaded.find("file-not-found"), nullptr) << loaded.text();
     EXPECT_EQ(loaded.find("file-not-found")->severity, Severity::kError);
     EXPECT_NE(loaded.find("file-not-found")->message.find("/some/where/car/body.stl"), std::string::npos);
-    EXPECT_FALSE(loaded.world);
+    EXPECT_TRUE(loaded.diagnostics.has_errors());
 }
 
 TEST(BadInput, TwoModelsOfOneNameAreAnError) {
