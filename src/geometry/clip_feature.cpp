@@ -76,20 +76,49 @@ void clip_side(Polygon& polygon, const Side& side, const Feature& incident) {
     polygon = out;
 }
 
-void clip_polygon(const Feature& face, const Feature& incident, double border, Polygon& polygon) {
+/// Adds a point, or merges it with one closer than `merge`: the deeper place counts, and a corner's name
+/// rather than a crossing's.
+void add_point(const Feature& face, const OverFace& point, double merge, ClippedFeature& out) {
+    const auto end = out.points.begin() + static_cast<long>(out.count);
+    const auto known = std::find_if(out.points.begin(), end,
+                                    [&](const OverFace& o) { return norm(o.p - point.p) <= merge; });
+    if (known == end) {
+        out.points[out.count++] = point;
+        return;
+    }
+    if (point.gap < known->gap) known->p = point.p, known->gap = point.gap;
+    if (point.reference_part == face.face_part && known->reference_part != face.face_part)
+        known->part = point.part, known->reference_part = point.reference_part;
+}
+
+OverFace over(const Feature& face, const Vec3& p, double ball, std::uint32_t part,
+              std::uint32_t reference_part) {
+    return {p, dot(face.n, p - face.points[0]) - ball, part, reference_part};
+}
+
+void clip_polygon(const Feature& face, const Feature& incident, double ball, double border, double merge,
+                  ClippedFeature& out) {
+    Polygon polygon;
     for (std::uint32_t i = 0; i < incident.count; ++i)
         polygon.add({incident.points[i], incident.part[i], face.face_part, incident.edge_part[i], false});
     for (std::size_t k = 0; k < face.count && polygon.count > 0; ++k)
         clip_side(polygon, Side(face, k, border), incident);
+    for (std::size_t i = 0; i < polygon.count; ++i) {
+        const Corner& c = polygon.corners[i];
+        add_point(face, over(face, c.p, ball, c.part, c.reference_part), merge, out);
+    }
 }
 
-void clip_line(const Feature& face, const Feature& incident, double border, Polygon& polygon) {
-    const Vec3 p = incident.points[0], d = incident.points[1] - p;
+/// A line, or a point as a line without length.
+void clip_line(const Feature& face, const Feature& incident, double ball, double border, double merge,
+               ClippedFeature& out) {
+    const std::size_t last = incident.count - 1;
+    const Vec3 p = incident.points[0], d = incident.points[last] - p;
     double t0 = 0.0, t1 = 1.0;
     std::uint32_t edge0 = face.face_part, edge1 = face.face_part;
     for (std::size_t k = 0; k < face.count; ++k) {
         const Side side(face, k, border);
-        const double a = side.depth(p), b = side.depth(p + d);
+        const double a = side.depth(p), b = last == 0 ? a : side.depth(p + d);
         if (a < -border && b < -border) return;
         if (a >= -border && b >= -border) continue;
         const double t = a > b && a <= 0.0 ? 0.0 : b > a && b <= 0.0 ? 1.0 : a / (a - b);
@@ -100,8 +129,11 @@ void clip_line(const Feature& face, const Feature& incident, double border, Poly
         }
     }
     if (t0 > t1) return;
-    polygon.add({p + d * t0, t0 > 0.0 ? incident.edge_part[0] : incident.part[0], edge0, 0, false});
-    polygon.add({p + d * t1, t1 < 1.0 ? incident.edge_part[0] : incident.part[1], edge1, 0, false});
+    add_point(face, over(face, p + d * t0, ball, t0 > 0.0 ? incident.edge_part[0] : incident.part[0], edge0),
+              merge, out);
+    if (last == 0) return;
+    add_point(face, over(face, p + d * t1, ball, t1 < 1.0 ? incident.edge_part[0] : incident.part[1], edge1),
+              merge, out);
 }
 
 }  // namespace
@@ -114,27 +146,11 @@ double ClippedFeature::deepest() const {
 
 ClippedFeature clip_over(const Feature& face, const Feature& incident, double ball, double border,
                          double merge) {
-    Polygon polygon;
-    if (incident.count == 2) {
-        clip_line(face, incident, border, polygon);
-    } else {
-        clip_polygon(face, incident, border, polygon);
-    }
     ClippedFeature out;
-    for (std::size_t i = 0; i < polygon.count; ++i) {
-        const Corner& c = polygon.corners[i];
-        const OverFace point{c.p, dot(face.n, c.p - face.points[0]) - ball, c.part, c.reference_part};
-        const auto end = out.points.begin() + static_cast<long>(out.count);
-        const auto known = std::find_if(out.points.begin(), end,
-                                        [&](const OverFace& o) { return norm(o.p - c.p) <= merge; });
-        if (known == end) {
-            out.points[out.count++] = point;
-            continue;
-        }
-        // The deeper place counts, and a corner's name rather than a crossing's.
-        if (point.gap < known->gap) known->p = point.p, known->gap = point.gap;
-        if (point.reference_part == face.face_part && known->reference_part != face.face_part)
-            known->part = point.part, known->reference_part = point.reference_part;
+    if (incident.count <= 2) {
+        clip_line(face, incident, ball, border, merge, out);
+    } else {
+        clip_polygon(face, incident, ball, border, merge, out);
     }
     return out;
 }

@@ -39,15 +39,18 @@ class SurfaceCollider {
         const Vec3& n = triangle_.n;
         const double s_face = height - body_.reach(-n) - body_.ball();
         if (s_face > margin_) return;
-        const ConvexBody sheet(triangle_.v, n);
-        const ClippedFeature over = clip_over(sheet.feature(n), body_.feature(-n), body_.ball(),
-                                              kBorder * body_.size(), kMerge * body_.size());
+        Feature face;
+        face.n = n;
+        face.face_part = kFace;
+        for (std::uint32_t k = 0; k < 3; ++k) face.add(triangle_.v[k], k, 3 + k);
+        const ClippedFeature over =
+            clip_over(face, body_.feature(-n), body_.ball(), kBorder * body_.size(), kMerge * body_.size());
         const bool shallow = s_face > -kShallow * body_.size();
         const bool ridge = std::any_of(triangle_.fold.begin(), triangle_.fold.end(),
                                        [](double fold) { return fold < kRidge; });
         const bool over_it = over.count > 0 && over.deepest() <= s_face + 1e-6 * body_.size();
         if ((shallow && (!ridge || over_it)) || height < 0.0) return add_face(over);
-        collide_ridge(sheet, over, shallow);
+        collide_ridge(over, shallow);
     }
 
   private:
@@ -64,7 +67,8 @@ class SurfaceCollider {
 
     std::size_t corner_of_surface(std::size_t k) const { return turned_ && k > 0 ? 3 - k : k; }
 
-    void collide_ridge(const ConvexBody& sheet, const ClippedFeature& over, bool shallow) {
+    void collide_ridge(const ClippedFeature& over, bool shallow) {
+        const ConvexBody sheet(triangle_.v, triangle_.n);
         const Separation best = best_separation(body_, sheet, margin_ + body_.ball());
         if (best.s > margin_ + body_.ball()) return;
         if (!is_own_normal(sheet, best.n)) {

@@ -1,5 +1,5 @@
-// Contacts with triangles: what a flat mesh gives is what a box or plane gives, seams are not felt, ridges are,
-// and the sides of sheets and solids.
+// Contacts with triangles: what a flat mesh gives is what a box or plane gives, seams are not felt, ridges
+// are, and the sides of sheets and solids.
 #include "geometry/collide_surface.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,8 @@ TriangleMesh floor_mesh(std::uint32_t cells, double size) {
     std::vector<TriangleMesh::Corners> triangles;
     const double step = size / cells;
     for (std::uint32_t j = 0; j <= cells; ++j)
-        for (std::uint32_t i = 0; i <= cells; ++i) points.push_back({i * step - size / 2, j * step - size / 2, 0});
+        for (std::uint32_t i = 0; i <= cells; ++i)
+            points.push_back({i * step - size / 2, j * step - size / 2, 0});
     for (std::uint32_t j = 0; j < cells; ++j)
         for (std::uint32_t i = 0; i < cells; ++i) {
             const std::uint32_t a = j * (cells + 1) + i, b = a + 1, c = b + cells + 1, d = c - 1;
@@ -45,17 +46,22 @@ TriangleMesh block_mesh(const Vec3& h) {
     std::vector<Vec3> points;
     for (int k = 0; k < 8; ++k)
         points.push_back({k & 1 ? h.x : -h.x, k & 2 ? h.y : -h.y, k & 4 ? h.z : -h.z});
-    const std::vector<TriangleMesh::Corners> triangles{{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                                                       {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    const std::vector<TriangleMesh::Corners> triangles{{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6},
+                                                       {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3},
+                                                       {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
     return {points, triangles};
 }
 
 std::vector<Shape> bodies() {
     static const ConvexHull hull =
-        build_hull(std::vector<Vec3>{{-0.1, -0.1, -0.05}, {0.1, -0.1, -0.05}, {0, 0.12, -0.05}, {0, 0, 0.15}}).value();
-    return {{ShapeKind::kSphere, {}, 0.1, 0},           {ShapeKind::kBox, {0.1, 0.15, 0.05}, 0, 0},
-            {ShapeKind::kCylinder, {}, 0.1, 0.08},      {ShapeKind::kCapsule, {}, 0.06, 0.1},
-            {ShapeKind::kEllipsoid, {0.1, 0.15, 0.07}, 0, 0}, hull_shape(hull)};
+        build_hull(std::vector<Vec3>{{-0.1, -0.1, -0.05}, {0.1, -0.1, -0.05}, {0, 0.12, -0.05}, {0, 0, 0.15}})
+            .value();
+    return {{ShapeKind::kSphere, {}, 0.1, 0},
+            {ShapeKind::kBox, {0.1, 0.15, 0.05}, 0, 0},
+            {ShapeKind::kCylinder, {}, 0.1, 0.08},
+            {ShapeKind::kCapsule, {}, 0.06, 0.1},
+            {ShapeKind::kEllipsoid, {0.1, 0.15, 0.07}, 0, 0},
+            hull_shape(hull)};
 }
 
 double smallest_gap(const SurfaceContacts& c) {
@@ -82,14 +88,15 @@ TEST(CollideSurface, AFlatMeshGivesThePlanesDeepestGapAndOnlyItsNormal) {
             double gap = 1e300;
             for (int k = 0; k < expected.count; ++k)
                 gap = std::min(gap, expected.points[static_cast<std::size_t>(k)].gap);
-            for (const TriangleSurface* surface : {static_cast<const TriangleSurface*>(&floor),
-                                                   static_cast<const TriangleSurface*>(&field)}) {
+            for (const TriangleSurface* surface :
+                 {static_cast<const TriangleSurface*>(&floor), static_cast<const TriangleSurface*>(&field)}) {
                 collide_surface(body, X, *surface, {}, kMargin, contacts);
                 ASSERT_EQ(contacts.points.empty(), expected.count == 0) << i;
                 if (expected.count == 0) continue;
                 ++touching;
                 // Four points of a cylinder's rim stand for it on a plane, eight here.
-                ASSERT_NEAR(smallest_gap(contacts), gap, body.kind == ShapeKind::kCylinder ? 1e-5 : 1e-12) << i;
+                ASSERT_NEAR(smallest_gap(contacts), gap, body.kind == ShapeKind::kCylinder ? 1e-5 : 1e-12)
+                    << i;
                 std::set<std::uint32_t> features;
                 for (const SurfaceContact& c : contacts.points) {
                     ASSERT_NEAR(norm(c.n_W - Vec3{0, 0, 1}), 0, 1e-9);
@@ -152,7 +159,8 @@ TEST(CollideSurface, ASheetHoldsOnBothSidesASolidOnlyOutside) {
 TEST(CollideSurface, GroundPushesUpWhatHasSunkIntoIt) {
     const HeightField field(9, 9, std::vector<double>(81, 0.5), 8, 8);
     SurfaceContacts contacts;
-    collide_surface({ShapeKind::kSphere, {}, 0.1, 0}, {Mat3::identity(), {0.3, 0.2, 0.1}}, field, {}, kMargin, contacts);
+    collide_surface({ShapeKind::kSphere, {}, 0.1, 0}, {Mat3::identity(), {0.3, 0.2, 0.1}}, field, {}, kMargin,
+                    contacts);
     ASSERT_EQ(contacts.points.size(), 1u);
     EXPECT_NEAR(contacts.points[0].n_W.z, 1, 1e-12);
     EXPECT_NEAR(contacts.points[0].gap, -0.5, 1e-12);

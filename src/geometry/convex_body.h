@@ -27,7 +27,7 @@ struct NearFeatures {
 /// A feature of a core as a polygon in W: one point, a line (two), or a face (more, counter-clockwise seen
 /// from outside). Parts name points and the edges that follow them; 16 bits.
 struct Feature {
-    static constexpr std::size_t kMaxPoints = 32;
+    static constexpr std::size_t kMaxPoints = 16;
     std::size_t count = 0;
     std::array<Vec3, kMaxPoints> points;
     std::array<std::uint32_t, kMaxPoints> part;

@@ -29,7 +29,8 @@ void expect_pieces(std::vector<Vec3> outline, double whole, std::size_t count_ma
         for (const auto& piece : pieces.value()) {
             sum += area(piece);
             for (std::size_t i = 0; i < piece.size(); ++i) {
-                const Vec3 &a = piece[i], &b = piece[(i + 1) % piece.size()], &c = piece[(i + 2) % piece.size()];
+                const Vec3 &a = piece[i], &b = piece[(i + 1) % piece.size()],
+                           &c = piece[(i + 2) % piece.size()];
                 EXPECT_GE((b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x), -1e-9);
             }
         }
@@ -42,7 +43,8 @@ TEST(PolygonPieces, AreConvexAndMakeUpTheWhole) {
     expect_pieces({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, 1, 1);
     expect_pieces({{0, 0, 0}, {0.5, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0}}, 1, 1);
     expect_pieces({{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {1, 1, 0}, {1, 4, 0}, {0, 4, 0}}, 6, 2);
-    expect_pieces({{0, 0, 0}, {5, 0, 0}, {5, 3, 0}, {4, 3, 0}, {4, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}}, 9, 4);
+    expect_pieces({{0, 0, 0}, {5, 0, 0}, {5, 3, 0}, {4, 3, 0}, {4, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}}, 9,
+                  4);
     std::vector<Vec3> star;
     for (int i = 0; i < 14; ++i) {
         const SinCos a = fixed_sincos(2 * kPi * i / 14);
@@ -56,7 +58,8 @@ TEST(PolygonPieces, BadOutlinesAreRefused) {
     EXPECT_FALSE(convex_pieces({}).ok());
     EXPECT_FALSE(convex_pieces(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}}).ok());
     EXPECT_FALSE(convex_pieces(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}).ok()) << "no area";
-    EXPECT_FALSE(convex_pieces(std::vector<Vec3>{{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 1, 0}}).ok()) << "bow tie";
+    EXPECT_FALSE(convex_pieces(std::vector<Vec3>{{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 1, 0}}).ok())
+        << "bow tie";
     EXPECT_FALSE(convex_pieces(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, std::nan(""), 0}}).ok());
 }
 

@@ -54,7 +54,9 @@ std::string ascii_stl(const std::string& first_number = "0") {
 
 std::string binary_stl() {
     std::string bytes(80, ' ');
-    const auto add = [&](const void* data, std::size_t count) { bytes.append(static_cast<const char*>(data), count); };
+    const auto add = [&](const void* data, std::size_t count) {
+        bytes.append(static_cast<const char*>(data), count);
+    };
     const std::uint32_t count = 4;
     add(&count, 4);
     for (const auto& face : kFaces) {
@@ -72,14 +74,19 @@ const std::string kObj =
     "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
 std::string dae(const std::string& unit, const std::string& up) {
-    return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'>"
-           "<asset><unit meter='" + unit + "'/><up_axis>" + up + "</up_axis></asset>"
+    return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' "
+           "version='1.4.1'>"
+           "<asset><unit meter='" +
+           unit + "'/><up_axis>" + up +
+           "</up_axis></asset>"
            "<library_geometries><geometry id='g' name='part'><mesh>"
            "<source id='p'><float_array id='pa' count='12'>0 0 0 1 0 0 0 1 0 0 0 1</float_array>"
            "<technique_common><accessor source='#pa' count='4' stride='3'><param name='X' type='float'/>"
-           "<param name='Y' type='float'/><param name='Z' type='float'/></accessor></technique_common></source>"
+           "<param name='Y' type='float'/><param name='Z' "
+           "type='float'/></accessor></technique_common></source>"
            "<vertices id='v'><input semantic='POSITION' source='#p'/></vertices>"
-           "<triangles count='4'><input semantic='VERTEX' source='#v' offset='0'/><p>0 2 1 0 1 3 0 3 2 1 2 3</p>"
+           "<triangles count='4'><input semantic='VERTEX' source='#v' offset='0'/><p>0 2 1 0 1 3 0 3 2 1 2 "
+           "3</p>"
            "</triangles></mesh></geometry></library_geometries>"
            "<library_visual_scenes><visual_scene id='s'><node id='n' name='node'><translate>0 0 2</translate>"
            "<instance_geometry url='#g'/></node></visual_scene></library_visual_scenes>"
@@ -130,7 +137,8 @@ TEST(MeshFile, ColladaKeepsItsAxesAndAppliesUnitAndNodes) {
 TEST(MeshFile, ASubmeshIsTakenByNameAndCentred) {
     const Folder folder;
     const std::string path = folder.write("a.dae", dae("1", "Z_UP"));
-    for (const char* name : {"part", "node"}) expect_tetrahedron(read_mesh({path, {1, 1, 1}, name, false}), 1.0 / 6);
+    for (const char* name : {"part", "node"})
+        expect_tetrahedron(read_mesh({path, {1, 1, 1}, name, false}), 1.0 / 6);
     const auto centred = read_mesh({path, {1, 1, 1}, "part", true});
     expect_tetrahedron(centred, 1.0 / 6);
     for (const Vec3& v : centred.value().mesh.vertices) EXPECT_NEAR(std::fabs(v.z), 0.5, 1e-7);
@@ -142,7 +150,8 @@ TEST(MeshFile, ASubmeshIsTakenByNameAndCentred) {
 
 TEST(MeshFile, TrianglesWithoutAreaAreDroppedAndCounted) {
     const Folder folder;
-    const auto file = read_mesh({folder.write("a.obj", kObj + "f 1 2 2\nv 2 0 0\nf 1 2 5\n"), {1, 1, 1}, "", false});
+    const auto file =
+        read_mesh({folder.write("a.obj", kObj + "f 1 2 2\nv 2 0 0\nf 1 2 5\n"), {1, 1, 1}, "", false});
     ASSERT_TRUE(file.ok());
     EXPECT_EQ(file.value().mesh.triangles.size(), 4u);
     EXPECT_GE(file.value().dropped, 1u);
@@ -173,7 +182,9 @@ TEST(MeshFile, EveryFaultIsNamed) {
 TEST(MeshFile, BytesChangedAtRandomNeverCrash) {
     const Folder folder;
     std::uint64_t seed = 1;
-    const auto next = [&] { return seed = seed * 6364136223846793005ull + 1442695040888963407ull, seed >> 33; };
+    const auto next = [&] {
+        return seed = seed * 6364136223846793005ull + 1442695040888963407ull, seed >> 33;
+    };
     for (int round = 0; round < 200; ++round) {
         std::string bytes = round % 2 == 0 ? binary_stl() : ascii_stl();
         for (int k = 0; k < 3; ++k) bytes[next() % bytes.size()] = static_cast<char>(next());
@@ -183,8 +194,8 @@ TEST(MeshFile, BytesChangedAtRandomNeverCrash) {
     }
 }
 
-std::string write_png(const Folder& folder, const std::string& name, unsigned format, unsigned columns, unsigned rows,
-                      const void* samples) {
+std::string write_png(const Folder& folder, const std::string& name, unsigned format, unsigned columns,
+                      unsigned rows, const void* samples) {
     png_image image;
     std::memset(&image, 0, sizeof image);
     image.version = PNG_IMAGE_VERSION;
@@ -201,7 +212,8 @@ TEST(ImageFile, EightAndSixteenBitGreysComeAsTheyStandInTheFile) {
     ASSERT_TRUE(image.ok()) << image.error().message;
     ASSERT_EQ(image.value().columns, 3u);
     ASSERT_EQ(image.value().rows, 2u);
-    for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(image.value().values[i], 0.2 * static_cast<double>(i), 1e-12);
+    for (std::size_t i = 0; i < 6; ++i)
+        EXPECT_NEAR(image.value().values[i], 0.2 * static_cast<double>(i), 1e-12);
     const std::uint16_t wide[4] = {0, 1000, 30000, 65535};
     const auto deep = read_png(write_png(folder, "b.png", PNG_FORMAT_LINEAR_Y, 2, 2, wide));
     ASSERT_TRUE(deep.ok());

@@ -26,8 +26,9 @@ std::vector<Vec3> corners(const Vec3& h) {
 }
 
 TriangleMesh box_surface(const Vec3& h) {
-    const std::vector<TriangleMesh::Corners> triangles{{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                                                       {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    const std::vector<TriangleMesh::Corners> triangles{{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6},
+                                                       {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3},
+                                                       {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
     return {corners(h), triangles};
 }
 
@@ -114,7 +115,8 @@ TEST(RaySurface, NoRaySlipsThroughTheSeamsOfAMesh) {
 TEST(RaySurface, AScenesRaysSeeMeshesAndGround) {
     auto model = std::make_shared<Model>();
     model->surfaces.push_back(std::make_shared<const TriangleMesh>(box_surface({1, 1, 1})));
-    model->surfaces.push_back(std::make_shared<const HeightField>(2, 2, std::vector<double>{0, 0, 0, 0}, 100, 100));
+    model->surfaces.push_back(
+        std::make_shared<const HeightField>(2, 2, std::vector<double>{0, 0, 0, 0}, 100, 100));
     model->hulls.push_back(std::make_shared<const ConvexHull>(build_hull(corners({0.5, 0.5, 0.5})).value()));
     sensors_test::add_static(*model, surface_shape(*model->surfaces[0]), {Mat3::identity(), {5, 0, 1}});
     sensors_test::add_static(*model, surface_shape(*model->surfaces[1]), {});

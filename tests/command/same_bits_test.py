@@ -1,5 +1,5 @@
 """One world, one hash: for any threads, Simulators, windows, grouping, after save and load, run after run; and another
-hash as soon as one bit of the input is another. Three worlds with collisions, one with a control program in the loop."""
+hash as soon as one bit of the input is another. Four worlds with collisions, one with a control program in the loop."""
 import unittest
 
 from running import DRIVER, FOLDER, WORLDS, roboss, summary
@@ -8,6 +8,7 @@ RUNS = {
     "city": ([WORLDS / "city.sdf", "--client", DRIVER], 3.0),
     "crossroads": ([WORLDS / "crossroads.sdf", "--orders", WORLDS / "crossroads.jsonl"], 2.3),
     "heap": ([WORLDS / "heap.sdf"], 2.0),
+    "shapes": ([WORLDS / "shapes.sdf"], 0.8),
 }
 WAYS = [
     ["--threads", "2"],

@@ -1,6 +1,8 @@
 // Meshes made in code: boxes, balls, floors, and the collisions that carry them.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <utility>
