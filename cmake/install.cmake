@@ -8,6 +8,8 @@ set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/roboss)
 set(ROBOSS_EXTERNALS
   "^sdformat12::|^sdformat12" "find_dependency(sdformat12)\nset(CMAKE_MODULE_PATH \${roboss_module_path})"
   "^pugixml" "find_dependency(pugixml)"
+  "^assimp" "find_dependency(assimp)"
+  "^PNG::" "find_dependency(PNG)"
   "^embree$" "find_dependency(embree 3)"
   "^SQLite::SQLite3$" "find_dependency(SQLite3)"
   "^Threads::Threads$" "find_dependency(Threads)"

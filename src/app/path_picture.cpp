@@ -96,7 +96,25 @@ std::vector<Vec3> outline_points(const Shape& shape) {
                 for (double z : {-shape.half.z, shape.half.z}) points.push_back({x, y, z});
         return points;
     }
+    if (shape.kind == ShapeKind::kHull) return shape.hull->vertices;
+    if (shape.kind == ShapeKind::kSurface) {
+        const Aabb& box = shape.surface->box();
+        for (double x : {box.min.x, box.max.x})
+            for (double y : {box.min.y, box.max.y})
+                for (double z : {box.min.z, box.max.z}) points.push_back({x, y, z});
+        return points;
+    }
     constexpr int kCorners = 32;
+    if (shape.kind == ShapeKind::kEllipsoid) {
+        for (int j = 1; j < kCorners / 2; ++j)
+            for (int i = 0; i < kCorners; ++i) {
+                const SinCos a = fixed_sincos(2 * kPi * i / kCorners),
+                             b = fixed_sincos(2 * kPi * j / kCorners);
+                points.push_back(
+                    {shape.half.x * a.cos * b.sin, shape.half.y * a.sin * b.sin, shape.half.z * b.cos});
+            }
+        return points;
+    }
     for (double z : {-shape.half_length, shape.half_length})
         for (int i = 0; i < kCorners; ++i) {
             const SinCos a = fixed_sincos(2 * kPi * i / kCorners);

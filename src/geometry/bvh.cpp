@@ -4,13 +4,11 @@
 #include "geometry/bvh.h"
 
 #include <algorithm>
-#include <array>
 
 namespace roboss {
 namespace {
 
 constexpr std::uint32_t kLeafItems = 4;
-constexpr std::size_t kStackDepth = 64;  // a balanced tree over 2^32 items is at most 32 deep
 
 bool is_bounded(const Aabb& box) {
     return is_finite(box.min) && is_finite(box.max);
@@ -98,6 +96,24 @@ void Bvh::query(const Aabb& box, std::vector<std::uint32_t>& out) const {
         }
     }
     std::sort(out.begin(), out.end());
+}
+
+bool Bvh::meets(const Aabb& box, const Vec3& origin, const Vec3& direction, double limit) {
+    // Rounding must not lose a hit on the border of a flat box.
+    double enter = 0, leave = limit;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double slack =
+            1e-12 * (1.0 + std::fabs(box.min[k]) + std::fabs(box.max[k]) + std::fabs(origin[k]));
+        const double low = box.min[k] - slack - origin[k], high = box.max[k] + slack - origin[k];
+        if (std::fabs(direction[k]) < 1e-300) {
+            if (low > 0.0 || high < 0.0) return false;
+            continue;
+        }
+        const double a = low / direction[k], b = high / direction[k];
+        enter = std::fmax(enter, std::fmin(a, b));
+        leave = std::fmin(leave, std::fmax(a, b));
+    }
+    return enter <= leave;
 }
 
 }  // namespace roboss

@@ -8,7 +8,6 @@ namespace roboss::narrow {
 namespace {
 
 constexpr int kStepsMax = 96;
-constexpr double kGap = 1e-6;  // gap between the bounds, of distance and size; polishing does the rest
 
 /// A point w of the sum minus its centre, and the share `first` of it that belongs to the first shape.
 struct Vertex {
@@ -104,7 +103,8 @@ void reduce(Simplex& s) {
     }
 }
 
-Vertex support(const ConvexSum& sum, const Vec3& n) {
+template <class Sum>
+Vertex support(const Sum& sum, const Vec3& n) {
     Vec3 first;
     const Vec3 x = sum.support(n, first);
     return {x - sum.centre(), first};
@@ -112,7 +112,8 @@ Vertex support(const ConvexSum& sum, const Vec3& n) {
 
 }  // namespace
 
-ClosestApart closest_apart(const ConvexSum& sum, const Separation& start, double enough) {
+template <class Sum>
+ClosestApart closest_apart(const Sum& sum, const Separation& start, double enough) {
     ClosestApart result{start, false, {}};
     Separation& best = result.best;
     Simplex simplex;
@@ -130,7 +131,7 @@ ClosestApart closest_apart(const ConvexSum& sum, const Separation& start, double
         const double distance = std::sqrt(squared);
         const Separation found = sum.separation(simplex.closest.w / -distance);
         if (found.s > best.s) best = found;
-        if (best.s > enough || distance - best.s <= kGap * (distance + sum.scale())) break;
+        if (best.s > enough || distance - best.s <= sum.apart_gap() * (distance + sum.scale())) break;
         const Vertex vertex = support(sum, found.n);
         if (simplex.has(vertex.w)) break;
         simplex.v[simplex.count++] = vertex;
@@ -140,5 +141,8 @@ ClosestApart closest_apart(const ConvexSum& sum, const Separation& start, double
     }
     return result;
 }
+
+template ClosestApart closest_apart(const ConvexSum&, const Separation&, double);
+template ClosestApart closest_apart(const GeneralSum&, const Separation&, double);
 
 }  // namespace roboss::narrow

@@ -11,7 +11,6 @@ namespace {
 constexpr std::size_t kVerticesMax = 120;
 constexpr std::size_t kFacesMax = 2 * kVerticesMax + 64;
 constexpr std::size_t kEdgesMax = 256;
-constexpr double kGap = 1e-6;  // of the smallest size, between the bounds; polishing does the rest
 
 struct Face {
     std::array<std::size_t, 3> v{};
@@ -20,34 +19,14 @@ struct Face {
     double s = -1e300;  // separation of the sum's centre from the face's plane
 };
 
+template <class Sum>
 class Polytope {
   public:
     // The arrays are read below their counts only.
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
-    explicit Polytope(const ConvexSum& sum) : sum_(sum) {}
+    explicit Polytope(const Sum& sum) : sum_(sum) {}
 
-    /// An octahedron of three pairs of opposite support points; false when the sum is flat.
-    bool start(const Vec3& n) {
-        Vec3 t1, t2;
-        tangents(n, t1, t2);
-        const Vec3 a = sum_.support(n);
-        const double length = norm(a);
-        if (!(length > 0.0)) return false;
-        tangents(a / length, t1, t2);
-        const Vec3 b = sum_.support(t1);
-        const Vec3 across = cross(a, b);
-        const double area = norm(across);
-        if (!(area > 0.0)) return false;
-        const Vec3 c = sum_.support(across / area);  // cross(a, b).c > 0
-        vertices_ = {a, b, c, -a, -b, -c};
-        vertex_count_ = 6;
-        for (std::size_t k = 0; k < 8; ++k) {
-            const std::size_t x = (k & 1u) != 0 ? 3 : 0, y = (k & 2u) != 0 ? 4 : 1, z = (k & 4u) != 0 ? 5 : 2;
-            const bool even = ((k & 1u) + (k >> 1 & 1u) + (k >> 2)) % 2 == 0;
-            even ? add_face(x, y, z) : add_face(x, z, y);
-        }
-        return true;
-    }
+    bool start(const Vec3& n) { return Sum::kSymmetric ? start_octahedron(n) : start_tetrahedron(n); }
 
     const Face& best_face() const {
         return *std::max_element(faces_.begin(), faces_.begin() + static_cast<long>(face_count_),
@@ -79,6 +58,55 @@ class Polytope {
     }
 
   private:
+    /// Three pairs of opposite support points; false when the sum is flat.
+    bool start_octahedron(const Vec3& n) {
+        Vec3 t1, t2;
+        const Vec3 a = sum_.support(n);
+        const double length = norm(a);
+        if (!(length > 0.0)) return false;
+        tangents(a / length, t1, t2);
+        const Vec3 b = sum_.support(t1);
+        const Vec3 across = cross(a, b);
+        const double area = norm(across);
+        if (!(area > 0.0)) return false;
+        const Vec3 c = sum_.support(across / area);  // cross(a, b).c > 0
+        vertices_ = {a, b, c, -a, -b, -c};
+        vertex_count_ = 6;
+        for (std::size_t k = 0; k < 8; ++k) {
+            const std::size_t x = (k & 1u) != 0 ? 3 : 0, y = (k & 2u) != 0 ? 4 : 1, z = (k & 4u) != 0 ? 5 : 2;
+            const bool even = ((k & 1u) + (k >> 1 & 1u) + (k >> 2)) % 2 == 0;
+            even ? add_face(x, y, z) : add_face(x, z, y);
+        }
+        return true;
+    }
+
+    /// Four support points; false when the sum is flat. The sum's centre may lie outside: then the facet that
+    /// looks at it is expanded first.
+    bool start_tetrahedron(const Vec3& n) {
+        const Vec3 a = sum_.support(n), b = sum_.support(-n);
+        const double length = norm(a - b);
+        if (!(length > 0.0)) return false;
+        const auto furthest = [&](const Vec3& d) {
+            const Vec3 up = sum_.support(d), down = sum_.support(-d);
+            return std::fabs(dot(d, up - a)) >= std::fabs(dot(d, down - a)) ? up : down;
+        };
+        Vec3 t1, t2;
+        tangents((a - b) / length, t1, t2);
+        Vec3 c = furthest(t1);
+        if (norm(cross(b - a, c - a)) <= 1e-6 * length * length) c = furthest(t2);
+        const Vec3 across = cross(b - a, c - a);
+        const double area = norm(across);
+        if (!(area > 1e-12 * length * length)) return false;
+        const Vec3 d = furthest(across / area);
+        const double height = dot(across / area, d - a);
+        if (!(std::fabs(height) > 1e-12 * length)) return false;
+        vertices_[0] = a, vertices_[1] = height < 0.0 ? b : c, vertices_[2] = height < 0.0 ? c : b;
+        vertices_[3] = d;
+        vertex_count_ = 4;
+        add_face(0, 1, 2), add_face(0, 3, 1), add_face(1, 3, 2), add_face(2, 3, 0);
+        return true;
+    }
+
     void add_face(std::size_t a, std::size_t b, std::size_t c) {
         Face face{{a, b, c}, {}, 0, -1e300};
         const Vec3 normal = cross(vertices_[b] - vertices_[a], vertices_[c] - vertices_[a]);
@@ -102,7 +130,7 @@ class Polytope {
         edges_[edge_count_++] = {a, b};
     }
 
-    const ConvexSum& sum_;
+    const Sum& sum_;
     std::size_t vertex_count_ = 0, face_count_ = 0, edge_count_ = 0;
     std::array<Vec3, kVerticesMax> vertices_;
     std::array<Face, kFacesMax> faces_;
@@ -111,11 +139,12 @@ class Polytope {
 
 }  // namespace
 
-Separation closest_overlapping(const ConvexSum& sum, const Separation& start) {
+template <class Sum>
+Separation closest_overlapping(const Sum& sum, const Separation& start) {
     Separation best = start;
-    Polytope polytope(sum);
+    Polytope<Sum> polytope(sum);
     if (!polytope.start(start.n)) return best;
-    const double gap = kGap * sum.scale();
+    const double gap = sum.overlap_gap() * sum.scale();
     while (true) {
         const Face face = polytope.best_face();
         if (face.s <= best.s + gap) return best;
@@ -125,7 +154,8 @@ Separation closest_overlapping(const ConvexSum& sum, const Separation& start) {
     }
 }
 
-Separation closest_direction(const ConvexSum& sum, const Separation& start, double enough) {
+template <class Sum>
+Separation closest_direction(const Sum& sum, const Separation& start, double enough) {
     const ClosestApart apart = closest_apart(sum, start, enough);
     if (apart.best.s > enough) return apart.best;
     const Separation best = sum.polished(apart.best);
@@ -133,5 +163,10 @@ Separation closest_direction(const ConvexSum& sum, const Separation& start, doub
     const Separation deeper = closest_overlapping(sum, best);
     return deeper.s > best.s ? sum.polished(deeper) : best;
 }
+
+template Separation closest_overlapping(const ConvexSum&, const Separation&);
+template Separation closest_overlapping(const GeneralSum&, const Separation&);
+template Separation closest_direction(const ConvexSum&, const Separation&, double);
+template Separation closest_direction(const GeneralSum&, const Separation&, double);
 
 }  // namespace roboss::narrow

@@ -15,12 +15,14 @@ using namespace narrow;
 void nothing(const Posed&, const Posed&, double, Manifold&) {}
 
 // [kind of the first][kind of the second], first <= second.
-constexpr PairFunction kPairs[5][5] = {
-    {nothing, plane_sphere, plane_box, plane_cylinder, plane_capsule},
-    {nullptr, sphere_sphere, sphere_box, sphere_cylinder, sphere_capsule},
-    {nullptr, nullptr, box_box, convex_convex, convex_convex},
-    {nullptr, nullptr, nullptr, convex_convex, convex_convex},
-    {nullptr, nullptr, nullptr, nullptr, capsule_capsule},
+constexpr PairFunction kPairs[7][7] = {
+    {nothing, plane_sphere, plane_box, plane_cylinder, plane_capsule, plane_ellipsoid, plane_hull},
+    {nullptr, sphere_sphere, sphere_box, sphere_cylinder, sphere_capsule, general_general, general_general},
+    {nullptr, nullptr, box_box, convex_convex, convex_convex, general_general, general_general},
+    {nullptr, nullptr, nullptr, convex_convex, convex_convex, general_general, general_general},
+    {nullptr, nullptr, nullptr, nullptr, capsule_capsule, general_general, general_general},
+    {nullptr, nullptr, nullptr, nullptr, nullptr, general_general, general_general},
+    {nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, general_general},
 };
 
 int compare(const Vec3& a, const Vec3& b) {
@@ -51,11 +53,12 @@ bool in_order(const Posed& a, const Posed& b) {
     return true;
 }
 
-/// Features are (part of the first) << 8 | (part of the second) in the pairs of one kind.
-void flip_features(Manifold& m) {
+/// Features are (part of the first) << 8 | (part of the second) in the pairs of one kind; << 16 for the
+/// general ones.
+void flip_features(Manifold& m, bool general) {
     for (int i = 0; i < m.count; ++i) {
         std::uint32_t& f = m.points[static_cast<std::size_t>(i)].feature;
-        f = (f & 0xFFu) << 8 | f >> 8;
+        f = general ? f << 16 | f >> 16 : (f & 0xFFu) << 8 | f >> 8;
     }
 }
 
@@ -64,6 +67,7 @@ void flip_features(Manifold& m) {
 Manifold collide(const Shape& a, const Transform& X_WA, const Shape& b, const Transform& X_WB,
                  double margin) {
     Manifold out;
+    if (a.kind == ShapeKind::kSurface || b.kind == ShapeKind::kSurface) return out;
     const Posed A{a, X_WA}, B{b, X_WB};
     const bool same_kind = a.kind == b.kind;
     const bool straight = same_kind ? in_order(A, B) : a.kind < b.kind;
@@ -79,7 +83,7 @@ Manifold collide(const Shape& a, const Transform& X_WA, const Shape& b, const Tr
                                                                                     out);
     if (!straight) {
         out.n_W = -out.n_W;
-        if (same_kind) flip_features(out);
+        if (same_kind) flip_features(out, a.kind >= ShapeKind::kEllipsoid);
     }
     return out;
 }

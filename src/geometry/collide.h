@@ -12,7 +12,7 @@ namespace roboss {
 struct ContactPoint {
     Vec3 p_W;                   // midway between the two surfaces, m
     double gap = 0;             // signed distance along the normal, negative: penetration, m
-    std::uint32_t feature = 0;  // names the same point on the same pair from tick to tick; < 65536
+    std::uint32_t feature = 0;  // names the same point on the same pair from tick to tick
 };
 
 struct Manifold {
@@ -28,8 +28,9 @@ struct Manifold {
 
 /// All points with gap <= margin. A box on a plane gives its four corners, a cylinder lying on its side the
 /// two ends of its line, standing on its end four rim points. Empty (count 0) when apart. Points come in an
-/// order that depends on the shapes and poses only. Plane against plane gives nothing. Guaranteed: if the
-/// boxes bounds(A) and bounds(B), each inflated by margin / 2, do not overlap, the result is empty.
+/// order that depends on the shapes and poses only. Plane against plane gives nothing, nor does a surface
+/// (see collide_surface.h). Guaranteed: if the boxes bounds(A) and bounds(B), each inflated by margin / 2, do
+/// not overlap, the result is empty.
 Manifold collide(const Shape& a, const Transform& X_WA, const Shape& b, const Transform& X_WB, double margin);
 
 }  // namespace roboss

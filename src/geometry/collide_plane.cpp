@@ -1,4 +1,5 @@
 // Half-space against everything, in closed form. Plane against cylinder is the hot path of wheeled robots.
+#include "geometry/clip_feature.h"
 #include "geometry/cylinder_rim.h"
 #include "geometry/narrow.h"
 
@@ -82,6 +83,41 @@ void plane_capsule(const Posed& plane, const Posed& capsule, double margin, Mani
     out.n_W = -n;
     add_below(out, low - axis, gap - rise, margin, n, 0);
     add_below(out, low + axis, gap + rise, margin, n, 1);
+}
+
+// The one point whose normal is the plane's.
+void plane_ellipsoid(const Posed& plane, const Posed& ellipsoid, double margin, Manifold& out) {
+    const Vec3 n = plane.axis(2);
+    const Vec3 low = ConvexBody(ellipsoid).support(-n);
+    out.n_W = -n;
+    const double gap = dot(n, ellipsoid.X.p - plane.X.p) + dot(n, low);
+    add_below(out, ellipsoid.X.p + low, gap, margin, n, 0);
+}
+
+// The corners of the face that looks most against the normal, of those at the lowest corner; features are the
+// corners' numbers.
+void plane_hull(const Posed& plane, const Posed& hull, double margin, Manifold& out) {
+    const Vec3 n = plane.axis(2);
+    const Feature face = ConvexBody(hull).feature(-n);
+    out.n_W = -n;
+    std::array<Vec3, Feature::kMaxPoints> points;
+    std::array<double, Feature::kMaxPoints> gaps{};
+    std::array<std::uint32_t, Feature::kMaxPoints> parts{};
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < face.count; ++i) {
+        const double gap = dot(n, face.points[i] - plane.X.p);
+        if (gap > margin) continue;
+        points[count] = face.points[i], gaps[count] = gap, parts[count++] = face.part[i];
+    }
+    if (count <= static_cast<std::size_t>(Manifold::kMaxPoints)) {
+        for (std::size_t i = 0; i < count; ++i) add_below(out, points[i], gaps[i], margin, n, parts[i]);
+        return;
+    }
+    const Chosen chosen = choose_points(std::span(points).first(count), std::span(gaps).first(count), n);
+    for (std::size_t k = 0; k < chosen.count; ++k) {
+        const std::size_t i = chosen.number[k];
+        add_below(out, points[i], gaps[i], margin, n, parts[i]);
+    }
 }
 
 }  // namespace roboss::narrow

@@ -18,12 +18,16 @@ struct Separation {
 
 class ConvexSum {
   public:
+    static constexpr bool kSymmetric = true;
     ConvexSum(const Posed& first, const Posed& second);
 
     const Vec3& centre() const { return centre_; }
     double inradius() const { return inradius_; }  // lower bound of the sum's
     double scale() const { return scale_; }        // smallest size of either shape: what tolerances refer to
-    double reach(const Vec3& n) const;             // h(n), n need not be a unit vector
+    // Gaps between the bounds at which the searches stop, of the distance and size; polishing does the rest.
+    double apart_gap() const { return 1e-6; }
+    double overlap_gap() const { return 1e-6; }
+    double reach(const Vec3& n) const;  // h(n), n need not be a unit vector
     Vec3 support(const Vec3& n) const;
     Vec3 support(const Vec3& n, Vec3& first) const;  // also the first shape's share of it
     ConvexSum moved(const Vec3& by) const;           // the first shape moved

@@ -30,4 +30,10 @@ void capsule_capsule(const Posed& a, const Posed& b, double margin, Manifold& ou
 /// Any two of box, cylinder and capsule but two capsules, exact and slower than the functions for one pair.
 void convex_convex(const Posed& a, const Posed& b, double margin, Manifold& out);
 
+void plane_ellipsoid(const Posed& plane, const Posed& ellipsoid, double margin, Manifold& out);
+void plane_hull(const Posed& plane, const Posed& hull, double margin, Manifold& out);
+
+/// Any two bounded convex shapes; features of 32 bits, see wide_feature.
+void general_general(const Posed& a, const Posed& b, double margin, Manifold& out);
+
 }  // namespace roboss::narrow

@@ -25,18 +25,22 @@ bool has_sensors(const ModelSpec& spec) {
 }
 
 /// Shapes of a static model; `owner`: the robot that carries its sensors, if any.
-void add_statics(const ModelSpec& spec, const ModelInstance& instance, RobotId owner, Model& model) {
+void add_statics(const ModelSpec& spec, const ModelInstance& instance, RobotId owner, ShapeStore& shapes,
+                 Model& model) {
     for (std::size_t l = 0; l < spec.links.size(); ++l) {
         const LinkSpec& link = spec.links[l];
         for (const CollisionSpec& collision : link.collisions) {
-            StaticShape shape;
-            if (!to_shape(collision.geometry, shape.shape)) continue;
-            shape.X_WS = to_transform(instance.X_WM * link.X_ML * collision.X_LS);
-            shape.material = to_material(collision.surface);
-            shape.name = instance.name + "::" + link.name + "::" + collision.name;
-            shape.robot = owner;
-            if (owner.valid()) shape.link = LinkId(l);
-            model.statics.push_back(shape);
+            for (const PlacedShape& placed : shapes.shapes_of(collision, true)) {
+                StaticShape shape;
+                shape.shape = placed.shape;
+                shape.X_WS = to_transform(instance.X_WM * link.X_ML * collision.X_LS);
+                shape.X_WS.p += shape.X_WS.R * placed.p_CS;
+                shape.material = to_material(collision.surface);
+                shape.name = instance.name + "::" + link.name + "::" + collision.name;
+                shape.robot = owner;
+                if (owner.valid()) shape.link = LinkId(l);
+                model.statics.push_back(shape);
+            }
         }
     }
 }
@@ -48,14 +52,14 @@ TypeId intern_type(RobotType type, Model& model, std::map<std::uint64_t, TypeId>
     return entry->second;
 }
 
-std::vector<CompiledPrototype> compile_prototypes(const World& world, Model& model,
+std::vector<CompiledPrototype> compile_prototypes(const World& world, ShapeStore& shapes, Model& model,
                                                   Diagnostics& diagnostics) {
     std::vector<CompiledPrototype> prototypes(world.prototypes.size());
     std::map<std::uint64_t, TypeId> known;
     for (std::size_t p = 0; p < world.prototypes.size(); ++p) {
         const ModelSpec& spec = world.prototypes[p];
         if (!spec.is_static) {
-            prototypes[p].parts = compile_parts(spec, diagnostics);
+            prototypes[p].parts = compile_parts(spec, shapes, diagnostics);
         } else if (has_sensors(spec)) {
             prototypes[p].parts = {{sensor_stand(spec), "", Pose{}}};
         }
@@ -100,6 +104,8 @@ std::uint64_t model_hash(const Model& model) {
                                   s.X_WS.R.r2.z};
         hash.add(std::span<const double>(numbers));
         add_to_hash(hash, s.material);
+        if (s.shape.hull != nullptr) hash.add(s.shape.hull->hash);
+        if (s.shape.surface != nullptr) hash.add(s.shape.surface->hash());
     }
     return hash.value();
 }
@@ -125,14 +131,15 @@ std::shared_ptr<const Model> compile(const World& world, const CompileOptions& o
                           "the step of " + std::to_string(model->dt_s) + " s is not in (0, 1] s",
                           "set <physics><max_step_size> or --dt to a few milliseconds");
 
-    const std::vector<CompiledPrototype> prototypes = compile_prototypes(world, *model, diagnostics);
+    ShapeStore shapes(*model, diagnostics);
+    const std::vector<CompiledPrototype> prototypes = compile_prototypes(world, shapes, *model, diagnostics);
     for (std::size_t i = 0; i < world.instances.size(); ++i) {
         const ModelInstance& instance = world.instances[i];
         const ModelSpec& spec = world.prototypes[instance.prototype];
         const CompiledPrototype& prototype = prototypes[instance.prototype];
         if (spec.is_static)
             add_statics(spec, instance, prototype.parts.empty() ? RobotId() : RobotId(model->robots.size()),
-                        *model);
+                        shapes, *model);
         for (std::size_t p = 0; p < prototype.parts.size(); ++p) {
             const CompiledPart& part = prototype.parts[p];
             model->robots.push_back({instance.name + part.suffix, prototype.types[p],

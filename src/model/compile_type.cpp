@@ -17,8 +17,8 @@ namespace {
 class PartBuilder {
   public:
     PartBuilder(const ModelSpec& spec, const JointGraph& graph, const std::vector<CouplingSpec>& couplings,
-                Diagnostics& diagnostics)
-        : spec_(spec), graph_(graph), couplings_(couplings), diagnostics_(diagnostics) {}
+                ShapeStore& shapes, Diagnostics& diagnostics)
+        : spec_(spec), graph_(graph), couplings_(couplings), shapes_(shapes), diagnostics_(diagnostics) {}
 
     CompiledPart build(const std::vector<std::size_t>& links, bool fixed_base, bool is_main) {
         links_ = &links;
@@ -207,13 +207,16 @@ class PartBuilder {
 
     void add_shapes(const LinkSpec& spec, const Link& link, LinkId id) {
         for (const CollisionSpec& collision : spec.collisions) {
-            BodyShape shape;
-            if (!to_shape(collision.geometry, shape.shape)) continue;
-            shape.body = link.body;
-            shape.link = id;
-            shape.X_BS = link.X_BL * to_transform(collision.X_LS);
-            shape.material = to_material(collision.surface);
-            part_.type.shapes.push_back(shape);
+            for (const PlacedShape& placed : shapes_.shapes_of(collision, false)) {
+                BodyShape shape;
+                shape.shape = placed.shape;
+                shape.body = link.body;
+                shape.link = id;
+                shape.X_BS = link.X_BL * to_transform(collision.X_LS);
+                shape.X_BS.p += shape.X_BS.R * placed.p_CS;
+                shape.material = to_material(collision.surface);
+                part_.type.shapes.push_back(shape);
+            }
         }
     }
 
@@ -230,6 +233,7 @@ class PartBuilder {
     const ModelSpec& spec_;
     const JointGraph& graph_;
     const std::vector<CouplingSpec>& couplings_;
+    ShapeStore& shapes_;
     Diagnostics& diagnostics_;
     CompiledPart part_;
     const std::vector<std::size_t>* links_ = nullptr;
@@ -239,31 +243,6 @@ class PartBuilder {
 };
 
 }  // namespace
-
-bool to_shape(const GeometrySpec& geometry, Shape& shape) {
-    shape.radius = geometry.radius;
-    shape.half_length = 0.5 * geometry.length;
-    shape.half = geometry.size * 0.5;
-    switch (geometry.kind) {
-        case GeometryKind::kPlane:
-            shape.kind = ShapeKind::kPlane;
-            return true;
-        case GeometryKind::kBox:
-            shape.kind = ShapeKind::kBox;
-            return true;
-        case GeometryKind::kSphere:
-            shape.kind = ShapeKind::kSphere;
-            return true;
-        case GeometryKind::kCylinder:
-            shape.kind = ShapeKind::kCylinder;
-            return true;
-        case GeometryKind::kCapsule:
-            shape.kind = ShapeKind::kCapsule;
-            return true;
-        default:
-            return false;
-    }
-}
 
 RobotType sensor_stand(const ModelSpec& spec) {
     RobotType type;
@@ -280,7 +259,7 @@ RobotType sensor_stand(const ModelSpec& spec) {
     return type;
 }
 
-std::vector<CompiledPart> compile_parts(const ModelSpec& spec, Diagnostics& diagnostics) {
+std::vector<CompiledPart> compile_parts(const ModelSpec& spec, ShapeStore& shapes, Diagnostics& diagnostics) {
     const JointGraph graph = build_joint_graph(spec);
     const std::vector<CouplingSpec> couplings = find_couplings(spec, diagnostics);
     std::vector<char> seen(spec.links.size(), 0);
@@ -292,7 +271,7 @@ std::vector<CompiledPart> compile_parts(const ModelSpec& spec, Diagnostics& diag
         const bool is_main = std::any_of(links.begin(), links.end(), [&](std::size_t i) {
             return spec.links[i].name == spec.canonical_link;
         });
-        parts.push_back(PartBuilder(spec, graph, couplings, diagnostics)
+        parts.push_back(PartBuilder(spec, graph, couplings, shapes, diagnostics)
                             .build(links, fixed_base, is_main || spec.canonical_link.empty()));
     }
     const bool has_main =

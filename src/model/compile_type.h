@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/hash.h"
-#include "model/model.h"
+#include "model/shape_store.h"
 
 namespace roboss {
 
@@ -16,14 +16,12 @@ struct CompiledPart {
     Pose X_MR;           // robot frame in the SDF model frame
 };
 
-std::vector<CompiledPart> compile_parts(const ModelSpec& spec, Diagnostics& diagnostics);
+std::vector<CompiledPart> compile_parts(const ModelSpec& spec, ShapeStore& shapes, Diagnostics& diagnostics);
 
 /// The links and sensors of a static model as a type with a fixed base, without shapes: its shapes are
 /// scenery.
 RobotType sensor_stand(const ModelSpec& spec);
 
-/// A collision element as a Shape; false if its geometry takes no part in the physics yet.
-bool to_shape(const GeometrySpec& geometry, Shape& shape);
 Material to_material(const SurfaceSpec& surface);
 void add_to_hash(Hash& hash, const Material& material);
 

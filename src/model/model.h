@@ -18,7 +18,9 @@
 #include "core/result.h"
 #include "core/types.h"
 #include "geometry/bvh.h"
+#include "geometry/convex_hull.h"
 #include "geometry/shape.h"
+#include "geometry/triangle_surface.h"
 #include "math/pose.h"
 #include "world/world.h"
 
@@ -240,6 +242,9 @@ struct Model {
     std::vector<Robot> robots;
     std::vector<StaticShape> statics;
     Bvh static_bvh;
+    // What shapes point to. Never changed, so copies of a Model may share it.
+    std::vector<std::shared_ptr<const ConvexHull>> hulls;
+    std::vector<std::shared_ptr<const TriangleSurface>> surfaces;
     std::uint64_t hash = 0;
 
     const RobotType& type_of(RobotId robot) const { return types[robots[robot.index()].type.index()]; }

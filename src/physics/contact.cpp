@@ -35,12 +35,10 @@ struct Placed {
     const Mat3& R_WS;
 };
 
-void add_points(const Manifold& manifold, Contact contact, const Placed& pa, const Placed& pb,
-                std::vector<Contact>& contacts) {
-    if (manifold.count == 0) return;
+/// What the two materials make of a contact along contact.normal.
+void combine(const Placed& pa, const Placed& pb, Contact& contact) {
     const Material &a = pa.material, &b = pb.material;
-    contact.normal = manifold.n_W;
-    const FrictionEllipse friction = friction_of(a, pa.R_WS, b, pb.R_WS, manifold.n_W);
+    const FrictionEllipse friction = friction_of(a, pa.R_WS, b, pb.R_WS, contact.normal);
     contact.mu = friction.mu, contact.friction_axis = friction.axis, contact.mu_across = friction.across;
     contact.restitution = std::max(a.restitution, b.restitution);
     contact.bounce_threshold = std::max(a.bounce_threshold, b.bounce_threshold);
@@ -48,7 +46,34 @@ void add_points(const Manifold& manifold, Contact contact, const Placed& pa, con
     const Softness soft = softness_of(a, b);
     contact.stiffness = soft.stiffness, contact.damping = soft.damping;
     contact.slop = std::max(a.slop, b.slop), contact.mend_speed = std::min(a.mend_speed, b.mend_speed);
-    const std::uint32_t kept = points_to_keep(manifold, std::min(a.contacts_max, b.contacts_max));
+}
+
+/// Points of a triangle surface, each with a normal of its own; all but the deepest are dropped.
+void add_points(std::vector<SurfaceContact>& points, Contact contact, const Placed& pa, const Placed& pb,
+                std::vector<Contact>& contacts) {
+    for (const std::size_t keep = std::min(pa.material.contacts_max, pb.material.contacts_max); points.size() > keep;) {
+        const auto shallowest = std::max_element(points.rbegin(), points.rend(), [](const auto& p, const auto& q) {
+            return p.gap < q.gap;
+        });
+        points.erase(std::next(shallowest).base());
+    }
+    for (const SurfaceContact& point : points) {
+        contact.normal = point.n_W;
+        combine(pa, pb, contact);
+        contact.p_W = point.p_W;
+        contact.gap = point.gap;
+        contact.feature = point.feature;
+        contacts.push_back(contact);
+    }
+}
+
+void add_points(const Manifold& manifold, Contact contact, const Placed& pa, const Placed& pb,
+                std::vector<Contact>& contacts) {
+    if (manifold.count == 0) return;
+    contact.normal = manifold.n_W;
+    combine(pa, pb, contact);
+    const std::uint32_t kept =
+        points_to_keep(manifold, std::min(pa.material.contacts_max, pb.material.contacts_max));
     for (int i = 0; i < manifold.count; ++i) {
         if ((kept >> i & 1) == 0) continue;
         const ContactPoint& point = manifold.points[static_cast<std::size_t>(i)];
@@ -116,15 +141,21 @@ void ContactFinder::with_statics(const Model& model, std::span<RobotWork> robots
             const ShapeWork& placed = work.shapes[s];
             if (shape.body < 0 || (!is_plane && !overlaps(placed.box, box))) continue;
             if (!may_collide(shape.material, scenery.material)) continue;
-            const Manifold manifold =
-                collide(shape.shape, placed.X_WS, scenery.shape, scenery.X_WS, placed.margin);
             Contact contact;
             contact.robot_a = static_cast<int>(a);
             contact.shape_a = static_cast<std::uint32_t>(s);
             contact.shape_b = i;
             contact.body_a = shape.body;
-            add_points(manifold, contact, {shape.material, placed.X_WS.R}, {scenery.material, scenery.X_WS.R},
-                       contacts);
+            const Placed of_shape{shape.material, placed.X_WS.R}, of_scenery{scenery.material, scenery.X_WS.R};
+            if (scenery.shape.kind == ShapeKind::kSurface) {
+                collide_surface(shape.shape, placed.X_WS, *scenery.shape.surface, scenery.X_WS, placed.margin,
+                                surface_contacts_);
+                add_points(surface_contacts_.points, contact, of_shape, of_scenery, contacts);
+                continue;
+            }
+            const Manifold manifold =
+                collide(shape.shape, placed.X_WS, scenery.shape, scenery.X_WS, placed.margin);
+            add_points(manifold, contact, of_shape, of_scenery, contacts);
         }
     }
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/collide_surface.h"
 #include "physics/robot_work.h"
 
 namespace roboss {
@@ -51,6 +52,7 @@ class ContactFinder {
                       std::vector<Contact>& contacts);
     void with_itself(std::span<RobotWork> robots, std::size_t a, std::vector<Contact>& contacts);
 
+    SurfaceContacts surface_contacts_;
     std::vector<std::uint32_t> candidates_;
     std::vector<std::uint32_t> by_x_, awake_;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;  // sorted

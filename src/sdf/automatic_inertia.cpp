@@ -1,8 +1,10 @@
 // Solids of uniform density: volumes and second moments from any table (box, ellipsoid, cylinder, cone,
-// capsule).
+// capsule); of meshes and polylines summed over tetrahedra (Eberly, "Polyhedral Mass Properties", 2002).
 #include "sdf/automatic_inertia.h"
 
+#include <algorithm>
 #include <cstring>
+#include <map>
 #include <vector>
 
 namespace roboss::sdf_import {
@@ -14,39 +16,118 @@ constexpr double kWater = 1000.0;  // kg/m^3, SDFormat's default density
 struct Solid {
     double volume = 0;
     Vec3 centre;
-    Vec3 moments;  // of inertia, principal: the shape's axes
+    Mat3 inertia;
 };
+
+Mat3 diagonal(const Vec3& m) {
+    return Mat3::diagonal(m.x, m.y, m.z);
+}
 
 Solid box(const Vec3& s) {
     const double v = s.x * s.y * s.z;
-    return {v, {}, Vec3{s.y * s.y + s.z * s.z, s.x * s.x + s.z * s.z, s.x * s.x + s.y * s.y} * (v / 12.0)};
+    return {v,
+            {},
+            diagonal(Vec3{s.y * s.y + s.z * s.z, s.x * s.x + s.z * s.z, s.x * s.x + s.y * s.y} * (v / 12.0))};
 }
 
 Solid ellipsoid(const Vec3& r) {
     const double v = 4.0 / 3.0 * kPi * r.x * r.y * r.z;
-    return {v, {}, Vec3{r.y * r.y + r.z * r.z, r.x * r.x + r.z * r.z, r.x * r.x + r.y * r.y} * (v / 5.0)};
+    return {v,
+            {},
+            diagonal(Vec3{r.y * r.y + r.z * r.z, r.x * r.x + r.z * r.z, r.x * r.x + r.y * r.y} * (v / 5.0))};
 }
 
 Solid cylinder(double r, double l) {
     const double v = kPi * r * r * l;
     const double across = v * (3.0 * r * r + l * l) / 12.0;
-    return {v, {}, {across, across, v * r * r / 2.0}};
+    return {v, {}, diagonal({across, across, v * r * r / 2.0})};
 }
 
 /// SDFormat's cone stands centred on its height, the tip up.
 Solid cone(double r, double l) {
     const double v = kPi * r * r * l / 3.0;
     const double across = v * (3.0 * r * r / 20.0 + 3.0 * l * l / 80.0);
-    return {v, {0, 0, -l / 4.0}, {across, across, 0.3 * v * r * r}};
+    return {v, {0, 0, -l / 4.0}, diagonal({across, across, 0.3 * v * r * r})};
 }
 
 Solid capsule(double r, double l) {
     const Solid straight = cylinder(r, l), ball = ellipsoid({r, r, r});
     // Each half ball's centre is 3/8 r beyond the cylinder's end.
     const double off = l / 2.0 + 3.0 / 8.0 * r;
-    const double half_ball_across = ball.moments.x - ball.volume * (9.0 / 64.0) * r * r;
-    const double across = straight.moments.x + half_ball_across + ball.volume * off * off;
-    return {straight.volume + ball.volume, {}, {across, across, straight.moments.z + ball.moments.z}};
+    const double half_ball_across = ball.inertia(0, 0) - ball.volume * (9.0 / 64.0) * r * r;
+    const double across = straight.inertia(0, 0) + half_ball_across + ball.volume * off * off;
+    return {straight.volume + ball.volume,
+            {},
+            diagonal({across, across, straight.inertia(2, 2) + ball.inertia(2, 2)})};
+}
+
+/// The sum over the tetrahedra between the origin and the triangles, which must be closed and wound outward.
+class SolidSum {
+  public:
+    void add(const Vec3& a, const Vec3& b, const Vec3& c) {
+        const double v = dot(a, cross(b, c)) / 6.0;
+        volume_ += v;
+        const Vec3 sum = a + b + c;
+        first_ += sum * (v / 4.0);
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t j = 0; j < 3; ++j) {
+                const double corners = a[i] * a[j] + b[i] * b[j] + c[i] * c[j];
+                second_(i, j) += v / 20.0 * (corners + sum[i] * sum[j]);
+            }
+        }
+    }
+    /// nullopt: no volume, or inside out.
+    std::optional<Solid> solid() const {
+        if (!(volume_ > 0)) return std::nullopt;
+        const Vec3 c = first_ / volume_;
+        Mat3 about_centre;
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t j = 0; j < 3; ++j) about_centre(i, j) = second_(i, j) - volume_ * c[i] * c[j];
+        const double trace = about_centre(0, 0) + about_centre(1, 1) + about_centre(2, 2);
+        return Solid{volume_, c, Mat3::diagonal(trace, trace, trace) - about_centre};
+    }
+
+  private:
+    double volume_ = 0;
+    Vec3 first_;
+    Mat3 second_;
+};
+
+/// Whether every edge is walked once each way.
+bool is_closed(const MeshSpec& mesh) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+    for (const auto& t : mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+            edges[std::minmax(a, b)] += a < b ? 1 : -1;
+        }
+    }
+    return std::all_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.second == 0; });
+}
+
+std::optional<Solid> mesh_solid(const MeshSpec& mesh) {
+    if (!is_closed(mesh)) return std::nullopt;
+    SolidSum sum;
+    for (const auto& t : mesh.triangles)
+        sum.add(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+    return sum.solid();
+}
+
+/// Triangles of a fan need not lie inside a polygon: their signed sum is right all the same.
+std::optional<Solid> prism(const std::vector<Vec3>& outline, double height) {
+    for (const bool reversed : {false, true}) {
+        SolidSum sum;
+        const Vec3 up{0, 0, height};
+        for (std::size_t i = 0; i < outline.size(); ++i) {
+            const Vec3& p = outline[i];
+            const Vec3& q = outline[(i + 1) % outline.size()];
+            const Vec3 a = reversed ? q : p, b = reversed ? p : q;
+            sum.add(a, b, b + up), sum.add(a, b + up, a + up);  // a side
+            sum.add(up, a + up, b + up), sum.add({}, b, a);     // its shares of top and bottom
+        }
+        if (const auto solid = sum.solid()) return solid;
+    }
+    return std::nullopt;
 }
 
 std::optional<Solid> solid_of(const Element& geometry, const Import& import) {
@@ -54,7 +135,7 @@ std::optional<Solid> solid_of(const Element& geometry, const Import& import) {
         return cone(import.reader.number(shape, "radius", 0.5), import.reader.number(shape, "length", 1.0));
     }
     Pose unused;
-    const auto spec = convert_geometry(geometry, import, unused);
+    const auto spec = convert_geometry(geometry, GeometryUse::kCollide, import, unused);
     if (!spec) return std::nullopt;
     switch (spec->kind) {
         case GeometryKind::kBox:
@@ -67,6 +148,10 @@ std::optional<Solid> solid_of(const Element& geometry, const Import& import) {
             return capsule(spec->radius, spec->length);
         case GeometryKind::kEllipsoid:
             return ellipsoid(spec->size);
+        case GeometryKind::kMesh:
+            return spec->mesh ? mesh_solid(*spec->mesh) : std::nullopt;
+        case GeometryKind::kPolyline:
+            return prism(spec->outline, spec->length);
         default:
             return std::nullopt;
     }
@@ -91,7 +176,8 @@ std::vector<Placed> solids_of(const Element& link, const Import& import) {
             import.diagnostics().warning(
                 collision.where(), "automatic-inertia",
                 "collision '" + collision.name() + "' adds nothing to the automatic inertia of its link",
-                "Write the link's <mass> and <inertia>, or use primitive shapes.");
+                "Write the link's <mass> and <inertia>, or use a shape with a volume (a mesh must be "
+                "closed).");
         }
     }
     return solids;
@@ -111,11 +197,10 @@ std::optional<MassProperties> automatic_inertia(const Element& link, const Impor
     all.centre = all.centre / all.mass;
     for (const Placed& p : solids) {
         const Mat3 R = to_matrix(p.X_LS.q);
-        const Vec3 m = p.solid.moments * p.density;
         const Vec3 d = p.X_LS * p.solid.centre - all.centre;
         const double mass = p.solid.volume * p.density, dd = dot(d, d);
         const Mat3 outer{d * d.x, d * d.y, d * d.z};
-        all.inertia = all.inertia + R * Mat3::diagonal(m.x, m.y, m.z) * transpose(R) +
+        all.inertia = all.inertia + R * p.solid.inertia * transpose(R) * p.density +
                       (Mat3::diagonal(dd, dd, dd) - outer) * mass;
     }
     return all;

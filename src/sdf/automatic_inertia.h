@@ -14,8 +14,8 @@ struct MassProperties {
     Mat3 inertia;  // about the centre, link axes
 };
 
-/// nullopt if no collision of the link has a known volume. Collisions without one (meshes) are reported and
-/// left out.
+/// nullopt if no collision of the link has a known volume. Collisions without one (open meshes) are reported
+/// and left out.
 std::optional<MassProperties> automatic_inertia(const Element& link, const Import& import);
 
 }  // namespace roboss::sdf_import

@@ -27,7 +27,7 @@ void expect_error(const std::string& model, const std::string& code, int line, c
 TEST(BadInput, AMissingFileIsAnError) {
     Loaded loaded;
     loaded.world = load_world("/no/such/file.sdf", {}, loaded.diagnostics);
-    EXPECT_FALSE(loaded.world);
+    EXPECT_TRUE(loaded.diagnostics.has_errors());
     ASSERT_NE(loaded.find("cannot-read"), nullptr);
     EXPECT_EQ(loaded.find("cannot-read")->where.file, "/no/such/file.sdf");
 }
@@ -35,7 +35,7 @@ TEST(BadInput, AMissingFileIsAnError) {
 TEST(BadInput, MalformedXmlNamesLineAndColumn) {
     const Loaded loaded =
         load_text("<sdf version='1.9'>\n<world name='w'>\n  <model name='m'></world></sdf>");
-    EXPECT_FALSE(loaded.world);
+    EXPECT_TRUE(loaded.diagnostics.has_errors());
     ASSERT_NE(loaded.find("malformed-xml"), nullptr) << loaded.text();
     EXPECT_EQ(loaded.find("malformed-xml")->where.line, 3);
     EXPECT_NE(loaded.find("malformed-xml")->message.find("column"), std::string::npos);
@@ -113,7 +113,7 @@ TEST(BadInput, AMissingInertiaIsAWarningThatSaysTheDefault) {
     EXPECT_EQ(loaded.world->prototypes[0].links[0].mass, 1.0);
 }
 
-TEST(BadInput, AMissingMeshIsAWarningWithThePathsSearched) {
+TEST(BadInput, AMissingMeshThatShouldCollideIsAnErrorWithThePathsSearched) {
     const TestFolder folder;
     folder.write(
         "world.sdf",
@@ -124,10 +124,9 @@ TEST(BadInput, AMissingMeshIsAWarningWithThePathsSearched) {
             "</model></world></sdf>");
     const Loaded loaded = folder.load("world.sdf", {{"/some/where"}});
     ASSERT_NE(loaded.find("file-not-found"), nullptr) << loaded.text();
-    EXPECT_EQ(loaded.find("file-not-found")->severity, Severity::kWarning);
+    EXPECT_EQ(loaded.find("file-not-found")->severity, Severity::kError);
     EXPECT_NE(loaded.find("file-not-found")->message.find("/some/where/car/body.stl"), std::string::npos);
-    ASSERT_NE(loaded.find("shape-to-come"), nullptr);
-    EXPECT_FALSE(loaded.diagnostics.has_errors());
+    EXPECT_TRUE(loaded.diagnostics.has_errors());
 }
 
 TEST(BadInput, TwoModelsOfOneNameAreAnError) {

@@ -7,6 +7,7 @@
 
 #include "sdf/element_reader.h"
 #include "sdf/resource_paths.h"
+#include "sdf/shape_files.h"
 #include "world/world.h"
 
 namespace roboss::sdf_import {
@@ -15,6 +16,7 @@ namespace roboss::sdf_import {
 struct Import {
     const ResourcePaths& paths;
     ElementReader reader;
+    ShapeFiles& files;
     double dt_s = 0.001;    // the world's step, which some numbers for ODE depend on
     int max_contacts = -1;  // of the world's physics, for collisions that do not say; negative: all
     Diagnostics& diagnostics() const { return reader.diagnostics(); }
@@ -26,9 +28,13 @@ void convert_inertial(const Element& link, const Import& import, LinkSpec& spec)
 /// <enable_wind> and <roboss:drag> of a link; `wind`: what the model says of <enable_wind>.
 void convert_drag(const Element& link, bool wind, const Import& import, LinkSpec& spec);
 
+/// What a geometry is for: to collide, its files are read and must be there; to be seen, they are only named.
+enum class GeometryUse { kCollide, kSee };
+
 /// nullopt for <empty> or a shape that is not known. `X` is the pose of the element that holds the geometry;
 /// a plane's normal is folded into it.
-std::optional<GeometrySpec> convert_geometry(const Element& geometry, const Import& import, Pose& X);
+std::optional<GeometrySpec> convert_geometry(const Element& geometry, GeometryUse use, const Import& import,
+                                             Pose& X);
 
 SurfaceSpec convert_surface(const Element& collision, const Import& import);
 std::optional<CollisionSpec> convert_collision(const Element& collision, const Pose& X_LS,

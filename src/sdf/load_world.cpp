@@ -32,7 +32,7 @@ class WorldLoader {
   public:
     WorldLoader(const LoadOptions& options, Diagnostics& diagnostics)
         : paths_(options.search_paths),
-          import_{paths_, ElementReader(diagnostics), 0.001, -1},
+          import_{paths_, ElementReader(diagnostics), files_, 0.001, -1},
           includes_(paths_, diagnostics),
           libsdformat_(includes_, diagnostics),
           diagnostics_(diagnostics),
@@ -124,6 +124,7 @@ class WorldLoader {
     }
 
     ResourcePaths paths_;
+    ShapeFiles files_;
     Import import_;
     IncludeStore includes_;
     LibsdformatReader libsdformat_;

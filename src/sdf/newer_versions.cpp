@@ -26,8 +26,7 @@ constexpr NewerElement kNewer[] = {
      "Write the link's <mass> and <inertia>."},
     {"collision", "density", nullptr, nullptr},
     {"geometry", "cone", nullptr, nullptr},
-    {"mesh", "convex_decomposition", "convex decomposition is ignored (meshes do not collide yet)",
-     "Build the collision from boxes, cylinders, spheres and capsules."},
+    {"mesh", "convex_decomposition", nullptr, nullptr},
     {"joint", "screw_thread_pitch", nullptr, nullptr},
 };
 
@@ -40,8 +39,7 @@ struct NewerAttribute {
 
 constexpr NewerAttribute kNewerAttributes[] = {
     {"inertial", "auto", nullptr, nullptr},
-    {"mesh", "optimization", "mesh optimisation is ignored (meshes do not collide yet)",
-     "Build the collision from boxes, cylinders, spheres and capsules."},
+    {"mesh", "optimization", nullptr, nullptr},
 };
 
 const NewerElement* find_newer(const Element& element) {

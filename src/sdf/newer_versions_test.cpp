@@ -114,7 +114,7 @@ TEST(NewerVersions, AConeIsReportedAndLeftOut) {
                  "<collision name='c'><geometry><cone><radius>1</radius></cone></geometry></collision>") +
             "</model>",
         "1.12");
-    ASSERT_NE(loaded.find("shape-to-come"), nullptr) << loaded.text();
+    ASSERT_NE(loaded.find("unknown-shape"), nullptr) << loaded.text();
     EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
     EXPECT_TRUE(loaded.world->prototypes[0].links[0].collisions.empty());
 }

@@ -27,20 +27,23 @@ void read_plane(const Element& plane, const Import& import, GeometrySpec& spec, 
     spec.size = {x.value_or(1), y.value_or(1), 0};
 }
 
-/// The file behind <uri>; a missing one is reported with the places searched.
-void read_file(const Element& shape, const Import& import, GeometrySpec& spec) {
+/// The file behind <uri>; a missing one is reported with the places searched: an error where it should
+/// collide.
+bool find_file(const Element& shape, GeometryUse use, const Import& import, GeometrySpec& spec) {
     const std::string uri = shape.text("uri");
     const Resolved found = import.paths.resolve(uri, shape.source->folder());
     spec.uri = found.path.value_or(uri);
-    if (found.path) return;
-    import.diagnostics().warning(
-        shape.where(), "file-not-found",
-        "the " + std::string(shape.node.name()) + " '" + uri + "' was not found; searched: " +
-            (found.remote ? "Fuel's cache (nothing is fetched)" : list_of(found.searched)),
-        "Give the folder that holds it with --path, or in GZ_SIM_RESOURCE_PATH.");
+    if (found.path) return true;
+    import.diagnostics().add(
+        {use == GeometryUse::kCollide ? Severity::kError : Severity::kWarning, shape.where(),
+         "file-not-found",
+         "the " + std::string(shape.node.name()) + " '" + uri + "' was not found; searched: " +
+             (found.remote ? "Fuel's cache (nothing is fetched)" : list_of(found.searched)),
+         "Give the folder that holds it with --path, or in GZ_SIM_RESOURCE_PATH."});
+    return false;
 }
 
-bool read_shape(const Element& shape, const Import& import, GeometrySpec& spec, Pose& X) {
+bool read_shape(const Element& shape, GeometryUse use, const Import& import, GeometrySpec& spec, Pose& X) {
     const ElementReader& reader = import.reader;
     const std::string kind = shape.node.name();
     spec.radius = reader.number(shape, "radius", 1);
@@ -63,31 +66,21 @@ bool read_shape(const Element& shape, const Import& import, GeometrySpec& spec, 
     } else if (kind == "mesh") {
         spec.kind = GeometryKind::kMesh;
         spec.scale = reader.vector(shape, "scale", {1, 1, 1});
-        read_file(shape, import, spec);
+        if (find_file(shape, use, import, spec) && use == GeometryUse::kCollide)
+            import.files.read_mesh(shape, import.diagnostics(), spec);
     } else if (kind == "heightmap") {
         spec.kind = GeometryKind::kHeightmap;
         spec.size = reader.vector(shape, "size", {1, 1, 1});
-        read_file(shape, import, spec);
+        if (find_file(shape, use, import, spec) && use == GeometryUse::kCollide)
+            import.files.read_heightmap(shape, reader, spec);
     } else if (kind == "polyline") {
         spec.kind = GeometryKind::kPolyline;
         spec.length = reader.number(shape, "height", 1);
+        read_polyline(shape, reader, spec);
     } else {
         return false;
     }
     return true;
-}
-
-bool collides(GeometryKind kind) {
-    switch (kind) {
-        case GeometryKind::kPlane:
-        case GeometryKind::kBox:
-        case GeometryKind::kSphere:
-        case GeometryKind::kCylinder:
-        case GeometryKind::kCapsule:
-            return true;
-        default:
-            return false;
-    }
 }
 
 /// The shape element of a <geometry>: its first child that is not of another namespace.
@@ -100,17 +93,18 @@ Element shape_of(const Element& geometry) {
 }
 
 void does_not_collide(const Element& shape, const Import& import) {
-    import.diagnostics().warning(shape.where(), "shape-to-come",
-                                 "shapes of kind <" + std::string(shape.node.name()) + "> do not collide yet",
-                                 "Build the collision from planes, boxes, spheres, cylinders and capsules.");
+    import.diagnostics().warning(shape.where(), "unknown-shape",
+                                 "shapes of kind <" + std::string(shape.node.name()) + "> do not collide",
+                                 "Build the collision from other shapes, or give it as a mesh.");
 }
 
 }  // namespace
 
-std::optional<GeometrySpec> convert_geometry(const Element& geometry, const Import& import, Pose& X) {
+std::optional<GeometrySpec> convert_geometry(const Element& geometry, GeometryUse use, const Import& import,
+                                             Pose& X) {
     const Element shape = shape_of(geometry);
     GeometrySpec spec;
-    if (!shape || !read_shape(shape, import, spec, X)) return std::nullopt;
+    if (!shape || !read_shape(shape, use, import, spec, X)) return std::nullopt;
     return spec;
 }
 
@@ -122,7 +116,7 @@ std::optional<CollisionSpec> convert_collision(const Element& collision, const P
     spec.X_LS = X_LS;
     const Element geometry = collision.child("geometry");
     const Element shape = shape_of(geometry);
-    const auto known = convert_geometry(geometry, import, spec.X_LS);
+    const auto known = convert_geometry(geometry, GeometryUse::kCollide, import, spec.X_LS);
     if (!known) {
         if (!shape) {
             import.diagnostics().warning(collision.where(), "no-geometry",
@@ -134,7 +128,6 @@ std::optional<CollisionSpec> convert_collision(const Element& collision, const P
         return std::nullopt;
     }
     spec.geometry = *known;
-    if (!collides(known->kind)) does_not_collide(shape, import);
     spec.surface = convert_surface(collision, import);
     return spec;
 }
@@ -143,7 +136,7 @@ VisualSpec convert_visual(const Element& visual, const Pose& X_LV, const Import&
     VisualSpec spec;
     spec.name = visual.name();
     spec.X_LV = X_LV;
-    if (const auto known = convert_geometry(visual.child("geometry"), import, spec.X_LV))
+    if (const auto known = convert_geometry(visual.child("geometry"), GeometryUse::kSee, import, spec.X_LV))
         spec.geometry = *known;
     const Element material = visual.child("material");
     for (const char* colour : {"diffuse", "ambient"}) {

@@ -7,6 +7,9 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/convex_hull.h"
+#include "geometry/triangle_surface.h"
+
 namespace roboss {
 namespace {
 
@@ -54,6 +57,21 @@ Interval tube(const Vec3& o, const Vec3& d, double radius) {
     return ball(o2, d2, radius);
 }
 
+Interval polytope(const ConvexHull& hull, const Vec3& o, const Vec3& d) {
+    Interval inside;
+    for (const ConvexHull::Face& face : hull.faces) {
+        const double height = dot(face.n, o) - face.offset, rise = dot(face.n, d);
+        if (std::fabs(rise) < 1e-300) {
+            if (height > 0.0) return kEmpty;
+        } else if (rise < 0.0) {
+            inside.enter = std::fmax(inside.enter, -height / rise);
+        } else {
+            inside.leave = std::fmin(inside.leave, -height / rise);
+        }
+    }
+    return inside;
+}
+
 Interval cross_shape(const Shape& shape, const Vec3& o, const Vec3& d) {
     switch (shape.kind) {
         case ShapeKind::kPlane: {
@@ -74,6 +92,14 @@ Interval cross_shape(const Shape& shape, const Vec3& o, const Vec3& d) {
             return hull(hull(ball(o - end, d, shape.radius), ball(o + end, d, shape.radius)),
                         middle.empty() ? kEmpty : middle);
         }
+        case ShapeKind::kEllipsoid: {  // stretched to the unit ball
+            const Vec3& r = shape.half;
+            return ball({o.x / r.x, o.y / r.y, o.z / r.z}, {d.x / r.x, d.y / r.y, d.z / r.z}, 1.0);
+        }
+        case ShapeKind::kHull:
+            return polytope(*shape.hull, o, d);
+        case ShapeKind::kSurface:
+            break;
     }
     return kEmpty;
 }
@@ -84,6 +110,7 @@ double ray_distance(const Shape& shape, const Transform& X_WS, const Vec3& origi
                     const Vec3& direction_W) {
     const Vec3 o = transpose_times(X_WS.R, origin_W - X_WS.p);
     const Vec3 d = transpose_times(X_WS.R, direction_W);
+    if (shape.kind == ShapeKind::kSurface) return shape.surface->ray(o, d, kInfinity);
     const Interval inside = cross_shape(shape, o, d);
     if (inside.empty() || inside.leave < 0.0) return kInfinity;
     return inside.enter >= 0.0 ? inside.enter : inside.leave;

@@ -3,6 +3,9 @@
 // (`prototypes`) and placed many times (`instances`), so 10000 equal cars cost little to read and to check.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -25,6 +28,23 @@ enum class GeometryKind {
     kPolyline
 };
 
+/// The triangles of a mesh file, scale applied, equal corners joined; m. Shared by all elements that name it.
+struct MeshSpec {
+    std::string source;  // file, for messages
+    std::vector<Vec3> vertices;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// Heights (m) on a regular grid over size_x by size_y metres about `centre`; row by row, x growing within a
+/// row, y from row to row.
+struct HeightGridSpec {
+    std::string source;
+    std::size_t columns = 0, rows = 0;
+    std::vector<double> heights;
+    double size_x = 1, size_y = 1;
+    Vec3 centre;
+};
+
 /// A geometry element. `size`: box: full edge lengths; ellipsoid: radii; plane: x, y extent (drawing only).
 /// Plane: the normal is +z of the shape's own frame (the importer folds <normal> into the pose).
 struct GeometrySpec {
@@ -34,6 +54,10 @@ struct GeometrySpec {
     double length = 0;  // cylinder; capsule: of the straight part
     std::string uri;    // mesh, heightmap: the resolved file
     Vec3 scale{1, 1, 1};
+    std::shared_ptr<const MeshSpec> mesh;           // mesh; none: the file could not be read
+    std::shared_ptr<const HeightGridSpec> heights;  // heightmap; none: the file could not be read
+    std::vector<Vec3> outline;                      // polyline: corners (z = 0), extruded from 0 to `length`
+    bool as_hull = false;                           // mesh: its convex hull, also where it never moves
 };
 
 struct SurfaceSpec {

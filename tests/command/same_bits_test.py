@@ -1,6 +1,6 @@
 """One world, one hash: for any threads, Simulators, windows, grouping, after save and load, run after run; and another
-hash as soon as one bit of the input is another. Five worlds with collisions, one with a control program in the loop, two of
-closed linkages, screws, gearboxes and mimic joints."""
+hash as soon as one bit of the input is another. Six worlds with collisions: one with a control program in the loop, two of
+closed linkages, screws, gearboxes and mimic joints, one of meshes and other shapes."""
 import unittest
 
 from running import DRIVER, FOLDER, WORLDS, roboss, summary
@@ -11,6 +11,7 @@ RUNS = {
     "heap": ([WORLDS / "heap.sdf"], 2.0),
     "four_bar": ([WORLDS / "four_bar.sdf", "--orders", WORLDS / "four_bar.jsonl"], 2.0),
     "parallel": ([WORLDS / "parallel.sdf", "--orders", WORLDS / "parallel.jsonl"], 2.0),
+    "shapes": ([WORLDS / "shapes.sdf"], 0.8),
 }
 WAYS = [
     ["--threads", "2"],

@@ -1,0 +1,193 @@
+// Triangle by triangle. Above a face whose edges are flat or valleys only the face's own normal counts. At a
+// ridge the closest direction is searched, and counts only where no neighbour rises along it: else the
+// neighbour is closer and speaks for itself.
+#include "geometry/collide_surface.h"
+
+#include <algorithm>
+
+#include "geometry/collide_general.h"
+
+namespace roboss {
+namespace {
+
+using namespace narrow;
+
+constexpr double kRidge = -1e-6;                 // fold below which an edge sticks out
+constexpr double kTops = 1e-6;                   // sine by which a neighbour may rise along a normal
+constexpr double kShallow = 0.05;                // of the body's size: deeper, a face may not be the way out
+constexpr double kBorder = 2e-6, kMerge = 1e-4;  // of the body's size
+constexpr double kSameDirection = 0.98;          // cosine within which contacts are reduced together
+constexpr std::uint32_t kFace = 6;               // a triangle's part: inside it
+constexpr std::uint32_t kAnywhere = 0xFFFFF;
+constexpr double kDeeper = 1e-9;  // m
+
+class SurfaceCollider {
+  public:
+    SurfaceCollider(const ConvexBody& body, const TriangleSurface& surface, double margin,
+                    std::vector<SurfaceContact>& found)
+        : body_(body), surface_(surface), margin_(margin), found_(found) {}
+
+    void collide(std::uint32_t number) {
+        number_ = number;
+        triangle_ = surface_.triangle(number);
+        double height = dot(triangle_.n, body_.centre() - triangle_.v[0]);
+        if (height < 0.0 && !surface_.is_ground()) {
+            if (surface_.sides() == SurfaceSides::kSolid) return;
+            turn_over();
+            height = -height;
+        }
+        const Vec3& n = triangle_.n;
+        const double s_face = height - body_.reach(-n) - body_.ball();
+        if (s_face > margin_) return;
+        Feature face;
+        face.n = n;
+        face.face_part = kFace;
+        for (std::uint32_t k = 0; k < 3; ++k) face.add(triangle_.v[k], k, 3 + k);
+        const ClippedFeature over =
+            clip_over(face, body_.feature(-n), body_.ball(), kBorder * body_.size(), kMerge * body_.size());
+        const bool shallow = s_face > -kShallow * body_.size();
+        const bool ridge = std::any_of(triangle_.fold.begin(), triangle_.fold.end(),
+                                       [](double fold) { return fold < kRidge; });
+        const bool over_it = over.count > 0 && over.deepest() <= s_face + 1e-6 * body_.size();
+        if ((shallow && (!ridge || over_it)) || height < 0.0) return add_face(over);
+        collide_ridge(over, shallow);
+    }
+
+  private:
+    /// The sheet seen from its other side.
+    void turn_over() {
+        triangle_.n = -triangle_.n;
+        std::swap(triangle_.v[1], triangle_.v[2]);
+        std::swap(triangle_.beyond[0], triangle_.beyond[2]);
+        std::swap(triangle_.fold[0], triangle_.fold[2]);
+        for (double& fold : triangle_.fold)
+            if (fold != SurfaceTriangle::kBorder) fold = -fold;
+        turned_ = true;
+    }
+
+    std::size_t corner_of_surface(std::size_t k) const { return turned_ && k > 0 ? 3 - k : k; }
+
+    void collide_ridge(const ClippedFeature& over, bool shallow) {
+        const ConvexBody sheet(triangle_.v, triangle_.n);
+        const Separation best = best_separation(body_, sheet, margin_ + body_.ball());
+        if (best.s > margin_ + body_.ball()) return;
+        if (!is_own_normal(sheet, best.n)) {
+            if (shallow || surface_.is_ground()) add_face(over);
+            return;
+        }
+        Manifold manifold;
+        write_general(body_, sheet, best, margin_, manifold);
+        for (int i = 0; i < manifold.count; ++i) {
+            const ContactPoint& p = manifold.points[static_cast<std::size_t>(i)];
+            add(p.p_W, manifold.n_W, p.gap, p.feature >> 16, p.feature & 0xFFFFu);
+        }
+    }
+
+    /// Whether the surface, not only this triangle, ends along d here.
+    bool is_own_normal(const ConvexBody& sheet, const Vec3& d) const {
+        const double along = dot(d, triangle_.n);
+        if (along < -kTops) return false;
+        if (along > 1.0 - 1e-12) return true;
+        const Feature top = sheet.line(d, kTops);
+        if (top.count == 2) {
+            const std::size_t edge = top.edge_part[0] - 3;
+            if (triangle_.fold[edge] == SurfaceTriangle::kBorder) return true;
+            const Vec3 across = triangle_.beyond[edge] - triangle_.v[edge];
+            return triangle_.fold[edge] < kRidge && dot(d, across) <= kTops * norm(across);
+        }
+        return surface_.tops(number_, corner_of_surface(top.part[0]), d, kTops);
+    }
+
+    void add_face(const ClippedFeature& over) {
+        const Vec3& n = triangle_.n;
+        for (std::size_t i = 0; i < over.count; ++i) {
+            const OverFace& c = over.points[i];
+            if (c.gap <= margin_)
+                add(c.p - n * (body_.ball() + 0.5 * c.gap), n, c.gap, c.part, c.reference_part);
+        }
+    }
+
+    void add(const Vec3& p, const Vec3& n, double gap, std::uint32_t part, std::uint32_t triangle_part) {
+        // A corner of the body keeps its name as it passes from triangle to triangle.
+        const std::uint32_t place = triangle_part == kFace ? kAnywhere : number_;
+        found_.push_back({p, n, gap, place << 12 | (part & 0xFFu) << 4 | (triangle_part & 0xFu)});
+    }
+
+    const ConvexBody& body_;
+    const TriangleSurface& surface_;
+    double margin_;
+    std::vector<SurfaceContact>& found_;
+    std::uint32_t number_ = 0;
+    SurfaceTriangle triangle_;
+    bool turned_ = false;
+};
+
+/// Takes the points of one cluster that count: at most 8, no two in one place.
+void reduce_cluster(SurfaceContacts& work, double merge) {
+    const std::vector<SurfaceContact>& cluster = work.cluster;
+    // Also where they are few: points on seams between the outermost ones would only come and go.
+    work.positions.clear(), work.gaps.clear();
+    for (const SurfaceContact& c : cluster) work.positions.push_back(c.p_W), work.gaps.push_back(c.gap);
+    const Chosen chosen = choose_points(work.positions, work.gaps, cluster.front().n_W);
+    const std::size_t first = work.points.size();
+    for (std::size_t k = 0; k < chosen.count; ++k) {
+        const SurfaceContact& c = cluster[chosen.number[k]];
+        const auto known =
+            std::find_if(work.points.begin() + static_cast<std::ptrdiff_t>(first), work.points.end(),
+                         [&](const SurfaceContact& other) { return norm(other.p_W - c.p_W) <= merge; });
+        if (known == work.points.end()) {
+            work.points.push_back(c);
+        } else if (c.gap < known->gap - kDeeper) {
+            *known = c;
+        }
+    }
+}
+
+/// Groups the candidates by direction, in the order in which they were found.
+void reduce(SurfaceContacts& work, double merge) {
+    while (!work.candidates.empty()) {
+        const Vec3 n = work.candidates.front().n_W;
+        work.cluster.clear();
+        std::size_t kept = 0;
+        for (const SurfaceContact& c : work.candidates) {
+            if (dot(c.n_W, n) > kSameDirection)
+                work.cluster.push_back(c);
+            else
+                work.candidates[kept++] = c;
+        }
+        work.candidates.resize(kept);
+        reduce_cluster(work, merge);
+    }
+}
+
+/// Equal names (parts beyond 8 bits, triangles beyond 20) are told apart by counting on.
+void name_apart(std::vector<SurfaceContact>& points) {
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const auto taken = [&] {
+            return std::any_of(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(i),
+                               [&](const SurfaceContact& c) { return c.feature == points[i].feature; });
+        };
+        while (taken()) ++points[i].feature;
+    }
+}
+
+}  // namespace
+
+void collide_surface(const Shape& shape, const Transform& X_WA, const TriangleSurface& surface,
+                     const Transform& X_WS, double margin, SurfaceContacts& out) {
+    out.points.clear();
+    out.candidates.clear();
+    if (shape.kind == ShapeKind::kPlane || shape.kind == ShapeKind::kSurface) return;
+    const Transform X_SA = inverse(X_WS) * X_WA;
+    surface.query(bounds(shape, X_SA).inflated(margin), out.triangles);
+    if (out.triangles.empty()) return;
+    const Posed posed{shape, X_SA};
+    const ConvexBody body(posed);
+    for (const std::uint32_t number : out.triangles)
+        SurfaceCollider(body, surface, margin, out.candidates).collide(number);
+    reduce(out, kMerge * body.size());
+    name_apart(out.points);
+    for (SurfaceContact& c : out.points) c.p_W = X_WS * c.p_W, c.n_W = X_WS.R * c.n_W;
+}
+
+}  // namespace roboss

@@ -1,0 +1,109 @@
+// Newton's method on the sphere for curved bodies, all combinations of flat features near the start for
+// polytopes.
+#include "geometry/general_sum.h"
+
+#include <algorithm>
+
+namespace roboss::narrow {
+namespace {
+
+constexpr int kNewtonSteps = 16;
+constexpr int kRounds = 6;
+constexpr double kBeside = 1e-6;  // rad
+
+}  // namespace
+
+GeneralSum::GeneralSum(const ConvexBody& first, const ConvexBody& second)
+    : a_(&first), b_(&second), centre_(first.centre() - second.centre()) {}
+
+double GeneralSum::rounding() const {
+    return 2e-15 * (std::fabs(centre_.x) + std::fabs(centre_.y) + std::fabs(centre_.z) + inradius());
+}
+
+bool GeneralSum::newton_step(const Vec3& n, const Vec3* edge, Vec3& move) const {
+    Vec3 t1, t2;
+    if (edge != nullptr) {
+        t1 = cross(*edge, n);
+    } else {
+        tangents(n, t1, t2);
+    }
+    const Vec3 gap = centre_ - support(n);
+    const double s = dot(n, gap), g1 = dot(t1, gap), g2 = dot(t2, gap);
+    double h11 = s, h12 = 0.0, h22 = s;
+    if (!a_->add_curvature(-n, t1, t2, h11, h12, h22) || !b_->add_curvature(n, t1, t2, h11, h12, h22))
+        return false;
+    if (edge != nullptr) {
+        if (!(h11 > 0.0)) return false;
+        move = t1 * (g1 / h11);
+    } else {
+        const double determinant = h11 * h22 - h12 * h12;
+        if (!(h11 > 0.0 && determinant > 0.0)) return false;
+        move = t1 * ((h22 * g1 - h12 * g2) / determinant) + t2 * ((h11 * g2 - h12 * g1) / determinant);
+    }
+    return norm_squared(move) < 1.0;
+}
+
+Separation GeneralSum::climb(Vec3 n, const Vec3* edge) const {
+    Separation best = separation(n);
+    for (int step = 0; step < kNewtonSteps; ++step) {
+        Vec3 move;
+        if (!newton_step(best.n, edge, move)) return best;
+        Separation found = separation(normalized(best.n + move));
+        for (int half = 0; half < 6 && !(found.s >= best.s - rounding()); ++half) {
+            move = move * 0.5;
+            found = separation(normalized(best.n + move));
+        }
+        if (!(found.s >= best.s - rounding())) return best;
+        best = found;  // also when equal: the gap is flat at its maximum, the direction still improves
+        if (norm_squared(move) < 1e-28) return best;
+    }
+    return best;
+}
+
+Separation GeneralSum::polished(const Separation& start) const {
+    Separation best = polished_once(start);
+    // Curved against flat: another feature may come near as the direction settles.
+    for (int round = 0; curved() && round < kRounds; ++round) {
+        const Separation again = polished_once(best);
+        const bool settled = !(again.s > best.s + rounding()) && norm_squared(again.n - best.n) < 1e-20;
+        best = again;
+        if (settled) break;
+    }
+    // A flat candidate may have won by rounding only, with a direction good to the root of it.
+    return curved() ? better(best, climb(best.n, nullptr)) : best;
+}
+
+Separation GeneralSum::polished_once(const Separation& start) const {
+    const Vec3& n0 = start.n;
+    const double sine = curved() ? 0.1 : 0.02;
+    Separation best = better(start, climb(n0, nullptr));
+    const NearFeatures of_a = a_->near(-n0, sine), of_b = b_->near(n0, sine);
+    const bool climbs = curved() || start.s > 0.0;  // else the gap is piecewise flat: only corners count
+    for (const NearFeatures* side : {&of_a, &of_b}) {
+        for (std::size_t i = 0; climbs && i < side->edge_count; ++i) {
+            const Vec3& e = side->edges[i];
+            const Vec3 n = normalized(n0 - e * dot(e, n0));
+            if (curved()) {
+                for (const double step : {-kBeside, kBeside})
+                    best = better(best, climb(normalized(n + e * step), nullptr));
+            }
+            best = better(best, climb(n, &e));
+        }
+    }
+    for (std::size_t i = 0; i < of_a.edge_count; ++i) {
+        for (std::size_t j = 0; j < of_b.edge_count; ++j) {
+            const Vec3 direction = cross(of_a.edges[i], of_b.edges[j]);
+            const double length = norm(direction);
+            if (length < 1e-3) continue;
+            const Vec3 n = direction * (dot(direction, n0) < 0.0 ? -1.0 / length : 1.0 / length);
+            if (dot(n, n0) > 0.9) best = better(best, separation(n));
+        }
+    }
+    for (std::size_t i = 0; i < of_a.normal_count; ++i) best = better(best, separation(-of_a.normals[i]));
+    for (std::size_t i = 0; i < of_b.normal_count; ++i) best = better(best, separation(of_b.normals[i]));
+    // Beside the face of a cylinder's cap the rim may be better still.
+    if (curved()) best = better(climb(normalized(best.n + n0 * kBeside), nullptr), best);
+    return best;
+}
+
+}  // namespace roboss::narrow

@@ -1,0 +1,151 @@
+// Cells are cut along the diagonal from their lower left to their upper right corner: triangle 2 c is the
+// lower right half of cell c, 2 c + 1 the upper left.
+#include "geometry/height_field.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/check.h"
+#include "core/hash.h"
+
+namespace roboss {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+HeightField::HeightField(std::size_t columns, std::size_t rows, std::span<const double> heights,
+                         double size_x, double size_y)
+    : columns_(columns),
+      rows_(rows),
+      heights_(heights.begin(), heights.end()),
+      x0_(-0.5 * size_x),
+      y0_(-0.5 * size_y),
+      dx_(size_x / static_cast<double>(columns - 1)),
+      dy_(size_y / static_cast<double>(rows - 1)) {
+    ROBOSS_CHECK(columns >= 2 && rows >= 2 && heights.size() == columns * rows,
+                 "a height field needs a full grid");
+    sides_ = SurfaceSides::kSolid;
+    Hash hash;
+    hash.add(static_cast<std::uint64_t>(columns_)), hash.add(static_cast<std::uint64_t>(rows_));
+    hash.add(size_x), hash.add(size_y);
+    hash.add(std::span<const double>(heights_));
+    hash_ = hash.value();
+    const auto [low, high] = std::minmax_element(heights_.begin(), heights_.end());
+    box_.include(Vec3{x0_, y0_, *low});
+    box_.include(Vec3{-x0_, -y0_, *high});
+}
+
+void HeightField::query(const Aabb& box, std::vector<std::uint32_t>& out) const {
+    out.clear();
+    if (box.max.x < box_.min.x || box.min.x > box_.max.x || box.max.y < box_.min.y || box.min.y > box_.max.y)
+        return;
+    const auto cell = [](double x, double origin, double step, std::size_t nodes) {
+        const double at = std::floor((x - origin) / step);
+        return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(nodes - 2)));
+    };
+    const std::size_t i0 = cell(box.min.x, x0_, dx_, columns_), i1 = cell(box.max.x, x0_, dx_, columns_);
+    const std::size_t j0 = cell(box.min.y, y0_, dy_, rows_), j1 = cell(box.max.y, y0_, dy_, rows_);
+    for (std::size_t j = j0; j <= j1; ++j) {
+        for (std::size_t i = i0; i <= i1; ++i) {
+            const double* h = &heights_[j * columns_ + i];
+            const double high = std::max({h[0], h[1], h[columns_], h[columns_ + 1]});
+            if (high < box.min.z) continue;  // what is below ground is in it
+            const auto number = static_cast<std::uint32_t>(2 * (j * (columns_ - 1) + i));
+            out.push_back(number), out.push_back(number + 1);
+        }
+    }
+}
+
+std::array<HeightField::Node, 3> HeightField::nodes(std::uint32_t number) const {
+    const std::size_t cell = number / 2, i = cell % (columns_ - 1), j = cell / (columns_ - 1);
+    if (number % 2 == 0) return {{{i, j}, {i + 1, j}, {i + 1, j + 1}}};
+    return {{{i, j}, {i + 1, j + 1}, {i, j + 1}}};
+}
+
+SurfaceTriangle HeightField::triangle(std::uint32_t number) const {
+    const std::array<Node, 3> at = nodes(number);
+    SurfaceTriangle t;
+    for (std::size_t k = 0; k < 3; ++k) t.v[k] = point(at[k].i, at[k].j);
+    t.n = normalized(cross(t.v[1] - t.v[0], t.v[2] - t.v[0]));
+    const auto beyond = [&](std::size_t edge, bool known, std::size_t i, std::size_t j) {
+        t.beyond[edge] = t.v[edge];
+        t.fold[edge] = SurfaceTriangle::kBorder;
+        if (!known) return;
+        t.beyond[edge] = point(i, j);
+        t.fold[edge] = fold_at(t.n, t.v[edge], t.v[(edge + 1) % 3], t.beyond[edge]);
+    };
+    const std::size_t i = at[0].i, j = at[0].j;
+    if (number % 2 == 0) {
+        beyond(0, j > 0, i, j - 1);
+        beyond(1, i + 2 < columns_, i + 2, j + 1);
+        beyond(2, true, i, j + 1);
+    } else {
+        beyond(0, true, i + 1, j);
+        beyond(1, j + 2 < rows_, i + 1, j + 2);
+        beyond(2, i > 0, i - 1, j);
+    }
+    return t;
+}
+
+bool HeightField::tops(std::uint32_t number, std::size_t corner, const Vec3& d, double tolerance) const {
+    const Node at = nodes(number)[corner];
+    const Vec3 p = point(at.i, at.j);
+    constexpr int kRing[6][2] = {{-1, -1}, {0, -1}, {-1, 0}, {1, 0}, {0, 1}, {1, 1}};
+    for (const auto& step : kRing) {
+        const long i = static_cast<long>(at.i) + step[0], j = static_cast<long>(at.j) + step[1];
+        if (i < 0 || j < 0 || i >= static_cast<long>(columns_) || j >= static_cast<long>(rows_)) continue;
+        const Vec3 edge = point(static_cast<std::size_t>(i), static_cast<std::size_t>(j)) - p;
+        if (dot(d, edge) > tolerance * norm(edge)) return false;
+    }
+    return true;
+}
+
+double HeightField::ray_in_cell(std::size_t i, std::size_t j, const Vec3& origin,
+                                const Vec3& direction) const {
+    const Vec3 a = point(i, j), b = point(i + 1, j), c = point(i + 1, j + 1), d = point(i, j + 1);
+    return std::fmin(ray_triangle(origin, direction, {a, b, c}), ray_triangle(origin, direction, {a, c, d}));
+}
+
+// From cell to cell along the ray's shadow (Amanatides and Woo, "A Fast Voxel Traversal Algorithm", 1987).
+double HeightField::ray(const Vec3& origin, const Vec3& direction, double limit) const {
+    double enter = 0, leave = limit;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double low = box_.min[k] - 1e-9, high = box_.max[k] + 1e-9;
+        if (std::fabs(direction[k]) < 1e-300) {
+            if (origin[k] < low || origin[k] > high) return limit;
+            continue;
+        }
+        const double a = (low - origin[k]) / direction[k], b = (high - origin[k]) / direction[k];
+        enter = std::fmax(enter, std::fmin(a, b));
+        leave = std::fmin(leave, std::fmax(a, b));
+    }
+    if (enter > leave) return limit;
+    const Vec3 p = origin + direction * enter;
+    const double fi = std::clamp(std::floor((p.x - x0_) / dx_), 0.0, static_cast<double>(columns_ - 2));
+    const double fj = std::clamp(std::floor((p.y - y0_) / dy_), 0.0, static_cast<double>(rows_ - 2));
+    auto i = static_cast<long>(fi), j = static_cast<long>(fj);
+    const long si = direction.x < 0.0 ? -1 : 1, sj = direction.y < 0.0 ? -1 : 1;
+    const auto crossing = [](double start, double d, double line) {
+        return std::fabs(d) < 1e-300 ? kInfinity : (line - start) / d;
+    };
+    double nearest = limit;
+    while (i >= 0 && j >= 0 && i + 1 < static_cast<long>(columns_) && j + 1 < static_cast<long>(rows_)) {
+        nearest = std::fmin(nearest, ray_in_cell(static_cast<std::size_t>(i), static_cast<std::size_t>(j),
+                                                 origin, direction));
+        const double tx =
+            crossing(origin.x, direction.x, x0_ + dx_ * static_cast<double>(si > 0 ? i + 1 : i));
+        const double ty =
+            crossing(origin.y, direction.y, y0_ + dy_ * static_cast<double>(sj > 0 ? j + 1 : j));
+        const double next = std::fmin(tx, ty);
+        if (!(next <= leave) || nearest <= next) break;
+        if (tx <= ty)
+            i += si;
+        else
+            j += sj;
+    }
+    return nearest;
+}
+
+}  // namespace roboss

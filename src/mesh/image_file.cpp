@@ -1,0 +1,58 @@
+// libpng's simplified interface: no jumps over C++ frames. 16-bit samples are read as they are (linear),
+// 8-bit ones too.
+#include "mesh/image_file.h"
+
+#include <png.h>
+
+#include <cstdint>
+#include <cstring>
+
+namespace roboss {
+namespace {
+
+constexpr png_uint_32 kSideMax = 8193;
+
+Error unreadable(const std::string& why) {
+    return {"is no picture that can be read: " + why, "Save it as PNG, grey, 8 or 16 bits."};
+}
+
+}  // namespace
+
+Result<GreyImage> read_png(const std::string& path) {
+    png_image image;
+    std::memset(&image, 0, sizeof image);
+    image.version = PNG_IMAGE_VERSION;
+    if (png_image_begin_read_from_file(&image, path.c_str()) == 0) return unreadable(image.message);
+    if (image.width < 2 || image.height < 2 || image.width > kSideMax || image.height > kSideMax) {
+        const std::string size = std::to_string(image.width) + " x " + std::to_string(image.height);
+        png_image_free(&image);
+        return Error{"has " + size + " pixels",
+                     "Give a picture from 2 x 2 to 8193 x 8193 pixels, usually 2^n + 1."};
+    }
+    const bool wide = (image.format & PNG_FORMAT_FLAG_LINEAR) != 0;
+    const bool colour = (image.format & PNG_FORMAT_FLAG_COLOR) != 0;
+    // Without alpha and gamma, every sample comes as it stands in the file.
+    image.format = (wide ? PNG_FORMAT_FLAG_LINEAR : 0u) | (colour ? PNG_FORMAT_FLAG_COLOR : 0u);
+    const std::size_t channels = colour ? 3 : 1, pixels = std::size_t{image.width} * image.height;
+    GreyImage out{image.width, image.height, {}};
+    out.values.resize(pixels);
+    png_color black{0, 0, 0};
+    const auto read = [&](auto& samples, double white) {
+        samples.resize(pixels * channels);
+        if (png_image_finish_read(&image, &black, samples.data(), 0, nullptr) == 0) return false;
+        for (std::size_t i = 0; i < pixels; ++i)
+            out.values[i] = static_cast<double>(samples[i * channels]) / white;
+        return true;
+    };
+    std::vector<std::uint16_t> wide_samples;
+    std::vector<std::uint8_t> samples;
+    const bool ok = wide ? read(wide_samples, 65535.0) : read(samples, 255.0);
+    if (!ok) {
+        const std::string why = image.message;
+        png_image_free(&image);
+        return unreadable(why);
+    }
+    return out;
+}
+
+}  // namespace roboss

@@ -1,0 +1,29 @@
+// Mesh files (STL, OBJ, DAE) to plain triangles. The only place that knows assimp.
+#pragma once
+
+#include <string>
+
+#include "core/result.h"
+#include "world/world.h"
+
+namespace roboss {
+
+struct MeshRequest {
+    std::string path;
+    Vec3 scale{1, 1, 1};
+    std::string submesh;          // name of one part; empty: all of the file
+    bool centre_submesh = false;  // move that part's box to the origin before scaling
+};
+
+struct MeshFile {
+    MeshSpec mesh;
+    std::size_t dropped = 0;  // triangles without area
+};
+
+/// Corners with equal coordinates are joined, nodes' transforms and COLLADA's unit are applied, COLLADA's up
+/// axis is not (as in Gazebo). Coordinates have the digits of single precision, as assimp reads them. Errors:
+/// no such file, not a mesh, no triangles, a coordinate that is not finite or beyond 1e6 m, more than two
+/// million triangles, no such part.
+Result<MeshFile> read_mesh(const MeshRequest& request);
+
+}  // namespace roboss

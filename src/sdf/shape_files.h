@@ -1,0 +1,29 @@
+// ShapeFiles: the files behind <mesh> and <heightmap>, each read once however many elements name it with the
+// same scale and part; findings about a file are reported at the first element that names it.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "sdf/element_reader.h"
+#include "world/world.h"
+
+namespace roboss::sdf_import {
+
+class ShapeFiles {
+  public:
+    /// Fills spec.mesh from spec.uri and spec.scale, and spec.as_hull, for a <mesh>.
+    void read_mesh(const Element& mesh, Diagnostics& diagnostics, GeometrySpec& spec);
+    /// Fills spec.heights for a <heightmap>.
+    void read_heightmap(const Element& heightmap, const ElementReader& reader, GeometrySpec& spec);
+
+  private:
+    std::map<std::string, std::shared_ptr<const MeshSpec>> meshes_;
+    std::map<std::string, std::shared_ptr<const HeightGridSpec>> heights_;
+};
+
+/// The corners of a <polyline>.
+void read_polyline(const Element& polyline, const ElementReader& reader, GeometrySpec& spec);
+
+}  // namespace roboss::sdf_import
