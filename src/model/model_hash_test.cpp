@@ -182,7 +182,7 @@ TEST(ModelHash, ChangesWithTheAccuracy) {
     const std::uint64_t before = hash_of(base_world());
     for (const AccuracyNumber& number : accuracy_numbers()) {
         CompileOptions options;
-        options.accuracy.numbers = {{number.name, number.high}};
+        options.accuracy.numbers = {{number.name, number.low}};
         EXPECT_NE(hash_of(base_world(), options), before) << number.name;
         World world = base_world();
         world.accuracy.push_back(options.accuracy);
