@@ -19,7 +19,7 @@ constexpr std::array kNumbers{
                    &Accuracy::friction_max},
     AccuracyNumber{"compliance", "softness of hard joint rows, relative to the mobility they act on", 1e-9,
                    1e-5, &Accuracy::compliance, nullptr},
-    AccuracyNumber{"contact_compliance", "softness of hard contacts that bear a load already", 1e-9, 1e-3,
+    AccuracyNumber{"contact_compliance", "softness of hard contacts that bear a load already", 1e-9, 1e-2,
                    &Accuracy::contact_compliance, nullptr},
 };
 

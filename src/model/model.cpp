@@ -84,7 +84,7 @@ void add_sensor(Hash& hash, const SensorInfo& info) {
                      s.max_angle, s.vertical_min_angle, s.vertical_max_angle, s.range_min, s.range_max,
                      s.range_resolution, s.wheel_radius})
         hash.add(x);
-    for (const NoiseSpec& n : {s.noise, s.position_horizontal_noise, s.position_vertical_noise,
+    for (const NoiseSpec& n : {s.noise, s.gyro_noise, s.position_horizontal_noise, s.position_vertical_noise,
                                s.velocity_horizontal_noise, s.velocity_vertical_noise})
         for (double x : {n.mean, n.stddev, n.bias_mean, n.bias_stddev, n.precision}) hash.add(x);
     for (int x : {static_cast<int>(s.kind), s.samples, s.vertical_samples, static_cast<int>(info.link.value)})

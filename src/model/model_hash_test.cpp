@@ -172,6 +172,7 @@ TEST(ModelHash, ChangesWithSensors) {
         {"angles", [](World& w) { sensor(w).max_angle = 1; }},
         {"range", [](World& w) { sensor(w).range_max = 9; }},
         {"noise", [](World& w) { sensor(w).noise.stddev = 0.1; }},
+        {"gyro noise", [](World& w) { sensor(w).gyro_noise.stddev = 0.1; }},
         {"link",
          [](World& w) { robot(w).links[3].sensors.push_back(sensor(w)), robot(w).links[2].sensors.clear(); }},
     });
@@ -181,7 +182,7 @@ TEST(ModelHash, ChangesWithTheAccuracy) {
     const std::uint64_t before = hash_of(base_world());
     for (const AccuracyNumber& number : accuracy_numbers()) {
         CompileOptions options;
-        options.accuracy.numbers = {{number.name, number.high}};
+        options.accuracy.numbers = {{number.name, number.low}};
         EXPECT_NE(hash_of(base_world(), options), before) << number.name;
         World world = base_world();
         world.accuracy.push_back(options.accuracy);

@@ -135,6 +135,7 @@ SensorSpec convert_sensor(const Element& sensor, const Pose& X_LS, const std::st
     } else if (ours && spec.sdf_type == "gyrocompass") {
         spec.kind = SensorKind::kCompass;
         spec.noise = read_noise(sensor.child("noise"), import);
+        spec.gyro_noise = read_noise(sensor.child("gyro").child("noise"), import);
     } else if (ours) {
         import.diagnostics().error(
             sensor.where(), "sensor",

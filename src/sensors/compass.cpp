@@ -37,7 +37,12 @@ CompassReading read_compass(const Model& model, RobotId robot, std::size_t senso
 
     CompassReading reading;
     reading.q_WS = axis_angle({0, 0, 1}, -error) * to_quat(X_WS.R);
-    reading.angular_velocity_S = transpose_times(X_WS.R, link_twist(type, state, info.link).angular);
+    const SensorMoment moment{seed, robot, sensor, tick};
+    const Vec3 rate = transpose_times(X_WS.R, link_twist(type, state, info.link).angular);
+    for (std::size_t axis = 0; axis < 3; ++axis)  // channel and index 0 are those of the angle
+        reading.angular_velocity_S[axis] =
+            noisy_value(rate[axis], info.spec.gyro_noise, moment, 1 + axis, 1 + axis);
+    reading.magnetic_field_S = transpose_times(X_WS.R, model.magnetic_field_T);
     reading.heading_rad = heading_of(model, X_WS, to_matrix(reading.q_WS));
     return reading;
 }

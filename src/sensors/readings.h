@@ -36,6 +36,7 @@ struct GpsReading {
 struct CompassReading {
     Quat q_WS;                // orientation of the sensor frame
     Vec3 angular_velocity_S;  // rad/s, sensor axes (the gyro)
+    Vec3 magnetic_field_S;    // T, sensor axes: the world's field, undisturbed
     double heading_rad = 0;   // of the sensor's x axis: clockwise from true north where the world has
                               // spherical coordinates (world y = north without), 0 .. 2 pi
 };
@@ -85,7 +86,7 @@ OdometerReading read_odometer(const Model& model, RobotId robot, std::size_t sen
 GpsReading read_gps(const Model& model, RobotId robot, std::size_t sensor, const RobotState& state, Tick tick,
                     std::uint64_t seed);
 /// Gyrocompass: north at the sensor's own place; noise (rad) turns heading and orientation together; the gyro
-/// has none.
+/// has its own (<gyro><noise>, rad/s), drawn for each axis.
 CompassReading read_compass(const Model& model, RobotId robot, std::size_t sensor, const RobotState& state,
                             Tick tick, std::uint64_t seed);
 

@@ -300,6 +300,42 @@ TEST(Compass, GyroReadsInSensorAxes) {
     EXPECT_NEAR(norm(cart.compass().angular_velocity_S - Vec3{2, -1, 3}), 0, 1e-12);
 }
 
+TEST(Compass, TheGyroHasNoiseOfItsOwnOnEachAxis) {
+    SensorSpec spec = compass_spec();
+    spec.noise.stddev = 0.3;  // of the angle: it leaves the gyro alone
+    OneSensor calm(spec);
+    EXPECT_EQ(norm(calm.compass(5).angular_velocity_S), 0);
+    spec.gyro_noise.stddev = 0.02;
+    spec.gyro_noise.bias_mean = 0.1;
+    OneSensor cart(spec);
+    Vec3 sum, squares;
+    constexpr int kDraws = 4000;
+    double product = 0;
+    for (Tick tick = 0; tick < kDraws; ++tick) {
+        const CompassReading reading = cart.compass(tick);
+        EXPECT_EQ(reading.heading_rad, calm.compass(tick).heading_rad)
+            << "and the gyro's leaves the angle alone";
+        const Vec3 w = reading.angular_velocity_S - Vec3{0.1, 0.1, 0.1};
+        sum += w;
+        for (std::size_t k = 0; k < 3; ++k) squares[k] += w[k] * w[k];
+        product += w.x * w.y;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_NEAR(sum[k] / kDraws, 0, 0.0015);
+        EXPECT_NEAR(std::sqrt(squares[k] / kDraws), 0.02, 0.001);
+    }
+    EXPECT_LT(std::fabs(product) / kDraws, 0.1 * 0.02 * 0.02) << "axes are drawn apart";
+}
+
+TEST(Compass, FeelsTheWorldsMagneticField) {
+    SensorSpec spec = compass_spec();
+    spec.X_LS.q = axis_angle({0, 0, 1}, 0.5 * kPi);
+    OneSensor cart(spec);
+    cart.model->magnetic_field_T = {2e-5, 1e-6, -4e-5};
+    const Vec3 field = cart.model->magnetic_field_T, read = cart.compass().magnetic_field_S;
+    EXPECT_NEAR(norm(read - Vec3{field.y, -field.x, field.z}), 0, 1e-18);
+}
+
 TEST(Compass, TheWorldsHeadingCounts) {
     OneSensor cart(compass_spec());
     cart.model->spherical =

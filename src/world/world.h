@@ -112,7 +112,8 @@ struct SensorSpec {
     int samples = 1, vertical_samples = 1;
     double min_angle = 0, max_angle = 0, vertical_min_angle = 0, vertical_max_angle = 0;
     double range_min = 0, range_max = 0, range_resolution = 0;
-    NoiseSpec noise;  // laser range, m; compass: rad; odometer: fraction of the way
+    NoiseSpec noise;       // laser range, m; compass: rad; odometer: fraction of the way
+    NoiseSpec gyro_noise;  // of the compass' gyro, each axis by itself, rad/s
     NoiseSpec position_horizontal_noise, position_vertical_noise;  // gps, m
     NoiseSpec velocity_horizontal_noise, velocity_vertical_noise;  // gps, m/s
     // odometer (<roboss:odometer>): joints read, wheel radius in m (0: angle only)
