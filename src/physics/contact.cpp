@@ -62,6 +62,7 @@ void add_points(std::vector<SurfaceContact>& points, Contact contact, const Plac
         combine(pa, pb, contact);
         contact.p_W = point.p_W;
         contact.gap = point.gap;
+        contact.torsional = torsional_lever(pa.material, pb.material, -point.gap);
         contact.feature = point.feature;
         contact.torsional = torsional_lever(pa.material, pb.material, -point.gap);
         contacts.push_back(contact);

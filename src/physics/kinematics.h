@@ -27,6 +27,6 @@ Twist link_twist(const RobotType& type, const RobotState& state, LinkId link);
 struct JointState {
     double position = 0, velocity = 0;
 };
-JointState joint_state(const RobotType& type, const RobotState& state, JointId joint, int axis = 0);
+JointState joint_state(const RobotType& type, const RobotState& state, JointId id, int axis = 0);
 
 }  // namespace roboss
