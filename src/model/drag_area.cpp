@@ -11,6 +11,26 @@ namespace {
 
 constexpr double kRound = 0.47, kAngular = 1.05;
 
+/// Half of all faces' shadows: exact where the body is convex.
+double mesh_shadow(const MeshSpec& mesh, const Vec3& d) {
+    double twice = 0;
+    for (const auto& t : mesh.triangles) {
+        const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+        twice += 0.5 * std::fabs(dot(d, cross(b - a, c - a)));
+    }
+    return 0.5 * twice;
+}
+
+double prism_shadow(const GeometrySpec& g, const Vec3& d) {
+    double area = 0, sides = 0;
+    for (std::size_t i = 0; i < g.outline.size(); ++i) {
+        const Vec3 &a = g.outline[i], &b = g.outline[(i + 1) % g.outline.size()];
+        area += 0.5 * (a.x * b.y - a.y * b.x);
+        sides += 0.5 * g.length * std::fabs(d.x * (b.y - a.y) - d.y * (b.x - a.x));
+    }
+    return std::fabs(d.z * area) + sides;
+}
+
 /// Shadow of the shape along the unit vector d of its own frame, m^2.
 double shadow(const GeometrySpec& g, const Vec3& d) {
     const double x = std::fabs(d.x), y = std::fabs(d.y), z = std::fabs(d.z);
@@ -29,6 +49,10 @@ double shadow(const GeometrySpec& g, const Vec3& d) {
             const Vec3 face{d.x * g.size.y * g.size.z, d.y * g.size.x * g.size.z, d.z * g.size.x * g.size.y};
             return kPi * norm(face);
         }
+        case GeometryKind::kMesh:
+            return g.mesh ? mesh_shadow(*g.mesh, d) : 0.0;
+        case GeometryKind::kPolyline:
+            return prism_shadow(g, d);
         default:
             return 0;
     }

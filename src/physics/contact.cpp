@@ -51,10 +51,10 @@ void combine(const Placed& pa, const Placed& pb, Contact& contact) {
 /// Points of a triangle surface, each with a normal of its own; all but the deepest are dropped.
 void add_points(std::vector<SurfaceContact>& points, Contact contact, const Placed& pa, const Placed& pb,
                 std::vector<Contact>& contacts) {
-    for (const std::size_t keep = std::min(pa.material.contacts_max, pb.material.contacts_max); points.size() > keep;) {
-        const auto shallowest = std::max_element(points.rbegin(), points.rend(), [](const auto& p, const auto& q) {
-            return p.gap < q.gap;
-        });
+    for (const std::size_t keep = std::min(pa.material.contacts_max, pb.material.contacts_max);
+         points.size() > keep;) {
+        const auto shallowest = std::max_element(points.rbegin(), points.rend(),
+                                                 [](const auto& p, const auto& q) { return p.gap < q.gap; });
         points.erase(std::next(shallowest).base());
     }
     for (const SurfaceContact& point : points) {
@@ -146,7 +146,8 @@ void ContactFinder::with_statics(const Model& model, std::span<RobotWork> robots
             contact.shape_a = static_cast<std::uint32_t>(s);
             contact.shape_b = i;
             contact.body_a = shape.body;
-            const Placed of_shape{shape.material, placed.X_WS.R}, of_scenery{scenery.material, scenery.X_WS.R};
+            const Placed of_shape{shape.material, placed.X_WS.R},
+                of_scenery{scenery.material, scenery.X_WS.R};
             if (scenery.shape.kind == ShapeKind::kSurface) {
                 collide_surface(shape.shape, placed.X_WS, *scenery.shape.surface, scenery.X_WS, placed.margin,
                                 surface_contacts_);
