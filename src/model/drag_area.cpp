@@ -1,11 +1,9 @@
 // How much of the air a link meets: the areas that its shapes throw as shadows along the link's axes, times
 // drag coefficients by kind of shape (Hoerner, Fluid-Dynamic Drag, 1965, chapter 3: sphere .47, cube 1.05).
-// Shapes that overlap count twice; a mesh or polyline counts as the box around it.
+// Shapes that overlap count twice.
 #include <cmath>
-#include <span>
 
 #include "core/fixed_math.h"
-#include "math/aabb.h"
 #include "model/compile_type.h"
 
 namespace roboss {
@@ -13,25 +11,34 @@ namespace {
 
 constexpr double kRound = 0.47, kAngular = 1.05;
 
-Vec3 extent_of(std::span<const Vec3> points) {
-    Aabb box;
-    for (const Vec3& p : points) box.include(p);
-    return points.empty() ? Vec3{} : box.max - box.min;
+/// Half of all faces' shadows: exact where the body is convex.
+double mesh_shadow(const MeshSpec& mesh, const Vec3& d) {
+    double twice = 0;
+    for (const auto& t : mesh.triangles) {
+        const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+        twice += 0.5 * std::fabs(dot(d, cross(b - a, c - a)));
+    }
+    return 0.5 * twice;
 }
 
-double box_shadow(const Vec3& size, const Vec3& d) {
-    return std::fabs(d.x) * size.y * size.z + std::fabs(d.y) * size.x * size.z +
-           std::fabs(d.z) * size.x * size.y;
+double prism_shadow(const GeometrySpec& g, const Vec3& d) {
+    double area = 0, sides = 0;
+    for (std::size_t i = 0; i < g.outline.size(); ++i) {
+        const Vec3 &a = g.outline[i], &b = g.outline[(i + 1) % g.outline.size()];
+        area += 0.5 * (a.x * b.y - a.y * b.x);
+        sides += 0.5 * g.length * std::fabs(d.x * (b.y - a.y) - d.y * (b.x - a.x));
+    }
+    return std::fabs(d.z * area) + sides;
 }
 
 /// Shadow of the shape along the unit vector d of its own frame, m^2.
 double shadow(const GeometrySpec& g, const Vec3& d) {
-    const double z = std::fabs(d.z);
+    const double x = std::fabs(d.x), y = std::fabs(d.y), z = std::fabs(d.z);
     const double disc = kPi * g.radius * g.radius;
     const double side = 2.0 * g.radius * g.length * std::sqrt(std::fmax(0.0, 1.0 - z * z));
     switch (g.kind) {
         case GeometryKind::kBox:
-            return box_shadow(g.size, d);
+            return x * g.size.y * g.size.z + y * g.size.x * g.size.z + z * g.size.x * g.size.y;
         case GeometryKind::kSphere:
             return disc;
         case GeometryKind::kCylinder:
@@ -43,13 +50,11 @@ double shadow(const GeometrySpec& g, const Vec3& d) {
             return kPi * norm(face);
         }
         case GeometryKind::kMesh:
-            return g.mesh ? box_shadow(extent_of(g.mesh->vertices), d) : 0.0;
-        case GeometryKind::kPolyline: {
-            const Vec3 base = extent_of(g.outline);
-            return box_shadow({base.x, base.y, g.length}, d);
-        }
+            return g.mesh ? mesh_shadow(*g.mesh, d) : 0.0;
+        case GeometryKind::kPolyline:
+            return prism_shadow(g, d);
         default:
-            return 0;  // planes and heightmaps do not move
+            return 0;
     }
 }
 
