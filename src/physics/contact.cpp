@@ -80,7 +80,7 @@ void add_points(const Manifold& manifold, Contact contact, const Placed& pa, con
         contact.p_W = point.p_W;
         contact.gap = point.gap;
         contact.feature = point.feature;
-        contact.torsional = torsional_lever(a, b, -point.gap);
+        contact.torsional = torsional_lever(pa.material, pb.material, -point.gap);
         contacts.push_back(contact);
     }
 }
