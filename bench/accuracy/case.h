@@ -35,6 +35,7 @@ struct Outcome {
     std::vector<double> figures;                        // one a Quantity; not a number: the state blew up
     std::string remark = {};                            // e.g. that it was cut short
     std::vector<std::pair<double, double>> trace = {};  // time and value, for a picture
+    double share = 1;                                   // simulated, of the time asked for
     bool possible = true;                               // false: the engine cannot express the world
 };
 

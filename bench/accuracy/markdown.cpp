@@ -51,6 +51,7 @@ class Footnotes {
 std::string cell(const Result* result, const Quantity& quantity, std::size_t i, Footnotes& notes) {
     if (result == nullptr) return "";
     if (!result->outcome.possible) return "cannot" + (i == 0 ? notes.mark(result->outcome.remark) : "");
+    if (result->outcome.share < 0.5) return "too slow" + (i == 0 ? notes.mark(result->outcome.remark) : "");
     const double figure = result->outcome.figures[i];
     const std::string mark = passes(quantity, figure) ? "" : " ✗";
     return number(quantity, figure) + mark + (i == 0 ? notes.mark(result->outcome.remark) : "");
@@ -64,6 +65,7 @@ std::string verdict(const Result* ours, const Quantity& quantity, std::size_t i)
     if (passes(quantity, figure)) return "pass";
     if (!std::isfinite(figure)) return "**missed**";
     const double times = std::fabs(figure - quantity.target.value_or(0)) / *quantity.bound;
+    if (times < 1 + 1e-6) return "**at the bound**, missed by rounding";
     return fmt::format("**missed**, {:.{}g} times the bound", times, times < 1.1 ? 4 : 2);
 }
 
@@ -126,7 +128,8 @@ runs some, `--json FILE` gives the rows to programs).
 
 How to read the tables: figures are errors unless the unit says otherwise, and `✗` marks one that does not keep the bound in the column *must*.
 The bounds are for RoBOSS, at its default accuracy; the peers, set up as in the benchmark of speed, were not made for them and are shown for scale. *Stated* figures have no bound.
-*Cannot*: the engine has no such thing. An engine that needs more than its share of time is cut short; the note says when.
+*Cannot*: the engine has no such thing. An engine that needs more than its share of wall time is
+cut short; the note says when, and *too slow* stands where it did not come half way.
 
 )";
 

@@ -13,8 +13,8 @@ namespace {
 
 using Text = fmt::memory_buffer;
 
-constexpr double kWidth = 860, kHeight = 460, kLeft = 74, kRight = 110, kTop = 56, kBottom = 50;  // px
-constexpr int kLowest = -14, kHighest = 2;                                                        // decades
+constexpr double kWidth = 860, kHeight = 460, kLeft = 74, kRight = 110, kTop = 70, kBottom = 50;  // px
+constexpr int kLowest = -14, kHighest = 1;                                                        // decades
 constexpr const char* kColours[] = {"#d1495b", "#2e86ab", "#e08e2b", "#3f9263", "#8a6bbf"};
 
 template <class... Args>

@@ -23,9 +23,13 @@ int Trial::whole(double ticks) {
 }
 
 bool Trial::run(double seconds) {
+    wanted_s_ += seconds;
+    return advance(seconds);
+}
+
+bool Trial::advance(double seconds) {
     using Seconds = std::chrono::duration<double>;
     constexpr double kLongChunk_s = 0.1;
-    wanted_s_ += seconds;
     for (int left = whole(seconds / world_.dt_s); left > 0;) {
         const auto before = std::chrono::steady_clock::now();
         if (Seconds(before - start_).count() > patience_s_) return false;
@@ -96,8 +100,9 @@ double Trial::mass() const {
 
 Outcome Trial::outcome(std::vector<double> figures) const {
     Outcome out{std::move(figures)};
-    if (time_s() < wanted_s_ - 0.5 * world_.dt_s)
-        out.remark = fmt::format("cut short after {:.3g} s", time_s());
+    if (time_s() > wanted_s_ - 0.5 * world_.dt_s) return out;
+    out.share = time_s() / wanted_s_;
+    out.remark = fmt::format("cut short after {:.2g} of {:.3g} s", time_s(), wanted_s_);
     return out;
 }
 

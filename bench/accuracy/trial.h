@@ -31,8 +31,9 @@ class Trial {
     template <class Visit>
     bool run(double seconds, double every_s, Visit&& visit) {
         const int parts = whole(seconds / every_s);
+        wanted_s_ += seconds;
         for (int part = 0; part < parts; ++part) {
-            if (!run(every_s)) return false;
+            if (!advance(every_s)) return false;
             visit();
         }
         return true;
@@ -62,6 +63,7 @@ class Trial {
     static Outcome impossible(std::size_t figures);
 
   private:
+    bool advance(double seconds);
     static int whole(double ticks);
     template <class Visit>
     void for_moving_links(Visit visit) const;

@@ -278,7 +278,8 @@ class DartEngine final : public Engine {
             body.createShapeNodeWith<dart::dynamics::CollisionAspect, dart::dynamics::DynamicsAspect>(shape);
         node->setRelativeTransform(to_dart(part.X_BS));
         node->getDynamicsAspect()->setFrictionCoeff(part.collision->surface.mu);
-        node->getDynamicsAspect()->setRestitutionCoeff(part.collision->surface.restitution);
+        // DART multiplies those of the two: with their roots, equal surfaces get what they have.
+        node->getDynamicsAspect()->setRestitutionCoeff(std::sqrt(part.collision->surface.restitution));
     }
 
     const World& world_;
