@@ -25,7 +25,7 @@ Verdict judge_cars(const Engine& engine, std::size_t cars) {
     char text[120];
     std::snprintf(text, sizeof text, "%.4f to %.4f m/s, height %.2f mm off at most", slowest, fastest,
                   1e3 * std::max(std::fabs(height_min - 0.05), std::fabs(height_max - 0.05)));
-    return {slowest > 0.49 && fastest < 0.51 && height_min > 0.045 && height_max < 0.055, text};
+    return {slowest > 0.475 && fastest < 0.525 && height_min > 0.045 && height_max < 0.055, text};
 }
 
 }  // namespace

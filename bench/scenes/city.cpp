@@ -79,7 +79,7 @@ Verdict judge_city(const Scene& scene, const Engine& engine) {
                   "%.0f %% of cars touch; deepest overlap %.2f mm; mean speed %.3f m/s; z %.3f to %.3f m",
                   100.0 * static_cast<double>(overlap.touching) / static_cast<double>(scene.robots),
                   1e3 * overlap.deepest_m, sum / static_cast<double>(scene.robots), lowest, highest);
-    return {overlap.deepest_m < 0.01 && fastest < 3 && lowest > 0.03 && highest < 0.6, text};
+    return {overlap.deepest_m < 0.02 && fastest < 3 && lowest > 0.03 && highest < 0.6, text};
 }
 
 }  // namespace

@@ -42,5 +42,11 @@ Scene cars_scene(std::size_t cars);
 // The same cars among a hundred static boxes, at one car on .7 m^2, driving to and fro: they hit the boxes
 // and each other all the time.
 Scene city_scene(std::size_t cars);
+// Six-legged walkers of 18 servos: a second standing, then a tripod gait.
+Scene spiders_scene(std::size_t spiders);
+// Arms of four servos on fixed bases, following a path.
+Scene arms_scene(std::size_t arms);
+// Boxes, spheres and cylinders falling onto a plane and onto each other.
+Scene shapes_scene(std::size_t shapes);
 
 }  // namespace roboss::bench
