@@ -213,6 +213,16 @@ PrincipalAxes principal_axes(Mat3 m) {
     return {V, {m(0, 0), m(1, 1), m(2, 2)}};
 }
 
+bool has_chains(const World& world) {
+    for (const ModelSpec& model : world.prototypes) {
+        const Assembly assembly = assemble(model);
+        for (const PartJoint& joint : assembly.joints)
+            if (joint.parent >= 0 && assembly.bodies[static_cast<std::size_t>(joint.parent)].joint >= 0)
+                return true;
+    }
+    return false;
+}
+
 LinkState link_of_body(const BodyState& body, const Vec3& p_BC, const Pose& X_BL, const Vec3& p_LC) {
     const Pose X_WL = body.X_WB * X_BL;
     const Vec3 offset = X_WL * p_LC - body.X_WB * p_BC;

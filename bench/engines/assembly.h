@@ -71,6 +71,10 @@ struct PrincipalAxes {
 };
 PrincipalAxes principal_axes(Mat3 m);
 
+/// Whether some model of the world hangs joints on joints: iterative solvers of single joints need more
+/// rounds.
+bool has_chains(const World& world);
+
 /// A link's state from its body's.
 LinkState link_of_body(const BodyState& body, const Vec3& p_BC, const Pose& X_BL, const Vec3& p_LC);
 

@@ -86,7 +86,7 @@ class BulletEngine final : public Engine {
     BulletEngine(const World& world, const EngineOptions& options)
         : world_(world),
           dt_(options.dt_s),
-          iterations_(static_cast<int>(20 * std::max(1.0, options.accuracy))) {
+          iterations_(static_cast<int>((has_chains(world) ? 60 : 20) * std::max(1.0, options.accuracy))) {
         gCalculateCombinedFrictionCallback = [](auto* a, auto* b) { return least_friction(a, b); };
         gCalculateCombinedRestitutionCallback = [](auto* a, auto* b) { return most_restitution(a, b); };
         gContactBreakingThreshold = 0.005;  // the default of 2 cm suits bodies of a metre

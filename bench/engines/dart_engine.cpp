@@ -184,7 +184,11 @@ class DartEngine final : public Engine {
     template <class Joint>
     BodyNode* add_pair(DartInstance& instance, BodyNode* parent,
                        const typename Joint::Properties& properties) {
-        return instance.skeleton->createJointAndBodyNodePair<Joint>(parent, properties).second;
+        typename Joint::Properties named =
+            properties;  // DART prints a line for every name that it must make up
+        named.mName = "joint_" + std::to_string(instance.bodies.size());
+        const BodyNode::AspectProperties body("body_" + std::to_string(instance.bodies.size()));
+        return instance.skeleton->createJointAndBodyNodePair<Joint>(parent, named, body).second;
     }
 
     void add_body(const PartBody& part, const Pose& X_WM, const ModelSpec& model, DartInstance& instance) {

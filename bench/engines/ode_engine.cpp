@@ -397,9 +397,10 @@ class OdeEngine final : public Engine {
 std::unique_ptr<Engine> make_ode(const World& world, const EngineOptions& options) {
     if (!OdeEngine::can(world)) return nullptr;
     // dWorldStep (exact, Dantzig) was measured too: right as well, but 1.3 times slower on single cars and
-    // more on crowds. 20 iterations is ODE's default.
+    // more on crowds. 20 iterations is ODE's default; legs and arms sag with it.
     const bool quick = true;
-    const int iterations = static_cast<int>(std::lround(20 * std::max(1.0, options.accuracy)));
+    const double rounds = (has_chains(world) ? 40 : 20) * std::max(1.0, options.accuracy);
+    const int iterations = static_cast<int>(std::lround(rounds));
     return std::make_unique<OdeEngine>(world, options, quick, iterations);
 }
 

@@ -2,39 +2,135 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <exception>
 
+#include "peers/contest.h"
+#include "peers/rows.h"
 #include "peers/trial.h"
+
+namespace {
 
 using namespace roboss::bench;
 
-int main(int argc, char** argv) {
-    CLI::App app{"RoBOSS beside other physics engines on the same scenes"};
-    std::string scene_name = "cars", engine_name = "RoBOSS";
-    std::size_t robots = 500;
-    int steps = 1000, settle = 200;
-    app.add_option("--scene", scene_name, "cars or city");
-    app.add_option("--robots", robots, "how many");
-    app.add_option("--engine", engine_name, "which engine");
-    app.add_option("--steps", steps, "counted steps");
-    app.add_option("--settle", settle, "steps before, not counted");
-    CLI11_PARSE(app, argc, argv);
-    for (const SceneKind& kind : scenes()) {
-        if (kind.name != scene_name) continue;
-        const Scene scene = kind.make(robots);
-        for (const EngineKind& engine : engines()) {
-            if (engine.name != engine_name) continue;
-            Trial trial(engine, scene);
-            trial.run(settle);
-            for (int done = 0; done < steps; done += steps / 5) {
-                const Spent spent = trial.run(steps / 5);
-                std::printf("%.3f us a robot-step (CPU), %.3f (wall)\n",
-                            1e6 * spent.cpu / (steps / 5) / static_cast<double>(robots),
-                            1e6 * spent.wall / (steps / 5) / static_cast<double>(robots));
-            }
-            const Verdict verdict = trial.judge();
-            std::printf("%s: %s; heap %.0f bytes a robot\n", verdict.good ? "right" : "WRONG",
-                        verdict.text.c_str(), trial.heap_bytes() / static_cast<double>(robots));
+struct Wishes {
+    std::vector<std::string> scenes;
+    std::vector<std::size_t> robots;
+    ContestOptions contest;
+    bool quick = false, alone = false;
+    std::string json;
+};
+
+bool is_wanted(const std::vector<std::string>& wanted, const std::string& name) {
+    return wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
+}
+
+std::string help() {
+    std::string text =
+        "RoBOSS beside other physics engines: the same scenes, the same run, one thread, dt 2 ms.\n"
+        "Engines step by turns, each in a process of its own; counted is the CPU time of their steps, for\n"
+        "one step of one robot. Results are checked, and rows that are wrong say so.\n\nScenes:\n";
+    for (const SceneKind& scene : scenes()) {
+        text += "  " + scene.name + ": " + scene.what + " (";
+        for (std::size_t i = 0; i < scene.robots.size(); ++i)
+            text += (i > 0 ? ", " : "") + std::to_string(scene.robots[i]);
+        text += ")\n";
+    }
+    text += "  threads: the 2000 cars as `roboss run` steps them, on one thread and on two\n\nEngines here:";
+    for (const EngineKind& engine : engines()) text += " " + engine.name;
+    return text +
+           "\n\nExamples:\n  roboss-peers --quick\n  roboss-peers --scene city --robots 500 --engine "
+           "RoBOSS --alone --steps 1000";
+}
+
+/// One engine in this process, block by block: for profilers and debuggers.
+int run_alone(const SceneKind& kind, std::size_t robots, const EngineKind& engine,
+              const ContestOptions& options) {
+    const Scene scene = kind.make(robots);
+    Trial trial(engine, scene, options.accuracy);
+    trial.run(options.settle);
+    const int ticks = std::max(1, options.steps / options.blocks);
+    for (int block = 0; block < options.blocks; ++block) {
+        const Spent spent = trial.run(ticks);
+        const double steps = static_cast<double>(ticks) * static_cast<double>(robots);
+        std::printf("%s: %.3f us a robot-step (CPU), %.3f (wall)\n", trial.engine().name().c_str(),
+                    1e6 * spent.cpu / steps, 1e6 * spent.wall / steps);
+    }
+    const Verdict verdict = trial.judge();
+    std::printf("%s: %s; %.0f bytes a robot\n", verdict.good ? "right" : "WRONG", verdict.text.c_str(),
+                trial.memory_bytes() / static_cast<double>(robots));
+    return verdict.good ? 0 : 1;
+}
+
+int run_all_alone(const Wishes& wishes) {
+    int result = 0;
+    for (const SceneKind& scene : scenes())
+        for (const EngineKind& engine : engines())
+            if (is_wanted(wishes.scenes, scene.name) && is_wanted(wishes.contest.engines, engine.name))
+                for (std::size_t robots : wishes.robots.empty() ? scene.robots : wishes.robots)
+                    result |= run_alone(scene, robots, engine, wishes.contest);
+    return result;
+}
+
+std::vector<Row> run_contests(const Wishes& wishes) {
+    std::vector<Row> rows;
+    const auto add = [&](const std::vector<Row>& more) { rows.insert(rows.end(), more.begin(), more.end()); };
+    for (const SceneKind& scene : scenes()) {
+        if (!is_wanted(wishes.scenes, scene.name)) continue;
+        for (std::size_t robots : wishes.robots.empty() ? scene.robots : wishes.robots) {
+            if (wishes.quick && wishes.robots.empty() && robots > 500 && scene.robots.size() > 1) continue;
+            const std::size_t size = wishes.quick && robots > 2000 && wishes.robots.empty() ? 300 : robots;
+            std::fprintf(stderr, "%s, %zu robots\n", scene.name.c_str(), size);
+            add(hold_contest(scene, size, wishes.contest));
         }
+    }
+    if (is_wanted(wishes.scenes, "threads") && is_wanted(wishes.contest.engines, "RoBOSS")) {
+        std::fprintf(stderr, "threads, 2000 cars\n");
+        add(compare_threads(2000, wishes.contest));
+    }
+    return rows;
+}
+
+void add_options(CLI::App& app, Wishes& wishes) {
+    app.add_option("--scene", wishes.scenes, "only these scenes");
+    app.add_option("--robots", wishes.robots, "instead of the scenes' own sizes");
+    app.add_option("--engine", wishes.contest.engines, "only these engines; ratios need RoBOSS among them");
+    app.add_option("--steps", wishes.contest.steps, "counted steps")->check(CLI::PositiveNumber);
+    app.add_option("--settle", wishes.contest.settle, "steps before")->check(CLI::PositiveNumber);
+    app.add_option("--blocks", wishes.contest.blocks, "in so many blocks, of which the median is told")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--limit", wishes.contest.limit_s,
+                   "seconds of counted steps an engine and scene; a slower engine counts fewer steps");
+    app.add_option("--start-limit", wishes.contest.start_limit_s,
+                   "seconds of building and settling; a slower engine is left out");
+    app.add_option("--accuracy", wishes.contest.accuracy,
+                   "1: as each engine is set up with care; 10: ten times the iterations or a tenth of the "
+                   "tolerance")
+        ->check(CLI::PositiveNumber);
+    app.add_flag("--quick", wishes.quick, "about two minutes: small sizes, short limits");
+    app.add_flag("--alone", wishes.alone, "in this process, without turns: for profilers");
+    app.add_option("--json", wishes.json, "also write the rows to this file");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Wishes wishes;
+    CLI::App app{help()};
+    add_options(app, wishes);
+    CLI11_PARSE(app, argc, argv);
+    if (wishes.quick) wishes.contest.limit_s = 2, wishes.contest.start_limit_s = 5;
+    try {
+        if (wishes.alone) return run_all_alone(wishes);
+        const std::vector<Row> rows = run_contests(wishes);
+        if (rows.empty()) {
+            std::fprintf(stderr, "roboss-peers: no such scene or engine; --help lists them\n");
+            return 2;
+        }
+        print_table(rows);
+        if (!wishes.json.empty() && !write_json(wishes.json, rows)) return 2;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "roboss-peers: %s\n", error.what());
+        return 1;
     }
     return 0;
 }

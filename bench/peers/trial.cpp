@@ -2,9 +2,11 @@
 #include "peers/trial.h"
 
 #include <malloc.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <ctime>
-
 #include <stdexcept>
 
 namespace roboss::bench {
@@ -22,12 +24,24 @@ double heap_in_use() {
     return static_cast<double>(info.uordblks + info.hblkhd);
 }
 
+double resident() {
+    long pages = 0;
+    if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
+        if (std::fscanf(file, "%*d %ld", &pages) != 1) pages = 0;
+        std::fclose(file);
+    }
+    return static_cast<double>(pages) * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
 }  // namespace
 
-Trial::Trial(const EngineKind& kind, const Scene& scene) : scene_(scene), heap_before_(heap_in_use()) {
-    engine_ = kind.make(scene.world, EngineOptions{.dt_s = kSceneDt, .accuracy = 1});
+Trial::Trial(const EngineKind& kind, const Scene& scene, double accuracy)
+    : scene_(scene), heap_before_(heap_in_use()), resident_before_(resident()) {
+    const double start = seconds(CLOCK_MONOTONIC);
+    engine_ = kind.make(scene.world, EngineOptions{.dt_s = kSceneDt, .accuracy = accuracy});
     if (!engine_) throw std::runtime_error(kind.name + " cannot express this scene");
     scene.start(*engine_);
+    build_s_ = seconds(CLOCK_MONOTONIC) - start;
 }
 
 Spent Trial::run(int ticks) {
@@ -45,8 +59,9 @@ Spent Trial::run(int ticks) {
     return spent;
 }
 
-double Trial::heap_bytes() const {
-    return heap_in_use() - heap_before_;
+double Trial::memory_bytes() const {
+    malloc_trim(0);
+    return std::min(heap_in_use() - heap_before_, resident() - resident_before_);
 }
 
 }  // namespace roboss::bench

@@ -16,18 +16,20 @@ struct Spent {
 class Trial {
   public:
     /// The scene must outlive the trial. Throws std::runtime_error if the engine cannot express it.
-    Trial(const EngineKind& kind, const Scene& scene);
+    Trial(const EngineKind& kind, const Scene& scene, double accuracy = 1);
 
     /// Steps on; the orders that the scene gives between the ticks are not counted.
     Spent run(int ticks);
     Verdict judge() const { return scene_.judge(*engine_, tick_); }
     const Engine& engine() const { return *engine_; }
-    /// What the engine has on the heap beyond what was there before it, in bytes.
-    double heap_bytes() const;
+    double build_s() const { return build_s_; }
+    /// What the engine holds beyond what was there before it: on the heap, or resident where that is less
+    /// (some reserve far more than they touch).
+    double memory_bytes() const;
 
   private:
     const Scene& scene_;
-    double heap_before_ = 0;
+    double heap_before_ = 0, resident_before_ = 0, build_s_ = 0;
     std::unique_ptr<Engine> engine_;
     Tick tick_ = 0;
 };

@@ -115,7 +115,7 @@ Verdict judge(const World& world, const Engine& engine, Tick tick) {
     std::snprintf(text, sizeof text,
                   "%.3f m/s ahead, %.0f mm aside, height at most %.1f mm off, leaning %.1f degrees", slowest,
                   1e3 * aside, 1e3 * sag, std::acos(std::max(-1.0, 1 - lean)) * 180 / kPi);
-    const bool walks = tick < kStanding + 2 * kPeriod || slowest > 0.1;
+    const bool walks = tick < kStanding + 2 * kPeriod || slowest > 0.15;
     return {walks && sag < 0.015 && aside < 0.1 && lean < 0.02, text};
 }
 
