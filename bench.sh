@@ -1,22 +1,52 @@
 #!/usr/bin/env bash
-# Sets up, builds and runs the benchmarks: ./bench.sh [NAME] [Google Benchmark flags]; without a name it lists them.
+# Sets up, builds and runs the benchmarks: ./bench.sh [NAME] [flags]; without a name it lists them.
+# A name is a program of its own (peers), or a Google Benchmark of roboss-bench; flags go on to it.
 # Rows carry commit, compiler, CPU, world and number of robots; the same rows as JSON go to build/bench/NAME.json.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
-tools/setup.sh build bench
-tools/build.sh release -DROBOSS_BENCHMARKS=ON roboss-bench
+ROBOSS_COMMIT=$(git describe --always --dirty 2>/dev/null || printf 'unknown')
+export ROBOSS_COMMIT
 mkdir -p build/bench
-program=build/release/bin/roboss-bench
-if [[ $# -eq 0 ]]; then
-    printf 'benchmarks (./bench.sh NAME runs one, ./bench.sh all runs them all):\n'
-    exec "$program" --benchmark_list_tests
-fi
-name=$1
-rows=build/bench/${name//\//_}.json
-shift
-filter=$name
-[[ $name != all ]] || filter=.
-ROBOSS_COMMIT=$(git describe --always --dirty 2>/dev/null || printf 'unknown') \
+
+# Builds the benchmark program given.
+build() {
+    tools/build.sh release -DROBOSS_BENCHMARKS=ON "$1"
+}
+
+# RoBOSS beside other engines. Only a whole run, without flags, changes docs/performance.md and its plot.
+peers() {
+    tools/setup.sh build bench peers
+    build roboss-peers
+    local rows=build/bench/peers.json
+    build/release/bin/roboss-peers --json "$rows" "$@"
+    if [[ $# -eq 0 ]]; then
+        tools/peers_report "$rows" --page docs/performance.md --plot docs/images/peers.svg
+    else
+        tools/peers_report "$rows" --plot build/bench/peers.svg
+    fi
+    printf 'rows as JSON: %s\n' "$rows"
+}
+
+# Google Benchmarks whose names match.
+google_benchmark() {
+    tools/setup.sh build bench
+    build roboss-bench
+    local program=build/release/bin/roboss-bench
+    if [[ $# -eq 0 ]]; then
+        printf 'benchmarks (./bench.sh NAME runs one, ./bench.sh all runs all but peers):\n'
+        printf 'peers  (RoBOSS beside ODE, Bullet, MuJoCo, DART: about 12 minutes; --quick: two; --help)\n'
+        exec "$program" --benchmark_list_tests
+    fi
+    local name=$1
+    local rows=build/bench/${name//\//_}.json filter=$name
+    shift
+    [[ $name != all ]] || filter=.
     "$program" --benchmark_filter="$filter" --benchmark_counters_tabular=true \
-    --benchmark_out="$rows" --benchmark_out_format=json "$@"
-printf 'rows as JSON: %s\n' "$rows"
+        --benchmark_out="$rows" --benchmark_out_format=json "$@"
+    printf 'rows as JSON: %s\n' "$rows"
+}
+
+case ${1:-} in
+    peers) "$@" ;;
+    *) google_benchmark "$@" ;;
+esac

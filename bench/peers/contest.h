@@ -13,8 +13,8 @@ struct ContestOptions {
     std::vector<std::string> engines;  // names; empty: all
     int settle = 200, steps = 1000, blocks = 5;
     double accuracy = 1;  // EngineOptions
-    double limit_s = 20;  // of counted steps an engine and scene; less of them where it would take longer
-    double start_limit_s = 60;  // of building and settling; beyond, the engine is left out
+    double limit_s = 8;   // of counted steps an engine and scene; less of them where it would take longer
+    double start_limit_s = 40;  // of building and settling; beyond, the engine is left out
 };
 
 /// A line of the table. Times in microseconds for one step of one robot.
