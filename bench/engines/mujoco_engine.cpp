@@ -224,26 +224,20 @@ class MujocoEngine final : public Engine {
     std::vector<Motor> motors_;  // by degree of freedom
 };
 
-std::string environment(const char* name, const char* otherwise) {
-    const char* value = std::getenv(name);
-    return value != nullptr ? value : otherwise;
-}
-
 }  // namespace
 
 std::unique_ptr<Engine> make_mujoco(const World& world, const EngineOptions& options) {
     MjcfOptions mjcf;
     mjcf.dt_s = options.dt_s;
     mjcf.contact_time_s = 2 * options.dt_s;
-    mjcf.solver = environment("MJ_SOLVER", "CG");
-    mjcf.cone = environment("MJ_CONE", "elliptic");
-    mjcf.jacobian = environment("MJ_JACOBIAN", "auto");
-    mjcf.tolerance = std::atof(environment("MJ_TOLERANCE", "1e-8").c_str());
     mju_user_error = [](const char* message) {  // the library's own handler waits for a key
         std::fprintf(stderr, "MuJoCo: %s\n", message);
         std::_Exit(3);
     };
     const Sizes sizes = count(world);
+    constexpr long kNewtonMax = 1000;  // degrees of freedom; Newton's stack takes their square
+    mjcf.solver = sizes.freedoms <= kNewtonMax ? "Newton" : "CG";
+    mjcf.tolerance /= options.accuracy;
     mjcf.rows_max = rows_that_fit(sizes.freedoms, 20 * sizes.bodies + 300);
     mjcf.contacts_max = mjcf.rows_max / 3;
     mjcf.stack_numbers =
@@ -251,7 +245,8 @@ std::unique_ptr<Engine> make_mujoco(const World& world, const EngineOptions& opt
     auto places = write_mjcf(world, mjcf);
     if (!places) return nullptr;
     ModelPointer model = load(places->xml);
-    const std::string settings = "double, Euler, " + mjcf.solver + ", " + mjcf.cone;
+    const std::string settings =
+        "double, Euler, " + mjcf.solver + ", " + mjcf.cone + " cones, " + mjcf.jacobian + " Jacobians";
     return std::make_unique<MujocoEngine>(world, std::move(*places), std::move(model), settings);
 }
 
