@@ -18,6 +18,7 @@ peers() {
     tools/setup.sh build bench peers
     build roboss-peers
     local rows=build/bench/peers.json
+    build/release/bin/roboss-peers --check-engines  # a second: an adapter that means something else would spoil it all
     build/release/bin/roboss-peers --json "$rows" "$@"
     if [[ $# -eq 0 ]]; then
         tools/peers_report "$rows" --page docs/performance.md --plot docs/images/peers.svg

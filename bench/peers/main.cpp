@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "peers/agreement.h"
 #include "peers/contest.h"
 #include "peers/rows.h"
 #include "peers/trial.h"
@@ -16,7 +17,7 @@ struct Wishes {
     std::vector<std::string> scenes;
     std::vector<std::size_t> robots;
     ContestOptions contest;
-    bool quick = false, alone = false;
+    bool quick = false, alone = false, check = false;
     std::string json;
 };
 
@@ -108,6 +109,8 @@ void add_options(CLI::App& app, Wishes& wishes) {
         ->check(CLI::PositiveNumber);
     app.add_flag("--quick", wishes.quick, "about two minutes: small sizes, short limits");
     app.add_flag("--alone", wishes.alone, "in this process, without turns: for profilers");
+    app.add_flag("--check-engines", wishes.check,
+                 "instead: do small mechanisms move alike in all engines? (signs, frames, units)");
     app.add_option("--json", wishes.json, "also write the rows to this file");
 }
 
@@ -120,6 +123,7 @@ int main(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
     if (wishes.quick) wishes.contest.limit_s = 2, wishes.contest.start_limit_s = 5;
     try {
+        if (wishes.check) return engines_agree() ? 0 : 1;
         if (wishes.alone) return run_all_alone(wishes);
         const std::vector<Row> rows = run_contests(wishes);
         if (rows.empty()) {
