@@ -51,7 +51,7 @@ void settle(Entry& entry, const ContestOptions& options) {
 }
 
 void run_block(Entry& entry, std::size_t robots, const ContestOptions& options) {
-    const Report report = entry.worker->run(entry.block_ticks, 6 * options.limit_s);
+    const Report report = entry.worker->run(entry.block_ticks, 30 * options.limit_s);
     if (report.failed) return give_up(entry, report.text);
     entry.us.push_back(1e6 * report.cpu_s / entry.block_ticks / static_cast<double>(robots));
     entry.row.steps += entry.block_ticks;
@@ -70,7 +70,9 @@ void finish(Entry& entry, std::size_t robots, const ContestOptions& options) {
 
 }  // namespace
 
-std::vector<Row> hold_contest(const SceneKind& kind, std::size_t robots, const ContestOptions& options) {
+std::vector<Row> hold_contest(const SceneKind& kind, std::size_t robots, const ContestOptions& wanted) {
+    ContestOptions options = wanted;
+    options.steps = std::min(options.steps, kind.steps_max);
     const Scene scene = kind.make(robots);
     std::vector<Entry> entries;
     for (const EngineKind& engine : engines()) {
