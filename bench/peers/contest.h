@@ -13,7 +13,7 @@ struct ContestOptions {
     std::vector<std::string> engines;  // names; empty: all
     int settle = 200, steps = 1000, blocks = 5;
     double accuracy = 1;  // EngineOptions
-    double limit_s = 5;   // of counted steps an engine and scene; less of them where it would take longer
+    double limit_s = 10;  // of counted steps an engine and scene; less of them where it would take longer
     double start_limit_s = 40;  // of building and settling; beyond, the engine is left out
 };
 
