@@ -239,6 +239,10 @@ std::unique_ptr<Engine> make_mujoco(const World& world, const EngineOptions& opt
     mjcf.solver = sizes.freedoms <= kNewtonMax ? "Newton" : "CG";
     mjcf.tolerance /= options.accuracy;
     mjcf.rows_max = rows_that_fit(sizes.freedoms, 20 * sizes.bodies + 300);
+    if (mjcf.rows_max < sizes.bodies)  // known before the long compilation
+        throw std::runtime_error("MuJoCo 2 holds at most " + std::to_string(mjcf.rows_max) +
+                                 " constraint rows for " + std::to_string(sizes.bodies) +
+                                 " bodies (its buffer is counted in 32 bits)");
     mjcf.contacts_max = mjcf.rows_max / 3;
     mjcf.stack_numbers =
         std::min(1000000 + 400 * mjcf.rows_max + 3 * sizes.freedoms * sizes.freedoms, 1000000000L);
