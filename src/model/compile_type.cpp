@@ -39,6 +39,7 @@ class PartBuilder {
             add_free_base(root, is_main);
         }
         walk(root);
+        type.paths = DofPaths(type.dof_parent);
         for (std::size_t j : graph_.cut) add_loop(j);
         add_couplings(couplings_, type, diagnostics_);
         add_links();

@@ -22,6 +22,7 @@
 #include "geometry/shape.h"
 #include "geometry/triangle_surface.h"
 #include "math/pose.h"
+#include "model/dof_paths.h"
 #include "world/world.h"
 
 namespace roboss {
@@ -162,6 +163,7 @@ struct RobotType {
     std::vector<Dof> dofs;  // dofs[i] is v[base_nv() + i]
     std::vector<int>
         dof_parent;  // for each entry of v: the previous one on its path to the root, -1 at the root
+    DofPaths paths;  // the same, as whole paths
     std::vector<Link> links;
     std::vector<Joint> joints;
     std::vector<LoopJoint> loops;

@@ -6,14 +6,19 @@ namespace roboss {
 namespace {
 
 void add_columns(const RobotWork& robot, int body, int offset, double sign, const ContactFrame& frame,
-                 std::vector<ContactColumn>& columns) {
+                 ContactColumns& columns) {
     if (body < 0) return;
     const Body& info = robot.type->bodies[static_cast<std::size_t>(body)];
-    for (int i = info.v_index + info.nv - 1; i >= 0;
-         i = robot.type->dof_parent[static_cast<std::size_t>(i)]) {
-        const Vec3 w = robot.axes[static_cast<std::size_t>(i)].angular * sign;
-        if (w == Vec3{}) continue;
-        columns.push_back({offset + i, dot(frame.n, w), dot(frame.t1, w), dot(frame.t2, w)});
+    const auto last = static_cast<std::size_t>(info.v_index + info.nv - 1);
+    const int* path = robot.type->paths.path(last);
+    const std::size_t begin = columns.size(), length = robot.type->paths.length(last);
+    columns.resize(begin + length);
+    for (std::size_t k = 0; k < length; ++k) {
+        const Vec3 w = robot.axes[static_cast<std::size_t>(path[k])].angular * sign;
+        columns.dof[begin + k] = offset + path[k];
+        columns.n[begin + k] = dot(frame.n, w);
+        columns.t1[begin + k] = dot(frame.t1, w);
+        columns.t2[begin + k] = dot(frame.t2, w);
     }
 }
 
@@ -33,12 +38,14 @@ void add_angular_row(const Model& model, const Contact& c, std::span<const Robot
     row.first = rows.columns.size();
     const RobotWork& a = robots[static_cast<std::size_t>(c.robot_a)];
     add_columns(a, c.body_a, offsets[static_cast<std::size_t>(c.robot_a)], 1.0, frame, rows.columns);
+    const std::size_t middle = rows.columns.size();
     double ease = mobility(a, c.body_a);
     if (c.robot_b >= 0) {
         const RobotWork& b = robots[static_cast<std::size_t>(c.robot_b)];
         add_columns(b, c.body_b, offsets[static_cast<std::size_t>(c.robot_b)], -1.0, frame, rows.columns);
         ease += mobility(b, c.body_b);
     }
+    if (c.robot_b == c.robot_a) rows.columns.merge(row.first, middle);
     row.last = rows.columns.size();
     row.torsional = c.torsional;
     row.spin.compliance = row.roll.compliance = model.accuracy.compliance * ease;

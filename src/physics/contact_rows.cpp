@@ -13,36 +13,26 @@ constexpr double kWeights = 10;  // a load that a contact may take up at once, i
 constexpr double kMendShare = 0.3;  // of the penetration beyond the slop mended in one tick
 
 void add_columns(const RobotWork& robot, int body, int offset, double sign, const Vec3& p_W,
-                 const ContactFrame& frame, std::vector<ContactColumn>& columns) {
+                 const ContactFrame& frame, ContactColumns& columns) {
     if (body < 0) return;
     const Vec3 p = p_W - robot.origin;
     const Body& info = robot.type->bodies[static_cast<std::size_t>(body)];
-    for (int i = info.v_index + info.nv - 1; i >= 0;
-         i = robot.type->dof_parent[static_cast<std::size_t>(i)]) {
-        const Spatial& axis = robot.axes[static_cast<std::size_t>(i)];
+    const auto last = static_cast<std::size_t>(info.v_index + info.nv - 1);
+    const int* path = robot.type->paths.path(last);
+    const std::size_t begin = columns.size(), length = robot.type->paths.length(last);
+    columns.resize(begin + length);
+    for (std::size_t k = 0; k < length; ++k) {
+        const Spatial& axis = robot.axes[static_cast<std::size_t>(path[k])];
         const Vec3 u = (axis.linear + cross(axis.angular, p)) * sign;
-        columns.push_back({offset + i, dot(frame.n, u), dot(frame.t1, u), dot(frame.t2, u)});
+        columns.dof[begin + k] = offset + path[k];
+        columns.n[begin + k] = dot(frame.n, u);
+        columns.t1[begin + k] = dot(frame.t1, u);
+        columns.t2[begin + k] = dot(frame.t2, u);
     }
 }
 
 double mobility(const RobotWork& robot, int body) {
     return body < 0 ? 0.0 : robot.type->bodies[static_cast<std::size_t>(body)].inverse_mass_linear;
-}
-
-/// A robot in contact with itself: one column a degree of freedom, descending as on a single path.
-void merge_columns(std::size_t first, std::vector<ContactColumn>& columns) {
-    const auto begin = columns.begin() + static_cast<std::ptrdiff_t>(first);
-    std::sort(begin, columns.end(),
-              [](const ContactColumn& a, const ContactColumn& b) { return a.dof > b.dof; });
-    auto kept = begin;
-    for (auto c = begin; c != columns.end(); ++c) {
-        if (kept != begin && (kept - 1)->dof == c->dof) {
-            (kept - 1)->n += c->n, (kept - 1)->t1 += c->t1, (kept - 1)->t2 += c->t2;
-        } else {
-            *kept++ = *c;
-        }
-    }
-    columns.erase(kept, columns.end());
 }
 
 /// Gravity along the normal as the body feels it.
@@ -112,6 +102,22 @@ void set_friction_targets(const Contact& c, const ContactFrame& frame, double sh
 
 }  // namespace
 
+void ContactColumns::merge(std::size_t first, std::size_t middle) {
+    const auto for_each = [&](auto&& f) { f(dof), f(n), f(t1), f(t2); };
+    const auto place = [](auto& x, std::size_t at) { return x.begin() + static_cast<std::ptrdiff_t>(at); };
+    for (std::size_t c = middle; c < size();) {
+        const auto found = std::lower_bound(place(dof, first), place(dof, middle), dof[c]);
+        const auto k = static_cast<std::size_t>(found - dof.begin());
+        if (k < middle && dof[k] == dof[c]) {
+            n[k] += n[c], t1[k] += t1[c], t2[k] += t2[c];
+            for_each([&](auto& x) { x.erase(place(x, c)); });
+        } else {
+            for_each([&](auto& x) { std::rotate(place(x, k), place(x, c), place(x, c + 1)); });
+            ++middle, ++c;
+        }
+    }
+}
+
 ContactFrame frame_of(const Contact& c) {
     ContactFrame frame{c.normal, {}, {}};
     if (c.friction_axis == Vec3{}) {
@@ -131,6 +137,7 @@ bool add_contact_row(const Model& model, const Contact& c, std::span<const Robot
     ContactRow row;
     row.first = rows.columns.size();
     add_columns(a, c.body_a, offsets[static_cast<std::size_t>(c.robot_a)], 1.0, c.p_W, frame, rows.columns);
+    const std::size_t middle = rows.columns.size();
     double ease = mobility(a, c.body_a);
     double approach = -normal_velocity(a, c.body_a, c.p_W, c.normal);
     double gravity_n = gravity_along(model, a, c.body_a, c.normal);
@@ -142,7 +149,7 @@ bool add_contact_row(const Model& model, const Contact& c, std::span<const Robot
         approach += normal_velocity(b, c.body_b, c.p_W, c.normal);
         gravity_n -= gravity_along(model, b, c.body_b, c.normal);
     }
-    if (c.robot_b == c.robot_a) merge_columns(row.first, rows.columns);
+    if (c.robot_b == c.robot_a) rows.columns.merge(row.first, middle);
     row.last = rows.columns.size();
     const bool loaded = c.load > 0;
     const double compliance = ease * (loaded ? model.accuracy.contact_compliance : model.accuracy.compliance);

@@ -168,24 +168,24 @@ void compute_inertias(const RobotType& type, RobotWork& work) {
 }
 
 void compute_mass_matrix(const RobotType& type, double dt, RobotWork& work) {
-    const auto n = static_cast<std::size_t>(type.nv);
-    work.mass_matrix.resize(n * n);
+    work.mass_matrix.resize(type.paths.entries());
     for (std::size_t b = type.bodies.size(); b-- > 0;) {
         const Body& body = type.bodies[b];
         const SpatialInertia& subtree = work.bodies[b].inertia;
-        for (int k = body.nv - 1; k >= 0; --k) {
-            const auto i = static_cast<std::size_t>(body.v_index + k);
+        for (int axis = body.nv - 1; axis >= 0; --axis) {
+            const auto i = static_cast<std::size_t>(body.v_index + axis);
             const Spatial momentum = subtree * work.axes[i];
-            for (int j = static_cast<int>(i); j >= 0; j = type.dof_parent[static_cast<std::size_t>(j)])
-                work.mass_matrix[i * n + static_cast<std::size_t>(j)] =
-                    dot(work.axes[static_cast<std::size_t>(j)], momentum);
+            double* row = work.mass_matrix.data() + type.paths.row(i);
+            const int* path = type.paths.path(i);
+            for (std::size_t k = 0; k < type.paths.length(i); ++k)
+                row[k] = dot(work.axes[static_cast<std::size_t>(path[k])], momentum);
         }
         if (body.parent >= 0) work.bodies[static_cast<std::size_t>(body.parent)].inertia += subtree;
     }
     for (std::size_t d = 0; d < type.dofs.size(); ++d) {
         const Dof& dof = type.dofs[d];
         const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
-        work.mass_matrix[i * n + i] += dof.armature + dt * dof.damping + dt * dt * dof.spring_stiffness;
+        work.mass_matrix[type.paths.diagonal(i)] += dof.armature + dt * dof.damping + dt * dt * dof.spring_stiffness;
     }
 }
 

@@ -85,7 +85,7 @@ void EqualitySolver::prepare(const RobotType& type, std::span<const double> fact
         double* const y = y_.data() + i * n_;
         for (std::size_t c = row.first; c < row.last; ++c)
             y[equalities.columns[c].dof] = equalities.columns[c].j * scale_[i];
-        tree_solve(type.dof_parent, factor, y);
+        tree_solve(type.paths, factor, y);
     }
     for (std::size_t i = 0; i < m_; ++i)
         for (std::size_t j = 0; j < m_; ++j)
@@ -154,7 +154,7 @@ void EqualityProjection::close_coordinates(const RobotType& type, std::span<doub
         if (largest <= kClosed) return;
         compute_inertias(type, work_);
         compute_mass_matrix(type, 0.0, work_);
-        tree_factor(type.dof_parent, work_.mass_matrix);
+        tree_factor(type.paths, work_.mass_matrix);
         solver_.prepare(type, work_.mass_matrix, equalities_);
         solver_.solve(wanted_, change_);
         double step = 0;
@@ -169,7 +169,7 @@ void EqualityProjection::close_velocities(const RobotType& type, std::span<const
     place(type, q);
     compute_inertias(type, work_);
     compute_mass_matrix(type, 0.0, work_);
-    tree_factor(type.dof_parent, work_.mass_matrix);
+    tree_factor(type.paths, work_.mass_matrix);
     solver_.prepare(type, work_.mass_matrix, equalities_);
     for (std::size_t r = 0; r < wanted_.size(); ++r)
         wanted_[r] = -times_row(equalities_, equalities_.rows[r], v);

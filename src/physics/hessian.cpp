@@ -10,10 +10,6 @@ namespace roboss {
 
 namespace {
 
-std::span<const ContactColumn> columns_of(const IslandRows& rows, std::size_t first, std::size_t last) {
-    return {rows.columns.data() + first, last - first};
-}
-
 /// Curvatures that the matrix lacks.
 struct Change {
     double n = 0, t11 = 0, t12 = 0, t22 = 0;
@@ -46,31 +42,33 @@ void Hessian::start_fronts(IslandRows& rows) {
     group_first_.assign(offsets_.begin(), offsets_.end());
     group_first_.push_back(static_cast<int>(n_));
     unknowns_.clear(), cliques_.clear();
-    const auto add = [&](const auto& columns, std::size_t first, std::size_t last) {
+    const auto add = [&](const auto& dof_of, std::size_t first, std::size_t last) {
         const std::size_t begin = unknowns_.size();
-        for (std::size_t c = first; c < last; ++c) unknowns_.push_back(columns[c].dof);
+        for (std::size_t c = first; c < last; ++c) unknowns_.push_back(dof_of(c));
         cliques_.push_back({begin, unknowns_.size()});
     };
-    for (const ContactRow& row : rows.contacts) add(rows.columns, row.first, row.last);
-    for (const AngularRow& row : rows.angulars) add(rows.columns, row.first, row.last);
-    for (const CouplingRow& row : rows.couplings) add(rows.coupling_columns, row.first, row.last);
+    const auto contact_dof = [&](std::size_t c) { return rows.columns.dof[c]; };
+    for (const ContactRow& row : rows.contacts) add(contact_dof, row.first, row.last);
+    for (const AngularRow& row : rows.angulars) add(contact_dof, row.first, row.last);
+    const auto coupling_dof = [&](std::size_t c) { return rows.coupling_columns[c].dof; };
+    for (const CouplingRow& row : rows.couplings) add(coupling_dof, row.first, row.last);
     fronts_.analyse(group_first_, unknowns_, cliques_);
     sort_columns(rows);
 }
 
-/// The columns of the robot that is eliminated first come first, so that places in a front ascend.
+/// The columns of the robot that is eliminated last come first, so that places in a front descend.
 void Hessian::sort_columns(IslandRows& rows) {
     const auto sort = [&](std::size_t first, std::size_t last, std::size_t clique) {
         if (first == last) return;
         int* local = fronts_.place(clique).local;
         const std::size_t count = last - first;
         std::size_t turn = 1;
-        while (turn < count && local[turn] > local[turn - 1]) ++turn;
+        while (turn < count && local[turn] < local[turn - 1]) ++turn;
         if (turn == count) return;
-        const auto columns = rows.columns.begin() + static_cast<std::ptrdiff_t>(first);
-        std::rotate(columns, columns + static_cast<std::ptrdiff_t>(turn),
-                    columns + static_cast<std::ptrdiff_t>(count));
-        std::rotate(local, local + turn, local + count);
+        const auto rotate = [&](auto* x) { std::rotate(x, x + turn, x + count); };
+        rotate(rows.columns.dof.data() + first), rotate(rows.columns.n.data() + first);
+        rotate(rows.columns.t1.data() + first), rotate(rows.columns.t2.data() + first);
+        rotate(local);
     };
     std::size_t clique = 0;
     for (const ContactRow& row : rows.contacts) sort(row.first, row.last, clique++);
@@ -97,12 +95,11 @@ void Hessian::add_mass() {
     fronts_.clear();
     for (std::size_t r = 0; r < robots_.size(); ++r) {
         const RobotWork& robot = *robots_[r];
-        const std::vector<int>& parent = robot.type->dof_parent;
-        const std::size_t nv = parent.size();
-        for (std::size_t i = 0; i < nv; ++i)
-            for (int j = static_cast<int>(i); j >= 0; j = parent[static_cast<std::size_t>(j)])
-                fronts_.add(r, offsets_[r] + static_cast<int>(i), offsets_[r] + j,
-                            robot.mass_matrix[i * nv + static_cast<std::size_t>(j)]);
+        const DofPaths& paths = robot.type->paths;
+        for (std::size_t i = 0; i < paths.size(); ++i)
+            for (std::size_t k = 0; k < paths.length(i); ++k)
+                fronts_.add(r, offsets_[r] + static_cast<int>(i), offsets_[r] + paths.path(i)[k],
+                            robot.mass_matrix[paths.row(i) + k]);
     }
 }
 
@@ -112,7 +109,7 @@ void Hessian::add_changes(IslandRows& rows) {
         const double change = row.d - row.d_held;
         row.d_held = row.d;
         if (tree_) {
-            kept_[static_cast<std::size_t>(row.dof) * (n_ + 1)] += change;
+            kept_[robots_[0]->type->paths.diagonal(static_cast<std::size_t>(row.dof))] += change;
         } else {
             while (row.dof >= group_first_[robot + 1]) ++robot;
             fronts_.add(robot, row.dof, row.dof, change);
@@ -120,30 +117,31 @@ void Hessian::add_changes(IslandRows& rows) {
     }
     std::size_t clique = 0;
     for (ContactRow& row : rows.contacts)
-        add_block(columns_of(rows, row.first, row.last), clique++, row.normal, row.slip);
+        add_block(rows.columns, row.first, row.last, clique++, row.normal, row.slip);
     for (AngularRow& row : rows.angulars)
-        add_block(columns_of(rows, row.first, row.last), clique++, row.spin, row.roll);
+        add_block(rows.columns, row.first, row.last, clique++, row.spin, row.roll);
     for (CouplingRow& row : rows.couplings) add_coupling(rows, row, clique++);
 }
 
 /// J^T D J of one contact, or of its angular row.
-void Hessian::add_block(std::span<const ContactColumn> columns, std::size_t clique, BoundedRow& normal,
-                        FrictionDisc& disc) {
+void Hessian::add_block(const ContactColumns& columns, std::size_t first, std::size_t last,
+                        std::size_t clique, BoundedRow& normal, FrictionDisc& disc) {
     const Change d = take_change(normal, disc);
-    if (columns.empty() || d.nothing()) return;
+    if (first == last || d.nothing()) return;
+    const std::size_t count = last - first;
+    const double *cn = columns.n.data() + first, *c1 = columns.t1.data() + first,
+                 *c2 = columns.t2.data() + first;
     const FrontFactor::Place place = tree_ ? FrontFactor::Place{} : fronts_.place(clique);
-    for (std::size_t a = 0; a < columns.size(); ++a) {
-        const ContactColumn& x = columns[a];
-        const double n = d.n * x.n, t1 = d.t11 * x.t1 + d.t12 * x.t2, t2 = d.t12 * x.t1 + d.t22 * x.t2;
-        if (tree_) {  // columns of one path descend: the lower triangle is all that follows
-            double* h = kept_.data() + static_cast<std::size_t>(x.dof) * n_;
-            for (std::size_t b = a; b < columns.size(); ++b)
-                h[columns[b].dof] += n * columns[b].n + t1 * columns[b].t1 + t2 * columns[b].t2;
+    for (std::size_t a = 0; a < count; ++a) {
+        const double n = d.n * cn[a], t1 = d.t11 * c1[a] + d.t12 * c2[a], t2 = d.t12 * c1[a] + d.t22 * c2[a];
+        if (tree_) {  // columns of one path: a row of the lower triangle is all that precedes
+            const auto dof = static_cast<std::size_t>(columns.dof[first + a]);
+            double* __restrict h = kept_.data() + robots_[0]->type->paths.row(dof);
+            for (std::size_t b = 0; b <= a; ++b) h[b] += n * cn[b] + t1 * c1[b] + t2 * c2[b];
             continue;
         }
         double* h = place.matrix + static_cast<std::size_t>(place.local[a]) * place.stride;
-        for (std::size_t b = a; b < columns.size(); ++b)
-            h[place.local[b]] += n * columns[b].n + t1 * columns[b].t1 + t2 * columns[b].t2;
+        for (std::size_t b = 0; b <= a; ++b) h[place.local[b]] += n * cn[b] + t1 * c1[b] + t2 * c2[b];
     }
 }
 
@@ -171,25 +169,32 @@ void Hessian::add_slides(const IslandRows& rows) {
         const ContactRow& row = rows.contacts[c];
         const FrictionDisc& disc = row.slip;
         if (row.first == row.last || (disc.d_1n == 0 && disc.d_2n == 0)) continue;
-        const std::span<const ContactColumn> columns = columns_of(rows, row.first, row.last);
+        const std::size_t count = row.last - row.first;
+        const double *cn = rows.columns.n.data() + row.first, *c1 = rows.columns.t1.data() + row.first,
+                     *c2 = rows.columns.t2.data() + row.first;
         const FrontFactor::Place place = tree_ ? FrontFactor::Place{} : fronts_.unsymmetric_place(c);
-        for (std::size_t a = 0; a < columns.size(); ++a) {
-            const double slide = disc.d_1n * columns[a].t1 + disc.d_2n * columns[a].t2;
-            for (std::size_t b = 0; b < columns.size(); ++b) {
-                const double value = slide * columns[b].n;
-                if (!tree_) {
-                    place.matrix[static_cast<std::size_t>(place.local[a]) * place.stride +
-                                 static_cast<std::size_t>(place.local[b])] += value;
-                } else if (b >= a) {  // row a, column b, which is not above a
-                    h_[static_cast<std::size_t>(columns[a].dof) * n_ +
-                       static_cast<std::size_t>(columns[b].dof)] += value;
-                } else {
-                    upper_[static_cast<std::size_t>(columns[b].dof) * n_ +
-                           static_cast<std::size_t>(columns[a].dof)] += value;
-                }
+        for (std::size_t a = 0; a < count; ++a) {
+            const double slide = disc.d_1n * c1[a] + disc.d_2n * c2[a];
+            if (tree_) {
+                add_slide(rows.columns, row, a, slide);
+                continue;
             }
+            double* h = place.matrix + static_cast<std::size_t>(place.local[a]) * place.stride;
+            for (std::size_t b = 0; b < count; ++b) h[place.local[b]] += slide * cn[b];
         }
     }
+}
+
+/// `slide` times the normal's columns, into row a of the matrix: on a tree, what is right of the diagonal
+/// stands in the rows of `upper_`.
+void Hessian::add_slide(const ContactColumns& columns, const ContactRow& row, std::size_t a, double slide) {
+    const DofPaths& paths = robots_[0]->type->paths;
+    const auto row_of = [&](std::size_t c) {
+        return paths.row(static_cast<std::size_t>(columns.dof[row.first + c]));
+    };
+    const double* cn = columns.n.data() + row.first;
+    for (std::size_t b = 0; b <= a; ++b) h_[row_of(a) + b] += slide * cn[b];
+    for (std::size_t b = a + 1; b < row.last - row.first; ++b) upper_[row_of(b) + a] += slide * cn[b];
 }
 
 bool Hessian::solve(std::span<double> x) {
@@ -198,13 +203,13 @@ bool Hessian::solve(std::span<double> x) {
         fronts_.solve(x);
         return true;
     }
-    const std::vector<int>& parent = robots_[0]->type->dof_parent;
+    const DofPaths& paths = robots_[0]->type->paths;
     if (coupled_) {
-        if (!tree_factor_general(parent, h_, upper_)) return false;
-        tree_solve_general(parent, h_, upper_, x.data());
+        if (!tree_factor_general(paths, h_, upper_)) return false;
+        tree_solve_general(paths, h_, upper_, x.data());
     } else {
-        tree_factor(parent, h_);
-        tree_solve(parent, h_, x.data());
+        tree_factor(paths, h_);
+        tree_solve(paths, h_, x.data());
     }
     return true;
 }

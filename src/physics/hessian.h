@@ -28,16 +28,17 @@ class Hessian {
     void sort_columns(IslandRows& rows);
     void add_mass();
     void add_changes(IslandRows& rows);
-    void add_block(std::span<const ContactColumn> columns, std::size_t clique, BoundedRow& normal,
-                   FrictionDisc& disc);
+    void add_block(const ContactColumns& columns, std::size_t first, std::size_t last, std::size_t clique,
+                   BoundedRow& normal, FrictionDisc& disc);
     void add_coupling(const IslandRows& rows, CouplingRow& row, std::size_t clique);
     void add_slides(const IslandRows& rows);
+    void add_slide(const ContactColumns& columns, const ContactRow& row, std::size_t a, double slide);
 
     std::span<const RobotWork* const> robots_;
     std::span<const int> offsets_;
     std::size_t n_ = 0;
     bool tree_ = false, coupled_ = false;
-    // tree: n x n, lower triangle; to factor; coupled: upper triangle, transposed
+    // tree: packed by paths, lower triangle; to factor; coupled: upper triangle, transposed
     std::vector<double> kept_, h_, upper_;
     FrontFactor fronts_;
     std::vector<int> group_first_, unknowns_;

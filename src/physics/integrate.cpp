@@ -80,9 +80,9 @@ void free_acceleration(const Model& model, std::span<const double> q, std::span<
         const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
         buffer.impulse[i] -= type.dofs[d].damping * v[i];
     }
-    tree_factor(type.dof_parent, buffer.mass_matrix);
+    tree_factor(type.paths, buffer.mass_matrix);
     buffer.velocity = buffer.impulse;
-    tree_solve(type.dof_parent, buffer.mass_matrix, buffer.velocity.data());
+    tree_solve(type.paths, buffer.mass_matrix, buffer.velocity.data());
     if (type.has_equalities()) add_equality_acceleration(free, q);
 }
 

@@ -34,8 +34,7 @@ struct RobotWork {
     Vec3 origin;  // O: the base origin, m, world
     std::vector<BodyWork> bodies;
     std::vector<Spatial> axes;        // one a degree of freedom: motion of its body per unit of v, about O
-    std::vector<double> mass_matrix;  // nv x nv, lower triangle filled on the tree's pattern; implicit
-                                      // damping and springs included
+    std::vector<double> mass_matrix;  // packed by the type's paths; implicit damping and springs included
     std::vector<double> impulse;      // nv: M v + dt (applied - bias); the free velocity is M^-1 of it
     std::vector<double> velocity;     // nv: solved
     std::vector<ShapeWork> shapes;

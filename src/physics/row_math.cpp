@@ -8,24 +8,21 @@ struct Along {
     double n = 0, t1 = 0, t2 = 0;
 };
 
-Along along(const std::vector<ContactColumn>& columns, std::size_t first, std::size_t last,
-            std::span<const double> x) {
+Along along(const ContactColumns& columns, std::size_t first, std::size_t last, std::span<const double> x) {
     Along sum;
     for (std::size_t c = first; c < last; ++c) {
-        const ContactColumn& k = columns[c];
-        const double xi = x[static_cast<std::size_t>(k.dof)];
-        sum.n += k.n * xi, sum.t1 += k.t1 * xi, sum.t2 += k.t2 * xi;
+        const double xi = x[static_cast<std::size_t>(columns.dof[c])];
+        sum.n += columns.n[c] * xi, sum.t1 += columns.t1[c] * xi, sum.t2 += columns.t2[c] * xi;
     }
     return sum;
 }
 
 template <class Row>
-void add_columns(const std::vector<ContactColumn>& columns, const Row& row, const Along& impulse,
+void add_columns(const ContactColumns& columns, const Row& row, const Along& impulse,
                  std::span<double> y) {
-    for (std::size_t c = row.first; c < row.last; ++c) {
-        const ContactColumn& k = columns[c];
-        y[static_cast<std::size_t>(k.dof)] += k.n * impulse.n + k.t1 * impulse.t1 + k.t2 * impulse.t2;
-    }
+    for (std::size_t c = row.first; c < row.last; ++c)
+        y[static_cast<std::size_t>(columns.dof[c])] +=
+            columns.n[c] * impulse.n + columns.t1[c] * impulse.t1 + columns.t2[c] * impulse.t2;
 }
 
 }  // namespace

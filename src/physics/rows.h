@@ -54,11 +54,18 @@ struct CouplingRow : BoundedRow {
     std::size_t first = 0, last = 0;  // columns
 };
 
-/// One column of a contact's Jacobian: velocity of A against B at the point, along (normal, tangent 1,
-/// tangent 2), per unit of one degree of freedom. In an AngularRow: angular velocity.
-struct ContactColumn {
-    int dof = 0;
-    double n = 0, t1 = 0, t2 = 0;
+/// Columns of the contacts' Jacobians: velocity of A against B at the point, along (normal, tangent 1, tangent
+/// 2), per unit of one degree of freedom; in an AngularRow: angular velocity. Those of one contact ascend along
+/// A's path, then along B's.
+struct ContactColumns {
+    std::vector<int> dof;  // in the contact island
+    std::vector<double> n, t1, t2;
+
+    std::size_t size() const { return dof.size(); }
+    void resize(std::size_t size) { dof.resize(size), n.resize(size), t1.resize(size), t2.resize(size); }
+    /// Columns from `middle` on into those of [first, middle), ascending, one a degree of freedom: a robot in
+    /// contact with itself.
+    void merge(std::size_t first, std::size_t middle);
 };
 
 /// A contact point: normal (low 0, no high) and friction at the point.
@@ -85,13 +92,13 @@ struct IslandRows {
     std::vector<JointRow> joints;
     std::vector<CouplingColumn> coupling_columns;
     std::vector<CouplingRow> couplings;
-    std::vector<ContactColumn> columns;
+    ContactColumns columns;
     std::vector<ContactRow> contacts;
     std::vector<AngularRow> angulars;
 
     void clear() {
         joints.clear(), coupling_columns.clear(), couplings.clear();
-        columns.clear(), contacts.clear(), angulars.clear();
+        columns.resize(0), contacts.clear(), angulars.clear();
     }
 };
 

@@ -141,7 +141,7 @@ double row_slope(IslandRows& rows, double alpha) {
 void IslandSolver::times_mass(const Problem& p, std::span<const double> x, std::vector<double>& y) const {
     for (std::size_t r = 0; r < p.robots.size(); ++r) {
         const auto offset = static_cast<std::size_t>(p.offsets[r]);
-        tree_times(p.robots[r]->type->dof_parent, p.robots[r]->mass_matrix, x.data() + offset,
+        tree_times(p.robots[r]->type->paths, p.robots[r]->mass_matrix, x.data() + offset,
                    y.data() + offset);
     }
 }
@@ -176,7 +176,7 @@ double IslandSolver::gradient(const Problem& p) {
             const std::size_t i = static_cast<std::size_t>(p.offsets[r]) + k;
             const double free = robot.impulse[k];
             g_[i] = mv_[i] - free - applied_[i];
-            const double m = robot.mass_matrix[k * nv + k];
+            const double m = robot.mass_matrix[robot.type->paths.diagonal(k)];
             error += g_[i] * g_[i] / m;
             scale += (mv_[i] * mv_[i] + free * free + applied_[i] * applied_[i]) / m;
         }

@@ -1,86 +1,92 @@
 // See tree_factor.h.
 #include "physics/tree_factor.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 namespace roboss {
+namespace {
 
-void tree_times(std::span<const int> parent, std::span<const double> a, const double* x, double* y) {
-    const std::size_t n = parent.size();
-    for (std::size_t i = 0; i < n; ++i) {
-        const double* row = a.data() + i * n;
-        double sum = row[i] * x[i];
-        for (int j = parent[i]; j >= 0; j = parent[static_cast<std::size_t>(j)]) {
-            const auto k = static_cast<std::size_t>(j);
-            sum += row[k] * x[k];
-            y[k] += row[k] * x[i];
-        }
-        y[i] = sum;  // later rows add their share above
+/// sum of row[k] * x[path[k]], k < count, in two interleaved halves: half the latency.
+double dot_path(const double* row, const int* path, std::size_t count, const double* x) {
+    double even = 0, odd = 0;
+    std::size_t k = 0;
+    for (; k + 1 < count; k += 2) even += row[k] * x[path[k]], odd += row[k + 1] * x[path[k + 1]];
+    if (k < count) even += row[k] * x[path[k]];
+    return even + odd;
+}
+
+/// x[path[k]] -= row[k] * s, k < count
+void subtract_path(const double* row, const int* path, std::size_t count, double s, double* x) {
+    for (std::size_t k = 0; k < count; ++k) x[path[k]] -= row[k] * s;
+}
+
+}  // namespace
+
+void tree_times(const DofPaths& paths, std::span<const double> a, const double* x, double* y) {
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        const double* row = a.data() + paths.row(i);
+        const int* path = paths.path(i);
+        const std::size_t above = paths.length(i) - 1;
+        for (std::size_t k = 0; k < above; ++k) y[path[k]] += row[k] * x[i];
+        y[i] = row[above] * x[i] + dot_path(row, path, above, x);  // later rows add their share above
     }
 }
 
-void tree_factor(std::span<const int> parent, std::span<double> a) {
-    const std::size_t n = parent.size();
-    for (std::size_t k = n; k-- > 0;) {
-        double* row_k = a.data() + k * n;
-        const double inverse = 1.0 / row_k[k];
-        row_k[k] = inverse;
-        for (int i = parent[k]; i >= 0; i = parent[static_cast<std::size_t>(i)]) {
-            double* row_i = a.data() + static_cast<std::size_t>(i) * n;
-            const double l = row_k[i] * inverse;
-            for (int j = i; j >= 0; j = parent[static_cast<std::size_t>(j)]) row_i[j] -= l * row_k[j];
-            row_k[i] = l;
+void tree_factor(const DofPaths& paths, std::span<double> a) {
+    for (std::size_t k = paths.size(); k-- > 0;) {
+        double* row_k = a.data() + paths.row(k);
+        const int* path = paths.path(k);
+        const std::size_t above = paths.length(k) - 1;
+        const double inverse = 1.0 / row_k[above];
+        row_k[above] = inverse;
+        for (std::size_t m = above; m-- > 0;) {
+            double* __restrict row = a.data() + paths.row(static_cast<std::size_t>(path[m]));
+            const double l = row_k[m] * inverse;
+            for (std::size_t j = 0; j <= m; ++j) row[j] -= l * row_k[j];
+            row_k[m] = l;
         }
     }
 }
 
-void tree_solve(std::span<const int> parent, std::span<const double> a, double* x) {
-    const std::size_t n = parent.size();
+void tree_solve(const DofPaths& paths, std::span<const double> a, double* x) {
+    const std::size_t n = paths.size();
     for (std::size_t i = n; i-- > 0;)
-        for (int j = parent[i]; j >= 0; j = parent[static_cast<std::size_t>(j)])
-            x[j] -= a[i * n + static_cast<std::size_t>(j)] * x[i];
-    for (std::size_t i = 0; i < n; ++i) x[i] *= a[i * n + i];
+        subtract_path(a.data() + paths.row(i), paths.path(i), paths.length(i) - 1, x[i], x);
     for (std::size_t i = 0; i < n; ++i)
-        for (int j = parent[i]; j >= 0; j = parent[static_cast<std::size_t>(j)])
-            x[i] -= a[i * n + static_cast<std::size_t>(j)] * x[j];
+        x[i] = x[i] * a[paths.diagonal(i)] -
+               dot_path(a.data() + paths.row(i), paths.path(i), paths.length(i) - 1, x);
 }
 
-bool tree_factor_general(std::span<const int> parent, std::span<double> lower, std::span<double> upper) {
-    const std::size_t n = parent.size();
-    for (std::size_t k = n; k-- > 0;) {
-        double* row = lower.data() + k * n;     // A(k, j)
-        double* column = upper.data() + k * n;  // A(j, k)
-        if (!(row[k] > 0)) return false;
-        const double inverse = 1.0 / row[k];
-        row[k] = inverse;
-        for (int i = parent[k]; i >= 0; i = parent[static_cast<std::size_t>(i)]) {
-            const double l = column[i] * inverse, r = row[i];
-            column[i] = l;
-            double* below = lower.data() + static_cast<std::size_t>(i) * n;
-            double* above = upper.data() + static_cast<std::size_t>(i) * n;
-            below[i] -= l * r;
-            for (int j = parent[static_cast<std::size_t>(i)]; j >= 0;
-                 j = parent[static_cast<std::size_t>(j)]) {
-                below[j] -= l * row[j];
-                above[j] -= column[j] * inverse * r;
-            }
+bool tree_factor_general(const DofPaths& paths, std::span<double> lower, std::span<double> upper) {
+    for (std::size_t k = paths.size(); k-- > 0;) {
+        double* row = lower.data() + paths.row(k);     // A(k, j)
+        double* column = upper.data() + paths.row(k);  // A(j, k)
+        const int* path = paths.path(k);
+        const std::size_t above = paths.length(k) - 1;
+        if (!(row[above] > 0)) return false;
+        const double inverse = 1.0 / row[above];
+        row[above] = inverse;
+        for (std::size_t j = 0; j < above; ++j) column[j] *= inverse;
+        for (std::size_t m = above; m-- > 0;) {
+            const std::size_t start = paths.row(static_cast<std::size_t>(path[m]));
+            double* __restrict below = lower.data() + start;
+            double* __restrict beside = upper.data() + start;
+            const double l = column[m], r = row[m];
+            for (std::size_t j = 0; j <= m; ++j) below[j] -= l * row[j];
+            for (std::size_t j = 0; j < m; ++j) beside[j] -= column[j] * r;
         }
     }
     return true;
 }
 
-void tree_solve_general(std::span<const int> parent, std::span<const double> lower,
-                        std::span<const double> upper, double* x) {
-    const std::size_t n = parent.size();
+void tree_solve_general(const DofPaths& paths, std::span<const double> lower, std::span<const double> upper,
+                        double* x) {
+    const std::size_t n = paths.size();
     for (std::size_t i = n; i-- > 0;)
-        for (int j = parent[i]; j >= 0; j = parent[static_cast<std::size_t>(j)])
-            x[j] -= upper[i * n + static_cast<std::size_t>(j)] * x[i];
+        subtract_path(upper.data() + paths.row(i), paths.path(i), paths.length(i) - 1, x[i], x);
     for (std::size_t i = 0; i < n; ++i) {
-        for (int j = parent[i]; j >= 0; j = parent[static_cast<std::size_t>(j)])
-            x[i] -= lower[i * n + static_cast<std::size_t>(j)] * x[j];
-        x[i] *= lower[i * n + i];
+        const double* row = lower.data() + paths.row(i);
+        x[i] = (x[i] - dot_path(row, paths.path(i), paths.length(i) - 1, x)) * row[paths.length(i) - 1];
     }
 }
 

@@ -12,32 +12,33 @@ namespace {
 /// A random tree of n unknowns, and a matrix on its pattern: lower(i, j) and upper(j, i), j on i's path to
 /// the root.
 struct Example {
-    std::vector<int> parent;
+    DofPaths paths;
     std::vector<double> lower, upper;
 
-    Example(unsigned seed, std::size_t n, bool symmetric) : lower(n * n), upper(n * n) {
+    Example(unsigned seed, std::size_t n, bool symmetric) {
         std::mt19937 random(seed);
         const auto number = [&] { return static_cast<double>(random()) / 4294967296.0 - 0.5; };
-        for (std::size_t i = 0; i < n; ++i) {
+        std::vector<int> parent;
+        for (std::size_t i = 0; i < n; ++i)
             parent.push_back(i == 0 ? -1 : static_cast<int>(random() % (i + 1)) - 1);
-            for (int j = static_cast<int>(i); j >= 0; j = parent[static_cast<std::size_t>(j)]) {
-                const std::size_t at = i * n + static_cast<std::size_t>(j);
-                lower[at] = j == static_cast<int>(i) ? 5.0 + number() : number();
-                upper[at] = symmetric ? lower[at] : number();
+        paths = DofPaths(parent);
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t at = paths.row(i); at <= paths.diagonal(i); ++at) {
+                lower.push_back(at == paths.diagonal(i) ? 5.0 + number() : number());
+                upper.push_back(symmetric ? lower.back() : number());
             }
         }
     }
 
     /// A x, where A's entries above the diagonal are those of `upper`.
     std::vector<double> times(const std::vector<double>& x) const {
-        const std::size_t n = x.size();
-        std::vector<double> y(n, 0.0);
-        for (std::size_t i = 0; i < n; ++i) {
-            y[i] += lower[i * n + i] * x[i];
-            for (int j = parent[i]; j >= 0; j = parent[static_cast<std::size_t>(j)]) {
-                const auto k = static_cast<std::size_t>(j);
-                y[i] += lower[i * n + k] * x[k];
-                y[k] += upper[i * n + k] * x[i];
+        std::vector<double> y(x.size(), 0.0);
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            y[i] += lower[paths.diagonal(i)] * x[i];
+            for (std::size_t k = 0; k + 1 < paths.length(i); ++k) {
+                const auto j = static_cast<std::size_t>(paths.path(i)[k]);
+                y[i] += lower[paths.row(i) + k] * x[j];
+                y[j] += upper[paths.row(i) + k] * x[i];
             }
         }
         return y;
@@ -53,13 +54,13 @@ TEST(TreeFactor, SolvesAsTheProductSays) {
             Example factor = e;
             std::vector<double> x = e.times(wanted), y(n);
             if (symmetric) {
-                tree_times(e.parent, e.lower, wanted.data(), y.data());
+                tree_times(e.paths, e.lower, wanted.data(), y.data());
                 for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(y[i], x[i], 1e-13);
-                tree_factor(e.parent, factor.lower);
-                tree_solve(e.parent, factor.lower, x.data());
+                tree_factor(e.paths, factor.lower);
+                tree_solve(e.paths, factor.lower, x.data());
             } else {
-                ASSERT_TRUE(tree_factor_general(e.parent, factor.lower, factor.upper));
-                tree_solve_general(e.parent, factor.lower, factor.upper, x.data());
+                ASSERT_TRUE(tree_factor_general(e.paths, factor.lower, factor.upper));
+                tree_solve_general(e.paths, factor.lower, factor.upper, x.data());
             }
             for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(x[i], wanted[i], 1e-11) << "seed " << seed;
         }
@@ -69,7 +70,7 @@ TEST(TreeFactor, SolvesAsTheProductSays) {
 TEST(TreeFactor, AMatrixWithoutPositivePivotsIsRefused) {
     Example e(3, 4, false);
     e.lower[0] = -1;
-    EXPECT_FALSE(tree_factor_general(e.parent, e.lower, e.upper));
+    EXPECT_FALSE(tree_factor_general(e.paths, e.lower, e.upper));
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ inline RobotType cart_type() {
     axle.joint = JointId(std::size_t{1});
     type.dofs = {axle};
     type.dof_parent = {-1, 0, 1, 2, 3, 4, 5};
+    type.paths = DofPaths(type.dof_parent);
     type.links = {{"cart", 0, {}, {}}, {"mast", 0, {}, {}}, {"wheel", 1, {}, {}}};
     type.links[1].X_BL.p = {0, 0, 1};
     type.joints = {{"mast_joint", JointSpecKind::kFixed, -1, -1, -1, 0},

@@ -63,8 +63,8 @@ std::vector<double> free_acceleration(const Model& model, RobotState& state,
         const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
         work.impulse[i] += joint_force[d] - type.dofs[d].damping * state.v[i];
     }
-    tree_factor(type.dof_parent, work.mass_matrix);
-    tree_solve(type.dof_parent, work.mass_matrix, work.impulse.data());
+    tree_factor(type.paths, work.mass_matrix);
+    tree_solve(type.paths, work.mass_matrix, work.impulse.data());
     Equalities equalities;
     gather_equalities(work, state.q, equalities);
     EqualitySolver solver;

@@ -30,7 +30,7 @@ void shift_half_a_tick(const Model& model, RobotState& state) {
         move_bodies(type, state.v, work);
         compute_inertias(type, work);
         compute_mass_matrix(type, 0.0, work);
-        tree_factor(type.dof_parent, work.mass_matrix);
+        tree_factor(type.paths, work.mass_matrix);
         gather_equalities(work, state.q, equalities);
         solver.prepare(type, work.mass_matrix, equalities);
         wanted.clear();
