@@ -13,12 +13,13 @@ void add_columns(const RobotWork& robot, int body, int offset, double sign, cons
     const int* path = robot.type->paths.path(last);
     const std::size_t begin = columns.size(), length = robot.type->paths.length(last);
     columns.resize(begin + length);
+    const Spatial* axes = robot.axes.data();
+    int* dof = columns.dof.data() + begin;
+    double *n = columns.n.data() + begin, *t1 = columns.t1.data() + begin, *t2 = columns.t2.data() + begin;
     for (std::size_t k = 0; k < length; ++k) {
-        const Vec3 w = robot.axes[static_cast<std::size_t>(path[k])].angular * sign;
-        columns.dof[begin + k] = offset + path[k];
-        columns.n[begin + k] = dot(frame.n, w);
-        columns.t1[begin + k] = dot(frame.t1, w);
-        columns.t2[begin + k] = dot(frame.t2, w);
+        const Vec3 w = axes[path[k]].angular * sign;
+        dof[k] = offset + path[k];
+        n[k] = dot(frame.n, w), t1[k] = dot(frame.t1, w), t2[k] = dot(frame.t2, w);
     }
 }
 

@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kWeights = 10;  // a load that a contact may take up at once, in weights of what it moves
 
+constexpr double kSticking = 0.99;  // of the friction bound; beyond, a contact is taken for sliding
+
 constexpr double kMendShare = 0.3;  // of the penetration beyond the slop mended in one tick
 
 void add_columns(const RobotWork& robot, int body, int offset, double sign, const Vec3& p_W,
@@ -21,13 +23,14 @@ void add_columns(const RobotWork& robot, int body, int offset, double sign, cons
     const int* path = robot.type->paths.path(last);
     const std::size_t begin = columns.size(), length = robot.type->paths.length(last);
     columns.resize(begin + length);
+    const Spatial* axes = robot.axes.data();
+    int* dof = columns.dof.data() + begin;
+    double *n = columns.n.data() + begin, *t1 = columns.t1.data() + begin, *t2 = columns.t2.data() + begin;
     for (std::size_t k = 0; k < length; ++k) {
-        const Spatial& axis = robot.axes[static_cast<std::size_t>(path[k])];
+        const Spatial& axis = axes[path[k]];
         const Vec3 u = (axis.linear + cross(axis.angular, p)) * sign;
-        columns.dof[begin + k] = offset + path[k];
-        columns.n[begin + k] = dot(frame.n, u);
-        columns.t1[begin + k] = dot(frame.t1, u);
-        columns.t2[begin + k] = dot(frame.t2, u);
+        dof[k] = offset + path[k];
+        n[k] = dot(frame.n, u), t1[k] = dot(frame.t1, u), t2[k] = dot(frame.t2, u);
     }
 }
 
@@ -162,6 +165,8 @@ bool add_contact_row(const Model& model, const Contact& c, std::span<const Robot
     row.load_max = std::max(4 * c.load, kWeights * norm(model.gravity) * dt / ease);
     if (loaded) {
         set_friction_targets(c, frame, compliance * (c.load / c.impulse), row.slip);
+        const double t1 = row.slip.target_1, t2 = row.slip.target_2, end = kSticking * compliance * c.mu * c.load;
+        row.sticks = t1 * t1 + t2 * t2 < end * end;
     }
     rows.contacts.push_back(row);
     return split;

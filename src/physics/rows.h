@@ -74,6 +74,7 @@ struct ContactRow {
     BoundedRow normal;
     FrictionDisc slip;
     double load_max = 0;  // of its normal impulse, what may count as a load and not as a blow
+    bool sticks = false;  // it carried a load in the last tick and did not slide: it probably will not now
 };
 
 /// Torsional friction about the normal and rolling friction about the tangents, bounded by the normal impulse

@@ -123,6 +123,16 @@ void set_curvatures(IslandRows& rows) {
     });
 }
 
+/// For the first step: what stuck in the last tick sticks. The velocities of the last tick are a bad witness,
+/// for a hard row takes the least of them for sliding.
+void expect_sticking(IslandRows& rows) {
+    for (ContactRow& row : rows.contacts) {
+        if (!row.sticks) continue;
+        row.normal.d = row.normal.stiffness;
+        row.slip.d_11 = row.slip.d_22 = row.slip.stiffness, row.slip.d_12 = 0;
+    }
+}
+
 /// Minus the derivative of the rows' potentials along the step, at `alpha` of it.
 double row_slope(IslandRows& rows, double alpha) {
     double s = 0;
@@ -320,6 +330,7 @@ bool IslandSolver::newton(const Problem& p, std::vector<double>& v, SolveReport&
         if (report.residual > kFar) ++far;
         if (far > kFarMax || i == p.accuracy.newton_max) return report.residual <= kRoughly;
         set_curvatures(p.rows);
+        if (i == 0) expect_sticking(p.rows);
         find_step(p, false);
         report.residual = take_step(p, v);
         ++report.iterations;
