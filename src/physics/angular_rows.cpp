@@ -12,7 +12,7 @@ void add_columns(const RobotWork& robot, int body, int offset, double sign, cons
     const auto last = static_cast<std::size_t>(info.v_index + info.nv - 1);
     const int* path = robot.type->paths.path(last);
     const std::size_t begin = columns.size(), length = robot.type->paths.length(last);
-    columns.resize(begin + length);
+    columns.extend(length);
     const Spatial* axes = robot.axes.data();
     int* dof = columns.dof.data() + begin;
     double *n = columns.n.data() + begin, *t1 = columns.t1.data() + begin, *t2 = columns.t2.data() + begin;

@@ -22,7 +22,7 @@ void add_columns(const RobotWork& robot, int body, int offset, double sign, cons
     const auto last = static_cast<std::size_t>(info.v_index + info.nv - 1);
     const int* path = robot.type->paths.path(last);
     const std::size_t begin = columns.size(), length = robot.type->paths.length(last);
-    columns.resize(begin + length);
+    columns.extend(length);
     const Spatial* axes = robot.axes.data();
     int* dof = columns.dof.data() + begin;
     double *n = columns.n.data() + begin, *t1 = columns.t1.data() + begin, *t2 = columns.t2.data() + begin;
@@ -113,7 +113,8 @@ void ContactColumns::merge(std::size_t first, std::size_t middle) {
         const auto k = static_cast<std::size_t>(found - dof.begin());
         if (k < middle && dof[k] == dof[c]) {
             n[k] += n[c], t1[k] += t1[c], t2[k] += t2[c];
-            for_each([&](auto& x) { x.erase(place(x, c)); });
+            for_each([&](auto& x) { std::copy(place(x, c + 1), place(x, count_), place(x, c)); });
+            --count_;
         } else {
             for_each([&](auto& x) { std::rotate(place(x, k), place(x, c), place(x, c + 1)); });
             ++middle, ++c;
@@ -137,7 +138,7 @@ bool add_contact_row(const Model& model, const Contact& c, std::span<const Robot
     const RobotWork& a = robots[static_cast<std::size_t>(c.robot_a)];
     const double dt = model.dt_s;
     const ContactFrame frame = frame_of(c);
-    ContactRow row;
+    ContactRow& row = rows.contacts.emplace_back();
     row.first = rows.columns.size();
     add_columns(a, c.body_a, offsets[static_cast<std::size_t>(c.robot_a)], 1.0, c.p_W, frame, rows.columns);
     const std::size_t middle = rows.columns.size();
@@ -168,7 +169,6 @@ bool add_contact_row(const Model& model, const Contact& c, std::span<const Robot
         const double t1 = row.slip.target_1, t2 = row.slip.target_2, end = kSticking * compliance * c.mu * c.load;
         row.sticks = t1 * t1 + t2 * t2 < end * end;
     }
-    rows.contacts.push_back(row);
     return split;
 }
 

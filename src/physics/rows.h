@@ -61,11 +61,21 @@ struct ContactColumns {
     std::vector<int> dof;  // in the contact island
     std::vector<double> n, t1, t2;
 
-    std::size_t size() const { return dof.size(); }
-    void resize(std::size_t size) { dof.resize(size), n.resize(size), t1.resize(size), t2.resize(size); }
+    std::size_t size() const { return count_; }
+    /// Adds columns, not set yet. The arrays only ever grow, so that in the long run nothing is filled twice.
+    void extend(std::size_t more) {
+        count_ += more;
+        if (count_ <= dof.size()) return;
+        const std::size_t room = 2 * count_;
+        dof.resize(room), n.resize(room), t1.resize(room), t2.resize(room);
+    }
+    void clear() { count_ = 0; }
     /// Columns from `middle` on into those of [first, middle), ascending, one a degree of freedom: a robot in
     /// contact with itself.
     void merge(std::size_t first, std::size_t middle);
+
+  private:
+    std::size_t count_ = 0;
 };
 
 /// A contact point: normal (low 0, no high) and friction at the point.
@@ -99,7 +109,7 @@ struct IslandRows {
 
     void clear() {
         joints.clear(), coupling_columns.clear(), couplings.clear();
-        columns.resize(0), contacts.clear(), angulars.clear();
+        columns.clear(), contacts.clear(), angulars.clear();
     }
 };
 

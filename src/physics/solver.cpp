@@ -13,6 +13,8 @@ namespace roboss {
 
 namespace {
 
+constexpr double kRoughly = 1e-4;  // friction bounds are updated once the momentum balance is this good
+
 /// Moves a friction bound towards what the normal impulse allows. Where more friction means less pressure the
 /// plain update swings for ever between two values, so a swing that hardly shrinks halves the step.
 void update_bound(double wanted, double& bound, double& last_error, double& relaxation) {
@@ -123,14 +125,20 @@ void set_curvatures(IslandRows& rows) {
     });
 }
 
-/// For the first step: what stuck in the last tick sticks. The velocities of the last tick are a bad witness,
-/// for a hard row takes the least of them for sliding.
-void expect_sticking(IslandRows& rows) {
+/// Curvatures and impulses as if what stuck in the last tick stuck again. The velocities of the last tick are a
+/// bad witness of that, for a hard row takes the least of them for sliding. False if nothing stuck.
+bool expect_sticking(IslandRows& rows) {
+    bool any = false;
     for (ContactRow& row : rows.contacts) {
         if (!row.sticks) continue;
-        row.normal.d = row.normal.stiffness;
-        row.slip.d_11 = row.slip.d_22 = row.slip.stiffness, row.slip.d_12 = 0;
+        BoundedRow& normal = row.normal;
+        normal.d = normal.stiffness, normal.impulse = (normal.target - normal.u) * normal.stiffness;
+        FrictionDisc& slip = row.slip;
+        slip.d_11 = slip.d_22 = slip.stiffness, slip.d_12 = 0;
+        slip.impulse_1 = -slip.u_1 * slip.stiffness, slip.impulse_2 = -slip.u_2 * slip.stiffness;
+        any = true;
     }
+    return any;
 }
 
 /// Minus the derivative of the rows' potentials along the step, at `alpha` of it.
@@ -292,16 +300,38 @@ bool IslandSolver::coupled_newton(const Problem& p, std::vector<double>& v, Solv
         move(p, 1.0, v);
         ++report.iterations;
     }
+    return_to_start(p, v);
+    return false;
+}
+
+void IslandSolver::return_to_start(const Problem& p, std::vector<double>& v) {
     v = v_start_, mv_ = mv_start_;
     set_steps(p.rows, v);
     take_velocities(p.rows);
-    return false;
+}
+
+/// A first step to where the island would be if every contact did what it did in the last tick: mostly the
+/// solution. Leaves the balance there.
+void IslandSolver::start_as_expected(const Problem& p, std::vector<double>& v, SolveReport& report) {
+    report.residual = balance(p);
+    if (report.residual <= kRoughly) return;
+    set_curvatures(p.rows);
+    if (!expect_sticking(p.rows)) return;
+    v_start_ = v, mv_start_ = mv_;
+    gradient(p);
+    find_step(p, false);
+    move(p, 1.0, v);
+    ++report.iterations;
+    const double before = report.residual;
+    report.residual = balance(p);
+    if (report.residual <= before) return;
+    return_to_start(p, v);
+    report.residual = balance(p);
 }
 
 /// Newton's method until momentum balances and friction bounds agree. False if it does not come near a
 /// balance.
 bool IslandSolver::newton(const Problem& p, std::vector<double>& v, SolveReport& report) {
-    constexpr double kRoughly = 1e-4;  // bounds are updated once the momentum balance is this good
     constexpr double kFar =
         1e-2;  // a residual that shows that the set of sliding and open contacts is not found yet
     constexpr int kFarMax = 16;
@@ -310,7 +340,7 @@ bool IslandSolver::newton(const Problem& p, std::vector<double>& v, SolveReport&
     int far = 0, bound_updates = 0, stalls = 0, coupled_tries = 0;
     bool settled = p.position;  // the friction bounds
     double best = 1;
-    report.residual = balance(p);
+    start_as_expected(p, v, report);
     for (int i = 0;; ++i) {
         if (report.residual <= kRoughly) {
             if (!settled && coupled_tries < kCoupledTries) {
@@ -330,7 +360,6 @@ bool IslandSolver::newton(const Problem& p, std::vector<double>& v, SolveReport&
         if (report.residual > kFar) ++far;
         if (far > kFarMax || i == p.accuracy.newton_max) return report.residual <= kRoughly;
         set_curvatures(p.rows);
-        if (i == 0) expect_sticking(p.rows);
         find_step(p, false);
         report.residual = take_step(p, v);
         ++report.iterations;

@@ -50,6 +50,8 @@ class IslandSolver {
     double slope() const;
     double take_step(const Problem& p, std::vector<double>& v);
     double line_search(const Problem& p, double at_start, double at_end);
+    void return_to_start(const Problem& p, std::vector<double>& v);
+    void start_as_expected(const Problem& p, std::vector<double>& v, SolveReport& report);
     bool newton(const Problem& p, std::vector<double>& v, SolveReport& report);
     bool coupled_newton(const Problem& p, std::vector<double>& v, SolveReport& report);
     // interior_point.cpp
@@ -63,7 +65,7 @@ class IslandSolver {
     std::vector<double> g_;        // gradient
     std::vector<double> applied_;  // impulses of all rows on each degree of freedom
     std::vector<double> step_, m_step_;
-    std::vector<double> v_start_, mv_start_;  // where coupled Newton began
+    std::vector<double> v_start_, mv_start_;  // where an attempt began
     std::vector<double> start_bounds_;        // friction bounds of the last tick
     std::vector<double> changes_;             // interior point: steps of the impulses
 };
