@@ -1,5 +1,5 @@
-// The tree of a robot's degrees of freedom, row by row: the path of i is every degree of freedom from the root
-// down to i. Paths of ancestors are prefixes, so a matrix that couples only what lies on one path (mass
+// The tree of a robot's degrees of freedom, row by row: the path of i is every degree of freedom from the
+// root down to i. Paths of ancestors are prefixes, so a matrix that couples only what lies on one path (mass
 // matrix, its factors) is stored densely, a path a row, and its elimination runs over contiguous numbers.
 #pragma once
 

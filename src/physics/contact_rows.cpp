@@ -166,7 +166,8 @@ bool add_contact_row(const Model& model, const Contact& c, std::span<const Robot
     row.load_max = std::max(4 * c.load, kWeights * norm(model.gravity) * dt / ease);
     if (loaded) {
         set_friction_targets(c, frame, compliance * (c.load / c.impulse), row.slip);
-        const double t1 = row.slip.target_1, t2 = row.slip.target_2, end = kSticking * compliance * c.mu * c.load;
+        const double t1 = row.slip.target_1, t2 = row.slip.target_2,
+                     end = kSticking * compliance * c.mu * c.load;
         row.sticks = t1 * t1 + t2 * t2 < end * end;
     }
     return split;

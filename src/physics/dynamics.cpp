@@ -11,8 +11,6 @@
 namespace roboss {
 namespace {
 
-constexpr double kBaseMargin = 0.002;  // m: what gravity and solving may add to the way of one tick
-
 Transform base_transform(std::span<const double> q) {
     return {to_matrix(Quat{q[3], q[4], q[5], q[6]}), {q[0], q[1], q[2]}};
 }
@@ -185,7 +183,8 @@ void compute_mass_matrix(const RobotType& type, double dt, RobotWork& work) {
     for (std::size_t d = 0; d < type.dofs.size(); ++d) {
         const Dof& dof = type.dofs[d];
         const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
-        work.mass_matrix[type.paths.diagonal(i)] += dof.armature + dt * dof.damping + dt * dt * dof.spring_stiffness;
+        work.mass_matrix[type.paths.diagonal(i)] +=
+            dof.armature + dt * dof.damping + dt * dt * dof.spring_stiffness;
     }
 }
 

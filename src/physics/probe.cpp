@@ -50,8 +50,10 @@ void StepProbe::step(Tick tick, std::span<const RobotState* const> states) {
         pointers_[i] = &after_[i];
     }
     tick_ = tick;
+    scratch_.keep_contacts(true);
     step_island(model_, tick, ids_, pointers_, {}, bounds_, scratch_);
-    read_contacts(scratch_, contacts_);
+    const std::span<const ContactReport> found = read_contacts(scratch_);
+    contacts_.assign(found.begin(), found.end());
     free_.resize(n);
     for (std::size_t i = 0; i < n; ++i) free_[i] = moved_freely(scratch_, i);
 }

@@ -12,6 +12,8 @@
 
 namespace roboss {
 
+constexpr double kBaseMargin = 0.002;  // m: what gravity and solving may add to the way of one tick
+
 struct BodyWork {
     Transform X_WB;
     Vec3 centre;             // of mass, from O, world axes

@@ -18,8 +18,7 @@ Along along(const ContactColumns& columns, std::size_t first, std::size_t last, 
 }
 
 template <class Row>
-void add_columns(const ContactColumns& columns, const Row& row, const Along& impulse,
-                 std::span<double> y) {
+void add_columns(const ContactColumns& columns, const Row& row, const Along& impulse, std::span<double> y) {
     for (std::size_t c = row.first; c < row.last; ++c)
         y[static_cast<std::size_t>(columns.dof[c])] +=
             columns.n[c] * impulse.n + columns.t1[c] * impulse.t1 + columns.t2[c] * impulse.t2;

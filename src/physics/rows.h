@@ -54,9 +54,9 @@ struct CouplingRow : BoundedRow {
     std::size_t first = 0, last = 0;  // columns
 };
 
-/// Columns of the contacts' Jacobians: velocity of A against B at the point, along (normal, tangent 1, tangent
-/// 2), per unit of one degree of freedom; in an AngularRow: angular velocity. Those of one contact ascend along
-/// A's path, then along B's.
+/// Columns of the contacts' Jacobians: velocity of A against B at the point, along (normal, tangent 1,
+/// tangent 2), per unit of one degree of freedom; in an AngularRow: angular velocity. Those of one contact
+/// ascend along A's path, then along B's.
 struct ContactColumns {
     std::vector<int> dof;  // in the contact island
     std::vector<double> n, t1, t2;

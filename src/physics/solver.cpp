@@ -125,8 +125,8 @@ void set_curvatures(IslandRows& rows) {
     });
 }
 
-/// Curvatures and impulses as if what stuck in the last tick stuck again. The velocities of the last tick are a
-/// bad witness of that, for a hard row takes the least of them for sliding. False if nothing stuck.
+/// Curvatures and impulses as if what stuck in the last tick stuck again. The velocities of the last tick are
+/// a bad witness of that, for a hard row takes the least of them for sliding. False if nothing stuck.
 bool expect_sticking(IslandRows& rows) {
     bool any = false;
     for (ContactRow& row : rows.contacts) {
@@ -159,8 +159,7 @@ double row_slope(IslandRows& rows, double alpha) {
 void IslandSolver::times_mass(const Problem& p, std::span<const double> x, std::vector<double>& y) const {
     for (std::size_t r = 0; r < p.robots.size(); ++r) {
         const auto offset = static_cast<std::size_t>(p.offsets[r]);
-        tree_times(p.robots[r]->type->paths, p.robots[r]->mass_matrix, x.data() + offset,
-                   y.data() + offset);
+        tree_times(p.robots[r]->type->paths, p.robots[r]->mass_matrix, x.data() + offset, y.data() + offset);
     }
 }
 

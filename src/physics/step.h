@@ -35,6 +35,8 @@ class StepScratch {
     ~StepScratch();
     StepScratch(StepScratch&&) noexcept;
     StepScratch& operator=(StepScratch&&) noexcept;
+    /// From now on steps keep their contacts, for read_contacts.
+    void keep_contacts(bool keep);
     struct Impl;
     Impl& impl() { return *impl_; }
 
@@ -55,8 +57,9 @@ struct ContactReport {
     Vec3 moment;                // N m s on A, world axes: torsional and rolling friction
 };
 
-/// The contacts of the step made last with this scratch, for the robots that were awake.
-void read_contacts(StepScratch& scratch, std::vector<ContactReport>& reports);
+/// The contacts of the step made last with this scratch, for the robots that were awake, by (robot_a,
+/// robot_b, shapes); empty unless it keeps them.
+std::span<const ContactReport> read_contacts(StepScratch& scratch);
 
 /// Whether robot number `index` of the last call moved without contact and rows, by the Runge-Kutta method.
 bool moved_freely(StepScratch& scratch, std::size_t index);

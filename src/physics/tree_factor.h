@@ -15,8 +15,8 @@ void tree_factor(const DofPaths& paths, std::span<double> a);
 /// x := A^-1 x with the factor of tree_factor.
 void tree_solve(const DofPaths& paths, std::span<const double> a, double* x);
 
-/// The same for a matrix that is not symmetric, on the same pattern: `lower` holds A(i, j) and `upper` A(j, i)
-/// (the diagonal in `lower`). No pivoting: false if a pivot is not positive.
+/// The same for a matrix that is not symmetric, on the same pattern: `lower` holds A(i, j) and `upper` A(j,
+/// i) (the diagonal in `lower`). No pivoting: false if a pivot is not positive.
 bool tree_factor_general(const DofPaths& paths, std::span<double> lower, std::span<double> upper);
 void tree_solve_general(const DofPaths& paths, std::span<const double> lower, std::span<const double> upper,
                         double* x);

@@ -1,0 +1,173 @@
+// See group_step.h.
+#include "physics/group_step.h"
+
+#include <algorithm>
+
+namespace roboss {
+namespace {
+
+int root_of(std::vector<int>& group, int i) {
+    while (group[static_cast<std::size_t>(i)] != i) {
+        int& parent = group[static_cast<std::size_t>(i)];
+        parent = group[static_cast<std::size_t>(parent)];
+        i = parent;
+    }
+    return i;
+}
+
+/// Joins robots in contact; afterwards group[i] is the lowest robot of i's contact island, and `members` are
+/// the robots that are awake, island by island.
+void build_contact_islands(GroupScratch& s, std::span<const RobotWork> robots) {
+    const std::size_t count = robots.size();
+    s.group.resize(count);
+    for (std::size_t i = 0; i < count; ++i) s.group[i] = static_cast<int>(i);
+    for (const Contact& c : s.contacts) {
+        if (c.robot_b < 0 || c.robot_b == c.robot_a) continue;
+        const int a = root_of(s.group, c.robot_a), b = root_of(s.group, c.robot_b);
+        s.group[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    }
+    for (std::size_t i = 0; i < count; ++i) s.group[i] = root_of(s.group, static_cast<int>(i));
+    s.members.clear();
+    for (std::size_t i = 0; i < count; ++i)
+        if (!robots[i].asleep) s.members.push_back(static_cast<std::uint32_t>(i));
+    std::sort(s.members.begin(), s.members.end(), [&](std::uint32_t i, std::uint32_t j) {
+        return s.group[i] != s.group[j] ? s.group[i] < s.group[j] : i < j;
+    });
+}
+
+/// Marks the robots that a contact pushes, in their velocity or on their way.
+void mark_pushed(std::span<RobotWork> robots, GroupScratch& s) {
+    for (std::size_t c = 0; c < s.rows.contacts.size(); ++c) {
+        const Contact& contact = *s.island_contacts[c];
+        if (contact.impulse <= 0 && s.rows.contacts[c].normal.impulse <= 0) continue;
+        robots[static_cast<std::size_t>(contact.robot_a)].pushed = true;
+        if (contact.robot_b >= 0) robots[static_cast<std::size_t>(contact.robot_b)].pushed = true;
+    }
+}
+
+/// Writes the solved velocities into the states and moves the coordinates. A robot that is near something but
+/// not pushed moves freely, else a ball would lose height in every tick that it spends close to the ground.
+void finish_island(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
+                   std::span<const std::uint32_t> members, std::span<const double> way) {
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        RobotWork& work = robots[members[m]];
+        const auto offset = static_cast<std::size_t>(s.island_offsets[m]);
+        const auto nv = static_cast<std::size_t>(work.type->nv);
+        if (!work.pushed && moves_freely(model, work)) {
+            advance_freely(model, work, s.free_buffer);
+            continue;
+        }
+        work.held = true;
+        std::copy_n(s.v.begin() + static_cast<std::ptrdiff_t>(offset), nv, work.state->v.begin());
+        advance_coordinates(*work.type, way.subspan(offset, nv), model.dt_s, work.state->q);
+        if (work.type->has_equalities())
+            s.free_buffer.projection.close_coordinates(*work.type, work.state->q);
+    }
+}
+
+/// Gathers rows and first guess of one contact island; true if the way of the tick needs a solution of its
+/// own.
+bool gather_island(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
+                   std::span<const std::uint32_t> members, std::span<Contact> contacts) {
+    s.island_robots.clear(), s.island_offsets.clear();
+    s.rows.clear(), s.v.clear();
+    s.offsets.resize(robots.size());
+    bool split = false;
+    for (std::uint32_t m : members) {
+        RobotWork& work = robots[m];
+        const int offset = static_cast<int>(s.v.size());
+        s.offsets[m] = offset;
+        s.island_robots.push_back(&work);
+        s.island_offsets.push_back(offset);
+        compute_impulse(model, model.dt_s, 1.0, work.state->q, work.state->v, work);
+        compute_mass_matrix(*work.type, model.dt_s, work);
+        split |= add_joint_rows(model, work, offset, s.buffer, s.rows);
+        s.v.insert(s.v.end(), work.state->v.begin(), work.state->v.end());
+    }
+    for (std::uint32_t m : members) {  // contacts are sorted by their first robot
+        const auto first = std::lower_bound(contacts.begin(), contacts.end(), static_cast<int>(m),
+                                            [](const Contact& c, int robot) { return c.robot_a < robot; });
+        for (auto c = first; c != contacts.end() && c->robot_a == static_cast<int>(m); ++c) {
+            split |= add_contact_row(model, *c, robots, s.offsets, s.rows);
+            add_angular_row(model, *c, robots, s.offsets, s.rows);
+            s.island_contacts.push_back(&*c);
+        }
+    }
+    return split;
+}
+
+/// The solved impulses, into the contacts: what the next tick starts from.
+void take_impulses(GroupScratch& s) {
+    for (std::size_t c = 0; c < s.rows.contacts.size(); ++c) {
+        const ContactRow& row = s.rows.contacts[c];
+        Contact& contact = *s.island_contacts[c];
+        const ContactFrame frame = frame_of(contact);
+        contact.load = std::min({contact.impulse, row.normal.impulse, row.load_max});
+        contact.impulse = row.normal.impulse;
+        contact.friction = frame.t1 * row.slip.impulse_1 + frame.t2 * row.slip.impulse_2;
+    }
+    for (const AngularRow& row : s.rows.angulars) {
+        Contact& contact = *s.island_contacts[row.contact];
+        Vec3 t1, t2;
+        tangents(contact.normal, t1, t2);
+        contact.moment =
+            contact.normal * row.spin.impulse + t1 * row.roll.impulse_1 + t2 * row.roll.impulse_2;
+    }
+}
+
+void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
+                  std::span<const std::uint32_t> members, StepReport& report) {
+    s.island_contacts.clear();
+    if (members.size() == 1) {
+        RobotWork& work = robots[members[0]];
+        if (work.type->nv == 0) return;
+        if (work.contacts == 0 && moves_freely(model, work))
+            return advance_freely(model, work, s.free_buffer);
+    }
+    const bool split = gather_island(model, robots, s, members, s.contacts);
+    s.v_before = s.v;
+    const SolveReport solved =
+        s.solver.solve({model.accuracy, s.island_robots, s.island_offsets, s.rows}, s.v);
+    report.iterations += solved.iterations;
+    report.residual = std::max(report.residual, solved.residual);
+    take_impulses(s);
+    if (split) {
+        for (ContactRow& row : s.rows.contacts) row.slip.bound = row.slip.coefficient * row.normal.impulse;
+        report.iterations +=
+            s.solver.solve({model.accuracy, s.island_robots, s.island_offsets, s.rows, true}, s.v_before)
+                .iterations;
+    }
+    mark_pushed(robots, s);
+    finish_island(model, robots, s, members, split ? s.v_before : s.v);
+}
+
+void count_contacts(const Model& model, std::span<const Contact> contacts, StepReport& report) {
+    for (const Contact& c : contacts) {
+        if (c.impulse <= 0) continue;
+        ++report.contacts;
+        if (c.robot_b < 0 && model.statics[c.shape_b].shape.kind != ShapeKind::kPlane)
+            ++report.static_contacts;
+    }
+}
+
+}  // namespace
+
+void step_group(const Model& model, std::span<RobotWork> robots, GroupScratch& s, StepReport& report) {
+    wake_sleepers(model, robots, s.finder, s.wake);
+    s.finder.find(model, robots, s.contacts);
+    recall_impulses(robots, s.contacts);
+    build_contact_islands(s, robots);
+    report.asleep += static_cast<int>(robots.size() - s.members.size());
+    for (std::size_t first = 0; first < s.members.size();) {
+        std::size_t last = first + 1;
+        while (last < s.members.size() && s.group[s.members[last]] == s.group[s.members[first]]) ++last;
+        const auto members = std::span<const std::uint32_t>(s.members).subspan(first, last - first);
+        first = last;
+        solve_island(model, robots, s, members, report);
+        settle_island(model, robots, members, s.island_contacts);
+    }
+    remember_impulses(robots, s.contacts);
+    count_contacts(model, s.contacts, report);
+}
+
+}  // namespace roboss

@@ -1,0 +1,36 @@
+// One group of robots of which some may meet: their contacts, then each contact island by itself, then the
+// new states.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "physics/axis_rows.h"
+#include "physics/integrate.h"
+#include "physics/sleep.h"
+#include "physics/solver.h"
+#include "physics/step.h"
+
+namespace roboss {
+
+/// Buffers of a group's step; the contacts stay until the next one.
+struct GroupScratch {
+    ContactFinder finder;
+    std::vector<Contact> contacts;
+    std::vector<int> group;  // union-find over the robots: contact islands
+    std::vector<std::uint32_t> members;
+    std::vector<Contact*> island_contacts;
+    std::vector<const RobotWork*> island_robots;
+    std::vector<int> offsets, island_offsets;
+    IslandRows rows;
+    std::vector<double> v, v_before;
+    IslandSolver solver;
+    RowBuffer buffer;
+    FreeBuffer free_buffer;
+    WakeBuffers wake;
+};
+
+/// Steps the robots, which are placed or asleep; wakes whom it must. A robot alone costs no search for pairs.
+void step_group(const Model& model, std::span<RobotWork> robots, GroupScratch& scratch, StepReport& report);
+
+}  // namespace roboss

@@ -1,0 +1,41 @@
+// The sieve against every pair, for boxes of all sizes and places.
+#include "physics/meetings.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace roboss {
+namespace {
+
+TEST(Meetings, AreThoseOfEveryPair) {
+    for (unsigned seed = 0; seed < 300; ++seed) {
+        std::mt19937 random(seed);
+        const auto number = [&] { return static_cast<double>(random()) / 4294967296.0; };
+        const std::size_t count = 1 + seed % 80;
+        const double room = 0.5 + number() * 30, huge = seed % 7 == 0 ? 1e300 : 2;
+        std::vector<Aabb> boxes;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double half = i == 3 ? huge : 0.01 + number();
+            Aabb box;
+            box.include(Vec3{room * (number() - 0.5), room * (number() - 0.5), 0.1 * number()});
+            boxes.push_back(box.inflated(half));
+        }
+        std::vector<char> expected(count, 0);
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t j = 0; j < count; ++j)
+                if (i != j && overlaps(boxes[i], boxes[j])) expected[i] = 1;
+        std::vector<std::uint32_t> all;
+        for (std::uint32_t i = 0; i < count; ++i) all.push_back(i);
+        Meetings meetings;
+        std::vector<char> meets(count, 0);
+        meetings.mark(boxes, all, meets);
+        EXPECT_EQ(meets, expected) << "seed " << seed;
+        std::vector<char> few(count, 0);
+        meetings.mark(boxes, std::span(all).first(1), few);
+        EXPECT_EQ(few[0], expected[0]) << "seed " << seed;
+    }
+}
+
+}  // namespace
+}  // namespace roboss
