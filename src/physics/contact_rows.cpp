@@ -14,6 +14,13 @@ constexpr double kSticking = 0.99;  // of the friction bound; beyond, a contact 
 
 constexpr double kMendShare = 0.3;  // of the penetration beyond the slop mended in one tick
 
+/// Along `direction`, the velocity of point p of a free base per unit of its turning and moving.
+void put_base_columns(const Vec3& direction, const Vec3& p, double* columns) {
+    const Vec3 turning = cross(p, direction);
+    columns[0] = turning.x, columns[1] = turning.y, columns[2] = turning.z;
+    columns[3] = direction.x, columns[4] = direction.y, columns[5] = direction.z;
+}
+
 void add_columns(const RobotWork& robot, int body, int offset, double sign, const Vec3& p_W,
                  const ContactFrame& frame, ContactColumns& columns) {
     if (body < 0) return;
@@ -26,10 +33,17 @@ void add_columns(const RobotWork& robot, int body, int offset, double sign, cons
     const Spatial* axes = robot.axes.data();
     int* dof = columns.dof.data() + begin;
     double *n = columns.n.data() + begin, *t1 = columns.t1.data() + begin, *t2 = columns.t2.data() + begin;
-    for (std::size_t k = 0; k < length; ++k) {
+    for (std::size_t k = 0; k < length; ++k) dof[k] = offset + path[k];
+    std::size_t k = 0;
+    if (robot.type->free_base) {
+        k = 6;
+        put_base_columns(frame.n * sign, p, n);
+        put_base_columns(frame.t1 * sign, p, t1);
+        put_base_columns(frame.t2 * sign, p, t2);
+    }
+    for (; k < length; ++k) {
         const Spatial& axis = axes[path[k]];
         const Vec3 u = (axis.linear + cross(axis.angular, p)) * sign;
-        dof[k] = offset + path[k];
         n[k] = dot(frame.n, u), t1[k] = dot(frame.t1, u), t2[k] = dot(frame.t2, u);
     }
 }

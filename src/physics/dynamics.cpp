@@ -45,6 +45,16 @@ void add_joint_impulses(const RobotType& type, double dt, double momentum_weight
     }
 }
 
+/// The part of a row that the free base's axes give: unit vectors, so the components themselves. Returns how
+/// many of the row's `length` entries these are.
+std::size_t put_base_part(const Spatial& force, std::size_t length, double* row) {
+    const double parts[6] = {force.angular.x, force.angular.y, force.angular.z,
+                             force.linear.x,  force.linear.y,  force.linear.z};
+    const std::size_t count = std::min<std::size_t>(length, 6);
+    std::copy_n(parts, count, row);
+    return count;
+}
+
 }  // namespace
 
 void place_bodies(const RobotType& type, std::span<const double> q, RobotWork& work) {
@@ -151,6 +161,10 @@ void compute_impulse(const Model& model, double dt, double momentum_weight, std:
     for (std::size_t b = type.bodies.size(); b-- > 0;) {
         const Body& body = type.bodies[b];
         const BodyWork& w = work.bodies[b];
+        if (body.joint == JointKind::kFree) {
+            put_base_part(w.impulse, 6, work.impulse.data());
+            continue;
+        }
         for (int k = 0; k < body.nv; ++k) {
             const auto i = static_cast<std::size_t>(body.v_index + k);
             work.impulse[i] = dot(work.axes[i], w.impulse);
@@ -175,7 +189,9 @@ void compute_mass_matrix(const RobotType& type, double dt, RobotWork& work) {
             const Spatial momentum = subtree * work.axes[i];
             double* row = work.mass_matrix.data() + type.paths.row(i);
             const int* path = type.paths.path(i);
-            for (std::size_t k = 0; k < type.paths.length(i); ++k)
+            const std::size_t length = type.paths.length(i);
+            const std::size_t base = type.free_base ? put_base_part(momentum, length, row) : 0;
+            for (std::size_t k = base; k < length; ++k)
                 row[k] = dot(work.axes[static_cast<std::size_t>(path[k])], momentum);
         }
         if (body.parent >= 0) work.bodies[static_cast<std::size_t>(body.parent)].inertia += subtree;
