@@ -4,25 +4,44 @@
 
 #include <span>
 
+#include "core/fixed_math.h"
 #include "math/spatial.h"
 #include "model/model.h"
 
 namespace roboss {
+
+/// R turned by `angle` about `axis` of its own frame; about a coordinate axis, as joints mostly are, two
+/// columns are mixed.
+inline Mat3 turned(const Mat3& R, const Vec3& axis, double angle) {
+    const auto [sin, cos] = fixed_sincos(angle);
+    const auto mix = [&](auto component_a, auto component_b, double sign) {
+        Mat3 result = R;
+        for (std::size_t i = 0; i < 3; ++i) {
+            Vec3& row = result.row(i);
+            const double a = row.*component_a, b = row.*component_b, s = sign * sin;
+            row.*component_a = cos * a + s * b, row.*component_b = cos * b - s * a;
+        }
+        return result;
+    };
+    if (axis.y == 0 && axis.z == 0) return mix(&Vec3::y, &Vec3::z, axis.x);
+    if (axis.x == 0 && axis.z == 0) return mix(&Vec3::z, &Vec3::x, axis.y);
+    if (axis.x == 0 && axis.y == 0) return mix(&Vec3::x, &Vec3::y, axis.z);
+    return R * to_matrix(axis_angle(axis, angle));
+}
 
 /// Pose of the body's frame: X_WJ is the joint frame before its motion, q all coordinates of the robot.
 inline Transform joint_motion(const Body& body, const Transform& X_WJ, std::span<const double> q) {
     const auto i = static_cast<std::size_t>(body.q_index);
     switch (body.joint) {
         case JointKind::kRevolute:
-            return {X_WJ.R * to_matrix(axis_angle(body.axis_J, q[i])), X_WJ.p};
+            return {turned(X_WJ.R, body.axis_J, q[i]), X_WJ.p};
         case JointKind::kPrismatic:
             return {X_WJ.R, X_WJ.p + X_WJ.R * (body.axis_J * q[i])};
         case JointKind::kScrew:
-            return {X_WJ.R * to_matrix(axis_angle(body.axis_J, q[i])),
-                    X_WJ.p + X_WJ.R * (body.axis_J * (body.pitch * q[i]))};
+            return {turned(X_WJ.R, body.axis_J, q[i]), X_WJ.p + X_WJ.R * (body.axis_J * (body.pitch * q[i]))};
         case JointKind::kBall: {
-            const Quat turned{q[i], q[i + 1], q[i + 2], q[i + 3]};
-            return {X_WJ.R * to_matrix(body.reversed_ball ? conjugate(turned) : turned), X_WJ.p};
+            const Quat rotation{q[i], q[i + 1], q[i + 2], q[i + 3]};
+            return {X_WJ.R * to_matrix(body.reversed_ball ? conjugate(rotation) : rotation), X_WJ.p};
         }
         case JointKind::kFree:
             break;
