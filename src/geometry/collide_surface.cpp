@@ -23,9 +23,11 @@ constexpr double kDeeper = 1e-9;  // m
 
 class SurfaceCollider {
   public:
+    /// `found`: what counts; `deep`: faces that a thin body has gone through, which count if nothing else
+    /// holds it.
     SurfaceCollider(const ConvexBody& body, const TriangleSurface& surface, double margin,
-                    std::vector<SurfaceContact>& found)
-        : body_(body), surface_(surface), margin_(margin), found_(found) {}
+                    std::vector<SurfaceContact>& found, std::vector<SurfaceContact>& deep)
+        : body_(body), surface_(surface), margin_(margin), found_(found), deep_(deep) {}
 
     void collide(std::uint32_t number) {
         number_ = number;
@@ -49,7 +51,7 @@ class SurfaceCollider {
         const bool ridge = std::any_of(triangle_.fold.begin(), triangle_.fold.end(),
                                        [](double fold) { return fold < kRidge; });
         const bool over_it = over.count > 0 && over.deepest() <= s_face + 1e-6 * body_.size();
-        if ((shallow && (!ridge || over_it)) || height < 0.0) return add_face(over);
+        if ((shallow && (!ridge || over_it)) || height < 0.0) return add_face(over, found_);
         collide_ridge(over, shallow);
     }
 
@@ -71,15 +73,13 @@ class SurfaceCollider {
         const ConvexBody sheet(triangle_.v, triangle_.n);
         const Separation best = best_separation(body_, sheet, margin_ + body_.ball());
         if (best.s > margin_ + body_.ball()) return;
-        if (!is_own_normal(sheet, best.n)) {
-            if (shallow || surface_.is_ground()) add_face(over);
-            return;
-        }
+        if (!is_own_normal(sheet, best.n))
+            return add_face(over, shallow || surface_.is_ground() ? found_ : deep_);
         Manifold manifold;
         write_general(body_, sheet, best, margin_, manifold);
         for (int i = 0; i < manifold.count; ++i) {
             const ContactPoint& p = manifold.points[static_cast<std::size_t>(i)];
-            add(p.p_W, manifold.n_W, p.gap, p.feature >> 16, p.feature & 0xFFFFu);
+            add(p.p_W, manifold.n_W, p.gap, p.feature >> 16, p.feature & 0xFFFFu, found_);
         }
     }
 
@@ -98,25 +98,26 @@ class SurfaceCollider {
         return surface_.tops(number_, corner_of_surface(top.part[0]), d, kTops);
     }
 
-    void add_face(const ClippedFeature& over) {
+    void add_face(const ClippedFeature& over, std::vector<SurfaceContact>& to) {
         const Vec3& n = triangle_.n;
         for (std::size_t i = 0; i < over.count; ++i) {
             const OverFace& c = over.points[i];
             if (c.gap <= margin_)
-                add(c.p - n * (body_.ball() + 0.5 * c.gap), n, c.gap, c.part, c.reference_part);
+                add(c.p - n * (body_.ball() + 0.5 * c.gap), n, c.gap, c.part, c.reference_part, to);
         }
     }
 
-    void add(const Vec3& p, const Vec3& n, double gap, std::uint32_t part, std::uint32_t triangle_part) {
+    void add(const Vec3& p, const Vec3& n, double gap, std::uint32_t part, std::uint32_t triangle_part,
+             std::vector<SurfaceContact>& to) {
         // A corner of the body keeps its name as it passes from triangle to triangle.
         const std::uint32_t place = triangle_part == kFace ? kAnywhere : number_;
-        found_.push_back({p, n, gap, place << 12 | (part & 0xFFu) << 4 | (triangle_part & 0xFu)});
+        to.push_back({p, n, gap, place << 12 | (part & 0xFFu) << 4 | (triangle_part & 0xFu)});
     }
 
     const ConvexBody& body_;
     const TriangleSurface& surface_;
     double margin_;
-    std::vector<SurfaceContact>& found_;
+    std::vector<SurfaceContact>&found_, &deep_;
     std::uint32_t number_ = 0;
     SurfaceTriangle triangle_;
     bool turned_ = false;
@@ -160,6 +161,27 @@ void reduce(SurfaceContacts& work, double merge) {
     }
 }
 
+/// A body thinner than it is deep, stuck through a face, is nearest to the outside sideways, where the
+/// surface does not end. If nothing else holds it, the face does that it has gone through least: its centre
+/// is still before it.
+void add_deep_faces(SurfaceContacts& work) {
+    if (work.deep.empty()) return;
+    const auto holds = [](const SurfaceContact& c) { return c.gap < 0.0; };
+    if (std::any_of(work.candidates.begin(), work.candidates.end(), holds)) return;
+    const auto depth_along = [&](const Vec3& n) {
+        double depth = 0;
+        for (const SurfaceContact& c : work.deep)
+            if (dot(c.n_W, n) > kSameDirection) depth = std::max(depth, -c.gap);
+        return depth;
+    };
+    Vec3 least = work.deep.front().n_W;
+    double least_depth = depth_along(least);
+    for (const SurfaceContact& c : work.deep)
+        if (const double depth = depth_along(c.n_W); depth < least_depth) least = c.n_W, least_depth = depth;
+    for (const SurfaceContact& c : work.deep)
+        if (dot(c.n_W, least) > kSameDirection) work.candidates.push_back(c);
+}
+
 /// Equal names (parts beyond 8 bits, triangles beyond 20) are told apart by counting on.
 void name_apart(std::vector<SurfaceContact>& points) {
     for (std::size_t i = 1; i < points.size(); ++i) {
@@ -177,6 +199,7 @@ void collide_surface(const Shape& shape, const Transform& X_WA, const TriangleSu
                      const Transform& X_WS, double margin, SurfaceContacts& out) {
     out.points.clear();
     out.candidates.clear();
+    out.deep.clear();
     if (shape.kind == ShapeKind::kPlane || shape.kind == ShapeKind::kSurface) return;
     const Transform X_SA = inverse(X_WS) * X_WA;
     surface.query(bounds(shape, X_SA).inflated(margin), out.triangles);
@@ -184,7 +207,8 @@ void collide_surface(const Shape& shape, const Transform& X_WA, const TriangleSu
     const Posed posed{shape, X_SA};
     const ConvexBody body(posed);
     for (const std::uint32_t number : out.triangles)
-        SurfaceCollider(body, surface, margin, out.candidates).collide(number);
+        SurfaceCollider(body, surface, margin, out.candidates, out.deep).collide(number);
+    add_deep_faces(out);
     reduce(out, kMerge * body.size());
     name_apart(out.points);
     for (SurfaceContact& c : out.points) c.p_W = X_WS * c.p_W, c.n_W = X_WS.R * c.n_W;

@@ -18,7 +18,7 @@ struct SurfaceContact {
 /// Buffers of a call and its result; nothing is allocated once they have grown.
 struct SurfaceContacts {
     std::vector<SurfaceContact> points;
-    std::vector<SurfaceContact> candidates, cluster;
+    std::vector<SurfaceContact> candidates, deep, cluster;
     std::vector<std::uint32_t> triangles;
     std::vector<Vec3> positions;
     std::vector<double> gaps;

@@ -179,5 +179,26 @@ TEST(CollideSurface, FeaturesHoldStillWhileABoxSlidesOverTheSeams) {
     EXPECT_LE(seen.size(), 12u) << "a corner exactly on a seam may have another name for a tick";
 }
 
+/// The way out of a triangle alone would be sideways, by half its thickness; but there the sheet goes on.
+TEST(CollideSurface, AThinRodStuckThroughASheetIsHeldByItsFace) {
+    const TriangleMesh mesh = floor_mesh(6, 3.0);
+    const TriangleSurface& surface = mesh;
+    Random random(5);
+    SurfaceContacts out;
+    for (int i = 0; i < 200; ++i) {
+        const double depth = random.in(1e-3, 0.05);
+        const Quat q = from_rpy(random.in(-0.5, 0.5), random.in(-0.5, 0.5), random.in(-3, 3));
+        const Shape rod{ShapeKind::kBox, {0.0025, 0.0025, 0.15}, 0, 0};
+        const Mat3 R = to_matrix(q);
+        const double reach =
+            std::fabs(R.r2.x) * 0.0025 + std::fabs(R.r2.y) * 0.0025 + std::fabs(R.r2.z) * 0.15;
+        const Transform X{R, {random.in(-0.6, 0.6), random.in(-0.6, 0.6), reach - depth}};
+        collide_surface(rod, X, surface, {}, kMargin, out);
+        ASSERT_FALSE(out.points.empty()) << "depth " << depth;
+        EXPECT_NEAR(smallest_gap(out), -depth, 1e-9);
+        for (const SurfaceContact& c : out.points) EXPECT_NEAR(c.n_W.z, 1, 1e-12);
+    }
+}
+
 }  // namespace
 }  // namespace roboss

@@ -17,9 +17,9 @@ constexpr std::array kNumbers{
                    &Accuracy::newton_max},
     AccuracyNumber{"friction_max", "updates of its friction bounds", 2, 1000, nullptr,
                    &Accuracy::friction_max},
-    AccuracyNumber{"compliance", "softness of hard joint rows, relative to the mobility they act on", 1e-9,
+    AccuracyNumber{"compliance", "softness of hard joint rows, relative to the mobility they act on", 1e-8,
                    1e-5, &Accuracy::compliance, nullptr},
-    AccuracyNumber{"contact_compliance", "softness of hard contacts that bear a load already", 1e-9, 1e-2,
+    AccuracyNumber{"contact_compliance", "softness of hard contacts that bear a load already", 1e-8, 1e-2,
                    &Accuracy::contact_compliance, nullptr},
 };
 

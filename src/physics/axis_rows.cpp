@@ -15,6 +15,9 @@ constexpr double kLimitSlop = 1e-6;  // rad or m beyond a limit that are left al
 constexpr double kLimitSpeedMax =
     1.0;  // rad/s or m/s, while mending; it never enters the velocity, so it adds no energy
 
+constexpr double kApproachSpeedMax =
+    10.0;  // rad/s or m/s, of a position motor whose force and speed have no bound: else one tick is enough
+
 BoundedRow bounded_row(double target, double compliance, double low, double high, double mend = 0) {
     BoundedRow row;
     row.target = target, row.compliance = compliance;
@@ -44,6 +47,7 @@ BoundedRow position_motor(const AxisState& s, double impulse_max) {
         row.compliance = s.compliance;
         speed_max = std::min(speed_max, braking_speed(s, error));
     }
+    if (!std::isfinite(speed_max)) speed_max = kApproachSpeedMax;
     row.target = std::clamp(row.target, -speed_max, speed_max);
     return row;
 }

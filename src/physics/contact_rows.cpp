@@ -12,6 +12,8 @@ constexpr double kWeights = 10;  // a load that a contact may take up at once, i
 
 constexpr double kSticking = 0.99;  // of the friction bound; beyond, a contact is taken for sliding
 
+constexpr double kSoftBlow = 10;  // m/s
+
 constexpr double kMendShare = 0.3;  // of the penetration beyond the slop mended in one tick
 
 /// Along `direction`, the velocity of point p of a free base per unit of its turning and moving.
@@ -83,13 +85,19 @@ bool set_impact(const Contact& c, double approach, double gravity_n, double dt, 
 
 /// A spring and damper taken implicitly: force = stiffness * depth - damping * u with the depth and the
 /// velocity at the end of the tick, never pulling. A gap is closed first, and damps for its share of the
-/// tick. False if the contact is as hard as rigid ones, of compliance `rigid`.
-bool set_softness(const Contact& c, double dt, double rigid, BoundedRow& row) {
+/// tick. The spring counts as compressed no deeper than a body of mobility `ease` could have come by a blow
+/// of kSoftBlow: shapes that start deep in each other are not shot apart. False if the contact is as hard as
+/// rigid ones, of compliance `rigid`.
+bool set_softness(const Contact& c, double dt, double ease, double rigid, BoundedRow& row) {
     if (c.stiffness <= 0) return false;
     const double compliance = 1.0 / (dt * dt * c.stiffness + dt * c.damping);
     if (compliance < rigid) return false;
     row.compliance = compliance;
-    row.target = c.gap > 0 ? -c.gap / dt : -c.gap * c.stiffness / (dt * c.stiffness + c.damping);
+    row.target = -c.gap / dt;
+    if (c.gap <= 0) {
+        const double depth = std::min(-c.gap, kSoftBlow / std::sqrt(c.stiffness * ease));
+        row.target = depth * c.stiffness / (dt * c.stiffness + c.damping);
+    }
     row.position_target = row.target;
     return true;
 }
@@ -172,11 +180,12 @@ bool add_contact_row(const Model& model, const Contact& c, std::span<const Robot
     const bool loaded = c.load > 0;
     const double compliance = ease * (loaded ? model.accuracy.contact_compliance : model.accuracy.compliance);
     row.normal.low = 0, row.normal.high = std::numeric_limits<double>::infinity();
-    const bool split = !set_softness(c, dt, ease * model.accuracy.compliance, row.normal) &&
+    const bool split = !set_softness(c, dt, ease, ease * model.accuracy.compliance, row.normal) &&
                        set_normal(c, approach, gravity_n, dt, compliance, row.normal);
     row.slip.coefficient = c.mu;
     row.slip.bound = c.mu * c.impulse;
     row.slip.compliance = compliance;
+    row.ease = ease;
     row.load_max = std::max(4 * c.load, kWeights * norm(model.gravity) * dt / ease);
     if (loaded) {
         set_friction_targets(c, frame, compliance * (c.load / c.impulse), row.slip);

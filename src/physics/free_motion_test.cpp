@@ -141,5 +141,23 @@ TEST(FreeMotion, StiffDampingAndSpringsOfAFlyingRobotStayStable) {
     }
 }
 
+/// A rod that a blow or friction spins about its length: beyond the method's stability at one step a tick.
+TEST(FreeMotion, AThinRodSpinningFastStaysFiniteAndKeepsEnergyAndMomentum) {
+    for (const double spin : {50.0, 500.0, 1500.0, 5000.0}) {
+        World world = empty_world(2e-3, {});
+        place(world, solid_cylinder(0.05, 0.005, 0.3, surface(0.5)), "rod", {{}, from_rpy(0.3, 0.4, 0)});
+        Simulation sim(world);
+        const Vec3 along = rotate(from_rpy(0.3, 0.4, 0), Vec3{0, 0, 1});
+        for (std::size_t i = 0; i < 3; ++i) sim.states[0].v[i] = spin * along[i];
+        sim.states[0].v[0] += 3;
+        const double energy = sim.energy(0);
+        const Vec3 momentum = sim.momentum().angular;
+        sim.run(2);
+        ASSERT_FALSE(sim.report.not_finite.valid()) << spin << " rad/s";
+        EXPECT_NEAR(sim.energy(0) / energy, 1, 2e-2) << spin << " rad/s";
+        EXPECT_LT(norm(sim.momentum().angular - momentum), 2e-2 * norm(momentum)) << spin << " rad/s";
+    }
+}
+
 }  // namespace
 }  // namespace roboss::test

@@ -115,6 +115,29 @@ void take_impulses(GroupScratch& s) {
     }
 }
 
+/// Mending may move no joint or base faster than this beyond what the robot does anyhow; more than that comes
+/// of shapes that start deep in each other, where a contact has hardly a lever on a light link. The way of
+/// the whole island goes back towards its velocity, by one share, so that it still fits at every contact.
+void limit_mending(std::span<const RobotWork> robots, GroupScratch& s,
+                   std::span<const std::uint32_t> members) {
+    constexpr double kMendingMax = 20;  // rad/s or m/s
+    double share = 1;
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        const std::vector<double>& before = robots[members[m]].state->v;
+        const auto offset = static_cast<std::size_t>(s.island_offsets[m]);
+        double fastest = 0, mending = 0;
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            const double v = s.v[offset + i];
+            fastest = std::max({fastest, std::fabs(before[i]), std::fabs(v)});
+            mending = std::max(mending, std::fabs(s.v_before[offset + i] - v));
+        }
+        const double most = kMendingMax + 2 * fastest;
+        if (mending > most) share = std::min(share, most / mending);
+    }
+    if (share == 1) return;
+    for (std::size_t i = 0; i < s.v.size(); ++i) s.v_before[i] = s.v[i] + share * (s.v_before[i] - s.v[i]);
+}
+
 void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
                   std::span<const std::uint32_t> members, StepReport& report) {
     s.island_contacts.clear();
@@ -136,6 +159,7 @@ void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch&
         report.iterations +=
             s.solver.solve({model.accuracy, s.island_robots, s.island_offsets, s.rows, true}, s.v_before)
                 .iterations;
+        limit_mending(robots, s, members);
     }
     mark_pushed(robots, s);
     finish_island(model, robots, s, members, split ? s.v_before : s.v);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "physics/tree_factor.h"
 
@@ -86,12 +87,19 @@ void free_acceleration(const Model& model, std::span<const double> q, std::span<
     if (type.has_equalities()) add_equality_acceleration(free, q);
 }
 
-}  // namespace
+/// Into so many parts the tick is cut: no body turns further than a quarter of a radian in one, for beyond
+/// that the method loses the motion, and far beyond its stability.
+int parts_of_tick(const RobotWork& work, double dt) {
+    constexpr double kTurnMax = 0.25, kPartsMax = 64;
+    double fastest = 0;
+    for (const BodyWork& body : work.bodies) fastest = std::max(fastest, norm_squared(body.velocity.angular));
+    return static_cast<int>(std::ceil(std::clamp(std::sqrt(fastest) * dt / kTurnMax, 1.0, kPartsMax)));
+}
 
-void advance_freely(const Model& model, RobotWork& work, FreeBuffer& buffer) {
+/// One step of the method, of length `dt`.
+void advance_part(const Model& model, double dt, RobotWork& work, FreeBuffer& buffer) {
     const RobotType& type = *work.type;
     RobotState& state = *work.state;
-    const double dt = model.dt_s;
     constexpr std::array<double, 4> kAt{0.0, 0.5, 0.5, 1.0};
     constexpr std::array<double, 4> kWeight{1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
     const std::size_t nq = state.q.size(), nv = state.v.size();
@@ -116,6 +124,13 @@ void advance_freely(const Model& model, RobotWork& work, FreeBuffer& buffer) {
     if (!type.has_equalities()) return;
     buffer.projection.close_coordinates(type, state.q);
     buffer.projection.close_velocities(type, state.q, state.v);
+}
+
+}  // namespace
+
+void advance_freely(const Model& model, RobotWork& work, FreeBuffer& buffer) {
+    const int parts = parts_of_tick(work, model.dt_s);
+    for (int i = 0; i < parts; ++i) advance_part(model, model.dt_s / parts, work, buffer);
 }
 
 }  // namespace roboss

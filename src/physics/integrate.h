@@ -17,8 +17,9 @@ struct FreeBuffer {
 
 /// One step of the classical Runge-Kutta method (fourth order) for a robot that nothing touches and no row
 /// drives: writes the coordinates and velocities into its state. Loops and couplings are met at each stage
-/// and put back exactly at the end. For contact-free motion it keeps energy and momentum far better than any
-/// first-order step. `work` holds the placed robot.
+/// and put back exactly at the end. A tick in which something turns far is cut into several steps. For
+/// contact-free motion it keeps energy and momentum far better than any first-order step. `work` holds the
+/// placed robot.
 void advance_freely(const Model& model, RobotWork& work, FreeBuffer& buffer);
 
 }  // namespace roboss

@@ -18,6 +18,7 @@ constexpr double kLeastRoom = 1e-14;  // of a friction disc
 constexpr double kLeastBound =
     1e-9;  // of the start's normal impulse; a smaller friction bound counts as none
 constexpr double kToBoundary = 0.98;  // share of the way to the nearest bound that a step may take
+constexpr double kGenerous = 1000;    // the start's normal impulse, in impulses that would stop the body
 
 /// Half of the squared room left in the friction disc, kept above rounding.
 double room(const FrictionDisc& disc) {
@@ -125,7 +126,7 @@ void start_inside(const Accuracy& accuracy, IslandRows& rows, double speed) {
     for (JointRow& row : rows.joints) start_inside(row, speed, reach(row, accuracy.compliance));
     for (CouplingRow& row : rows.couplings) start_inside(row, speed, reach(row, accuracy.compliance));
     for (ContactRow& row : rows.contacts) {
-        const double normal = reach(row.normal, accuracy.contact_compliance);
+        const double normal = kGenerous * speed / row.ease;
         start_inside(row.normal, speed, normal);
         start_inside(row.slip, normal, speed * normal);
     }

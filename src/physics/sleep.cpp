@@ -11,8 +11,9 @@ constexpr double kRestSpeed = 1e-3;      // m/s
 constexpr double kRestJoint = 1e-2;      // rad/s or m/s
 constexpr double kRestTime = 0.5;        // s
 constexpr double kTargetReached = 1e-4;  // rad or m
-constexpr double kTouching = 1e-3;       // m: what is nearer counts as touched when falling asleep
-constexpr double kReach = 2e-3;          // m: a moving robot this near wakes
+constexpr double kServoStill = 1e-5;  // rad/s or m/s: a servo off its target that moves no faster has stopped
+constexpr double kTouching = 1e-3;    // m: what is nearer counts as touched when falling asleep
+constexpr double kReach = 2e-3;       // m: a moving robot this near wakes
 
 std::uint32_t index_of(std::span<const RobotWork> robots, const WakeBuffers& buffers, std::uint32_t id) {
     const std::uint32_t i = id < buffers.place_of.size() ? buffers.place_of[id] : RobotId::kNone;
@@ -95,7 +96,9 @@ bool wake_touched(const Model& model, std::span<RobotWork> robots, ContactFinder
     return woken;
 }
 
-bool motor_rests(const Dof& dof, const MotorSetpoint& motor, double q) {
+/// A servo need not be at its target: gravity makes one with gains droop, and something may stand in its way.
+/// Then it has to stand still, so that none that approaches slowly is stopped before it arrives.
+bool motor_rests(const Dof& dof, const MotorSetpoint& motor, double q, double v) {
     switch (motor.mode) {
         case MotorMode::kPassive:
             return true;
@@ -103,7 +106,8 @@ bool motor_rests(const Dof& dof, const MotorSetpoint& motor, double q) {
         case MotorMode::kEffort:
             return motor.target == 0;
         case MotorMode::kPosition:
-            return std::fabs(std::clamp(motor.target, dof.lower, dof.upper) - q) <= kTargetReached;
+            return std::fabs(v) <= kServoStill ||
+                   std::fabs(std::clamp(motor.target, dof.lower, dof.upper) - q) <= kTargetReached;
     }
     return false;
 }
@@ -117,18 +121,21 @@ bool moves_slowly(const RobotWork& work) {
 
 bool joints_rest(const RobotWork& work) {
     const RobotType& type = *work.type;
+    double fastest = 0;
     for (std::size_t d = 0; d < type.dofs.size(); ++d) {
         const Body& body = type.bodies[static_cast<std::size_t>(type.dofs[d].body)];
-        if (std::fabs(work.state->v[d + static_cast<std::size_t>(type.base_nv())]) > kRestJoint) return false;
+        const double v = work.state->v[d + static_cast<std::size_t>(type.base_nv())];
+        if (std::fabs(v) > kRestJoint) return false;
+        fastest = std::max(fastest, std::fabs(v));
         const double q = work.state->q[static_cast<std::size_t>(body.q_index)];
-        if (!motor_rests(type.dofs[d], work.state->motors[d], q)) return false;
+        if (!motor_rests(type.dofs[d], work.state->motors[d], q, v)) return false;
     }
     // motors of joints that close loops: their coordinate is not in q
     const std::vector<MotorSetpoint>& motors = work.state->motors;
     return std::all_of(motors.begin() + static_cast<std::ptrdiff_t>(type.dofs.size()), motors.end(),
-                       [](const MotorSetpoint& m) {
-                           return m.mode == MotorMode::kPassive ||
-                                  (m.mode != MotorMode::kPosition && m.target == 0);
+                       [&](const MotorSetpoint& m) {
+                           if (m.mode == MotorMode::kPosition) return fastest <= kServoStill;
+                           return m.mode == MotorMode::kPassive || m.target == 0;
                        });
 }
 

@@ -3,8 +3,9 @@
 // A contact island falls asleep as a whole when each of its robots has been at rest for half a second: no
 // point of it faster than 1 mm/s, no joint than 0.01 rad/s (or m/s), something holds it (a contact, a motor,
 // a limit: not a pendulum at its turning point), no timed wrench, and no motor that still works against
-// something. Its velocities then become exactly zero, which takes at most half a microjoule a kilogram. Each
-// sleeper keeps its interaction bound and the robots that it touches (frozen edges).
+// something (a servo that stands still off its target, drooping or stopped, rests). Its velocities then
+// become exactly zero, which takes at most half a microjoule a kilogram. Each sleeper keeps its interaction
+// bound and the robots that it touches (frozen edges).
 //
 // A sleeper wakes, before the tick is solved, by an order (apply_order), by an awake robot that touches it or
 // comes to within 2 mm of it while moving, and when a robot that it touched is awake or not in the call. The

@@ -187,6 +187,41 @@ TEST(Sleep, ABrakedCarSleepsADrivenOneDoesNot) {
     }
 }
 
+/// An arm of one hinge that a servo with gains holds level; gravity makes it droop by several degrees.
+World drooping_arm() {
+    World world = sleepy_world(1e-3);
+    ModelSpec arm = pendulum();
+    arm.joints[0].axes[0].position_gain = 60;
+    arm.joints[0].axes[0].velocity_gain = 10;
+    place(world, arm, "arm", {{0, 0, 2}, {}});
+    return world;
+}
+
+TEST(Sleep, AServoThatDroopsSleepsAndWakesByANewTarget) {
+    Simulation sim(drooping_arm());
+    sim.set_motor(0, 0, MotorMode::kPosition, -kPi / 2);
+    ASSERT_TRUE(fall_asleep(sim, 10));
+    const double q = sim.states[0].q[7];
+    EXPECT_GT(std::fabs(q + kPi / 2), 0.05) << "it droops";
+    const Order order = order_for(sim, 0, SetJoint{JointId(0u), 0, MotorMode::kPosition, -1.0, -1});
+    sim.step({&order, 1});
+    EXPECT_FALSE(sim.states[0].rest.asleep);
+    ASSERT_TRUE(fall_asleep(sim, sim.time() + 10));
+    EXPECT_GT(std::fabs(sim.states[0].q[7] - q), 0.3);
+}
+
+TEST(Sleep, AServoThatApproachesSlowlyArrivesFirst) {
+    World world = sleepy_world(1e-3);
+    ModelSpec arm = pendulum();
+    arm.joints[0].axes[0].max_velocity = 2e-3;
+    place(world, arm, "arm", {{0, 0, 2}, {}});
+    Simulation sim(world);
+    sim.set_motor(0, 0, MotorMode::kPosition, 5e-3);
+    ASSERT_TRUE(fall_asleep(sim, 10));
+    EXPECT_GT(sim.time(), 2.5);
+    EXPECT_NEAR(sim.states[0].q[7], 5e-3, 1e-4);
+}
+
 TEST(Sleep, APendulumAtItsTurningPointAndASlowDriftStayAwake) {
     World world = sleepy_world(1e-3);
     world.gravity = {0, 0, -1e-5};  // so slow that its turn takes seconds

@@ -62,6 +62,12 @@ void read_limit(const Element& limit, const ElementReader& reader, AxisSpec& spe
     spec.max_velocity = bound(reader.number(limit, "velocity", -1, kAny));
     spec.limit_stiffness = reader.number(limit, "stiffness", spec.limit_stiffness, kAny);
     spec.limit_dissipation = reader.number(limit, "dissipation", spec.limit_dissipation, kAny);
+    if (limit.child("dissipation") && spec.limit_dissipation != AxisSpec{}.limit_dissipation &&
+        spec.limit_stiffness >= AxisSpec{}.limit_stiffness)
+        reader.diagnostics().note(
+            limit.child("dissipation").where(), "axis-element",
+            "<dissipation> has no effect: a limit without <stiffness> below 1e8 is hard",
+            "Write <stiffness>, or leave <dissipation> out.");
 }
 
 void read_dynamics(const Element& dynamics, const ElementReader& reader, AxisSpec& spec) {
@@ -70,6 +76,10 @@ void read_dynamics(const Element& dynamics, const ElementReader& reader, AxisSpe
     spec.friction = reader.number(dynamics, "friction", 0);
     spec.spring_stiffness = reader.number(dynamics, "spring_stiffness", 0);
     spec.spring_reference = reader.number(dynamics, "spring_reference", 0);
+    if (spec.spring_reference != 0 && spec.spring_stiffness == 0)
+        reader.diagnostics().note(dynamics.child("spring_reference").where(), "axis-element",
+                                  "<spring_reference> has no effect: there is no spring",
+                                  "Write <spring_stiffness>.");
 }
 
 /// <roboss:motor>: gains, bounds and the rotor's inertia.
@@ -146,7 +156,8 @@ void report_unused_axis(const Element& source, const char* name, const Import& i
     AxisSpec says;
     read_limit(axis.child("limit"), import.reader, says);
     read_dynamics(axis.child("dynamics"), import.reader, says);
-    const bool limited = says.lower > -1e15 || says.upper < 1e15;
+    const bool limited =
+        says.lower > -1e15 || says.upper < 1e15 || says.max_effort >= 0 || says.max_velocity >= 0;
     const bool dynamic = says.damping != 0 || says.friction != 0 || says.spring_stiffness != 0;
     if (!limited && !dynamic && !axis.child("mimic")) return;
     import.diagnostics().warning(axis.where(), "unused-axis",

@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "sdf/ignored_elements.h"
 #include "sdf/joint_conversion.h"
 #include "sdf/libsdformat_reader.h"
 #include "sdf/newer_versions.h"
@@ -146,6 +147,7 @@ ModelSpec convert_model(const ReadModel& read, bool is_static, const Import& imp
     spec.may_sleep = import.reader.boolean(source, "allow_auto_disable", true);
     spec.canonical_link = read.model().CanonicalLinkAndRelativeName().second;
     report_newer_elements(source, import.diagnostics());
+    report_ignored_elements(source, import.diagnostics());
     ModelConverter(read, import, spec)
         .convert({read.model(), "", {}, import.reader.boolean(source, "enable_wind", false)});
     return spec;

@@ -32,6 +32,18 @@ void read_ode_friction(const Element& ode, const Import& import, SurfaceSpec& sp
     }
 }
 
+/// What is written for the Bullet engine and is not the same as what counts here.
+void report_bullet_friction(const Element& bullet, const SurfaceSpec& spec, const Import& import) {
+    const bool differs = has_number_other_than(bullet, "friction", spec.mu, import) ||
+                         has_number_other_than(bullet, "friction2", spec.mu2, import) ||
+                         has_number_other_than(bullet, "rolling_friction", 1.0, import) ||
+                         (bullet.child("fdir1") && import.reader.vector(bullet, "fdir1", {}) != spec.fdir1);
+    if (!differs) return;
+    import.diagnostics().note(bullet.where(), "bullet-friction",
+                              "friction for the Bullet engine is ignored: <bullet> differs from what counts",
+                              "Use <friction><ode><mu> and <roboss:rolling_friction> (in metres).");
+}
+
 void read_friction(const Element& friction, const Import& import, SurfaceSpec& spec) {
     const ElementReader& reader = import.reader;
     const Element ode = friction.child("ode");
@@ -41,16 +53,17 @@ void read_friction(const Element& friction, const Import& import, SurfaceSpec& s
         const bool patch = reader.boolean(torsional, "use_patch_radius", true);
         (patch ? spec.torsional_radius : spec.torsional_surface_radius) =
             reader.number(torsional, patch ? "patch_radius" : "surface_radius", 0.0);
+        const char* other = patch ? "surface_radius" : "patch_radius";
+        if (has_number_other_than(torsional, other, 0, import))
+            no_effect(torsional, other,
+                      patch ? "the patch radius counts unless <use_patch_radius> is false"
+                            : "<use_patch_radius> is false",
+                      import);
         if (has_number_other_than(torsional.child("ode"), "slip", 0, import))
             no_effect(torsional.child("ode"), "slip", "torsional friction does not slip below its bound",
                       import);
     }
-    const Element bullet = friction.child("bullet");
-    if (has_number_other_than(bullet, "rolling_friction", 1.0, import) && !ode) {
-        import.diagnostics().note(bullet.where(), "bullet-friction",
-                                  "friction for the Bullet engine is ignored",
-                                  "Use <friction><ode><mu> and <roboss:rolling_friction> (in metres).");
-    }
+    report_bullet_friction(friction.child("bullet"), spec, import);
 }
 
 std::optional<unsigned> read_bitmask(const Element& contact, const char* name, const Import& import) {
@@ -74,6 +87,7 @@ void read_softness(const Element& ode, const Import& import, SurfaceSpec& spec) 
     const double kp = reader.number(ode, "kp", kRigid, Finite::kInfinityAllowed);
     const double kd = reader.number(ode, "kd", 1.0, Finite::kInfinityAllowed);
     const double cfm = reader.number(ode, "soft_cfm", 0.0), erp = reader.number(ode, "soft_erp", 0.2);
+    const bool damped = ode.child("kd") && kd != 1.0;
     if (!(kp > 0) || !(kd >= 0) || !(cfm >= 0) || !(erp >= 0 && erp <= 1)) {
         import.diagnostics().error(ode.where(), "bad-value",
                                    "a contact needs <kp> above 0, <kd> and <soft_cfm> of at least 0 and "
@@ -91,6 +105,8 @@ void read_softness(const Element& ode, const Import& import, SurfaceSpec& spec) 
     } else if (ode.child("soft_erp") && erp != 0.2) {
         no_effect(ode, "soft_erp", "without <soft_cfm> the contact is rigid", import);
     }
+    if (damped && kp >= kRigid)
+        no_effect(ode, "kd", "without a <kp> below 1e12 the contact is rigid", import);
 }
 
 void read_ode_contact(const Element& ode, const Import& import, SurfaceSpec& spec) {
