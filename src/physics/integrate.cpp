@@ -87,10 +87,10 @@ void free_acceleration(const Model& model, std::span<const double> q, std::span<
     if (type.has_equalities()) add_equality_acceleration(free, q);
 }
 
-/// Into so many parts the tick is cut: no body turns further than a quarter of a radian in one, for beyond
+/// Into so many parts the tick is cut: no body turns further than half a radian in one, for beyond
 /// that the method loses the motion, and far beyond its stability.
 int parts_of_tick(const RobotWork& work, double dt) {
-    constexpr double kTurnMax = 0.25, kPartsMax = 64;
+    constexpr double kTurnMax = 0.5, kPartsMax = 64;
     double fastest = 0;
     for (const BodyWork& body : work.bodies) fastest = std::max(fastest, norm_squared(body.velocity.angular));
     return static_cast<int>(std::ceil(std::clamp(std::sqrt(fastest) * dt / kTurnMax, 1.0, kPartsMax)));
