@@ -1,0 +1,196 @@
+// Addresses to inboxes and outboxes, messages to bytes and back.
+#include "dds/dds_bus.h"
+
+#include <fastdds/dds/log/Log.hpp>
+
+#include <algorithm>
+#include <deque>
+
+#include "core/hash.h"
+#include "dds/endpoints.h"
+#include "wire/codec.h"
+
+namespace roboss {
+
+namespace {
+
+constexpr std::size_t kNoticesMax = 100;
+constexpr std::int64_t kIdle_ms = 30'000;  // an outbox that nobody reads so long is closed
+
+Channel channel_of(const Message& message) {
+    return std::holds_alternative<Alive>(message) ? Channel::kSigns : Channel::kWords;
+}
+
+/// What the DDS layer wants to print, kept for who asks.
+class Complaints {
+  public:
+    void add(std::string line) {
+        const std::lock_guard lock(mutex_);
+        if (lines_.size() < kNoticesMax) lines_.push_back(std::move(line));
+    }
+    std::vector<std::string> take() {
+        const std::lock_guard lock(mutex_);
+        return std::exchange(lines_, {});
+    }
+
+  private:
+    std::mutex mutex_;
+    std::vector<std::string> lines_;
+};
+
+class LogToComplaints : public eprosima::fastdds::dds::LogConsumer {
+  public:
+    explicit LogToComplaints(std::shared_ptr<Complaints> complaints) : complaints_(std::move(complaints)) {}
+    void Consume(const eprosima::fastdds::dds::Log::Entry& entry) override {
+        complaints_->add("dds: " + entry.message);
+    }
+
+  private:
+    std::shared_ptr<Complaints> complaints_;
+};
+
+std::shared_ptr<Complaints> collect_complaints() {
+    auto complaints = std::make_shared<Complaints>();
+    using eprosima::fastdds::dds::Log;
+    Log::ClearConsumers();
+    Log::SetVerbosity(Log::Kind::Error);
+    Log::RegisterConsumer(std::make_unique<LogToComplaints>(complaints));
+    return complaints;
+}
+
+}  // namespace
+
+struct DdsBus::Network {
+    /// An address of this process.
+    struct Home {
+        std::unique_ptr<Inbox> words, signs;
+        std::deque<Envelope> local;
+        std::map<Inbox::Writer, Address> writers;  // known from their words
+        std::vector<Address> vanished;
+    };
+
+    std::string topic(const Address& address, Channel channel) const {
+        static constexpr const char* kRoles[] = {"controller", "simulator", "client"};
+        return "roboss/" + options.simulation + "/" + kRoles[static_cast<int>(address.role)] + "/" +
+               to_hex(address.instance) + (channel == Channel::kSigns ? "/signs" : "/words");
+    }
+
+    Home& home(const Address& address) {
+        const auto [entry, is_new] = homes.try_emplace(address);
+        Home& home = entry->second;
+        if (is_new) {
+            home.words = Inbox::open(*participant, topic(address, Channel::kWords), Channel::kWords, options, bell);
+            home.signs = Inbox::open(*participant, topic(address, Channel::kSigns), Channel::kSigns, options, bell);
+            ROBOSS_CHECK(home.words && home.signs, "DDS made no reader for " + topic(address, Channel::kWords));
+        }
+        return home;
+    }
+
+    Outbox& outbox(const Address& to, Channel channel) {
+        std::unique_ptr<Outbox>& outbox = outboxes[{to, channel}];
+        if (!outbox) outbox = Outbox::open(*participant, topic(to, channel), channel, options, bell);
+        ROBOSS_CHECK(outbox != nullptr, "DDS made no writer for " + topic(to, channel));
+        return *outbox;
+    }
+
+    /// False: something still waits.
+    bool pump() {
+        const std::int64_t now = monotonic_ms();
+        bool done = true;
+        for (auto& [key, outbox] : outboxes) done = outbox->pump(now) && done;
+        std::erase_if(outboxes, [&](const auto& entry) { return entry.second->idle_since(now - kIdle_ms); });
+        return done;
+    }
+
+    void receive(Home& home, const Address& self, Inbox& from, std::vector<Envelope>& inbox) {
+        from.drain([&](const Inbox::Writer& writer, std::vector<std::uint8_t> bytes) {
+            Result<Envelope> envelope = decode_envelope(bytes);
+            if (!envelope) return complaints->add(envelope.error().message);
+            if (envelope.value().to != self) return;
+            if (&from == home.words.get()) home.writers[writer] = envelope.value().from;
+            inbox.push_back(std::move(envelope).value());
+        });
+    }
+
+    DdsOptions options;
+    Bell bell;
+    std::shared_ptr<Complaints> complaints;
+    std::unique_ptr<Participant> participant;  // outlives what follows
+    std::map<Address, Home> homes;
+    std::map<std::pair<Address, Channel>, std::unique_ptr<Outbox>> outboxes;
+};
+
+Result<std::unique_ptr<DdsBus>> DdsBus::create(const DdsOptions& options) {
+    auto network = std::make_unique<Network>();
+    network->options = options;
+    network->complaints = collect_complaints();
+    Result<std::unique_ptr<Participant>> participant = Participant::create(options);
+    if (!participant) return participant.error();
+    network->participant = std::move(participant).value();
+    return std::unique_ptr<DdsBus>(new DdsBus(std::move(network)));
+}
+
+DdsBus::DdsBus(std::unique_ptr<Network> network) : network_(std::move(network)) {}
+DdsBus::~DdsBus() = default;
+
+void DdsBus::send(const Address& from, const Address& to, Message message) {
+    if (const auto home = network_->homes.find(to); home != network_->homes.end()) {
+        home->second.local.push_back({from, to, std::move(message)});
+        return;
+    }
+    const Channel channel = channel_of(message);
+    const std::vector<std::uint8_t> bytes = encode(Envelope{from, to, std::move(message)});
+    if (!network_->outbox(to, channel).send(bytes, now_ms()))
+        network_->complaints->add("a message of " + std::to_string(bytes.size()) + " bytes is too long to be sent");
+}
+
+void DdsBus::drain(const Address& self, std::vector<Envelope>& inbox) {
+    inbox.clear();
+    Network::Home& home = network_->home(self);
+    network_->receive(home, self, *home.signs, inbox);
+    network_->receive(home, self, *home.words, inbox);
+    for (Envelope& envelope : home.local) inbox.push_back(std::move(envelope));
+    home.local.clear();
+    home.signs->take_vanished();
+    for (const Inbox::Writer& writer : home.words->take_vanished()) {
+        const auto known = home.writers.find(writer);
+        if (known == home.writers.end()) continue;
+        home.vanished.push_back(known->second);
+    }
+    network_->pump();
+}
+
+std::vector<Address> DdsBus::take_vanished(const Address& self) {
+    return std::exchange(network_->home(self).vanished, {});
+}
+
+void DdsBus::wait(std::int64_t ms_max) {
+    const bool local = std::any_of(network_->homes.begin(), network_->homes.end(),
+                                   [](const auto& home) { return !home.second.local.empty(); });
+    if (local) return;
+    const bool done = network_->pump();
+    network_->bell.wait(done ? ms_max : std::min<std::int64_t>(ms_max, 1));
+}
+
+bool DdsBus::present(const Address& address) {
+    return network_->homes.contains(address) || network_->outbox(address, Channel::kWords).connected();
+}
+
+bool DdsBus::taken_elsewhere(const Address& address) const {
+    return network_->participant->read_elsewhere(network_->topic(address, Channel::kWords));
+}
+
+bool DdsBus::flush(std::int64_t ms_max) {
+    const std::int64_t end = now_ms() + ms_max;
+    while (!network_->pump() && now_ms() < end) network_->bell.wait(1);
+    bool all = true;
+    for (auto& [key, outbox] : network_->outboxes)
+        if (outbox->connected()) all = outbox->acknowledged(std::max<std::int64_t>(end - now_ms(), 0)) && all;
+    return all;
+}
+
+std::vector<std::string> DdsBus::take_notices() {
+    return network_->complaints->take();
+}
+
+}  // namespace roboss
