@@ -25,8 +25,8 @@ class Bus {
     /// told once. A hint that comes sooner than silence would: a Bus that cannot tell says nothing, and one
     /// that errs costs time only.
     virtual std::vector<Address> take_vanished(const Address&) { return {}; }
-    /// Between two turns of the roles: returns when something may have come for an address of this process, at
-    /// the latest after `ms_max`. A Bus whose messages need no time returns at once.
+    /// Between two turns of the roles: returns when something may have come for an address of this process,
+    /// at the latest after `ms_max`. A Bus whose messages need no time returns at once.
     virtual void wait(std::int64_t) {}
 };
 

@@ -79,9 +79,12 @@ struct DdsBus::Network {
         const auto [entry, is_new] = homes.try_emplace(address);
         Home& home = entry->second;
         if (is_new) {
-            home.words = Inbox::open(*participant, topic(address, Channel::kWords), Channel::kWords, options, bell);
-            home.signs = Inbox::open(*participant, topic(address, Channel::kSigns), Channel::kSigns, options, bell);
-            ROBOSS_CHECK(home.words && home.signs, "DDS made no reader for " + topic(address, Channel::kWords));
+            home.words =
+                Inbox::open(*participant, topic(address, Channel::kWords), Channel::kWords, options, bell);
+            home.signs =
+                Inbox::open(*participant, topic(address, Channel::kSigns), Channel::kSigns, options, bell);
+            ROBOSS_CHECK(home.words && home.signs,
+                         "DDS made no reader for " + topic(address, Channel::kWords));
         }
         return home;
     }
@@ -141,7 +144,8 @@ void DdsBus::send(const Address& from, const Address& to, Message message) {
     const Channel channel = channel_of(message);
     const std::vector<std::uint8_t> bytes = encode(Envelope{from, to, std::move(message)});
     if (!network_->outbox(to, channel).send(bytes, now_ms()))
-        network_->complaints->add("a message of " + std::to_string(bytes.size()) + " bytes is too long to be sent");
+        network_->complaints->add("a message of " + std::to_string(bytes.size()) +
+                                  " bytes is too long to be sent");
 }
 
 void DdsBus::drain(const Address& self, std::vector<Envelope>& inbox) {

@@ -1,6 +1,7 @@
-// DdsBus: the Bus over DDS (eProsima Fast DDS 2.9), between the processes and machines of one run. Each address
-// has an inbox, a pair of topics named after the simulation and the address; whoever sends to it makes a
-// writer for it on first use. Words go reliably and in order, signs of life as best they can (decision 0009).
+// DdsBus: the Bus over DDS (eProsima Fast DDS 2.9), between the processes and machines of one run. Each
+// address has an inbox, a pair of topics named after the simulation and the address; whoever sends to it
+// makes a writer for it on first use. Words go reliably and in order, signs of life as best they can
+// (decision 0009).
 #pragma once
 
 #include <memory>

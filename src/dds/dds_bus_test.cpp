@@ -46,7 +46,8 @@ StateReply reply_of(std::size_t bytes) {
     StateReply reply;
     reply.states.robots = {RobotId(7u)};
     reply.states.sizes = {static_cast<std::uint32_t>(bytes)};
-    for (std::size_t i = 0; i < bytes; ++i) reply.states.bytes.push_back(static_cast<std::uint8_t>(i * 31 + i / 999));
+    for (std::size_t i = 0; i < bytes; ++i)
+        reply.states.bytes.push_back(static_cast<std::uint8_t>(i * 31 + i / 999));
     return reply;
 }
 
@@ -57,7 +58,8 @@ TEST(DdsBus, WhatIsSentBeforeTheOtherIsFoundArrivesOnceAndInOrder) {
     for (std::uint32_t i = 0; i < 500; ++i) a->send(kOne, kTwo, Expelled{SimulatorId(i)});
     const auto all = receive(*b, kTwo, 500, a.get());
     ASSERT_EQ(all.size(), 500u);
-    for (std::uint32_t i = 0; i < 500; ++i) EXPECT_EQ(std::get<Expelled>(all[i].message).simulator, SimulatorId(i));
+    for (std::uint32_t i = 0; i < 500; ++i)
+        EXPECT_EQ(std::get<Expelled>(all[i].message).simulator, SimulatorId(i));
     EXPECT_EQ(all[0].from, kOne);
     EXPECT_TRUE(a->flush(2000));
     EXPECT_TRUE(a->take_notices().empty());
@@ -83,7 +85,8 @@ TEST(DdsBus, SignsOfLifeOfManyAllCome) {
     const std::int64_t end = b->now_ms() + 10'000;
     std::vector<bool> heard(12, false);
     while (std::count(heard.begin(), heard.end(), false) > 0 && b->now_ms() < end) {
-        for (std::uint32_t i = 0; i < 12; ++i) a->send({Role::kSimulator, i}, kControllerAddress, Alive{SimulatorId(i)});
+        for (std::uint32_t i = 0; i < 12; ++i)
+            a->send({Role::kSimulator, i}, kControllerAddress, Alive{SimulatorId(i)});
         b->wait(20);
         b->drain(kControllerAddress, inbox);
         for (const Envelope& e : inbox) heard[std::get<Alive>(e.message).simulator.index()] = true;
@@ -104,7 +107,8 @@ TEST(DdsBus, AddressesOfOneProcessTalkWithoutTheNetwork) {
 }
 
 TEST(DdsBus, RunsOfDifferentNamesNeverMix) {
-    const auto a = bus_of(loopback("mine")), mine = bus_of(loopback("mine")), other = bus_of(loopback("other"));
+    const auto a = bus_of(loopback("mine")), mine = bus_of(loopback("mine")),
+               other = bus_of(loopback("other"));
     std::vector<Envelope> inbox;
     mine->drain(kTwo, inbox);
     other->drain(kTwo, inbox);

@@ -65,8 +65,8 @@ std::unique_ptr<Inbox> Inbox::open(Participant& participant, const std::string& 
     set_common(qos, channel, options);
     qos.reliable_reader_qos().times.heartbeatResponseDelay = {0, 1'000'000};
     std::unique_ptr<Inbox> inbox(new Inbox(participant, bell));
-    const auto wanted = dds::StatusMask::data_available() << dds::StatusMask::liveliness_changed()
-                                                          << dds::StatusMask::subscription_matched();
+    const auto wanted = dds::StatusMask::data_available()
+                        << dds::StatusMask::liveliness_changed() << dds::StatusMask::subscription_matched();
     inbox->reader_ =
         participant.subscriber().create_datareader(participant.topic(topic), qos, inbox.get(), wanted);
     return inbox->reader_ == nullptr ? nullptr : std::move(inbox);
@@ -93,7 +93,8 @@ void Inbox::lost(const Writer& writer) {
     bell_.ring();
 }
 
-void Inbox::on_liveliness_changed(dds::DataReader*, const eprosima::fastrtps::LivelinessChangedStatus& status) {
+void Inbox::on_liveliness_changed(dds::DataReader*,
+                                  const eprosima::fastrtps::LivelinessChangedStatus& status) {
     if (status.alive_count_change < 0) lost(status.last_publication_handle);
 }
 
@@ -155,7 +156,8 @@ bool Outbox::has_room(std::size_t bytes) {
 
 bool Outbox::pump(std::int64_t now_ms) {
     const bool here = connected();
-    if (was_connected_ && !here) waiting_.clear();  // whoever comes to this address next has not heard the beginning
+    if (was_connected_ && !here)
+        waiting_.clear();  // whoever comes to this address next has not heard the beginning
     was_connected_ = here;
     if (!here) {
         while (!waiting_.empty() && waiting_.front().sent_ms + kUnreadFor_ms < now_ms) waiting_.pop_front();

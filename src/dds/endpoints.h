@@ -18,7 +18,8 @@
 
 namespace roboss {
 
-/// Words are messages that matter: reliable, in order. Signs are of use only while they are fresh: best effort.
+/// Words are messages that matter: reliable, in order. Signs are of use only while they are fresh: best
+/// effort.
 enum class Channel { kWords, kSigns };
 
 /// What the threads of the DDS layer tell the thread of the roles.
@@ -83,7 +84,9 @@ class Outbox : private eprosima::fastdds::dds::DataWriterListener {
     bool pump(std::int64_t now_ms);
     bool connected() const { return readers_ > 0; }
     /// Nobody reads and nothing is to be sent, for so long.
-    bool idle_since(std::int64_t then_ms) const { return !connected() && waiting_.empty() && used_ms_ < then_ms; }
+    bool idle_since(std::int64_t then_ms) const {
+        return !connected() && waiting_.empty() && used_ms_ < then_ms;
+    }
     bool acknowledged(std::int64_t ms_max);
 
   private:

@@ -15,7 +15,8 @@ using Head = std::array<std::uint32_t, 3>;
 
 std::vector<std::vector<std::uint8_t>> cut_in_pieces(std::uint32_t serial,
                                                      std::span<const std::uint8_t> message) {
-    const std::size_t count = std::max<std::size_t>((message.size() + kPieceBytesMax - 1) / kPieceBytesMax, 1);
+    const std::size_t count =
+        std::max<std::size_t>((message.size() + kPieceBytesMax - 1) / kPieceBytesMax, 1);
     std::vector<std::vector<std::uint8_t>> pieces;
     if (count > kPiecesMax) return pieces;
     for (std::uint32_t i = 0; i < count; ++i) {

@@ -14,7 +14,8 @@ inline constexpr std::size_t kPieceBytesMax = 60'000;
 inline constexpr std::uint32_t kPiecesMax = 1u << 14;  // a message has at most 980 MB
 
 /// Samples for one message; `serial` grows by one from message to message of a writer. Empty: it is too long.
-std::vector<std::vector<std::uint8_t>> cut_in_pieces(std::uint32_t serial, std::span<const std::uint8_t> message);
+std::vector<std::vector<std::uint8_t>> cut_in_pieces(std::uint32_t serial,
+                                                     std::span<const std::uint8_t> message);
 
 /// Puts one writer's pieces together. Total: whatever comes, it gives whole messages or nothing, and holds no
 /// more than it was given.

@@ -17,7 +17,8 @@ std::vector<std::uint8_t> message_of(std::size_t size) {
 TEST(Fragments, MessagesOfAnyLengthComeBackWhole) {
     Assembly assembly;
     std::uint32_t serial = 0;
-    for (const std::size_t size : {std::size_t{0}, std::size_t{1}, kPieceBytesMax, kPieceBytesMax + 1, std::size_t{1'000'000}}) {
+    for (const std::size_t size :
+         {std::size_t{0}, std::size_t{1}, kPieceBytesMax, kPieceBytesMax + 1, std::size_t{1'000'000}}) {
         const auto message = message_of(size);
         const auto pieces = cut_in_pieces(++serial, message);
         for (std::size_t i = 0; i < pieces.size(); ++i) {

@@ -28,7 +28,8 @@ Result<std::string> interface_address(const std::string& name) {
     const std::unique_ptr<ifaddrs, decltype(&freeifaddrs)> owner(list, &freeifaddrs);
     std::string known;
     for (const ifaddrs* i = list; i != nullptr; i = i->ifa_next) {
-        if (i->ifa_addr == nullptr || i->ifa_addr->sa_family != AF_INET || (i->ifa_flags & IFF_UP) == 0) continue;
+        if (i->ifa_addr == nullptr || i->ifa_addr->sa_family != AF_INET || (i->ifa_flags & IFF_UP) == 0)
+            continue;
         const std::string address = text_of(i->ifa_addr);
         if (name == i->ifa_name || name == address) return address;
         known += (known.empty() ? "" : ", ") + std::string(i->ifa_name) + " (" + address + ")";
@@ -43,11 +44,13 @@ Result<HostPort> host_port(const std::string& text) {
     const std::string host = text.substr(0, colon);
     if (colon != std::string::npos) {
         const std::string digits = text.substr(colon + 1);
-        const bool number = !digits.empty() && digits.size() <= 5 &&
-                            std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
+        const bool number =
+            !digits.empty() && digits.size() <= 5 &&
+            std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
         const int port = number ? std::stoi(digits) : 0;
         if (port < 1 || port > 65535)
-            return Error{"'" + text + "' has no port from 1 to 65535 behind its colon", "write HOST or HOST:PORT"};
+            return Error{"'" + text + "' has no port from 1 to 65535 behind its colon",
+                         "write HOST or HOST:PORT"};
         result.port = static_cast<std::uint16_t>(port);
     }
     addrinfo hints{};

@@ -1,10 +1,10 @@
 // UDP only: segments of shared memory outlive a killed process, by gigabytes, and slow down its return.
 #include "dds/participant.h"
 
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 
 #include <algorithm>
 
@@ -32,7 +32,7 @@ rtps::Locator_t locator(const HostPort& at) {
 }
 
 std::shared_ptr<eprosima::fastdds::rtps::UDPv4TransportDescriptor> transport(const DdsOptions& options,
-                                                                              const std::string& address) {
+                                                                             const std::string& address) {
     auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
     udp->interfaceWhiteList = {address};
     const std::uint32_t possible = socket_buffer_max();
@@ -42,7 +42,8 @@ std::shared_ptr<eprosima::fastdds::rtps::UDPv4TransportDescriptor> transport(con
     return udp;
 }
 
-Result<> set_discovery(const DdsOptions& options, const std::string& address, rtps::BuiltinAttributes& builtin) {
+Result<> set_discovery(const DdsOptions& options, const std::string& address,
+                       rtps::BuiltinAttributes& builtin) {
     builtin.discovery_config.leaseDuration = kLease;
     builtin.discovery_config.leaseDuration_announcementperiod = kAnnounceEvery;
     builtin.discovery_config.initial_announcements.count = 20;
@@ -51,7 +52,8 @@ Result<> set_discovery(const DdsOptions& options, const std::string& address, rt
         Result<HostPort> server = host_port(options.discovery_server);
         if (!server) return server.error();
         if (server.value().port == 0)
-            return Error{"the discovery server '" + options.discovery_server + "' has no port", "write HOST:PORT"};
+            return Error{"the discovery server '" + options.discovery_server + "' has no port",
+                         "write HOST:PORT"};
         builtin.discovery_config.discoveryProtocol = rtps::DiscoveryProtocol_t::SUPER_CLIENT;
         rtps::RemoteServerAttributes remote;
         remote.ReadguidPrefix("44.53.00.5f.45.50.52.4f.53.49.4d.41");  // that of `fastdds discovery -i 0`
@@ -75,12 +77,14 @@ Result<> set_discovery(const DdsOptions& options, const std::string& address, rt
 
 Result<> check(const DdsOptions& options) {
     if (options.domain > 232)
-        return Error{"the DDS domain " + std::to_string(options.domain) + " is not in 0 to 232", "give another"};
+        return Error{"the DDS domain " + std::to_string(options.domain) + " is not in 0 to 232",
+                     "give another"};
     const std::string& name = options.simulation;
-    const bool plain = !name.empty() && name.size() <= 100 && std::all_of(name.begin(), name.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
-               c == '.';
-    });
+    const bool plain =
+        !name.empty() && name.size() <= 100 && std::all_of(name.begin(), name.end(), [](char c) {
+            return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+                   c == '_' || c == '.';
+        });
     if (!plain)
         return Error{"'" + name + "' cannot be the name of a simulation",
                      "give 1 to 100 letters, digits, '-', '_' or '.'"};
@@ -105,9 +109,10 @@ Result<std::unique_ptr<Participant>> Participant::create(const DdsOptions& optio
     eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
 
     std::unique_ptr<Participant> result(new Participant);
-    const Error failed{"DDS could not start on interface " + options.interface + " (" + address.value() +
-                           "), domain " + std::to_string(options.domain),
-                       "see whether its UDP ports from " + std::to_string(7400 + 250 * options.domain) + " are free"};
+    const Error failed{
+        "DDS could not start on interface " + options.interface + " (" + address.value() + "), domain " +
+            std::to_string(options.domain),
+        "see whether its UDP ports from " + std::to_string(7400 + 250 * options.domain) + " are free"};
     // Nothing but discoveries: data and liveliness are for the readers' and writers' own listeners.
     result->participant_ = dds::DomainParticipantFactory::get_instance()->create_participant(
         options.domain, qos, result.get(), dds::StatusMask::none());
@@ -128,7 +133,8 @@ Participant::~Participant() {
 
 dds::Topic* Participant::topic(const std::string& name) {
     dds::Topic*& topic = topics_[name];
-    if (topic == nullptr) topic = participant_->create_topic(name, "roboss::ByteSample", dds::TOPIC_QOS_DEFAULT);
+    if (topic == nullptr)
+        topic = participant_->create_topic(name, "roboss::ByteSample", dds::TOPIC_QOS_DEFAULT);
     return topic;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/float_env.h"
+#include "wire/model_codec.h"
 #include "wire/state_block.h"
 
 namespace roboss {
@@ -75,6 +76,8 @@ void Controller::handle(Bus& bus, Envelope& envelope) {
         take_leave(bus, from, *leave);
     } else if (const auto* bye = std::get_if<ClientBye>(&envelope.message)) {
         take_bye(bus, *bye);
+    } else if (const auto* wanted = std::get_if<ModelRequest>(&envelope.message)) {
+        serve_model(bus, from, *wanted);
     }
 }
 
@@ -92,7 +95,11 @@ void Controller::take_hello(Bus& bus, const Address& from, const Hello& hello) {
 }
 
 bool Controller::heard_from(Bus& bus, const Address& from, SimulatorId id) {
-    if (!roster_.known(id)) return false;
+    // Seats of an earlier Controller's run: who held one is to join afresh.
+    if (!roster_.known(id) || roster_.seat(id.value).address != from) {
+        bus.send(kControllerAddress, from, Expelled{id});
+        return false;
+    }
     SimulatorSeat& seat = roster_.seat(id.value);
     if (seat.alive) {
         seat.heard_ms = bus.now_ms();
@@ -118,6 +125,25 @@ void Controller::serve(Bus& bus, const Address& from, const StateRequest& reques
     for (const RobotId robot : request.robots)
         if (robot.index() < base_.states.size()) append(reply.states, robot, base_.states[robot.index()]);
     bus.send(kControllerAddress, from, std::move(reply));
+}
+
+void Controller::serve_model(Bus& bus, const Address& from, const ModelRequest& request) {
+    constexpr std::uint64_t kPartBytes = 1u << 20;
+    if (model_bytes_.empty()) {
+        model_bytes_ = encode_model(*model_);
+        model_bytes_hash_ = hash_of_bytes(model_bytes_);
+    }
+    const std::uint64_t total = model_bytes_.size(), offset = std::min(request.offset, total);
+    const auto first = model_bytes_.begin() + static_cast<std::ptrdiff_t>(offset);
+    const auto count = static_cast<std::ptrdiff_t>(std::min(kPartBytes, total - offset));
+    bus.send(kControllerAddress, from, ModelPart{model_bytes_hash_, total, offset, {first, first + count}});
+}
+
+void Controller::dismiss(Bus& bus, const std::string& reason) {
+    for (std::uint32_t place = 0; place < roster_.size(); ++place)
+        if (roster_.alive(place)) bus.send(kControllerAddress, roster_.seat(place).address, RunOver{reason});
+    for (const ClientSeat& seat : desk_.seats())
+        if (seat.joined) bus.send(kControllerAddress, seat.address, RunOver{reason});
 }
 
 bool Controller::settled() const {
