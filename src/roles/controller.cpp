@@ -147,7 +147,7 @@ void Controller::dismiss(Bus& bus, const std::string& reason) {
 }
 
 bool Controller::settled() const {
-    return resting() &&
+    return (resting() || !started_) &&
            std::all_of(desk_.seats().begin(), desk_.seats().end(), [this](const ClientSeat& seat) {
                return !seat.synchronous || seat.unanswered.empty() || seat.unanswered.front() >= tick_;
            });

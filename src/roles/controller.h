@@ -86,6 +86,8 @@ class Controller {
     void run_until(Tick target) { target_ = target; }
     Tick target() const { return target_; }
     Tick tick() const { return tick_; }  // committed
+    /// Everybody whom the first window waits for has come.
+    bool started() const { return started_; }
     /// At the target with nothing under way.
     bool resting() const { return tick_ >= target_ && !round_ && started_; }
     /// Resting, and every synchronous Client has answered all it observed before tick(): time for a save.
