@@ -16,6 +16,7 @@ constexpr std::int64_t kClientGone_ms = 5'000;  // a Client whose process is gon
 constexpr double kCheckpointEvery_s = 0.2;      // of stepping: what a loss may cost
 constexpr std::int64_t kLookAround_ms = 500;    // for another Controller of the same name
 constexpr int kStartedAgainMax = 3;
+constexpr std::uint32_t kOnOneComputer_ms = 1'000;  // no cable to be cut: what is slow is only busy
 
 }  // namespace
 
@@ -27,6 +28,7 @@ Result<std::unique_ptr<Company>> Company::gather(const RunOptions& options) {
         company->network_.simulation = fmt::format("run-{}-{:08x}", getpid(), device());
         company->network_.interface = "127.0.0.1";
         company->network_.multicast = false;
+        company->network_.liveliness_ms = kOnOneComputer_ms;
         company->network_.peers = {"127.0.0.1"};
         company->network_.peer_range = static_cast<std::uint32_t>(std::min(120, 16 + options.processes));
         for (int i = 0; i < options.processes; ++i)
@@ -52,6 +54,8 @@ Result<> Company::open_network() {
             return Error{"there is a Controller of " + describe(network_) + " already",
                          "end it, or give this run another name with --simulation"};
     }
+    notices_.push_back(
+        fmt::format("Controller of {}, waits for {} Simulators", describe(network_), o_.simulators));
     return Ok{};
 }
 

@@ -79,10 +79,8 @@ struct DdsBus::Network {
         const auto [entry, is_new] = homes.try_emplace(address);
         Home& home = entry->second;
         if (is_new) {
-            home.words =
-                Inbox::open(*participant, topic(address, Channel::kWords), Channel::kWords, options, bell);
-            home.signs =
-                Inbox::open(*participant, topic(address, Channel::kSigns), Channel::kSigns, options, bell);
+            home.words = Inbox::open(*participant, topic(address, Channel::kWords), Channel::kWords, bell);
+            home.signs = Inbox::open(*participant, topic(address, Channel::kSigns), Channel::kSigns, bell);
             ROBOSS_CHECK(home.words && home.signs,
                          "DDS made no reader for " + topic(address, Channel::kWords));
         }
@@ -91,7 +89,7 @@ struct DdsBus::Network {
 
     Outbox& outbox(const Address& to, Channel channel) {
         std::unique_ptr<Outbox>& outbox = outboxes[{to, channel}];
-        if (!outbox) outbox = Outbox::open(*participant, topic(to, channel), channel, options, bell);
+        if (!outbox) outbox = Outbox::open(*participant, topic(to, channel), channel, bell);
         ROBOSS_CHECK(outbox != nullptr, "DDS made no writer for " + topic(to, channel));
         return *outbox;
     }

@@ -19,7 +19,7 @@ struct DdsOptions {
     std::uint32_t peer_range = 32;   // a HOST without a port: so many members may run there
     std::string discovery_server;    // HOST:PORT of one that runs already; then neither of the others is used
     /// A process silent for so long is told to be gone (take_vanished()).
-    std::uint32_t liveliness_ms = 300;
+    std::uint32_t liveliness_ms = 250;
 };
 
 }  // namespace roboss

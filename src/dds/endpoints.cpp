@@ -25,7 +25,7 @@ eprosima::fastrtps::Duration_t from_ms(std::uint32_t ms) {
 }
 
 template <class Qos>
-void set_common(Qos& qos, Channel channel, const DdsOptions& options) {
+void set_common(Qos& qos, Channel channel) {
     const bool words = channel == Channel::kWords;
     qos.reliability().kind = words ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
     qos.reliability().max_blocking_time = {0, 0};
@@ -38,9 +38,6 @@ void set_common(Qos& qos, Channel channel, const DdsOptions& options) {
     qos.resource_limits().allocated_samples = 16;
     qos.data_sharing().off();
     qos.endpoint().history_memory_policy = rtps::DYNAMIC_RESERVE_MEMORY_MODE;
-    qos.liveliness().kind = dds::AUTOMATIC_LIVELINESS_QOS;
-    qos.liveliness().lease_duration = from_ms(options.liveliness_ms);
-    qos.liveliness().announcement_period = from_ms(std::max(options.liveliness_ms / 3, 1u));
 }
 
 }  // namespace
@@ -60,9 +57,9 @@ void Bell::wait(std::int64_t ms_max) {
 }
 
 std::unique_ptr<Inbox> Inbox::open(Participant& participant, const std::string& topic, Channel channel,
-                                   const DdsOptions& options, Bell& bell) {
+                                   Bell& bell) {
     dds::DataReaderQos qos;
-    set_common(qos, channel, options);
+    set_common(qos, channel);
     qos.reliable_reader_qos().times.heartbeatResponseDelay = {0, 1'000'000};
     std::unique_ptr<Inbox> inbox(new Inbox(participant, bell));
     const auto wanted = dds::StatusMask::data_available()
@@ -85,21 +82,13 @@ std::optional<Inbox::Writer> Inbox::next_sample() {
     return std::nullopt;
 }
 
-void Inbox::lost(const Writer& writer) {
+void Inbox::on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) {
+    if (status.current_count_change >= 0) return;
     {
         const std::lock_guard lock(mutex_);
-        vanished_.push_back(writer);
+        vanished_.push_back(status.last_publication_handle);
     }
     bell_.ring();
-}
-
-void Inbox::on_liveliness_changed(dds::DataReader*,
-                                  const eprosima::fastrtps::LivelinessChangedStatus& status) {
-    if (status.alive_count_change < 0) lost(status.last_publication_handle);
-}
-
-void Inbox::on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) {
-    if (status.current_count_change < 0) lost(status.last_publication_handle);
 }
 
 std::vector<Inbox::Writer> Inbox::take_vanished() {
@@ -112,9 +101,9 @@ std::vector<Inbox::Writer> Inbox::take_vanished() {
 }
 
 std::unique_ptr<Outbox> Outbox::open(Participant& participant, const std::string& topic, Channel channel,
-                                     const DdsOptions& options, Bell& bell) {
+                                     Bell& bell) {
     dds::DataWriterQos qos;
-    set_common(qos, channel, options);
+    set_common(qos, channel);
     qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
     qos.reliable_writer_qos().times.heartbeatPeriod = {0, 100'000'000};
     qos.reliable_writer_qos().times.nackResponseDelay = {0, 1'000'000};

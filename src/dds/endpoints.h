@@ -41,7 +41,7 @@ class Inbox : private eprosima::fastdds::dds::DataReaderListener {
 
     /// nullptr: DDS refused to make it.
     static std::unique_ptr<Inbox> open(Participant& participant, const std::string& topic, Channel channel,
-                                       const DdsOptions& options, Bell& bell);
+                                       Bell& bell);
     ~Inbox() override;
 
     /// Calls take(writer, message) for every message that is complete.
@@ -57,11 +57,8 @@ class Inbox : private eprosima::fastdds::dds::DataReaderListener {
     Inbox(Participant& participant, Bell& bell) : participant_(participant), bell_(bell) {}
     std::optional<Writer> next_sample();
     void on_data_available(eprosima::fastdds::dds::DataReader*) override { bell_.ring(); }
-    void on_liveliness_changed(eprosima::fastdds::dds::DataReader*,
-                               const eprosima::fastrtps::LivelinessChangedStatus& status) override;
     void on_subscription_matched(eprosima::fastdds::dds::DataReader*,
                                  const eprosima::fastdds::dds::SubscriptionMatchedStatus& status) override;
-    void lost(const Writer& writer);
 
     Participant& participant_;
     Bell& bell_;
@@ -75,7 +72,7 @@ class Inbox : private eprosima::fastdds::dds::DataReaderListener {
 class Outbox : private eprosima::fastdds::dds::DataWriterListener {
   public:
     static std::unique_ptr<Outbox> open(Participant& participant, const std::string& topic, Channel channel,
-                                        const DdsOptions& options, Bell& bell);
+                                        Bell& bell);
     ~Outbox() override;
 
     /// Cuts the message and sends what the other side can take now. False: it is too long for any Bus.

@@ -20,8 +20,11 @@ namespace rtps = eprosima::fastrtps::rtps;
 namespace {
 
 constexpr std::uint32_t kSocketBuffer = 4u << 20;
-const eprosima::fastrtps::Duration_t kLease{1, 0};
-const eprosima::fastrtps::Duration_t kAnnounceEvery{0, 250'000'000};
+constexpr std::uint32_t kSignsPerLease = 3;
+
+eprosima::fastrtps::Duration_t from_ms(std::uint32_t ms) {
+    return {static_cast<std::int32_t>(ms / 1000), ms % 1000 * 1'000'000};
+}
 
 rtps::Locator_t locator(const HostPort& at) {
     rtps::Locator_t result;
@@ -44,8 +47,12 @@ std::shared_ptr<eprosima::fastdds::rtps::UDPv4TransportDescriptor> transport(con
 
 Result<> set_discovery(const DdsOptions& options, const std::string& address,
                        rtps::BuiltinAttributes& builtin) {
-    builtin.discovery_config.leaseDuration = kLease;
-    builtin.discovery_config.leaseDuration_announcementperiod = kAnnounceEvery;
+    builtin.discovery_config.leaseDuration = from_ms(options.liveliness_ms);
+    builtin.discovery_config.leaseDuration_announcementperiod =
+        from_ms(std::max(options.liveliness_ms / kSignsPerLease, 1u));
+    // The liveliness of single writers is of no use: in Fast DDS 2.9 any living participant keeps the
+    // AUTOMATIC writers of all others alive (issue 4373 there).
+    builtin.use_WriterLivelinessProtocol = false;
     builtin.discovery_config.initial_announcements.count = 20;
     builtin.discovery_config.initial_announcements.period = {0, 50'000'000};
     if (!options.discovery_server.empty()) {
