@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <random>
 
 #include "app/interrupt.h"
@@ -14,6 +15,7 @@ namespace {
 constexpr std::int64_t kTurn_ms = 10;
 constexpr std::int64_t kResend_ms = 250;
 constexpr std::int64_t kTellWaiting_ms = 3'000;
+constexpr std::int64_t kSilence_ms = 1'500, kSilenceLongest_ms = 60'000;
 
 }  // namespace
 
@@ -30,7 +32,8 @@ bool Member::open() {
     Result<std::unique_ptr<DdsBus>> bus = DdsBus::create(o_.network);
     if (!bus) return complain(bus.error()), false;
     bus_ = std::move(bus).value();
-    seen_ms_ = bus_->now_ms();
+    seen_ms_ = connected_ms_ = bus_->now_ms();
+    silence_ms_max_ = kSilence_ms;
     watch_for_interrupts();
     return true;
 }
@@ -55,6 +58,7 @@ bool Member::wait() {
     bus_->wait(kTurn_ms);
     for (const std::string& line : bus_->take_notices()) say(line);
     const std::int64_t now = bus_->now_ms();
+    mend_silence(now);
     if (bus_->present(kControllerAddress)) {
         seen_ms_ = now;
         told_waiting_ = false;
@@ -67,6 +71,15 @@ bool Member::wait() {
               "start `roboss controller` with the same --simulation, --domain and network, or see --peer and "
               "--discovery-server if the network has no multicast"});
     return false;
+}
+
+void Member::mend_silence(std::int64_t now_ms) {
+    const std::int64_t heard_ms = bus_->heard_ms(kControllerAddress).value_or(0);
+    if (heard_ms > connected_ms_) silence_ms_max_ = kSilence_ms;
+    if (now_ms - std::max(heard_ms, connected_ms_) < silence_ms_max_) return;
+    bus_->reconnect();
+    connected_ms_ = now_ms;
+    silence_ms_max_ = std::min(2 * silence_ms_max_, kSilenceLongest_ms);
 }
 
 void Member::say(const std::string& line) const {

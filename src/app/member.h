@@ -36,10 +36,14 @@ class Member {
     void complain(const Error& error) const;
 
   private:
+    /// Joins the network afresh when it has heard nothing of a Controller for long, less and less often.
+    void mend_silence(std::int64_t now_ms);
+
     const char* what_;
     const MemberOptions& o_;
     std::unique_ptr<DdsBus> bus_;
     std::int64_t seen_ms_ = 0;  // when a Controller was there last
+    std::int64_t connected_ms_ = 0, silence_ms_max_ = 0;
     bool told_waiting_ = false;
 };
 

@@ -77,14 +77,30 @@ struct DdsBus::Network {
 
     Home& home(const Address& address) {
         const auto [entry, is_new] = homes.try_emplace(address);
-        Home& home = entry->second;
-        if (is_new) {
-            home.words = Inbox::open(*participant, topic(address, Channel::kWords), Channel::kWords, bell);
-            home.signs = Inbox::open(*participant, topic(address, Channel::kSigns), Channel::kSigns, bell);
-            ROBOSS_CHECK(home.words && home.signs,
-                         "DDS made no reader for " + topic(address, Channel::kWords));
+        if (is_new) open(address, entry->second);
+        return entry->second;
+    }
+
+    void open(const Address& address, Home& home) {
+        home.words = Inbox::open(*participant, topic(address, Channel::kWords), Channel::kWords, bell);
+        home.signs = Inbox::open(*participant, topic(address, Channel::kSigns), Channel::kSigns, bell);
+        ROBOSS_CHECK(home.words && home.signs, "DDS made no reader for " + topic(address, Channel::kWords));
+    }
+
+    /// Everything that hangs on the participant anew; messages between addresses of this process stay.
+    Result<> reconnect() {
+        outboxes.clear();
+        for (auto& [address, home] : homes) {
+            home.words.reset();
+            home.signs.reset();
+            home.writers.clear();
         }
-        return home;
+        participant.reset();
+        Result<std::unique_ptr<Participant>> again = Participant::create(options);
+        if (!again) return again.error();
+        participant = std::move(again).value();
+        for (auto& [address, home] : homes) open(address, home);
+        return Ok{};
     }
 
     Outbox& outbox(const Address& to, Channel channel) {
@@ -108,6 +124,7 @@ struct DdsBus::Network {
             Result<Envelope> envelope = decode_envelope(bytes);
             if (!envelope) return complaints->add(envelope.error().message);
             if (envelope.value().to != self) return;
+            heard_ms[envelope.value().from] = monotonic_ms();
             if (&from == home.words.get()) home.writers[writer] = envelope.value().from;
             inbox.push_back(std::move(envelope).value());
         });
@@ -119,6 +136,7 @@ struct DdsBus::Network {
     std::unique_ptr<Participant> participant;  // outlives what follows
     std::map<Address, Home> homes;
     std::map<std::pair<Address, Channel>, std::unique_ptr<Outbox>> outboxes;
+    std::map<Address, std::int64_t> heard_ms;
 };
 
 Result<std::unique_ptr<DdsBus>> DdsBus::create(const DdsOptions& options) {
@@ -176,6 +194,16 @@ void DdsBus::wait(std::int64_t ms_max) {
 
 bool DdsBus::present(const Address& address) {
     return network_->homes.contains(address) || network_->outbox(address, Channel::kWords).connected();
+}
+
+std::optional<std::int64_t> DdsBus::heard_ms(const Address& address) const {
+    const auto found = network_->heard_ms.find(address);
+    return found == network_->heard_ms.end() ? std::nullopt : std::optional(found->second);
+}
+
+void DdsBus::reconnect() {
+    const Result<> done = network_->reconnect();
+    ROBOSS_CHECK(done.ok(), done.error().text());
 }
 
 bool DdsBus::taken_elsewhere(const Address& address) const {

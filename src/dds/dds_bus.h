@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,11 @@ class DdsBus : public Bus {
 
     /// Whether a process that owns this address is connected now. Asking makes the connection.
     bool present(const Address& address);
+    /// When a message from this address came last (now_ms()); nothing: never.
+    std::optional<std::int64_t> heard_ms(const Address& address) const;
+    /// Leaves the network and joins it afresh, for one who hears nothing though others are there: when a
+    /// process was stopped for longer than its lease, DDS may find only one direction again.
+    void reconnect();
     /// Another process has opened the inbox of this address: two must not be the same.
     bool taken_elsewhere(const Address& address) const;
     /// Waits until all that was sent has arrived, at most so long. For the end of a process.

@@ -146,6 +146,32 @@ TEST(DdsBus, WhoEndsIsMissedAndWhoOpensTheSameAddressIsSeen) {
     EXPECT_FALSE(b->taken_elsewhere(kOne));
 }
 
+/// Says it again until it is heard, as the roles do: what is sent to one who has just gone is lost.
+bool gets_through(DdsBus& sender, const Address& from, DdsBus& receiver, const Address& to) {
+    std::vector<Envelope> inbox;
+    for (int turn = 0; turn < 500; ++turn) {
+        if (turn % 10 == 0) sender.send(from, to, Expelled{});
+        receiver.wait(10);
+        sender.wait(0);
+        receiver.drain(to, inbox);
+        if (!inbox.empty()) return inbox[0].from == from;
+    }
+    return false;
+}
+
+TEST(DdsBus, WhoJoinsTheNetworkAfreshIsFoundAgain) {
+    const auto a = bus_of(loopback("again")), b = bus_of(loopback("again"));
+    std::vector<Envelope> inbox;
+    b->drain(kTwo, inbox);
+    a->drain(kOne, inbox);
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(b->heard_ms(kOne).has_value(), i > 0);
+        EXPECT_TRUE(gets_through(*a, kOne, *b, kTwo)) << i;
+        EXPECT_TRUE(gets_through(*b, kTwo, *a, kOne)) << i;
+        i % 2 == 0 ? a->reconnect() : b->reconnect();
+    }
+}
+
 TEST(DdsBus, WrongOptionsAreRefusedInWords) {
     DdsOptions options = loopback("bad");
     options.interface = "no-such-interface";

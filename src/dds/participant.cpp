@@ -7,6 +7,7 @@
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 
 #include <algorithm>
+#include <random>
 
 #include "dds/byte_sample.h"
 #include "dds/fragments.h"
@@ -24,6 +25,16 @@ constexpr std::uint32_t kSignsPerLease = 3;
 
 eprosima::fastrtps::Duration_t from_ms(std::uint32_t ms) {
     return {static_cast<std::int32_t>(ms / 1000), ms % 1000 * 1'000'000};
+}
+
+/// Fast DDS would make it of address, process id and a counter, in all of which two containers can agree.
+rtps::GuidPrefix_t new_prefix() {
+    std::random_device device;
+    rtps::GuidPrefix_t prefix;
+    for (rtps::octet& part : prefix.value) part = static_cast<rtps::octet>(device());
+    prefix.value[0] = 0x01;  // eProsima's
+    prefix.value[1] = 0x0F;
+    return prefix;
 }
 
 rtps::Locator_t locator(const HostPort& at) {
@@ -106,6 +117,7 @@ Result<std::unique_ptr<Participant>> Participant::create(const DdsOptions& optio
     if (!address) return address.error();
     dds::DomainParticipantQos qos;
     qos.name("roboss/" + options.simulation);
+    qos.wire_protocol().prefix = new_prefix();
     qos.transport().use_builtin_transports = false;
     qos.transport().user_transports.push_back(transport(options, address.value()));
     if (Result<> fine = set_discovery(options, address.value(), qos.wire_protocol().builtin); !fine)

@@ -51,6 +51,18 @@ void Controller::advance(Bus& bus) {
     if (!round_) at_boundary(bus);
     if (round_) round_->send(bus, roster_, options_.resend_ms);
     send_observations(bus, std::exchange(tell_again_, false));
+    say_alive(bus);
+}
+
+void Controller::say_alive(Bus& bus) {
+    const std::int64_t now = bus.now_ms();
+    if (now - alive_said_ms_ < options_.alive_ms) return;
+    alive_said_ms_ = now;
+    for (std::uint32_t place = 0; place < roster_.size(); ++place)
+        if (roster_.alive(place))
+            bus.send(kControllerAddress, roster_.address_of(place), Alive{SimulatorId(place)});
+    for (const ClientSeat& seat : desk_.seats())
+        if (seat.serves()) bus.send(kControllerAddress, seat.address, Alive{});
 }
 
 void Controller::handle(Bus& bus, Envelope& envelope) {

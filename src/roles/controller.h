@@ -29,6 +29,7 @@ struct ControllerOptions {
     std::vector<std::string> clients;  // and for these; their ids are their places here
     std::uint64_t seed = 1;            // told to Clients
     std::int64_t resend_ms = 100;
+    std::int64_t alive_ms = 250;      // a sign of life to everybody
     std::int64_t loss_ms = 0;         // a Simulator silent for so long is given up; 0: never
     std::int64_t client_loss_ms = 0;  // so is a Client that does not answer an observation; 0: never
     std::int64_t client_gone_ms = 0;  // and one that the Bus says has vanished and that stays away; 0: never
@@ -161,6 +162,7 @@ class Controller {
     // controller_recovery.cpp: checkpoints, leaving, losses
     void notice_losses(Bus& bus);
     void take_vanished(const Address& address, std::int64_t now_ms);
+    void say_alive(Bus& bus);
     void give_up(std::uint32_t place, const std::string& why);
     void begin_checkpoint();
     void finish_checkpoint();
@@ -208,6 +210,7 @@ class Controller {
     std::uint64_t busiest_ns_ = 0;     // of the attempt under way
     std::vector<RobotId> recovering_;  // robots of the recovery under way, ascending
     bool tell_again_ = false;
+    std::int64_t alive_said_ms_ = 0;
 
     std::optional<Error> failure_;
     Counters counters_;

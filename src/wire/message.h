@@ -61,7 +61,9 @@ struct Expelled {  // Controller -> Simulator that was given up; it may say Hell
 struct RunOver {  // Controller -> everybody: the run has ended
     std::string reason;
 };
-struct Alive {  // Simulator -> Controller, every 50 ms, also from within a long step
+/// Simulator -> Controller, every 50 ms, also from within a long step; and Controller -> all others now and
+/// then, so that who hears nothing knows that the line is dead.
+struct Alive {
     SimulatorId simulator;
 };
 struct LeaveRequest {  // Simulator -> Controller

@@ -1,6 +1,7 @@
 // Whatever the Bus does to messages and whoever dies: the run ends with the hash of the undisturbed one.
 #include <gtest/gtest.h>
 
+#include "bus/in_process_bus.h"
 #include "bus/model_pull.h"
 #include "faulty_cluster.h"
 #include "simulation/simulation.h"
@@ -225,7 +226,7 @@ TEST(Faults, AClientThatFallsSilentIsGivenUp) {
         } else {
             for (int i = 0; i < 600; ++i) cluster.turn();
             const std::uint64_t before = cluster.controller().counters().checkpoints;
-            ASSERT_TRUE(cluster.run_until(2 * kTicks));
+            ASSERT_TRUE(cluster.run_until(3 * kTicks));
             EXPECT_GT(cluster.controller().counters().checkpoints, before + 2)
                 << "what it never fetched holds checkpoints up";
         }
