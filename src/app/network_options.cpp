@@ -24,7 +24,12 @@ void add_network_options(CLI::App& command, DdsOptions& o) {
                         "be given again)")
             ->delimiter(','),
         "ROBOSS_PEERS");
-    add(command.add_option("--peer-range", o.peer_range, "how many members may run on one peer")
+    add(command.add_option("--port", o.port,
+                           "UDP port at which others find this one as HOST:PORT (default: by the domain)"),
+        "ROBOSS_PORT");
+    add(command
+            .add_option("--peer-range", o.peer_range,
+                        "how many members may run on one peer named without a port")
             ->check(CLI::Range(1, 120)),
         "ROBOSS_PEER_RANGE");
     add(command.add_option("--discovery-server", o.discovery_server,

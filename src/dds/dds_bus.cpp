@@ -4,7 +4,9 @@
 #include <fastdds/dds/log/Log.hpp>
 
 #include <algorithm>
+#include <cstring>
 #include <deque>
+#include <random>
 
 #include "core/hash.h"
 #include "dds/endpoints.h"
@@ -15,10 +17,32 @@ namespace roboss {
 namespace {
 
 constexpr std::size_t kNoticesMax = 100;
+constexpr std::int64_t kFound_ms = 400;    // within which two members mostly find each other
 constexpr std::int64_t kIdle_ms = 30'000;  // an outbox that nobody reads so long is closed
 
 Channel channel_of(const Message& message) {
     return std::holds_alternative<Alive>(message) ? Channel::kSigns : Channel::kWords;
+}
+
+// Before each message: which run it is of, 8 bytes.
+constexpr std::size_t kRunBytes = sizeof(std::uint64_t);
+
+std::vector<std::uint8_t> with_run(std::uint64_t run, const std::vector<std::uint8_t>& message) {
+    std::vector<std::uint8_t> bytes(kRunBytes + message.size());
+    std::memcpy(bytes.data(), &run, kRunBytes);
+    std::memcpy(bytes.data() + kRunBytes, message.data(), message.size());
+    return bytes;
+}
+
+std::uint64_t take_run(std::span<const std::uint8_t> bytes) {
+    std::uint64_t run = 0;
+    if (bytes.size() >= kRunBytes) std::memcpy(&run, bytes.data(), kRunBytes);
+    return run;
+}
+
+std::uint64_t new_run() {
+    std::random_device device;
+    return (static_cast<std::uint64_t>(device()) << 32 | device()) | 1;  // never 0
 }
 
 /// What the DDS layer wants to print, kept for who asks.
@@ -82,6 +106,7 @@ struct DdsBus::Network {
     }
 
     void open(const Address& address, Home& home) {
+        if (address.role == Role::kController && run == 0) run = new_run();
         home.words = Inbox::open(*participant, topic(address, Channel::kWords), Channel::kWords, bell);
         home.signs = Inbox::open(*participant, topic(address, Channel::kSigns), Channel::kSigns, bell);
         ROBOSS_CHECK(home.words && home.signs, "DDS made no reader for " + topic(address, Channel::kWords));
@@ -89,6 +114,7 @@ struct DdsBus::Network {
 
     /// Everything that hangs on the participant anew; messages between addresses of this process stay.
     Result<> reconnect() {
+        lose_controller();
         outboxes.clear();
         for (auto& [address, home] : homes) {
             home.words.reset();
@@ -103,6 +129,11 @@ struct DdsBus::Network {
         return Ok{};
     }
 
+    /// A member without Controller may join any that comes.
+    void lose_controller() {
+        if (!homes.contains(kControllerAddress)) run = 0;
+    }
+
     Outbox& outbox(const Address& to, Channel channel) {
         std::unique_ptr<Outbox>& outbox = outboxes[{to, channel}];
         if (!outbox) outbox = Outbox::open(*participant, topic(to, channel), channel, bell);
@@ -110,7 +141,23 @@ struct DdsBus::Network {
         return *outbox;
     }
 
-    /// False: something still waits.
+    /// The outbox by which a message gets there: mostly the direct one; by the Controller where two members
+    /// see it and not each other (peers that name the Controller only, a firewall).
+    Outbox& way_to(const Address& from, const Address& to, Channel channel) {
+        Outbox& direct = outbox(to, channel);
+        const bool may_relay = from.role != Role::kController && to.role != Role::kController;
+        if (direct.connected() || !may_relay || monotonic_ms() - direct.opened_ms() < kFound_ms)
+            return direct;
+        Outbox& relay = outbox(kControllerAddress, Channel::kWords);
+        return relay.connected() ? relay : direct;
+    }
+
+    void relay(const Address& self, const Address& to, std::span<const std::uint8_t> bytes) {
+        if (self != kControllerAddress || to.role == Role::kController || homes.contains(to)) return;
+        outbox(to, Channel::kWords).send(bytes, monotonic_ms());
+    }
+
+    /// False: something waits for others to take what is under way.
     bool pump() {
         const std::int64_t now = monotonic_ms();
         bool done = true;
@@ -119,11 +166,21 @@ struct DdsBus::Network {
         return done;
     }
 
+    /// Whether a message is of this run. Two Controllers may carry one name (they need not see each other): a
+    /// member belongs to the first from which it hears, as long as that one is there.
+    bool belongs_here(std::uint64_t its_run, const Address& from) {
+        if (run == 0 && from.role == Role::kController) run = its_run;
+        return its_run == run || its_run == 0;
+    }
+
     void receive(Home& home, const Address& self, Inbox& from, std::vector<Envelope>& inbox) {
         from.drain([&](const Inbox::Writer& writer, std::vector<std::uint8_t> bytes) {
-            Result<Envelope> envelope = decode_envelope(bytes);
+            const std::uint64_t its_run = take_run(bytes);
+            Result<Envelope> envelope =
+                decode_envelope(std::span(bytes).subspan(std::min(kRunBytes, bytes.size())));
             if (!envelope) return complaints->add(envelope.error().message);
-            if (envelope.value().to != self) return;
+            if (!belongs_here(its_run, envelope.value().from)) return;
+            if (envelope.value().to != self) return relay(self, envelope.value().to, bytes);
             heard_ms[envelope.value().from] = monotonic_ms();
             if (&from == home.words.get()) home.writers[writer] = envelope.value().from;
             inbox.push_back(std::move(envelope).value());
@@ -131,6 +188,7 @@ struct DdsBus::Network {
     }
 
     DdsOptions options;
+    std::uint64_t run = 0;  // of this process' Controller or of the one it belongs to; 0: of none
     Bell bell;
     std::shared_ptr<Complaints> complaints;
     std::unique_ptr<Participant> participant;  // outlives what follows
@@ -158,8 +216,9 @@ void DdsBus::send(const Address& from, const Address& to, Message message) {
         return;
     }
     const Channel channel = channel_of(message);
-    const std::vector<std::uint8_t> bytes = encode(Envelope{from, to, std::move(message)});
-    if (!network_->outbox(to, channel).send(bytes, now_ms()))
+    const std::vector<std::uint8_t> bytes =
+        with_run(network_->run, encode(Envelope{from, to, std::move(message)}));
+    if (!network_->way_to(from, to, channel).send(bytes, now_ms()))
         network_->complaints->add("a message of " + std::to_string(bytes.size()) +
                                   " bytes is too long to be sent");
 }
@@ -175,6 +234,7 @@ void DdsBus::drain(const Address& self, std::vector<Envelope>& inbox) {
     for (const Inbox::Writer& writer : home.words->take_vanished()) {
         const auto known = home.writers.find(writer);
         if (known == home.writers.end()) continue;
+        if (known->second == kControllerAddress) network_->lose_controller();
         home.vanished.push_back(known->second);
     }
     network_->pump();

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace roboss {
 namespace {
@@ -170,6 +171,50 @@ TEST(DdsBus, WhoJoinsTheNetworkAfreshIsFoundAgain) {
         EXPECT_TRUE(gets_through(*b, kTwo, *a, kOne)) << i;
         i % 2 == 0 ? a->reconnect() : b->reconnect();
     }
+}
+
+TEST(DdsBus, AMemberBelongsToOneOfTwoControllersOfTheSameName) {
+    const auto first = bus_of(loopback("two")), second = bus_of(loopback("two")),
+               member = bus_of(loopback("two"));
+    std::vector<Envelope> inbox;
+    first->drain(kControllerAddress, inbox);
+    ASSERT_TRUE(gets_through(*member, kOne, *first, kControllerAddress));
+    member->drain(kOne, inbox);
+    ASSERT_TRUE(gets_through(*first, kControllerAddress, *member, kOne));
+    second->drain(kControllerAddress, inbox);
+    for (int turn = 0; turn < 40; ++turn) {
+        second->send(kControllerAddress, kOne, RunOver{"of another"});
+        member->send(kOne, kControllerAddress, Expelled{});
+        member->wait(10);
+        member->drain(kOne, inbox);
+        for (const Envelope& e : inbox) EXPECT_FALSE(std::holds_alternative<RunOver>(e.message));
+        second->drain(kControllerAddress, inbox);
+        EXPECT_TRUE(inbox.empty());
+    }
+    EXPECT_TRUE(second->present(kOne)) << "else this test did not test";
+}
+
+TEST(DdsBus, MembersThatSeeOnlyTheControllerReachEachOtherThroughIt) {
+    DdsOptions options = loopback("star");
+    options.peers.clear();
+    options.port = static_cast<std::uint16_t>(50'000 + getpid() % 10'000);
+    const auto controller = bus_of(options);
+    options.peers = {"127.0.0.1:" + std::to_string(std::exchange(options.port, std::uint16_t{0}))};
+    const auto a = bus_of(options), b = bus_of(options);
+    std::vector<Envelope> inbox;
+    for (int turn = 0; turn < 1'000 && inbox.empty(); ++turn) {
+        if (turn % 10 == 0) a->send(kOne, kTwo, reply_of(100'000));
+        a->wait(10);
+        a->drain(kOne, inbox);
+        controller->drain(kControllerAddress, inbox);
+        b->drain(kTwo, inbox);
+    }
+    EXPECT_TRUE(a->present(kControllerAddress));
+    EXPECT_TRUE(controller->present(kTwo));
+    ASSERT_FALSE(inbox.empty());
+    EXPECT_EQ(inbox[0].from, kOne);
+    EXPECT_EQ(std::get<StateReply>(inbox[0].message).states, reply_of(100'000).states);
+    EXPECT_FALSE(a->present(kTwo)) << "else this test did not test";
 }
 
 TEST(DdsBus, WrongOptionsAreRefusedInWords) {

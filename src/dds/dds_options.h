@@ -16,8 +16,9 @@ struct DdsOptions {
     /// Finding others: multicast on the interface, computers named here, or a discovery server.
     bool multicast = true;
     std::vector<std::string> peers;  // HOST or HOST:PORT
-    std::uint32_t peer_range = 32;   // a HOST without a port: so many members may run there
-    std::string discovery_server;    // HOST:PORT of one that runs already; then neither of the others is used
+    std::uint16_t port = 0;         // to be found at as HOST:PORT; 0: one by the rules of RTPS, by the domain
+    std::uint32_t peer_range = 32;  // a HOST without a port: so many members may run there
+    std::string discovery_server;   // HOST:PORT of one that runs already; then neither of the others is used
     /// A process silent for so long is told to be gone (take_vanished()).
     std::uint32_t liveliness_ms = 250;
 };

@@ -12,6 +12,7 @@
 #include <mutex>
 #include <vector>
 
+#include "bus/bus.h"
 #include "dds/byte_sample.h"
 #include "dds/fragments.h"
 #include "dds/participant.h"
@@ -77,9 +78,10 @@ class Outbox : private eprosima::fastdds::dds::DataWriterListener {
 
     /// Cuts the message and sends what the other side can take now. False: it is too long for any Bus.
     bool send(std::span<const std::uint8_t> message, std::int64_t now_ms);
-    /// Sends on. False: something still waits.
+    /// Sends on. False: something waits for the other side to take what is under way.
     bool pump(std::int64_t now_ms);
     bool connected() const { return readers_ > 0; }
+    std::int64_t opened_ms() const { return opened_ms_; }
     /// Nobody reads and nothing is to be sent, for so long.
     bool idle_since(std::int64_t then_ms) const {
         return !connected() && waiting_.empty() && used_ms_ < then_ms;
@@ -106,7 +108,7 @@ class Outbox : private eprosima::fastdds::dds::DataWriterListener {
     std::deque<Piece> waiting_;
     std::size_t under_way_ = 0, under_way_max_ = 0;  // bytes not known to have arrived
     std::uint32_t serial_ = 0;
-    std::int64_t used_ms_ = 0;
+    std::int64_t opened_ms_ = monotonic_ms(), used_ms_ = 0;
 };
 
 }  // namespace roboss

@@ -45,6 +45,11 @@ rtps::Locator_t locator(const HostPort& at) {
     return result;
 }
 
+/// Where the participants of a domain announce themselves (RTPS 2.2, 9.6.1).
+HostPort multicast_group(const DdsOptions& options) {
+    return {"239.255.0.1", static_cast<std::uint16_t>(7400 + 250 * options.domain)};
+}
+
 std::shared_ptr<eprosima::fastdds::rtps::UDPv4TransportDescriptor> transport(const DdsOptions& options,
                                                                              const std::string& address) {
     auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
@@ -52,7 +57,7 @@ std::shared_ptr<eprosima::fastdds::rtps::UDPv4TransportDescriptor> transport(con
     const std::uint32_t possible = socket_buffer_max();
     udp->receiveBufferSize = possible > 0 ? std::min(kSocketBuffer, possible) : kSocketBuffer;
     udp->sendBufferSize = udp->receiveBufferSize;
-    udp->maxInitialPeersRange = std::max<std::uint32_t>(options.peer_range, 4);
+    udp->maxInitialPeersRange = options.peer_range;
     return udp;
 }
 
@@ -80,16 +85,18 @@ Result<> set_discovery(const DdsOptions& options, const std::string& address,
         builtin.discovery_config.discoveryServer_client_syncperiod = {0, 100'000'000};
         return Ok{};
     }
-    if (!options.multicast) builtin.metatrafficUnicastLocatorList.push_back(locator({address, 0}));
+    // Naming where it listens switches the default off, multicast included.
+    if (!options.multicast || options.port != 0)
+        builtin.metatrafficUnicastLocatorList.push_back(locator({address, options.port}));
+    if (options.multicast && options.port != 0)
+        builtin.metatrafficMulticastLocatorList.push_back(locator(multicast_group(options)));
     for (const std::string& peer : options.peers) {
         Result<HostPort> at = host_port(peer);
         if (!at) return at.error();
         builtin.initialPeersList.push_back(locator(at.value()));
     }
-    if (!options.peers.empty() && options.multicast) {
-        rtps::Locator_t group = locator({"239.255.0.1", 0});
-        builtin.initialPeersList.push_back(group);
-    }
+    if (!options.peers.empty() && options.multicast)
+        builtin.initialPeersList.push_back(locator(multicast_group(options)));
     return Ok{};
 }
 
