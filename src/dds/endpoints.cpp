@@ -105,7 +105,7 @@ std::unique_ptr<Outbox> Outbox::open(Participant& participant, const std::string
     dds::DataWriterQos qos;
     set_common(qos, channel);
     qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
-    qos.reliable_writer_qos().times.heartbeatPeriod = {0, 100'000'000};
+    qos.reliable_writer_qos().times.heartbeatPeriod = {0, 20'000'000};
     qos.reliable_writer_qos().times.nackResponseDelay = {0, 1'000'000};
     std::unique_ptr<Outbox> outbox(new Outbox(participant, bell, channel));
     const std::uint32_t buffer = socket_buffer_max();
