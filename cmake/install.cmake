@@ -12,6 +12,8 @@ set(ROBOSS_EXTERNALS
   "^PNG::" "find_dependency(PNG)"
   "^embree$" "find_dependency(embree 3)"
   "^SQLite::SQLite3$" "find_dependency(SQLite3)"
+  "^fastrtps$" "find_dependency(fastcdr 1)\nfind_dependency(fastrtps 2.9)"
+  "^fastcdr$" "find_dependency(fastcdr 1)"
   "^Threads::Threads$" "find_dependency(Threads)"
   "^fmt::" "find_dependency(fmt)"
   "^spdlog::" "find_dependency(spdlog)"

@@ -3,7 +3,9 @@
 #include <cstdio>
 
 #include "app/check_command.h"
+#include "app/client_command.h"
 #include "app/run_command.h"
+#include "app/simulator_command.h"
 
 int main(int argc, char** argv) {
     CLI::App app{
@@ -14,6 +16,9 @@ int main(int argc, char** argv) {
     int exit_code = 0;
     roboss::add_run_command(app, exit_code);
     roboss::add_check_command(app, exit_code);
+    roboss::add_controller_command(app, exit_code);
+    roboss::add_simulator_command(app, exit_code);
+    roboss::add_client_command(app, exit_code);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

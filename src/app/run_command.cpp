@@ -5,12 +5,14 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <csignal>
 #include <memory>
 #include <set>
 #include <thread>
 
+#include "app/company.h"
 #include "app/contacts_file.h"
+#include "app/exit_codes.h"
+#include "app/interrupt.h"
 #include "app/orders_file.h"
 #include "app/path_picture.h"
 #include "app/progress.h"
@@ -25,16 +27,8 @@
 namespace roboss {
 namespace {
 
-enum ExitCode { kDone = 0, kBadInput = 1, kRunFailed = 3, kInterrupted = 130 };
-
 constexpr double kPictureEvery_s = 0.25;
 constexpr double kPaceEvery_s = 0.01;
-
-volatile std::sig_atomic_t g_interrupted = 0;
-
-void on_interrupt(int) {
-    g_interrupted = 1;
-}
 
 void print(const Error& error) {
     fmt::print(stderr, "roboss: {}\n", error.text());
@@ -71,6 +65,7 @@ class Run {
         if (!prepare()) return kBadInput;
         const auto began = Clock::now();
         const bool fine = drive(began);
+        tell_notices();
         progress_.clear();
         return finish(fine, std::chrono::duration<double>(Clock::now() - began).count());
     }
@@ -111,6 +106,9 @@ class Run {
             if (!program) return print(program.error()), false;
             programs.push_back({fmt::format("{}#{}", path, programs.size()), std::move(program.value())});
         }
+        Result<std::unique_ptr<Company>> company = Company::gather(o_);
+        if (!company) return print(company.error()), false;
+        company_ = std::move(company.value());
         SimulationOptions options;
         options.simulators = static_cast<std::size_t>(o_.simulators);
         options.threads = static_cast<unsigned>(o_.threads);
@@ -118,7 +116,9 @@ class Run {
         options.controller.seed = o_.seed;
         options.controller.window = o_.window == "auto" ? 0 : static_cast<Tick>(std::stod(o_.window));
         options.controller.forecast.merge_all = o_.merge_islands;
-        auto simulation = Simulation::create(model_, options, std::move(programs), from ? &*from : nullptr);
+        company_->brief(options);
+        auto simulation = Simulation::create(model_, options, std::move(programs), from ? &*from : nullptr,
+                                             company_->take_bus());
         if (!simulation) return print(simulation.error()), false;
         simulation_ = std::move(simulation.value());
         start_ = simulation_->tick();
@@ -163,21 +163,24 @@ class Run {
         const Due picture(o_.paths_picture.empty() ? 0.0 : kPictureEvery_s, dt, start_);
         const Due pace(speed > 0 ? kPaceEvery_s * speed : 0.0, dt, start_);
         paths_.resize(model_->robots.size());
-        std::signal(SIGINT, on_interrupt);
-        std::signal(SIGTERM, on_interrupt);
+        watch_for_interrupts();
         for (Tick now = start_;; now = simulation_->tick()) {
             if (trace.at(now) && !write_trace()) return false;
             if (contacts.at(now) && !write_contacts()) return false;
             if (hash.at(now))
                 fmt::print("{:.6f} s  {}\n", simulation_->time_s(), to_hex(simulation_->hash()));
             if (picture.at(now)) collect_paths();
-            if (now >= end || g_interrupted) return true;
+            if (now >= end || interrupted()) return true;
             const Tick next = std::min({end, trace.next(now), contacts.next(now), hash.next(now),
                                         picture.next(now), pace.next(now)});
-            const Result<> stepped = simulation_->run_until(
-                next, [&] { return progress_.show(*simulation_), g_interrupted == 0; });
-            for (const std::string& notice : simulation_->take_notices())
-                if (!o_.quiet) progress_.clear(), fmt::print(stderr, "roboss: {}\n", notice);
+            Result<> looked_after = Ok{};
+            const Result<> stepped = simulation_->run_until(next, [&] {
+                progress_.show(*simulation_);
+                tell_notices();
+                looked_after = company_->look_after();
+                return looked_after.ok() && !interrupted();
+            });
+            if (!looked_after) return abandoned_ = true, print(looked_after.error()), false;
             if (!stepped) return progress_.clear(), print(stepped.error()), false;
             if (speed > 0) {
                 const double due_s = static_cast<double>(simulation_->tick() - start_) * dt / speed;
@@ -185,6 +188,12 @@ class Run {
                                                           std::chrono::duration<double>(due_s)));
             }
         }
+    }
+
+    void tell_notices() {
+        for (const auto& notices : {simulation_->take_notices(), company_->take_notices()})
+            for (const std::string& notice : notices)
+                if (!o_.quiet) progress_.clear(), fmt::print(stderr, "roboss: {}\n", notice);
     }
 
     bool write_trace() {
@@ -226,6 +235,10 @@ class Run {
         s.building_contacts_mean = static_cast<double>(c.static_contacts) / ticks;
         s.model_hash = model_->hash;
         s.state_hash = simulation_->hash();
+        s.losses = c.losses;
+        s.recoveries = c.recoveries;
+        s.migrations = c.migrations;
+        s.simulators = c.simulators;
         return s;
     }
 
@@ -238,7 +251,7 @@ class Run {
         };
         if (trace_) check(trace_->close());
         if (contacts_) check(contacts_->close());
-        if (!o_.save.empty()) check(simulation_->save(o_.save));
+        if (!o_.save.empty() && !abandoned_) check(simulation_->save(o_.save));
         if (!o_.json.empty()) check(write_json(s, o_.json));
         if (!o_.paths_picture.empty()) {
             const std::string subtitle =
@@ -246,28 +259,40 @@ class Run {
                             static_cast<double>(s.ticks) * s.dt_s, to_hex(s.state_hash));
             check(write_path_picture(o_.paths_picture, *model_, paths_, {model_->name, subtitle}));
         }
+        simulation_->controller().dismiss(simulation_->bus(),
+                                          fine ? "the run has ended" : "the run has failed");
+        company_->see_off();
         fmt::print("{}", to_text(s));
         if (!fine || !written) return kRunFailed;
-        return g_interrupted ? kInterrupted : kDone;
+        return interrupted() ? kInterrupted : kDone;
     }
 
     const RunOptions& o_;
     Progress progress_;
     std::shared_ptr<const Model> model_;
+    std::unique_ptr<Company> company_;
     std::unique_ptr<Simulation> simulation_;
     std::optional<TraceFile> trace_;
     std::optional<ContactsFile> contacts_;
     std::vector<RobotPath> paths_;
     double world_speed_ = 0;  // simulated seconds a real second; 0: as fast as possible
     Tick start_ = 0;
+    bool abandoned_ = false;  // nobody is left who has the states
 };
 
 }  // namespace
 
 void add_run_command(CLI::App& app, int& exit_code) {
-    CLI::App* command = app.add_subcommand("run", "simulate a world in this process");
+    CLI::App* command = app.add_subcommand("run", "simulate a world on this computer");
     auto options = std::make_shared<RunOptions>();
     add_run_options(*command, *options);
+    command->callback([options, &exit_code] { exit_code = Run(*options).go(); });
+}
+
+void add_controller_command(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand("controller", "run a world on Simulators that come from anywhere");
+    auto options = std::make_shared<RunOptions>();
+    add_controller_options(*command, *options);
     command->callback([options, &exit_code] { exit_code = Run(*options).go(); });
 }
 

@@ -1,4 +1,5 @@
-// `roboss run WORLD`: the whole system in one process.
+// `roboss run WORLD`: the whole system on this computer. `roboss controller WORLD`: the same run, its
+// Simulators and Clients anywhere.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,5 +8,6 @@ namespace roboss {
 
 /// Adds the subcommand; exit_code as in its --help.
 void add_run_command(CLI::App& app, int& exit_code);
+void add_controller_command(CLI::App& app, int& exit_code);
 
 }  // namespace roboss

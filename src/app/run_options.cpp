@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "app/network_options.h"
 #include "model/accuracy.h"
 
 namespace roboss {
@@ -22,9 +23,20 @@ An orders file has one JSON object a line:
   {"t":0.5,"robot":"car_7","joint":{"name":"wheel_0","velocity":10,"max_effort":0.4}}
   {"t":1.0,"robot":"car_7","set_pose":{"position":[0,0,1],"orientation":[1,0,0,0]}}
   {"t":1.0,"robot":"car_7","set_velocity":{"linear":[1,0,0],"angular":[0,0,0]}}
-  {"t":2.0,"robot":"car_7","wrench":{"link":"chassis","force":[0,0,50],"torque":[0,0,0],"duration":0.1}}
+  {"t":2.0,"robot":"car_7","wrench":{"link":"chassis","force":[0,0,50],"torque":[0,0,0],"duration":0.1}})";
 
-Exit codes: 0 done, 1 the world, orders or saved state have errors, 2 wrong usage, 3 the run failed (a Client threw,
+const char* const kControllerFooter = R"(Examples:
+  roboss controller worlds/city.sdf --simulators 2 --duration 60        and, in other terminals, twice
+  roboss simulator
+  roboss controller world.sdf --interface eth0 --simulators 12          and on each other computer
+  roboss simulator --interface eth0 --threads 8
+  roboss controller worlds/city.sdf --await-client driver               and
+  roboss client build/release/lib/roboss_city_driver.so --name driver
+
+Simulators get the world from here; they need no file. One that is killed costs a moment and no result.)";
+
+const char* const kExitCodes =
+    R"(Exit codes: 0 done, 1 the world, orders or saved state have errors, 2 wrong usage, 3 the run failed (a Client threw,
 a state became infinite, a file could not be written), 130 ended by Ctrl-C (with the summary).)";
 
 /// Accepts a positive number or one of the given words.
@@ -68,10 +80,7 @@ void add_accuracy_options(CLI::App& command, AccuracySpec& spec) {
     }
 }
 
-}  // namespace
-
-void add_run_options(CLI::App& command, RunOptions& o) {
-    command.footer(kFooter);
+void add_common_options(CLI::App& command, RunOptions& o) {
     command.add_option("world", o.world, "the world: an SDF or URDF file")->required();
     command.add_option("--path", o.paths,
                        "folder to look up model:// and package:// URIs in (may be given again)");
@@ -94,9 +103,6 @@ void add_run_options(CLI::App& command, RunOptions& o) {
         ->check(number_or({"max", "world"}))
         ->capture_default_str();
     command.add_option("--threads", o.threads, "threads a Simulator steps its islands with")
-        ->check(CLI::Range(1, 1024))
-        ->capture_default_str();
-    command.add_option("--simulators", o.simulators, "Simulators that share the robots")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
     command.add_option("--window", o.window, "ticks between two talks with the Controller, or auto")
@@ -127,6 +133,38 @@ void add_run_options(CLI::App& command, RunOptions& o) {
     command.add_flag("--headless", o.headless,
                      "no viewer (there is none yet; for scripts that will meet one)");
     command.add_flag("--quiet", o.quiet, "no progress, only the summary");
+}
+
+}  // namespace
+
+void add_run_options(CLI::App& command, RunOptions& o) {
+    command.footer(fmt::format("{}\n\n{}", kFooter, kExitCodes));
+    add_common_options(command, o);
+    CLI::Option* simulators =
+        command
+            .add_option("--simulators", o.simulators, "Simulators that share the robots, all in this process")
+            ->check(CLI::Range(1, 1024))
+            ->capture_default_str();
+    command
+        .add_option("--processes", o.processes,
+                    "Simulators as processes of their own on this computer, started and ended by this one")
+        ->check(CLI::Range(1, 100))
+        ->excludes(simulators);
+}
+
+void add_controller_options(CLI::App& command, RunOptions& o) {
+    o.is_controller = true;
+    command.footer(fmt::format("{}\n\n{}", kControllerFooter, kExitCodes));
+    add_common_options(command, o);
+    command
+        .add_option("--simulators", o.simulators,
+                    "the run starts when so many `roboss simulator` have come; others may join at any time")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    command.add_option(
+        "--await-client", o.clients_awaited,
+        "the run starts when this Client has come, too (`roboss client --name`; may be given again)");
+    add_network_options(command, o.network);
 }
 
 }  // namespace roboss

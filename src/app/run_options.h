@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dds/dds_options.h"
 #include "world/world.h"
 
 namespace roboss {
@@ -23,6 +24,10 @@ struct RunOptions {
     std::string window = "auto";  // "auto" or a number of ticks
     int threads = 1;
     int simulators = 1;
+    int processes = 0;           // Simulators as processes of their own; 0: in this one
+    bool is_controller = false;  // `roboss controller`: Simulators come from anywhere
+    std::vector<std::string> clients_awaited;
+    DdsOptions network;
     bool merge_islands = false;
     std::vector<std::string> clients;  // control programs, shared libraries
     std::string orders;                // JSON lines
@@ -40,6 +45,9 @@ struct RunOptions {
     bool quiet = false;
 };
 
+/// Of `roboss run`: everybody on this computer.
 void add_run_options(CLI::App& command, RunOptions& options);
+/// Of `roboss controller`: the same, and where the others come from.
+void add_controller_options(CLI::App& command, RunOptions& options);
 
 }  // namespace roboss

@@ -25,6 +25,10 @@ std::string to_json(const Summary& s) {
     o["islands_mean"] = s.islands_mean;
     o["contacts_mean"] = s.contacts_mean;
     o["building_contacts_mean"] = s.building_contacts_mean;
+    o["simulators"] = s.simulators;
+    o["losses"] = s.losses;
+    o["recoveries"] = s.recoveries;
+    o["migrations"] = s.migrations;
     o["model_hash"] = to_hex(s.model_hash);
     o["state_hash"] = to_hex(s.state_hash);
     return o.dump(2) + "\n";
@@ -39,6 +43,7 @@ std::string to_text(const Summary& s) {
         "stepping          {:.2f} s of CPU, {:.2f} us a robot and step\n"
         "windows           {} ({} repeated), {:.1f} islands each\n"
         "contacts          {:.1f} points a step, {:.4f} of them with buildings and walls\n"
+        "simulators        {} at the end, {} lost on the way, {} robots moved between them\n"
         "model hash        {}\n"
         "state hash        {}\n",
         s.world, s.robots, static_cast<double>(s.ticks) * s.dt_s, s.ticks, s.dt_s * 1e3, s.sim_time_s,
@@ -47,7 +52,7 @@ std::string to_text(const Summary& s) {
             ? s.step_cpu_s * 1e6 / (static_cast<double>(s.ticks) * static_cast<double>(s.robots))
             : 0.0,
         s.windows, s.windows_repeated, s.islands_mean, s.contacts_mean, s.building_contacts_mean,
-        to_hex(s.model_hash), to_hex(s.state_hash));
+        s.simulators, s.losses, s.migrations, to_hex(s.model_hash), to_hex(s.state_hash));
 }
 
 Result<> write_json(const Summary& summary, const std::string& file) {

@@ -23,6 +23,9 @@ struct Summary {
     double contacts_mean = 0;           // contact points per tick
     double building_contacts_mean = 0;  // of these with static scenery other than planes, per tick
     std::uint64_t model_hash = 0, state_hash = 0;
+    std::uint64_t losses = 0, recoveries = 0,
+                  migrations = 0;  // of Simulators; of runs of recovery; of robots
+    std::size_t simulators = 0;    // at the end
 };
 
 std::string to_json(const Summary& summary);

@@ -20,6 +20,14 @@ class Bus {
     virtual void drain(const Address& self, std::vector<Envelope>& inbox) = 0;
     /// For sending again and for noticing losses only; no result depends on it.
     virtual std::int64_t now_ms() = 0;
+
+    /// Addresses that wrote to `self` before and now are gone or cut off, as far as the Bus can tell; each is
+    /// told once. A hint that comes sooner than silence would: a Bus that cannot tell says nothing, and one
+    /// that errs costs time only.
+    virtual std::vector<Address> take_vanished(const Address&) { return {}; }
+    /// Between two turns of the roles: returns when something may have come for an address of this process,
+    /// at the latest after `ms_max`. A Bus whose messages need no time returns at once.
+    virtual void wait(std::int64_t) {}
 };
 
 /// Milliseconds of the machine's monotonic clock.

@@ -1,6 +1,8 @@
 // Faults by seed (splitmix64 by Vigna, public domain).
 #include "bus/faulty_bus.h"
 
+#include <utility>
+
 #include "core/check.h"
 #include "wire/codec.h"
 
@@ -49,6 +51,10 @@ void FaultyBus::drain(const Address& self, std::vector<Envelope>& inbox) {
         if (!cut_.contains(self)) inbox.push_back(std::move(envelope).value());
         queue.erase(queue.begin());
     }
+}
+
+std::vector<Address> FaultyBus::take_vanished(const Address& self) {
+    return self == kControllerAddress ? std::exchange(rumours_, {}) : std::vector<Address>{};
 }
 
 }  // namespace roboss

@@ -26,6 +26,9 @@ class FaultyBus : public Bus {
     void advance_clock(std::int64_t ms) { now_ms_ += ms; }
     /// Everything to and from this address vanishes from now on, and what is under way to it too.
     void cut_off(const Address& address) { cut_.insert(address); }
+    /// Says to the Controller that this address has vanished, true or not.
+    void spread_rumour(const Address& address) { rumours_.push_back(address); }
+    std::vector<Address> take_vanished(const Address& self) override;
     /// A uniform number below `limit`, from the same seeded stream; for choosing when to kill whom.
     std::uint64_t random(std::uint64_t limit);
     std::uint64_t dropped() const { return dropped_; }
@@ -42,6 +45,7 @@ class FaultyBus : public Bus {
     // by receiver: (due time, serial) -> bytes
     std::map<Address, std::map<std::pair<std::int64_t, std::uint64_t>, std::vector<std::uint8_t>>> under_way_;
     std::set<Address> cut_;
+    std::vector<Address> rumours_;
 };
 
 }  // namespace roboss

@@ -53,6 +53,8 @@ void BusClient::handle(Envelope& envelope) {
         expected_ = welcome->first;
     } else if (const auto* refused = std::get_if<Refused>(&envelope.message)) {
         refusals_.push_back(refused->reason);
+    } else if (const auto* over = std::get_if<RunOver>(&envelope.message)) {
+        over_ = over->reason;
     }
 }
 

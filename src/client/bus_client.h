@@ -42,6 +42,8 @@ class BusClient : public Client {
     bool joined() const { return id_.valid(); }
     /// Every word has reached the Controller.
     bool heard() const { return words_.empty() && !bye_; }
+    /// Why the run is over; empty: it is not.
+    const std::string& over() const { return over_; }
     /// Refusals by the Controller since the last call.
     std::vector<std::string> take_refusals() { return std::exchange(refusals_, {}); }
 
@@ -75,6 +77,7 @@ class BusClient : public Client {
     std::optional<ClientBye> bye_;
     std::int64_t said_ms_ = -1'000'000'000;
     std::vector<std::string> refusals_;
+    std::string over_;
 
     std::unique_ptr<RayScene> scene_;
     Tick scene_tick_ = -1;

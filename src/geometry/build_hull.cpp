@@ -381,4 +381,53 @@ Result<ConvexHull> build_hull(std::span<const Vec3> points) {
     return flat;
 }
 
+HullParts parts_of(const ConvexHull& hull) {
+    HullParts parts{hull.vertices, {}, hull.face_vertices, hull.centroid, hull.volume};
+    for (const ConvexHull::Face& face : hull.faces) parts.loop_sizes.push_back(face.count);
+    return parts;
+}
+
+namespace {
+
+/// Loops of at least three corners that exist, one after the other, covering face_vertices.
+bool loops_fit(const HullParts& parts) {
+    std::size_t corners = 0;
+    for (const std::uint32_t size : parts.loop_sizes) {
+        if (size < 3 || size > parts.face_vertices.size() - corners) return false;
+        for (std::uint32_t k = 0; k < size; ++k) {
+            const std::uint32_t a = parts.face_vertices[corners + k];
+            if (a >= parts.vertices.size() || a == parts.face_vertices[corners + (k + 1) % size])
+                return false;
+        }
+        corners += size;
+    }
+    return corners == parts.face_vertices.size();
+}
+
+}  // namespace
+
+Result<ConvexHull> join_hull(HullParts parts) {
+    const Error broken{"the parts of a convex hull do not close to a convex body", ""};
+    const bool finite = std::all_of(parts.vertices.begin(), parts.vertices.end(),
+                                    [](const Vec3& v) { return is_finite(v) && norm(v) < 1e9; });
+    if (!finite || !is_finite(parts.centroid) || !(parts.volume > 0 && parts.volume < 1e30)) return broken;
+    if (parts.vertices.size() > kVerticesMax || parts.vertices.size() < 4 || !loops_fit(parts)) return broken;
+    ConvexHull hull;
+    hull.vertices = std::move(parts.vertices);
+    hull.face_vertices = std::move(parts.face_vertices);
+    hull.centroid = parts.centroid;
+    hull.volume = parts.volume;
+    std::uint32_t first = 0;
+    for (const std::uint32_t size : parts.loop_sizes) {
+        hull.faces.push_back({{}, 0, first, size});
+        first += size;
+    }
+    if (!connect(hull)) return broken;
+    for (std::size_t v = 0; v < hull.vertices.size(); ++v)
+        if (hull.vertex_first[v + 1] - hull.vertex_first[v] < 3) return broken;
+    measure(hull);
+    if (!(hull.inradius > 0)) return broken;
+    return hull;
+}
+
 }  // namespace roboss

@@ -48,6 +48,17 @@ struct ConvexHull {
 /// finite or flat.
 Result<ConvexHull> build_hull(std::span<const Vec3> points);
 
+/// A hull again from what it was built to, bit for bit: its vertices about its centroid and its faces' loops.
+/// Everything else is computed from these; an Error when they do not close to a convex body.
+struct HullParts {
+    std::vector<Vec3> vertices;
+    std::vector<std::uint32_t> loop_sizes, face_vertices;
+    Vec3 centroid;
+    double volume = 0;
+};
+HullParts parts_of(const ConvexHull& hull);
+Result<ConvexHull> join_hull(HullParts parts);
+
 Shape hull_shape(const ConvexHull& hull);
 
 }  // namespace roboss

@@ -20,6 +20,8 @@ HeightField::HeightField(std::size_t columns, std::size_t rows, std::span<const 
     : columns_(columns),
       rows_(rows),
       heights_(heights.begin(), heights.end()),
+      size_x_(size_x),
+      size_y_(size_y),
       x0_(-0.5 * size_x),
       y0_(-0.5 * size_y),
       dx_(size_x / static_cast<double>(columns - 1)),

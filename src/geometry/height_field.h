@@ -21,6 +21,9 @@ class HeightField final : public TriangleSurface {
     bool tops(std::uint32_t number, std::size_t corner, const Vec3& d, double tolerance) const override;
     double ray(const Vec3& origin, const Vec3& direction, double limit) const override;
     bool is_ground() const override { return true; }
+    SurfaceSource source() const override {
+        return HeightSource{columns_, rows_, heights_, size_x_, size_y_};
+    }
 
   private:
     struct Node {
@@ -35,7 +38,7 @@ class HeightField final : public TriangleSurface {
 
     std::size_t columns_, rows_;
     std::vector<double> heights_;
-    double x0_, y0_, dx_, dy_;
+    double size_x_, size_y_, x0_, y0_, dx_, dy_;
 };
 
 }  // namespace roboss

@@ -78,6 +78,12 @@ TriangleMesh::TriangleMesh(std::span<const Vec3> vertices, std::span<const Corne
     find_rings();
 }
 
+SurfaceSource TriangleMesh::source() const {
+    MeshSource source{vertices_, {}};
+    for (const Entry& entry : triangles_) source.triangles.push_back(entry.v);
+    return source;
+}
+
 bool TriangleMesh::connect() {
     std::vector<HalfEdge> edges;
     edges.reserve(3 * triangles_.size());

@@ -21,6 +21,7 @@ class TriangleMesh final : public TriangleSurface {
     SurfaceTriangle triangle(std::uint32_t number) const override;
     bool tops(std::uint32_t number, std::size_t corner, const Vec3& d, double tolerance) const override;
     double ray(const Vec3& origin, const Vec3& direction, double limit) const override;
+    SurfaceSource source() const override;
 
   private:
     struct Entry {

@@ -5,8 +5,11 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <variant>
 #include <vector>
 
+#include "core/result.h"
 #include "geometry/shape.h"
 #include "math/aabb.h"
 
@@ -28,6 +31,18 @@ enum class SurfaceSides {
     kBoth    // an open sheet: contacts push to the side where the body's centre is
 };
 
+/// What a surface is built from: the same source gives the same surface, bit for bit.
+struct MeshSource {
+    std::vector<Vec3> vertices;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+struct HeightSource {
+    std::uint64_t columns = 0, rows = 0;
+    std::vector<double> heights;
+    double size_x = 0, size_y = 0;
+};
+using SurfaceSource = std::variant<MeshSource, HeightSource>;
+
 class TriangleSurface {
   public:
     virtual ~TriangleSurface() = default;
@@ -45,6 +60,7 @@ class TriangleSurface {
     virtual bool tops(std::uint32_t number, std::size_t corner, const Vec3& d, double tolerance) const = 0;
     /// Distance along the unit vector `direction` to the first triangle, or `limit` if none is nearer.
     virtual double ray(const Vec3& origin, const Vec3& direction, double limit) const = 0;
+    virtual SurfaceSource source() const = 0;
     /// Whether a body below a triangle is still pushed up through it (ground has no underside).
     virtual bool is_ground() const { return false; }
 
@@ -53,6 +69,9 @@ class TriangleSurface {
     SurfaceSides sides_ = SurfaceSides::kBoth;
     std::uint64_t hash_ = 0;
 };
+
+/// The surface of a source that may come from anywhere; an Error if it makes no sense.
+Result<std::shared_ptr<const TriangleSurface>> build_surface(const SurfaceSource& source);
 
 Shape surface_shape(const TriangleSurface& surface);
 

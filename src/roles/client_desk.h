@@ -4,6 +4,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct ClientSeat {
     std::vector<RefusedOrder> refused;  // of the last word
     std::deque<Tick> unanswered;        // observations told and not answered, ascending
     std::int64_t told_ms = 0, heard_ms = 0;
+    std::optional<std::int64_t> vanished_ms;  // since when the Bus has not seen it
     bool serves() const { return joined && !gone; }
 };
 

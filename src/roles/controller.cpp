@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/float_env.h"
+#include "wire/model_codec.h"
 #include "wire/state_block.h"
 
 namespace roboss {
@@ -50,6 +51,18 @@ void Controller::advance(Bus& bus) {
     if (!round_) at_boundary(bus);
     if (round_) round_->send(bus, roster_, options_.resend_ms);
     send_observations(bus, std::exchange(tell_again_, false));
+    say_alive(bus);
+}
+
+void Controller::say_alive(Bus& bus) {
+    const std::int64_t now = bus.now_ms();
+    if (now - alive_said_ms_ < options_.alive_ms) return;
+    alive_said_ms_ = now;
+    for (std::uint32_t place = 0; place < roster_.size(); ++place)
+        if (roster_.alive(place))
+            bus.send(kControllerAddress, roster_.address_of(place), Alive{SimulatorId(place)});
+    for (const ClientSeat& seat : desk_.seats())
+        if (seat.serves()) bus.send(kControllerAddress, seat.address, Alive{});
 }
 
 void Controller::handle(Bus& bus, Envelope& envelope) {
@@ -75,6 +88,8 @@ void Controller::handle(Bus& bus, Envelope& envelope) {
         take_leave(bus, from, *leave);
     } else if (const auto* bye = std::get_if<ClientBye>(&envelope.message)) {
         take_bye(bus, *bye);
+    } else if (const auto* wanted = std::get_if<ModelRequest>(&envelope.message)) {
+        serve_model(bus, from, *wanted);
     }
 }
 
@@ -92,7 +107,11 @@ void Controller::take_hello(Bus& bus, const Address& from, const Hello& hello) {
 }
 
 bool Controller::heard_from(Bus& bus, const Address& from, SimulatorId id) {
-    if (!roster_.known(id)) return false;
+    // Seats of an earlier Controller's run: who held one is to join afresh.
+    if (!roster_.known(id) || roster_.seat(id.value).address != from) {
+        bus.send(kControllerAddress, from, Expelled{id});
+        return false;
+    }
     SimulatorSeat& seat = roster_.seat(id.value);
     if (seat.alive) {
         seat.heard_ms = bus.now_ms();
@@ -120,8 +139,27 @@ void Controller::serve(Bus& bus, const Address& from, const StateRequest& reques
     bus.send(kControllerAddress, from, std::move(reply));
 }
 
+void Controller::serve_model(Bus& bus, const Address& from, const ModelRequest& request) {
+    constexpr std::uint64_t kPartBytes = 1u << 20;
+    if (model_bytes_.empty()) {
+        model_bytes_ = encode_model(*model_);
+        model_bytes_hash_ = hash_of_bytes(model_bytes_);
+    }
+    const std::uint64_t total = model_bytes_.size(), offset = std::min(request.offset, total);
+    const auto first = model_bytes_.begin() + static_cast<std::ptrdiff_t>(offset);
+    const auto count = static_cast<std::ptrdiff_t>(std::min(kPartBytes, total - offset));
+    bus.send(kControllerAddress, from, ModelPart{model_bytes_hash_, total, offset, {first, first + count}});
+}
+
+void Controller::dismiss(Bus& bus, const std::string& reason) {
+    for (std::uint32_t place = 0; place < roster_.size(); ++place)
+        if (roster_.alive(place)) bus.send(kControllerAddress, roster_.seat(place).address, RunOver{reason});
+    for (const ClientSeat& seat : desk_.seats())
+        if (seat.joined) bus.send(kControllerAddress, seat.address, RunOver{reason});
+}
+
 bool Controller::settled() const {
-    return resting() &&
+    return (resting() || !started_) &&
            std::all_of(desk_.seats().begin(), desk_.seats().end(), [this](const ClientSeat& seat) {
                return !seat.synchronous || seat.unanswered.empty() || seat.unanswered.front() >= tick_;
            });

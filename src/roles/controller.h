@@ -29,8 +29,10 @@ struct ControllerOptions {
     std::vector<std::string> clients;  // and for these; their ids are their places here
     std::uint64_t seed = 1;            // told to Clients
     std::int64_t resend_ms = 100;
+    std::int64_t alive_ms = 250;      // a sign of life to everybody
     std::int64_t loss_ms = 0;         // a Simulator silent for so long is given up; 0: never
     std::int64_t client_loss_ms = 0;  // so is a Client that does not answer an observation; 0: never
+    std::int64_t client_gone_ms = 0;  // and one that the Bus says has vanished and that stays away; 0: never
     Tick checkpoint_ticks = 0;        // recovery checkpoints at most so far apart; 0: none by ticks
     double checkpoint_work_s =
         0;  // and so much stepping CPU time of the busiest Simulator apart; 0: none by work
@@ -85,6 +87,8 @@ class Controller {
     void run_until(Tick target) { target_ = target; }
     Tick target() const { return target_; }
     Tick tick() const { return tick_; }  // committed
+    /// Everybody whom the first window waits for has come.
+    bool started() const { return started_; }
     /// At the target with nothing under way.
     bool resting() const { return tick_ >= target_ && !round_ && started_; }
     /// Resting, and every synchronous Client has answered all it observed before tick(): time for a save.
@@ -93,6 +97,9 @@ class Controller {
     bool stopped() const { return failure_ && !round_; }
     /// Set: the run cannot go on; tick() and states are those before.
     const std::optional<Error>& failure() const { return failure_; }
+
+    /// Tells everybody that the run is over; nothing is to be expected of them after that.
+    void dismiss(Bus& bus, const std::string& reason);
 
     /// The 64-bit hash of the world at tick().
     std::uint64_t hash() const { return world_hash(model_->hash, hashes_); }
@@ -121,6 +128,7 @@ class Controller {
     void take_leave(Bus& bus, const Address& from, const LeaveRequest& request);
     bool heard_from(Bus& bus, const Address& from, SimulatorId id);
     void serve(Bus& bus, const Address& from, const StateRequest& request) const;
+    void serve_model(Bus& bus, const Address& from, const ModelRequest& request);
     void fail(Error error);
     void notice(std::string text) { notices_.push_back(std::move(text)); }
 
@@ -134,6 +142,7 @@ class Controller {
     void forget(ClientId id, Tick tick);
     void drop_client(ClientId id);
     void notice_client_losses(Bus& bus);
+    bool stays_away(const ClientSeat& seat, std::int64_t now_ms) const;
     void send_observations(Bus& bus, bool again_now);
     WantedTick& want_at_this_tick();
     Tick plannable() const { return round_ && !round_->span().recovery ? round_->span().until : tick_; }
@@ -152,6 +161,9 @@ class Controller {
 
     // controller_recovery.cpp: checkpoints, leaving, losses
     void notice_losses(Bus& bus);
+    void take_vanished(const Address& address, std::int64_t now_ms);
+    void say_alive(Bus& bus);
+    void give_up(std::uint32_t place, const std::string& why);
     void begin_checkpoint();
     void finish_checkpoint();
     bool checkpoint_due() const;
@@ -164,6 +176,8 @@ class Controller {
     bool is_lost(std::uint32_t place) const { return place != kAtController && !roster_.alive(place); }
 
     std::shared_ptr<const Model> model_;
+    std::vector<std::uint8_t> model_bytes_;  // encoded for the first who asks
+    std::uint64_t model_bytes_hash_ = 0;
     ControllerOptions options_;
     Roster roster_;
     ClientDesk desk_;
@@ -196,6 +210,7 @@ class Controller {
     std::uint64_t busiest_ns_ = 0;     // of the attempt under way
     std::vector<RobotId> recovering_;  // robots of the recovery under way, ascending
     bool tell_again_ = false;
+    std::int64_t alive_said_ms_ = 0;
 
     std::optional<Error> failure_;
     Counters counters_;

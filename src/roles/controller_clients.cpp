@@ -11,7 +11,8 @@ void Controller::take_client_hello(Bus& bus, const Address& from, const ClientHe
         return bus.send(kControllerAddress, from, Refused{"its world is not this run's"});
     bool is_new = false;
     const ClientId id = desk_.welcome(from, hello, plannable(), is_new);
-    const ClientSeat& seat = desk_.seats()[id.index()];
+    ClientSeat& seat = desk_.seats()[id.index()];
+    seat.vanished_ms.reset();
     bus.send(kControllerAddress, from, ClientWelcome{id, seat.first, options_.seed});
     if (!is_new) return;
     notice("client '" + seat.name + "' joined at tick " + std::to_string(tick_));
@@ -23,6 +24,7 @@ void Controller::take_word(Bus& bus, const ClientWord& word) {
     ClientSeat* seat = desk_.find(word.client);
     if (seat == nullptr || !seat->serves()) return;
     seat->heard_ms = bus.now_ms();
+    seat->vanished_ms.reset();
     if (word.word == seat->last_word + 1) {
         seat->last_word = word.word;
         take_orders(*seat, word);
@@ -71,16 +73,25 @@ void Controller::drop_client(ClientId id) {
     for (const Tick tick : std::exchange(seat.unanswered, {})) forget(id, tick);
 }
 
+bool Controller::stays_away(const ClientSeat& seat, std::int64_t now_ms) const {
+    const auto beyond = [](std::int64_t for_ms, std::int64_t limit_ms) {
+        return limit_ms > 0 && for_ms > limit_ms;
+    };
+    return beyond(now_ms - seat.heard_ms, options_.client_loss_ms) ||
+           (seat.vanished_ms && beyond(now_ms - *seat.vanished_ms, options_.client_gone_ms));
+}
+
 void Controller::notice_client_losses(Bus& bus) {
-    if (options_.client_loss_ms <= 0) return;
     const std::int64_t now = bus.now_ms();
     for (std::size_t i = 0; i < desk_.seats().size(); ++i) {
         ClientSeat& seat = desk_.seats()[i];
         if (seat.unanswered.empty()) seat.heard_ms = now;
-        if (!seat.serves() || now - seat.heard_ms <= options_.client_loss_ms) continue;
+        if (!seat.serves() || !stays_away(seat, now)) continue;
         drop_client(ClientId(i));
-        const std::string what =
-            "client '" + seat.name + "' has not answered for " + std::to_string(now - seat.heard_ms) + " ms";
+        const std::string what = "client '" + seat.name + "' " +
+                                 (seat.vanished_ms ? "has vanished, " : "has not answered for ") +
+                                 std::to_string(now - seat.vanished_ms.value_or(seat.heard_ms)) + " ms" +
+                                 (seat.vanished_ms ? " ago" : "");
         if (seat.synchronous)
             fail({what + " at tick " + std::to_string(tick_),
                   "see why it hangs; the world up to this tick is intact and can be saved"});

@@ -87,26 +87,39 @@ bool Controller::let_leavers_go(Bus& bus) {
 }
 
 void Controller::notice_losses(Bus& bus) {
-    if (options_.loss_ms <= 0) return;
     const std::int64_t now = bus.now_ms();
+    for (const Address& address : bus.take_vanished(kControllerAddress)) take_vanished(address, now);
+    if (options_.loss_ms <= 0) return;
     for (std::uint32_t place = 0; place < roster_.size(); ++place) {
-        SimulatorSeat& seat = roster_.seat(place);
-        if (!seat.alive || now - seat.heard_ms <= options_.loss_ms) continue;
-        seat.alive = false;
-        seat.leaving = false;
-        ++epoch_;
-        ++counters_.losses;
-        round_.reset();
-        if (next_base_ && !pull_.complete()) {
-            pull_.cancel();
-            next_base_.reset();
-            for (WantedTick& want : wants_) want.checkpoint = false;
-            std::erase_if(wants_, [](const WantedTick& want) { return !want.open(); });
-        }
-        notice("simulator " + std::to_string(place) + " was silent for " +
-               std::to_string(now - seat.heard_ms) + " ms and is given up at tick " + std::to_string(tick_));
+        const SimulatorSeat& seat = roster_.seat(place);
+        if (seat.alive && now - seat.heard_ms > options_.loss_ms)
+            give_up(place, "was silent for " + std::to_string(now - seat.heard_ms) + " ms");
     }
+}
+
+void Controller::take_vanished(const Address& address, std::int64_t now_ms) {
+    for (std::uint32_t place = 0; place < roster_.size(); ++place)
+        if (roster_.alive(place) && roster_.seat(place).address == address) give_up(place, "vanished");
+    for (ClientSeat& seat : desk_.seats())
+        if (seat.serves() && seat.address == address && !seat.vanished_ms) seat.vanished_ms = now_ms;
+}
+
+void Controller::give_up(std::uint32_t place, const std::string& why) {
+    SimulatorSeat& seat = roster_.seat(place);
+    seat.alive = false;
+    seat.leaving = false;
+    ++epoch_;
+    ++counters_.losses;
     counters_.simulators = roster_.alive_count();
+    round_.reset();
+    if (next_base_ && !pull_.complete()) {
+        pull_.cancel();
+        next_base_.reset();
+        for (WantedTick& want : wants_) want.checkpoint = false;
+        std::erase_if(wants_, [](const WantedTick& want) { return !want.open(); });
+    }
+    notice("simulator " + std::to_string(place) + " " + why + " and is given up at tick " +
+           std::to_string(tick_));
 }
 
 bool Controller::anything_lost() const {

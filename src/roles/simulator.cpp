@@ -78,6 +78,9 @@ void Simulator::handle(Bus& bus, Envelope& envelope) {
     } else if (const auto* refused = std::get_if<Refused>(&envelope.message)) {
         refusal_ = refused->reason;
         gone_ = true;
+    } else if (const auto* over = std::get_if<RunOver>(&envelope.message)) {
+        over_ = over->reason;
+        gone_ = true;
     }
 }
 

@@ -37,6 +37,8 @@ class Simulator {
     bool idle() const { return !plan_.has_value(); }
     /// Why the Controller does not want it (another Model, say); empty: nothing of the kind.
     const std::string& refusal() const { return refusal_; }
+    /// Why the run is over; empty: it is not.
+    const std::string& over() const { return over_; }
 
   private:
     void handle(Bus& bus, Envelope& envelope);
@@ -52,7 +54,7 @@ class Simulator {
     SimulatorOptions options_;
 
     SimulatorId id_;
-    std::string refusal_;
+    std::string refusal_, over_;
     bool leaving_ = false, gone_ = false;
     std::int64_t asked_ms_ = kLongAgo, alive_ms_ = kLongAgo;
 

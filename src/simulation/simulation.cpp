@@ -3,6 +3,8 @@
 
 #include <set>
 
+#include "bus/in_process_bus.h"
+
 namespace roboss {
 
 namespace {
@@ -10,9 +12,10 @@ namespace {
 ControllerOptions controller_options(const SimulationOptions& options,
                                      const std::vector<NamedProgram>& programs) {
     ControllerOptions result = options.controller;
-    result.simulators = options.simulators;
+    result.simulators = options.simulators + options.simulators_awaited;
     result.clients.clear();
     for (const NamedProgram& program : programs) result.clients.push_back(program.name);
+    for (const std::string& name : options.clients_awaited) result.clients.push_back(name);
     return result;
 }
 
@@ -26,10 +29,12 @@ StartingPoint starting_point(const Model& model, const SavedRun* from) {
 Result<std::unique_ptr<Simulation>> Simulation::create(std::shared_ptr<const Model> model,
                                                        const SimulationOptions& options,
                                                        std::vector<NamedProgram> programs,
-                                                       const SavedRun* from) {
-    if (options.simulators < 1)
+                                                       const SavedRun* from, std::unique_ptr<Bus> bus) {
+    if (options.simulators + options.simulators_awaited < 1)
         return Error{"a run needs at least one Simulator", "give --simulators 1 or more"};
-    std::set<std::string> names;
+    std::set<std::string> names(options.clients_awaited.begin(), options.clients_awaited.end());
+    if (names.size() < options.clients_awaited.size())
+        return Error{"two awaited Clients have the same name", "give each its own name"};
     for (const NamedProgram& program : programs) {
         if (!names.insert(program.name).second)
             return Error{"two control programs are called '" + program.name + "'", "give each its own name"};
@@ -37,14 +42,16 @@ Result<std::unique_ptr<Simulation>> Simulation::create(std::shared_ptr<const Mod
             !times)
             return times.error();
     }
-    return std::unique_ptr<Simulation>(new Simulation(std::move(model), options, std::move(programs), from));
+    return std::unique_ptr<Simulation>(
+        new Simulation(std::move(model), options, std::move(programs), from, std::move(bus)));
 }
 
 Simulation::Simulation(std::shared_ptr<const Model> model, const SimulationOptions& options,
-                       std::vector<NamedProgram> programs, const SavedRun* from)
+                       std::vector<NamedProgram> programs, const SavedRun* from, std::unique_ptr<Bus> bus)
     : model_(std::move(model)),
       world_file_(options.world_file),
       seed_(options.controller.seed),
+      bus_(bus ? std::move(bus) : std::make_unique<InProcessBus>()),
       pool_(options.threads),
       controller_(model_, controller_options(options, programs), starting_point(*model_, from)),
       probe_(*model_) {
@@ -62,24 +69,37 @@ Simulation::Simulation(std::shared_ptr<const Model> model, const SimulationOptio
 }
 
 void Simulation::turn() {
-    controller_.advance(bus_);
-    for (auto& host : hosts_) host->advance(bus_);
-    for (auto& simulator : simulators_) simulator->advance(bus_);
+    controller_.advance(*bus_);
+    for (auto& host : hosts_) host->advance(*bus_);
+    for (auto& simulator : simulators_) simulator->advance(*bus_);
+}
+
+template <class Done>
+void Simulation::turn_until(Done&& done) {
+    constexpr std::int64_t kLongestWait_ms = 10;  // roles send again and notice losses by the clock
+    while (!done()) {
+        turn();
+        if (!done()) bus_->wait(kLongestWait_ms);
+    }
 }
 
 Result<> Simulation::run_until(Tick target, const std::function<bool()>& go_on) {
     controller_.run_until(target);
-    while (!controller_.resting() && !controller_.stopped()) {
-        if (go_on && !go_on()) controller_.run_until(controller_.tick());
-        turn();
-    }
+    bool stop = false;
+    turn_until([&] {
+        if (go_on && !stop && !go_on()) {
+            stop = true;
+            controller_.run_until(controller_.tick());
+        }
+        return controller_.resting() || controller_.stopped() || (stop && !controller_.started());
+    });
     if (controller_.failure()) return *controller_.failure();
     return Ok{};
 }
 
 const std::vector<RobotState>& Simulation::states() {
     if (controller_.states() == nullptr) controller_.request_states();
-    while (controller_.states() == nullptr) turn();
+    turn_until([&] { return controller_.states() != nullptr; });
     return *controller_.states();
 }
 
@@ -92,7 +112,7 @@ StepProbe& Simulation::probe() {
 }
 
 SavedRun Simulation::saved_run() {
-    while (!controller_.settled() && !controller_.stopped()) turn();
+    turn_until([&] { return controller_.settled() || controller_.stopped(); });
     SavedRun run;
     run.world_file = world_file_;
     run.seed = seed_;

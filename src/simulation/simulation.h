@@ -1,6 +1,6 @@
-// Simulation: a whole cluster in one process: Controller, Simulators, control programs, and a Bus between
-// them. It only gives each role its turn; everything else is the roles' own, the same as in a cluster of
-// machines.
+// Simulation: the Controller and whoever else lives in its process (Simulators, control programs), and the
+// Bus between them. It only gives each role its turn; everything else is the roles' own. With a Bus that
+// reaches further, others take part from their own processes.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/in_process_bus.h"
+#include "bus/bus.h"
 #include "client/program_host.h"
 #include "core/thread_pool.h"
 #include "journal/journal.h"
@@ -25,8 +25,10 @@ struct NamedProgram {
 };
 
 struct SimulationOptions {
-    std::size_t simulators = 1;
-    unsigned threads = 1;          // that step islands, shared by all Simulators
+    std::size_t simulators = 1;          // in this process
+    std::size_t simulators_awaited = 0;  // in others: the first window waits for them too
+    std::vector<std::string> clients_awaited;
+    unsigned threads = 1;          // that step islands, shared by the Simulators of this process
     std::string world_file;        // for saved runs
     ControllerOptions controller;  // its `simulators` and `clients` are set from here
 };
@@ -34,18 +36,19 @@ struct SimulationOptions {
 class Simulation {
   public:
     /// At the world's beginning, or where `from` was saved. Orders with equal ticks sort by the programs'
-    /// places.
+    /// places, awaited Clients last. `bus`: none, and everybody is in this process.
     static Result<std::unique_ptr<Simulation>> create(std::shared_ptr<const Model> model,
                                                       const SimulationOptions& options,
                                                       std::vector<NamedProgram> programs = {},
-                                                      const SavedRun* from = nullptr);
+                                                      const SavedRun* from = nullptr,
+                                                      std::unique_ptr<Bus> bus = nullptr);
 
     /// An order with its tick, from a file say; refused if it makes no sense or comes too late.
     Result<> submit(const Order& order) { return controller_.submit(order); }
 
     /// Runs until the world is at `target`. An Error: the run cannot go on (a state not finite, a control
     /// program that threw); the world is intact at tick() and can be saved. `go_on` is asked now and then;
-    /// false ends the run at the next window's end.
+    /// false ends the run at the next window's end (at once if it waits for its first Simulators).
     Result<> run_until(Tick target, const std::function<bool()>& go_on = {});
 
     Tick tick() const { return controller_.tick(); }
@@ -66,17 +69,21 @@ class Simulation {
     /// What happened since the last call, one line each: for the log.
     std::vector<std::string> take_notices();
     Controller& controller() { return controller_; }
+    Bus& bus() { return *bus_; }
 
   private:
     Simulation(std::shared_ptr<const Model> model, const SimulationOptions& options,
-               std::vector<NamedProgram> programs, const SavedRun* from);
+               std::vector<NamedProgram> programs, const SavedRun* from, std::unique_ptr<Bus> bus);
     void turn();
+    /// Gives everybody turns until done().
+    template <class Done>
+    void turn_until(Done&& done);
     StepProbe& probe();
 
     std::shared_ptr<const Model> model_;
     std::string world_file_;
     std::uint64_t seed_;
-    InProcessBus bus_;
+    std::unique_ptr<Bus> bus_;
     ThreadPool pool_;
     Controller controller_;
     std::vector<std::unique_ptr<ProgramHost>> hosts_;

@@ -74,6 +74,9 @@ template <class A> void field(A& a, Of<A, ClientWord>& m) { fields(a, m.client, 
 template <class A> void field(A& a, Of<A, RefusedOrder>& m) { fields(a, m.sequence, m.reason); }
 template <class A> void field(A& a, Of<A, WordAck>& m) { fields(a, m.client, m.word, m.refused); }
 template <class A> void field(A& a, Of<A, ClientBye>& m) { fields(a, m.client, m.word, m.failed, m.reason); }
+template <class A> void field(A& a, Of<A, RunOver>& m) { fields(a, m.reason); }
+template <class A> void field(A& a, Of<A, ModelRequest>& m) { fields(a, m.offset); }
+template <class A> void field(A& a, Of<A, ModelPart>& m) { fields(a, m.bytes_hash, m.total, m.offset, m.bytes); }
 // clang-format on
 
 template <class A, class... Fields>
@@ -155,6 +158,11 @@ const char* broken_rule(const ClientHello& hello) {
                : nullptr;
 }
 
+const char* broken_rule(const ModelPart& part) {
+    const bool inside = part.offset <= part.total && part.bytes.size() <= part.total - part.offset;
+    return inside ? nullptr : "it goes beyond the Model's end";
+}
+
 template <class T>
 const char* broken_rule(const T&) {
     return nullptr;
@@ -169,9 +177,9 @@ const char* role_rule(const Envelope& e) {
 
 const char* message_name(const Message& message) {
     static constexpr const char* kNames[] = {
-        "Hello",         "Welcome",     "Refused",    "Expelled",     "Alive",      "LeaveRequest",
-        "Goodbye",       "Plan",        "Frame",      "StateRequest", "StateReply", "ClientHello",
-        "ClientWelcome", "Observation", "ClientWord", "WordAck",      "ClientBye"};
+        "Hello",      "Welcome", "Refused",      "Expelled",   "Alive",        "LeaveRequest",  "Goodbye",
+        "Plan",       "Frame",   "StateRequest", "StateReply", "ClientHello",  "ClientWelcome", "Observation",
+        "ClientWord", "WordAck", "ClientBye",    "RunOver",    "ModelRequest", "ModelPart"};
     static_assert(std::size(kNames) == std::variant_size_v<Message>);
     return kNames[message.index()];
 }

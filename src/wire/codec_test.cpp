@@ -57,7 +57,10 @@ std::vector<Message> one_of_each() {
             Observation{40, 3, {{{Role::kController, 0}, {kRobot}}}},
             ClientWord{ClientId(0u), 4, 40, orders},
             WordAck{ClientId(0u), 4, {{2, "no such link"}}},
-            ClientBye{ClientId(0u), 5, true, "it threw"}};
+            ClientBye{ClientId(0u), 5, true, "it threw"},
+            RunOver{"the run has ended"},
+            ModelRequest{7},
+            ModelPart{1, 100, 7, {1, 2, 3}}};
 }
 
 Envelope envelope_of(Message message) {

@@ -58,7 +58,12 @@ struct Refused {  // Controller -> Simulator or Client that cannot take part
 struct Expelled {  // Controller -> Simulator that was given up; it may say Hello again
     SimulatorId simulator;
 };
-struct Alive {  // Simulator -> Controller, every 50 ms, also from within a long step
+struct RunOver {  // Controller -> everybody: the run has ended
+    std::string reason;
+};
+/// Simulator -> Controller, every 50 ms, also from within a long step; and Controller -> all others now and
+/// then, so that who hears nothing knows that the line is dead.
+struct Alive {
     SimulatorId simulator;
 };
 struct LeaveRequest {  // Simulator -> Controller
@@ -126,6 +131,18 @@ struct Frame {  // Simulator -> Controller: the answer to a Plan, robots and isl
     friend bool operator==(const Frame&, const Frame&) = default;
 };
 
+// --- the Model
+// -----------------------------------------------------------------------------------------------------------
+
+struct ModelRequest {  // anyone -> Controller, before anything else: who joins needs no file
+    std::uint64_t offset = 0;
+};
+/// Controller -> who asked: some of the Model's bytes (wire/model_codec.h). Equal hashes: of the same whole.
+struct ModelPart {
+    std::uint64_t bytes_hash = 0, total = 0, offset = 0;
+    std::vector<std::uint8_t> bytes;
+};
+
 // --- states
 // --------------------------------------------------------------------------------------------------------------
 
@@ -189,9 +206,9 @@ struct ClientBye {
     std::string reason;
 };
 
-using Message =
-    std::variant<Hello, Welcome, Refused, Expelled, Alive, LeaveRequest, Goodbye, Plan, Frame, StateRequest,
-                 StateReply, ClientHello, ClientWelcome, Observation, ClientWord, WordAck, ClientBye>;
+using Message = std::variant<Hello, Welcome, Refused, Expelled, Alive, LeaveRequest, Goodbye, Plan, Frame,
+                             StateRequest, StateReply, ClientHello, ClientWelcome, Observation, ClientWord,
+                             WordAck, ClientBye, RunOver, ModelRequest, ModelPart>;
 
 struct Envelope {
     Address from, to;

@@ -1,6 +1,8 @@
 // Whatever the Bus does to messages and whoever dies: the run ends with the hash of the undisturbed one.
 #include <gtest/gtest.h>
 
+#include "bus/in_process_bus.h"
+#include "bus/model_pull.h"
 #include "faulty_cluster.h"
 #include "simulation/simulation.h"
 #include "test_worlds.h"
@@ -79,6 +81,88 @@ TEST(Faults, AHundredSeedsOfABadBusWithKillsEndWithTheUndisturbedHash) {
     RecordProperty("recoveries", std::to_string(recoveries));
 }
 
+TEST(Faults, WhoIsSaidToHaveVanishedIsReplacedAtOnceAndComesBackIfItWasNotTrue) {
+    const auto model = carts_world(4);
+    const std::uint64_t expected = undisturbed_hash(model);
+    std::uint64_t losses = 0;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        FaultyCluster cluster(model, checkpointing(seed), {seed, 0.02, 0.02, 4}, {100, 0, 0, 150, 2000, 400},
+                              3);
+        add_programs(cluster);
+        ASSERT_TRUE(cluster.run_until(kTicks)) << "stuck at tick " << cluster.controller().tick();
+        EXPECT_EQ(cluster.controller().hash(), expected);
+        losses += cluster.controller().counters().losses;
+        for (const std::string& notice : cluster.controller().take_notices())
+            EXPECT_EQ(notice.find("was silent"), std::string::npos) << notice;
+    }
+    EXPECT_GT(losses, 20u);
+}
+
+TEST(Faults, AControllerThatWasStartedAgainTakesTheSimulatorsOfTheOldOneIn) {
+    const auto model = carts_world(3);
+    FaultyBus bus({1, 0, 0, 0});
+    ThreadPool pool(1);
+    Simulator a(model, {Role::kSimulator, 1}, {}, pool), b(model, {Role::kSimulator, 2}, {}, pool);
+    const auto run = [&](Controller& controller, Tick target) {
+        controller.run_until(target);
+        for (int i = 0; i < 2'000 && !controller.resting(); ++i) {
+            bus.advance_clock(1);
+            controller.advance(bus);
+            a.advance(bus);
+            b.advance(bus);
+        }
+    };
+    ControllerOptions options;
+    options.simulators = 2;
+    std::uint64_t expected = 0;
+    {
+        Controller first(model, options, beginning_of(*model));
+        run(first, 40);
+        expected = first.hash();
+    }
+    Controller second(model, options, beginning_of(*model));
+    run(second, 40);
+    EXPECT_EQ(second.tick(), 40);
+    EXPECT_EQ(second.hash(), expected);
+}
+
+TEST(Faults, WhoHasNoModelGetsItFromTheControllerThroughABadBus) {
+    const auto model = carts_world(4);
+    FaultyBus bus({3, 0.2, 0.2, 9});
+    Controller controller(model, {}, beginning_of(*model));
+    const Address self{Role::kSimulator, 1};
+    ModelPull pull;
+    for (int i = 0; i < 5'000 && !pull.model(); ++i) {
+        bus.advance_clock(1);
+        controller.advance(bus);
+        pull.advance(bus, self, 20);
+    }
+    ASSERT_TRUE(pull.model());
+    ASSERT_TRUE(pull.model()->ok());
+    EXPECT_EQ(pull.model()->value()->hash, model->hash);
+}
+
+TEST(Faults, EverybodyHearsThatTheRunIsOver) {
+    const auto model = carts_world(2);
+    InProcessBus bus;
+    ThreadPool pool(1);
+    Controller controller(model, {}, beginning_of(*model));
+    Simulator simulator(model, {Role::kSimulator, 1}, {}, pool);
+    BusClient client(model, {Role::kClient, 2}, {});
+    for (int i = 0; i < 5; ++i) {
+        controller.advance(bus);
+        simulator.advance(bus);
+        client.advance(bus);
+    }
+    controller.dismiss(bus, "done");
+    simulator.advance(bus);
+    client.advance(bus);
+    EXPECT_TRUE(simulator.gone());
+    EXPECT_EQ(simulator.over(), "done");
+    EXPECT_EQ(client.over(), "done");
+}
+
 TEST(Faults, AllSimulatorsLostAndANewOneJoinedEndsWithTheSameHash) {
     const auto model = carts_world(4);
     const std::uint64_t expected = undisturbed_hash(model);
@@ -142,7 +226,7 @@ TEST(Faults, AClientThatFallsSilentIsGivenUp) {
         } else {
             for (int i = 0; i < 600; ++i) cluster.turn();
             const std::uint64_t before = cluster.controller().counters().checkpoints;
-            ASSERT_TRUE(cluster.run_until(2 * kTicks));
+            ASSERT_TRUE(cluster.run_until(3 * kTicks));
             EXPECT_GT(cluster.controller().counters().checkpoints, before + 2)
                 << "what it never fetched holds checkpoints up";
         }

@@ -31,6 +31,7 @@ void FaultyCluster::add_simulator() {
 
 void FaultyCluster::kill(std::size_t i) {
     bus_.cut_off(simulators_[i].address);
+    if (trouble_.rumour > 0) bus_.spread_rumour(simulators_[i].address);
     simulators_.erase(simulators_.begin() + static_cast<std::ptrdiff_t>(i));
     ++kills_;
 }
@@ -45,6 +46,8 @@ void FaultyCluster::make_trouble() {
         simulators_[bus_.random(simulators_.size())].hangs_for = 400;
     if (!simulators_.empty() && happens(trouble_.leave))
         simulators_[bus_.random(simulators_.size())].role->leave();
+    if (!simulators_.empty() && happens(trouble_.rumour))
+        bus_.spread_rumour(simulators_[bus_.random(simulators_.size())].address);
     if (happens(trouble_.join) && simulators_.size() < 6) add_simulator();
     if (simulators_.empty() && happens(trouble_.rescue)) add_simulator();
 }

@@ -17,6 +17,7 @@ struct Trouble {
     // chances per turn, in 1/100000
     std::uint64_t kill = 0, hang = 0, leave = 0, join = 0;
     std::uint64_t rescue = 0;  // that a Simulator joins when none is left
+    std::uint64_t rumour = 0;  // that a living Simulator is said to have vanished
 };
 
 class FaultyCluster {

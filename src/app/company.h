@@ -1,0 +1,46 @@
+// Company: who takes part in a run beside this process, and over which Bus they talk. The run itself is the
+// same whoever comes.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/local_process.h"
+#include "app/run_options.h"
+#include "dds/dds_bus.h"
+#include "simulation/simulation.h"
+
+namespace roboss {
+
+class Company {
+  public:
+    /// Opens the network and starts the processes that the options ask for; with neither, there is nobody.
+    static Result<std::unique_ptr<Company>> gather(const RunOptions& options);
+
+    /// Says whom the run waits for and how members are missed.
+    void brief(SimulationOptions& options) const;
+    /// For Simulation::create(); none: everybody is in this process.
+    std::unique_ptr<Bus> take_bus();
+    /// To be called now and then. An Error: the run cannot go on.
+    Result<> look_after();
+    /// What happened since the last call, one line each.
+    std::vector<std::string> take_notices();
+    /// Once the Controller has dismissed everybody: sees them off, at most for some seconds.
+    void see_off();
+
+  private:
+    explicit Company(const RunOptions& options) : o_(options) {}
+    Result<> open_network();
+    Result<> start_process();
+
+    const RunOptions& o_;
+    DdsOptions network_;
+    std::unique_ptr<DdsBus> bus_;
+    DdsBus* open_bus_ = nullptr;  // the same; the Simulation owns it then
+    std::vector<LocalProcess> processes_;
+    std::vector<std::string> notices_;
+    int started_again_ = 0;
+};
+
+}  // namespace roboss

@@ -1,0 +1,8 @@
+// How the subcommands that run something end; their --help says the same.
+#pragma once
+
+namespace roboss {
+
+enum ExitCode { kDone = 0, kBadInput = 1, kRunFailed = 3, kInterrupted = 130 };
+
+}  // namespace roboss

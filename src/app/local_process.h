@@ -1,0 +1,34 @@
+// LocalProcess: another process of this program, started and ended by its id. It dies with its parent.
+#pragma once
+
+#include <sys/types.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+
+namespace roboss {
+
+class LocalProcess {
+  public:
+    static Result<LocalProcess> start(const std::vector<std::string>& arguments);
+    LocalProcess(LocalProcess&& other) noexcept;
+    LocalProcess& operator=(LocalProcess&& other) noexcept;
+    /// Kills it if it still runs.
+    ~LocalProcess();
+
+    pid_t id() const { return id_; }
+    /// How it ended, in words; nothing while it runs.
+    std::optional<std::string> ended();
+    /// Waits for its end, at most so long. False: it still runs.
+    bool wait(int ms_max);
+
+  private:
+    explicit LocalProcess(pid_t id) : id_(id) {}
+    pid_t id_ = -1;
+    std::optional<std::string> ended_;
+};
+
+}  // namespace roboss

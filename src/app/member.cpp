@@ -1,0 +1,93 @@
+// Joining a run.
+#include "app/member.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <random>
+
+#include "app/interrupt.h"
+#include "app/network_options.h"
+
+namespace roboss {
+namespace {
+
+constexpr std::int64_t kTurn_ms = 10;
+constexpr std::int64_t kResend_ms = 250;
+constexpr std::int64_t kTellWaiting_ms = 3'000;
+constexpr std::int64_t kSilence_ms = 1'500, kSilenceLongest_ms = 60'000;
+
+}  // namespace
+
+void add_member_options(CLI::App& command, MemberOptions& o) {
+    add_network_options(command, o.network);
+    command
+        .add_option("--patience", o.patience_s,
+                    "give up when no Controller is there for so long, s (default: wait for ever)")
+        ->check(CLI::PositiveNumber);
+    command.add_flag("--quiet", o.quiet, "say nothing but errors");
+}
+
+bool Member::open() {
+    Result<std::unique_ptr<DdsBus>> bus = DdsBus::create(o_.network);
+    if (!bus) return complain(bus.error()), false;
+    bus_ = std::move(bus).value();
+    seen_ms_ = connected_ms_ = bus_->now_ms();
+    silence_ms_max_ = kSilence_ms;
+    watch_for_interrupts();
+    return true;
+}
+
+Address Member::new_address(Role role) const {
+    std::random_device device;
+    return {role, static_cast<std::uint64_t>(device()) << 32 | device()};
+}
+
+std::shared_ptr<const Model> Member::fetch_model(const Address& self) {
+    ModelPull pull;
+    while (!pull.model()) {
+        if (interrupted()) return nullptr;
+        pull.advance(*bus_, self, kResend_ms);
+        if (!wait()) return nullptr;
+    }
+    if (!pull.model()->ok()) return complain(pull.model()->error()), nullptr;
+    return pull.model()->value();
+}
+
+bool Member::wait() {
+    bus_->wait(kTurn_ms);
+    for (const std::string& line : bus_->take_notices()) say(line);
+    const std::int64_t now = bus_->now_ms();
+    mend_silence(now);
+    if (bus_->present(kControllerAddress)) {
+        seen_ms_ = now;
+        told_waiting_ = false;
+        return true;
+    }
+    if (now - seen_ms_ > kTellWaiting_ms && !std::exchange(told_waiting_, true))
+        say(fmt::format("waiting for the Controller of {}", describe(o_.network)));
+    if (o_.patience_s <= 0 || static_cast<double>(now - seen_ms_) < 1e3 * o_.patience_s) return true;
+    complain({fmt::format("there was no Controller of {} for {} s", describe(o_.network), o_.patience_s),
+              "start `roboss controller` with the same --simulation, --domain and network, or see --peer and "
+              "--discovery-server if the network has no multicast"});
+    return false;
+}
+
+void Member::mend_silence(std::int64_t now_ms) {
+    const std::int64_t heard_ms = bus_->heard_ms(kControllerAddress).value_or(0);
+    if (heard_ms > connected_ms_) silence_ms_max_ = kSilence_ms;
+    if (now_ms - std::max(heard_ms, connected_ms_) < silence_ms_max_) return;
+    bus_->reconnect();
+    connected_ms_ = now_ms;
+    silence_ms_max_ = std::min(2 * silence_ms_max_, kSilenceLongest_ms);
+}
+
+void Member::say(const std::string& line) const {
+    if (!o_.quiet) fmt::print(stderr, "roboss {}: {}\n", what_, line);
+}
+
+void Member::complain(const Error& error) const {
+    fmt::print(stderr, "roboss {}: {}\n", what_, error.text());
+}
+
+}  // namespace roboss

@@ -1,0 +1,91 @@
+// Gets the Model, gives the Simulator role its turns, and leaves in good order when asked.
+#include "app/simulator_command.h"
+
+#include <fmt/format.h>
+
+#include "app/exit_codes.h"
+#include "app/interrupt.h"
+#include "app/member.h"
+#include "core/hash.h"
+#include "roles/simulator.h"
+
+namespace roboss {
+namespace {
+
+constexpr std::int64_t kGoodbye_ms = 5'000;
+
+const char* const kFooter =
+    R"(It needs no world: it gets the compiled Model from the Controller. Ctrl-C (or SIGTERM) makes it leave in good order:
+what it holds goes elsewhere first. A second one ends it at once, which costs the run a moment and no result.
+
+Exit codes: 0 the run is over or it has left, 1 an option is wrong, no Controller came or it was refused.)";
+
+struct SimulatorProcessOptions {
+    MemberOptions member;
+    int threads = 1;
+    bool stay = false;
+};
+
+class SimulatorProcess {
+  public:
+    explicit SimulatorProcess(const SimulatorProcessOptions& options)
+        : o_(options), member_("simulator", options.member), pool_(static_cast<unsigned>(options.threads)) {}
+
+    int go() {
+        if (!member_.open()) return kBadInput;
+        for (;;) {
+            const Address self = member_.new_address(Role::kSimulator);
+            const auto model = member_.fetch_model(self);
+            if (!model) return interrupted() ? kDone : kBadInput;
+            member_.say(fmt::format("has the world '{}' (model hash {})", model->name, to_hex(model->hash)));
+            Simulator simulator(model, self, SimulatorOptions{}, pool_);
+            if (!serve(simulator)) return kBadInput;
+            if (interrupted()) return kDone;
+            if (!simulator.over().empty()) {
+                member_.say(simulator.over());
+                if (!o_.stay) return kDone;
+            } else if (!o_.stay && !simulator.refusal().empty()) {
+                return member_.complain(
+                           {"the Controller refuses it: " + simulator.refusal(), "start it again"}),
+                       kBadInput;
+            }
+        }
+    }
+
+  private:
+    /// Until the role is done. False: the Controller was away for too long.
+    bool serve(Simulator& simulator) {
+        std::int64_t asked_ms = 0;
+        while (!simulator.gone()) {
+            if (interrupted()) {
+                const std::int64_t now = member_.bus().now_ms();
+                if (asked_ms == 0) asked_ms = now;
+                simulator.leave();
+                if (!member_.bus().present(kControllerAddress) || now - asked_ms > kGoodbye_ms) return true;
+            }
+            simulator.advance(member_.bus());
+            if (!member_.wait()) return false;
+        }
+        return true;
+    }
+
+    const SimulatorProcessOptions& o_;
+    Member member_;
+    ThreadPool pool_;
+};
+
+}  // namespace
+
+void add_simulator_command(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand("simulator", "step robots for a Controller anywhere");
+    command->footer(kFooter);
+    auto options = std::make_shared<SimulatorProcessOptions>();
+    command->add_option("--threads", options->threads, "threads it steps its islands with")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    command->add_flag("--stay", options->stay, "wait for the next run when one is over");
+    add_member_options(*command, options->member);
+    command->callback([options, &exit_code] { exit_code = SimulatorProcess(*options).go(); });
+}
+
+}  // namespace roboss

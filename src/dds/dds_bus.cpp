@@ -1,0 +1,286 @@
+// Addresses to inboxes and outboxes, messages to bytes and back.
+#include "dds/dds_bus.h"
+
+#include <fastdds/dds/log/Log.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <deque>
+#include <random>
+
+#include "core/hash.h"
+#include "dds/endpoints.h"
+#include "wire/codec.h"
+
+namespace roboss {
+
+namespace {
+
+constexpr std::size_t kNoticesMax = 100;
+constexpr std::int64_t kFound_ms = 400;    // within which two members mostly find each other
+constexpr std::int64_t kIdle_ms = 30'000;  // an outbox that nobody reads so long is closed
+
+Channel channel_of(const Message& message) {
+    return std::holds_alternative<Alive>(message) ? Channel::kSigns : Channel::kWords;
+}
+
+// Before each message: which run it is of, 8 bytes.
+constexpr std::size_t kRunBytes = sizeof(std::uint64_t);
+
+std::vector<std::uint8_t> with_run(std::uint64_t run, const std::vector<std::uint8_t>& message) {
+    std::vector<std::uint8_t> bytes(kRunBytes + message.size());
+    std::memcpy(bytes.data(), &run, kRunBytes);
+    std::memcpy(bytes.data() + kRunBytes, message.data(), message.size());
+    return bytes;
+}
+
+std::uint64_t take_run(std::span<const std::uint8_t> bytes) {
+    std::uint64_t run = 0;
+    if (bytes.size() >= kRunBytes) std::memcpy(&run, bytes.data(), kRunBytes);
+    return run;
+}
+
+std::uint64_t new_run() {
+    std::random_device device;
+    return (static_cast<std::uint64_t>(device()) << 32 | device()) | 1;  // never 0
+}
+
+/// What the DDS layer wants to print, kept for who asks.
+class Complaints {
+  public:
+    void add(std::string line) {
+        const std::lock_guard lock(mutex_);
+        if (lines_.size() < kNoticesMax) lines_.push_back(std::move(line));
+    }
+    std::vector<std::string> take() {
+        const std::lock_guard lock(mutex_);
+        return std::exchange(lines_, {});
+    }
+
+  private:
+    std::mutex mutex_;
+    std::vector<std::string> lines_;
+};
+
+class LogToComplaints : public eprosima::fastdds::dds::LogConsumer {
+  public:
+    explicit LogToComplaints(std::shared_ptr<Complaints> complaints) : complaints_(std::move(complaints)) {}
+    void Consume(const eprosima::fastdds::dds::Log::Entry& entry) override {
+        complaints_->add("dds: " + entry.message);
+    }
+
+  private:
+    std::shared_ptr<Complaints> complaints_;
+};
+
+std::shared_ptr<Complaints> collect_complaints() {
+    auto complaints = std::make_shared<Complaints>();
+    using eprosima::fastdds::dds::Log;
+    Log::ClearConsumers();
+    Log::SetVerbosity(Log::Kind::Error);
+    Log::RegisterConsumer(std::make_unique<LogToComplaints>(complaints));
+    return complaints;
+}
+
+}  // namespace
+
+struct DdsBus::Network {
+    /// An address of this process.
+    struct Home {
+        std::unique_ptr<Inbox> words, signs;
+        std::deque<Envelope> local;
+        std::map<Inbox::Writer, Address> writers;  // known from their words
+        std::vector<Address> vanished;
+    };
+
+    std::string topic(const Address& address, Channel channel) const {
+        static constexpr const char* kRoles[] = {"controller", "simulator", "client"};
+        return "roboss/" + options.simulation + "/" + kRoles[static_cast<int>(address.role)] + "/" +
+               to_hex(address.instance) + (channel == Channel::kSigns ? "/signs" : "/words");
+    }
+
+    Home& home(const Address& address) {
+        const auto [entry, is_new] = homes.try_emplace(address);
+        if (is_new) open(address, entry->second);
+        return entry->second;
+    }
+
+    void open(const Address& address, Home& home) {
+        if (address.role == Role::kController && run == 0) run = new_run();
+        home.words = Inbox::open(*participant, topic(address, Channel::kWords), Channel::kWords, bell);
+        home.signs = Inbox::open(*participant, topic(address, Channel::kSigns), Channel::kSigns, bell);
+        ROBOSS_CHECK(home.words && home.signs, "DDS made no reader for " + topic(address, Channel::kWords));
+    }
+
+    /// Everything that hangs on the participant anew; messages between addresses of this process stay.
+    Result<> reconnect() {
+        lose_controller();
+        outboxes.clear();
+        for (auto& [address, home] : homes) {
+            home.words.reset();
+            home.signs.reset();
+            home.writers.clear();
+        }
+        participant.reset();
+        Result<std::unique_ptr<Participant>> again = Participant::create(options);
+        if (!again) return again.error();
+        participant = std::move(again).value();
+        for (auto& [address, home] : homes) open(address, home);
+        return Ok{};
+    }
+
+    /// A member without Controller may join any that comes.
+    void lose_controller() {
+        if (!homes.contains(kControllerAddress)) run = 0;
+    }
+
+    Outbox& outbox(const Address& to, Channel channel) {
+        std::unique_ptr<Outbox>& outbox = outboxes[{to, channel}];
+        if (!outbox) outbox = Outbox::open(*participant, topic(to, channel), channel, bell);
+        ROBOSS_CHECK(outbox != nullptr, "DDS made no writer for " + topic(to, channel));
+        return *outbox;
+    }
+
+    /// The outbox by which a message gets there: mostly the direct one; by the Controller where two members
+    /// see it and not each other (peers that name the Controller only, a firewall).
+    Outbox& way_to(const Address& from, const Address& to, Channel channel) {
+        Outbox& direct = outbox(to, channel);
+        const bool may_relay = from.role != Role::kController && to.role != Role::kController;
+        if (direct.connected() || !may_relay || monotonic_ms() - direct.opened_ms() < kFound_ms)
+            return direct;
+        Outbox& relay = outbox(kControllerAddress, Channel::kWords);
+        return relay.connected() ? relay : direct;
+    }
+
+    void relay(const Address& self, const Address& to, std::span<const std::uint8_t> bytes) {
+        if (self != kControllerAddress || to.role == Role::kController || homes.contains(to)) return;
+        outbox(to, Channel::kWords).send(bytes, monotonic_ms());
+    }
+
+    /// False: something waits for others to take what is under way.
+    bool pump() {
+        const std::int64_t now = monotonic_ms();
+        bool done = true;
+        for (auto& [key, outbox] : outboxes) done = outbox->pump(now) && done;
+        std::erase_if(outboxes, [&](const auto& entry) { return entry.second->idle_since(now - kIdle_ms); });
+        return done;
+    }
+
+    /// Whether a message is of this run. Two Controllers may carry one name (they need not see each other): a
+    /// member belongs to the first from which it hears, as long as that one is there.
+    bool belongs_here(std::uint64_t its_run, const Address& from) {
+        if (run == 0 && from.role == Role::kController) run = its_run;
+        return its_run == run || its_run == 0;
+    }
+
+    void receive(Home& home, const Address& self, Inbox& from, std::vector<Envelope>& inbox) {
+        from.drain([&](const Inbox::Writer& writer, std::vector<std::uint8_t> bytes) {
+            const std::uint64_t its_run = take_run(bytes);
+            Result<Envelope> envelope =
+                decode_envelope(std::span(bytes).subspan(std::min(kRunBytes, bytes.size())));
+            if (!envelope) return complaints->add(envelope.error().message);
+            if (!belongs_here(its_run, envelope.value().from)) return;
+            if (envelope.value().to != self) return relay(self, envelope.value().to, bytes);
+            heard_ms[envelope.value().from] = monotonic_ms();
+            if (&from == home.words.get()) home.writers[writer] = envelope.value().from;
+            inbox.push_back(std::move(envelope).value());
+        });
+    }
+
+    DdsOptions options;
+    std::uint64_t run = 0;  // of this process' Controller or of the one it belongs to; 0: of none
+    Bell bell;
+    std::shared_ptr<Complaints> complaints;
+    std::unique_ptr<Participant> participant;  // outlives what follows
+    std::map<Address, Home> homes;
+    std::map<std::pair<Address, Channel>, std::unique_ptr<Outbox>> outboxes;
+    std::map<Address, std::int64_t> heard_ms;
+};
+
+Result<std::unique_ptr<DdsBus>> DdsBus::create(const DdsOptions& options) {
+    auto network = std::make_unique<Network>();
+    network->options = options;
+    network->complaints = collect_complaints();
+    Result<std::unique_ptr<Participant>> participant = Participant::create(options);
+    if (!participant) return participant.error();
+    network->participant = std::move(participant).value();
+    return std::unique_ptr<DdsBus>(new DdsBus(std::move(network)));
+}
+
+DdsBus::DdsBus(std::unique_ptr<Network> network) : network_(std::move(network)) {}
+DdsBus::~DdsBus() = default;
+
+void DdsBus::send(const Address& from, const Address& to, Message message) {
+    if (const auto home = network_->homes.find(to); home != network_->homes.end()) {
+        home->second.local.push_back({from, to, std::move(message)});
+        return;
+    }
+    const Channel channel = channel_of(message);
+    const std::vector<std::uint8_t> bytes =
+        with_run(network_->run, encode(Envelope{from, to, std::move(message)}));
+    if (!network_->way_to(from, to, channel).send(bytes, now_ms()))
+        network_->complaints->add("a message of " + std::to_string(bytes.size()) +
+                                  " bytes is too long to be sent");
+}
+
+void DdsBus::drain(const Address& self, std::vector<Envelope>& inbox) {
+    inbox.clear();
+    Network::Home& home = network_->home(self);
+    network_->receive(home, self, *home.signs, inbox);
+    network_->receive(home, self, *home.words, inbox);
+    for (Envelope& envelope : home.local) inbox.push_back(std::move(envelope));
+    home.local.clear();
+    home.signs->take_vanished();
+    for (const Inbox::Writer& writer : home.words->take_vanished()) {
+        const auto known = home.writers.find(writer);
+        if (known == home.writers.end()) continue;
+        if (known->second == kControllerAddress) network_->lose_controller();
+        home.vanished.push_back(known->second);
+    }
+    network_->pump();
+}
+
+std::vector<Address> DdsBus::take_vanished(const Address& self) {
+    return std::exchange(network_->home(self).vanished, {});
+}
+
+void DdsBus::wait(std::int64_t ms_max) {
+    const bool local = std::any_of(network_->homes.begin(), network_->homes.end(),
+                                   [](const auto& home) { return !home.second.local.empty(); });
+    if (local) return;
+    const bool done = network_->pump();
+    network_->bell.wait(done ? ms_max : std::min<std::int64_t>(ms_max, 1));
+}
+
+bool DdsBus::present(const Address& address) {
+    return network_->homes.contains(address) || network_->outbox(address, Channel::kWords).connected();
+}
+
+std::optional<std::int64_t> DdsBus::heard_ms(const Address& address) const {
+    const auto found = network_->heard_ms.find(address);
+    return found == network_->heard_ms.end() ? std::nullopt : std::optional(found->second);
+}
+
+void DdsBus::reconnect() {
+    const Result<> done = network_->reconnect();
+    ROBOSS_CHECK(done.ok(), done.error().text());
+}
+
+bool DdsBus::taken_elsewhere(const Address& address) const {
+    return network_->participant->read_elsewhere(network_->topic(address, Channel::kWords));
+}
+
+bool DdsBus::flush(std::int64_t ms_max) {
+    const std::int64_t end = now_ms() + ms_max;
+    while (!network_->pump() && now_ms() < end) network_->bell.wait(1);
+    bool all = true;
+    for (auto& [key, outbox] : network_->outboxes)
+        if (outbox->connected()) all = outbox->acknowledged(std::max<std::int64_t>(end - now_ms(), 0)) && all;
+    return all;
+}
+
+std::vector<std::string> DdsBus::take_notices() {
+    return network_->complaints->take();
+}
+
+}  // namespace roboss

@@ -1,0 +1,26 @@
+// Which network a DdsBus speaks on and how members find each other. Defaults reach processes of this computer
+// only; everything wider is asked for in words.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace roboss {
+
+struct DdsOptions {
+    /// Members of one run share this name; runs of different names never see each other's messages.
+    std::string simulation = "default";
+    std::uint32_t domain = 0;             // DDS domain, 0 .. 232
+    std::string interface = "127.0.0.1";  // address or name of the network interface to speak on
+    /// Finding others: multicast on the interface, computers named here, or a discovery server.
+    bool multicast = true;
+    std::vector<std::string> peers;  // HOST or HOST:PORT
+    std::uint16_t port = 0;         // to be found at as HOST:PORT; 0: one by the rules of RTPS, by the domain
+    std::uint32_t peer_range = 32;  // a HOST without a port: so many members may run there
+    std::string discovery_server;   // HOST:PORT of one that runs already; then neither of the others is used
+    /// A process silent for so long is told to be gone (take_vanished()).
+    std::uint32_t liveliness_ms = 250;
+};
+
+}  // namespace roboss

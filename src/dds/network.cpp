@@ -1,0 +1,73 @@
+// getifaddrs and getaddrinfo.
+#include "dds/network.h"
+
+#include <arpa/inet.h>
+#include <ifaddrs.h>
+#include <net/if.h>
+#include <netdb.h>
+
+#include <algorithm>
+#include <fstream>
+#include <memory>
+#include <vector>
+
+namespace roboss {
+namespace {
+
+std::string text_of(const sockaddr* address) {
+    char text[INET_ADDRSTRLEN] = "";
+    inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in*>(address)->sin_addr, text, sizeof(text));
+    return text;
+}
+
+}  // namespace
+
+Result<std::string> interface_address(const std::string& name) {
+    ifaddrs* list = nullptr;
+    if (getifaddrs(&list) != 0) return Error{"the network interfaces of this computer cannot be listed", ""};
+    const std::unique_ptr<ifaddrs, decltype(&freeifaddrs)> owner(list, &freeifaddrs);
+    std::string known;
+    for (const ifaddrs* i = list; i != nullptr; i = i->ifa_next) {
+        if (i->ifa_addr == nullptr || i->ifa_addr->sa_family != AF_INET || (i->ifa_flags & IFF_UP) == 0)
+            continue;
+        const std::string address = text_of(i->ifa_addr);
+        if (name == i->ifa_name || name == address) return address;
+        known += (known.empty() ? "" : ", ") + std::string(i->ifa_name) + " (" + address + ")";
+    }
+    return Error{"this computer has no network interface '" + name + "' with an IPv4 address",
+                 "give one of: " + known};
+}
+
+Result<HostPort> host_port(const std::string& text) {
+    const auto colon = text.rfind(':');
+    HostPort result;
+    const std::string host = text.substr(0, colon);
+    if (colon != std::string::npos) {
+        const std::string digits = text.substr(colon + 1);
+        const bool number =
+            !digits.empty() && digits.size() <= 5 &&
+            std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
+        const int port = number ? std::stoi(digits) : 0;
+        if (port < 1 || port > 65535)
+            return Error{"'" + text + "' has no port from 1 to 65535 behind its colon",
+                         "write HOST or HOST:PORT"};
+        result.port = static_cast<std::uint16_t>(port);
+    }
+    addrinfo hints{};
+    hints.ai_family = AF_INET;
+    addrinfo* found = nullptr;
+    if (host.empty() || getaddrinfo(host.c_str(), nullptr, &hints, &found) != 0 || found == nullptr)
+        return Error{"there is no computer called '" + host + "'", "give its name or IPv4 address"};
+    const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owner(found, &freeaddrinfo);
+    result.address = text_of(found->ai_addr);
+    return result;
+}
+
+std::uint32_t socket_buffer_max() {
+    std::ifstream file("/proc/sys/net/core/rmem_max");
+    std::uint64_t bytes = 0;
+    file >> bytes;
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(bytes, 0x7FFFFFFF));
+}
+
+}  // namespace roboss

@@ -1,0 +1,221 @@
+// What compile guarantees and the step, the sensors and the orders rely on without looking again.
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include "model/accuracy.h"
+#include "model/seal.h"
+
+namespace roboss {
+namespace {
+
+bool finite(const Transform& X) {
+    return is_finite(X.p) && is_finite(X.R.r0) && is_finite(X.R.r1) && is_finite(X.R.r2);
+}
+
+/// The index of one of `count` things, or `none`.
+bool within(int index, std::size_t count, int lowest = 0) {
+    return index >= lowest && (index < 0 || static_cast<std::size_t>(index) < count);
+}
+
+bool sensible(const Shape& shape, bool scenery) {
+    if (shape.kind > ShapeKind::kSurface || (shape.kind == ShapeKind::kHull) != (shape.hull != nullptr) ||
+        (shape.kind == ShapeKind::kSurface) != (shape.surface != nullptr))
+        return false;
+    if (shape.kind == ShapeKind::kSurface && !scenery) return false;
+    for (const double size : {shape.half.x, shape.half.y, shape.half.z, shape.radius, shape.half_length})
+        if (!(size >= 0 && size < 1e9)) return false;
+    return true;
+}
+
+int axes_of(JointSpecKind kind) {
+    switch (kind) {
+        case JointSpecKind::kFixed:
+        case JointSpecKind::kGearbox:
+            return 0;
+        case JointSpecKind::kBall:
+            return 3;
+        case JointSpecKind::kUniversal:
+        case JointSpecKind::kRevolute2:
+            return 2;
+        default:
+            return 1;
+    }
+}
+
+constexpr std::size_t kEntriesMax = 1u << 26;
+
+/// One robot type, part by part; each question is asked when those before were answered.
+class TypeCheck {
+  public:
+    explicit TypeCheck(const RobotType& type) : t_(type) {}
+
+    std::string broken() const {
+        if (!bodies_fit()) return "its bodies are no tree, or their coordinates do not follow each other";
+        if (!coordinates_fit()) return "its coordinates do not fit its degrees of freedom";
+        if (!links_fit()) return "a link stands on a body that is not there";
+        if (!loops_fit()) return "a joint that closes a loop is impossible";
+        if (!joints_fit()) return "a joint is impossible";
+        if (!couplings_fit()) return "a gearbox couples coordinates that are not there";
+        if (!shapes_fit()) return "a shape is impossible";
+        if (!sensors_fit()) return "a sensor is impossible";
+        return {};
+    }
+
+  private:
+    bool bodies_fit() const {
+        int nq = 7, nv = 0;
+        for (std::size_t i = 0; i < t_.bodies.size(); ++i) {
+            const Body& body = t_.bodies[i];
+            const bool base = t_.free_base && i == 0;
+            if (!within(body.parent, i, -1) || !finite(body.X_PJ)) return false;
+            if (base ? body.joint != JointKind::kFree || body.nv != 6 || body.q_index != 0
+                     : body.joint == JointKind::kFree || body.joint > JointKind::kScrew || body.q_index != nq)
+                return false;
+            const bool ball = body.joint == JointKind::kBall;
+            if (body.v_index != nv || (!base && body.nv != (ball ? 3 : 1))) return false;
+            if (t_.free_base && !base && body.parent < 0) return false;
+            nv += body.nv;
+            nq += base ? 0 : ball ? 4 : 1;
+        }
+        return (!t_.free_base || !t_.bodies.empty()) && nq == t_.nq && nv == t_.nv;
+    }
+
+    bool coordinates_fit() const {
+        const auto nv = static_cast<std::size_t>(t_.nv);
+        if (t_.dof_parent.size() != nv || t_.initial_q.size() + 7 != static_cast<std::size_t>(t_.nq))
+            return false;
+        if (t_.dofs.size() + static_cast<std::size_t>(t_.base_nv()) != nv) return false;
+        std::size_t entries =
+            0;  // of a matrix on the tree (dof_paths.h): a chain has the square of its length
+        std::vector<std::size_t> depth(nv, 1);
+        for (std::size_t i = 0; i < nv; ++i) {
+            if (!within(t_.dof_parent[i], i, -1)) return false;
+            if (t_.dof_parent[i] >= 0) depth[i] += depth[static_cast<std::size_t>(t_.dof_parent[i])];
+            entries += depth[i];
+        }
+        if (entries > kEntriesMax) return false;
+        for (std::size_t b = t_.free_base ? 1 : 0; b < t_.bodies.size(); ++b)
+            for (int k = 0; k < t_.bodies[b].nv; ++k) {
+                const Dof& dof = t_.dofs[static_cast<std::size_t>(t_.bodies[b].v_index + k - t_.base_nv())];
+                if (dof.body != static_cast<int>(b) || dof.joint.index() >= t_.joints.size()) return false;
+            }
+        return true;
+    }
+
+    bool on_body(int body) const { return within(body, t_.bodies.size(), t_.free_base ? 0 : -1); }
+
+    bool links_fit() const {
+        return !t_.links.empty() && std::all_of(t_.links.begin(), t_.links.end(), [&](const Link& link) {
+            return on_body(link.body) && finite(link.X_BL) && is_finite(link.p_BC);
+        });
+    }
+
+    bool loops_fit() const {
+        std::size_t motors = t_.dofs.size();
+        for (std::size_t i = 0; i < t_.loops.size(); ++i) {
+            const LoopJoint& loop = t_.loops[i];
+            if (loop.kind > JointSpecKind::kGearbox || loop.joint.index() >= t_.joints.size()) return false;
+            if (t_.joints[loop.joint.index()].loop != static_cast<int>(i)) return false;
+            if (!on_body(loop.body_a) || !on_body(loop.body_b) || loop.body_a == loop.body_b) return false;
+            if (!finite(loop.X_AJ) || !finite(loop.X_BJ)) return false;
+            if (loop.dofs.size() != static_cast<std::size_t>(axes_of(loop.kind))) return false;
+            if (loop.motor_index < 0 || static_cast<std::size_t>(loop.motor_index) != motors) return false;
+            for (const Dof& dof : loop.dofs)
+                if (dof.body != loop.body_b || dof.joint != loop.joint) return false;
+            motors += loop.dofs.size();
+        }
+        return true;
+    }
+
+    bool joints_fit() const {
+        for (std::size_t i = 0; i < t_.joints.size(); ++i) {
+            const Joint& joint = t_.joints[i];
+            if (joint.kind > JointSpecKind::kGearbox || !within(joint.body, t_.bodies.size(), -1))
+                return false;
+            if (joint.loop != -1) {
+                if (!within(joint.loop, t_.loops.size())) return false;
+                const LoopJoint& loop = t_.loops[static_cast<std::size_t>(joint.loop)];
+                if (loop.joint != JointId(i) || joint.nv != static_cast<int>(loop.dofs.size())) return false;
+            } else if (!tree_joint_fits(joint)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    bool tree_joint_fits(const Joint& joint) const {
+        if (joint.nv == 0) return true;
+        if (joint.nv != axes_of(joint.kind) || joint.body < 0) return false;
+        if (joint.v_index < t_.base_nv() || joint.v_index > t_.nv - joint.nv) return false;
+        const int width = joint.kind == JointSpecKind::kBall ? 4 : joint.nv;
+        return joint.q_index >= 7 && joint.q_index <= t_.nq - width;
+    }
+
+    bool couplings_fit() const {
+        return std::all_of(t_.couplings.begin(), t_.couplings.end(), [&](const CoordinateCoupling& c) {
+            return c.joint.index() < t_.joints.size() && within(c.follower, t_.dofs.size()) &&
+                   within(c.leader, t_.dofs.size());
+        });
+    }
+
+    bool shapes_fit() const {
+        for (const BodyShape& s : t_.shapes)
+            if (!on_body(s.body) || s.link.index() >= t_.links.size() || !finite(s.X_BS) ||
+                !sensible(s.shape, false))
+                return false;
+        for (const LinkDrag& drag : t_.drags)
+            if (!within(drag.body, t_.bodies.size())) return false;
+        for (const auto& [a, b] : t_.self_pairs)
+            if (!within(a, t_.shapes.size()) || !within(b, t_.shapes.size()) || a == b) return false;
+        return true;
+    }
+
+    bool sensors_fit() const {
+        constexpr int kBeamsMax = 1 << 24;
+        return std::all_of(t_.sensors.begin(), t_.sensors.end(), [&](const SensorInfo& info) {
+            const SensorSpec& s = info.spec;
+            return info.link.index() < t_.links.size() && s.kind >= SensorKind::kLaser &&
+                   s.kind <= SensorKind::kUnsupported && s.samples >= 0 && s.samples <= kBeamsMax &&
+                   s.vertical_samples >= 0 && s.vertical_samples <= kBeamsMax &&
+                   static_cast<std::int64_t>(s.samples) * s.vertical_samples <= kBeamsMax;
+        });
+    }
+
+    const RobotType& t_;
+};
+
+std::string broken_static(const Model& model, const StaticShape& s) {
+    if (!sensible(s.shape, true) || !finite(s.X_WS)) return "is impossible";
+    if (!s.robot.valid()) return {};
+    if (s.robot.index() >= model.robots.size()) return "belongs to a robot that is not there";
+    return s.link.index() < model.type_of(s.robot).links.size() ? "" : "belongs to a link that is not there";
+}
+
+bool accuracy_fits(const Accuracy& accuracy) {
+    const auto numbers = accuracy_numbers();
+    return std::all_of(numbers.begin(), numbers.end(), [&](const AccuracyNumber& number) {
+        return number.get(accuracy) >= number.low && number.get(accuracy) <= number.high;
+    });
+}
+
+}  // namespace
+
+std::string broken_part(const Model& model) {
+    if (!(model.dt_s > 0 && model.dt_s <= 1)) return "its step is not in (0, 1] s";
+    if (!is_finite(model.gravity) || !is_finite(model.wind)) return "its gravity or wind is not finite";
+    if (!accuracy_fits(model.accuracy)) return "its accuracy is out of range";
+    for (const RobotType& type : model.types)
+        if (const std::string broken = TypeCheck(type).broken(); !broken.empty())
+            return "robot type '" + type.name + "': " + broken;
+    for (const Robot& robot : model.robots) {
+        if (robot.type.index() >= model.types.size()) return "robot '" + robot.name + "' has no type";
+        if (!is_finite(robot.X_WR)) return "robot '" + robot.name + "' stands nowhere";
+    }
+    for (const StaticShape& s : model.statics)
+        if (const std::string broken = broken_static(model, s); !broken.empty())
+            return "scenery '" + s.name + "' " + broken;
+    return {};
+}
+
+}  // namespace roboss

@@ -1,0 +1,63 @@
+// Everything that every other number counts into: the hashes, and the tree over the scenery.
+#include "model/seal.h"
+
+#include "core/hash.h"
+#include "model/accuracy.h"
+#include "model/compile_type.h"
+
+namespace roboss {
+namespace {
+
+void build_bvh(Model& model) {
+    std::vector<Aabb> boxes;
+    boxes.reserve(model.statics.size());
+    for (const StaticShape& s : model.statics) boxes.push_back(bounds(s.shape, s.X_WS));
+    model.static_bvh = Bvh(boxes);
+}
+
+std::uint64_t model_hash(const Model& model) {
+    Hash hash;
+    hash.add(model.dt_s);
+    hash.add(model.air_density);
+    hash.add(static_cast<std::uint64_t>(model.sleep));
+    for (const Vec3& v : {model.gravity, model.magnetic_field_T, model.wind})
+        hash.add(v.x), hash.add(v.y), hash.add(v.z);
+    if (const auto& s = model.spherical)
+        for (double x : {s->latitude_rad, s->longitude_rad, s->elevation_m, s->heading_rad}) hash.add(x);
+    for (const AccuracyNumber& number : accuracy_numbers()) hash.add(number.get(model.accuracy));
+    for (const RobotType& type : model.types) hash.add(type.hash);
+    for (const Robot& robot : model.robots) {
+        hash.add(robot.name);
+        hash.add(static_cast<std::uint64_t>(robot.type.value));
+        hash.add(static_cast<std::uint64_t>(robot.family));
+        const double numbers[] = {robot.X_WR.p.x, robot.X_WR.p.y, robot.X_WR.p.z, robot.X_WR.q.w,
+                                  robot.X_WR.q.x, robot.X_WR.q.y, robot.X_WR.q.z};
+        hash.add(std::span<const double>(numbers));
+    }
+    for (const StaticShape& s : model.statics) {
+        hash.add(static_cast<std::uint64_t>(s.shape.kind));
+        const double numbers[] = {s.shape.half.x,      s.shape.half.y, s.shape.half.z, s.shape.radius,
+                                  s.shape.half_length, s.X_WS.p.x,     s.X_WS.p.y,     s.X_WS.p.z,
+                                  s.X_WS.R.r0.x,       s.X_WS.R.r0.y,  s.X_WS.R.r0.z,  s.X_WS.R.r1.x,
+                                  s.X_WS.R.r1.y,       s.X_WS.R.r1.z,  s.X_WS.R.r2.x,  s.X_WS.R.r2.y,
+                                  s.X_WS.R.r2.z};
+        hash.add(std::span<const double>(numbers));
+        add_to_hash(hash, s.material);
+        if (s.shape.hull != nullptr) hash.add(s.shape.hull->hash);
+        if (s.shape.surface != nullptr) hash.add(s.shape.surface->hash());
+    }
+    return hash.value();
+}
+
+}  // namespace
+
+void seal(Model& model) {
+    for (RobotType& type : model.types) {
+        type.paths = DofPaths(type.dof_parent);
+        type.hash = type_hash(type);
+    }
+    build_bvh(model);
+    model.hash = model_hash(model);
+}
+
+}  // namespace roboss

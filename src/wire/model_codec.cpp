@@ -1,0 +1,255 @@
+// One description of the Model's fields, used by the encoder and by the decoder. What follows from other
+// fields (hashes, trees over scenery, a hull's edges) is not sent but computed again, so it cannot disagree.
+#include "wire/model_codec.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/hash.h"
+#include "model/seal.h"
+#include "wire/archive.h"
+
+namespace roboss {
+namespace wire {
+namespace {
+
+constexpr std::uint32_t kModelVersion = 1;
+
+/// A Writer and a Reader that know the shared hulls and surfaces, to which shapes point.
+struct ModelWriter : Writer {
+    explicit ModelWriter(const Model& m) : model(m) {}
+    const Model& model;
+};
+struct ModelReader : Reader {
+    ModelReader(std::span<const std::uint8_t> bytes, Model& m) : Reader(bytes), model(m) {}
+    Model& model;
+};
+
+template <class A, class... Fields>
+void fields(A& a, Fields&... values);
+template <class T>
+void field(ModelWriter& a, const std::vector<T>& values);
+template <class T>
+void field(ModelReader& a, std::vector<T>& values);
+
+template <class T>
+std::uint32_t place_of(const std::vector<std::shared_ptr<const T>>& all, const T* one) {
+    if (one == nullptr) return 0;
+    const auto found = std::find_if(all.begin(), all.end(), [one](const auto& p) { return p.get() == one; });
+    ROBOSS_CHECK(found != all.end(), "a shape points to something that the Model does not own");
+    return static_cast<std::uint32_t>(found - all.begin()) + 1;
+}
+
+/// A pointer to shared data travels as its place, counted from 1; 0: none.
+template <class T>
+void pointer(ModelWriter& a, const std::vector<std::shared_ptr<const T>>& all, const T* const& value) {
+    a.scalar(place_of(all, value));
+}
+template <class T>
+void pointer(ModelReader& a, const std::vector<std::shared_ptr<const T>>& all, const T*& value) {
+    std::uint32_t place = 0;
+    a.scalar(place);
+    if (place > all.size()) a.fail("a shape points to a mesh that is not there");
+    value = place == 0 || a.failed() ? nullptr : all[place - 1].get();
+}
+
+// clang-format off
+template <class A> void field(A& a, Of<A, Vec3>& m) { fields(a, m.x, m.y, m.z); }
+template <class A> void field(A& a, Of<A, Quat>& m) { fields(a, m.w, m.x, m.y, m.z); }
+template <class A> void field(A& a, Of<A, Pose>& m) { fields(a, m.p, m.q); }
+template <class A> void field(A& a, Of<A, Mat3>& m) { fields(a, m.r0, m.r1, m.r2); }
+template <class A> void field(A& a, Of<A, Transform>& m) { fields(a, m.R, m.p); }
+template <class A> void field(A& a, Of<A, std::pair<int, int>>& m) { fields(a, m.first, m.second); }
+template <class A> void field(A& a, Of<A, Body>& m) {
+    fields(a, m.parent, m.joint, m.X_PJ, m.axis_J, m.pitch, m.reversed_ball, m.q_index, m.v_index, m.nv, m.mass, m.gravity_mass, m.p_BC,
+           m.p_BG, m.inertia_C, m.inverse_mass_linear, m.inverse_inertia_angular);
+}
+template <class A> void field(A& a, Of<A, Dof>& m) {
+    fields(a, m.body, m.joint, m.lower, m.upper, m.max_effort, m.max_velocity, m.damping, m.friction, m.spring_stiffness,
+           m.spring_reference, m.armature, m.position_gain, m.velocity_gain, m.inverse_inertia, m.limit_stiffness, m.limit_dissipation);
+}
+template <class A> void field(A& a, Of<A, Link>& m) { fields(a, m.name, m.body, m.X_BL, m.p_BC); }
+template <class A> void field(A& a, Of<A, Joint>& m) {
+    fields(a, m.name, m.kind, m.body, m.q_index, m.v_index, m.nv, m.reversed, m.loop);
+}
+template <class A> void field(A& a, Of<A, LoopJoint>& m) {
+    fields(a, m.joint, m.kind, m.body_a, m.body_b, m.X_AJ, m.X_BJ, m.axis_J, m.axis2_J, m.pitch, m.dofs, m.motor_index, m.inverse_mass,
+           m.inverse_inertia);
+}
+template <class A> void field(A& a, Of<A, CoordinateCoupling>& m) {
+    fields(a, m.joint, m.follower, m.leader, m.multiplier, m.offset, m.inverse_inertia);
+}
+template <class A> void field(A& a, Of<A, Material>& m) {
+    fields(a, m.mu, m.mu2, m.direction_S, m.restitution, m.bounce_threshold, m.torsional_mu, m.patch_radius, m.surface_radius, m.rolling,
+           m.stiffness, m.damping, m.slop, m.mend_speed, m.contacts_max, m.collide_bitmask, m.category_bitmask);
+}
+template <class A> void field(A& a, Of<A, Shape>& m) {
+    fields(a, m.kind, m.half, m.radius, m.half_length);
+    pointer(a, a.model.hulls, m.hull);
+    pointer(a, a.model.surfaces, m.surface);
+}
+template <class A> void field(A& a, Of<A, BodyShape>& m) { fields(a, m.shape, m.body, m.link, m.X_BS, m.material); }
+template <class A> void field(A& a, Of<A, LinkDrag>& m) { fields(a, m.body, m.p_BC, m.R_BL, m.area, m.linear, m.wind); }
+template <class A> void field(A& a, Of<A, NoiseSpec>& m) {
+    fields(a, m.mean, m.stddev, m.bias_mean, m.bias_stddev, m.precision);
+}
+template <class A> void field(A& a, Of<A, SensorInfo>& m) {
+    auto& s = m.spec;
+    fields(a, m.link, s.name, s.kind, s.sdf_type, s.X_LS, s.update_rate_hz, s.samples, s.vertical_samples, s.min_angle, s.max_angle,
+           s.vertical_min_angle, s.vertical_max_angle, s.range_min, s.range_max, s.range_resolution, s.noise, s.gyro_noise,
+           s.position_horizontal_noise, s.position_vertical_noise, s.velocity_horizontal_noise, s.velocity_vertical_noise, s.joints,
+           s.wheel_radius);
+}
+template <class A> void field(A& a, Of<A, RobotType>& m) {
+    fields(a, m.name, m.free_base, m.is_static, m.self_collide, m.may_sleep, m.X_RB, m.bodies, m.dofs, m.dof_parent, m.links, m.joints,
+           m.loops, m.couplings, m.shapes, m.drags, m.self_pairs, m.sensors, m.initial_q, m.nq, m.nv, m.reach, m.mass);
+}
+template <class A> void field(A& a, Of<A, Robot>& m) { fields(a, m.name, m.type, m.X_WR, m.family); }
+template <class A> void field(A& a, Of<A, StaticShape>& m) {
+    fields(a, m.shape, m.X_WS, m.material, m.name, m.robot, m.link);
+}
+template <class A> void field(A& a, Of<A, Accuracy>& m) {
+    fields(a, m.tolerance, m.friction_tolerance, m.newton_max, m.friction_max, m.compliance, m.contact_compliance);
+}
+template <class A> void field(A& a, Of<A, SphericalCoordinates>& m) {
+    fields(a, m.latitude_rad, m.longitude_rad, m.elevation_m, m.heading_rad);
+}
+template <class A> void field(A& a, Of<A, HullParts>& m) { fields(a, m.vertices, m.loop_sizes, m.face_vertices, m.centroid, m.volume); }
+template <class A> void field(A& a, Of<A, MeshSource>& m) { fields(a, m.vertices, m.triangles); }
+template <class A> void field(A& a, Of<A, HeightSource>& m) { fields(a, m.columns, m.rows, m.heights, m.size_x, m.size_y); }
+/// Everything behind the hulls and surfaces.
+template <class A> void field(A& a, Of<A, Model>& m) {
+    fields(a, m.name, m.dt_s, m.gravity, m.magnetic_field_T, m.wind, m.air_density, m.accuracy, m.sleep, m.types, m.robots, m.statics);
+}
+
+/// Does nothing but name every field: a new one breaks the build here, so that it is not forgotten above. (What seal()
+/// computes is left out above: hashes, paths, the tree over the scenery.)
+[[maybe_unused]] void know_fields(const Body& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15] = m; }
+[[maybe_unused]] void know_fields(const Dof& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15] = m; }
+[[maybe_unused]] void know_fields(const Link& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3] = m; }
+[[maybe_unused]] void know_fields(const Joint& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7] = m; }
+[[maybe_unused]] void know_fields(const LoopJoint& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12] = m; }
+[[maybe_unused]] void know_fields(const CoordinateCoupling& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
+[[maybe_unused]] void know_fields(const Material& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15] = m; }
+[[maybe_unused]] void know_fields(const Shape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
+[[maybe_unused]] void know_fields(const BodyShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4] = m; }
+[[maybe_unused]] void know_fields(const LinkDrag& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
+[[maybe_unused]] void know_fields(const SensorSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17, f18, f19, f20, f21, f22] = m; }
+[[maybe_unused]] void know_fields(const SensorInfo& m) { [[maybe_unused]] const auto& [f0, f1] = m; }
+[[maybe_unused]] void know_fields(const RobotType& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17, f18, f19, f20, f21, f22, f23] = m; }
+[[maybe_unused]] void know_fields(const Robot& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3] = m; }
+[[maybe_unused]] void know_fields(const StaticShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
+[[maybe_unused]] void know_fields(const Accuracy& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
+[[maybe_unused]] void know_fields(const Model& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15] = m; }
+// clang-format on
+
+template <class A, class... Fields>
+void fields(A& a, Fields&... values) {
+    (field(a, values), ...);
+}
+
+template <class T>
+void field(ModelWriter& a, const std::vector<T>& values) {
+    a.count(values.size());
+    for (const T& value : values) field(a, value);
+}
+
+template <class T>
+void field(ModelReader& a, std::vector<T>& values) {
+    values.clear();
+    const std::size_t n = a.count(1);
+    for (std::size_t i = 0; i < n && !a.failed(); ++i) field(a, values.emplace_back());
+}
+
+void write_shared(ModelWriter& a) {
+    a.count(a.model.hulls.size());
+    for (const auto& hull : a.model.hulls) {
+        const HullParts parts = parts_of(*hull);
+        field(a, parts);
+    }
+    a.count(a.model.surfaces.size());
+    for (const auto& surface : a.model.surfaces) {
+        const SurfaceSource source = surface->source();
+        a.scalar(static_cast<std::uint8_t>(source.index()));
+        std::visit([&a](const auto& s) { field(a, s); }, source);
+    }
+}
+
+void read_hull(ModelReader& a) {
+    HullParts parts;
+    field(a, parts);
+    if (a.failed()) return;
+    Result<ConvexHull> hull = join_hull(std::move(parts));
+    if (!hull) return a.fail(hull.error().message.c_str());
+    a.model.hulls.push_back(std::make_shared<const ConvexHull>(std::move(hull).value()));
+}
+
+void read_surface(ModelReader& a) {
+    std::uint8_t kind = 0;
+    a.scalar(kind);
+    SurfaceSource source;
+    if (kind == 1) source.emplace<HeightSource>();
+    if (kind > 1) return a.fail("a surface is of an unknown kind");
+    std::visit([&a](auto& s) { field(a, s); }, source);
+    if (a.failed()) return;
+    auto surface = build_surface(source);
+    if (!surface) return a.fail(surface.error().message.c_str());
+    a.model.surfaces.push_back(std::move(surface).value());
+}
+
+void read_shared(ModelReader& a) {
+    const std::size_t hulls = a.count(1);
+    for (std::size_t i = 0; i < hulls && !a.failed(); ++i) read_hull(a);
+    const std::size_t surfaces = a.count(1);
+    for (std::size_t i = 0; i < surfaces && !a.failed(); ++i) read_surface(a);
+}
+
+}  // namespace
+}  // namespace wire
+
+std::vector<std::uint8_t> encode_model(const Model& model) {
+    wire::ModelWriter a(model);
+    a.scalar(wire::kModelVersion);
+    a.scalar(model.hash);
+    wire::write_shared(a);
+    const bool spherical = model.spherical.has_value();
+    wire::fields(a, spherical, model);
+    if (spherical) wire::fields(a, *model.spherical);
+    return a.take();
+}
+
+Result<std::shared_ptr<const Model>> decode_model(std::span<const std::uint8_t> bytes) {
+    auto model = std::make_shared<Model>();
+    wire::ModelReader a(bytes, *model);
+    std::uint32_t version = 0;
+    std::uint64_t hash = 0;
+    a.scalar(version);
+    a.scalar(hash);
+    if (!a.failed() && version != wire::kModelVersion)
+        return Error{"a Model of version " + std::to_string(version) + ", this program reads " +
+                         std::to_string(wire::kModelVersion),
+                     "run the same version of RoBOSS everywhere"};
+    wire::read_shared(a);
+    bool spherical = false;
+    wire::fields(a, spherical, *model);
+    if (spherical) wire::fields(a, model->spherical.emplace());
+    if (a.left() > 0) a.fail("bytes are left over behind it");
+    std::string broken = a.failure();
+    if (broken.empty()) broken = broken_part(*model);
+    if (broken.empty()) {
+        seal(*model);
+        if (model->hash != hash) broken = "its hash is " + to_hex(model->hash) + ", not " + to_hex(hash);
+    }
+    if (!broken.empty())
+        return Error{"a damaged Model of " + std::to_string(bytes.size()) + " bytes: " + broken,
+                     "check the network, and that all machines run the same version of RoBOSS"};
+    return std::shared_ptr<const Model>(std::move(model));
+}
+
+std::uint64_t hash_of_bytes(std::span<const std::uint8_t> bytes) {
+    Hash hash;
+    hash.add(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    return hash.value();
+}
+
+}  // namespace roboss
