@@ -140,6 +140,7 @@ LoopJoint to_loop_joint(const JointSpec& spec, const Transform& X_MA, const Tran
     for (const AxisSpec& axis : spec.axes)
         loop.dofs.push_back(to_dof(axis, spec.kind == JointSpecKind::kContinuous));
     if (spec.kind == JointSpecKind::kBall) loop.dofs.resize(3);
+    for (Dof& dof : loop.dofs) dof.damping += spec.ball_damping;
     return loop;
 }
 

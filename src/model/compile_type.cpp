@@ -132,7 +132,9 @@ class PartBuilder {
         const JointId id(part_.type.joints.size());
         int body = parent_body;
         if (spec.kind == JointSpecKind::kBall) {
-            body = add_body(parent_body, spec, JointKind::kBall, AxisSpec{}, edge.reversed, id, joint);
+            AxisSpec each;
+            each.damping = spec.ball_damping;
+            body = add_body(parent_body, spec, JointKind::kBall, each, edge.reversed, id, joint);
         } else if (spec.kind != JointSpecKind::kFixed) {
             const JointKind kind = kind_of(spec.kind);
             const std::size_t axes =

@@ -109,6 +109,38 @@ TEST(JointDamping, VelocityDecaysByTheExponentialLaw) {
     EXPECT_NEAR(sim.states[0].q[7], 2 / rate * (1 - std::exp(-rate)), 1e-10);
 }
 
+TEST(JointDamping, OfABallJointIsTheSameInAllDirections) {
+    World world = empty_world(1e-3, {});
+    ModelSpec m = solid_sphere(2.0, 0.3, surface(0.5));
+    m.joints.push_back(joint(JointSpecKind::kBall, "ball", "world", "sphere", {}));
+    m.joints[0].ball_damping = 0.2;
+    place(world, m, "ball");
+    Simulation sim(world);
+    const Vec3 w{2, -1, 0.5};
+    for (std::size_t i = 0; i < 3; ++i) sim.states[0].v[i] = w[i];
+    sim.run(1);
+    const double left = std::exp(-0.2 / (0.4 * 2.0 * 0.3 * 0.3));
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(sim.states[0].v[i], w[i] * left, 1e-9);
+}
+
+/// A bar between two ball joints turns about its length; the second joint closes a loop and damps as the
+/// first.
+TEST(JointDamping, OfABallJointThatClosesALoopActsToo) {
+    World world = empty_world(1e-4, {});
+    ModelSpec m = solid_box(2.0, {1, 0.2, 0.3}, surface(0.5));
+    for (const double x : {0.5, -0.5}) {
+        m.joints.push_back(
+            joint(JointSpecKind::kBall, x > 0 ? "right" : "left", "world", "box", {{x, 0, 0}, {}}));
+        m.joints.back().ball_damping = 0.02;
+    }
+    place(world, m, "bar");
+    Simulation sim(world);
+    ASSERT_EQ(sim.type(0).loops.size(), 1u);
+    sim.states[0].v[0] = 2;
+    sim.run(1);
+    EXPECT_NEAR(sim.states[0].v[0] / (2 * std::exp(-0.04 / box_inertia(2.0, {1, 0.2, 0.3}).r0.x)), 1, 1e-3);
+}
+
 TEST(JointSpring, SwingsByTheCosineAboutItsReference) {
     const World world =
         hinge({}, 1e-3, [](AxisSpec& axis) { axis.spring_stiffness = 50, axis.spring_reference = 0.3; });

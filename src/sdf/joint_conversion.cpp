@@ -150,26 +150,29 @@ double screw_pitch(const Element& source, const Import& import) {
 }
 
 /// An axis that this kind of joint does not have, but that says something.
-void report_unused_axis(const Element& source, const char* name, const Import& import) {
+void report_unused_axis(JointSpec& spec, const Element& source, const char* name, const Import& import) {
     const Element axis = source.child(name);
     if (!axis) return;
     AxisSpec says;
     read_limit(axis.child("limit"), import.reader, says);
     read_dynamics(axis.child("dynamics"), import.reader, says);
+    // A ball joint has no axis to turn about, but damping can be the same in all directions.
+    if (spec.kind == JointSpecKind::kBall) std::swap(spec.ball_damping, says.damping);
     const bool limited =
         says.lower > -1e15 || says.upper < 1e15 || says.max_effort >= 0 || says.max_velocity >= 0;
     const bool dynamic = says.damping != 0 || says.friction != 0 || says.spring_stiffness != 0;
     if (!limited && !dynamic && !axis.child("mimic")) return;
-    import.diagnostics().warning(axis.where(), "unused-axis",
-                                 "joint '" + std::string(source.name()) + "' of type '" +
-                                     source.node.attribute("type").value() + "' has no <" + name +
-                                     ">: its limits, damping, friction, springs and mimic are ignored",
-                                 "Use a joint with that axis, or several hinges in a row.");
+    import.diagnostics().warning(
+        axis.where(), "unused-axis",
+        "joint '" + std::string(source.name()) + "' of type '" + source.node.attribute("type").value() +
+            "' has no <" + name + ">: its limits, " + (spec.kind == JointSpecKind::kBall ? "" : "damping, ") +
+            "friction, springs and mimic are ignored",
+        "Use a joint with that axis, or several hinges in a row.");
 }
 
-void report_unused(const JointSpec& spec, const Element& source, const Import& import) {
-    if (axes_of(spec.kind) < 1) report_unused_axis(source, "axis", import);
-    if (axes_of(spec.kind) < 2) report_unused_axis(source, "axis2", import);
+void report_unused(JointSpec& spec, const Element& source, const Import& import) {
+    if (axes_of(spec.kind) < 1) report_unused_axis(spec, source, "axis", import);
+    if (axes_of(spec.kind) < 2) report_unused_axis(spec, source, "axis2", import);
     if (const Element physics = source.child("physics")) {
         import.diagnostics().note(
             physics.where(), "joint-physics",

@@ -188,7 +188,11 @@ TEST(LoadWorld, WhatAJointCannotUseIsReported) {
                              "'><parent>a</parent><child>b</child>" + rest + "</joint></model>");
     };
     const std::string damped = "<xyz>0 0 1</xyz><dynamics><damping>1</damping></dynamics>";
-    EXPECT_NE(load("ball", "<axis>" + damped + "</axis>").find("unused-axis"), nullptr);
+    const std::string rubbed = "<xyz>0 0 1</xyz><dynamics><friction>1</friction></dynamics>";
+    EXPECT_NE(load("ball", "<axis>" + rubbed + "</axis>").find("unused-axis"), nullptr);
+    const Loaded ball = load("ball", "<axis>" + damped + "</axis>");
+    EXPECT_EQ(ball.find("unused-axis"), nullptr);
+    EXPECT_EQ(ball.world->prototypes[0].joints[0].ball_damping, 1);
     EXPECT_NE(
         load("revolute", "<axis><xyz>0 0 1</xyz></axis><axis2>" + damped + "</axis2>").find("unused-axis"),
         nullptr);

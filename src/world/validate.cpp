@@ -148,6 +148,10 @@ class ModelCheck {
             diagnostics_.error(joint.where, "bad-pitch", name + " has a thread without pitch",
                                "Write <screw_thread_pitch> in metres a turn, other than 0.");
         }
+        if (!(joint.ball_damping >= 0)) {
+            diagnostics_.error(joint.where, "bad-dynamics", name + " has a negative damping",
+                               "Write values of at least 0.");
+        }
         for (const AxisSpec& axis : joint.axes) check_axis(joint, axis);
     }
 

@@ -188,6 +188,7 @@ struct JointSpec {
     Pose X_MJ;                   // joint frame in the model frame, all joints at zero
     std::vector<AxisSpec> axes;  // 0 (fixed, ball), 1, or 2 (universal, revolute2)
     double screw_pitch = 0;      // m per radian
+    double ball_damping = 0;     // N m s/rad, in all directions
     // Gearbox: angle of the child against the reference link = -ratio * angle of the parent against it.
     double gearbox_ratio = 1;
     std::string gearbox_reference;  // link name or "world"
