@@ -13,13 +13,13 @@ namespace roboss {
 /// R turned by `angle` about `axis` of its own frame; about a coordinate axis, as joints mostly are, two
 /// columns are mixed.
 inline Mat3 turned(const Mat3& R, const Vec3& axis, double angle) {
-    const auto [sin, cos] = fixed_sincos(angle);
+    const SinCos turn = fixed_sincos(angle);
     const auto mix = [&](auto component_a, auto component_b, double sign) {
         Mat3 result = R;
         for (std::size_t i = 0; i < 3; ++i) {
             Vec3& row = result.row(i);
-            const double a = row.*component_a, b = row.*component_b, s = sign * sin;
-            row.*component_a = cos * a + s * b, row.*component_b = cos * b - s * a;
+            const double a = row.*component_a, b = row.*component_b, s = sign * turn.sin, c = turn.cos;
+            row.*component_a = c * a + s * b, row.*component_b = c * b - s * a;
         }
         return result;
     };
