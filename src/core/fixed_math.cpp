@@ -8,35 +8,6 @@
 namespace roboss {
 namespace {
 
-// pi/2 in three parts of 33 bits and a rest, for Cody-Waite reduction.
-constexpr double kPio2Part1 = 1.57079632673412561417e+00;
-constexpr double kPio2Part2 = 6.07710050630396597660e-11;
-constexpr double kPio2Part3 = 2.02226624871116645580e-21;
-constexpr double kPio2Part3Rest = 8.47842766036889956997e-32;
-constexpr double kTwoOverPi = 6.36619772367581382433e-01;
-
-double sin_kernel(double x) {
-    const double z = x * x;
-    const double r = 8.33333333332248946124e-03 +
-                     z * (-1.98412698298579493134e-04 +
-                          z * (2.75573137070700676789e-06 +
-                               z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
-    return x + z * x * (-1.66666666666666324348e-01 + z * r);
-}
-
-double cos_kernel(double x) {
-    const double z = x * x;
-    const double r =
-        z * (4.16666666666666019037e-02 +
-             z * (-1.38888888888741095749e-03 +
-                  z * (2.48015872894767294178e-05 +
-                       z * (-2.75573143513906633035e-07 +
-                            z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11)))));
-    const double half = 0.5 * z;
-    const double w = 1.0 - half;
-    return w + (((1.0 - w) - half) + z * r);
-}
-
 double atan_positive(double x) {
     constexpr double kHigh[] = {4.63647609000806093515e-01, 7.85398163397448278999e-01,
                                 9.82793723247329054082e-01, 1.57079632679489655800e+00};
@@ -69,23 +40,6 @@ double atan_positive(double x) {
 }
 
 }  // namespace
-
-SinCos fixed_sincos(double angle) {
-    const double n = std::floor(angle * kTwoOverPi + 0.5);
-    const double r = ((angle - n * kPio2Part1) - n * kPio2Part2) - n * kPio2Part3 - n * kPio2Part3Rest;
-    const double s = sin_kernel(r);
-    const double c = cos_kernel(r);
-    switch (static_cast<std::int64_t>(n) & 3) {
-        case 0:
-            return {s, c};
-        case 1:
-            return {c, -s};
-        case 2:
-            return {-s, -c};
-        default:
-            return {-c, s};
-    }
-}
 
 double fixed_sin(double angle) {
     return fixed_sincos(angle).sin;

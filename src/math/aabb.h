@@ -4,33 +4,36 @@
 #include <cmath>
 #include <limits>
 
+#include "core/lanes.h"
 #include "math/vec3.h"
 
 namespace roboss {
 
-struct Aabb {
-    Vec3 min{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-             std::numeric_limits<double>::infinity()};
-    Vec3 max{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-             -std::numeric_limits<double>::infinity()};
+template <class T>
+struct AabbT {
+    static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    Vec3T<T> min{kInfinity, kInfinity, kInfinity};
+    Vec3T<T> max{-kInfinity, -kInfinity, -kInfinity};
 
     bool empty() const { return min.x > max.x; }
-    void include(const Vec3& p) {
-        min = {std::fmin(min.x, p.x), std::fmin(min.y, p.y), std::fmin(min.z, p.z)};
-        max = {std::fmax(max.x, p.x), std::fmax(max.y, p.y), std::fmax(max.z, p.z)};
+    void include(const Vec3T<T>& p) {
+        min = {smaller(min.x, p.x), smaller(min.y, p.y), smaller(min.z, p.z)};
+        max = {larger(max.x, p.x), larger(max.y, p.y), larger(max.z, p.z)};
     }
-    void include(const Aabb& b) {
-        if (b.empty()) return;
-        include(b.min);
-        include(b.max);
+    /// An empty box changes nothing.
+    void include(const AabbT& b) {
+        min = {smaller(min.x, b.min.x), smaller(min.y, b.min.y), smaller(min.z, b.min.z)};
+        max = {larger(max.x, b.max.x), larger(max.y, b.max.y), larger(max.z, b.max.z)};
     }
-    Aabb inflated(double margin) const {
-        const Vec3 m{margin, margin, margin};
+    AabbT inflated(const T& margin) const {
+        const Vec3T<T> m{margin, margin, margin};
         return {min - m, max + m};
     }
-    friend bool operator==(const Aabb&, const Aabb&) = default;
-    Vec3 centre() const { return (min + max) * 0.5; }
+    friend bool operator==(const AabbT&, const AabbT&) = default;
+    Vec3T<T> centre() const { return (min + max) * T(0.5); }
 };
+
+using Aabb = AabbT<double>;
 
 /// Closed boxes: touching counts as overlapping.
 inline bool overlaps(const Aabb& a, const Aabb& b) {

@@ -36,6 +36,11 @@ struct TransformT {
 
 using Transform = TransformT<double>;
 
+template <class T>
+TransformT<T> broadcast(const Transform& X) {
+    return {broadcast<T>(X.R), broadcast<T>(X.p)};
+}
+
 inline Transform to_transform(const Pose& X) {
     return {to_matrix(X.q), X.p};
 }

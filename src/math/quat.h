@@ -53,8 +53,9 @@ Mat3T<T> to_matrix(const QuatT<T>& q) {
 using Quat = QuatT<double>;
 
 /// Rotation by `angle` about the unit vector `axis`.
-inline Quat axis_angle(const Vec3& axis, double angle) {
-    const SinCos h = fixed_sincos(0.5 * angle);
+template <class T>
+QuatT<T> axis_angle(const Vec3T<T>& axis, const T& angle) {
+    const SinCosT<T> h = fixed_sincos(0.5 * angle);
     return {h.cos, axis.x * h.sin, axis.y * h.sin, axis.z * h.sin};
 }
 

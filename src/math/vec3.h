@@ -1,4 +1,4 @@
-// Three-vectors and 3x3 matrices over a scalar T (double, or later a register of lanes). Fixed order of
+// Three-vectors and 3x3 matrices over a number T (double, or lanes: core/lanes.h). Fixed order of
 // operations: a sum of three is always (x + y) + z, so the bits are the same for every compiler and every
 // instruction set.
 #pragma once
@@ -94,6 +94,16 @@ Vec3T<T> transpose_times(const Mat3T<T>& m, const Vec3T<T>& v) {
 
 using Vec3 = Vec3T<double>;
 using Mat3 = Mat3T<double>;
+
+/// A constant that serves all lanes; for T = double itself.
+template <class T>
+Vec3T<T> broadcast(const Vec3& v) {
+    return {T(v.x), T(v.y), T(v.z)};
+}
+template <class T>
+Mat3T<T> broadcast(const Mat3& m) {
+    return {broadcast<T>(m.r0), broadcast<T>(m.r1), broadcast<T>(m.r2)};
+}
 
 /// Two unit vectors that complete n to a right-handed frame (Duff et al., "Building an Orthonormal Basis,
 /// Revisited", 2017).

@@ -85,7 +85,7 @@ void EqualitySolver::prepare(const RobotType& type, std::span<const double> fact
         double* const y = y_.data() + i * n_;
         for (std::size_t c = row.first; c < row.last; ++c)
             y[equalities.columns[c].dof] = equalities.columns[c].j * scale_[i];
-        tree_solve(type.paths, factor, y);
+        tree_solve(type.paths, factor.data(), y);
     }
     for (std::size_t i = 0; i < m_; ++i)
         for (std::size_t j = 0; j < m_; ++j)
@@ -136,7 +136,7 @@ void EqualitySolver::solve(std::span<const double> wanted, std::span<double> cha
 
 void EqualityProjection::place(const RobotType& type, std::span<const double> q) {
     work_.type = &type;
-    place_bodies(type, q, work_);
+    place_bodies<double>(type, q, work_);
     for (BodyWork& body : work_.bodies) body.velocity = body.bias = {};
     gather_equalities(work_, q, equalities_);
     wanted_.resize(equalities_.rows.size());
@@ -153,8 +153,8 @@ void EqualityProjection::close_coordinates(const RobotType& type, std::span<doub
         }
         if (largest <= kClosed) return;
         compute_inertias(type, work_);
-        compute_mass_matrix(type, 0.0, work_);
-        tree_factor(type.paths, work_.mass_matrix);
+        compute_mass_matrix<double>(type, 0.0, work_);
+        tree_factor(type.paths, work_.mass_matrix.data());
         solver_.prepare(type, work_.mass_matrix, equalities_);
         solver_.solve(wanted_, change_);
         double step = 0;
@@ -168,8 +168,8 @@ void EqualityProjection::close_velocities(const RobotType& type, std::span<const
                                           std::span<double> v) {
     place(type, q);
     compute_inertias(type, work_);
-    compute_mass_matrix(type, 0.0, work_);
-    tree_factor(type.paths, work_.mass_matrix);
+    compute_mass_matrix<double>(type, 0.0, work_);
+    tree_factor(type.paths, work_.mass_matrix.data());
     solver_.prepare(type, work_.mass_matrix, equalities_);
     for (std::size_t r = 0; r < wanted_.size(); ++r)
         wanted_[r] = -times_row(equalities_, equalities_.rows[r], v);

@@ -80,7 +80,7 @@ bool gather_island(const Model& model, std::span<RobotWork> robots, GroupScratch
         s.island_robots.push_back(&work);
         s.island_offsets.push_back(offset);
         compute_impulse(model, model.dt_s, 1.0, work.state->q, work.state->v, work);
-        compute_mass_matrix(*work.type, model.dt_s, work);
+        compute_mass_matrix<double>(*work.type, model.dt_s, work);
         split |= add_joint_rows(model, work, offset, s.buffer, s.rows);
         s.v.insert(s.v.end(), work.state->v.begin(), work.state->v.end());
     }

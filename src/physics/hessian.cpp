@@ -205,11 +205,11 @@ bool Hessian::solve(std::span<double> x) {
     }
     const DofPaths& paths = robots_[0]->type->paths;
     if (coupled_) {
-        if (!tree_factor_general(paths, h_, upper_)) return false;
-        tree_solve_general(paths, h_, upper_, x.data());
+        if (!tree_factor_general(paths, h_.data(), upper_.data())) return false;
+        tree_solve_general(paths, h_.data(), upper_.data(), x.data());
     } else {
-        tree_factor(paths, h_);
-        tree_solve(paths, h_, x.data());
+        tree_factor(paths, h_.data());
+        tree_solve(paths, h_.data(), x.data());
     }
     return true;
 }

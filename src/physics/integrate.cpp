@@ -73,17 +73,17 @@ void free_acceleration(const Model& model, std::span<const double> q, std::span<
                        FreeBuffer& free) {
     RobotWork& buffer = free.work;
     const RobotType& type = *buffer.type;
-    place_bodies(type, q, buffer);
-    move_bodies(type, v, buffer);
+    place_bodies<double>(type, q, buffer);
+    move_bodies<double>(type, v, buffer);
     compute_impulse(model, 1.0, 0.0, q, v, buffer);
-    compute_mass_matrix(type, 0.0, buffer);
+    compute_mass_matrix<double>(type, 0.0, buffer);
     for (std::size_t d = 0; d < type.dofs.size(); ++d) {
         const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
         buffer.impulse[i] -= type.dofs[d].damping * v[i];
     }
-    tree_factor(type.paths, buffer.mass_matrix);
+    tree_factor(type.paths, buffer.mass_matrix.data());
     buffer.velocity = buffer.impulse;
-    tree_solve(type.paths, buffer.mass_matrix, buffer.velocity.data());
+    tree_solve(type.paths, buffer.mass_matrix.data(), buffer.velocity.data());
     if (type.has_equalities()) add_equality_acceleration(free, q);
 }
 

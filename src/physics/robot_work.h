@@ -14,38 +14,47 @@ namespace roboss {
 
 constexpr double kBaseMargin = 0.002;  // m: what gravity and solving may add to the way of one tick
 
-struct BodyWork {
-    Transform X_WB;
-    Vec3 centre;             // of mass, from O, world axes
-    Spatial velocity;        // about O
-    Spatial bias;            // acceleration with all joint accelerations zero
-    SpatialInertia inertia;  // of the body, then of its whole subtree
-    Spatial impulse;         // momentum minus dt * bias force, summed over the subtree
+template <class T>
+struct BodyWorkT {
+    TransformT<T> X_WB;
+    Vec3T<T> centre;             // of mass, from O, world axes
+    SpatialT<T> velocity;        // about O
+    SpatialT<T> bias;            // acceleration with all joint accelerations zero
+    SpatialInertiaT<T> inertia;  // of the body, then of its whole subtree
+    SpatialT<T> impulse;         // momentum minus dt * bias force, summed over the subtree
 };
+using BodyWork = BodyWorkT<double>;
 
-struct ShapeWork {
-    Transform X_WS;
-    Aabb box;           // inflated by `margin`
-    double margin = 0;  // contact margin of this shape at this tick, m
+template <class T>
+struct ShapeWorkT {
+    TransformT<T> X_WS;
+    AabbT<T> box;  // inflated by `margin`
+    T margin{};    // contact margin of this shape at this tick, m
 };
+using ShapeWork = ShapeWorkT<double>;
 
-struct RobotWork {
-    RobotId id;
+/// The mechanics of a robot (T = double), or of a few of one type in lanes.
+template <class T>
+struct Mechanics {
     const RobotType* type = nullptr;
-    RobotState* state = nullptr;
-    Vec3 origin;  // O: the base origin, m, world
-    std::vector<BodyWork> bodies;
-    std::vector<Spatial> axes;        // one a degree of freedom: motion of its body per unit of v, about O
-    std::vector<double> mass_matrix;  // packed by the type's paths; implicit damping and springs included
-    std::vector<double> impulse;      // nv: M v + dt (applied - bias); the free velocity is M^-1 of it
-    std::vector<double> velocity;     // nv: solved
-    std::vector<ShapeWork> shapes;
-    Aabb box;                    // interaction bound
-    int contacts = 0;            // contact points that involve this robot
+    Vec3T<T> origin;  // O: the base origin, m, world
+    std::vector<BodyWorkT<T>> bodies;
+    std::vector<SpatialT<T>> axes;  // one a degree of freedom: motion of its body per unit of v, about O
+    std::vector<T> mass_matrix;     // packed by the type's paths; implicit damping and springs included
+    std::vector<T> impulse;         // nv: M v + dt (applied - bias); the free velocity is M^-1 of it
+    std::vector<T> velocity;        // nv: solved
+    std::vector<ShapeWorkT<T>> shapes;
+    AabbT<T> box;                // interaction bound
+    T speed{};                   // m/s, no point of its shapes is faster
     bool touches_robot = false;  // has a contact with another robot or itself
-    double speed = 0;            // m/s, no point of its shapes is faster
-    bool ordered = false;        // an order changed it at this tick
-    bool asleep = false;         // then nothing but the box is known, unless `placed`
+};
+
+struct RobotWork : Mechanics<double> {
+    RobotId id;
+    RobotState* state = nullptr;
+    int contacts = 0;      // contact points that involve this robot
+    bool ordered = false;  // an order changed it at this tick
+    bool asleep = false;   // then nothing but the box is known, unless `placed`
     bool placed = false;
     bool held = false;    // rows act on it: it does not move freely
     bool pushed = false;  // a contact gives it an impulse in this tick
@@ -55,10 +64,13 @@ struct RobotWork {
 /// is.
 void place_robot(const Model& model, RobotId id, RobotState& state, RobotWork& work);
 
-/// Parts of RobotWork in the order of computing. `dt` in s.
-void place_bodies(const RobotType& type, std::span<const double> q, RobotWork& work);
-void move_bodies(const RobotType& type, std::span<const double> v, RobotWork& work);
-void place_shapes(const RobotType& type, double dt, RobotWork& work);
+/// Parts of it in the order of computing (dynamics.h); `dt` in s.
+template <class T>
+void place_bodies(const RobotType& type, std::span<const T> q, Mechanics<T>& work);
+template <class T>
+void move_bodies(const RobotType& type, std::span<const T> v, Mechanics<T>& work);
+template <class T>
+void place_shapes(const RobotType& type, double dt, std::span<const T> q, Mechanics<T>& work);
 /// work.impulse = momentum_weight * M v + dt * (applied - bias); with (1, 0) the generalised force alone.
 /// With a weight, drag is taken implicitly: part of it then stands in the bodies' inertias, for
 /// compute_mass_matrix.
@@ -66,6 +78,7 @@ void compute_impulse(const Model& model, double dt, double momentum_weight, std:
                      std::span<const double> v, RobotWork& work);
 /// Inertias of the bodies alone, as compute_impulse sets them on its way; compute_mass_matrix needs them.
 void compute_inertias(const RobotType& type, RobotWork& work);
-void compute_mass_matrix(const RobotType& type, double dt, RobotWork& work);
+template <class T>
+void compute_mass_matrix(const RobotType& type, double dt, Mechanics<T>& work);
 
 }  // namespace roboss

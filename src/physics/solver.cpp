@@ -159,7 +159,8 @@ double row_slope(IslandRows& rows, double alpha) {
 void IslandSolver::times_mass(const Problem& p, std::span<const double> x, std::vector<double>& y) const {
     for (std::size_t r = 0; r < p.robots.size(); ++r) {
         const auto offset = static_cast<std::size_t>(p.offsets[r]);
-        tree_times(p.robots[r]->type->paths, p.robots[r]->mass_matrix, x.data() + offset, y.data() + offset);
+        tree_times(p.robots[r]->type->paths, p.robots[r]->mass_matrix.data(), x.data() + offset,
+                   y.data() + offset);
     }
 }
 

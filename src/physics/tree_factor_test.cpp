@@ -54,13 +54,13 @@ TEST(TreeFactor, SolvesAsTheProductSays) {
             Example factor = e;
             std::vector<double> x = e.times(wanted), y(n);
             if (symmetric) {
-                tree_times(e.paths, e.lower, wanted.data(), y.data());
+                tree_times(e.paths, e.lower.data(), wanted.data(), y.data());
                 for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(y[i], x[i], 1e-13);
-                tree_factor(e.paths, factor.lower);
-                tree_solve(e.paths, factor.lower, x.data());
+                tree_factor(e.paths, factor.lower.data());
+                tree_solve(e.paths, factor.lower.data(), x.data());
             } else {
-                ASSERT_TRUE(tree_factor_general(e.paths, factor.lower, factor.upper));
-                tree_solve_general(e.paths, factor.lower, factor.upper, x.data());
+                ASSERT_TRUE(tree_factor_general(e.paths, factor.lower.data(), factor.upper.data()));
+                tree_solve_general(e.paths, factor.lower.data(), factor.upper.data(), x.data());
             }
             for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(x[i], wanted[i], 1e-11) << "seed " << seed;
         }
@@ -70,7 +70,7 @@ TEST(TreeFactor, SolvesAsTheProductSays) {
 TEST(TreeFactor, AMatrixWithoutPositivePivotsIsRefused) {
     Example e(3, 4, false);
     e.lower[0] = -1;
-    EXPECT_FALSE(tree_factor_general(e.paths, e.lower, e.upper));
+    EXPECT_FALSE(tree_factor_general(e.paths, e.lower.data(), e.upper.data()));
 }
 
 }  // namespace
