@@ -189,12 +189,6 @@ std::vector<Case> free_motion_cases() {
              {{"energy drift, largest in 10 s", "", 1e-6}, {"end point at 2 s", "m", 1e-6}},
              swing_arm};
     arm.also_coarse = true;
-    arm.remark =
-        "At 2 s the last joint turns at 24 rad/s. The classical Runge-Kutta method is of fourth order: the "
-        "end point's "
-        "error is 1.8e-5 m at 1 ms, 1.0e-6 at 0.5 ms, 6e-8 at 0.25 ms. Two to three parts of a tick, or a "
-        "method of "
-        "sixth order, would keep the bound at 1 ms.";
     Case pendulum{"double-pendulum",
                   "Double pendulum from 149 degrees, chaotic, 2 s",
                   "the same reference as the arm's",

@@ -82,10 +82,6 @@ std::vector<Case> motor_cases() {
                   {"at its target, relative", "", 1e-9},
                   {"at its target, swinging a load of 4.9 N m, worst", "", 1e-9}},
                  velocity_limit};
-    limited.remark =
-        "Under load a hard row gives way by its compliance, a millionth of the mobility that it acts on: "
-        "1e-6 x (4.9 N m "
-        "x 1 ms) / 0.33 kg m^2 = 1.5e-8 rad/s, which is 2.1e-8 of the target.";
     return {stalled, limited};
 }
 

@@ -99,8 +99,10 @@ struct Apply {
     void operator()(const SetJoint& a) const {
         const Joint& joint = type.joints[a.joint.index()];
         const double bound = type.dof(joint, a.axis).max_effort;
-        state.motors[type.motor_index(joint, a.axis)] = {
-            a.mode, a.target, a.max_effort < 0 ? bound : std::fmin(a.max_effort, bound)};
+        MotorSetpoint& motor = state.motors[type.motor_index(joint, a.axis)];
+        if (motor.mode != a.mode) motor.impulse = motor.load = 0;
+        motor.mode = a.mode, motor.target = a.target;
+        motor.max_effort = a.max_effort < 0 ? bound : std::fmin(a.max_effort, bound);
     }
 };
 

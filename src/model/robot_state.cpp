@@ -36,7 +36,7 @@ std::uint64_t state_hash(RobotId robot, Tick tick, const RobotState& state) {
     hash.add(std::span<const double>(state.v));
     for (const MotorSetpoint& m : state.motors) {
         hash.add(static_cast<std::uint64_t>(m.mode));
-        hash.add(m.target), hash.add(m.max_effort);
+        for (double x : {m.target, m.max_effort, m.impulse, m.load}) hash.add(x);
     }
     for (const TimedWrench& w : state.wrenches) {
         hash.add(static_cast<std::uint64_t>(w.link.value));
@@ -142,7 +142,8 @@ void encode(const RobotState& state, std::vector<std::uint8_t>& out) {
     for (double x : state.q) w.number(x);
     for (double x : state.v) w.number(x);
     for (const MotorSetpoint& m : state.motors)
-        w.word(static_cast<std::uint64_t>(m.mode)), w.number(m.target), w.number(m.max_effort);
+        w.word(static_cast<std::uint64_t>(m.mode)), w.number(m.target), w.number(m.max_effort),
+            w.number(m.impulse), w.number(m.load);
     for (const TimedWrench& t : state.wrenches)
         w.word(t.link.value), w.vector(t.force), w.vector(t.torque),
             w.word(static_cast<std::uint64_t>(t.until));
@@ -174,6 +175,7 @@ Result<RobotState> decode_state(std::span<const std::uint8_t> bytes, const Robot
         if (mode > static_cast<std::uint64_t>(MotorMode::kEffort))
             return Error{"a state names a motor mode that does not exist", "the bytes are damaged"};
         m.target = r.number(), m.max_effort = r.number();
+        m.impulse = r.number(), m.load = r.number();
     }
     for (TimedWrench& t : state.wrenches) {
         const std::uint64_t link = r.word();

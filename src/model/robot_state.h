@@ -19,6 +19,8 @@ struct MotorSetpoint {
     MotorMode mode = MotorMode::kPassive;
     double target = 0;      // rad/s, rad, N m (or m/s, m, N)
     double max_effort = 0;  // bound in force, N m or N
+    double impulse = 0;     // that it gave in the last tick, N m s or N s
+    double load = 0;  // the smaller of the last two impulses, of one sign: what a hard motor starts from
     friend bool operator==(const MotorSetpoint&, const MotorSetpoint&) = default;
 };
 

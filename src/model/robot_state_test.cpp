@@ -19,12 +19,15 @@ std::shared_ptr<const Model> two_robots() {
     return compile(world, {}, diagnostics);
 }
 
+constexpr std::size_t kMotorWords = 5;
+
 class StateBytes : public testing::Test {
   protected:
     StateBytes() : state_(initial_state(*model_, RobotId(std::size_t{0}))) {
         state_.v[3] = 5e-324;  // the smallest denormal
         state_.v[4] = -0.0;
-        state_.motors[2] = {MotorMode::kPosition, 1.0 / 3, std::numeric_limits<double>::infinity()};
+        state_.motors[2] = {MotorMode::kPosition, 1.0 / 3, std::numeric_limits<double>::infinity(), 0.3,
+                            -0.2};
         state_.wrenches.push_back({LinkId(std::size_t{3}), {1, 2, 3}, {4, 5, 6}, -7});
         state_.contacts.push_back({RobotId::kNone, 1, 2, 3, 0.25, 0.125, {0.1, -0.2, 0.3}});
         state_.contacts.push_back({4, 0xFFFFFFFFu, 0xFFFFFFFEu, 0xFFFFFFFDu, 1e300, 0, {}});
@@ -38,7 +41,7 @@ class StateBytes : public testing::Test {
             bytes_[8 * index + i] = static_cast<std::uint8_t>(word >> (8 * i));
     }
     std::size_t motors_at() const { return 5 + state_.q.size() + state_.v.size(); }
-    std::size_t wrenches_at() const { return motors_at() + 3 * state_.motors.size(); }
+    std::size_t wrenches_at() const { return motors_at() + kMotorWords * state_.motors.size(); }
 
     std::shared_ptr<const Model> model_ = two_robots();
     RobotState state_;
@@ -98,7 +101,7 @@ TEST_F(StateBytes, MotorModesThatDoNotExistAreRefused) {
     for (const std::uint64_t mode :
          {std::uint64_t{4}, std::uint64_t{255}, std::uint64_t{1} << 32, ~std::uint64_t{0}}) {
         bytes_ = original;
-        put_word(motors_at() + 3, mode);
+        put_word(motors_at() + kMotorWords, mode);
         EXPECT_FALSE(accepts(bytes_)) << mode;
     }
 }

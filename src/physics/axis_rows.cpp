@@ -1,5 +1,6 @@
 // Motors, joint friction and limits as bounded rows: the solver gives exactly the bound when a motor stalls,
-// and exactly the target velocity when it does not.
+// and exactly the target velocity when it does not. A hard motor's row starts from its load, as
+// contacts do: it gives way only by what its load changes in a tick.
 #include "physics/axis_rows.h"
 
 #include <algorithm>
@@ -76,6 +77,7 @@ void add_motor(const AxisState& s, std::vector<BoundedRow>& rows) {
             break;
         }
     }
+    if (has_hard_motor(s)) row.target += s.compliance * s.motor.load;
     row.position_target = row.target;
     rows.push_back(row);
 }
@@ -129,6 +131,12 @@ bool add_axis_rows(const AxisState& axis, std::vector<BoundedRow>& rows) {
     const double friction = axis.dof.friction * axis.dt;
     if (friction > 0) rows.push_back(bounded_row(0.0, axis.compliance, -friction, friction));
     return axis.has_position && add_limits(axis, rows);
+}
+
+bool has_hard_motor(const AxisState& axis) {
+    const MotorMode mode = axis.motor.mode;
+    return (mode == MotorMode::kVelocity && !(axis.dof.velocity_gain > 0)) ||
+           (mode == MotorMode::kPosition && !(axis.dof.position_gain > 0));
 }
 
 bool is_left_alone(const AxisState& axis) {

@@ -27,6 +27,9 @@ struct AxisState {
 /// Rows of the axis, appended. Returns true if a hard limit is violated and so has something to mend.
 bool add_axis_rows(const AxisState& axis, std::vector<BoundedRow>& rows);
 
+/// True if the axis' motor is hard, one without gains: its row, the first, starts from the motor's load.
+bool has_hard_motor(const AxisState& axis);
+
 /// True if no row acts on the axis and none will in this tick.
 bool is_left_alone(const AxisState& axis);
 

@@ -2,6 +2,7 @@
 #include "physics/group_step.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace roboss {
 namespace {
@@ -96,8 +97,19 @@ bool gather_island(const Model& model, std::span<RobotWork> robots, GroupScratch
     return split;
 }
 
-/// The solved impulses, into the contacts: what the next tick starts from.
+/// A blow is not a load: the smaller of the last two impulses, if they push the same way.
+void remember_load(double impulse, MotorSetpoint& motor) {
+    const bool lasts = impulse * motor.impulse > 0;
+    motor.load = lasts ? std::copysign(std::fmin(std::fabs(impulse), std::fabs(motor.impulse)), impulse) : 0;
+    motor.impulse = impulse;
+}
+
+/// The solved impulses, into motors and contacts: what the next tick starts from.
 void take_impulses(GroupScratch& s) {
+    for (const JointRow& row : s.rows.joints)
+        if (row.motor != nullptr) remember_load(row.impulse, *row.motor);
+    for (const CouplingRow& row : s.rows.couplings)
+        if (row.motor != nullptr) remember_load(row.impulse, *row.motor);
     for (std::size_t c = 0; c < s.rows.contacts.size(); ++c) {
         const ContactRow& row = s.rows.contacts[c];
         Contact& contact = *s.island_contacts[c];

@@ -96,30 +96,71 @@ int parts_of_tick(const RobotWork& work, double dt) {
     return static_cast<int>(std::ceil(std::clamp(std::sqrt(fastest) * dt / kTurnMax, 1.0, kPartsMax)));
 }
 
+/// An explicit Runge-Kutta method: stage s starts from the rates of those before it, weighed by `from[s]`.
+struct Method {
+    std::size_t stages;
+    std::array<std::array<double, 6>, 7> from;
+    std::array<double, 7> weight;
+};
+
+/// The classical method, of fourth order.
+constexpr Method kClassical{
+    4, {{{}, {0.5}, {0.0, 0.5}, {0.0, 0.0, 1.0}}}, {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6}};
+
+/// Of sixth order with the fewest stages that one can have (Butcher, On Runge-Kutta processes of high order,
+/// 1964).
+constexpr Method kButcher{7,
+                          {{{},
+                            {1.0 / 3},
+                            {0.0, 2.0 / 3},
+                            {1.0 / 12, 1.0 / 3, -1.0 / 12},
+                            {-1.0 / 16, 9.0 / 8, -3.0 / 16, -3.0 / 8},
+                            {0.0, 9.0 / 8, -3.0 / 8, -3.0 / 4, 1.0 / 2},
+                            {9.0 / 44, -9.0 / 11, 63.0 / 44, 18.0 / 11, 0.0, -16.0 / 11}}},
+                          {11.0 / 120, 0.0, 27.0 / 40, 27.0 / 40, -4.0 / 15, -4.0 / 15, 11.0 / 120}};
+
+/// Links on joints whip each other round far faster than they swing; a lone body has nothing that does.
+const Method& method_of(const RobotType& type) {
+    return type.dofs.empty() ? kClassical : kButcher;
+}
+
+/// to = from + dt * (rates of the stages, weighed); `rates` holds one stage after the other.
+void add_rates(std::span<const double> from, double dt, std::span<const double> weights,
+               std::span<const double> rates, std::span<double> sum, std::span<double> to) {
+    const std::size_t size = from.size();
+    std::fill(sum.begin(), sum.end(), 0.0);
+    for (std::size_t stage = 0; stage < weights.size(); ++stage) {
+        if (weights[stage] == 0) continue;
+        const auto rate = rates.subspan(stage * size, size);
+        for (std::size_t i = 0; i < size; ++i) sum[i] += weights[stage] * rate[i];
+    }
+    for (std::size_t i = 0; i < size; ++i) to[i] = from[i] + dt * sum[i];
+}
+
 /// One step of the method, of length `dt`.
 void advance_part(const Model& model, double dt, RobotWork& work, FreeBuffer& buffer) {
     const RobotType& type = *work.type;
+    const Method& method = method_of(type);
     RobotState& state = *work.state;
-    constexpr std::array<double, 4> kAt{0.0, 0.5, 0.5, 1.0};
-    constexpr std::array<double, 4> kWeight{1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
     const std::size_t nq = state.q.size(), nv = state.v.size();
-    for (auto* sized_q : {&buffer.q, &buffer.q_rate, &buffer.q_sum}) sized_q->assign(nq, 0.0);
-    for (auto* sized_v : {&buffer.v, &buffer.v_rate, &buffer.v_sum}) sized_v->assign(nv, 0.0);
+    for (auto* sized_q : {&buffer.q, &buffer.q_sum}) sized_q->resize(nq);
+    for (auto* sized_v : {&buffer.v, &buffer.v_sum}) sized_v->resize(nv);
+    buffer.q_rates.resize(method.stages * nq), buffer.v_rates.resize(method.stages * nv);
     buffer.work.type = work.type;
     buffer.work.state = work.state;
-    for (std::size_t stage = 0; stage < 4; ++stage) {
-        const double h = dt * kAt[stage];
-        for (std::size_t i = 0; i < nq; ++i) buffer.q[i] = state.q[i] + h * buffer.q_rate[i];
-        for (std::size_t i = 0; i < nv; ++i) buffer.v[i] = state.v[i] + h * buffer.v_rate[i];
+    for (std::size_t stage = 0; stage < method.stages; ++stage) {
+        const auto weights = std::span(method.from[stage]).first(stage);
+        add_rates(state.q, dt, weights, buffer.q_rates, buffer.q_sum, buffer.q);
+        add_rates(state.v, dt, weights, buffer.v_rates, buffer.v_sum, buffer.v);
         normalise(type, buffer.q);
-        coordinate_rate(type, buffer.q, buffer.v, buffer.q_rate);
+        coordinate_rate(type, buffer.q, buffer.v, std::span(buffer.q_rates).subspan(stage * nq, nq));
         free_acceleration(model, buffer.q, buffer.v, buffer);
-        buffer.v_rate = buffer.work.velocity;
-        for (std::size_t i = 0; i < nq; ++i) buffer.q_sum[i] += kWeight[stage] * buffer.q_rate[i];
-        for (std::size_t i = 0; i < nv; ++i) buffer.v_sum[i] += kWeight[stage] * buffer.v_rate[i];
+        std::copy(buffer.work.velocity.begin(), buffer.work.velocity.end(),
+                  buffer.v_rates.begin() + static_cast<std::ptrdiff_t>(stage * nv));
     }
-    for (std::size_t i = 0; i < nq; ++i) state.q[i] += dt * buffer.q_sum[i];
-    for (std::size_t i = 0; i < nv; ++i) state.v[i] += dt * buffer.v_sum[i];
+    const auto weights = std::span(method.weight).first(method.stages);
+    add_rates(state.q, dt, weights, buffer.q_rates, buffer.q_sum, state.q);
+    add_rates(state.v, dt, weights, buffer.v_rates, buffer.v_sum, state.v);
     normalise(type, state.q);
     if (!type.has_equalities()) return;
     buffer.projection.close_coordinates(type, state.q);

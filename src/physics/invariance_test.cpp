@@ -236,8 +236,8 @@ TEST(StateHash, ChangesWithEveryBitOfTheState) {
         for (double& x : state.v) expect_every_bit_counts(state, x);
         for (MotorSetpoint& m : state.motors) {
             expect_every_bit_counts(state, m.mode);
-            expect_every_bit_counts(state, m.target);
-            expect_every_bit_counts(state, m.max_effort);
+            for (double* x : {&m.target, &m.max_effort, &m.impulse, &m.load})
+                expect_every_bit_counts(state, *x);
         }
         TimedWrench& w = state.wrenches[0];
         for (double* x : {&w.force.x, &w.force.y, &w.force.z, &w.torque.x, &w.torque.y, &w.torque.z})

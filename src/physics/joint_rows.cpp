@@ -36,9 +36,10 @@ class LoopRowWriter {
     LoopRowWriter(const RobotWork& robot, const LoopJoint& loop, int offset, IslandRows& rows)
         : robot_(robot), loop_(loop), offset_(offset), rows_(rows) {}
 
-    void add(const BoundedRow& bounded, const Spatial& wrench) {
+    void add(const BoundedRow& bounded, const Spatial& wrench, MotorSetpoint* motor = nullptr) {
         CouplingRow row;
         static_cast<BoundedRow&>(row) = bounded;
+        row.motor = motor;
         row.first = rows_.coupling_columns.size();
         visit_between(*robot_.type, loop_.body_a, loop_.body_b, [&](std::size_t k, double sign) {
             rows_.coupling_columns.push_back(
@@ -98,7 +99,7 @@ bool add_loop_axes(const Model& model, const RobotWork& robot, const LoopJoint& 
     for (std::size_t k = 0; k < free.count; ++k) {
         const FreeDirection& direction = free.directions[k];
         const Dof& dof = loop.dofs[k];
-        const MotorSetpoint& motor = robot.state->motors[static_cast<std::size_t>(loop.motor_index) + k];
+        MotorSetpoint& motor = robot.state->motors[static_cast<std::size_t>(loop.motor_index) + k];
         const AxisState axis{dof,
                              motor,
                              near(direction.position, motor.target, loop, dof),
@@ -108,7 +109,8 @@ bool add_loop_axes(const Model& model, const RobotWork& robot, const LoopJoint& 
                              loop.kind != JointSpecKind::kBall};
         buffer.clear();
         mends |= add_axis_rows(axis, buffer);
-        for (const BoundedRow& row : buffer) writer.add(row, direction.wrench);
+        for (std::size_t r = 0; r < buffer.size(); ++r)
+            writer.add(buffer[r], direction.wrench, r == 0 && has_hard_motor(axis) ? &motor : nullptr);
         add_spring(axis, near(direction.position, dof.spring_reference, loop, dof), direction.wrench, writer);
     }
     return mends;
@@ -152,11 +154,13 @@ bool add_joint_rows(const Model& model, const RobotWork& robot, int offset, RowB
     bool mends = false;
     for (std::size_t d = 0; d < type.dofs.size(); ++d) {
         buffer.axis.clear();
-        mends |= add_axis_rows(tree_axis(model, robot, d), buffer.axis);
-        for (const BoundedRow& bounded : buffer.axis) {
+        const AxisState axis = tree_axis(model, robot, d);
+        mends |= add_axis_rows(axis, buffer.axis);
+        for (std::size_t r = 0; r < buffer.axis.size(); ++r) {
             JointRow row;
-            static_cast<BoundedRow&>(row) = bounded;
+            static_cast<BoundedRow&>(row) = buffer.axis[r];
             row.dof = offset + type.base_nv() + static_cast<int>(d);
+            if (r == 0 && has_hard_motor(axis)) row.motor = &robot.state->motors[d];
             rows.joints.push_back(row);
         }
     }

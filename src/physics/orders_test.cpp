@@ -111,10 +111,27 @@ TEST(Orders, JointSetpointLatchesAndTheLastOrderOfATickWins) {
     const JointId joint(std::size_t{0});
     step_with(sim, {order(0, SetJoint{joint, 0, MotorMode::kVelocity, 5, 3}),
                     order(0, SetJoint{joint, 0, MotorMode::kVelocity, 0.5, 100}, 1)});
-    EXPECT_EQ(sim.states[0].motors[0], (MotorSetpoint{MotorMode::kVelocity, 0.5, 10}))
-        << "never more than the axis' effort";
+    const MotorSetpoint& motor = sim.states[0].motors[0];
+    EXPECT_EQ(motor.mode, MotorMode::kVelocity);
+    EXPECT_EQ(motor.target, 0.5);
+    EXPECT_EQ(motor.max_effort, 10) << "never more than the axis' effort";
     sim.run(1);
     EXPECT_NEAR(sim.states[0].v[0], 0.5, 1e-9);
+}
+
+TEST(Orders, AMotorKeepsItsLoadFromOrderToOrderOfAModeAndLosesItWithTheMode) {
+    World world = empty_world(1e-3, {});
+    place(world, pendulum(), "pendulum");
+    Simulation sim(world);
+    MotorSetpoint& motor = sim.states[0].motors[0];
+    motor = {MotorMode::kPosition, 0, 10, 0.5, 0.25};
+    const auto drive = [&](MotorMode mode) {
+        apply_order(*sim.model, order(0, SetJoint{JointId(std::size_t{0}), 0, mode, 1, 3}), sim.states[0]);
+    };
+    drive(MotorMode::kPosition);
+    EXPECT_EQ(motor, (MotorSetpoint{MotorMode::kPosition, 1, 3, 0.5, 0.25}));
+    drive(MotorMode::kPassive);
+    EXPECT_EQ(motor, (MotorSetpoint{MotorMode::kPassive, 1, 3}));
 }
 
 TEST(Orders, OrdersForRobotsOutsideTheIslandAreLeftAlone) {

@@ -40,7 +40,8 @@ struct FrictionDisc {
 
 /// Motor, joint friction or limit: a row on one degree of freedom.
 struct JointRow : BoundedRow {
-    int dof = 0;  // in the contact island
+    int dof = 0;                     // in the contact island
+    MotorSetpoint* motor = nullptr;  // that remembers its load
 };
 
 /// One entry of a coupling row's Jacobian.
@@ -52,6 +53,7 @@ struct CouplingColumn {
 /// A row over several degrees of freedom of one robot (gearbox, mimic, closed loop): u = sum of j * v.
 struct CouplingRow : BoundedRow {
     std::size_t first = 0, last = 0;  // columns
+    MotorSetpoint* motor = nullptr;   // that remembers its load
 };
 
 /// Columns of the contacts' Jacobians: velocity of A against B at the point, along (normal, tangent 1,
