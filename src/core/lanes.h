@@ -150,25 +150,38 @@ auto either(const Mask& m, Yes&& yes, No&& no) {
 template <class T>
 class Lockstep {
   public:
-    bool operator()(const MaskOf<T>& condition) {
-        const unsigned yes = LaneTraits<T>::bits(condition) & present_, no = present_ & ~yes;
-        const bool go = __builtin_popcount(yes) >= __builtin_popcount(no) && yes != 0;
-        present_ = go ? yes : no;
+    bool operator()(const MaskOf<T>& condition) { return vote(condition, present_); }
+    /// The vote of those who are not `done`; these stay, whatever comes of it.
+    bool without(const MaskOf<T>& done, const MaskOf<T>& condition) {
+        const unsigned resting = LaneTraits<T>::bits(done) & present_;
+        present_ &= ~resting;
+        const bool go = vote(condition, present_);
+        present_ |= resting;
         return go;
     }
-    void enter(unsigned lanes) { present_ = lanes; }
+    bool all(const MaskOf<T>& condition) const { return (present_ & ~LaneTraits<T>::bits(condition)) == 0; }
+    bool any() const { return present_ != 0; }
+    void leave(std::size_t lane) { present_ &= ~(1u << lane); }
     /// Bit i: lane i is still there.
     unsigned present() const { return present_; }
 
   private:
+    bool vote(const MaskOf<T>& condition, unsigned voters) {
+        const unsigned yes = LaneTraits<T>::bits(condition) & voters, no = voters & ~yes;
+        const bool go = yes != 0 && __builtin_popcount(yes) >= __builtin_popcount(no);
+        present_ = go ? yes : no;
+        return go;
+    }
+
     unsigned present_ = kAllLanes<T>;
 };
 template <>
 class Lockstep<double> {
   public:
     bool operator()(bool condition) { return condition; }
-    void enter(unsigned) {}
-    unsigned present() const { return 1; }
+    bool without(bool done, bool condition) { return !done && condition; }
+    bool all(bool condition) const { return condition; }
+    bool any() const { return true; }
 };
 
 }  // namespace roboss

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/lanes.h"
+
 namespace roboss {
 
 template <class T>
@@ -107,11 +109,12 @@ Mat3T<T> broadcast(const Mat3& m) {
 
 /// Two unit vectors that complete n to a right-handed frame (Duff et al., "Building an Orthonormal Basis,
 /// Revisited", 2017).
-inline void tangents(const Vec3& n, Vec3& t1, Vec3& t2) {
-    const double sign = n.z >= 0.0 ? 1.0 : -1.0;
-    const double a = -1.0 / (sign + n.z);
-    const double b = n.x * n.y * a;
-    t1 = {1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x};
+template <class T>
+void tangents(const Vec3T<T>& n, Vec3T<T>& t1, Vec3T<T>& t2) {
+    const T sign = select(n.z >= T(0), T(1), T(-1));
+    const T a = T(-1) / (sign + n.z);
+    const T b = n.x * n.y * a;
+    t1 = {T(1) + sign * n.x * n.x * a, sign * b, -sign * n.x};
     t2 = {b, sign + n.y * n.y * a, -n.y};
 }
 

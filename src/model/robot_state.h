@@ -15,14 +15,16 @@ namespace roboss {
 enum class MotorMode : std::uint32_t { kPassive, kVelocity, kPosition, kEffort };
 
 /// The latched order of one joint degree of freedom.
-struct MotorSetpoint {
+template <class T>
+struct MotorSetpointT {
     MotorMode mode = MotorMode::kPassive;
-    double target = 0;      // rad/s, rad, N m (or m/s, m, N)
-    double max_effort = 0;  // bound in force, N m or N
-    double impulse = 0;     // that it gave in the last tick, N m s or N s
-    double load = 0;  // the smaller of the last two impulses, of one sign: what a hard motor starts from
-    friend bool operator==(const MotorSetpoint&, const MotorSetpoint&) = default;
+    T target = 0;      // rad/s, rad, N m (or m/s, m, N)
+    T max_effort = 0;  // bound in force, N m or N
+    T impulse = 0;     // that it gave in the last tick, N m s or N s
+    T load = 0;        // the smaller of the last two impulses, of one sign: what a hard motor starts from
+    friend bool operator==(const MotorSetpointT&, const MotorSetpointT&) = default;
 };
+using MotorSetpoint = MotorSetpointT<double>;
 
 /// A force on a link's centre of mass and a torque, world axes, while tick < until.
 struct TimedWrench {

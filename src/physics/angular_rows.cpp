@@ -1,6 +1,6 @@
 // Torsional and rolling friction of a contact point become a row: relative angular velocity about the normal
 // and the tangents, with moments bounded by levers times the point's normal impulse.
-#include "physics/rows.h"
+#include "physics/contact_rows.h"
 
 namespace roboss {
 namespace {

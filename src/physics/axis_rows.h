@@ -1,39 +1,193 @@
 // Rows of one axis of a joint, whether it is a degree of freedom of the tree or a free direction of a loop
-// joint: motor, joint friction, limits.
+// joint: motor, joint friction, limits. Bounded rows: the solver gives exactly the bound when a motor stalls,
+// and exactly the target velocity when it does not. A hard motor's row starts from its load, as contacts do:
+// it gives way only by what its load changes in a tick. Over T: see rows.h.
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <vector>
 
-#include "physics/equality.h"
 #include "physics/rows.h"
 
 namespace roboss {
 
-/// What add_joint_rows overwrites from robot to robot.
-struct RowBuffer {
-    Equalities equalities;
-    std::vector<BoundedRow> axis;
-};
-
-/// Everything about one axis that its rows need.
-struct AxisState {
+/// Everything about one axis that its rows need. In lanes, all motors have the same mode.
+template <class T>
+struct AxisStateT {
     const Dof& dof;
-    const MotorSetpoint& motor;
-    double q = 0, v = 0, dt = 0;
+    const MotorSetpointT<T>& motor;
+    T q{}, v{};
+    double dt = 0;
     double compliance = 0;  // of a hard row
     bool has_position = true;
 };
+using AxisState = AxisStateT<double>;
 
-/// Rows of the axis, appended. Returns true if a hard limit is violated and so has something to mend.
-bool add_axis_rows(const AxisState& axis, std::vector<BoundedRow>& rows);
+namespace axis {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr double kLimitShare = 0.2;  // of a violated limit mended in one tick
+inline constexpr double kLimitSlop = 1e-6;  // rad or m beyond a limit that are left alone
+inline constexpr double kLimitSpeedMax =
+    1.0;  // rad/s or m/s, while mending; it never enters the velocity, so it adds no energy
+inline constexpr double kApproachSpeedMax =
+    10.0;  // rad/s or m/s, of a position motor whose force and speed have no bound: else one tick is enough
+
+template <class T>
+BoundedRowT<T> bounded_row(const T& target, double compliance, double low, double high, const T& mend) {
+    BoundedRowT<T> row;
+    row.target = target, row.compliance = compliance;
+    row.low = low, row.high = high, row.position_target = target + mend;
+    return row;
+}
+
+/// Speed towards a position that the motor's force can still brake: sqrt(2 a e), with half of the force kept
+/// in hand.
+template <class T>
+T braking_speed(const AxisStateT<T>& s, const T& error) {
+    using std::sqrt;
+    const T acceleration = 0.5 * s.motor.max_effort * s.dof.inverse_inertia;
+    return select(acceleration < T(kInfinity), sqrt(2.0 * acceleration * magnitude(error)), T(kInfinity));
+}
+
+template <class T>
+BoundedRowT<T> position_motor(const AxisStateT<T>& s, const T& impulse_max) {
+    const T error = s.motor.target - s.q;
+    const double kp = s.dof.position_gain, kd = s.dof.velocity_gain;
+    BoundedRowT<T> row;
+    row.low = -impulse_max, row.high = impulse_max;
+    T speed_max = s.dof.max_velocity;
+    if (kp > 0) {  // implicit PD: force = kp (target - q - dt v) - kd v
+        const double damping = kp * s.dt + kd;
+        row.target = kp * error / T(damping);
+        row.compliance = 1.0 / (s.dt * damping);
+    } else {
+        row.target = error / T(s.dt);
+        row.compliance = s.compliance;
+        speed_max = smaller(speed_max, braking_speed(s, error));
+    }
+    speed_max = select(speed_max < T(kInfinity), speed_max, T(kApproachSpeedMax));
+    row.target = clamped(row.target, -speed_max, speed_max);
+    return row;
+}
+
+/// The ordered force, as long as it does not drive the joint beyond its maximum velocity.
+template <class T>
+BoundedRowT<T> effort_motor(const AxisStateT<T>& s) {
+    BoundedRowT<T> row;
+    const T impulse = clamped(s.motor.target, -s.motor.max_effort, s.motor.max_effort) * T(s.dt);
+    const double speed = std::isfinite(s.dof.max_velocity) ? s.dof.max_velocity : 1e6;
+    row.target = select(impulse < T(0), T(-speed), T(speed));
+    row.compliance = s.compliance;
+    row.low = smaller(impulse, T(0)), row.high = larger(impulse, T(0));
+    return row;
+}
+
+template <class T>
+BoundedRowT<T> velocity_motor(const AxisStateT<T>& s, const T& impulse_max) {
+    BoundedRowT<T> row;
+    row.target = clamped(s.motor.target, T(-s.dof.max_velocity), T(s.dof.max_velocity));
+    row.compliance = s.dof.velocity_gain > 0 ? 1.0 / (s.dt * s.dof.velocity_gain) : s.compliance;
+    row.low = -impulse_max, row.high = impulse_max;
+    return row;
+}
+
+/// Way that a limit asks for in this tick, and how hard. `room`: way left to the limit, negative beyond it.
+template <class T>
+struct LimitRow {
+    T away{};  // speed away from the limit, m/s or rad/s
+    double compliance = 0;
+    bool hard = true;
+};
+
+/// A soft limit pushes with stiffness and dissipation from the moment it is reached, both taken at the end of
+/// the tick; where that is stiffer than a hard row, the hard row is taken.
+template <class T>
+LimitRow<T> limit_row(const AxisStateT<T>& s, const T& room) {
+    const double damping = s.dt * s.dof.limit_stiffness + s.dof.limit_dissipation;
+    const double compliance = 1.0 / (s.dt * damping);
+    const bool soft = std::isfinite(damping) && compliance > s.compliance;
+    const T closing = -larger(room, T(0)) / T(s.dt);
+    if (!soft) return {closing, s.compliance, true};
+    return {select(room >= T(0), closing, -room * s.dof.limit_stiffness / T(damping)), compliance, false};
+}
+
+template <class T>
+MaskOf<T> near(const T& room, const T& v, double dt) {
+    return room < dt * magnitude(v) + 0.05;
+}
+
+/// A limit pushes away from itself, and only if this tick could reach it. True if one is violated.
+template <class T>
+MaskOf<T> add_limits(const AxisStateT<T>& s, Lockstep<T>& together, std::vector<BoundedRowT<T>>& rows) {
+    const T below = s.q - T(s.dof.lower), above = T(s.dof.upper) - s.q;
+    const auto mend = [&](const T& room, bool hard) {
+        return hard ? clamped((-room - kLimitSlop) * kLimitShare / T(s.dt), T(0), T(kLimitSpeedMax)) : T(0);
+    };
+    MaskOf<T> mends = false;
+    if (together(near(below, s.v, s.dt))) {
+        const LimitRow<T> limit = limit_row(s, below);
+        rows.push_back(bounded_row(limit.away, limit.compliance, 0.0, kInfinity, mend(below, limit.hard)));
+        if (limit.hard) mends = mends | (below < T(-kLimitSlop));
+    }
+    if (together(near(above, s.v, s.dt))) {
+        const LimitRow<T> limit = limit_row(s, above);
+        rows.push_back(bounded_row(-limit.away, limit.compliance, -kInfinity, 0.0, -mend(above, limit.hard)));
+        if (limit.hard) mends = mends | (above < T(-kLimitSlop));
+    }
+    return mends;
+}
+
+}  // namespace axis
 
 /// True if the axis' motor is hard, one without gains: its row, the first, starts from the motor's load.
-bool has_hard_motor(const AxisState& axis);
+template <class T>
+bool has_hard_motor(const AxisStateT<T>& axis) {
+    const MotorMode mode = axis.motor.mode;
+    return (mode == MotorMode::kVelocity && !(axis.dof.velocity_gain > 0)) ||
+           (mode == MotorMode::kPosition && !(axis.dof.position_gain > 0));
+}
+
+/// Row of the motor, if it drives.
+template <class T>
+void add_motor(const AxisStateT<T>& s, std::vector<BoundedRowT<T>>& rows) {
+    if (s.motor.mode == MotorMode::kPassive) return;
+    const T impulse_max = s.motor.max_effort * T(s.dt);
+    rows.push_back(s.motor.mode == MotorMode::kVelocity   ? axis::velocity_motor(s, impulse_max)
+                   : s.motor.mode == MotorMode::kPosition ? axis::position_motor(s, impulse_max)
+                                                          : axis::effort_motor(s));
+    BoundedRowT<T>& row = rows.back();
+    if (has_hard_motor(s)) row.target += s.compliance * s.motor.load;
+    row.position_target = row.target;
+}
+
+/// Rows of the axis, appended. True if a hard limit is violated and so has something to mend.
+template <class T>
+MaskOf<T> add_axis_rows(const AxisStateT<T>& axis, Lockstep<T>& together, std::vector<BoundedRowT<T>>& rows) {
+    add_motor(axis, rows);
+    const double friction = axis.dof.friction * axis.dt;
+    if (friction > 0) rows.push_back(axis::bounded_row(T(0), axis.compliance, -friction, friction, T(0)));
+    if (!axis.has_position) return false;
+    return axis::add_limits(axis, together, rows);
+}
 
 /// True if no row acts on the axis and none will in this tick.
-bool is_left_alone(const AxisState& axis);
+template <class T>
+MaskOf<T> is_left_alone(const AxisStateT<T>& axis) {
+    if (axis.motor.mode != MotorMode::kPassive || axis.dof.friction > 0) return false;
+    if (!axis.has_position) return true;
+    return !(axis::near(axis.q - T(axis.dof.lower), axis.v, axis.dt) |
+             axis::near(T(axis.dof.upper) - axis.q, axis.v, axis.dt));
+}
 
-/// Springs or damping so stiff that the explicit Runge-Kutta step would not follow them.
-bool is_stiff(const Dof& dof, double dt);
+/// Springs or damping so stiff that the explicit Runge-Kutta step would not follow them. The limit of
+/// Runge-Kutta is 2.8, but the mobility is that of the zero pose. The solver takes them implicitly.
+inline bool is_stiff(const Dof& dof, double dt) {
+    constexpr double kRateMax = 0.25;  // a tick times the damping's rate or the spring's frequency
+    const double damping = dt * dof.damping * dof.inverse_inertia;
+    const double spring = dt * dt * dof.spring_stiffness * dof.inverse_inertia;
+    return damping > kRateMax || spring > kRateMax * kRateMax;
+}
 
 }  // namespace roboss

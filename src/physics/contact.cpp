@@ -39,7 +39,8 @@ struct Placed {
 void combine(const Placed& pa, const Placed& pb, Contact& contact) {
     const Material &a = pa.material, &b = pb.material;
     const FrictionEllipse friction = friction_of(a, pa.R_WS, b, pb.R_WS, contact.normal);
-    contact.mu = friction.mu, contact.friction_axis = friction.axis, contact.mu_across = friction.across;
+    contact.mu = friction.mu, contact.mu_across = friction.across;
+    contact.has_friction_axis = !(friction.axis == Vec3{}), contact.friction_axis = friction.axis;
     contact.restitution = std::max(a.restitution, b.restitution);
     contact.bounce_threshold = std::max(a.bounce_threshold, b.bounce_threshold);
     contact.rolling = std::max(a.rolling, b.rolling);

@@ -10,26 +10,29 @@
 
 namespace roboss {
 
-/// One contact point. Side A is the robot that owns it (the lower id), side B another robot, itself, or
-/// static scenery.
-struct Contact {
+/// One contact point, or the same point of a few robots in lanes; what the materials say is the same for all
+/// of them. Side A is the robot that owns it (the lower id), side B another robot, itself, or static scenery.
+template <class T>
+struct ContactT {
     int robot_a = 0;   // index into the island's robots
     int robot_b = -1;  // -1: static scenery
     std::uint32_t shape_a = 0, shape_b = 0, feature = 0;
     int body_a = -1, body_b = -1;
-    Vec3 p_W, normal;  // normal from B towards A
-    double gap = 0;
+    Vec3T<T> p_W, normal;  // normal from B towards A
+    T gap{};
     double mu = 0, restitution = 0, bounce_threshold = 0;
-    Vec3 friction_axis;                 // mu counts along it, mu * mu_across across; zero: in all directions
+    bool has_friction_axis = false;     // if not, mu counts in all directions
+    Vec3T<T> friction_axis;             // mu counts along it, mu * mu_across across
     double mu_across = 1;               // from 0 to 1
     double torsional = 0, rolling = 0;  // m: levers of the largest torques over the normal force
     double stiffness = 0, damping = 0;  // N/m, N s/m; stiffness 0: rigid
     double slop = 0, mend_speed = 0;    // of a rigid contact, m and m/s
-    double impulse = 0;                 // normal, N s: remembered, then solved
-    Vec3 friction;                      // tangential, N s, world axes: likewise
-    double load = 0;  // normal, N s: the smaller of the impulses of the last two ticks, so not a blow
-    Vec3 moment;      // N m s, world axes: torsional and rolling friction, solved
+    T impulse{};                        // normal, N s: remembered, then solved
+    Vec3T<T> friction;                  // tangential, N s, world axes: likewise
+    T load{};         // normal, N s: the smaller of the impulses of the last two ticks, so not a blow
+    Vec3T<T> moment;  // N m s, world axes: torsional and rolling friction, solved
 };
+using Contact = ContactT<double>;
 
 /// Finds all contacts of the island. `robots` ascending by id. Result sorted by (robot_a, other id, shapes,
 /// feature).

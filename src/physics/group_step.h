@@ -5,8 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "physics/axis_rows.h"
+#include "physics/contact_rows.h"
 #include "physics/integrate.h"
+#include "physics/joint_rows.h"
 #include "physics/sleep.h"
 #include "physics/solver.h"
 #include "physics/step.h"
@@ -20,7 +21,7 @@ struct GroupScratch {
     std::vector<int> group;  // union-find over the robots: contact islands
     std::vector<std::uint32_t> members;
     std::vector<Contact*> island_contacts;
-    std::vector<const RobotWork*> island_robots;
+    std::vector<const Mechanics<double>*> island_robots;
     std::vector<int> offsets, island_offsets;
     IslandRows rows;
     std::vector<double> v, v_before;

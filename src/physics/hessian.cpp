@@ -3,39 +3,18 @@
 
 #include <algorithm>
 
-#include "physics/row_math.h"
-#include "physics/tree_factor.h"
-
 namespace roboss {
 
-namespace {
-
-/// Curvatures that the matrix lacks.
-struct Change {
-    double n = 0, t11 = 0, t12 = 0, t22 = 0;
-    bool nothing() const { return n == 0 && t11 == 0 && t12 == 0 && t22 == 0; }
-};
-
-Change take_change(BoundedRow& normal, FrictionDisc& disc) {
-    const Change change{normal.d - normal.d_held, disc.d_11 - disc.held_11, disc.d_12 - disc.held_12,
-                        disc.d_22 - disc.held_22};
-    normal.d_held = normal.d;
-    disc.held_11 = disc.d_11, disc.held_12 = disc.d_12, disc.held_22 = disc.d_22;
-    return change;
-}
-
-}  // namespace
-
-void Hessian::start(std::span<const RobotWork* const> robots, std::span<const int> offsets, IslandRows& rows,
-                    std::size_t n) {
+void Hessian::start(std::span<const Mechanics<double>* const> robots, std::span<const int> offsets,
+                    IslandRows& rows, std::size_t n) {
     robots_ = robots;
     offsets_ = offsets;
     n_ = n;
-    tree_ = robots.size() == 1 && !robots[0]->touches_robot && rows.couplings.empty();
-    if (!tree_) start_fronts(rows);
+    is_tree_ = robots.size() == 1 && !robots[0]->touches_robot && rows.couplings.empty();
+    if (is_tree_) return tree_.start(*robots[0], rows);
+    start_fronts(rows);
     add_mass();
-    for_each_bounded(rows, [](BoundedRow& row) { row.d_held = 0; });
-    for_each_disc(rows, [](FrictionDisc& disc) { disc.held_11 = disc.held_12 = disc.held_22 = 0; });
+    hold_nothing(rows);
 }
 
 void Hessian::start_fronts(IslandRows& rows) {
@@ -76,25 +55,16 @@ void Hessian::sort_columns(IslandRows& rows) {
 }
 
 void Hessian::assemble(IslandRows& rows, bool coupled) {
-    coupled_ = coupled;
+    if (is_tree_) return tree_.assemble(rows, coupled);
     add_changes(rows);
-    if (tree_) {
-        h_.assign(kept_.begin(), kept_.end());
-        if (coupled) upper_.assign(kept_.begin(), kept_.end());
-    } else {
-        fronts_.begin_factor(!coupled);
-    }
+    fronts_.begin_factor(!coupled);
     if (coupled) add_slides(rows);
 }
 
 void Hessian::add_mass() {
-    if (tree_) {
-        kept_.assign(robots_[0]->mass_matrix.begin(), robots_[0]->mass_matrix.end());
-        return;
-    }
     fronts_.clear();
     for (std::size_t r = 0; r < robots_.size(); ++r) {
-        const RobotWork& robot = *robots_[r];
+        const Mechanics<double>& robot = *robots_[r];
         const DofPaths& paths = robot.type->paths;
         for (std::size_t i = 0; i < paths.size(); ++i)
             for (std::size_t k = 0; k < paths.length(i); ++k)
@@ -108,12 +78,8 @@ void Hessian::add_changes(IslandRows& rows) {
     for (JointRow& row : rows.joints) {
         const double change = row.d - row.d_held;
         row.d_held = row.d;
-        if (tree_) {
-            kept_[robots_[0]->type->paths.diagonal(static_cast<std::size_t>(row.dof))] += change;
-        } else {
-            while (row.dof >= group_first_[robot + 1]) ++robot;
-            fronts_.add(robot, row.dof, row.dof, change);
-        }
+        while (row.dof >= group_first_[robot + 1]) ++robot;
+        fronts_.add(robot, row.dof, row.dof, change);
     }
     std::size_t clique = 0;
     for (ContactRow& row : rows.contacts)
@@ -126,20 +92,14 @@ void Hessian::add_changes(IslandRows& rows) {
 /// J^T D J of one contact, or of its angular row.
 void Hessian::add_block(const ContactColumns& columns, std::size_t first, std::size_t last,
                         std::size_t clique, BoundedRow& normal, FrictionDisc& disc) {
-    const Change d = take_change(normal, disc);
+    const CurvatureChange<double> d = take_change(normal, disc);
     if (first == last || d.nothing()) return;
     const std::size_t count = last - first;
     const double *cn = columns.n.data() + first, *c1 = columns.t1.data() + first,
                  *c2 = columns.t2.data() + first;
-    const FrontFactor::Place place = tree_ ? FrontFactor::Place{} : fronts_.place(clique);
+    const FrontFactor::Place place = fronts_.place(clique);
     for (std::size_t a = 0; a < count; ++a) {
         const double n = d.n * cn[a], t1 = d.t11 * c1[a] + d.t12 * c2[a], t2 = d.t12 * c1[a] + d.t22 * c2[a];
-        if (tree_) {  // columns of one path: a row of the lower triangle is all that precedes
-            const auto dof = static_cast<std::size_t>(columns.dof[first + a]);
-            double* __restrict h = kept_.data() + robots_[0]->type->paths.row(dof);
-            for (std::size_t b = 0; b <= a; ++b) h[b] += n * cn[b] + t1 * c1[b] + t2 * c2[b];
-            continue;
-        }
         double* h = place.matrix + static_cast<std::size_t>(place.local[a]) * place.stride;
         for (std::size_t b = 0; b <= a; ++b) h[place.local[b]] += n * cn[b] + t1 * c1[b] + t2 * c2[b];
     }
@@ -172,45 +132,19 @@ void Hessian::add_slides(const IslandRows& rows) {
         const std::size_t count = row.last - row.first;
         const double *cn = rows.columns.n.data() + row.first, *c1 = rows.columns.t1.data() + row.first,
                      *c2 = rows.columns.t2.data() + row.first;
-        const FrontFactor::Place place = tree_ ? FrontFactor::Place{} : fronts_.unsymmetric_place(c);
+        const FrontFactor::Place place = fronts_.unsymmetric_place(c);
         for (std::size_t a = 0; a < count; ++a) {
             const double slide = disc.d_1n * c1[a] + disc.d_2n * c2[a];
-            if (tree_) {
-                add_slide(rows.columns, row, a, slide);
-                continue;
-            }
             double* h = place.matrix + static_cast<std::size_t>(place.local[a]) * place.stride;
             for (std::size_t b = 0; b < count; ++b) h[place.local[b]] += slide * cn[b];
         }
     }
 }
 
-/// `slide` times the normal's columns, into row a of the matrix: on a tree, what is right of the diagonal
-/// stands in the rows of `upper_`.
-void Hessian::add_slide(const ContactColumns& columns, const ContactRow& row, std::size_t a, double slide) {
-    const DofPaths& paths = robots_[0]->type->paths;
-    const auto row_of = [&](std::size_t c) {
-        return paths.row(static_cast<std::size_t>(columns.dof[row.first + c]));
-    };
-    const double* cn = columns.n.data() + row.first;
-    for (std::size_t b = 0; b <= a; ++b) h_[row_of(a) + b] += slide * cn[b];
-    for (std::size_t b = a + 1; b < row.last - row.first; ++b) upper_[row_of(b) + a] += slide * cn[b];
-}
-
-bool Hessian::solve(std::span<double> x) {
-    if (!tree_) {
-        if (!fronts_.factor()) return false;
-        fronts_.solve(x);
-        return true;
-    }
-    const DofPaths& paths = robots_[0]->type->paths;
-    if (coupled_) {
-        if (!tree_factor_general(paths, h_.data(), upper_.data())) return false;
-        tree_solve_general(paths, h_.data(), upper_.data(), x.data());
-    } else {
-        tree_factor(paths, h_.data());
-        tree_solve(paths, h_.data(), x.data());
-    }
+bool Hessian::solve(std::vector<double>& x) {
+    if (is_tree_) return tree_.solve(x);
+    if (!fronts_.factor()) return false;
+    fronts_.solve(x);
     return true;
 }
 

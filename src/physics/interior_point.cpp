@@ -139,7 +139,7 @@ void start_inside(const Accuracy& accuracy, IslandRows& rows, double speed) {
 
 }  // namespace
 
-void IslandSolver::interior_point(const Problem& p, std::vector<double>& v, SolveReport& report) {
+void IslandSolver::interior_point(const Problem& p, std::vector<double>& v, Report& report) {
     double speed = 0.1;  // m/s: generous, so that the start is more central than right
     for (const ContactRow& row : p.rows.contacts)
         speed = std::max({speed, std::fabs(row.normal.target - row.normal.u), std::fabs(row.slip.u_1),
@@ -154,7 +154,7 @@ void IslandSolver::interior_point(const Problem& p, std::vector<double>& v, Solv
         const double alpha = interior_step(p, centring * gap, v);
         if (alpha == 0) return;
         centring = alpha > 0.9 ? 0.02 : alpha > 0.5 ? 0.2 : 0.5;
-        ++report.iterations;
+        report.iterations += 1;
     }
 }
 

@@ -1,12 +1,11 @@
-// The rows of a robot's joints: those of the tree's axes on one degree of freedom each; loops, gearboxes,
-// mimic joints and the axes of loop joints over several.
-#include <algorithm>
+// See joint_rows.h; here what is only done for one robot at a time: loops and couplings.
+#include "physics/joint_rows.h"
+
 #include <cmath>
 #include <limits>
 
 #include "model/coordinates.h"
 #include "model/loop_closure.h"
-#include "physics/axis_rows.h"
 #include "physics/drag.h"
 
 namespace roboss {
@@ -14,20 +13,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// One degree of freedom of the tree.
-AxisState tree_axis(const Model& model, const RobotWork& robot, std::size_t d) {
-    const RobotType& type = *robot.type;
-    const RobotState& state = *robot.state;
-    const Dof& dof = type.dofs[d];
-    const Body& body = type.bodies[static_cast<std::size_t>(dof.body)];
-    const bool has_position = body.joint != JointKind::kBall;
-    return {dof,
-            state.motors[d],
-            has_position ? state.q[static_cast<std::size_t>(body.q_index)] : 0.0,
-            state.v[d + static_cast<std::size_t>(type.base_nv())],
-            model.dt_s,
-            model.accuracy.compliance * dof.inverse_inertia,
-            has_position};
+JointStates<double> joint_states(const RobotWork& robot) {
+    return {robot.state->q, robot.state->v, robot.state->motors};
 }
 
 /// Adds a row over the degrees of freedom that move B of the loop joint against A.
@@ -95,6 +82,7 @@ bool add_loop_axes(const Model& model, const RobotWork& robot, const LoopJoint& 
     };
     LoopRowWriter writer(robot, loop, offset, rows);
     const FreeDirections free = free_directions(loop, placed(loop.body_a), placed(loop.body_b));
+    Lockstep<double> alone;
     bool mends = false;
     for (std::size_t k = 0; k < free.count; ++k) {
         const FreeDirection& direction = free.directions[k];
@@ -108,7 +96,7 @@ bool add_loop_axes(const Model& model, const RobotWork& robot, const LoopJoint& 
                              model.accuracy.compliance * dof.inverse_inertia,
                              loop.kind != JointSpecKind::kBall};
         buffer.clear();
-        mends |= add_axis_rows(axis, buffer);
+        mends |= add_axis_rows(axis, alone, buffer);
         for (std::size_t r = 0; r < buffer.size(); ++r)
             writer.add(buffer[r], direction.wrench, r == 0 && has_hard_motor(axis) ? &motor : nullptr);
         add_spring(axis, near(direction.position, dof.spring_reference, loop, dof), direction.wrench, writer);
@@ -151,19 +139,8 @@ void add_equality_rows(const Model& model, const Equalities& equalities, int off
 bool add_joint_rows(const Model& model, const RobotWork& robot, int offset, RowBuffer& buffer,
                     IslandRows& rows) {
     const RobotType& type = *robot.type;
-    bool mends = false;
-    for (std::size_t d = 0; d < type.dofs.size(); ++d) {
-        buffer.axis.clear();
-        const AxisState axis = tree_axis(model, robot, d);
-        mends |= add_axis_rows(axis, buffer.axis);
-        for (std::size_t r = 0; r < buffer.axis.size(); ++r) {
-            JointRow row;
-            static_cast<BoundedRow&>(row) = buffer.axis[r];
-            row.dof = offset + type.base_nv() + static_cast<int>(d);
-            if (r == 0 && has_hard_motor(axis)) row.motor = &robot.state->motors[d];
-            rows.joints.push_back(row);
-        }
-    }
+    Lockstep<double> alone;
+    bool mends = add_tree_rows(model, type, joint_states(robot), offset, alone, buffer.axis, rows);
     if (!type.has_equalities()) return mends;
     gather_equalities(robot, robot.state->q, buffer.equalities);
     add_equality_rows(model, buffer.equalities, offset, rows);
@@ -178,7 +155,9 @@ bool moves_freely(const Model& model, const RobotWork& robot) {
         if (needs_rows(loop, *robot.state)) return false;
     if (drag_is_stiff(model, robot)) return false;
     for (std::size_t d = 0; d < type.dofs.size(); ++d)
-        if (is_stiff(type.dofs[d], model.dt_s) || !is_left_alone(tree_axis(model, robot, d))) return false;
+        if (is_stiff(type.dofs[d], model.dt_s) ||
+            !is_left_alone(tree_axis(model, type, joint_states(robot), d)))
+            return false;
     return true;
 }
 

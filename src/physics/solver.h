@@ -10,11 +10,10 @@
 // no pyramid and no lifting while sliding.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "physics/hessian.h"
-#include "physics/rows.h"
+#include "physics/newton.h"
 
 namespace roboss {
 
@@ -23,51 +22,24 @@ struct SolveReport {
     double residual = 0;  // relative, of the momentum balance
 };
 
-class IslandSolver {
+class IslandSolver : Newton<double, Hessian> {
   public:
-    /// What is asked for: `robots`, the contact island, and `offsets`, their first dofs. `position`: solve
-    /// for the way of the tick (position targets) instead of the velocity.
-    struct Problem {
-        const Accuracy& accuracy;
-        std::span<const RobotWork* const> robots;
-        std::span<const int> offsets;
-        IslandRows& rows;
-        bool position = false;
-    };
+    using Problem = SolveProblem<double>;
 
     /// v (size n) starts as the velocities before the tick and ends as the solution; the rows end with their
     /// impulses.
     SolveReport solve(const Problem& problem, std::vector<double>& v);
 
   private:
-    // solver.cpp: shared pieces, then Newton's method
-    void start(const Problem& p, std::span<const double> v);
-    void times_mass(const Problem& p, std::span<const double> x, std::vector<double>& y) const;
-    bool find_step(const Problem& p, bool coupled);
-    void move(const Problem& p, double alpha, std::vector<double>& v);
-    double balance(const Problem& p);
-    double gradient(const Problem& p);
-    double slope() const;
-    double take_step(const Problem& p, std::vector<double>& v);
-    double line_search(const Problem& p, double at_start, double at_end);
-    void return_to_start(const Problem& p, std::vector<double>& v);
-    void start_as_expected(const Problem& p, std::vector<double>& v, SolveReport& report);
-    bool newton(const Problem& p, std::vector<double>& v, SolveReport& report);
-    bool coupled_newton(const Problem& p, std::vector<double>& v, SolveReport& report);
+    using Report = SolveReportT<double>;
+    void solve_any(const Problem& p, std::vector<double>& v, Report& report);
     // interior_point.cpp
-    void interior_point(const Problem& p, std::vector<double>& v, SolveReport& report);
+    void interior_point(const Problem& p, std::vector<double>& v, Report& report);
     double longest_step(const Problem& p, double mu);
     double interior_step(const Problem& p, double mu, std::vector<double>& v);
 
-    std::size_t n_ = 0;
-    Hessian hessian_;
-    std::vector<double> mv_;       // M v
-    std::vector<double> g_;        // gradient
-    std::vector<double> applied_;  // impulses of all rows on each degree of freedom
-    std::vector<double> step_, m_step_;
-    std::vector<double> v_start_, mv_start_;  // where an attempt began
-    std::vector<double> start_bounds_;        // friction bounds of the last tick
-    std::vector<double> changes_;             // interior point: steps of the impulses
+    std::vector<double> start_bounds_;  // friction bounds of the last tick
+    std::vector<double> changes_;       // interior point: steps of the impulses
 };
 
 }  // namespace roboss

@@ -1,0 +1,234 @@
+// A contact point becomes rows: Jacobian columns along both robots' paths, and targets for velocity and way.
+// Over T: see rows.h.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "physics/rows.h"
+
+namespace roboss {
+
+/// Normal and tangents of a contact's row. Across the friction axis the tangent is shortened to the share of
+/// friction there: in these coordinates the ellipse of friction impulses is a disc, and what the solver finds
+/// in the disc (most dissipation) is what Coulomb's law says of the ellipse.
+template <class T>
+struct ContactFrameT {
+    Vec3T<T> n, t1, t2;
+};
+using ContactFrame = ContactFrameT<double>;
+
+template <class T>
+ContactFrameT<T> frame_of(const ContactT<T>& c) {
+    ContactFrameT<T> frame{c.normal, {}, {}};
+    if (!c.has_friction_axis) {
+        tangents(c.normal, frame.t1, frame.t2);
+    } else {
+        frame.t1 = c.friction_axis;
+        frame.t2 = cross(c.normal, c.friction_axis) * T(c.mu_across);
+    }
+    return frame;
+}
+
+/// The body of a robot at one side of a contact.
+template <class T>
+struct ContactSide {
+    const Mechanics<T>* robot = nullptr;
+    int body = -1;   // -1: the fixed base
+    int offset = 0;  // first dof of the robot in the contact island
+
+    const Body* info() const {
+        return body < 0 ? nullptr : &robot->type->bodies[static_cast<std::size_t>(body)];
+    }
+};
+
+namespace contact {
+
+inline constexpr double kWeights =
+    10;  // a load that a contact may take up at once, in weights of what it moves
+inline constexpr double kSticking = 0.99;  // of the friction bound; beyond, a contact is taken for sliding
+inline constexpr double kSoftBlow = 10;    // m/s
+inline constexpr double kMendShare = 0.3;  // of the penetration beyond the slop mended in one tick
+
+/// Along `direction`, the velocity of point p of a free base per unit of its turning and moving.
+template <class T>
+void put_base_columns(const Vec3T<T>& direction, const Vec3T<T>& p, T* columns) {
+    const Vec3T<T> turning = cross(p, direction);
+    columns[0] = turning.x, columns[1] = turning.y, columns[2] = turning.z;
+    columns[3] = direction.x, columns[4] = direction.y, columns[5] = direction.z;
+}
+
+template <class T>
+void add_columns(const ContactSide<T>& side, double sign, const Vec3T<T>& p_W, const ContactFrameT<T>& frame,
+                 ContactColumnsT<T>& columns) {
+    const Body* info = side.info();
+    if (info == nullptr) return;
+    const Mechanics<T>& robot = *side.robot;
+    const Vec3T<T> p = p_W - robot.origin;
+    const auto last = static_cast<std::size_t>(info->v_index + info->nv - 1);
+    const int* path = robot.type->paths.path(last);
+    const std::size_t begin = columns.size(), length = robot.type->paths.length(last);
+    columns.extend(length);
+    const SpatialT<T>* axes = robot.axes.data();
+    int* dof = columns.dof.data() + begin;
+    T *n = columns.n.data() + begin, *t1 = columns.t1.data() + begin, *t2 = columns.t2.data() + begin;
+    for (std::size_t k = 0; k < length; ++k) dof[k] = side.offset + path[k];
+    std::size_t k = 0;
+    if (robot.type->free_base) {
+        k = 6;
+        put_base_columns(frame.n * T(sign), p, n);
+        put_base_columns(frame.t1 * T(sign), p, t1);
+        put_base_columns(frame.t2 * T(sign), p, t2);
+    }
+    for (; k < length; ++k) {
+        const SpatialT<T>& axis = axes[path[k]];
+        const Vec3T<T> u = (axis.linear + cross(axis.angular, p)) * T(sign);
+        n[k] = dot(frame.n, u), t1[k] = dot(frame.t1, u), t2[k] = dot(frame.t2, u);
+    }
+}
+
+template <class T>
+double mobility(const ContactSide<T>& side) {
+    const Body* info = side.info();
+    return info == nullptr ? 0.0 : info->inverse_mass_linear;
+}
+
+/// Gravity along the normal as the body feels it.
+template <class T>
+T gravity_along(const Model& model, const ContactSide<T>& side, const Vec3T<T>& n) {
+    const Body* info = side.info();
+    if (info == nullptr || !(info->mass > 0)) return 0.0;
+    return dot(broadcast<T>(model.gravity), n) * T(info->gravity_mass / info->mass);
+}
+
+/// Normal velocity before the step, from the states' velocities.
+template <class T>
+T normal_velocity(const ContactSide<T>& side, const Vec3T<T>& p_W, const Vec3T<T>& n) {
+    if (side.body < 0) return 0.0;
+    const SpatialT<T>& v = side.robot->bodies[static_cast<std::size_t>(side.body)].velocity;
+    return dot(n, v.linear + cross(v.angular, p_W - side.robot->origin));
+}
+
+/// Where the contact's normal velocity goes to, and its way.
+template <class T>
+struct NormalTargets {
+    MaskOf<T> split{false};  // they differ
+    T velocity{}, way{};
+};
+
+/// An impact inside the tick: flies `to_hit` seconds, bounces, flies the rest; gravity counted in both parts.
+/// `split` is false where nothing hits.
+template <class T>
+NormalTargets<T> impact(const ContactT<T>& c, const T& approach, const T& gravity_n, double dt) {
+    const T to_hit = select(c.gap > T(0), c.gap / approach, T(0));
+    const T speed = approach - gravity_n * to_hit;
+    const T rest = dt - to_hit;
+    const T away = c.restitution * speed;
+    const T gap_after = away * rest + 0.5 * gravity_n * rest * rest;
+    NormalTargets<T> targets;
+    targets.velocity = away + gravity_n * rest;
+    targets.way = (gap_after - larger(c.gap, T(0))) / T(dt);
+    targets.split =
+        (approach > T(0)) & (to_hit <= T(dt)) & (speed > T(c.bounce_threshold)) & (targets.velocity > T(0));
+    return targets;
+}
+
+/// A spring and damper taken implicitly: force = stiffness * depth - damping * u with the depth and the
+/// velocity at the end of the tick, never pulling. A gap is closed first, and damps for its share of the
+/// tick. The spring counts as compressed no deeper than a body of mobility `ease` could have come by a blow
+/// of kSoftBlow: shapes that start deep in each other are not shot apart. False if the contact is as hard as
+/// rigid ones, of compliance `rigid`.
+template <class T>
+bool set_softness(const ContactT<T>& c, double dt, double ease, double rigid, BoundedRowT<T>& row) {
+    if (c.stiffness <= 0) return false;
+    const double compliance = 1.0 / (dt * dt * c.stiffness + dt * c.damping);
+    if (compliance < rigid) return false;
+    row.compliance = compliance;
+    const T depth = smaller(-c.gap, T(kSoftBlow / std::sqrt(c.stiffness * ease)));
+    row.target =
+        select(c.gap <= T(0), depth * T(c.stiffness) / T(dt * c.stiffness + c.damping), -c.gap / T(dt));
+    row.position_target = row.target;
+    return true;
+}
+
+/// Targets of the normal. The load of the last tick is where the row starts from (a proximal step): a contact
+/// at rest carries it without any velocity, however compliant the row. True if velocity and way differ.
+template <class T>
+MaskOf<T> set_normal(const ContactT<T>& c, const T& approach, const T& gravity_n, double dt,
+                     const T& compliance, BoundedRowT<T>& row) {
+    row.compliance = compliance;
+    const T closing = select(c.gap > T(0), -c.gap / T(dt), T(0));
+    const MaskOf<T> mends = c.gap < T(-c.slop);
+    const T mending = smaller(kMendShare * (-c.gap - c.slop) / T(dt), T(c.mend_speed));
+    row.target = closing + compliance * c.load;
+    row.position_target = select(mends, mending, closing) + compliance * c.load;
+    if (c.restitution <= 0) return mends;
+    const NormalTargets<T> hit = impact(c, approach, gravity_n, dt);
+    row.target = select(hit.split, hit.velocity, row.target);
+    row.position_target = select(hit.split, hit.way, row.position_target);
+    return hit.split | mends;
+}
+
+/// Friction starts from that of the last tick, as the normal does; `share` makes velocities of its impulses.
+template <class T>
+void set_friction_targets(const ContactT<T>& c, const ContactFrameT<T>& frame, const T& share,
+                          FrictionDiscT<T>& slip) {
+    slip.target_1 = share * dot(frame.t1, c.friction);
+    slip.target_2 = share * dot(frame.t2, c.friction);
+    if (c.mu_across == 1) return;
+    const double short2 = c.mu_across * c.mu_across;
+    slip.target_2 = short2 > 0 ? slip.target_2 / T(short2) : T(0);
+}
+
+/// What a contact that carried a load starts from; the others start from nothing.
+template <class T>
+void start_from_load(const ContactT<T>& c, const ContactFrameT<T>& frame, const MaskOf<T>& loaded,
+                     const T& compliance, ContactRowT<T>& row) {
+    if (!any(loaded)) return;
+    set_friction_targets(c, frame, compliance * (c.load / c.impulse), row.slip);
+    const T t1 = row.slip.target_1, t2 = row.slip.target_2, end = kSticking * compliance * T(c.mu) * c.load;
+    row.sticks = loaded & (t1 * t1 + t2 * t2 < end * end);
+    row.slip.target_1 = select(loaded, t1, T(0)), row.slip.target_2 = select(loaded, t2, T(0));
+}
+
+}  // namespace contact
+
+/// Adds the rows of a contact of `a` with `b` (nullptr: scenery). True if the way of this tick needs another
+/// target than the velocity.
+template <class T>
+MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const ContactSide<T>& a,
+                          const ContactSide<T>* b, IslandRowsT<T>& rows) {
+    const double dt = model.dt_s;
+    const ContactFrameT<T> frame = frame_of(c);
+    ContactRowT<T>& row = rows.contacts.emplace_back();
+    row.first = rows.columns.size();
+    contact::add_columns(a, 1.0, c.p_W, frame, rows.columns);
+    const std::size_t middle = rows.columns.size();
+    double ease = contact::mobility(a);
+    T approach = -contact::normal_velocity(a, c.p_W, c.normal);
+    T gravity_n = contact::gravity_along(model, a, c.normal);
+    if (b != nullptr) {
+        contact::add_columns(*b, -1.0, c.p_W, frame, rows.columns);
+        ease += contact::mobility(*b);
+        approach += contact::normal_velocity(*b, c.p_W, c.normal);
+        gravity_n -= contact::gravity_along(model, *b, c.normal);
+        if (b->robot == a.robot) rows.columns.merge(row.first, middle);
+    }
+    row.last = rows.columns.size();
+    const MaskOf<T> loaded = c.load > T(0);
+    const T compliance =
+        ease * select(loaded, T(model.accuracy.contact_compliance), T(model.accuracy.compliance));
+    row.normal.high = std::numeric_limits<double>::infinity();
+    MaskOf<T> split = false;
+    if (!contact::set_softness(c, dt, ease, ease * model.accuracy.compliance, row.normal))
+        split = contact::set_normal(c, approach, gravity_n, dt, compliance, row.normal);
+    row.slip.coefficient = c.mu;
+    row.slip.bound = c.mu * c.impulse;
+    row.slip.compliance = compliance;
+    row.ease = ease;
+    row.load_max = larger(4.0 * c.load, T(contact::kWeights * norm(model.gravity) * dt / ease));
+    contact::start_from_load(c, frame, loaded, compliance, row);
+    return split;
+}
+
+}  // namespace roboss

@@ -1,0 +1,419 @@
+// Newton's method for a contact island. Every sum runs in a fixed order, so the bits depend on the island
+// alone. Over T: one island (double), or a few robots of one type in lanes, which take their decisions
+// together (Lockstep) and leave where that does not fit.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "physics/friction_bounds.h"
+#include "physics/tree_factor.h"
+
+namespace roboss {
+
+template <class T>
+struct SolveReportT {
+    T iterations{};
+    T residual{};  // relative, of the momentum balance
+};
+
+/// What is asked for: `robots`, the contact island, and `offsets`, their first dofs. `position`: solve for
+/// the way of the tick (position targets) instead of the velocity.
+template <class T>
+struct SolveProblem {
+    const Accuracy& accuracy;
+    std::span<const Mechanics<T>* const> robots;
+    std::span<const int> offsets;
+    IslandRowsT<T>& rows;
+    bool position = false;
+};
+
+namespace newton {
+
+inline constexpr double kRoughly =
+    1e-4;  // friction bounds are updated once the momentum balance is this good
+
+/// Velocities along the rows := what set_steps has left.
+template <class T>
+void take_velocities(IslandRowsT<T>& rows) {
+    for_each_bounded(rows, [](BoundedRowT<T>& row) { row.u = row.du; });
+    for_each_disc(rows, [](FrictionDiscT<T>& disc) {
+        disc.u_1 = disc.du_1 - disc.target_1, disc.u_2 = disc.du_2 - disc.target_2;
+    });
+}
+
+/// Impulses of all rows at the present velocities.
+template <class T>
+void update_impulses(IslandRowsT<T>& rows) {
+    for_each_bounded(rows, [](BoundedRowT<T>& row) { row.impulse = impulse_at(row, row.u); });
+    for_each_disc(rows, [](FrictionDiscT<T>& disc) {
+        if (disc.coefficient == 0) return;
+        const TangentialT<T> t = impulse_at(disc, disc.u_1, disc.u_2, disc.bound);
+        disc.impulse_1 = t.t1, disc.impulse_2 = t.t2;
+    });
+}
+
+template <class T>
+struct DiscCurvature {
+    T d_11{}, d_12{}, d_22{};
+    friend DiscCurvature select(const MaskOf<T>& m, const DiscCurvature& a, const DiscCurvature& b) {
+        return {select(m, a.d_11, b.d_11), select(m, a.d_12, b.d_12), select(m, a.d_22, b.d_22)};
+    }
+};
+
+template <class T>
+DiscCurvature<T> curvature_of(const FrictionDiscT<T>& disc) {
+    using std::sqrt;
+    const T speed = sqrt(disc.u_1 * disc.u_1 + disc.u_2 * disc.u_2);
+    return either(
+        speed > disc.bound * disc.compliance,
+        [&] {  // sliding: only turning the direction changes the impulse
+            const T s = disc.bound / speed, e1 = disc.u_1 / speed, e2 = disc.u_2 / speed;
+            return DiscCurvature<T>{s * (T(1) - e1 * e1), -s * e1 * e2, s * (T(1) - e2 * e2)};
+        },
+        [&] {
+            return DiscCurvature<T>{disc.stiffness, T(0), disc.stiffness};
+        });
+}
+
+/// The rows' share of the Hessian at the present velocities.
+template <class T>
+void set_curvatures(IslandRowsT<T>& rows) {
+    for_each_bounded(rows, [](BoundedRowT<T>& row) {
+        const T raw = (row.target - row.u) * row.stiffness;
+        row.d = select((raw > row.low) & (raw < row.high), row.stiffness, T(0));
+    });
+    for_each_disc(rows, [](FrictionDiscT<T>& disc) {
+        disc.d_1n = disc.d_2n = 0;
+        const DiscCurvature<T> d = either(
+            disc.bound > T(0), [&] { return curvature_of(disc); }, [] { return DiscCurvature<T>{}; });
+        disc.d_11 = d.d_11, disc.d_12 = d.d_12, disc.d_22 = d.d_22;
+    });
+}
+
+/// Curvatures and impulses as if what stuck in the last tick stuck again. The velocities of the last tick are
+/// a bad witness of that, for a hard row takes the least of them for sliding. True where anything stuck.
+template <class T>
+MaskOf<T> expect_sticking(IslandRowsT<T>& rows) {
+    MaskOf<T> some = false;
+    for (ContactRowT<T>& row : rows.contacts) {
+        const MaskOf<T>& sticks = row.sticks;
+        if (!any(sticks)) continue;
+        BoundedRowT<T>& normal = row.normal;
+        normal.d = select(sticks, normal.stiffness, normal.d);
+        normal.impulse = select(sticks, (normal.target - normal.u) * normal.stiffness, normal.impulse);
+        FrictionDiscT<T>& slip = row.slip;
+        slip.d_11 = select(sticks, slip.stiffness, slip.d_11);
+        slip.d_22 = select(sticks, slip.stiffness, slip.d_22);
+        slip.d_12 = select(sticks, T(0), slip.d_12);
+        slip.impulse_1 = select(sticks, -slip.u_1 * slip.stiffness, slip.impulse_1);
+        slip.impulse_2 = select(sticks, -slip.u_2 * slip.stiffness, slip.impulse_2);
+        some = some | sticks;
+    }
+    return some;
+}
+
+/// Minus the derivative of the rows' potentials along the step, at `alpha` of it.
+template <class T>
+T row_slope(IslandRowsT<T>& rows, const T& alpha) {
+    T s = 0;
+    for_each_bounded(rows,
+                     [&](BoundedRowT<T>& row) { s += impulse_at(row, row.u + alpha * row.du) * row.du; });
+    for_each_disc(rows, [&](FrictionDiscT<T>& disc) {
+        if (disc.coefficient == 0) return;
+        const TangentialT<T> t =
+            impulse_at(disc, disc.u_1 + alpha * disc.du_1, disc.u_2 + alpha * disc.du_2, disc.bound);
+        s += t.t1 * disc.du_1 + t.t2 * disc.du_2;
+    });
+    return s;
+}
+
+}  // namespace newton
+
+/// `Matrix`: of Newton's method, as TreeHessian.
+template <class T, class Matrix>
+class Newton {
+  public:
+    using Mask = MaskOf<T>;
+
+    void start(const SolveProblem<T>& p, const std::vector<T>& v);
+    /// Until momentum balances and friction bounds agree. False where it does not come near a balance. Lanes
+    /// that leave `together` have no result.
+    Mask solve(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v, SolveReportT<T>& report);
+
+  protected:
+    void times_mass(const SolveProblem<T>& p, const std::vector<T>& x, std::vector<T>& y) const;
+    Mask find_step(const SolveProblem<T>& p, bool coupled);
+    void move(const SolveProblem<T>& p, const T& alpha, std::vector<T>& v);
+    void move_some(const SolveProblem<T>& p, const Mask& some, std::vector<T>& v);
+    T balance(const SolveProblem<T>& p);
+    T gradient(const SolveProblem<T>& p);
+    T slope() const;
+    T take_step(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v);
+    T line_search(const SolveProblem<T>& p, Lockstep<T>& together, const T& at_start, const T& at_end);
+    void return_to_start(const SolveProblem<T>& p, std::vector<T>& v);
+    void start_as_expected(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v,
+                           SolveReportT<T>& report);
+    bool solve_coupled(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v,
+                       SolveReportT<T>& report);
+
+    std::size_t n_ = 0;
+    Matrix hessian_;
+    std::vector<T> mv_;       // M v
+    std::vector<T> g_;        // gradient
+    std::vector<T> applied_;  // impulses of all rows on each degree of freedom
+    std::vector<T> step_, m_step_;
+    std::vector<T> v_start_, mv_start_;  // where an attempt began
+};
+
+template <class T, class Matrix>
+void Newton<T, Matrix>::times_mass(const SolveProblem<T>& p, const std::vector<T>& x,
+                                   std::vector<T>& y) const {
+    for (std::size_t r = 0; r < p.robots.size(); ++r) {
+        const auto offset = static_cast<std::size_t>(p.offsets[r]);
+        tree_times(p.robots[r]->type->paths, p.robots[r]->mass_matrix.data(), x.data() + offset,
+                   y.data() + offset);
+    }
+}
+
+template <class T, class Matrix>
+void Newton<T, Matrix>::start(const SolveProblem<T>& p, const std::vector<T>& v) {
+    n_ = v.size();
+    for (auto* buffer : {&mv_, &g_, &applied_, &step_, &m_step_}) buffer->resize(n_);
+    hessian_.start(p.robots, p.offsets, p.rows, n_);
+    times_mass(p, v, mv_);
+    set_steps(p.rows, v);
+    for_each_bounded(p.rows, [](BoundedRowT<T>& row) { row.stiffness = T(1) / row.compliance; });
+    for_each_disc(p.rows, [](FrictionDiscT<T>& disc) { disc.stiffness = T(1) / disc.compliance; });
+    newton::take_velocities(p.rows);
+    if (!p.position) return;
+    for_each_bounded(p.rows, [](BoundedRowT<T>& row) { row.target = row.position_target; });
+}
+
+/// Impulses at the present velocities and g = M v - p - J^T impulses; returns its size relative to the
+/// momenta in play, both measured in the metric of M's diagonal.
+template <class T, class Matrix>
+T Newton<T, Matrix>::balance(const SolveProblem<T>& p) {
+    newton::update_impulses(p.rows);
+    return gradient(p);
+}
+
+template <class T, class Matrix>
+T Newton<T, Matrix>::gradient(const SolveProblem<T>& p) {
+    using std::sqrt;
+    constexpr double kNeverSolved = std::numeric_limits<double>::infinity();
+    for (T& x : applied_) x = 0;
+    add_impulses(p.rows, applied_);
+    T error = 0, scale = 0;
+    for (std::size_t r = 0; r < p.robots.size(); ++r) {
+        const Mechanics<T>& robot = *p.robots[r];
+        const auto nv = static_cast<std::size_t>(robot.type->nv);
+        for (std::size_t k = 0; k < nv; ++k) {
+            const std::size_t i = static_cast<std::size_t>(p.offsets[r]) + k;
+            const T& free = robot.impulse[k];
+            g_[i] = mv_[i] - free - applied_[i];
+            const T& m = robot.mass_matrix[robot.type->paths.diagonal(k)];
+            error += g_[i] * g_[i] / m;
+            scale += (mv_[i] * mv_[i] + free * free + applied_[i] * applied_[i]) / m;
+        }
+    }
+    const Mask finite = equal(error - error, T(0));
+    return select(equal(scale, T(0)), T(0), select(finite, sqrt(error / scale), T(kNeverSolved)));
+}
+
+/// The potential's derivative along the step.
+template <class T, class Matrix>
+T Newton<T, Matrix>::slope() const {
+    T sum = 0;
+    for (std::size_t i = 0; i < n_; ++i) sum += step_[i] * g_[i];
+    return sum;
+}
+
+/// Goes along the step to the minimum; the whole step is nearly always good enough. Returns the balance
+/// there.
+template <class T, class Matrix>
+T Newton<T, Matrix>::take_step(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v) {
+    constexpr double kGoodEnough = 0.1;  // of the slope at the start may be left
+    const T at_start = slope();
+    move(p, 1.0, v);
+    const T residual = balance(p);
+    const T at_end = slope();
+    if (together(!(at_start < T(0)) | (magnitude(at_end) <= -kGoodEnough * at_start))) return residual;
+    move(p, line_search(p, together, at_start, at_end), v);
+    return balance(p);
+}
+
+/// Exact minimum along the step, as its distance from the step's end, where we are: the root of the
+/// derivative, which is monotone.
+template <class T, class Matrix>
+T Newton<T, Matrix>::line_search(const SolveProblem<T>& p, Lockstep<T>& together, const T& at_start,
+                                 const T& at_end) {
+    T slope0 = 0, quadratic = 0;  // of the smooth part
+    for (std::size_t r = 0; r < p.robots.size(); ++r) {
+        for (std::size_t k = 0; k < static_cast<std::size_t>(p.robots[r]->type->nv); ++k) {
+            const std::size_t i = static_cast<std::size_t>(p.offsets[r]) + k;
+            slope0 += step_[i] * (mv_[i] - p.robots[r]->impulse[k]);
+            quadratic += step_[i] * m_step_[i];
+        }
+    }
+    const auto slope_at = [&](const T& way) {
+        return slope0 + way * quadratic - newton::row_slope(p.rows, way);
+    };
+    T low = -1, high = 0, s_low = at_start, s_high = at_end;
+    for (int i = 0; i < 20 && together(s_high < T(0)); ++i)
+        low = high, s_low = s_high, high = T(2) * high + T(1), s_high = slope_at(high);
+    int side = 0;  // of the last point: -1 below the root
+    for (int i = 0; i < 60;
+         ++i) {  // regula falsi with the Illinois rule; each third time a bisection, for the kinks are sharp
+        const T share = i % 3 == 2 ? T(0.5) : s_low / (s_low - s_high);
+        const T way = low + (high - low) * share;
+        const T s = slope_at(way);
+        if (together(magnitude(s) <= -0.05 * at_start)) return way;
+        if (together(s < T(0))) {
+            low = way, s_low = s;
+            if (side < 0) s_high *= 0.5;
+            side = -1;
+        } else {
+            high = way, s_high = s;
+            if (side > 0) s_low *= 0.5;
+            side = 1;
+        }
+    }
+    return select(low > T(-1), low, high);
+}
+
+/// v += alpha * step, with all that depends on it linearly.
+template <class T, class Matrix>
+void Newton<T, Matrix>::move(const SolveProblem<T>& p, const T& alpha, std::vector<T>& v) {
+    for (std::size_t i = 0; i < n_; ++i) {
+        v[i] += alpha * step_[i];
+        mv_[i] += alpha * m_step_[i];
+    }
+    for_each_bounded(p.rows, [&](BoundedRowT<T>& row) { row.u += alpha * row.du; });
+    for_each_disc(p.rows, [&](FrictionDiscT<T>& disc) {
+        disc.u_1 += alpha * disc.du_1, disc.u_2 += alpha * disc.du_2;
+    });
+}
+
+/// The whole step, only where `some`.
+template <class T, class Matrix>
+void Newton<T, Matrix>::move_some(const SolveProblem<T>& p, const Mask& some, std::vector<T>& v) {
+    const auto go = [&](T& x, const T& dx) { x = select(some, x + dx, x); };
+    for (std::size_t i = 0; i < n_; ++i) go(v[i], step_[i]), go(mv_[i], m_step_[i]);
+    for_each_bounded(p.rows, [&](BoundedRowT<T>& row) { go(row.u, row.du); });
+    for_each_disc(p.rows, [&](FrictionDiscT<T>& disc) { go(disc.u_1, disc.du_1), go(disc.u_2, disc.du_2); });
+}
+
+/// step = -H^-1 g with the rows' present curvatures, and what follows from it.
+template <class T, class Matrix>
+MaskOf<T> Newton<T, Matrix>::find_step(const SolveProblem<T>& p, bool coupled) {
+    hessian_.assemble(p.rows, coupled);
+    for (std::size_t i = 0; i < n_; ++i) step_[i] = -g_[i];
+    const Mask good = hessian_.solve(step_);
+    if (!any(good)) return good;
+    times_mass(p, step_, m_step_);
+    set_steps(p.rows, step_);
+    return good;
+}
+
+/// Near the solution: Newton's method on the balance itself, friction bounds moving with the normal impulses,
+/// which finds both at once and quadratically. There is no potential to descend on, so it gives up, at the
+/// velocities where it began, as soon as the balance does not get better. Lanes go on until the last is
+/// there; those that are there stay where they are.
+template <class T, class Matrix>
+bool Newton<T, Matrix>::solve_coupled(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v,
+                                      SolveReportT<T>& report) {
+    constexpr int kStepsMax = 8;
+    constexpr double kProgress = 0.5;  // of the residual in a step, at least
+    v_start_ = v, mv_start_ = mv_;
+    T best = std::numeric_limits<double>::infinity();
+    for (int i = 0;; ++i) {
+        friction::tie_bounds(p.rows);
+        report.residual = balance(p);
+        const Mask there = report.residual <= T(p.accuracy.tolerance);
+        if (together.all(there)) return true;
+        if (i == kStepsMax || !together(there | (report.residual <= kProgress * best))) break;
+        best = report.residual;
+        newton::set_curvatures(p.rows);
+        const Mask slides = friction::couple_bounds(p.rows);
+        const bool coupled = together.without(there, slides);
+        if (!together(there | find_step(p, coupled))) break;
+        move_some(p, !there, v);
+        report.iterations += select(there, T(0), T(1));
+    }
+    return_to_start(p, v);
+    return false;
+}
+
+template <class T, class Matrix>
+void Newton<T, Matrix>::return_to_start(const SolveProblem<T>& p, std::vector<T>& v) {
+    v = v_start_, mv_ = mv_start_;
+    set_steps(p.rows, v);
+    newton::take_velocities(p.rows);
+}
+
+/// A first step to where the island would be if every contact did what it did in the last tick: mostly the
+/// solution. Leaves the balance there.
+template <class T, class Matrix>
+void Newton<T, Matrix>::start_as_expected(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v,
+                                          SolveReportT<T>& report) {
+    report.residual = balance(p);
+    if (together(report.residual <= T(newton::kRoughly))) return;
+    newton::set_curvatures(p.rows);
+    if (!together(newton::expect_sticking(p.rows))) return;
+    v_start_ = v, mv_start_ = mv_;
+    gradient(p);
+    find_step(p, false);
+    move(p, 1.0, v);
+    report.iterations += T(1);
+    const T before = report.residual;
+    report.residual = balance(p);
+    if (together(report.residual <= before)) return;
+    return_to_start(p, v);
+    report.residual = balance(p);
+}
+
+template <class T, class Matrix>
+MaskOf<T> Newton<T, Matrix>::solve(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v,
+                                   SolveReportT<T>& report) {
+    constexpr double kFar =
+        1e-2;  // a residual that shows that the set of sliding and open contacts is not found yet
+    constexpr int kFarMax = 16;
+    constexpr double kRounding = 1e-8;  // below, a residual that no longer falls is taken for rounding
+    constexpr int kCoupledTries = 3;
+    int far = 0, bound_updates = 0, stalls = 0, coupled_tries = 0;
+    bool settled = p.position;  // the friction bounds
+    T best = 1;
+    start_as_expected(p, together, v, report);
+    for (int i = 0; together.any(); ++i) {
+        if (together(report.residual <= T(newton::kRoughly))) {
+            if (!settled && coupled_tries < kCoupledTries) {
+                ++coupled_tries;
+                if (solve_coupled(p, together, v, report)) return true;
+                newton::update_impulses(p.rows);
+            }
+            if (!settled) {
+                const T change = friction::update_bounds(p.rows);
+                settled = together(change <= T(p.accuracy.friction_tolerance)) ||
+                          ++bound_updates >= p.accuracy.friction_max;
+                report.residual = balance(p);
+            }
+            const bool stalls_now =
+                settled && together((report.residual <= T(kRounding)) & (report.residual > 0.9 * best));
+            stalls = stalls_now ? stalls + 1 : 0;
+            best = settled ? smaller(best, report.residual) : T(1);
+            if (settled && (together(report.residual <= T(p.accuracy.tolerance)) || stalls >= 3)) return true;
+        }
+        if (together(report.residual > T(kFar))) ++far;
+        if (far > kFarMax || i == p.accuracy.newton_max) return report.residual <= T(newton::kRoughly);
+        newton::set_curvatures(p.rows);
+        find_step(p, false);
+        report.residual = take_step(p, together, v);
+        report.iterations += T(1);
+    }
+    return false;
+}
+
+}  // namespace roboss
