@@ -180,8 +180,8 @@ bool add_contact_row(const Model& model, const Contact& c, std::span<const Robot
     const bool loaded = c.load > 0;
     const double compliance = ease * (loaded ? model.accuracy.contact_compliance : model.accuracy.compliance);
     row.normal.low = 0, row.normal.high = std::numeric_limits<double>::infinity();
-    const bool split = !set_softness(c, dt, ease, ease * model.accuracy.compliance, row.normal) &&
-                       set_normal(c, approach, gravity_n, dt, compliance, row.normal);
+    row.soft = set_softness(c, dt, ease, ease * model.accuracy.compliance, row.normal);
+    const bool split = !row.soft && set_normal(c, approach, gravity_n, dt, compliance, row.normal);
     row.slip.coefficient = c.mu;
     row.slip.bound = c.mu * c.impulse;
     row.slip.compliance = compliance;

@@ -86,6 +86,7 @@ struct ContactRow {
     BoundedRow normal;
     FrictionDisc slip;
     double load_max = 0;  // of its normal impulse, what may count as a load and not as a blow
+    bool soft = false;    // a spring and damper
     bool sticks = false;  // it carried a load in the last tick and did not slide: it probably will not now
     double ease = 1;      // 1/kg: mobility that its compliances are relative to
 };
