@@ -46,6 +46,10 @@ void mark_pushed(std::span<RobotWork> robots, GroupScratch& s) {
     }
 }
 
+bool flies(const Model& model, const RobotWork& work, const GroupScratch& s) {
+    return moves_freely(model, work) && !(s.keep_loads && !work.type->loops.empty());
+}
+
 /// Writes the solved velocities into the states and moves the coordinates. A robot that is near something but
 /// not pushed moves freely, else a ball would lose height in every tick that it spends close to the ground.
 void finish_island(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
@@ -54,7 +58,7 @@ void finish_island(const Model& model, std::span<RobotWork> robots, GroupScratch
         RobotWork& work = robots[members[m]];
         const auto offset = static_cast<std::size_t>(s.island_offsets[m]);
         const auto nv = static_cast<std::size_t>(work.type->nv);
-        if (!work.pushed && moves_freely(model, work)) {
+        if (!work.pushed && flies(model, work, s)) {
             advance_freely(model, work, s.free_buffer);
             continue;
         }
@@ -110,6 +114,9 @@ void take_impulses(GroupScratch& s) {
         if (row.motor != nullptr) remember_load(row.impulse, *row.motor);
     for (const CouplingRow& row : s.rows.couplings)
         if (row.motor != nullptr) remember_load(row.impulse, *row.motor);
+    if (s.keep_loads)
+        for (const CouplingRow& row : s.rows.couplings)
+            if (row.loop >= 0) s.loads.push_back({row.robot, row.loop, row.wrench * row.impulse});
     for (std::size_t c = 0; c < s.rows.contacts.size(); ++c) {
         const ContactRow& row = s.rows.contacts[c];
         Contact& contact = *s.island_contacts[c];
@@ -197,8 +204,7 @@ void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch&
     if (members.size() == 1) {
         RobotWork& work = robots[members[0]];
         if (work.type->nv == 0) return;
-        if (work.contacts == 0 && moves_freely(model, work))
-            return advance_freely(model, work, s.free_buffer);
+        if (work.contacts == 0 && flies(model, work, s)) return advance_freely(model, work, s.free_buffer);
     }
     const bool split = gather_island(model, robots, s, members, s.contacts);
     s.v_before = s.v;

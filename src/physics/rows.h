@@ -54,6 +54,9 @@ struct CouplingColumn {
 struct CouplingRow : BoundedRow {
     std::size_t first = 0, last = 0;  // columns
     MotorSetpoint* motor = nullptr;   // that remembers its load
+    RobotId robot;
+    int loop = -1;   // in RobotType::loops, if it is of one
+    Spatial wrench;  // of a loop: on its body B about the robot's origin, per unit of impulse
 };
 
 /// Columns of the contacts' Jacobians: velocity of A against B at the point, along (normal, tangent 1,

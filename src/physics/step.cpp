@@ -20,7 +20,6 @@ struct StepScratch::Impl {
     Meetings meetings;
     std::vector<std::uint32_t> awake, near;
     std::vector<char> is_near, ordered, moved_freely;
-    bool keep_contacts = false;
     std::vector<ContactReport> contacts;
 };
 
@@ -163,7 +162,7 @@ struct Call {
             expire_wrenches(tick, state);
             if (!report.not_finite.valid() && !is_finite(state)) report.not_finite = works[k].id;
         }
-        if (s.keep_contacts) keep_contacts(works, s.group.contacts, s.contacts);
+        if (s.group.keep_loads) keep_contacts(works, s.group.contacts, s.contacts);
         return true;
     }
 };
@@ -184,7 +183,7 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
     const ExactFloatScope exact;
     Impl& s = scratch.impl();
     StepReport report;
-    s.contacts.clear();
+    s.contacts.clear(), s.group.loads.clear();
     s.moved_freely.assign(robots.size(), 0);
     apply_orders(model, robots, states, orders, s.ordered);
     find_near(model, robots, states, s);
@@ -194,19 +193,23 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
         return report;
     for (std::uint32_t i = 0; i < robots.size(); ++i)
         if (!s.is_near[i] && !call.step({&i, 1}, s.alone, s, report)) return report;
-    if (s.keep_contacts)
+    if (s.group.keep_loads)
         std::stable_sort(
             s.contacts.begin(), s.contacts.end(),
             [](const ContactReport& a, const ContactReport& b) { return a.robot_a < b.robot_a; });
     return report;
 }
 
-void StepScratch::keep_contacts(bool keep) {
-    impl_->keep_contacts = keep;
+void StepScratch::keep_loads(bool keep) {
+    impl_->group.keep_loads = keep;
 }
 
 std::span<const ContactReport> read_contacts(StepScratch& scratch) {
     return scratch.impl().contacts;
+}
+
+std::span<const LoopLoad> read_loop_loads(StepScratch& scratch) {
+    return scratch.impl().group.loads;
 }
 
 bool moved_freely(StepScratch& scratch, std::size_t index) {

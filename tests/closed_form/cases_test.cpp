@@ -1,5 +1,4 @@
 // The quick cases of ./bench.sh accuracy, on RoBOSS, as plain tests: the same figures, truths and bounds.
-// What is known to miss its bound is listed, and must be taken off the list when it no longer does.
 #include <gtest/gtest.h>
 
 #include <algorithm>
