@@ -90,11 +90,6 @@ std::vector<Case> slope_cases() {
         {{"way, relative", "", 5e-4}, {"speed, relative", "", 5e-4}, {"way at half the step", "", {}}},
         slide_box};
     sliding.also_coarse = true;
-    sliding.remark =
-        "The way of a tick is taken with the velocity at its end, which adds dt / t: 0.05 % at 1 ms and 2 s, "
-        "the bound "
-        "itself; half of it at half the step. The speed, which the friction decides, shows what the solver "
-        "does.";
     Case standing{"stand",
                   "Box standing on 20 degrees, mu 0.4, 10 s",
                   "it does not move",

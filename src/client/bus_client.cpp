@@ -87,6 +87,7 @@ void BusClient::show() {
     offers_.erase(offers_.begin(), offers_.upper_bound(tick_));
     pull_.cancel();
     observing_ = true;
+    renew_samples();
 }
 
 void BusClient::answer(Bus& bus) {

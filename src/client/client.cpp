@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/check.h"
+
 namespace roboss {
 
 Transform Client::pose(RobotId robot, LinkId link) const {
@@ -40,16 +42,86 @@ Result<> Client::set_joint(RobotId robot, JointId joint, MotorMode mode, double 
     return order(robot, SetJoint{joint, axis, mode, target, max_effort});
 }
 
+Sample Client::measure(RobotId robot, std::size_t sensor) {
+    const RobotType& type = model().type_of(robot);
+    ROBOSS_CHECK(sensor < type.sensors.size(), type.name + " has no sensor number " + std::to_string(sensor));
+    const RobotState& now = state(robot);
+    switch (type.sensors[sensor].spec.kind) {
+        case SensorKind::kLaser:
+            return read_laser(model(), robot, sensor, now, tick(), seed(), ray_scene());
+        case SensorKind::kGps:
+            return read_gps(model(), robot, sensor, now, tick(), seed());
+        case SensorKind::kCompass:
+            return read_compass(model(), robot, sensor, now, tick(), seed());
+        case SensorKind::kOdometer:
+            return read_odometer(model(), robot, sensor, now, tick(), seed());
+        case SensorKind::kUnsupported:
+            break;
+    }
+    ROBOSS_CHECK(false, type.sensors[sensor].spec.name + " measures nothing");
+    return {};
+}
+
+/// The sample that the sensor holds, or a new one where it has no rate or holds none yet.
+template <class Reading>
+Reading Client::sampled(RobotId robot, std::size_t sensor) {
+    const HeldSamples::Key key{robot.value, static_cast<std::uint32_t>(sensor)};
+    const Sample* held = samples_.find(key);
+    Sample fresh;
+    if (held == nullptr) {
+        fresh = measure(robot, sensor);
+        const bool rated = model().type_of(robot).sensors[sensor].spec.update_rate_hz > 0;
+        held = rated ? &samples_.put(key, std::move(fresh)) : &fresh;
+    }
+    const Reading* reading = std::get_if<Reading>(held);
+    ROBOSS_CHECK(reading != nullptr, "sensor number " + std::to_string(sensor) + " of a " +
+                                         model().type_of(robot).name + " is of another kind");
+    return *reading;
+}
+
+void Client::renew_samples() {
+    for (auto& [key, held] : samples_.all()) {
+        const RobotId robot(key.first);
+        const double rate = model().type_of(robot).sensors[key.second].spec.update_rate_hz;
+        if (samples_begun(rate, model().dt_s, tick()) ==
+            samples_begun(rate, model().dt_s, taken_at(held.sample)))
+            continue;
+        held.before = std::move(held.sample);
+        held.sample = measure(robot, key.second);
+    }
+}
+
+Result<> Client::restore_samples(const std::string& bytes) {
+    HeldSamples samples;
+    if (Result<> read = samples.restore(bytes); !read) return read;
+    for (const auto& [key, held] : samples.all()) {
+        const bool known = key.first < model().robots.size() &&
+                           key.second < model().type_of(RobotId(key.first)).sensors.size();
+        const SensorKind kind = known ? model().type_of(RobotId(key.first)).sensors[key.second].spec.kind
+                                      : SensorKind::kUnsupported;
+        if (kind == SensorKind::kUnsupported || static_cast<std::size_t>(kind) != held.sample.index())
+            return Error{"a saved run holds a sample of a sensor that this world does not have",
+                         "continue it with the world that it was saved with"};
+    }
+    samples_ = std::move(samples);
+    renew_samples();
+    return Ok{};
+}
+
 LaserReading Client::laser(RobotId robot, std::size_t sensor) {
-    return read_laser(model(), robot, sensor, state(robot), tick(), seed(), ray_scene());
+    return sampled<LaserReading>(robot, sensor);
 }
 
 OdometerReading Client::odometer(RobotId robot, std::size_t sensor) {
-    return read_odometer(model(), robot, sensor, state(robot), tick(), seed());
+    return sampled<OdometerReading>(robot, sensor);
 }
 
 GpsReading Client::gps(RobotId robot, std::size_t sensor) {
-    return read_gps(model(), robot, sensor, state(robot), tick(), seed());
+    return sampled<GpsReading>(robot, sensor);
+}
+
+CompassReading Client::compass(RobotId robot, std::size_t sensor) {
+    return sampled<CompassReading>(robot, sensor);
 }
 
 StepProbe& Client::probe() {
@@ -67,10 +139,6 @@ std::span<const ContactReport> Client::contacts() {
 
 std::vector<JointReaction> Client::joint_reactions(RobotId robot) {
     return probe().joint_reactions(robot);
-}
-
-CompassReading Client::compass(RobotId robot, std::size_t sensor) {
-    return read_compass(model(), robot, sensor, state(robot), tick(), seed());
 }
 
 }  // namespace roboss

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "client/held_samples.h"
 #include "core/result.h"
 #include "model/model.h"
 #include "model/order.h"
@@ -49,7 +50,10 @@ class Client {
 
     // --- sensors: `sensor` is an index into RobotType::sensors
     // ------------------------------------------------------ Readings include the sensor's noise, a pure
-    // function of (seed, robot, sensor, tick).
+    // function of (seed, robot, sensor, tick of the measurement). A sensor without <update_rate> measures
+    // when it is asked. One with it measures when it is asked for the first time, and from then on at the
+    // first observation at which a new sample is due (samples_begun), asked or not; in between it says that
+    // one again.
     LaserReading laser(RobotId robot, std::size_t sensor);
     OdometerReading odometer(RobotId robot, std::size_t sensor);
     GpsReading gps(RobotId robot, std::size_t sensor);
@@ -62,12 +66,22 @@ class Client {
     /// What the joints of the robot bear.
     std::vector<JointReaction> joint_reactions(RobotId robot);
 
+    // --- the held samples of sensors with an <update_rate>, for saved runs
+    std::string samples_before(Tick tick) const { return samples_.bytes_before(tick); }
+    Result<> restore_samples(const std::string& bytes);
+
   protected:
+    /// Whoever implements a Client calls it when a new observation is shown.
+    void renew_samples();
     /// The scene for rays at the observed tick; built when the first laser of a tick asks.
     virtual RayScene& ray_scene() = 0;
 
   private:
     StepProbe& probe();
+    Sample measure(RobotId robot, std::size_t sensor);
+    template <class Reading>
+    Reading sampled(RobotId robot, std::size_t sensor);
+    HeldSamples samples_;
     std::unique_ptr<StepProbe> probe_;  // made by the first question
 };
 

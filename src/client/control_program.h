@@ -33,7 +33,7 @@ class ControlProgram {
 };
 
 /// Version of this interface; the loader refuses a library built against another one.
-inline constexpr int kControlProgramAbi = 3;
+inline constexpr int kControlProgramAbi = 4;
 
 }  // namespace roboss
 

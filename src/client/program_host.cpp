@@ -34,6 +34,26 @@ BusClientOptions options_or_default(const ControlProgram& program, const Model& 
     return std::move(options).value();
 }
 
+/// The memory of a saved run: how long the sensors' part is (eight bytes), the sensors' part, the program's.
+std::string joined(const std::string& samples, const std::string& program) {
+    if (samples.empty() && program.empty()) return {};
+    std::string memory;
+    for (int i = 0; i < 8; ++i) memory.push_back(static_cast<char>(samples.size() >> (8 * i) & 0xFF));
+    return memory + samples + program;
+}
+
+/// False if the bytes are too few to be a memory.
+bool part(const std::string& memory, std::string& samples, std::string& program) {
+    if (memory.size() < 8) return false;
+    std::uint64_t length = 0;
+    for (std::size_t i = 0; i < 8; ++i)
+        length |= static_cast<std::uint64_t>(static_cast<unsigned char>(memory[i])) << (8 * i);
+    if (length > memory.size() - 8) return false;
+    samples = memory.substr(8, length);
+    program = memory.substr(8 + length);
+    return true;
+}
+
 }  // namespace
 
 ProgramHost::ProgramHost(const std::shared_ptr<const Model>& model, const Address& self, std::string name,
@@ -56,13 +76,26 @@ bool ProgramHost::guarded(Bus& bus, const char* what, Call&& call) {
     return false;
 }
 
+bool ProgramHost::restore_all(Bus& bus) {
+    std::string samples, program;
+    if (!part(*restored_, samples, program)) {
+        failure_ = "what a saved run remembers of it is damaged";
+    } else if (const Result<> restored = client_.restore_samples(samples); !restored) {
+        failure_ = restored.error().text();
+    } else {
+        return program.empty() || guarded(bus, "restore()", [&] { program_->restore(program); });
+    }
+    client_.leave(bus, failure_);
+    return false;
+}
+
 void ProgramHost::advance(Bus& bus) {
     client_.advance(bus);
     if (!client_.observing() || !failure_.empty()) return;
     if (!started_) {
         started_ = true;
         if (!guarded(bus, "start()", [&] { program_->start(client_); })) return;
-        if (restored_ && !guarded(bus, "restore()", [&] { program_->restore(*restored_); })) return;
+        if (restored_ && !restore_all(bus)) return;
     }
     const bool done = guarded(bus, "control()", [&] {
         memory_before_ = program_->memory();
@@ -73,7 +106,7 @@ void ProgramHost::advance(Bus& bus) {
 }
 
 std::string ProgramHost::memory_at(Tick tick) const {
-    return controlled_ >= tick ? memory_before_ : program_->memory();
+    return joined(client_.samples_before(tick), controlled_ >= tick ? memory_before_ : program_->memory());
 }
 
 }  // namespace roboss

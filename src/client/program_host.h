@@ -25,10 +25,12 @@ class ProgramHost {
     const BusClient& client() const { return client_; }
     BusClient& client() { return client_; }
     const std::string& failure() const { return failure_; }
-    /// What the program remembered when it had answered every observation before `tick`, and none since.
+    /// What the program and its sensors remembered when it had answered every observation before `tick`, and
+    /// none since.
     std::string memory_at(Tick tick) const;
 
   private:
+    bool restore_all(Bus& bus);
     template <class Call>
     bool guarded(Bus& bus, const char* what, Call&& call);
 

@@ -80,7 +80,7 @@ TEST_P(RestingPair, KeepsItsFeaturesAndPlacesUnderNoise) {
         for (int i = 0; i < 200; ++i) {
             Pose X = r.X_top;
             X.p += Vec3{noise(size), noise(size), noise(size)};
-            X.q = exponential({noise(size), noise(size), noise(size)}) * X.q;
+            X.q = exponential(Vec3{noise(size), noise(size), noise(size)}) * X.q;
             const Manifold m = collide(r.top, to_transform(X), r.bottom, to_transform(r.X_bottom), kMargin);
             ASSERT_EQ(m.count, r.points) << "noise " << size;
             ASSERT_GT(m.n_W.z, 0.999999);

@@ -59,11 +59,19 @@ QuatT<T> axis_angle(const Vec3T<T>& axis, const T& angle) {
     return {h.cos, axis.x * h.sin, axis.y * h.sin, axis.z * h.sin};
 }
 
+template <class T>
+QuatT<T> select(const MaskOf<T>& m, const QuatT<T>& a, const QuatT<T>& b) {
+    return {select(m, a.w, b.w), select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
+}
+
 /// Rotation by the vector `rotation` (axis times angle).
-inline Quat exponential(const Vec3& rotation) {
-    const double angle = norm(rotation);
-    if (angle < 1e-9) return normalized(Quat{1.0, 0.5 * rotation.x, 0.5 * rotation.y, 0.5 * rotation.z});
-    return axis_angle(rotation / angle, angle);
+template <class T>
+QuatT<T> exponential(const Vec3T<T>& rotation) {
+    const T angle = norm(rotation);
+    return either(
+        angle < T(1e-9),
+        [&] { return normalized(QuatT<T>{T(1), 0.5 * rotation.x, 0.5 * rotation.y, 0.5 * rotation.z}); },
+        [&] { return axis_angle(rotation / angle, angle); });
 }
 
 /// The rotation vector (axis times angle, angle in [0, pi]) of a unit quaternion.

@@ -132,7 +132,7 @@ class StartClosure {
             for (std::size_t i = 0; i < m; ++i) change[k] -= jacobian_[i * n + k] * x[i];
             largest = std::max(largest, std::fabs(change[k]));
         }
-        advance_coordinates(type_, change, largest > kStepMax ? kStepMax / largest : 1.0, q_);
+        advance_coordinates<double>(type_, change, largest > kStepMax ? kStepMax / largest : 1.0, q_);
     }
 
     /// x := a^-1 x; lower triangle, row-major.

@@ -219,9 +219,9 @@ MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const Contac
     const T compliance =
         ease * select(loaded, T(model.accuracy.contact_compliance), T(model.accuracy.compliance));
     row.normal.high = std::numeric_limits<double>::infinity();
+    row.soft = contact::set_softness(c, dt, ease, ease * model.accuracy.compliance, row.normal);
     MaskOf<T> split = false;
-    if (!contact::set_softness(c, dt, ease, ease * model.accuracy.compliance, row.normal))
-        split = contact::set_normal(c, approach, gravity_n, dt, compliance, row.normal);
+    if (!row.soft) split = contact::set_normal(c, approach, gravity_n, dt, compliance, row.normal);
     row.slip.coefficient = c.mu;
     row.slip.bound = c.mu * c.impulse;
     row.slip.compliance = compliance;

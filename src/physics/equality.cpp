@@ -25,7 +25,8 @@ BodyMotion motion_of(const RobotWork& work, std::span<const double> q, int body)
     return {{b.X_WB.R, b.X_WB.p - work.origin}, b.velocity, b.bias};
 }
 
-void add_loop(const RobotWork& work, std::span<const double> q, const LoopJoint& loop, Equalities& out) {
+void add_loop(const RobotWork& work, std::span<const double> q, std::size_t index, Equalities& out) {
+    const LoopJoint& loop = work.type->loops[index];
     const ClosureRows closure =
         closure_rows(loop, motion_of(work, q, loop.body_a), motion_of(work, q, loop.body_b));
     for (const ClosureRow& condition : closure.all()) {
@@ -37,6 +38,7 @@ void add_loop(const RobotWork& work, std::span<const double> q, const LoopJoint&
         row.last = out.columns.size();
         row.error = condition.error, row.curvature = condition.curvature;
         row.mobility = condition.mobility;
+        row.loop = static_cast<int>(index), row.wrench = condition.wrench;
         out.rows.push_back(row);
     }
 }
@@ -61,7 +63,7 @@ void add_coupling(const RobotType& type, std::span<const double> q, const Coordi
 
 void gather_equalities(const RobotWork& work, std::span<const double> q, Equalities& equalities) {
     equalities.columns.clear(), equalities.rows.clear();
-    for (const LoopJoint& loop : work.type->loops) add_loop(work, q, loop, equalities);
+    for (std::size_t i = 0; i < work.type->loops.size(); ++i) add_loop(work, q, i, equalities);
     for (const CoordinateCoupling& coupling : work.type->couplings)
         add_coupling(*work.type, q, coupling, equalities);
 }
@@ -159,7 +161,7 @@ void EqualityProjection::close_coordinates(const RobotType& type, std::span<doub
         solver_.solve(wanted_, change_);
         double step = 0;
         for (const double x : change_) step = std::max(step, std::fabs(x));
-        advance_coordinates(type, change_, step > kStepMax ? kStepMax / step : 1.0, q);
+        advance_coordinates<double>(type, change_, step > kStepMax ? kStepMax / step : 1.0, q);
         if (step <= kClosed) return;
     }
 }

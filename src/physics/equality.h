@@ -21,6 +21,8 @@ struct EqualityRow {
     double error = 0;                 // m or rad
     double curvature = 0;             // second derivative of the error with all joint accelerations zero
     double mobility = 0;              // scale of J M^-1 J^T
+    int loop = -1;                    // in RobotType::loops, if it is of one
+    Spatial wrench;                   // of a loop: on its body B about O, per unit of impulse
 };
 
 struct Equalities {

@@ -76,7 +76,7 @@ MaskOf<T> couple_bounds(IslandRowsT<T>& rows) {
     MaskOf<T> slides = false;
     for (ContactRowT<T>& row : rows.contacts) {
         FrictionDiscT<T>& disc = row.slip;
-        const MaskOf<T> pressed = !equal(row.normal.d, T(0)) & (disc.bound > T(0));
+        const MaskOf<T> pressed = (!equal(row.normal.d, T(0))) & (disc.bound > T(0));
         if (!any(pressed)) continue;
         const T speed = sqrt(disc.u_1 * disc.u_1 + disc.u_2 * disc.u_2);
         const MaskOf<T> here = pressed & (speed > disc.bound * disc.compliance);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/loads.h"
+
 namespace roboss {
 namespace {
 
@@ -46,6 +48,10 @@ void mark_pushed(std::span<RobotWork> robots, GroupScratch& s) {
     }
 }
 
+bool flies(const Model& model, const RobotWork& work, const GroupScratch& s) {
+    return moves_freely(model, work) && !(s.keep_loads && !work.type->loops.empty());
+}
+
 /// Writes the solved velocities into the states and moves the coordinates. A robot that is near something but
 /// not pushed moves freely, else a ball would lose height in every tick that it spends close to the ground.
 void finish_island(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
@@ -54,13 +60,13 @@ void finish_island(const Model& model, std::span<RobotWork> robots, GroupScratch
         RobotWork& work = robots[members[m]];
         const auto offset = static_cast<std::size_t>(s.island_offsets[m]);
         const auto nv = static_cast<std::size_t>(work.type->nv);
-        if (!work.pushed && moves_freely(model, work)) {
+        if (!work.pushed && flies(model, work, s)) {
             advance_freely(model, work, s.free_buffer);
             continue;
         }
         work.held = true;
         std::copy_n(s.v.begin() + static_cast<std::ptrdiff_t>(offset), nv, work.state->v.begin());
-        advance_coordinates(*work.type, way.subspan(offset, nv), model.dt_s, work.state->q);
+        advance_coordinates<double>(*work.type, way.subspan(offset, nv), model.dt_s, work.state->q);
         if (work.type->has_equalities())
             s.free_buffer.projection.close_coordinates(*work.type, work.state->q);
     }
@@ -97,27 +103,17 @@ bool gather_island(const Model& model, std::span<RobotWork> robots, GroupScratch
     return split;
 }
 
-/// A blow is not a load: the smaller of the last two impulses, if they push the same way.
-void remember_load(double impulse, MotorSetpoint& motor) {
-    const bool lasts = impulse * motor.impulse > 0;
-    motor.load = lasts ? std::copysign(std::fmin(std::fabs(impulse), std::fabs(motor.impulse)), impulse) : 0;
-    motor.impulse = impulse;
-}
-
 /// The solved impulses, into motors and contacts: what the next tick starts from.
 void take_impulses(GroupScratch& s) {
     for (const JointRow& row : s.rows.joints)
         if (row.motor != nullptr) remember_load(row.impulse, *row.motor);
     for (const CouplingRow& row : s.rows.couplings)
         if (row.motor != nullptr) remember_load(row.impulse, *row.motor);
-    for (std::size_t c = 0; c < s.rows.contacts.size(); ++c) {
-        const ContactRow& row = s.rows.contacts[c];
-        Contact& contact = *s.island_contacts[c];
-        const ContactFrame frame = frame_of(contact);
-        contact.load = std::min({contact.impulse, row.normal.impulse, row.load_max});
-        contact.impulse = row.normal.impulse;
-        contact.friction = frame.t1 * row.slip.impulse_1 + frame.t2 * row.slip.impulse_2;
-    }
+    if (s.keep_loads)
+        for (const CouplingRow& row : s.rows.couplings)
+            if (row.loop >= 0) s.loads.push_back({row.robot, row.loop, row.wrench * row.impulse});
+    for (std::size_t c = 0; c < s.rows.contacts.size(); ++c)
+        take_impulse(s.rows.contacts[c], *s.island_contacts[c]);
     for (const AngularRow& row : s.rows.angulars) {
         Contact& contact = *s.island_contacts[row.contact];
         Vec3 t1, t2;
@@ -127,27 +123,61 @@ void take_impulses(GroupScratch& s) {
     }
 }
 
-/// Mending may move no joint or base faster than this beyond what the robot does anyhow; more than that comes
-/// of shapes that start deep in each other, where a contact has hardly a lever on a light link. The way of
-/// the whole island goes back towards its velocity, by one share, so that it still fits at every contact.
+/// The way of the whole island goes back towards its velocity, by one share, so that it still fits at every
+/// contact.
 void limit_mending(std::span<const RobotWork> robots, GroupScratch& s,
                    std::span<const std::uint32_t> members) {
-    constexpr double kMendingMax = 20;  // rad/s or m/s
     double share = 1;
     for (std::size_t m = 0; m < members.size(); ++m) {
         const std::vector<double>& before = robots[members[m]].state->v;
-        const auto offset = static_cast<std::size_t>(s.island_offsets[m]);
-        double fastest = 0, mending = 0;
-        for (std::size_t i = 0; i < before.size(); ++i) {
-            const double v = s.v[offset + i];
-            fastest = std::max({fastest, std::fabs(before[i]), std::fabs(v)});
-            mending = std::max(mending, std::fabs(s.v_before[offset + i] - v));
-        }
-        const double most = kMendingMax + 2 * fastest;
-        if (mending > most) share = std::min(share, most / mending);
+        const auto part = [&](const std::vector<double>& v) {
+            return std::span(v).subspan(static_cast<std::size_t>(s.island_offsets[m]), before.size());
+        };
+        share = std::min(share, share_of_mending<double>(before, part(s.v), part(s.v_before)));
     }
     if (share == 1) return;
     for (std::size_t i = 0; i < s.v.size(); ++i) s.v_before[i] = s.v[i] + share * (s.v_before[i] - s.v[i]);
+}
+
+/// Lone bodies that hardly turn, before and after the tick.
+bool slides_only(std::span<const RobotWork> robots, const GroupScratch& s,
+                 std::span<const std::uint32_t> members) {
+    constexpr double kTurning = 1e-3;  // rad/s
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        const RobotType& type = *robots[members[m]].type;
+        if (type.nv == 0) continue;
+        if (!type.free_base || type.nv != 6) return false;
+        const auto offset = static_cast<std::size_t>(s.island_offsets[m]);
+        for (std::size_t i = offset; i < offset + 3; ++i)
+            if (std::fabs(s.v_before[i]) > kTurning || std::fabs(s.v[i]) > kTurning) return false;
+    }
+    return true;
+}
+
+/// True if every contact is hard and no normal velocity changes: nothing new touches, nothing lifts off.
+bool contacts_are_steady(const GroupScratch& s, double dt) {
+    constexpr double kNothing = 1e-10;  // m, in the way of a tick
+    const ContactColumns& columns = s.rows.columns;
+    for (const ContactRow& row : s.rows.contacts) {
+        if (row.soft) return false;
+        double change = 0;
+        for (std::size_t k = row.first; k < row.last; ++k) {
+            const auto dof = static_cast<std::size_t>(columns.dof[k]);
+            change += columns.n[k] * (s.v[dof] - s.v_before[dof]);
+        }
+        if (std::fabs(change) * dt > 2 * kNothing) return false;
+    }
+    return true;
+}
+
+/// What slides without turning moves by the mean of its velocities before and after the tick, which is exact
+/// while it speeds up or slows down evenly. Only there, for no force on it depends on its place; where one
+/// does (whatever rocks, swings or hangs on a spring) this way would feed the motion energy in each tick.
+void take_mean_way(std::span<const RobotWork> robots, GroupScratch& s, std::span<const std::uint32_t> members,
+                   double dt) {
+    const bool even = slides_only(robots, s, members) && contacts_are_steady(s, dt);
+    for (std::size_t i = 0; i < s.v.size(); ++i)
+        s.v_before[i] = even ? 0.5 * (s.v_before[i] + s.v[i]) : s.v[i];
 }
 
 void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
@@ -156,8 +186,7 @@ void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch&
     if (members.size() == 1) {
         RobotWork& work = robots[members[0]];
         if (work.type->nv == 0) return;
-        if (work.contacts == 0 && moves_freely(model, work))
-            return advance_freely(model, work, s.free_buffer);
+        if (work.contacts == 0 && flies(model, work, s)) return advance_freely(model, work, s.free_buffer);
     }
     const bool split = gather_island(model, robots, s, members, s.contacts);
     s.v_before = s.v;
@@ -172,9 +201,11 @@ void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch&
             s.solver.solve({model.accuracy, s.island_robots, s.island_offsets, s.rows, true}, s.v_before)
                 .iterations;
         limit_mending(robots, s, members);
+    } else {
+        take_mean_way(robots, s, members, model.dt_s);
     }
     mark_pushed(robots, s);
-    finish_island(model, robots, s, members, split ? s.v_before : s.v);
+    finish_island(model, robots, s, members, s.v_before);
 }
 
 void count_contacts(const Model& model, std::span<const Contact> contacts, StepReport& report) {

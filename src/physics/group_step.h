@@ -16,6 +16,8 @@ namespace roboss {
 
 /// Buffers of a group's step; the contacts stay until the next one.
 struct GroupScratch {
+    bool keep_loads = false;  // then robots with loops do not move freely, for then nothing knows their loads
+    std::vector<LoopLoad> loads;
     ContactFinder finder;
     std::vector<Contact> contacts;
     std::vector<int> group;  // union-find over the robots: contact islands

@@ -27,6 +27,8 @@ class LoopRowWriter {
         CouplingRow row;
         static_cast<BoundedRow&>(row) = bounded;
         row.motor = motor;
+        row.robot = robot_.id, row.wrench = wrench;
+        row.loop = static_cast<int>(&loop_ - robot_.type->loops.data());
         row.first = rows_.coupling_columns.size();
         visit_between(*robot_.type, loop_.body_a, loop_.body_b, [&](std::size_t k, double sign) {
             rows_.coupling_columns.push_back(
@@ -119,13 +121,15 @@ bool needs_rows(const LoopJoint& loop, const RobotState& state) {
 /// Loops, gearboxes and mimic joints hold in the middle between the velocities before and after the tick:
 /// then what they push does no work (as in the leapfrog and SHAKE methods). What is left of an error is taken
 /// out of the coordinates after the tick.
-void add_equality_rows(const Model& model, const Equalities& equalities, int offset, IslandRows& rows) {
+void add_equality_rows(const Model& model, RobotId robot, const Equalities& equalities, int offset,
+                       IslandRows& rows) {
     for (const EqualityRow& equality : equalities.rows) {
         if (!(equality.mobility > 0)) continue;
         CouplingRow row;
         row.target = row.position_target = -0.5 * model.dt_s * equality.curvature;
         row.compliance = model.accuracy.compliance * equality.mobility;
         row.low = -kInfinity, row.high = kInfinity;
+        row.robot = robot, row.loop = equality.loop, row.wrench = equality.wrench;
         row.first = rows.coupling_columns.size();
         for (std::size_t c = equality.first; c < equality.last; ++c)
             rows.coupling_columns.push_back({offset + equalities.columns[c].dof, equalities.columns[c].j});
@@ -143,7 +147,7 @@ bool add_joint_rows(const Model& model, const RobotWork& robot, int offset, RowB
     bool mends = add_tree_rows(model, type, joint_states(robot), offset, alone, buffer.axis, rows);
     if (!type.has_equalities()) return mends;
     gather_equalities(robot, robot.state->q, buffer.equalities);
-    add_equality_rows(model, buffer.equalities, offset, rows);
+    add_equality_rows(model, robot.id, buffer.equalities, offset, rows);
     for (const LoopJoint& loop : type.loops)
         mends |= add_loop_axes(model, robot, loop, offset, buffer.axis, rows);
     return mends;

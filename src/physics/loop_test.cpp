@@ -155,7 +155,7 @@ TEST_P(LoopReading, PositionsAndVelocitiesAreThoseOfItsLinks) {
         const Transform X = inverse(joint_frame(sim, j, j.parent)) * joint_frame(sim, j, j.child);
         Transform expected;
         if (j.kind == JointSpecKind::kBall)
-            expected.R = to_matrix(exponential({read(0).position, read(1).position, read(2).position}));
+            expected.R = to_matrix(exponential(Vec3{read(0).position, read(1).position, read(2).position}));
         else if (j.kind != JointSpecKind::kPrismatic)
             expected.R = to_matrix(axis_angle(j.axes[0].xyz, read(0).position));
         if (j.kind == JointSpecKind::kPrismatic) expected.p = j.axes[0].xyz * read(0).position;
@@ -167,8 +167,8 @@ TEST_P(LoopReading, PositionsAndVelocitiesAreThoseOfItsLinks) {
         if (j.kind == JointSpecKind::kBall) continue;  // its velocity is no rate of the rotation vector
         for (int axis = 0; axis < joint.nv; ++axis) {
             RobotState before = sim.states[0], after = sim.states[0];
-            advance_coordinates(type, before.v, -1e-5, before.q);
-            advance_coordinates(type, after.v, 1e-5, after.q);
+            advance_coordinates<double>(type, before.v, -1e-5, before.q);
+            advance_coordinates<double>(type, after.v, 1e-5, after.q);
             const double rate =
                 (joint_state(type, after, id, axis).position - joint_state(type, before, id, axis).position) /
                 2e-5;

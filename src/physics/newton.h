@@ -240,7 +240,7 @@ T Newton<T, Matrix>::take_step(const SolveProblem<T>& p, Lockstep<T>& together, 
     move(p, 1.0, v);
     const T residual = balance(p);
     const T at_end = slope();
-    if (together(!(at_start < T(0)) | (magnitude(at_end) <= -kGoodEnough * at_start))) return residual;
+    if (together((!(at_start < T(0))) | (magnitude(at_end) <= -kGoodEnough * at_start))) return residual;
     move(p, line_search(p, together, at_start, at_end), v);
     return balance(p);
 }

@@ -28,17 +28,23 @@ class StepProbe {
 
     /// By (robot_a, robot_b, shapes).
     std::span<const ContactReport> contacts() const { return contacts_; }
-    /// Of all joints that move a body (fixed joints weld links together), in the order of RobotType::joints;
-    /// empty if the robot has loops or couplings: how these share the load is not unique to a joint.
+    /// Of all joints that move a body or close a loop (other fixed joints weld links together), in the order
+    /// of RobotType::joints. Gearboxes and mimic joints push at their hinges as motors do. A mechanism with
+    /// more conditions than it needs, as a planar linkage in space, can share its load in many ways: the
+    /// joints that close its loops then take the least, which is what equal softness gives. Where nothing but
+    /// its own loops acts on a robot, its reactions are of first order in the step.
     std::vector<JointReaction> joint_reactions(RobotId robot) const;
 
   private:
+    std::vector<Spatial> forces_of_loops(RobotId robot, const RobotType& type) const;
+
     const Model& model_;
     Tick tick_ = -1;
     std::vector<RobotId> ids_;
     std::vector<RobotState> before_, after_;
     std::vector<RobotState*> pointers_;
     std::vector<Aabb> bounds_;
+    std::vector<LoopLoad> loads_;
     std::vector<char> free_;  // moved by the Runge-Kutta method
     std::vector<ContactReport> contacts_;
     StepScratch scratch_;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <support/mechanisms.h>
 #include <support/robots.h>
 #include <support/simulation.h>
 
@@ -125,6 +126,62 @@ TEST(JointReactions, OfAStandingCarsAxlesBearTheChassis) {
     double sum = 0;
     for (const JointReaction& r : reactions) sum += r.force.z;
     EXPECT_NEAR(sum / (-5 * kG), 1, 1e-4) << "the chassis weighs down on the wheels";
+}
+
+const JointReaction& of(const Simulation& sim, const std::vector<JointReaction>& reactions,
+                        const char* name) {
+    const JointId id = *sim.type(0).find_joint(name);
+    for (const JointReaction& r : reactions)
+        if (r.joint == id) return r;
+    ADD_FAILURE() << "no reaction of " << name;
+    return reactions.front();
+}
+
+/// A beam of 2 kg on two hanging rods; one of its four hinges closes the loop.
+TEST(JointReactions, OfABeamThatHangsOnTwoRodsShareItsWeight) {
+    ModelSpec m = parallelogram();
+    double rods = 0, beam = 0;
+    for (LinkSpec& l : m.links) (l.name == "coupler" ? beam : rods) += l.mass;
+    World world = empty_world(1e-3);
+    place(world, m, "swing", {{0, 0, 2}, from_rpy(kPi, 0, 0)});  // upside down: the cranks hang
+    Simulation sim(world);
+    ASSERT_EQ(sim.type(0).loops.size(), 1u);
+    sim.run(0.1);
+    const StepProbe probe = probe_of(sim);
+    const std::vector<JointReaction> reactions = probe.joint_reactions(RobotId(0u));
+    ASSERT_EQ(reactions.size(), 4u);
+    for (const char* top : {"crank", "rocker"})
+        EXPECT_LT(norm(of(sim, reactions, top).force - Vec3{0, 0, 0.5 * (beam + rods) * kG}), 1e-4) << top;
+    for (const char* end : {"elbow", "closing"})
+        EXPECT_LT(norm(of(sim, reactions, end).force - Vec3{0, 0, 0.5 * beam * kG}), 1e-4) << end;
+    for (const JointReaction& r : reactions) EXPECT_LT(norm(r.torque), 1e-4) << "free hinges in one plane";
+}
+
+/// What the coupler of a driven four-bar linkage gains in momentum, its two hinges and its weight give it.
+TEST(JointReactions, OfADrivenLoopMoveItsCouplerAsNewtonSays) {
+    constexpr double kDt = 1e-4;
+    World world = empty_world(kDt);
+    place(world, four_bar(), "linkage");
+    Simulation sim(world);
+    sim.set_motor(0, 0, MotorMode::kVelocity, 5);
+    sim.run(0.2);
+    const LinkId coupler = *sim.type(0).find_link("coupler");
+    const LinkSpec& spec = sim.world.prototypes[0].links[coupler.index()];
+    const auto momentum = [&] {
+        const Twist twist = link_twist(sim.type(0), sim.states[0], coupler);
+        const Vec3 arm = link_pose(sim.type(0), sim.states[0], coupler).R * spec.p_LC;
+        return (twist.linear + cross(twist.angular, arm)) * spec.mass;
+    };
+    for (int i = 0; i < 50; ++i) {
+        const StepProbe probe = probe_of(sim);
+        const std::vector<JointReaction> reactions = probe.joint_reactions(RobotId(0u));
+        const Vec3 force = of(sim, reactions, "elbow").force + of(sim, reactions, "closing").force;
+        const Vec3 before = momentum();
+        sim.run(kDt);
+        const Vec3 expected = (momentum() - before) / kDt + Vec3{0, 0, spec.mass * kG};
+        EXPECT_LT(norm(force - expected), 2e-3 * norm(expected)) << "tick " << sim.tick;
+        sim.run(20 * kDt);
+    }
 }
 
 }  // namespace

@@ -63,6 +63,9 @@ template <class T>
 struct CouplingRowT : BoundedRowT<T> {
     std::size_t first = 0, last = 0;     // columns
     MotorSetpointT<T>* motor = nullptr;  // that remembers its load
+    RobotId robot;
+    int loop = -1;       // in RobotType::loops, if it is of one
+    SpatialT<T> wrench;  // of a loop: on its body B about the robot's origin, per unit of impulse
 };
 using CouplingRow = CouplingRowT<double>;
 
@@ -98,9 +101,10 @@ struct ContactRowT {
     std::size_t first = 0, last = 0;  // columns
     BoundedRowT<T> normal;
     FrictionDiscT<T> slip;
-    T load_max{};  // of its normal impulse, what may count as a load and not as a blow
-    MaskOf<T> sticks{
-        false};       // it carried a load in the last tick and did not slide: it probably will not now
+    T load_max{};       // of its normal impulse, what may count as a load and not as a blow
+    bool soft = false;  // a spring and damper
+    // It carried a load in the last tick and did not slide: it probably will not now.
+    MaskOf<T> sticks{false};
     double ease = 1;  // 1/kg: mobility that its compliances are relative to
 };
 using ContactRow = ContactRowT<double>;

@@ -7,7 +7,6 @@
 namespace roboss {
 namespace {
 
-constexpr double kRestSpeed = 1e-3;      // m/s
 constexpr double kRestJoint = 1e-2;      // rad/s or m/s
 constexpr double kRestTime = 0.5;        // s
 constexpr double kTargetReached = 1e-4;  // rad or m

@@ -21,6 +21,8 @@
 
 namespace roboss {
 
+inline constexpr double kRestSpeed = 1e-3;  // m/s: no point of a robot at rest is faster
+
 /// Buffers of the search for sleepers to wake.
 struct WakeBuffers {
     std::vector<std::uint32_t> place_of;  // by RobotId: index in the call, if that robot is there

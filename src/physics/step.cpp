@@ -1,13 +1,15 @@
-// step_island: orders, then the robots that may meet others as one group, then each of the rest by itself, so
-// that a robot alone needs no memory between ticks but its state.
+// step_island: orders, then the robots that may meet others as one group, then each of the rest by itself, or
+// a few of one type in lanes, so that a robot alone needs no memory between ticks but its state.
 #include "physics/step.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/float_env.h"
 #include "physics/coarse_bound.h"
 #include "physics/group_step.h"
+#include "physics/lane_stepper.h"
 #include "physics/meetings.h"
 
 namespace roboss {
@@ -20,8 +22,11 @@ struct StepScratch::Impl {
     Meetings meetings;
     std::vector<std::uint32_t> awake, near;
     std::vector<char> is_near, ordered, moved_freely;
-    bool keep_contacts = false;
     std::vector<ContactReport> contacts;
+    std::unique_ptr<LaneStepper> lanes = make_lane_stepper(kWidest);
+    std::vector<std::vector<std::uint32_t>> batches;  // by type: robots that wait for a register to be full
+
+    static constexpr std::size_t kWidest = 16;
 };
 
 StepScratch::StepScratch() : impl_(std::make_unique<Impl>()) {}
@@ -163,7 +168,40 @@ struct Call {
             expire_wrenches(tick, state);
             if (!report.not_finite.valid() && !is_finite(state)) report.not_finite = works[k].id;
         }
-        if (s.keep_contacts) keep_contacts(works, s.group.contacts, s.contacts);
+        if (s.group.keep_loads) keep_contacts(works, s.group.contacts, s.contacts);
+        return true;
+    }
+
+    /// Steps a robot that meets nobody, or lets it wait until there are enough of its type.
+    bool step_alone(std::uint32_t i, Impl& s, StepReport& report) const {
+        const std::size_t type = model.robots[robots[i].index()].type.index();
+        if (!s.lanes || s.group.keep_loads || !fits_lanes(model.types[type], *states[i]))
+            return step({&i, 1}, s.alone, s, report);
+        std::vector<std::uint32_t>& batch = s.batches[type];
+        batch.push_back(i);
+        return batch.size() < s.lanes->width() || step_in_lanes(batch, s, report);
+    }
+
+    bool step_in_lanes(std::vector<std::uint32_t>& batch, Impl& s, StepReport& report) const {
+        std::array<LaneRobot, Impl::kWidest> lanes;
+        for (std::size_t k = 0; k < batch.size(); ++k)
+            lanes[k] = {robots[batch[k]], states[batch[k]], &bounds[batch[k]]};
+        const unsigned stepped =
+            batch.size() > 1 ? s.lanes->step(model, std::span(lanes).first(batch.size()), report) : 0;
+        bool good = true;
+        for (std::size_t k = 0; k < batch.size() && good; ++k)
+            if ((stepped >> k & 1u) == 0) good = step({&batch[k], 1}, s.alone, s, report);
+        batch.clear();
+        return good;
+    }
+
+    bool step_all_alone(Impl& s, StepReport& report) const {
+        s.batches.resize(std::max(s.batches.size(), model.types.size()));
+        for (std::vector<std::uint32_t>& batch : s.batches) batch.clear();
+        for (std::uint32_t i = 0; i < robots.size(); ++i)
+            if (!s.is_near[i] && !step_alone(i, s, report)) return false;
+        for (std::vector<std::uint32_t>& batch : s.batches)
+            if (!batch.empty() && !step_in_lanes(batch, s, report)) return false;
         return true;
     }
 };
@@ -184,7 +222,7 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
     const ExactFloatScope exact;
     Impl& s = scratch.impl();
     StepReport report;
-    s.contacts.clear();
+    s.contacts.clear(), s.group.loads.clear();
     s.moved_freely.assign(robots.size(), 0);
     apply_orders(model, robots, states, orders, s.ordered);
     find_near(model, robots, states, s);
@@ -192,21 +230,32 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
     const Call call{model, tick, robots, states, bounds};
     if (!s.near.empty() && !call.step(s.near, std::span(s.works).first(s.near.size()), s, report))
         return report;
-    for (std::uint32_t i = 0; i < robots.size(); ++i)
-        if (!s.is_near[i] && !call.step({&i, 1}, s.alone, s, report)) return report;
-    if (s.keep_contacts)
+    if (!call.step_all_alone(s, report)) return report;
+    if (s.group.keep_loads)
         std::stable_sort(
             s.contacts.begin(), s.contacts.end(),
             [](const ContactReport& a, const ContactReport& b) { return a.robot_a < b.robot_a; });
     return report;
 }
 
-void StepScratch::keep_contacts(bool keep) {
-    impl_->keep_contacts = keep;
+void StepScratch::use_lanes(std::size_t most) {
+    impl_->lanes = make_lane_stepper(std::min(most, Impl::kWidest));
+}
+
+std::size_t StepScratch::lanes() const {
+    return impl_->lanes ? impl_->lanes->width() : 1;
+}
+
+void StepScratch::keep_loads(bool keep) {
+    impl_->group.keep_loads = keep;
 }
 
 std::span<const ContactReport> read_contacts(StepScratch& scratch) {
     return scratch.impl().contacts;
+}
+
+std::span<const LoopLoad> read_loop_loads(StepScratch& scratch) {
+    return scratch.impl().group.loads;
 }
 
 bool moved_freely(StepScratch& scratch, std::size_t index) {

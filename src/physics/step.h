@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "math/aabb.h"
+#include "math/spatial.h"
 #include "model/model.h"
 #include "model/order.h"
 #include "model/robot_state.h"
@@ -35,8 +36,15 @@ class StepScratch {
     ~StepScratch();
     StepScratch(StepScratch&&) noexcept;
     StepScratch& operator=(StepScratch&&) noexcept;
-    /// From now on steps keep their contacts, for read_contacts.
-    void keep_contacts(bool keep);
+    /// From now on steps keep what contacts and loops bear, for read_contacts and read_loop_loads. A robot
+    /// with loops that nothing pushes is then stepped with rows, not by the Runge-Kutta method, which knows
+    /// no loads: its state is off by what the orders differ.
+    void keep_loads(bool keep);
+    /// From now on at most so many robots of a type are stepped at once in lanes (lane_stepper.h), as far as
+    /// this processor can; 1: none. At first as many as it can. No bit depends on it.
+    void use_lanes(std::size_t most);
+    /// How many are.
+    std::size_t lanes() const;
     struct Impl;
     Impl& impl() { return *impl_; }
 
@@ -60,6 +68,16 @@ struct ContactReport {
 /// The contacts of the step made last with this scratch, for the robots that were awake, by (robot_a,
 /// robot_b, shapes); empty unless it keeps them.
 std::span<const ContactReport> read_contacts(StepScratch& scratch);
+
+/// Part of what a joint that closes a loop passed on in a tick: by its conditions, its motor, its limits ...
+struct LoopLoad {
+    RobotId robot;
+    int loop = 0;     // in RobotType::loops
+    Spatial impulse;  // N m s and N s on its body B, about the robot's origin at the beginning of the tick
+};
+
+/// Of the step made last with this scratch; empty unless it keeps them.
+std::span<const LoopLoad> read_loop_loads(StepScratch& scratch);
 
 /// Whether robot number `index` of the last call moved without contact and rows, by the Runge-Kutta method.
 bool moved_freely(StepScratch& scratch, std::size_t index);

@@ -36,6 +36,7 @@ CompassReading read_compass(const Model& model, RobotId robot, std::size_t senso
     const double error = noisy_value(0.0, info.spec.noise, {seed, robot, sensor, tick}, 0, 0);
 
     CompassReading reading;
+    reading.tick = tick;
     reading.q_WS = axis_angle({0, 0, 1}, -error) * to_quat(X_WS.R);
     const SensorMoment moment{seed, robot, sensor, tick};
     const Vec3 rate = transpose_times(X_WS.R, link_twist(type, state, info.link).angular);

@@ -33,6 +33,7 @@ GpsReading read_gps(const Model& model, RobotId robot, std::size_t sensor, const
 
     const SensorMoment moment{seed, robot, sensor, tick};
     GpsReading reading;
+    reading.tick = tick;
     reading.p_W =
         disturbed(X_WL.p + p_LS_W, spec.position_horizontal_noise, spec.position_vertical_noise, moment, 0);
     reading.v_W = disturbed(twist.linear + cross(twist.angular, p_LS_W), spec.velocity_horizontal_noise,

@@ -50,7 +50,7 @@ LaserReading read_laser(const Model& model, RobotId robot, std::size_t sensor, c
         for (const SinCos& left : columns)
             rays.push_back({X_WS.p, X_WS.R * Vec3{up.cos * left.cos, up.cos * left.sin, up.sin},
                             spec.range_max, robot, info.link});
-    LaserReading reading{spec.samples, spec.vertical_samples, std::vector<double>(rays.size())};
+    LaserReading reading{spec.samples, spec.vertical_samples, std::vector<double>(rays.size()), tick};
     scene.cast(rays, reading.ranges);
 
     const SensorMoment moment{seed, robot, sensor, tick};

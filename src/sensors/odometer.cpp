@@ -28,6 +28,7 @@ OdometerReading read_odometer(const Model& model, RobotId robot, std::size_t sen
     const SensorSpec& spec = type.sensors[sensor].spec;
     ROBOSS_CHECK(spec.kind == SensorKind::kOdometer, spec.name + " is no odometer");
     OdometerReading reading;
+    reading.tick = tick;
     double way = 0, speed = 0;
     for (const std::string& name : spec.joints) {
         const std::optional<JointId> id = type.find_joint(name);

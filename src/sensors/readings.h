@@ -17,6 +17,7 @@ struct LaserReading {
     // m, row by row (vertical angle ascending), horizontal angle ascending; +infinity: nothing within
     // range_max, -infinity: something nearer than range_min.
     std::vector<double> ranges;
+    Tick tick = 0;  // of the measurement, as in all readings
 };
 
 struct OdometerReading {
@@ -24,6 +25,7 @@ struct OdometerReading {
     std::vector<double> joint_velocities;
     double distance = 0;  // m, mean wheel way since the start (0 without <wheel_radius>)
     double speed = 0;     // m/s
+    Tick tick = 0;
 };
 
 struct GpsReading {
@@ -31,6 +33,7 @@ struct GpsReading {
     Vec3 v_W;               // m/s
     bool geodetic = false;  // world has spherical coordinates: the next three are set (WGS84)
     double latitude_rad = 0, longitude_rad = 0, altitude_m = 0;
+    Tick tick = 0;
 };
 
 struct CompassReading {
@@ -39,6 +42,7 @@ struct CompassReading {
     Vec3 magnetic_field_S;    // T, sensor axes: the world's field, undisturbed
     double heading_rad = 0;   // of the sensor's x axis: clockwise from true north where the world has
                               // spherical coordinates (world y = north without), 0 .. 2 pi
+    Tick tick = 0;
 };
 
 /// Rays against the static scenery and every robot (Embree, pinned to one instruction set, robust mode).
@@ -69,7 +73,8 @@ class RayScene {
 /// Readings of sensor number `sensor` (of RobotType::sensors, of the matching kind) of a robot in `state`.
 /// Noise is a pure function of (seed, robot, sensor, tick): SDF's mean, stddev, and a bias drawn once a run
 /// from (bias_mean, bias_stddev).
-/// <update_rate> is not applied: a reading is that of the tick at which it is asked for.
+/// A reading is that of the tick given; who asks less often than there are ticks because of the sensor's
+/// <update_rate> is the Client (client/held_samples.h).
 ///
 /// Laser: beam (row, column) points along (cos e cos a, cos e sin a, sin e) of the sensor frame, a in
 /// [min_angle, max_angle], e in the vertical range, ends included (a single sample: the smaller end).
@@ -78,7 +83,9 @@ class RayScene {
 LaserReading read_laser(const Model& model, RobotId robot, std::size_t sensor, const RobotState& state,
                         Tick tick, std::uint64_t seed, RayScene& scene);
 /// Odometer: noise as a fraction; distance has mean and bias (a wrong wheel radius), speed also the draw of
-/// the tick.
+/// the tick. The draws do not add up in the distance: it is read off the wheels' angles, which an encoder
+/// does not lose, and errors that add up would have to be remembered from reading to reading. SDFormat has no
+/// odometer to follow.
 OdometerReading read_odometer(const Model& model, RobotId robot, std::size_t sensor, const RobotState& state,
                               Tick tick, std::uint64_t seed);
 /// GPS: the world is the plane that touches the WGS84 ellipsoid at its origin; noise in world axes, before

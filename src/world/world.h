@@ -107,7 +107,7 @@ struct SensorSpec {
     SensorKind kind = SensorKind::kUnsupported;
     std::string sdf_type;       // as written, e.g. "gpu_lidar"
     Pose X_LS;                  // sensor in link
-    double update_rate_hz = 0;  // 0: every control period
+    double update_rate_hz = 0;  // samples a second; 0: one whenever it is asked
     // laser: beams span [min_angle, max_angle] about the sensor's z (horizontal) and y (vertical) axes
     int samples = 1, vertical_samples = 1;
     double min_angle = 0, max_angle = 0, vertical_min_angle = 0, vertical_max_angle = 0;

@@ -1,5 +1,4 @@
 // The quick cases of ./bench.sh accuracy, on RoBOSS, as plain tests: the same figures, truths and bounds.
-// What is known to miss its bound is listed, and must be taken off the list when it no longer does.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,27 +15,6 @@ void PrintTo(const Case& c, std::ostream* out) {
 }
 
 namespace {
-
-struct KnownMiss {
-    const char* name;
-    const char* quantity;
-};
-
-/// Why and by how much stands in docs/accuracy.md.
-constexpr KnownMiss kKnownMisses[] = {
-    {"arm", "end point at 2 s"},
-    {"velocity-limit", "at its target, swinging a load of 4.9 N m, worst"},
-};
-
-/// Exactly at the bound, on the side that rounding takes: dt / t of a tick's way at 1 ms and 2 s is 0.05 %.
-bool is_at_its_bound(const Case& c, const Quantity& quantity, double figure) {
-    return c.name == "slide" && quantity.name == "way, relative" && std::fabs(figure - 5e-4) < 1e-9;
-}
-
-bool is_known_miss(const Case& c, const Quantity& quantity) {
-    return std::any_of(std::begin(kKnownMisses), std::end(kKnownMisses),
-                       [&](const KnownMiss& k) { return c.name == k.name && quantity.name == k.quantity; });
-}
 
 std::vector<Case> quick_cases() {
     std::vector<Case> cases = all_cases();
@@ -57,10 +35,7 @@ TEST_P(AccuracyCase, KeepsItsBounds) {
     for (std::size_t i = 0; i < outcome.figures.size(); ++i) {
         const Quantity& q = GetParam().quantities[i];
         std::printf("    measured: %s = %.6g %s\n", q.name.c_str(), outcome.figures[i], q.unit.c_str());
-        if (is_at_its_bound(GetParam(), q, outcome.figures[i])) continue;
-        EXPECT_NE(passes(q, outcome.figures[i]), is_known_miss(GetParam(), q))
-            << q.name << ": " << outcome.figures[i]
-            << (is_known_miss(GetParam(), q) ? " keeps its bound now: take it off kKnownMisses" : "");
+        EXPECT_TRUE(passes(q, outcome.figures[i])) << q.name << ": " << outcome.figures[i];
     }
 }
 

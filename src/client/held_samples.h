@@ -1,0 +1,48 @@
+// What sensors with an <update_rate> measured last. A Client holds a sample until the next is due; what it
+// holds is part of what a saved run remembers of its program, so that a run that continues reads the same.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "core/result.h"
+#include "sensors/readings.h"
+
+namespace roboss {
+
+/// In the order of SensorKind.
+using Sample = std::variant<LaserReading, GpsReading, CompassReading, OdometerReading>;
+
+/// At which tick it was measured.
+Tick taken_at(const Sample& sample);
+
+/// How many samples a sensor of this rate has begun by a tick. Sample k (from 0) is due at the first tick not
+/// before k / rate, whether or not the rate divides the ticks of a second; so in the long run the rate is
+/// exact. Above one sample a tick there is a new one in every tick.
+std::int64_t samples_begun(double rate_hz, double dt_s, Tick tick);
+
+class HeldSamples {
+  public:
+    using Key = std::pair<std::uint32_t, std::uint32_t>;  // RobotId, number of the sensor
+    struct Held {
+        Sample sample;
+        std::optional<Sample> before;  // the one that it replaced; none: it was the first
+    };
+
+    const Sample* find(const Key& key) const;
+    const Sample& put(const Key& key, Sample sample);
+    std::map<Key, Held>& all() { return held_; }
+    /// Those that were held before the observation at `tick`, as bytes; empty: none. Goes back by one
+    /// observation at most.
+    std::string bytes_before(Tick tick) const;
+    /// Replaces all; an Error leaves them as they are.
+    Result<> restore(const std::string& bytes);
+
+  private:
+    std::map<Key, Held> held_;
+};
+
+}  // namespace roboss

@@ -1,0 +1,40 @@
+// What is done lane by lane around a step in lanes: finding the contacts, and telling which lanes have the
+// same. Compiled for every processor, unlike lane_step.h.
+#pragma once
+
+#include <vector>
+
+#include "physics/contact.h"
+#include "physics/lane_stepper.h"
+
+namespace roboss {
+
+class LaneContacts {
+  public:
+    explicit LaneContacts(std::size_t lanes);
+    ~LaneContacts();
+    LaneContacts(const LaneContacts&) = delete;
+    LaneContacts& operator=(const LaneContacts&) = delete;
+
+    /// Room for the placed shapes of a lane's robot, to be filled in before find().
+    ShapeWork* start(const Model& model, std::size_t lane, const LaneRobot& robot);
+    /// The contacts of a lane with the scenery, with what the last tick remembers. False if the robot is
+    /// beyond numbers.
+    bool find(const Model& model, std::size_t lane);
+    /// Of the lanes `present`, those that have the same contact points as the first, or as another if that
+    /// are more; none if they have points that lanes do not know (friction axes, torsion, rolling).
+    unsigned alike(unsigned present) const;
+
+    const Aabb& box(std::size_t lane) const { return works_[lane].box; }
+    std::size_t count(std::size_t lane) const { return contacts_[lane].size(); }
+    Contact& contact(std::size_t lane, std::size_t i) { return contacts_[lane][i]; }
+    /// Writes the solved contacts of a lane into its state and the report.
+    void remember(const Model& model, std::size_t lane, StepReport& report);
+
+  private:
+    std::vector<RobotWork> works_;
+    std::vector<std::vector<Contact>> contacts_;
+    ContactFinder finder_;
+};
+
+}  // namespace roboss

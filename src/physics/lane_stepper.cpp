@@ -1,0 +1,26 @@
+// See lane_stepper.h.
+#include "physics/lane_stepper.h"
+
+namespace roboss {
+
+LaneStepper::~LaneStepper() = default;
+
+bool fits_lanes(const RobotType& type, const RobotState& state) {
+    const bool is_lone_body = type.free_base && type.nv == 6;
+    return type.nv > 0 && !is_lone_body && !type.has_equalities() && type.drags.empty() &&
+           type.self_pairs.empty() && state.wrenches.empty();
+}
+
+std::unique_ptr<LaneStepper> make_lane_stepper(std::size_t most) {
+#if defined(__x86_64__)
+    if (most >= 8 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"))
+        if (auto stepper = make_avx512_stepper()) return stepper;
+    if (most >= 4 && __builtin_cpu_supports("avx2"))
+        if (auto stepper = make_avx2_stepper()) return stepper;
+#else
+    static_cast<void>(most);
+#endif
+    return nullptr;
+}
+
+}  // namespace roboss

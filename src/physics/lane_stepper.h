@@ -1,0 +1,44 @@
+// Robots that meet nobody, stepped several of one type at a time in the lanes of a register: the same kernel
+// as for one robot (dynamics.h, contact_rows.h, newton.h) over another number type, so that each lane gets
+// the same bits. Contacts are found lane by lane by the ordinary narrow phase. Lanes whose contacts or
+// decisions differ from those of most are left to the ordinary step.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "physics/step.h"
+
+namespace roboss {
+
+struct LaneRobot {
+    RobotId id;
+    RobotState* state = nullptr;
+    Aabb* bound = nullptr;  // receives the interaction bound
+};
+
+class LaneStepper {
+  public:
+    LaneStepper() = default;
+    virtual ~LaneStepper();
+    LaneStepper(const LaneStepper&) = delete;
+    LaneStepper& operator=(const LaneStepper&) = delete;
+
+    virtual std::size_t width() const = 0;
+    /// Steps at most width() robots, awake, of one type that fits. Bit i of the result: robots[i] was
+    /// stepped; the others are untouched.
+    virtual unsigned step(const Model& model, std::span<const LaneRobot> robots, StepReport& report) = 0;
+};
+
+/// Whether a robot may be stepped in lanes at all: no loops, couplings or drag, no contact with itself, no
+/// wrench; and no lone body (what slides without turning is stepped apart, see group_step.cpp).
+bool fits_lanes(const RobotType& type, const RobotState& state);
+
+/// The widest stepper of at most `most` lanes that this processor can run; nullptr if there is none.
+std::unique_ptr<LaneStepper> make_lane_stepper(std::size_t most);
+
+// One translation unit for each instruction set (lanes_*.cpp); nullptr if it was built without.
+std::unique_ptr<LaneStepper> make_avx2_stepper();
+std::unique_ptr<LaneStepper> make_avx512_stepper();
+
+}  // namespace roboss

@@ -1,0 +1,182 @@
+// Robots in lanes get the bits of robots by themselves: whatever they drive on, whoever of them goes another
+// way, however many fill a register.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <functional>
+
+#include <support/robots.h>
+#include <support/scenes.h>
+#include <support/simulation.h>
+
+#include "physics/lane_stepper.h"
+
+namespace roboss::test {
+namespace {
+
+constexpr std::size_t kWidths[] = {4, 8};
+
+/// Skips what this processor cannot do; the rest of the test then compares scalar with scalar.
+bool has_lanes(std::size_t width) {
+    const auto stepper = make_lane_stepper(width);
+    return stepper != nullptr && stepper->width() == width;
+}
+
+void expect_same_states(const Simulation& a, const Simulation& b, const std::string& where) {
+    for (std::size_t r = 0; r < a.states.size(); ++r) {
+        std::vector<std::uint8_t> x, y;
+        encode(a.states[r], x);
+        encode(b.states[r], y);
+        ASSERT_EQ(x, y) << where << ", robot " << r << ", tick " << a.tick;
+    }
+}
+
+using Drive = std::function<void(Simulation&)>;
+
+/// Runs the world with and without lanes, and compares every tick.
+void compare(const World& world, const Drive& drive, int ticks) {
+    for (const std::size_t width : kWidths) {
+        if (!has_lanes(width)) continue;
+        Simulation alone(world), in_lanes(world);
+        alone.scratch.use_lanes(1);
+        in_lanes.scratch.use_lanes(width);
+        ASSERT_EQ(alone.scratch.lanes(), 1u);
+        ASSERT_EQ(in_lanes.scratch.lanes(), width);
+        for (int i = 0; i < ticks; ++i) {
+            drive(alone), drive(in_lanes);
+            const StepReport a = alone.step(), b = in_lanes.step();
+            expect_same_states(alone, in_lanes, std::to_string(width) + " lanes");
+            ASSERT_EQ(alone.bounds, in_lanes.bounds);
+            ASSERT_EQ(a.contacts, b.contacts);
+            ASSERT_EQ(a.static_contacts, b.static_contacts);
+            ASSERT_EQ(a.iterations, b.iterations);
+            ASSERT_EQ(a.residual, b.residual);
+            if (::testing::Test::HasFatalFailure()) return;
+        }
+    }
+}
+
+/// So many robots of a model, far from each other, each a little differently placed.
+World scattered(const ModelSpec& model, int count, double height, double dt_s = 2e-3) {
+    World world = empty_world(dt_s);
+    place(world, ground(surface(0.9)), "ground");
+    const std::size_t prototype = world.prototypes.size();
+    world.prototypes.push_back(model);
+    for (int i = 0; i < count; ++i)
+        world.instances.push_back({"robot_" + std::to_string(i), prototype,
+                                   {{5.0 * i, 0.3 * i, height + 1e-3 * i}, from_rpy(0, 0, 0.4 * i)}, {}});
+    return world;
+}
+
+/// Balls on every link, so that the model touches the ground.
+ModelSpec with_balls(ModelSpec model, double radius) {
+    for (LinkSpec& l : model.links) l.collisions.push_back(sphere_shape(radius, surface(0.8), {l.p_LC, {}}));
+    return model;
+}
+
+TEST(Lanes, CarsDriveTurnBrakeAndLeanOnTheirMotorsAlike) {
+    const Drive drive = [](Simulation& sim) {
+        if (sim.tick % 40 != 0) return;
+        for (std::size_t r = 0; r < sim.states.size(); ++r)
+            for (std::size_t wheel = 0; wheel < sim.states[r].motors.size(); ++wheel) {
+                const double turn = wheel % 2 == 0 ? 1.0 : -1.0;
+                sim.set_motor(r, wheel, MotorMode::kVelocity,
+                              static_cast<double>((sim.tick / 40 + static_cast<Tick>(r)) % 5) * 4.0 +
+                                  turn * static_cast<double>(r % 3));
+            }
+    };
+    compare(scattered(car(), 13, 0.001), drive, 400);
+}
+
+TEST(Lanes, MotorsInDifferentModesPartTheLanes) {
+    const Drive drive = [](Simulation& sim) {
+        if (sim.tick != 0) return;
+        constexpr MotorMode kModes[] = {MotorMode::kPassive, MotorMode::kVelocity, MotorMode::kPosition,
+                                        MotorMode::kEffort};
+        for (std::size_t r = 0; r < sim.states.size(); ++r)
+            for (std::size_t d = 0; d < sim.states[r].motors.size(); ++d)
+                sim.set_motor(r, d, kModes[(r / 3) % 4], 0.3);
+    };
+    compare(scattered(car(), 16, 0.001), drive, 200);
+}
+
+TEST(Lanes, SpidersFallLandAndWalkAlike) {
+    const Drive drive = [](Simulation& sim) {
+        for (std::size_t r = 0; r < sim.states.size(); ++r)
+            for (std::size_t d = 0; d < sim.states[r].motors.size(); ++d)
+                sim.set_motor(r, d, MotorMode::kPosition,
+                              (sim.tick / 50 + static_cast<Tick>(d)) % 2 == 0 ? 0.15 : -0.1);
+    };
+    compare(scattered(with_balls(spider(), 0.02), 9, 0.0), drive, 300);
+}
+
+TEST(Lanes, ArmsOnFixedBasesFollowTheirServosAlike) {
+    const Drive drive = [](Simulation& sim) {
+        for (std::size_t r = 0; r < sim.states.size(); ++r)
+            for (std::size_t d = 0; d < sim.states[r].motors.size(); ++d)
+                sim.set_motor(r, d, d % 2 == 0 ? MotorMode::kPosition : MotorMode::kVelocity,
+                              0.5 * fixed_sin(0.01 * static_cast<double>(sim.tick) + static_cast<double>(r)));
+    };
+    compare(scattered(arm(), 11, 2.0), drive, 300);
+}
+
+/// Trees with every kind of joint, dropped: limits, joint friction, springs, bounces, rest.
+TEST(Lanes, MixedTreesFallAlike) {
+    const Drive none = [](Simulation&) {};
+    compare(scattered(with_balls(mixed_tree(), 0.03), 10, 1.0, 1e-3), none, 600);
+}
+
+TEST(Lanes, BouncingCarsAlike) {
+    World world = scattered(car(), 8, 0.3);
+    for (LinkSpec& l : world.prototypes.back().links)
+        for (CollisionSpec& c : l.collisions) c.surface.restitution = 0.6;
+    compare(world, [](Simulation&) {}, 400);
+}
+
+/// Deep in the ground at the start: the way of the tick has a solution of its own.
+TEST(Lanes, CarsThatStartInTheGroundAreMendedAlike) {
+    compare(scattered(car(), 8, -0.03), [](Simulation&) {}, 200);
+}
+
+TEST(Lanes, WhoSleepsSleepsAtTheSameTick) {
+    World world = scattered(car(), 9, 0.001);
+    world.sleep = true;
+    const Drive drive = [](Simulation& sim) {
+        if (sim.tick != 0) return;
+        for (std::size_t r = 0; r < sim.states.size(); r += 2)
+            for (std::size_t d = 0; d < sim.states[r].motors.size(); ++d)
+                sim.set_motor(r, d, MotorMode::kVelocity, 3);
+    };
+    compare(world, drive, 600);
+}
+
+/// A crowd in which some meet and others do not, on slopes of each other.
+TEST(Lanes, CrowdsAlike) {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed)
+        compare(random_crowd(seed, 40), [&](Simulation& sim) { if (sim.tick == 0) stir(sim, seed); }, 60);
+}
+
+/// They are of use at all: most of the cars' steps are taken in lanes.
+TEST(Lanes, DrivingCarsStayInTheirLanes) {
+    for (const std::size_t width : kWidths) {
+        const auto stepper = make_lane_stepper(width);
+        if (!stepper || stepper->width() != width) continue;
+        Simulation sim(scattered(car(), static_cast<int>(width), 0.001));
+        for (std::size_t r = 0; r < sim.states.size(); ++r)
+            for (std::size_t d = 0; d < sim.states[r].motors.size(); ++d)
+                sim.set_motor(r, d, MotorMode::kVelocity, 10);
+        sim.run(0.5);
+        std::vector<LaneRobot> robots;
+        for (std::size_t r = 0; r < sim.states.size(); ++r)
+            robots.push_back({sim.ids[r], &sim.states[r], &sim.bounds[r]});
+        StepReport report;
+        int stepped = 0;
+        for (int i = 0; i < 20; ++i)
+            stepped += std::popcount(stepper->step(*sim.model, robots, report));
+        EXPECT_GT(stepped, static_cast<int>(18 * width)) << "of " << 20 * width;
+        EXPECT_GE(report.contacts, stepped * 4);
+    }
+}
+
+}  // namespace
+}  // namespace roboss::test
