@@ -4,6 +4,7 @@
 #include "physics/contact.h"
 
 #include <algorithm>
+#include <limits>
 #include <tuple>
 
 #include "geometry/collide.h"
@@ -13,6 +14,8 @@ namespace roboss {
 namespace {
 
 constexpr std::uint32_t kStatic = RobotId::kNone;
+constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr Aabb kEverywhere{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
 
 /// Drops all but the `keep` deepest points; of equal depth the first.
 std::uint32_t points_to_keep(const Manifold& manifold, std::uint32_t keep) {
@@ -35,6 +38,24 @@ struct Placed {
     const Mat3& R_WS;
 };
 
+/// Who meets whom; of a Contact, what is known before it is found.
+struct Pair {
+    int robot_a = 0, robot_b = -1;
+    std::size_t shape_a = 0, shape_b = 0;
+    int body_a = -1, body_b = -1;
+};
+
+/// Adds a point of the pair, all but its place.
+Contact& add_contact(const Pair& pair, const Vec3& normal, std::vector<Contact>& contacts) {
+    Contact& contact = contacts.emplace_back();
+    contact.robot_a = pair.robot_a, contact.robot_b = pair.robot_b;
+    contact.shape_a = static_cast<std::uint32_t>(pair.shape_a);
+    contact.shape_b = static_cast<std::uint32_t>(pair.shape_b);
+    contact.body_a = pair.body_a, contact.body_b = pair.body_b;
+    contact.normal = normal;
+    return contact;
+}
+
 /// What the two materials make of a contact along contact.normal.
 void combine(const Placed& pa, const Placed& pb, Contact& contact) {
     const Material &a = pa.material, &b = pb.material;
@@ -43,6 +64,7 @@ void combine(const Placed& pa, const Placed& pb, Contact& contact) {
     contact.has_friction_axis = !(friction.axis == Vec3{}), contact.friction_axis = friction.axis;
     contact.restitution = std::max(a.restitution, b.restitution);
     contact.bounce_threshold = std::max(a.bounce_threshold, b.bounce_threshold);
+    contact.torsional = torsional_lever(a, b, -contact.gap);
     contact.rolling = std::max(a.rolling, b.rolling);
     const Softness soft = softness_of(a, b);
     contact.stiffness = soft.stiffness, contact.damping = soft.damping;
@@ -50,7 +72,7 @@ void combine(const Placed& pa, const Placed& pb, Contact& contact) {
 }
 
 /// Points of a triangle surface, each with a normal of its own; all but the deepest are dropped.
-void add_points(std::vector<SurfaceContact>& points, Contact contact, const Placed& pa, const Placed& pb,
+void add_points(std::vector<SurfaceContact>& points, const Pair& pair, const Placed& pa, const Placed& pb,
                 std::vector<Contact>& contacts) {
     for (const std::size_t keep = std::min(pa.material.contacts_max, pb.material.contacts_max);
          points.size() > keep;) {
@@ -59,47 +81,46 @@ void add_points(std::vector<SurfaceContact>& points, Contact contact, const Plac
         points.erase(std::next(shallowest).base());
     }
     for (const SurfaceContact& point : points) {
-        contact.normal = point.n_W;
+        Contact& contact = add_contact(pair, point.n_W, contacts);
+        contact.p_W = point.p_W, contact.gap = point.gap, contact.feature = point.feature;
         combine(pa, pb, contact);
-        contact.p_W = point.p_W;
-        contact.gap = point.gap;
-        contact.torsional = torsional_lever(pa.material, pb.material, -point.gap);
-        contact.feature = point.feature;
-        contact.torsional = torsional_lever(pa.material, pb.material, -point.gap);
-        contacts.push_back(contact);
     }
 }
 
-void add_points(const Manifold& manifold, Contact contact, const Placed& pa, const Placed& pb,
+void add_points(const Manifold& manifold, const Pair& pair, const Placed& pa, const Placed& pb,
                 std::vector<Contact>& contacts) {
     if (manifold.count == 0) return;
-    contact.normal = manifold.n_W;
-    combine(pa, pb, contact);
     const std::uint32_t kept =
         points_to_keep(manifold, std::min(pa.material.contacts_max, pb.material.contacts_max));
     for (int i = 0; i < manifold.count; ++i) {
         if ((kept >> i & 1) == 0) continue;
         const ContactPoint& point = manifold.points[static_cast<std::size_t>(i)];
-        contact.p_W = point.p_W;
-        contact.gap = point.gap;
-        contact.feature = point.feature;
-        contact.torsional = torsional_lever(pa.material, pb.material, -point.gap);
-        contacts.push_back(contact);
+        Contact& contact = add_contact(pair, manifold.n_W, contacts);
+        contact.p_W = point.p_W, contact.gap = point.gap, contact.feature = point.feature;
+        combine(pa, pb, contact);
     }
 }
 
-/// Collides two placed shapes of robots; `contact` names the pair.
+/// Collides two placed shapes of robots.
 void collide_shapes(const BodyShape& a, const ShapeWork& wa, const BodyShape& b, const ShapeWork& wb,
-                    Contact contact, std::vector<Contact>& contacts) {
+                    Pair pair, std::vector<Contact>& contacts) {
     if (!overlaps(wa.box, wb.box) || !may_collide(a.material, b.material)) return;
-    contact.body_a = a.body;
-    contact.body_b = b.body;
+    pair.body_a = a.body, pair.body_b = b.body;
     const Manifold manifold = collide(a.shape, wa.X_WS, b.shape, wb.X_WS, wa.margin + wb.margin);
-    add_points(manifold, contact, {a.material, wa.X_WS.R}, {b.material, wb.X_WS.R}, contacts);
+    add_points(manifold, pair, {a.material, wa.X_WS.R}, {b.material, wb.X_WS.R}, contacts);
 }
 
 std::uint32_t other_id(std::span<const RobotWork> robots, const Contact& c) {
     return c.robot_b < 0 ? kStatic : robots[static_cast<std::size_t>(c.robot_b)].id.value;
+}
+
+/// By (other id, shapes, feature); mostly they come so.
+void sort_contacts(std::span<const RobotWork> robots, std::span<Contact> contacts) {
+    const auto before = [&](const Contact& x, const Contact& y) {
+        return std::tuple(other_id(robots, x), x.shape_a, x.shape_b, x.feature) <
+               std::tuple(other_id(robots, y), y.shape_a, y.shape_b, y.feature);
+    };
+    if (!std::ranges::is_sorted(contacts, before)) std::ranges::sort(contacts, before);
 }
 
 }  // namespace
@@ -115,11 +136,7 @@ void ContactFinder::find(const Model& model, std::span<RobotWork> robots, std::v
             if (awake && !robots[pairs_[pair].second].asleep)
                 with_robot(model, robots, a, pairs_[pair].second, contacts);
         if (awake) with_statics(model, robots, a, contacts);
-        std::sort(contacts.begin() + static_cast<std::ptrdiff_t>(first), contacts.end(),
-                  [&](const Contact& x, const Contact& y) {
-                      return std::tuple(other_id(robots, x), x.shape_a, x.shape_b, x.feature) <
-                             std::tuple(other_id(robots, y), y.shape_a, y.shape_b, y.feature);
-                  });
+        sort_contacts(robots, std::span(contacts).subspan(first));
     }
     for (const Contact& c : contacts) {
         RobotWork& a = robots[static_cast<std::size_t>(c.robot_a)];
@@ -135,45 +152,45 @@ void ContactFinder::with_statics(const Model& model, std::span<RobotWork> robots
     RobotWork& work = robots[a];
     if (work.shapes.empty()) return;
     model.static_bvh.query(work.box, candidates_);
+    candidate_boxes_.clear();
     for (std::uint32_t i : candidates_) {
         const StaticShape& scenery = model.statics[i];
-        const bool is_plane = scenery.shape.kind == ShapeKind::kPlane;
-        const Aabb box = is_plane ? Aabb{} : bounds(scenery.shape, scenery.X_WS);
-        for (std::size_t s = 0; s < work.shapes.size(); ++s) {
-            const BodyShape& shape = work.type->shapes[s];
-            const ShapeWork& placed = work.shapes[s];
-            if (shape.body < 0 || (!is_plane && !overlaps(placed.box, box))) continue;
-            if (!may_collide(shape.material, scenery.material)) continue;
-            Contact contact;
-            contact.robot_a = static_cast<int>(a);
-            contact.shape_a = static_cast<std::uint32_t>(s);
-            contact.shape_b = i;
-            contact.body_a = shape.body;
-            const Placed of_shape{shape.material, placed.X_WS.R},
-                of_scenery{scenery.material, scenery.X_WS.R};
-            if (scenery.shape.kind == ShapeKind::kSurface) {
-                collide_surface(shape.shape, placed.X_WS, *scenery.shape.surface, scenery.X_WS, placed.margin,
-                                surface_contacts_);
-                add_points(surface_contacts_.points, contact, of_shape, of_scenery, contacts);
-                continue;
-            }
-            const Manifold manifold =
-                collide(shape.shape, placed.X_WS, scenery.shape, scenery.X_WS, placed.margin);
-            add_points(manifold, contact, of_shape, of_scenery, contacts);
-        }
+        candidate_boxes_.push_back(
+            scenery.shape.kind == ShapeKind::kPlane ? kEverywhere : bounds(scenery.shape, scenery.X_WS));
     }
+    for (std::size_t s = 0; s < work.shapes.size(); ++s) {
+        if (work.type->shapes[s].body < 0) continue;
+        for (std::size_t k = 0; k < candidates_.size(); ++k)
+            if (overlaps(work.shapes[s].box, candidate_boxes_[k]))
+                with_static(model, robots, a, s, candidates_[k], contacts);
+    }
+}
+
+void ContactFinder::with_static(const Model& model, std::span<const RobotWork> robots, std::size_t a,
+                                std::size_t s, std::size_t i, std::vector<Contact>& contacts) {
+    const BodyShape& shape = robots[a].type->shapes[s];
+    const ShapeWork& placed = robots[a].shapes[s];
+    const StaticShape& scenery = model.statics[i];
+    if (!may_collide(shape.material, scenery.material)) return;
+    const Pair pair{static_cast<int>(a), -1, s, i, shape.body, -1};
+    const Placed of_shape{shape.material, placed.X_WS.R}, of_scenery{scenery.material, scenery.X_WS.R};
+    if (scenery.shape.kind == ShapeKind::kSurface) {
+        collide_surface(shape.shape, placed.X_WS, *scenery.shape.surface, scenery.X_WS, placed.margin,
+                        surface_contacts_);
+        add_points(surface_contacts_.points, pair, of_shape, of_scenery, contacts);
+        return;
+    }
+    const Manifold manifold = collide(shape.shape, placed.X_WS, scenery.shape, scenery.X_WS, placed.margin);
+    add_points(manifold, pair, of_shape, of_scenery, contacts);
 }
 
 void ContactFinder::with_itself(std::span<RobotWork> robots, std::size_t a, std::vector<Contact>& contacts) {
     const RobotWork& work = robots[a];
+    const auto robot = static_cast<int>(a);
     for (const auto& [s, t] : work.type->self_pairs) {
         const auto i = static_cast<std::size_t>(s), j = static_cast<std::size_t>(t);
-        Contact contact;
-        contact.robot_a = contact.robot_b = static_cast<int>(a);
-        contact.shape_a = static_cast<std::uint32_t>(s);
-        contact.shape_b = static_cast<std::uint32_t>(t);
-        collide_shapes(work.type->shapes[i], work.shapes[i], work.type->shapes[j], work.shapes[j], contact,
-                       contacts);
+        collide_shapes(work.type->shapes[i], work.shapes[i], work.type->shapes[j], work.shapes[j],
+                       {robot, robot, i, j}, contacts);
     }
 }
 
@@ -187,13 +204,8 @@ void ContactFinder::with_robot(const Model& model, std::span<const RobotWork> ro
         if (!overlaps(wa.shapes[s].box, wb.box)) continue;
         for (std::size_t t = 0; t < wb.shapes.size(); ++t) {
             if (wa.type->shapes[s].body < 0 && wb.type->shapes[t].body < 0) continue;  // neither can move
-            Contact contact;
-            contact.robot_a = static_cast<int>(a);
-            contact.robot_b = static_cast<int>(b);
-            contact.shape_a = static_cast<std::uint32_t>(s);
-            contact.shape_b = static_cast<std::uint32_t>(t);
-            collide_shapes(wa.type->shapes[s], wa.shapes[s], wb.type->shapes[t], wb.shapes[t], contact,
-                           contacts);
+            collide_shapes(wa.type->shapes[s], wa.shapes[s], wb.type->shapes[t], wb.shapes[t],
+                           {static_cast<int>(a), static_cast<int>(b), s, t}, contacts);
         }
     }
 }

@@ -53,10 +53,14 @@ class ContactFinder {
     void sweep(std::span<const RobotWork> robots);
     void with_statics(const Model& model, std::span<RobotWork> robots, std::size_t a,
                       std::vector<Contact>& contacts);
+    /// Shape s of robot a with scenery i.
+    void with_static(const Model& model, std::span<const RobotWork> robots, std::size_t a, std::size_t s,
+                     std::size_t i, std::vector<Contact>& contacts);
     void with_itself(std::span<RobotWork> robots, std::size_t a, std::vector<Contact>& contacts);
 
     SurfaceContacts surface_contacts_;
-    std::vector<std::uint32_t> candidates_;
+    std::vector<std::uint32_t> candidates_;  // scenery near a robot, and its boxes
+    std::vector<Aabb> candidate_boxes_;
     std::vector<std::uint32_t> by_x_, awake_;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;  // sorted
 };

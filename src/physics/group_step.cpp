@@ -2,6 +2,7 @@
 #include "physics/group_step.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "physics/loads.h"
@@ -217,6 +218,61 @@ void count_contacts(const Model& model, std::span<const Contact> contacts, StepR
     }
 }
 
+/// Contacts of the robot: they are sorted by their first robot.
+std::span<Contact> contacts_of(std::uint32_t robot, std::vector<Contact>& contacts) {
+    const auto first = std::lower_bound(contacts.begin(), contacts.end(), static_cast<int>(robot),
+                                        [](const Contact& c, int r) { return c.robot_a < r; });
+    auto last = first;
+    while (last != contacts.end() && last->robot_a == static_cast<int>(robot)) ++last;
+    return {first, last};
+}
+
+/// The contact islands of a group, each by itself, or those of one robot a few at a time in lanes.
+struct IslandStepper {
+    const Model& model;
+    std::span<RobotWork> robots;
+    GroupScratch& s;
+    StepReport& report;
+
+    void step(std::span<const std::uint32_t> members) const {
+        solve_island(model, robots, s, members, report);
+        settle_island(model, robots, members, s.island_contacts);
+    }
+
+    /// A robot that touches nobody may wait until there are enough of its type.
+    void step_or_wait(std::span<const std::uint32_t> members) const {
+        const RobotWork& work = robots[members[0]];
+        const bool waits = s.lanes != nullptr && robots.size() > 1 && members.size() == 1 &&
+                           !work.touches_robot && !s.keep_loads && fits_lanes(*work.type, *work.state);
+        if (!waits) return step(members);
+        std::vector<std::uint32_t>& batch = s.batches[model.robots[work.id.index()].type.index()];
+        batch.push_back(members[0]);
+        if (batch.size() == s.lanes->width()) step_in_lanes(batch);
+    }
+
+    void step_in_lanes(std::vector<std::uint32_t>& batch) const {
+        std::array<LaneRobot, kMostLanes> lanes;
+        for (std::size_t k = 0; k < batch.size(); ++k) {
+            const RobotWork& work = robots[batch[k]];
+            lanes[k] = {work.id, work.state, nullptr, true, contacts_of(batch[k], s.contacts)};
+        }
+        const unsigned stepped =
+            batch.size() > 1 ? s.lanes->step(model, std::span(lanes).first(batch.size()), report) : 0;
+        for (std::size_t k = 0; k < batch.size(); ++k) {
+            if ((stepped >> k & 1u) == 0)
+                step({&batch[k], 1});
+            else
+                robots[batch[k]].held = true;
+        }
+        batch.clear();
+    }
+
+    void step_those_who_wait() const {
+        for (std::vector<std::uint32_t>& batch : s.batches)
+            if (!batch.empty()) step_in_lanes(batch);
+    }
+};
+
 }  // namespace
 
 void step_group(const Model& model, std::span<RobotWork> robots, GroupScratch& s, StepReport& report) {
@@ -224,15 +280,16 @@ void step_group(const Model& model, std::span<RobotWork> robots, GroupScratch& s
     s.finder.find(model, robots, s.contacts);
     recall_impulses(robots, s.contacts);
     build_contact_islands(s, robots);
+    s.batches.resize(std::max(s.batches.size(), model.types.size()));
     report.asleep += static_cast<int>(robots.size() - s.members.size());
+    const IslandStepper islands{model, robots, s, report};
     for (std::size_t first = 0; first < s.members.size();) {
         std::size_t last = first + 1;
         while (last < s.members.size() && s.group[s.members[last]] == s.group[s.members[first]]) ++last;
-        const auto members = std::span<const std::uint32_t>(s.members).subspan(first, last - first);
+        islands.step_or_wait(std::span<const std::uint32_t>(s.members).subspan(first, last - first));
         first = last;
-        solve_island(model, robots, s, members, report);
-        settle_island(model, robots, members, s.island_contacts);
     }
+    islands.step_those_who_wait();
     remember_impulses(robots, s.contacts);
     count_contacts(model, s.contacts, report);
 }

@@ -8,6 +8,7 @@
 #include "physics/contact_rows.h"
 #include "physics/integrate.h"
 #include "physics/joint_rows.h"
+#include "physics/lane_stepper.h"
 #include "physics/sleep.h"
 #include "physics/solver.h"
 #include "physics/step.h"
@@ -18,6 +19,9 @@ namespace roboss {
 struct GroupScratch {
     bool keep_loads = false;  // then robots with loops do not move freely, for then nothing knows their loads
     std::vector<LoopLoad> loads;
+    LaneStepper* lanes = nullptr;  // for robots that touch nobody; may be none
+    std::vector<std::vector<std::uint32_t>>
+        batches;  // of these, by type, that wait for a register to be full
     ContactFinder finder;
     std::vector<Contact> contacts;
     std::vector<int> group;  // union-find over the robots: contact islands

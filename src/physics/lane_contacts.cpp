@@ -22,7 +22,7 @@ unsigned bit(std::size_t lane) {
 
 }  // namespace
 
-LaneContacts::LaneContacts(std::size_t lanes) : works_(lanes), contacts_(lanes) {}
+LaneContacts::LaneContacts(std::size_t lanes) : works_(lanes), contacts_(lanes), spans_(lanes) {}
 LaneContacts::~LaneContacts() = default;
 
 ShapeWork* LaneContacts::start(const Model& model, std::size_t lane, const LaneRobot& robot) {
@@ -47,6 +47,7 @@ bool LaneContacts::find(const Model& model, std::size_t lane) {
     if (work.shapes.empty()) work.box.include(work.origin);
     finder_.find(model, {&work, 1}, contacts_[lane]);
     recall_impulses({&work, 1}, contacts_[lane]);
+    spans_[lane] = contacts_[lane];
     return true;
 }
 
@@ -55,11 +56,11 @@ unsigned LaneContacts::alike(unsigned present) const {
     while (std::popcount(unseen) > std::popcount(best)) {
         const auto first = static_cast<std::size_t>(std::countr_zero(unseen));
         unsigned like_first = 0;
-        for (std::size_t lane = first; lane < contacts_.size(); ++lane)
-            if ((unseen & bit(lane)) != 0 && std::ranges::equal(contacts_[lane], contacts_[first], same_point))
+        for (std::size_t lane = first; lane < spans_.size(); ++lane)
+            if ((unseen & bit(lane)) != 0 && std::ranges::equal(spans_[lane], spans_[first], same_point))
                 like_first |= bit(lane);
         unseen &= ~like_first;
-        const bool plain = std::ranges::all_of(contacts_[first], is_plain);
+        const bool plain = std::ranges::all_of(spans_[first], is_plain);
         if (plain && std::popcount(like_first) > std::popcount(best)) best = like_first;
     }
     return best;

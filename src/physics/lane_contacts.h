@@ -21,19 +21,22 @@ class LaneContacts {
     /// The contacts of a lane with the scenery, with what the last tick remembers. False if the robot is
     /// beyond numbers.
     bool find(const Model& model, std::size_t lane);
+    /// Contacts found elsewhere.
+    void take(std::size_t lane, std::span<Contact> contacts) { spans_[lane] = contacts; }
     /// Of the lanes `present`, those that have the same contact points as the first, or as another if that
     /// are more; none if they have points that lanes do not know (friction axes, torsion, rolling).
     unsigned alike(unsigned present) const;
 
     const Aabb& box(std::size_t lane) const { return works_[lane].box; }
-    std::size_t count(std::size_t lane) const { return contacts_[lane].size(); }
-    Contact& contact(std::size_t lane, std::size_t i) { return contacts_[lane][i]; }
-    /// Writes the solved contacts of a lane into its state and the report.
+    std::size_t count(std::size_t lane) const { return spans_[lane].size(); }
+    Contact& contact(std::size_t lane, std::size_t i) { return spans_[lane][i]; }
+    /// Writes the solved contacts of a lane, found here, into its state and the report.
     void remember(const Model& model, std::size_t lane, StepReport& report);
 
   private:
     std::vector<RobotWork> works_;
     std::vector<std::vector<Contact>> contacts_;
+    std::vector<std::span<Contact>> spans_;  // the same, or those found elsewhere
     ContactFinder finder_;
 };
 

@@ -1,5 +1,5 @@
-// The step of a few robots of one type in lanes; see lane_stepper.h. Included only by the translation units of
-// the instruction sets.
+// The step of a few robots of one type in lanes; see lane_stepper.h. Included only by the translation units
+// of the instruction sets.
 #pragma once
 
 #include <bit>
@@ -75,17 +75,23 @@ class LaneStep final : public LaneStepper {
         }
     }
 
-    /// Bodies and shapes in lanes, contacts lane by lane. Who might fall asleep leaves.
+    /// Bodies and shapes in lanes, contacts lane by lane. Who might fall asleep leaves. All robots come with
+    /// contacts, or none.
     void place(const Model& model, std::span<const LaneRobot> robots, Lockstep<T>& together) {
         const RobotType& type = *work_.type;
         place_bodies<T>(type, q_, work_);
         move_bodies<T>(type, v_, work_);
-        place_shapes<T>(type, model.dt_s, q_, work_);
+        const bool has_contacts = robots[0].has_contacts;
+        if (model.sleep || !has_contacts) place_shapes<T>(type, model.dt_s, q_, work_);
         if (model.sleep) leave_where(work_.speed <= T(kRestSpeed), together);
         for (std::size_t lane = 0; lane < robots.size(); ++lane) {
             if (!is_in(together, lane)) continue;
-            put_shapes(lane, found_.start(model, lane, robots[lane]));
-            if (!found_.find(model, lane)) together.leave(lane);
+            if (has_contacts) {
+                found_.take(lane, robots[lane].contacts);
+            } else {
+                put_shapes(lane, found_.start(model, lane, robots[lane]));
+                if (!found_.find(model, lane)) together.leave(lane);
+            }
         }
         const unsigned alike = found_.alike(together.present());
         for (std::size_t lane = 0; lane < kLanesOf<T>; ++lane)
@@ -170,8 +176,7 @@ class LaneStep final : public LaneStepper {
 
     void solve_way(SolveProblem<T> problem, Lockstep<T>& together) {
         problem.position = true;
-        for (ContactRowT<T>& row : rows_.contacts)
-            row.slip.bound = row.slip.coefficient * row.normal.impulse;
+        for (ContactRowT<T>& row : rows_.contacts) row.slip.bound = row.slip.coefficient * row.normal.impulse;
         way_ = v_;
         SolveReportT<T> report;
         newton_.start(problem, way_);
@@ -206,8 +211,7 @@ class LaneStep final : public LaneStepper {
             to.impulse = lane(from.impulse, i), to.load = lane(from.load, i);
             to.friction = {lane(from.friction.x, i), lane(from.friction.y, i), lane(from.friction.z, i)};
         }
-        found_.remember(model, i, report);
-        *robot.bound = found_.box(i);
+        if (!robot.has_contacts) found_.remember(model, i, report), *robot.bound = found_.box(i);
         report.iterations += static_cast<int>(lane(solved_.iterations, i));
         if (lane(solved_.residual, i) > report.residual) report.residual = lane(solved_.residual, i);
     }

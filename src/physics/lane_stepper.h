@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 
+#include "physics/contact.h"
 #include "physics/step.h"
 
 namespace roboss {
@@ -14,7 +15,9 @@ namespace roboss {
 struct LaneRobot {
     RobotId id;
     RobotState* state = nullptr;
-    Aabb* bound = nullptr;  // receives the interaction bound
+    Aabb* bound = nullptr;          // receives the interaction bound
+    bool has_contacts = false;      // found already, all of them with scenery
+    std::span<Contact> contacts{};  // then these; they receive what is solved
 };
 
 class LaneStepper {
@@ -26,13 +29,16 @@ class LaneStepper {
 
     virtual std::size_t width() const = 0;
     /// Steps at most width() robots, awake, of one type that fits. Bit i of the result: robots[i] was
-    /// stepped; the others are untouched.
+    /// stepped; the others are untouched. Of robots whose contacts are given, these and the bound are left to
+    /// the caller: to remember, to count.
     virtual unsigned step(const Model& model, std::span<const LaneRobot> robots, StepReport& report) = 0;
 };
 
 /// Whether a robot may be stepped in lanes at all: no loops, couplings or drag, no contact with itself, no
 /// wrench; and no lone body (what slides without turning is stepped apart, see group_step.cpp).
 bool fits_lanes(const RobotType& type, const RobotState& state);
+
+inline constexpr std::size_t kMostLanes = 16;
 
 /// The widest stepper of at most `most` lanes that this processor can run; nullptr if there is none.
 std::unique_ptr<LaneStepper> make_lane_stepper(std::size_t most);

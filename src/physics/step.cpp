@@ -23,10 +23,8 @@ struct StepScratch::Impl {
     std::vector<std::uint32_t> awake, near;
     std::vector<char> is_near, ordered, moved_freely;
     std::vector<ContactReport> contacts;
-    std::unique_ptr<LaneStepper> lanes = make_lane_stepper(kWidest);
+    std::unique_ptr<LaneStepper> lanes = make_lane_stepper(kMostLanes);
     std::vector<std::vector<std::uint32_t>> batches;  // by type: robots that wait for a register to be full
-
-    static constexpr std::size_t kWidest = 16;
 };
 
 StepScratch::StepScratch() : impl_(std::make_unique<Impl>()) {}
@@ -183,9 +181,9 @@ struct Call {
     }
 
     bool step_in_lanes(std::vector<std::uint32_t>& batch, Impl& s, StepReport& report) const {
-        std::array<LaneRobot, Impl::kWidest> lanes;
+        std::array<LaneRobot, kMostLanes> lanes;
         for (std::size_t k = 0; k < batch.size(); ++k)
-            lanes[k] = {robots[batch[k]], states[batch[k]], &bounds[batch[k]]};
+            lanes[k] = {robots[batch[k]], states[batch[k]], &bounds[batch[k]], false, {}};
         const unsigned stepped =
             batch.size() > 1 ? s.lanes->step(model, std::span(lanes).first(batch.size()), report) : 0;
         bool good = true;
@@ -223,6 +221,7 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
     Impl& s = scratch.impl();
     StepReport report;
     s.contacts.clear(), s.group.loads.clear();
+    s.group.lanes = s.lanes.get();
     s.moved_freely.assign(robots.size(), 0);
     apply_orders(model, robots, states, orders, s.ordered);
     find_near(model, robots, states, s);
@@ -239,7 +238,7 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
 }
 
 void StepScratch::use_lanes(std::size_t most) {
-    impl_->lanes = make_lane_stepper(std::min(most, Impl::kWidest));
+    impl_->lanes = make_lane_stepper(std::min(most, kMostLanes));
 }
 
 std::size_t StepScratch::lanes() const {
