@@ -161,6 +161,7 @@ struct Call {
         step_group(model, works, s.group, report);
         for (std::size_t k = 0; k < chosen.size(); ++k) {
             s.moved_freely[chosen[k]] = !works[k].held;
+            report.placed += works[k].placed ? 1 : 0;
             if (works[k].asleep) continue;
             RobotState& state = *states[chosen[k]];
             expire_wrenches(tick, state);

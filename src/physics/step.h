@@ -24,6 +24,7 @@ struct StepReport {
     int contacts = 0;         // contact points that carried force
     int static_contacts = 0;  // of these, with static scenery other than planes (buildings, walls)
     int asleep = 0;           // robots that slept through the tick
+    int placed = 0;           // robots of which any work was done: all but sleepers that nothing comes near
     int iterations = 0;       // Newton iterations, summed over contact islands
     double residual = 0;      // worst relative residual of the contact islands
     RobotId not_finite;       // first robot whose state is not finite; the run must stop
