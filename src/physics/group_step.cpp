@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "physics/loads.h"
+#include "physics/velocity_forces.h"
 
 namespace roboss {
 namespace {
@@ -89,6 +90,7 @@ bool gather_island(const Model& model, std::span<RobotWork> robots, GroupScratch
         s.island_offsets.push_back(offset);
         compute_impulse(model, model.dt_s, 1.0, work.state->q, work.state->v, work);
         compute_mass_matrix<double>(*work.type, model.dt_s, work);
+        tame_velocity_forces(model, work, s.free_buffer);
         split |= add_joint_rows(model, work, offset, s.buffer, s.rows);
         s.v.insert(s.v.end(), work.state->v.begin(), work.state->v.end());
     }

@@ -11,7 +11,7 @@ struct FreeBuffer {
     Equalities equalities;
     EqualitySolver solver;
     EqualityProjection projection;
-    std::vector<double> wanted, change;
+    std::vector<double> wanted, change, factor;
     std::vector<double> q, q_sum, v, v_sum;
     std::vector<double> q_rates, v_rates;  // of all stages, one after the other
 };

@@ -14,6 +14,7 @@
 #include "physics/newton.h"
 #include "physics/sleep.h"
 #include "physics/tree_hessian.h"
+#include "physics/velocity_forces.h"
 
 namespace roboss {
 
@@ -75,12 +76,13 @@ class LaneStep final : public LaneStepper {
         }
     }
 
-    /// Bodies and shapes in lanes, contacts lane by lane. Who might fall asleep leaves. All robots come with
-    /// contacts, or none.
+    /// Bodies and shapes in lanes, contacts lane by lane. Who might fall asleep or turns far leaves. All robots
+    /// come with contacts, or none.
     void place(const Model& model, std::span<const LaneRobot> robots, Lockstep<T>& together) {
         const RobotType& type = *work_.type;
         place_bodies<T>(type, q_, work_);
         move_bodies<T>(type, v_, work_);
+        leave_where(turns_far(work_, model.dt_s), together);
         const bool has_contacts = robots[0].has_contacts;
         if (model.sleep || !has_contacts) place_shapes<T>(type, model.dt_s, q_, work_);
         if (model.sleep) leave_where(work_.speed <= T(kRestSpeed), together);

@@ -88,10 +88,12 @@ TEST(ThinWall, NoBallBoxOrHullPassesAWallAtUpToTwentyMetresASecond) {
 }
 
 TEST(ThinWall, NoSpinningRodOfFortyPassesAWallWithThickness) {
-    const ModelSpec rod = solid_box(0.05, {0.3, 0.005, 0.005}, surface(0.5));
-    for (const Wall wall : {Wall::kBox, Wall::kHeightmap, Wall::kFreePlate})
-        for (const double speed : {2.0, 5.0, 10.0})
-            EXPECT_EQ(passed(wall, rod, {speed, 20}), 0) << speed << " m/s, wall " << static_cast<int>(wall);
+    for (const ModelSpec& rod :
+         {solid_box(0.05, {0.3, 0.005, 0.005}, surface(0.5)), solid_cylinder(0.05, 0.005, 0.3, surface(0.5))})
+        for (const Wall wall : {Wall::kBox, Wall::kHeightmap, Wall::kFreePlate})
+            for (const double speed : {2.0, 5.0, 10.0})
+                EXPECT_EQ(passed(wall, rod, {speed, 20}), 0)
+                    << rod.name << " at " << speed << " m/s, wall " << static_cast<int>(wall);
 }
 
 /// docs/physics.md says why some do.
@@ -99,13 +101,13 @@ TEST(ThinWall, FewSpinningRodsPassAClosedMeshOfACentimetre) {
     const ModelSpec square = solid_box(0.05, {0.3, 0.005, 0.005}, surface(0.5)),
                     round = solid_cylinder(0.05, 0.005, 0.3, surface(0.5));
     for (const double speed : {2.0, 5.0})
-        EXPECT_EQ(passed(Wall::kMeshBox, square, {speed, 20, 100}), 0) << speed << " m/s";
+        EXPECT_LE(passed(Wall::kMeshBox, square, {speed, 20, 100}), 1) << speed << " m/s";
     const int slow = passed(Wall::kMeshBox, round, {2, 20, 200}),
               fast = passed(Wall::kMeshBox, round, {10, 20, 200});
     tell("round rods of 200 that passed a closed mesh at 2 m/s", slow);
     tell("round rods of 200 that passed a closed mesh at 10 m/s", fast);
-    EXPECT_LE(slow, 3);
-    EXPECT_LE(fast, 16);
+    EXPECT_LE(slow, 1);
+    EXPECT_LE(fast, 6);
 }
 
 TEST(ThinWall, HardlyASpinningRodPassesASheetWithoutThickness) {

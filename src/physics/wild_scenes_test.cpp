@@ -95,6 +95,36 @@ TEST(WildScenes, MendingDeepOverlapsThrowsNoJointAbout) {
         expect_sane(overlapping_spiders(seed, surface(0.6), true), 0.3, 300, seed);
 }
 
+/// Ticks of 5 ms in which limbs turn by more than a radian: explicit centrifugal and gyroscopic forces would
+/// add energy to them without end.
+TEST(WildScenes, LimbsThatTurnFarInATickDoNotRunAway) {
+    for (const std::uint64_t seed : {10u, 25u}) {  // not finite without
+        Random random(seed + 1000);
+        SurfaceSpec s =
+            surface(random.uniform(0, 1.2), random.uniform(0, 1) < 0.3 ? random.uniform(0, 1) : 0.0);
+        if (random.uniform(0, 1) < 0.5) {
+            s.stiffness = std::pow(10.0, random.uniform(2, 10));
+            s.damping = std::pow(10.0, random.uniform(-1, 4));
+        }
+        World world = overlapping_spiders(seed, s, random.uniform(0, 1) < 0.5);
+        world.dt_s = random.uniform(0, 1) < 0.5 ? 1e-3 : 5e-3;
+        world.accuracy.push_back(random_corner(seed));
+        Simulation sim(world);
+        for (std::size_t r = 0; r < sim.states.size(); ++r)
+            for (std::size_t d = 0; d < sim.states[r].motors.size(); ++d) {
+                const double pick = random.uniform(0, 1);
+                const MotorMode mode = pick < 0.3   ? MotorMode::kPassive
+                                       : pick < 0.6 ? MotorMode::kPosition
+                                                    : MotorMode::kVelocity;
+                sim.set_motor(r, d, mode, random.uniform(-3, 3));
+            }
+        for (int i = 0; i < 200; ++i) {
+            sim.step();
+            ASSERT_FALSE(sim.report.not_finite.valid()) << "seed " << seed << ", tick " << i;
+        }
+    }
+}
+
 TEST(WildScenes, SoftContactsThatStartDeepShootNothingAway) {
     SurfaceSpec soft = surface(0.6);
     soft.stiffness = 1e8, soft.damping = 100;
