@@ -76,8 +76,8 @@ class LaneStep final : public LaneStepper {
         }
     }
 
-    /// Bodies and shapes in lanes, contacts lane by lane. Who might fall asleep or turns far leaves. All robots
-    /// come with contacts, or none.
+    /// Bodies and shapes in lanes, contacts lane by lane. Who might fall asleep or turns far leaves. All
+    /// robots come with contacts, or none.
     void place(const Model& model, std::span<const LaneRobot> robots, Lockstep<T>& together) {
         const RobotType& type = *work_.type;
         place_bodies<T>(type, q_, work_);

@@ -10,7 +10,7 @@
 namespace roboss {
 
 template <class T>
-T impulse_at(const BoundedRowT<T>& row, const T& u) {
+[[gnu::always_inline]] inline T impulse_at(const BoundedRowT<T>& row, const T& u) {
     return clamped((row.target - u) * row.stiffness, row.low, row.high);
 }
 
@@ -25,7 +25,8 @@ using Tangential = TangentialT<double>;
 
 /// `u_1`, `u_2`: velocity minus target.
 template <class T>
-TangentialT<T> impulse_at(const FrictionDiscT<T>& disc, const T& u_1, const T& u_2, const T& bound) {
+[[gnu::always_inline]] inline TangentialT<T> impulse_at(const FrictionDiscT<T>& disc, const T& u_1,
+                                                        const T& u_2, const T& bound) {
     using std::sqrt;
     const T t1 = -u_1 * disc.stiffness, t2 = -u_2 * disc.stiffness;
     const T size2 = t1 * t1 + t2 * t2;
