@@ -79,5 +79,7 @@ struct EngineKind {
 
 /// RoBOSS first, then the peers that were built in.
 std::span<const EngineKind> engines();
+/// The same with RoBOSS also in fewer lanes, and in none: for speed, as no bit depends on it.
+std::span<const EngineKind> contestants();
 
 }  // namespace roboss::bench

@@ -22,4 +22,14 @@ std::span<const EngineKind> engines() {
     return kinds;
 }
 
+std::span<const EngineKind> contestants() {
+    static const std::vector<EngineKind> kinds = [] {
+        std::vector<EngineKind> all(engines().begin(), engines().end());
+        all.insert(all.begin() + 1,
+                   {{"RoBOSS-4", make_roboss_in_4_lanes}, {"RoBOSS-1", make_roboss_in_1_lane}});
+        return all;
+    }();
+    return kinds;
+}
+
 }  // namespace roboss::bench

@@ -6,6 +6,8 @@
 namespace roboss::bench {
 
 std::unique_ptr<Engine> make_roboss(const World& world, const EngineOptions& options);
+std::unique_ptr<Engine> make_roboss_in_4_lanes(const World& world, const EngineOptions& options);
+std::unique_ptr<Engine> make_roboss_in_1_lane(const World& world, const EngineOptions& options);
 std::unique_ptr<Engine> make_mujoco(const World& world, const EngineOptions& options);
 std::unique_ptr<Engine> make_ode(const World& world, const EngineOptions& options);
 std::unique_ptr<Engine> make_bullet(const World& world, const EngineOptions& options);

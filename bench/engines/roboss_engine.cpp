@@ -14,8 +14,9 @@ namespace {
 
 class RobossEngine final : public Engine {
   public:
-    RobossEngine(const World& world, const EngineOptions& options, Model model)
-        : world_(world), accuracy_(options.accuracy), model_(std::move(model)) {
+    RobossEngine(const World& world, const EngineOptions& options, Model model, std::size_t lanes)
+        : world_(world), accuracy_(options.accuracy), lanes_(lanes), model_(std::move(model)) {
+        if (lanes_ > 0) scratch_.use_lanes(lanes_);
         first_robot_.assign(world.instances.size() + 1, model_.robots.size());
         for (std::size_t r = model_.robots.size(); r-- > 0;) first_robot_[model_.robots[r].family] = r;
         for (std::size_t i = world.instances.size(); i-- > 0;)
@@ -28,11 +29,14 @@ class RobossEngine final : public Engine {
         bounds_.resize(states_.size());
     }
 
-    std::string name() const override { return "RoBOSS"; }
+    std::string name() const override {
+        return lanes_ == 0 ? "RoBOSS"
+                           : "RoBOSS-" + std::to_string(lanes_) + (lanes_ == 1 ? " lane" : " lanes");
+    }
     std::string settings() const override {
         return "double, Newton to the tolerance" +
                (accuracy_ == 1 ? std::string() : ", tolerances / " + std::to_string(accuracy_)) +
-               "; all robots in one call of step_island";
+               "; all robots in one call of step_island; lanes: " + std::to_string(scratch_.lanes());
     }
 
     void step(int ticks) override {
@@ -130,6 +134,7 @@ class RobossEngine final : public Engine {
 
     const World& world_;
     double accuracy_;
+    std::size_t lanes_;  // 0: as many as the processor has
     Model model_;
     std::vector<std::size_t> first_robot_;  // by instance
     std::vector<RobotId> robots_;
@@ -140,16 +145,28 @@ class RobossEngine final : public Engine {
     Tick tick_ = 0;
 };
 
-}  // namespace
-
-std::unique_ptr<Engine> make_roboss(const World& world, const EngineOptions& options) {
+std::unique_ptr<Engine> make(const World& world, const EngineOptions& options, std::size_t lanes) {
     CompileOptions compiling;
     compiling.dt_s = options.dt_s;
     compiling.accuracy.setting = options.accuracy > 1 ? "high" : options.accuracy < 1 ? "fast" : "";
     Diagnostics diagnostics;
     const auto model = compile(world, compiling, diagnostics);
     if (!model) return nullptr;
-    return std::make_unique<RobossEngine>(world, options, *model);
+    return std::make_unique<RobossEngine>(world, options, *model, lanes);
+}
+
+}  // namespace
+
+std::unique_ptr<Engine> make_roboss(const World& world, const EngineOptions& options) {
+    return make(world, options, 0);
+}
+
+std::unique_ptr<Engine> make_roboss_in_4_lanes(const World& world, const EngineOptions& options) {
+    return make(world, options, 4);
+}
+
+std::unique_ptr<Engine> make_roboss_in_1_lane(const World& world, const EngineOptions& options) {
+    return make(world, options, 1);
 }
 
 }  // namespace roboss::bench

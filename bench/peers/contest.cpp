@@ -75,7 +75,7 @@ std::vector<Row> hold_contest(const SceneKind& kind, std::size_t robots, const C
     options.steps = std::min(options.steps, kind.steps_max);
     const Scene scene = kind.make(robots);
     std::vector<Entry> entries;
-    for (const EngineKind& engine : engines()) {
+    for (const EngineKind& engine : contestants()) {
         if (!is_wanted(options.engines, engine.name)) continue;
         std::fprintf(stderr, "  %s: building and settling\n", engine.name.c_str());
         Entry& entry = entries.emplace_back();

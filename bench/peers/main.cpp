@@ -37,7 +37,7 @@ std::string help() {
         text += ")\n";
     }
     text += "  threads: the 2000 cars as `roboss run` steps them, on one thread and on two\n\nEngines here:";
-    for (const EngineKind& engine : engines()) text += " " + engine.name;
+    for (const EngineKind& engine : contestants()) text += " " + engine.name;
     return text +
            "\n\nExamples:\n  roboss-peers --quick\n  roboss-peers --scene city --robots 500 --engine "
            "RoBOSS --alone --steps 1000";
@@ -65,7 +65,7 @@ int run_alone(const SceneKind& kind, std::size_t robots, const EngineKind& engin
 int run_all_alone(const Wishes& wishes) {
     int result = 0;
     for (const SceneKind& scene : scenes())
-        for (const EngineKind& engine : engines())
+        for (const EngineKind& engine : contestants())
             if (is_wanted(wishes.scenes, scene.name) && is_wanted(wishes.contest.engines, engine.name))
                 for (std::size_t robots : wishes.robots.empty() ? scene.robots : wishes.robots)
                     result |= run_alone(scene, robots, engine, wishes.contest);

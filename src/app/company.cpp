@@ -77,6 +77,8 @@ Result<> Company::start_process() {
                                                         std::to_string(network_.liveliness_ms),
                                                         "--threads",
                                                         std::to_string(o_.threads),
+                                                        "--lanes",
+                                                        std::to_string(o_.lanes),
                                                         "--patience",
                                                         "10",
                                                         "--quiet"});

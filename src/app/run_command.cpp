@@ -112,6 +112,7 @@ class Run {
         SimulationOptions options;
         options.simulators = static_cast<std::size_t>(o_.simulators);
         options.threads = static_cast<unsigned>(o_.threads);
+        options.lanes = o_.lanes;
         options.world_file = o_.world;
         options.controller.seed = o_.seed;
         options.controller.window = o_.window == "auto" ? 0 : static_cast<Tick>(std::stod(o_.window));

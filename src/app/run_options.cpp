@@ -105,6 +105,11 @@ void add_common_options(CLI::App& command, RunOptions& o) {
     command.add_option("--threads", o.threads, "threads a Simulator steps its islands with")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
+    command
+        .add_option("--lanes", o.lanes,
+                    "robots of a type stepped at once, at most: 1, 4 (AVX2) or 8 (AVX-512); the same result")
+        ->check(CLI::Range(std::size_t{1}, kMostLanes))
+        ->capture_default_str();
     command.add_option("--window", o.window, "ticks between two talks with the Controller, or auto")
         ->check(number_or({"auto"}))
         ->capture_default_str();

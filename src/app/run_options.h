@@ -23,6 +23,7 @@ struct RunOptions {
     std::string speed = "max";    // "max", "world" or a factor of real time
     std::string window = "auto";  // "auto" or a number of ticks
     int threads = 1;
+    std::size_t lanes = kMostLanes;
     int simulators = 1;
     int processes = 0;           // Simulators as processes of their own; 0: in this one
     bool is_controller = false;  // `roboss controller`: Simulators come from anywhere

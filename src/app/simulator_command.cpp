@@ -23,6 +23,7 @@ Exit codes: 0 the run is over or it has left, 1 an option is wrong, no Controlle
 struct SimulatorProcessOptions {
     MemberOptions member;
     int threads = 1;
+    std::size_t lanes = kMostLanes;
     bool stay = false;
 };
 
@@ -38,7 +39,9 @@ class SimulatorProcess {
             const auto model = member_.fetch_model(self);
             if (!model) return interrupted() ? kDone : kBadInput;
             member_.say(fmt::format("has the world '{}' (model hash {})", model->name, to_hex(model->hash)));
-            Simulator simulator(model, self, SimulatorOptions{}, pool_);
+            SimulatorOptions role;
+            role.lanes = o_.lanes;
+            Simulator simulator(model, self, role, pool_);
             if (!serve(simulator)) return kBadInput;
             if (interrupted()) return kDone;
             if (!simulator.over().empty()) {
@@ -82,6 +85,11 @@ void add_simulator_command(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<SimulatorProcessOptions>();
     command->add_option("--threads", options->threads, "threads it steps its islands with")
         ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    command
+        ->add_option("--lanes", options->lanes,
+                     "robots of a type stepped at once, at most: 1, 4 (AVX2) or 8 (AVX-512); the same result")
+        ->check(CLI::Range(std::size_t{1}, kMostLanes))
         ->capture_default_str();
     command->add_flag("--stay", options->stay, "wait for the next run when one is over");
     add_member_options(*command, options->member);

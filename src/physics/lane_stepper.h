@@ -38,8 +38,6 @@ class LaneStepper {
 /// wrench; and no lone body (what slides without turning is stepped apart, see group_step.cpp).
 bool fits_lanes(const RobotType& type, const RobotState& state);
 
-inline constexpr std::size_t kMostLanes = 16;
-
 /// The widest stepper of at most `most` lanes that this processor can run; nullptr if there is none.
 std::unique_ptr<LaneStepper> make_lane_stepper(std::size_t most);
 

@@ -30,6 +30,8 @@ struct StepReport {
     RobotId not_finite;       // first robot whose state is not finite; the run must stop
 };
 
+inline constexpr std::size_t kMostLanes = 16;  // robots that any processor steps at once
+
 /// Buffers of the step; keep one a thread, so that nothing is allocated once they have grown.
 class StepScratch {
   public:

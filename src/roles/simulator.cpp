@@ -44,7 +44,7 @@ Simulator::Simulator(std::shared_ptr<const Model> model, const Address& self, co
       self_(self),
       options_(options),
       store_(*model_),
-      stepper_(model_, pool, options.measure_cpu) {}
+      stepper_(model_, pool, options.measure_cpu, options.lanes) {}
 
 void Simulator::advance(Bus& bus) {
     if (gone_) return;

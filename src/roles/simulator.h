@@ -16,9 +16,10 @@
 namespace roboss {
 
 struct SimulatorOptions {
-    std::int64_t resend_ms = 100;  // unanswered requests are sent again after this
-    std::int64_t alive_ms = 50;    // sign of life, also from within a long step
-    bool measure_cpu = true;       // false: cost is counted work, so that a seeded test repeats exactly
+    std::int64_t resend_ms = 100;    // unanswered requests are sent again after this
+    std::int64_t alive_ms = 50;      // sign of life, also from within a long step
+    bool measure_cpu = true;         // false: cost is counted work, so that a seeded test repeats exactly
+    std::size_t lanes = kMostLanes;  // robots stepped at once (StepScratch::use_lanes)
 };
 
 class Simulator {

@@ -48,8 +48,26 @@ struct WindowStepper::Job {
     }
 };
 
-WindowStepper::WindowStepper(std::shared_ptr<const Model> model, ThreadPool& pool, bool measure_cpu)
-    : model_(std::move(model)), pool_(pool), measure_cpu_(measure_cpu), scratch_(pool.threads()) {}
+struct WindowStepper::Convoy {
+    std::vector<std::uint32_t> islands;  // ascending, as their robots are
+    std::vector<std::size_t> next;       // by island: its next order
+    std::vector<RobotId> robots;
+    std::vector<RobotState*> states;
+    std::vector<Aabb> bounds;
+    std::vector<Order> orders;  // of a tick
+};
+
+WindowStepper::WindowStepper(std::shared_ptr<const Model> model, ThreadPool& pool, bool measure_cpu,
+                             std::size_t lanes)
+    : model_(std::move(model)),
+      pool_(pool),
+      measure_cpu_(measure_cpu),
+      scratch_(pool.threads()),
+      convoys_(pool.threads()) {
+    for (StepScratch& scratch : scratch_) scratch.use_lanes(lanes);
+}
+
+WindowStepper::~WindowStepper() = default;
 
 void WindowStepper::sort_orders(const Plan& plan) {
     const std::size_t islands = plan.island_offsets.size() - 1;
@@ -117,10 +135,12 @@ void WindowStepper::step_batch(Job& job, std::size_t batch, std::size_t worker) 
     const auto work_of = [&](std::uint32_t i) {
         return 4 * ticks * job.robots(i).size() + job.frame.islands[i].contacts;
     };
-    for (const std::uint32_t island : islands) {
-        step_island_through(job, island, worker);
-        work += work_of(island);
-    }
+    const auto first_single = std::find_if(islands.begin(), islands.end(),
+                                           [&](std::uint32_t i) { return job.robots(i).size() == 1; });
+    for (auto island = islands.begin(); island != first_single; ++island)
+        step_island_through(job, *island, worker);
+    if (first_single != islands.end()) step_convoy_through(job, {first_single, islands.end()}, worker);
+    for (const std::uint32_t island : islands) work += work_of(island);
     const std::uint64_t spent_ns = measure_cpu_ ? thread_cpu_ns() - start_ns : work;
     for (const std::uint32_t island : islands)
         job.frame.islands[island].cost_ns =
@@ -148,28 +168,75 @@ bool WindowStepper::step_tick(Job& job, std::size_t island, Tick tick, std::span
     const StepReport report =
         step_island(*model_, tick, robots, std::span(states_).subspan(first, robots.size()), orders,
                     std::span(bounds_).subspan(first, robots.size()), scratch_[worker]);
+    sweep(job, island, orders);
+    IslandFrame& outcome = job.frame.islands[island];
+    outcome.contacts += static_cast<std::uint64_t>(report.contacts);
+    outcome.static_contacts += static_cast<std::uint64_t>(report.static_contacts);
+    if (report.not_finite.valid()) give_up(job, island, report.not_finite, tick);
+    return !report.not_finite.valid();
+}
+
+/// Takes the bounds of a tick into those of the window.
+void WindowStepper::sweep(const Job& job, std::size_t island, std::span<const Order> orders) {
+    const std::size_t first = job.plan.island_offsets[island];
+    const std::span<const RobotId> robots = job.robots(island);
     for (const Order& order : orders) {
         if (!teleports(order)) continue;
-        const auto k =
-            first + static_cast<std::size_t>(std::lower_bound(robots.begin(), robots.end(), order.robot) -
-                                             robots.begin());
+        const auto found = std::lower_bound(robots.begin(), robots.end(), order.robot);
+        if (found == robots.end() || *found != order.robot) continue;
+        const std::size_t k = first + static_cast<std::size_t>(found - robots.begin());
         if (!swept_[k].empty()) earlier_[island].push_back({order.robot, outward(swept_[k])});
         swept_[k] = Aabb{};
     }
     for (std::size_t k = first; k < first + robots.size(); ++k)
         swept_[k].include(sensible(bounds_[k]) ? bounds_[k] : kEverywhere);
-    IslandFrame& outcome = job.frame.islands[island];
-    outcome.contacts += static_cast<std::uint64_t>(report.contacts);
-    outcome.static_contacts += static_cast<std::uint64_t>(report.static_contacts);
-    if (!report.not_finite.valid()) return true;
-    outcome.failed = report.not_finite;
-    outcome.failed_at = tick;
-    for (std::size_t k = 0; k < robots.size();
-         ++k) {  // the bounds so far must still be compared with others'
-        job.frame.robots[first + k].robot = robots[k];
-        job.frame.robots[first + k].swept = outward(swept_[first + k]);
+}
+
+/// The bounds so far must still be compared with others'.
+void WindowStepper::give_up(Job& job, std::size_t island, RobotId failed, Tick tick) {
+    job.frame.islands[island].failed = failed;
+    job.frame.islands[island].failed_at = tick;
+    for (std::size_t k = job.plan.island_offsets[island]; k < job.plan.island_offsets[island + 1]; ++k) {
+        job.frame.robots[k].robot = job.plan.robots[k];
+        job.frame.robots[k].swept = outward(swept_[k]);
     }
-    return false;
+}
+
+/// Islands of one robot, all of them tick by tick: the step finds that they do not meet, and its result does
+/// not depend on who shares the call. Their contacts are counted for the first.
+void WindowStepper::step_convoy_through(Job& job, std::span<const std::uint32_t> islands,
+                                        std::size_t worker) {
+    Convoy& c = convoys_[worker];
+    c.islands.assign(islands.begin(), islands.end());
+    std::sort(c.islands.begin(), c.islands.end());
+    c.robots.clear(), c.states.clear(), c.next.clear();
+    for (const std::uint32_t i : c.islands) {
+        const std::size_t k = job.plan.island_offsets[i];
+        c.robots.push_back(job.plan.robots[k]), c.states.push_back(states_[k]);
+        c.next.push_back(order_offsets_[i]);
+    }
+    c.bounds.resize(c.robots.size());
+    for (Tick tick = job.plan.from; tick < job.plan.until; ++tick) {
+        c.orders.clear();
+        for (std::size_t i = 0; i < c.islands.size(); ++i)
+            for (std::size_t& o = c.next[i];
+                 o < order_offsets_[c.islands[i] + 1] && orders_[o].apply_at == tick; ++o)
+                c.orders.push_back(orders_[o]);
+        const StepReport report =
+            step_island(*model_, tick, c.robots, c.states, c.orders, c.bounds, scratch_[worker]);
+        for (std::size_t i = 0; i < c.islands.size(); ++i)
+            bounds_[job.plan.island_offsets[c.islands[i]]] = c.bounds[i];
+        for (const std::uint32_t i : c.islands) sweep(job, i, c.orders);
+        IslandFrame& outcome = job.frame.islands[c.islands[0]];
+        outcome.contacts += static_cast<std::uint64_t>(report.contacts);
+        outcome.static_contacts += static_cast<std::uint64_t>(report.static_contacts);
+        if (!report.not_finite.valid()) continue;
+        for (const std::uint32_t i : c.islands)
+            if (job.robots(i)[0] == report.not_finite) give_up(job, i, report.not_finite, tick);
+        break;
+    }
+    for (const std::uint32_t i : c.islands)
+        if (!job.frame.islands[i].failed.valid()) report_robots(job, i);
 }
 
 void WindowStepper::report_robots(Job& job, std::size_t island) {

@@ -18,8 +18,9 @@ namespace roboss {
 class WindowStepper {
   public:
     /// `measure_cpu` false: costs are counted work instead of thread CPU time, so that a seeded test repeats
-    /// exactly.
-    WindowStepper(std::shared_ptr<const Model> model, ThreadPool& pool, bool measure_cpu);
+    /// exactly. `lanes`: robots stepped at once, at most.
+    WindowStepper(std::shared_ptr<const Model> model, ThreadPool& pool, bool measure_cpu, std::size_t lanes);
+    ~WindowStepper();
 
     /// All robots of the plan must have been started in the store. `between` is called now and then from the
     /// calling thread.
@@ -27,7 +28,9 @@ class WindowStepper {
     std::size_t threads() const { return scratch_.size(); }
 
   private:
-    struct Job;  // one call of step()
+    struct Job;     // one call of step()
+    struct Convoy;  // islands of one robot that are stepped together, so that lanes fill
+                    // (physics/lane_stepper.h)
 
     void sort_orders(const Plan& plan);
     void cut_batches(const Plan& plan);
@@ -35,6 +38,9 @@ class WindowStepper {
     void step_island_through(Job& job, std::size_t island, std::size_t worker);
     bool step_tick(Job& job, std::size_t island, Tick tick, std::span<const Order> orders,
                    std::size_t worker);
+    void step_convoy_through(Job& job, std::span<const std::uint32_t> islands, std::size_t worker);
+    void sweep(const Job& job, std::size_t island, std::span<const Order> orders);
+    void give_up(Job& job, std::size_t island, RobotId failed, Tick tick);
     void report_robots(Job& job, std::size_t island);
 
     std::shared_ptr<const Model> model_;
@@ -53,6 +59,7 @@ class WindowStepper {
     std::vector<std::uint32_t> sequence_;
     std::vector<std::size_t> batch_offsets_;
     std::vector<std::vector<EarlierBox>> earlier_;  // by island
+    std::vector<Convoy> convoys_;                   // one a thread
 };
 
 /// CPU time of the calling thread.

@@ -63,9 +63,11 @@ Simulation::Simulation(std::shared_ptr<const Model> model, const SimulationOptio
         const auto memory = from->memory.find(program.name);
         if (memory != from->memory.end()) hosts_.back()->restore(memory->second);
     }
+    SimulatorOptions role;
+    role.lanes = options.lanes;
     for (std::size_t i = 0; i < options.simulators; ++i)
-        simulators_.push_back(std::make_unique<Simulator>(model_, Address{Role::kSimulator, ++instance},
-                                                          SimulatorOptions{}, pool_));
+        simulators_.push_back(
+            std::make_unique<Simulator>(model_, Address{Role::kSimulator, ++instance}, role, pool_));
 }
 
 void Simulation::turn() {

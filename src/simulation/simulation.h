@@ -28,9 +28,10 @@ struct SimulationOptions {
     std::size_t simulators = 1;          // in this process
     std::size_t simulators_awaited = 0;  // in others: the first window waits for them too
     std::vector<std::string> clients_awaited;
-    unsigned threads = 1;          // that step islands, shared by the Simulators of this process
-    std::string world_file;        // for saved runs
-    ControllerOptions controller;  // its `simulators` and `clients` are set from here
+    unsigned threads = 1;            // that step islands, shared by the Simulators of this process
+    std::size_t lanes = kMostLanes;  // robots of a type stepped at once, as far as the processor can
+    std::string world_file;          // for saved runs
+    ControllerOptions controller;    // its `simulators` and `clients` are set from here
 };
 
 class Simulation {
