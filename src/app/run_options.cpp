@@ -17,6 +17,9 @@ const char* const kFooter = R"(Examples:
   roboss run world.sdf --duration 30 --save half.roboss      and later
   roboss run world.sdf --from half.roboss --duration 30      ends with the hash of an undisturbed 60 s run
 
+  roboss run world.sdf --journal run.journal --until 60      killed, and started again: goes on where it was
+  roboss run world.sdf --from run.journal@12.5 --journal run.journal    goes on from 12.5 s as a new branch
+
   roboss run world.sdf --profile precise --accuracy high --tolerance 1e-13
 
 An orders file has one JSON object a line:
@@ -80,11 +83,33 @@ void add_accuracy_options(CLI::App& command, AccuracySpec& spec) {
     }
 }
 
+void add_kept_options(CLI::App& command, RunOptions& o) {
+    command.add_option("--save", o.save, "write the state at the end to this file");
+    command.add_option(
+        "--from", o.from,
+        "start from a file written by --save or --journal: FILE, FILE@TIME or FILE#BRANCH@TIME; "
+        "with the same file as --journal, as a new branch of it");
+    command.add_option(
+        "--journal", o.journal,
+        "keep the run in this file, so that any moment of it can be had again; if the file exists, "
+        "go on where it ended (after a crash, say)");
+    command
+        .add_option(
+            "--journal-every", o.journal_every_s,
+            "simulated time between two checkpoints of the journal, s; rewinding steps again at most so much")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+}
+
 void add_common_options(CLI::App& command, RunOptions& o) {
     command.add_option("world", o.world, "the world: an SDF or URDF file")->required();
     command.add_option("--path", o.paths,
                        "folder to look up model:// and package:// URIs in (may be given again)");
     command.add_option("--duration", o.duration_s, "simulated time to run, s (default: until Ctrl-C)")
+        ->check(CLI::NonNegativeNumber);
+    command
+        .add_option("--until", o.until_s,
+                    "world time to run to, s; the same again ends a resumed run where it should")
         ->check(CLI::NonNegativeNumber);
     command.add_option("--dt", o.dt_s, "time step, s (default: the world's max_step_size)")
         ->check(CLI::PositiveNumber);
@@ -126,9 +151,10 @@ void add_common_options(CLI::App& command, RunOptions& o) {
     command.add_option("--hash-every", o.hash_every_s, "print the state hash each so many simulated seconds")
         ->check(CLI::PositiveNumber);
     command.add_option("--json", o.json, "write the summary to this file");
-    command.add_option("--seed", o.seed, "seed of sensor noise and control programs")->capture_default_str();
-    command.add_option("--save", o.save, "write the state at the end to this file");
-    command.add_option("--from", o.from, "start from a state written by --save");
+    command.add_option(
+        "--seed", o.seed,
+        "seed of sensor noise and control programs (default: that of --from or of the journal, else 0)");
+    add_kept_options(command, o);
     command.add_option("--picture", o.paths_picture, "draw where the robots went into this SVG file");
     command.add_flag("--headless", o.headless,
                      "no viewer (there is none yet; for scripts that will meet one)");

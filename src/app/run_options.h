@@ -37,9 +37,13 @@ struct RunOptions {
     double contacts_every_s = 0;
     double hash_every_s = 0;
     std::string json;
-    std::uint64_t seed = 0;
+    std::optional<std::uint64_t> seed;  // none: that of the saved run, else 0
     std::string save;
-    std::string from;
+    std::string from;     // FILE[#BRANCH][@TIME]
+    std::string journal;  // kept here; gone on with if it exists
+    double journal_every_s = 1;
+    std::optional<double> until_s;
+    std::string replay;         // FILE[#BRANCH][@TIME]: stepped again and checked, instead of a world
     std::string paths_picture;  // SVG of where the robots went
     bool headless = false;
     bool quiet = false;

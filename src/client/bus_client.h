@@ -40,6 +40,9 @@ class BusClient : public Client {
     void leave(Bus& bus, const std::string& failure = {});
 
     bool joined() const { return id_.valid(); }
+    bool synchronous() const { return options_.synchronous; }
+    /// Tick of the next observation of a synchronous Client.
+    Tick expected() const { return expected_; }
     /// Every word has reached the Controller.
     bool heard() const { return words_.empty() && !bye_; }
     /// Why the run is over; empty: it is not.

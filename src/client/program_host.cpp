@@ -106,7 +106,14 @@ void ProgramHost::advance(Bus& bus) {
 }
 
 std::string ProgramHost::memory_at(Tick tick) const {
+    if (!started_ && restored_) return *restored_;
     return joined(client_.samples_before(tick), controlled_ >= tick ? memory_before_ : program_->memory());
+}
+
+std::optional<std::string> ProgramHost::settled_memory(Tick tick) const {
+    const bool behind = client_.synchronous() && started_ && failure_.empty() && client_.expected() < tick;
+    if (behind) return std::nullopt;
+    return memory_at(tick);
 }
 
 }  // namespace roboss

@@ -23,7 +23,8 @@ struct ClientSeat {
     std::vector<RefusedOrder> refused;  // of the last word
     std::deque<Tick> unanswered;        // observations told and not answered, ascending
     std::int64_t told_ms = 0, heard_ms = 0;
-    std::optional<std::int64_t> vanished_ms;  // since when the Bus has not seen it
+    std::optional<std::uint64_t> acknowledge_at;  // once so many log entries are safe; none: nothing to say
+    std::optional<std::int64_t> vanished_ms;      // since when the Bus has not seen it
     bool serves() const { return joined && !gone; }
 };
 

@@ -23,6 +23,8 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
       desk_(options.clients),
       tick_(start.tick),
       target_(start.tick),
+      logged_until_(std::max(start.tick, start.logged_until)),
+      answered_(std::move(start.answered)),
       forecast_(model_),
       length_(options.window, options.window_max) {
     const std::size_t n = model_->robots.size();
@@ -35,9 +37,9 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
     }
     next_hashes_ = hashes_;
     holder_.assign(n, kAtController);
-    for (const Order& order : start.orders) book_.add(order, OrderBook::kGiven);
+    for (const SaidOrder& o : start.orders) book_.add(o.order, o.said);
     base_.tick = tick_;
-    base_.states = std::move(start.states);
+    base_.states = std::make_shared<std::vector<RobotState>>(std::move(start.states));
     base_.touched.reset(n);
 }
 
@@ -50,6 +52,7 @@ void Controller::advance(Bus& bus) {
     if (round_ && round_->all_answered()) finish_round();
     if (!round_) at_boundary(bus);
     if (round_) round_->send(bus, roster_, options_.resend_ms);
+    acknowledge(bus);
     send_observations(bus, std::exchange(tell_again_, false));
     say_alive(bus);
 }
@@ -76,7 +79,7 @@ void Controller::handle(Bus& bus, Envelope& envelope) {
     } else if (const auto* reply = std::get_if<StateReply>(&envelope.message)) {
         if (next_base_)
             pull_.accept(*model_, *reply, [&](RobotId robot, RobotState&& s) {
-                next_base_->states[robot.index()] = std::move(s);
+                (*next_base_->states)[robot.index()] = std::move(s);
             });
     } else if (const auto* word = std::get_if<ClientWord>(&envelope.message)) {
         take_word(bus, *word);
@@ -135,7 +138,7 @@ void Controller::serve(Bus& bus, const Address& from, const StateRequest& reques
     StateReply reply;
     reply.states.tick = request.tick;
     for (const RobotId robot : request.robots)
-        if (robot.index() < base_.states.size()) append(reply.states, robot, base_.states[robot.index()]);
+        if (robot.index() < base_.states->size()) append(reply.states, robot, (*base_.states)[robot.index()]);
     bus.send(kControllerAddress, from, std::move(reply));
 }
 
@@ -166,17 +169,19 @@ bool Controller::settled() const {
 }
 
 const std::vector<RobotState>* Controller::states() const {
-    if (base_.tick == tick_) return &base_.states;
-    return next_base_ && next_base_->tick == tick_ && pull_.complete() ? &next_base_->states : nullptr;
+    if (base_.tick == tick_) return base_.states.get();
+    return next_base_ && next_base_->tick == tick_ && pull_.complete() ? next_base_->states.get() : nullptr;
 }
 
 Result<> Controller::submit(const Order& order) {
     if (Result<> checked = check_order(*model_, order); !checked) return checked;
-    if (order.apply_at < plannable())
+    if (order.apply_at < stampable())
         return Error{"an order for tick " + std::to_string(order.apply_at) +
-                         " comes too late, the world is at tick " + std::to_string(plannable()),
+                         " comes too late, the world is at tick " + std::to_string(stampable()),
                      "give a later time"};
-    book_.add(order, OrderBook::kGiven);
+    // given before anything is seen of this tick: a save or a branch at this tick takes it along
+    const Tick said = std::max(tick_, logged_until_) - 1;
+    if (book_.add(order, said) && options_.log != nullptr) options_.log->order(order, said);
     return Ok{};
 }
 

@@ -4,6 +4,7 @@
 // asked for again.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 
 #include "bus/bus.h"
 #include "bus/state_pull.h"
+#include "journal/run_log.h"
 #include "plan/forecast.h"
 #include "plan/window_length.h"
 #include "roles/client_desk.h"
@@ -35,14 +37,20 @@ struct ControllerOptions {
     std::int64_t client_gone_ms = 0;  // and one that the Bus says has vanished and that stays away; 0: never
     Tick checkpoint_ticks = 0;        // recovery checkpoints at most so far apart; 0: none by ticks
     double checkpoint_work_s =
-        0;  // and so much stepping CPU time of the busiest Simulator apart; 0: none by work
+        0;                  // and so much stepping CPU time of the busiest Simulator apart; 0: none by work
+    RunLog* log = nullptr;  // outlives the Controller; none: nothing is kept
+    Tick log_ticks = 0;     // checkpoints for the log at multiples of so many ticks; 0: none
 };
 
-/// Where a run starts: the world's beginning, or a saved run.
+/// Where a run starts: the world's beginning, a saved run, or a journal.
 struct StartingPoint {
     Tick tick = 0;
     std::vector<RobotState> states;  // by RobotId
-    std::vector<Order> orders;       // still to come
+    std::vector<SaidOrder> orders;   // still to come
+    /// Up to here the run goes by `orders`: nothing new is given an earlier tick.
+    Tick logged_until = 0;
+    /// By ClientId: words for observations up to this one are in `orders` already and are not taken again.
+    std::vector<Tick> answered;
 };
 StartingPoint beginning_of(const Model& model);
 
@@ -71,8 +79,8 @@ struct WantedTick {
 
 struct RecoveryCheckpoint {
     Tick tick = 0;
-    std::vector<RobotState> states;  // by RobotId
-    UnionFind touched;               // robots that may have interacted since
+    std::shared_ptr<std::vector<RobotState>> states;  // by RobotId; never changed once it is complete
+    UnionFind touched;                                // robots that may have interacted since
 };
 
 class Controller {
@@ -112,7 +120,21 @@ class Controller {
     /// An order with a given tick, `apply_at` >= tick().
     Result<> submit(const Order& order);
     /// Orders that a run saved at tick() takes along.
-    std::vector<Order> pending_orders() { return book_.pending(tick_); }
+    std::vector<SaidOrder> pending_orders() { return book_.pending(tick_); }
+    /// Names of all Clients so far, by ClientId.
+    std::vector<std::string> client_names() const;
+
+    /// A checkpoint for the log is being fetched: its tick. What Clients of this process remember there has
+    /// to be noted meanwhile.
+    std::optional<Tick> log_tick() const { return log_tick_; }
+    /// It is complete: taken once. What is missing in it is the Clients' memory.
+    std::optional<RunCheckpoint> take_log_checkpoint();
+    /// The next commit waits for the log.
+    bool waits_for_log() const;
+    std::uint64_t log_needed() const { return log_needed_; }
+    /// From now on all goes to this log, first what is still to come. Only while nothing is under way. None:
+    /// nothing is logged any more.
+    void start_log(RunLog* log, Tick log_ticks);
 
     const Counters& counters() const { return counters_; }
     /// What happened since the last call: losses, refusals, joins. One line each.
@@ -145,7 +167,11 @@ class Controller {
     bool stays_away(const ClientSeat& seat, std::int64_t now_ms) const;
     void send_observations(Bus& bus, bool again_now);
     WantedTick& want_at_this_tick();
+    void acknowledge(Bus& bus);
     Tick plannable() const { return round_ && !round_->span().recovery ? round_->span().until : tick_; }
+    /// The first tick that a new order may be given.
+    Tick stampable() const { return std::max(plannable(), logged_until_); }
+    bool is_in_log(const ClientSeat& seat, const ClientWord& word) const;
 
     // controller_window.cpp
     void at_boundary(Bus& bus);
@@ -167,6 +193,12 @@ class Controller {
     void begin_checkpoint();
     void finish_checkpoint();
     bool checkpoint_due() const;
+
+    // controller_log.cpp
+    void begin_log_checkpoint();
+    Tick next_log_tick() const;
+    void log_window(Tick until);
+    void log_commit();
     bool let_leavers_go(Bus& bus);
     bool anything_lost() const;
     void begin_recovery();
@@ -184,6 +216,12 @@ class Controller {
     OrderBook book_;
 
     Tick tick_ = 0, target_ = 0;
+    Tick logged_until_ = 0;
+    std::vector<Tick> answered_;    // by ClientId, in the log that this run started from
+    std::uint64_t log_needed_ = 0;  // entries that must be safe before the round is committed
+    std::optional<Tick> log_tick_;  // of the checkpoint for the log that is under way
+    Tick log_tried_ = -1;           // tick of the last one, whatever came of it
+    std::optional<RunCheckpoint> log_checkpoint_;
     bool started_ = false;
     std::vector<std::uint64_t> hashes_, next_hashes_;  // by RobotId: committed; of the round
     std::vector<std::uint32_t> holder_;                // by RobotId: place of its state at tick_

@@ -16,6 +16,7 @@ void Controller::take_client_hello(Bus& bus, const Address& from, const ClientHe
     bus.send(kControllerAddress, from, ClientWelcome{id, seat.first, options_.seed});
     if (!is_new) return;
     notice("client '" + seat.name + "' joined at tick " + std::to_string(tick_));
+    if (options_.log != nullptr) options_.log->joined(id, seat.name);
     const bool at_rest = !round_ || round_->span().recovery;
     if (at_rest && ClientDesk::observes(seat, tick_)) tell_observer(id, tick_);
 }
@@ -27,19 +28,35 @@ void Controller::take_word(Bus& bus, const ClientWord& word) {
     seat->vanished_ms.reset();
     if (word.word == seat->last_word + 1) {
         seat->last_word = word.word;
-        take_orders(*seat, word);
+        if (!is_in_log(*seat, word)) take_orders(*seat, word);
         std::erase_if(seat->unanswered, [&](Tick tick) { return tick == word.observed; });
         forget(word.client, word.observed);
     }
-    const bool is_last = word.word == seat->last_word;
-    bus.send(kControllerAddress, seat->address,
-             WordAck{word.client, seat->last_word, is_last ? seat->refused : std::vector<RefusedOrder>{}});
+    // What is acknowledged is never lost: with a log, it is there first.
+    seat->acknowledge_at = options_.log != nullptr ? options_.log->given() : 0;
+}
+
+void Controller::acknowledge(Bus& bus) {
+    for (std::size_t i = 0; i < desk_.seats().size(); ++i) {
+        ClientSeat& seat = desk_.seats()[i];
+        if (!seat.acknowledge_at) continue;
+        if (options_.log != nullptr && !options_.log->safe(*seat.acknowledge_at)) continue;
+        seat.acknowledge_at.reset();
+        bus.send(kControllerAddress, seat.address, WordAck{ClientId(i), seat.last_word, seat.refused});
+    }
+}
+
+/// A run that goes on from a log asks Clients again what they have answered there.
+bool Controller::is_in_log(const ClientSeat& seat, const ClientWord& word) const {
+    const auto i = static_cast<std::size_t>(&seat - desk_.seats().data());
+    const Tick answered = i < answered_.size() ? answered_[i] : logged_until_ - 1;
+    return word.observed <= answered || (!seat.synchronous && word.observed < logged_until_);
 }
 
 void Controller::take_orders(ClientSeat& seat, const ClientWord& word) {
     seat.refused.clear();
     const Tick apply_at =
-        seat.synchronous ? std::max(word.observed + seat.latency, plannable()) : plannable();
+        seat.synchronous ? std::max(word.observed + seat.latency, stampable()) : stampable();
     for (const ClientOrder& given : word.orders) {
         const Order order{apply_at, word.client, given.sequence, given.robot, given.action};
         if (Result<> checked = check_order(*model_, order); !checked) {
@@ -50,7 +67,9 @@ void Controller::take_orders(ClientSeat& seat, const ClientWord& word) {
             continue;
         }
         book_.add(order, word.observed);
+        if (options_.log != nullptr) options_.log->order(order, word.observed);
     }
+    if (options_.log != nullptr) options_.log->word(word.client, word.observed);
 }
 
 void Controller::take_bye(Bus& bus, const ClientBye& bye) {

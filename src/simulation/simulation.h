@@ -12,7 +12,8 @@
 #include "bus/bus.h"
 #include "client/program_host.h"
 #include "core/thread_pool.h"
-#include "journal/journal.h"
+#include "journal/run_log.h"
+#include "journal/saved_run.h"
 #include "physics/probe.h"
 #include "roles/controller.h"
 #include "roles/simulator.h"
@@ -54,6 +55,7 @@ class Simulation {
     Tick tick() const { return controller_.tick(); }
     double time_s() const { return static_cast<double>(tick()) * model_->dt_s; }
     const Model& model() const { return *model_; }
+    std::uint64_t seed() const { return seed_; }
     std::uint64_t hash() const { return controller_.hash(); }
     /// All states at tick(), by RobotId. Valid until the next run_until().
     const std::vector<RobotState>& states();
@@ -64,6 +66,9 @@ class Simulation {
     /// Everything needed to go on exactly.
     SavedRun saved_run();
     Result<> save(const std::string& path) { return save_run(path, *model_, saved_run()); }
+    /// From now on the run is logged, with checkpoints at multiples of log_ticks. A log that has nothing yet
+    /// of this branch begins with a checkpoint here.
+    void start_log(RunLog* log, Tick log_ticks);
 
     const Counters& counters() const { return controller_.counters(); }
     /// What happened since the last call, one line each: for the log.
@@ -78,6 +83,8 @@ class Simulation {
     /// Gives everybody turns until done().
     template <class Done>
     void turn_until(Done&& done);
+    void wait();
+    void serve_log();
     StepProbe& probe();
 
     std::shared_ptr<const Model> model_;
@@ -89,6 +96,11 @@ class Simulation {
     std::vector<std::unique_ptr<ProgramHost>> hosts_;
     std::vector<std::unique_ptr<Simulator>> simulators_;
     StepProbe probe_;
+
+    RunLog* log_ = nullptr;
+    std::optional<RunCheckpoint> log_checkpoint_;  // complete but for its memory
+    std::optional<Tick> noting_;                   // what control programs remember at this tick
+    ClientMemory noted_;
 };
 
 }  // namespace roboss

@@ -1,0 +1,106 @@
+// Opening journals for a run.
+#include "app/run_journal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/orders_file.h"
+
+namespace roboss {
+
+Result<std::unique_ptr<RunJournal>> RunJournal::open(const RunOptions& options, const Model& model) {
+    std::unique_ptr<RunJournal> journal(new RunJournal(options));
+    journal->log_ticks_ = std::max<Tick>(1, tick_at(options.journal_every_s, model.dt_s));
+    if (!options.from.empty())
+        if (Result<> opened = journal->open_from(model); !opened) return opened.error();
+    if (!options.journal.empty())
+        if (Result<> opened = journal->open_journal(model); !opened) return opened.error();
+    return journal;
+}
+
+Result<> RunJournal::open_from(const Model& model) {
+    Result<JournalPlace> place = parse_place(o_.from);
+    if (!place) return place.error();
+    Result<Journal> journal = Journal::open(place.value().file);
+    if (!journal) return journal.error();
+    Result<Moment> moment = find_moment(journal.value(), place.value());
+    if (!moment) return moment.error();
+    const Branch& branch = moment.value().branch;
+    if (Result<> fits = check_world(journal.value(), branch, model); !fits) return fits;
+    Result<SavedRun> run = journal.value().run_at(branch, model, moment.value().tick);
+    if (!run) return run.error();
+    from_ = std::move(run).value();
+    std::error_code none;
+    if (!o_.journal.empty() && std::filesystem::equivalent(place.value().file, o_.journal, none))
+        parent_ = branch.id;
+    reason_ = fmt::format("from {}", o_.from);
+    return Ok{};
+}
+
+Result<> RunJournal::open_journal(const Model& model) {
+    Result<std::unique_ptr<JournalWriter>> writer = JournalWriter::open(o_.journal);
+    if (!writer) return writer.error();
+    writer_ = std::move(writer).value();
+    if (writer_->is_new() || parent_ != 0) return Ok{};
+    if (from_)
+        return Error{o_.journal + " exists already, and --from names another file",
+                     "give --journal a new name, or take --from out of this journal"};
+    return resume(model);
+}
+
+Result<> RunJournal::resume(const Model& model) {
+    Result<Journal> journal = Journal::open(o_.journal);
+    if (!journal) return journal.error();
+    Result<Branch> branch = journal.value().branch();
+    if (!branch) return branch.error();
+    if (Result<> fits = check_world(journal.value(), branch.value(), model); !fits) return fits;
+    Result<SavedRun> run = journal.value().run_at(branch.value(), model, branch.value().end);
+    if (!run) return run.error();
+    from_ = std::move(run).value();
+    resumes_ = true;
+    writer_->continue_branch(journal.value(), branch.value());
+    notices_.push_back(fmt::format("goes on from {} where it ended, at {:.6f} s (tick {})", o_.journal,
+                                   static_cast<double>(branch.value().end) * model.dt_s, branch.value().end));
+    return Ok{};
+}
+
+Result<> RunJournal::check_clients(const std::vector<std::string>& names) const {
+    if (!resumes_ || from_->clients == names) return Ok{};
+    const auto list = [](const std::vector<std::string>& all) {
+        std::string text;
+        for (const std::string& name : all) text += (text.empty() ? "'" : ", '") + name + "'";
+        return text.empty() ? std::string("none") : text;
+    };
+    return Error{o_.journal + " was written with other Clients: " + list(from_->clients) + "; given are " +
+                     list(names),
+                 "give the same Clients in the same order, or begin a branch with --from " + o_.journal};
+}
+
+Result<> RunJournal::begin(Simulation& simulation) {
+    if (!writer_ || resumes_) return Ok{};
+    Branch branch;
+    branch.parent = parent_;
+    branch.tick = simulation.tick();
+    branch.seed = simulation.seed();
+    branch.world_file = o_.world;
+    branch.reason = reason_;
+    Result<BranchId> begun = writer_->start_branch(branch, simulation.model());
+    if (!begun) return begun.error();
+    simulation.start_log(writer_.get(), log_ticks_);
+    return writer_->flush();
+}
+
+std::vector<std::string> RunJournal::take_notices() {
+    if (writer_)
+        for (std::string& line : writer_->take_notices()) notices_.push_back(std::move(line));
+    return std::exchange(notices_, {});
+}
+
+Result<> RunJournal::close() {
+    if (!writer_) return Ok{};
+    return writer_->close();
+}
+
+}  // namespace roboss

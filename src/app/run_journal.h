@@ -1,0 +1,51 @@
+// RunJournal: where a run starts and where it is kept, as --from, --journal and --replay say.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "app/journal_place.h"
+#include "app/run_options.h"
+#include "journal/journal_writer.h"
+#include "simulation/simulation.h"
+
+namespace roboss {
+
+class RunJournal {
+  public:
+    /// Opens what the options name; `model` is that of the world file.
+    static Result<std::unique_ptr<RunJournal>> open(const RunOptions& options, const Model& model);
+
+    /// Where the run starts; none: at the world's beginning.
+    const SavedRun* from() const { return from_ ? &*from_ : nullptr; }
+    /// The journal of a run that goes on where it ended; it is to be told everything from the start.
+    RunLog* resumed() { return resumes_ ? writer_.get() : nullptr; }
+    /// The Clients that a resumed run must have, by ClientId, are those given; else an Error.
+    Result<> check_clients(const std::vector<std::string>& names) const;
+
+    /// The world is where the run starts: a new branch begins, and the Simulation is logged. Nothing to do
+    /// for a resumed run or one without a journal.
+    Result<> begin(Simulation& simulation);
+    bool writes() const { return writer_ != nullptr; }
+    JournalWriter& writer() { return *writer_; }
+    Tick log_ticks() const { return log_ticks_; }
+    std::vector<std::string> take_notices();
+    Result<> close();
+
+  private:
+    explicit RunJournal(const RunOptions& options) : o_(options) {}
+    Result<> open_from(const Model& model);
+    Result<> open_journal(const Model& model);
+    Result<> resume(const Model& model);
+
+    const RunOptions& o_;
+    std::unique_ptr<JournalWriter> writer_;
+    std::optional<SavedRun> from_;
+    std::vector<std::string> notices_;
+    BranchId parent_ = 0;  // of the branch to begin
+    std::string reason_ = "run";
+    bool resumes_ = false;
+    Tick log_ticks_ = 0;
+};
+
+}  // namespace roboss
