@@ -5,7 +5,10 @@
 
 #include "app/check_command.h"
 #include "app/client_command.h"
+#include "app/diff_command.h"
+#include "app/journal_command.h"
 #include "app/run_command.h"
+#include "app/save_command.h"
 #include "app/simulator_command.h"
 
 int main(int argc, char** argv) {
@@ -22,6 +25,10 @@ int main(int argc, char** argv) {
     roboss::add_controller_command(app, exit_code);
     roboss::add_simulator_command(app, exit_code);
     roboss::add_client_command(app, exit_code);
+    roboss::add_replay_command(app, exit_code);
+    roboss::add_save_command(app, exit_code);
+    roboss::add_journal_command(app, exit_code);
+    roboss::add_diff_command(app, exit_code);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -39,6 +39,7 @@ int Run::go() {
 }
 
 bool Run::prepare() {
+    if (!o_.replay.empty()) return prepare_replay();
     Diagnostics diagnostics;
     const std::optional<World> world = load_world(o_.world, {o_.paths, o_.profile}, diagnostics);
     if (world && !diagnostics.has_errors()) model_ = compile(*world, compile_options(), diagnostics);
@@ -50,6 +51,15 @@ bool Run::prepare() {
     if (!journal) return print(journal.error()), false;
     journal_ = std::move(journal).value();
     return create() && submit(orders_) && open_files();
+}
+
+bool Run::prepare_replay() {
+    Result<std::unique_ptr<RunJournal>> journal = RunJournal::open_replay(o_);
+    if (!journal) return print(journal.error()), false;
+    journal_ = std::move(journal).value();
+    model_ = journal_->replay()->model;
+    world_speed_ = 1;
+    return create() && open_files();
 }
 
 CompileOptions Run::compile_options() const {
@@ -93,7 +103,7 @@ bool Run::create() {
     auto simulation = Simulation::create(model_, options, std::move(programs), from, company_->take_bus());
     if (!simulation) return print(simulation.error()), false;
     simulation_ = std::move(simulation.value());
-    start_ = from != nullptr ? from->logged_until : 0;
+    start_ = journal_->start();
     return true;
 }
 
@@ -133,7 +143,7 @@ Summary Run::summary(double wall_s) const {
     const Counters& c = simulation_->counters();
     const double ticks = std::max(1.0, static_cast<double>(c.ticks));
     Summary s;
-    s.world = o_.world;
+    s.world = journal_->replay() ? journal_->replay()->branch.world_file : o_.world;
     s.robots = model_->robots.size();
     s.ticks = std::max<Tick>(simulation_->tick() - start_, 0);
     s.dt_s = model_->dt_s;

@@ -30,6 +30,7 @@ class Run {
 
     // run.cpp: the beginning and the end
     bool prepare();
+    bool prepare_replay();
     CompileOptions compile_options() const;
     bool create();
     bool load_programs(std::vector<NamedProgram>& programs) const;

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 
 #include "app/orders_file.h"
+#include "core/hash.h"
 
 namespace roboss {
 
@@ -18,6 +20,49 @@ Result<std::unique_ptr<RunJournal>> RunJournal::open(const RunOptions& options, 
     if (!options.journal.empty())
         if (Result<> opened = journal->open_journal(model); !opened) return opened.error();
     return journal;
+}
+
+Result<std::unique_ptr<RunJournal>> RunJournal::open_replay(const RunOptions& options) {
+    std::unique_ptr<RunJournal> result(new RunJournal(options));
+    Result<JournalPlace> place = parse_place(options.replay);
+    if (!place) return place.error();
+    Result<Journal> journal = Journal::open(place.value().file);
+    if (!journal) return journal.error();
+    Result<Moment> moment = find_moment(journal.value(), place.value());
+    if (!moment) return moment.error();
+    const Branch& branch = moment.value().branch;
+    Replay replay{moment.value().model, branch, journal.value().checkpoints(branch)};
+    if (branch.hash != 0 && branch.committed > replay.checks.back().tick)
+        replay.checks.push_back({branch.id, branch.committed, branch.hash});
+    result->start_ = place.value().time_s ? moment.value().tick : branch.tick;
+    Result<SavedRun> to_start = journal.value().run_at(branch, *replay.model, result->start_);
+    if (!to_start) return to_start.error();
+    Result<SavedRun> run = journal.value().run_from(
+        branch, {branch.id, to_start.value().tick, state_hash_of(*replay.model, to_start.value())},
+        *replay.model, branch.end);
+    if (!run) return run.error();
+    result->from_ = std::move(run).value();
+    result->replay_ = std::move(replay);
+    return result;
+}
+
+Tick RunJournal::next_check(Tick now) const {
+    if (replay_)
+        for (const CheckpointPlace& place : replay_->checks)
+            if (place.tick > now) return place.tick;
+    return std::numeric_limits<Tick>::max();
+}
+
+Result<> RunJournal::check(Tick now, std::uint64_t hash) const {
+    if (!replay_) return Ok{};
+    for (const CheckpointPlace& place : replay_->checks)
+        if (place.tick == now && place.hash != hash)
+            return Error{
+                fmt::format("at tick {} the replay has another state than the run had: hash {} instead of {}",
+                            now, to_hex(hash), to_hex(place.hash)),
+                "one of them was computed with other bits: see `roboss journal verify`, and replay on "
+                "another machine"};
+    return Ok{};
 }
 
 Result<> RunJournal::open_from(const Model& model) {
@@ -32,6 +77,7 @@ Result<> RunJournal::open_from(const Model& model) {
     Result<SavedRun> run = journal.value().run_at(branch, model, moment.value().tick);
     if (!run) return run.error();
     from_ = std::move(run).value();
+    start_ = from_->logged_until;
     std::error_code none;
     if (!o_.journal.empty() && std::filesystem::equivalent(place.value().file, o_.journal, none))
         parent_ = branch.id;
@@ -59,6 +105,7 @@ Result<> RunJournal::resume(const Model& model) {
     Result<SavedRun> run = journal.value().run_at(branch.value(), model, branch.value().end);
     if (!run) return run.error();
     from_ = std::move(run).value();
+    start_ = from_->logged_until;
     resumes_ = true;
     writer_->continue_branch(journal.value(), branch.value());
     notices_.push_back(fmt::format("goes on from {} where it ended, at {:.6f} s (tick {})", o_.journal,

@@ -15,9 +15,23 @@ class RunJournal {
   public:
     /// Opens what the options name; `model` is that of the world file.
     static Result<std::unique_ptr<RunJournal>> open(const RunOptions& options, const Model& model);
+    /// For --replay, which needs no world.
+    static Result<std::unique_ptr<RunJournal>> open_replay(const RunOptions& options);
+    /// What to step again, and what must come of it.
+    struct Replay {
+        std::shared_ptr<const Model> model;
+        Branch branch;
+        std::vector<CheckpointPlace> checks;  // ascending
+    };
+    const std::optional<Replay>& replay() const { return replay_; }
+    /// The next tick whose hash is known.
+    Tick next_check(Tick now) const;
+    /// Whether this hash is the one that was kept for this tick, if one was.
+    Result<> check(Tick now, std::uint64_t hash) const;
 
     /// Where the run starts; none: at the world's beginning.
     const SavedRun* from() const { return from_ ? &*from_ : nullptr; }
+    Tick start() const { return start_; }
     /// The journal of a run that goes on where it ended; it is to be told everything from the start.
     RunLog* resumed() { return resumes_ ? writer_.get() : nullptr; }
     /// The Clients that a resumed run must have, by ClientId, are those given; else an Error.
@@ -41,6 +55,8 @@ class RunJournal {
     const RunOptions& o_;
     std::unique_ptr<JournalWriter> writer_;
     std::optional<SavedRun> from_;
+    std::optional<Replay> replay_;
+    Tick start_ = 0;
     std::vector<std::string> notices_;
     BranchId parent_ = 0;  // of the branch to begin
     std::string reason_ = "run";

@@ -60,7 +60,9 @@ bool Run::look(const Schedule& due) {
     if (due.contacts.at(now) && !write_contacts()) return false;
     if (due.hash.at(now)) fmt::print("{:.6f} s  {}\n", simulation_->time_s(), to_hex(simulation_->hash()));
     if (due.picture.at(now)) collect_paths();
-    return true;
+    const Result<> checked = journal_->check(now, simulation_->hash());
+    if (!checked) print(checked.error());
+    return checked.ok();
 }
 
 /// True at the end of the duration or on Ctrl-C, false if the run failed.
@@ -68,6 +70,7 @@ bool Run::drive(Clock::time_point began) {
     const double dt = model_->dt_s;
     Tick end = o_.duration_s ? start_ + tick_at(*o_.duration_s, dt) : kNever;
     if (o_.until_s) end = std::min(end, tick_at(*o_.until_s, dt));
+    if (journal_->replay()) end = std::min(end, journal_->replay()->branch.end);
     const double speed = o_.speed == "max" ? 0.0 : o_.speed == "world" ? world_speed_ : std::stod(o_.speed);
     const auto every = [dt](double s) { return s > 0 ? s : dt; };
     const Schedule due{{trace_ ? every(o_.trace_every_s) : 0.0, dt, start_},
@@ -79,7 +82,8 @@ bool Run::drive(Clock::time_point began) {
     for (Tick now = start_;; now = simulation_->tick()) {
         if (!look(due)) return false;
         if (now >= end || interrupted()) return true;
-        if (!advance_to(std::min({end, due.next(now), pace.next(now)}))) return false;
+        if (!advance_to(std::min({end, due.next(now), pace.next(now), journal_->next_check(now)})))
+            return false;
         if (speed <= 0) continue;
         const double due_s = static_cast<double>(simulation_->tick() - start_) * dt / speed;
         std::this_thread::sleep_until(

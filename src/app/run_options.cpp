@@ -38,6 +38,18 @@ const char* const kControllerFooter = R"(Examples:
 
 Simulators get the world from here; they need no file. One that is killed costs a moment and no result.)";
 
+const char* const kReplayFooter =
+    R"(Steps a kept run again, without its world file and its control programs, and compares the state with what was
+kept at every checkpoint. Traces, contacts and pictures can be taken of it as of the run itself.
+
+Examples:
+  roboss replay run.journal
+  roboss replay run.journal@12 --duration 3 --trace crash.csv --contacts crash-contacts.csv
+  roboss replay run.journal#2 --speed 1
+
+Exit codes: 0 all states equal, 1 the journal cannot be read, 2 wrong usage, 3 a state differs or a file could not be
+written, 130 ended by Ctrl-C.)";
+
 const char* const kExitCodes =
     R"(Exit codes: 0 done, 1 the world, orders or saved state have errors, 2 wrong usage, 3 the run failed (a Client threw,
 a state became infinite, a file could not be written), 130 ended by Ctrl-C (with the summary).)";
@@ -83,6 +95,50 @@ void add_accuracy_options(CLI::App& command, AccuracySpec& spec) {
     }
 }
 
+/// How far and how fast.
+void add_pace_options(CLI::App& command, RunOptions& o) {
+    command.add_option("--duration", o.duration_s, "simulated time to run, s (default: until Ctrl-C)")
+        ->check(CLI::NonNegativeNumber);
+    command
+        .add_option("--until", o.until_s,
+                    "world time to run to, s; the same again ends a resumed run where it should")
+        ->check(CLI::NonNegativeNumber);
+    command
+        .add_option("--speed", o.speed,
+                    "simulated seconds a real second, max, or world (its real_time_factor)")
+        ->check(number_or({"max", "world"}))
+        ->capture_default_str();
+    command.add_option("--threads", o.threads, "threads a Simulator steps its islands with")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    command.add_option("--window", o.window, "ticks between two talks with the Controller, or auto")
+        ->check(number_or({"auto"}))
+        ->capture_default_str();
+}
+
+/// What is written and shown of a run.
+void add_watch_options(CLI::App& command, RunOptions& o) {
+    command.add_option("--trace", o.trace, "write poses and velocities of all links to this CSV file");
+    command
+        .add_option("--trace-every", o.trace_every_s,
+                    "simulated time between two traces, s (default: every step)")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--contacts", o.contacts,
+                       "write who touches whom, where and how hard to this CSV file");
+    command
+        .add_option("--contacts-every", o.contacts_every_s,
+                    "simulated time between two looks at the contacts, s (default: every step)")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--hash-every", o.hash_every_s, "print the state hash each so many simulated seconds")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--json", o.json, "write the summary to this file");
+    command.add_option("--picture", o.paths_picture, "draw where the robots went into this SVG file");
+    command.add_flag("--headless", o.headless,
+                     "no viewer (there is none yet; for scripts that will meet one)");
+    command.add_flag("--quiet", o.quiet, "no progress, only the summary");
+}
+
+/// Where it comes from and where it is kept.
 void add_kept_options(CLI::App& command, RunOptions& o) {
     command.add_option("--save", o.save, "write the state at the end to this file");
     command.add_option(
@@ -105,12 +161,6 @@ void add_common_options(CLI::App& command, RunOptions& o) {
     command.add_option("world", o.world, "the world: an SDF or URDF file")->required();
     command.add_option("--path", o.paths,
                        "folder to look up model:// and package:// URIs in (may be given again)");
-    command.add_option("--duration", o.duration_s, "simulated time to run, s (default: until Ctrl-C)")
-        ->check(CLI::NonNegativeNumber);
-    command
-        .add_option("--until", o.until_s,
-                    "world time to run to, s; the same again ends a resumed run where it should")
-        ->check(CLI::NonNegativeNumber);
     command.add_option("--dt", o.dt_s, "time step, s (default: the world's max_step_size)")
         ->check(CLI::PositiveNumber);
     command.add_option(
@@ -122,43 +172,16 @@ void add_common_options(CLI::App& command, RunOptions& o) {
         "--no-sleep", o.no_sleep,
         "step robots at rest too (default: they sleep until something touches or orders them, unless "
         "the world says <roboss:sleep>false)");
-    command
-        .add_option("--speed", o.speed,
-                    "simulated seconds a real second, max, or world (its real_time_factor)")
-        ->check(number_or({"max", "world"}))
-        ->capture_default_str();
-    command.add_option("--threads", o.threads, "threads a Simulator steps its islands with")
-        ->check(CLI::Range(1, 1024))
-        ->capture_default_str();
-    command.add_option("--window", o.window, "ticks between two talks with the Controller, or auto")
-        ->check(number_or({"auto"}))
-        ->capture_default_str();
     command.add_flag("--merge-islands", o.merge_islands,
                      "put all robots into one island (same result, slower)");
     command.add_option("--client", o.clients, "control program: a shared library (may be given again)");
     command.add_option("--orders", o.orders, "orders from a file, one JSON object a line");
-    command.add_option("--trace", o.trace, "write poses and velocities of all links to this CSV file");
-    command
-        .add_option("--trace-every", o.trace_every_s,
-                    "simulated time between two traces, s (default: every step)")
-        ->check(CLI::PositiveNumber);
-    command.add_option("--contacts", o.contacts,
-                       "write who touches whom, where and how hard to this CSV file");
-    command
-        .add_option("--contacts-every", o.contacts_every_s,
-                    "simulated time between two looks at the contacts, s (default: every step)")
-        ->check(CLI::PositiveNumber);
-    command.add_option("--hash-every", o.hash_every_s, "print the state hash each so many simulated seconds")
-        ->check(CLI::PositiveNumber);
-    command.add_option("--json", o.json, "write the summary to this file");
     command.add_option(
         "--seed", o.seed,
         "seed of sensor noise and control programs (default: that of --from or of the journal, else 0)");
     add_kept_options(command, o);
-    command.add_option("--picture", o.paths_picture, "draw where the robots went into this SVG file");
-    command.add_flag("--headless", o.headless,
-                     "no viewer (there is none yet; for scripts that will meet one)");
-    command.add_flag("--quiet", o.quiet, "no progress, only the summary");
+    add_pace_options(command, o);
+    add_watch_options(command, o);
 }
 
 }  // namespace
@@ -176,6 +199,16 @@ void add_run_options(CLI::App& command, RunOptions& o) {
                     "Simulators as processes of their own on this computer, started and ended by this one")
         ->check(CLI::Range(1, 100))
         ->excludes(simulators);
+}
+
+void add_replay_options(CLI::App& command, RunOptions& o) {
+    command.footer(kReplayFooter);
+    command.add_option("journal", o.replay, "FILE, FILE@TIME to begin later, FILE#BRANCH@TIME")->required();
+    add_pace_options(command, o);
+    add_watch_options(command, o);
+    command.add_option("--simulators", o.simulators, "Simulators that share the robots, all in this process")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
 }
 
 void add_controller_options(CLI::App& command, RunOptions& o) {

@@ -51,6 +51,8 @@ struct RunOptions {
 
 /// Of `roboss run`: everybody on this computer.
 void add_run_options(CLI::App& command, RunOptions& options);
+/// Of `roboss replay`: a journal instead of a world.
+void add_replay_options(CLI::App& command, RunOptions& options);
 /// Of `roboss controller`: the same, and where the others come from.
 void add_controller_options(CLI::App& command, RunOptions& options);
 

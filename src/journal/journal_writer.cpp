@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <filesystem>
 
 #include "journal/journal_format.h"
 
@@ -36,6 +35,14 @@ Result<int> lock(const std::string& path) {
     return Error{path + " is being written by another run", "end that run, or give another file"};
 }
 
+/// The one number that the question is answered with; -1 if it is not.
+std::int64_t count(const Database& db, const char* question) {
+    const Result<std::vector<Row>> rows = db.select(question);
+    if (!rows || rows.value().size() != 1) return -1;
+    const auto* number = std::get_if<std::int64_t>(&rows.value()[0][0]);
+    return number != nullptr ? *number : -1;
+}
+
 Result<> make_tables(Database& db) {
     const std::vector<Row> meta{{std::string("format"), kJournalFormat},
                                 {std::string("version"), program_version()}};
@@ -51,21 +58,21 @@ Result<std::unique_ptr<JournalWriter>> JournalWriter::open(const std::string& pa
     std::unique_ptr<JournalWriter> writer(new JournalWriter);
     writer->path_ = path;
     writer->options_ = options;
-    std::error_code none;
-    const bool is_new = !std::filesystem::exists(path, none) || std::filesystem::file_size(path, none) == 0;
     Result<int> locked = lock(path);
     if (!locked) return locked.error();
     writer->lock_file_ = locked.value();
-    if (!is_new) {
+    Result<Database> opened = Database::open_write(path);
+    if (!opened) return opened.error();
+    writer->db_ = std::move(opened).value();
+    const std::int64_t tables = count(*writer->db_, "SELECT count(*) FROM sqlite_master");
+    const bool began = tables > 0 && count(*writer->db_, "SELECT count(*) FROM branches") != 0;
+    if (tables < 0 || began) {  // something is in it: see what
         Result<Journal> journal = Journal::open(path);
         if (!journal) return journal.error();
         writer->branches_ = static_cast<BranchId>(journal.value().branches().size());
     }
-    Result<Database> opened = Database::open_write(path);
-    if (!opened) return opened.error();
-    writer->db_ = std::move(opened).value();
     if (Result<> r = writer->db_->run(kPragmas); !r) return r.error();
-    if (is_new)
+    if (tables == 0)
         if (Result<> r = make_tables(*writer->db_); !r) return r.error();
     writer->thread_ = std::thread([w = writer.get()] { w->serve(); });
     return writer;

@@ -1,6 +1,7 @@
 // A run saved in a file of its own: a journal of one branch and one checkpoint.
 #include "journal/saved_run.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "journal/journal.h"
@@ -24,11 +25,16 @@ Result<> write(const std::string& path, const Model& model, const SavedRun& run)
     const CheckpointPlace place{1, run.tick, state_hash_of(model, run)};
     LogBatch entries;
     entries.orders = run.orders;
-    for (std::size_t i = 0; i < run.clients.size(); ++i)
+    for (std::size_t i = 0; i < run.clients.size(); ++i) {
         entries.clients.emplace(static_cast<std::uint32_t>(i), run.clients[i]);
+        const auto answered = run.answered.find(run.clients[i]);
+        if (answered != run.answered.end() && answered->second >= run.tick)
+            entries.words.push_back({ClientId(i), answered->second});
+    }
     BatchRow batch = to_batch_row(entries);
     batch.branch = batch.serial = 1;
-    batch.planned = batch.committed = run.tick;
+    batch.planned = std::max(run.tick, run.logged_until);
+    batch.committed = run.tick;
     batch.hash = place.hash;
     const std::vector<Row> meta{{std::string("format"), kJournalFormat},
                                 {std::string("version"), program_version()}};
