@@ -32,7 +32,7 @@ int Run::go() {
     watch_for_interrupts();
     if (!begin()) return finish(false, 0);
     const auto began = Clock::now();
-    const bool fine = drive(began);
+    const bool fine = drive();
     tell_notices();
     progress_.clear();
     return finish(fine, std::chrono::duration<double>(Clock::now() - began).count());
@@ -85,11 +85,25 @@ bool Run::create() {
     std::vector<std::string> names;
     for (const NamedProgram& program : programs) names.push_back(program.name);
     names.insert(names.end(), o_.clients_awaited.begin(), o_.clients_awaited.end());
-    if (Result<> same = journal_->check_clients(names); !same) return print(same.error()), false;
+    const Result<std::vector<std::string>> others = journal_->awaited(names, o_.is_controller);
+    if (!others) return print(others.error()), false;
     Result<std::unique_ptr<Company>> company = Company::gather(o_);
     if (!company) return print(company.error()), false;
     company_ = std::move(company.value());
     const SavedRun* from = journal_->from();
+    SimulationOptions options = simulation_options(from);
+    options.controller.log = journal_->resumed();
+    company_->brief(options);
+    options.clients_awaited.insert(options.clients_awaited.end(), others.value().begin(),
+                                   others.value().end());
+    auto simulation = Simulation::create(model_, options, std::move(programs), from, company_->take_bus());
+    if (!simulation) return print(simulation.error()), false;
+    simulation_ = std::move(simulation.value());
+    start_ = journal_->start();
+    return true;
+}
+
+SimulationOptions Run::simulation_options(const SavedRun* from) const {
     SimulationOptions options;
     options.simulators = static_cast<std::size_t>(o_.simulators);
     options.threads = static_cast<unsigned>(o_.threads);
@@ -97,14 +111,31 @@ bool Run::create() {
     options.controller.seed = o_.seed.value_or(from != nullptr ? from->seed : 0);
     options.controller.window = o_.window == "auto" ? 0 : static_cast<Tick>(std::stod(o_.window));
     options.controller.forecast.merge_all = o_.merge_islands;
-    options.controller.log = journal_->resumed();
     options.controller.log_ticks = journal_->log_ticks();
+    return options;
+}
+
+Result<> Run::start_again(std::shared_ptr<const Model> model, const SavedRun& from, const Turn& turn) {
+    std::vector<NamedProgram> programs;
+    if (!load_programs(programs))
+        return Error{"a control program cannot be loaded again", "see the lines above"};
+    SimulationOptions options = simulation_options(&from);
     company_->brief(options);
-    auto simulation = Simulation::create(model_, options, std::move(programs), from, company_->take_bus());
-    if (!simulation) return print(simulation.error()), false;
-    simulation_ = std::move(simulation.value());
-    start_ = journal_->start();
-    return true;
+    options.simulators_awaited = options.simulators > 0 ? 0 : 1;
+    options.controller.before = simulation_->controller().hand_over();
+    options.controller.before.went_back = options.controller.before.went_back || turn.back;
+    options.clients_awaited = simulation_->clients_elsewhere();
+    const bool reaches_others = company_->reaches_others();
+    simulation_->start_log(nullptr, 0);
+    auto made = Simulation::create(model, options, std::move(programs), &from,
+                                   reaches_others ? simulation_->release_bus() : nullptr);
+    if (!made) return made.error();
+    simulation_ = std::move(made).value();
+    model_ = std::move(model);
+    busy_until_ = from.logged_until;
+    if (!advance_to(from.logged_until))
+        return Error{"the run could not be brought there", "see the lines above"};
+    return journal_->begin_branch(*simulation_, turn.parent, turn.reason);
 }
 
 /// Orders from before the start of a continued run have been applied already.
@@ -132,6 +163,7 @@ bool Run::open_files() {
 
 /// From the checkpoint to where the run starts, and the journal's new branch there.
 bool Run::begin() {
+    busy_until_ = start_;
     if (start_ > simulation_->tick() && !advance_to(start_)) return false;
     if (interrupted()) return true;
     const Result<> begun = journal_->begin(*simulation_);

@@ -96,13 +96,30 @@ Result<> RunJournal::open_journal(const Model& model) {
     return resume(model);
 }
 
+/// From the last checkpoint before which every Client that is still there had answered all that it saw: one
+/// in a process of its own will not see anything earlier again.
+Result<SavedRun> RunJournal::last_run(const Journal& journal, const Branch& branch, const Model& model) {
+    const std::vector<CheckpointPlace> places = journal.checkpoints(branch);
+    for (std::size_t i = places.size(); i-- > 0;) {
+        Result<SavedRun> run = journal.run_from(branch, places[i], model, branch.end);
+        if (!run || i == 0) return run;
+        const auto silent = [&](const std::string& name) {
+            return run.value().answered[name] < 0 &&
+                   std::find(run.value().left.begin(), run.value().left.end(), name) ==
+                       run.value().left.end();
+        };
+        if (std::none_of(run.value().clients.begin(), run.value().clients.end(), silent)) return run;
+    }
+    return Error{journal.path() + " has no checkpoint", "begin a new journal"};
+}
+
 Result<> RunJournal::resume(const Model& model) {
     Result<Journal> journal = Journal::open(o_.journal);
     if (!journal) return journal.error();
     Result<Branch> branch = journal.value().branch();
     if (!branch) return branch.error();
     if (Result<> fits = check_world(journal.value(), branch.value(), model); !fits) return fits;
-    Result<SavedRun> run = journal.value().run_at(branch.value(), model, branch.value().end);
+    Result<SavedRun> run = last_run(journal.value(), branch.value(), model);
     if (!run) return run.error();
     from_ = std::move(run).value();
     start_ = from_->logged_until;
@@ -113,26 +130,38 @@ Result<> RunJournal::resume(const Model& model) {
     return Ok{};
 }
 
-Result<> RunJournal::check_clients(const std::vector<std::string>& names) const {
-    if (!resumes_ || from_->clients == names) return Ok{};
+Result<std::vector<std::string>> RunJournal::awaited(const std::vector<std::string>& names,
+                                                     bool others_may_come) const {
+    if (!resumes_) return std::vector<std::string>{};
+    std::vector<std::string> were;
+    for (const std::string& name : from_->clients)
+        if (std::find(from_->left.begin(), from_->left.end(), name) == from_->left.end())
+            were.push_back(name);
+    const bool fits = names.size() <= were.size() && std::equal(names.begin(), names.end(), were.begin());
+    if (fits && (others_may_come || names.size() == were.size()))
+        return std::vector<std::string>(were.begin() + static_cast<std::ptrdiff_t>(names.size()), were.end());
     const auto list = [](const std::vector<std::string>& all) {
         std::string text;
         for (const std::string& name : all) text += (text.empty() ? "'" : ", '") + name + "'";
         return text.empty() ? std::string("none") : text;
     };
-    return Error{o_.journal + " was written with other Clients: " + list(from_->clients) + "; given are " +
-                     list(names),
+    return Error{o_.journal + " was written with other Clients: " + list(were) + "; given are " + list(names),
                  "give the same Clients in the same order, or begin a branch with --from " + o_.journal};
 }
 
 Result<> RunJournal::begin(Simulation& simulation) {
     if (!writer_ || resumes_) return Ok{};
+    return begin_branch(simulation, parent_, reason_);
+}
+
+Result<> RunJournal::begin_branch(Simulation& simulation, BranchId parent, const std::string& reason) {
+    if (!writer_) return Ok{};
     Branch branch;
-    branch.parent = parent_;
+    branch.parent = parent;
     branch.tick = simulation.tick();
     branch.seed = simulation.seed();
     branch.world_file = o_.world;
-    branch.reason = reason_;
+    branch.reason = reason;
     Result<BranchId> begun = writer_->start_branch(branch, simulation.model());
     if (!begun) return begun.error();
     simulation.start_log(writer_.get(), log_ticks_);

@@ -34,12 +34,16 @@ class RunJournal {
     Tick start() const { return start_; }
     /// The journal of a run that goes on where it ended; it is to be told everything from the start.
     RunLog* resumed() { return resumes_ ? writer_.get() : nullptr; }
-    /// The Clients that a resumed run must have, by ClientId, are those given; else an Error.
-    Result<> check_clients(const std::vector<std::string>& names) const;
+    /// `names`: the Clients that a resumed run is given, by ClientId. Who else was there in other processes
+    /// is awaited again, if `others_may_come`; an Error: they are not those that the run had.
+    Result<std::vector<std::string>> awaited(const std::vector<std::string>& names,
+                                             bool others_may_come) const;
 
     /// The world is where the run starts: a new branch begins, and the Simulation is logged. Nothing to do
     /// for a resumed run or one without a journal.
     Result<> begin(Simulation& simulation);
+    /// The same in the middle of a run.
+    Result<> begin_branch(Simulation& simulation, BranchId parent, const std::string& reason);
     bool writes() const { return writer_ != nullptr; }
     JournalWriter& writer() { return *writer_; }
     Tick log_ticks() const { return log_ticks_; }
@@ -51,6 +55,7 @@ class RunJournal {
     Result<> open_from(const Model& model);
     Result<> open_journal(const Model& model);
     Result<> resume(const Model& model);
+    static Result<SavedRun> last_run(const Journal& journal, const Branch& branch, const Model& model);
 
     const RunOptions& o_;
     std::unique_ptr<JournalWriter> writer_;

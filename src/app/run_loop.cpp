@@ -39,17 +39,30 @@ struct Run::Schedule {
     }
 };
 
-/// Towards this tick; false if the run failed.
+/// Towards this tick; false if the run failed. Requests that come on the way end it at the next window's end.
 bool Run::advance_to(Tick target) {
     Result<> looked_after = Ok{};
     const Result<> stepped = simulation_->run_until(target, [&] {
         progress_.show(*simulation_);
         tell_notices();
         looked_after = company_->look_after();
-        return looked_after.ok() && !interrupted();
+        for (ControlCall& call : simulation_->controller().control().take_calls())
+            calls_.push_back(std::move(call));
+        return looked_after.ok() && !interrupted() && (calls_.empty() || simulation_->tick() < busy_until_);
     });
     if (!looked_after) return abandoned_ = true, print(looked_after.error()), false;
     if (!stepped) return progress_.clear(), print(stepped.error()), false;
+    return true;
+}
+
+/// A moment of a paused run; false if it cannot go on.
+bool Run::rest() {
+    simulation_->serve();
+    if (!company_->reaches_others()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    progress_.show(*simulation_);
+    tell_notices();
+    const Result<> looked_after = company_->look_after();
+    if (!looked_after) return abandoned_ = true, print(looked_after.error()), false;
     return true;
 }
 
@@ -65,35 +78,50 @@ bool Run::look(const Schedule& due) {
     return checked.ok();
 }
 
-/// True at the end of the duration or on Ctrl-C, false if the run failed.
-bool Run::drive(Clock::time_point began) {
-    const double dt = model_->dt_s;
-    Tick end = o_.duration_s ? start_ + tick_at(*o_.duration_s, dt) : kNever;
-    if (o_.until_s) end = std::min(end, tick_at(*o_.until_s, dt));
+Tick Run::end_of_run() const {
+    Tick end = o_.duration_s ? start_ + tick_at(*o_.duration_s, model_->dt_s) : kNever;
+    if (o_.until_s) end = std::min(end, tick_at(*o_.until_s, model_->dt_s));
     if (journal_->replay()) end = std::min(end, journal_->replay()->branch.end);
-    const double speed = o_.speed == "max" ? 0.0 : o_.speed == "world" ? world_speed_ : std::stod(o_.speed);
+    return end;
+}
+
+/// True at the end of the duration or on Ctrl-C, false if the run failed.
+bool Run::drive() {
+    const double dt = model_->dt_s;
+    const Tick end = end_of_run();
     const auto every = [dt](double s) { return s > 0 ? s : dt; };
     const Schedule due{{trace_ ? every(o_.trace_every_s) : 0.0, dt, start_},
                        {contacts_ ? every(o_.contacts_every_s) : 0.0, dt, start_},
                        {o_.hash_every_s, dt, start_},
                        {o_.paths_picture.empty() ? 0.0 : kPictureEvery_s, dt, start_}};
-    const Due pace(speed > 0 ? kPaceEvery_s * speed : 0.0, dt, start_);
-    paths_.resize(model_->robots.size());
-    for (Tick now = start_;; now = simulation_->tick()) {
-        if (!look(due)) return false;
-        if (now >= end || interrupted()) return true;
-        if (!advance_to(std::min({end, due.next(now), pace.next(now), journal_->next_check(now)})))
-            return false;
-        if (speed <= 0) continue;
-        const double due_s = static_cast<double>(simulation_->tick() - start_) * dt / speed;
+    pace_.speed = o_.speed == "max" ? 0.0 : o_.speed == "world" ? world_speed_ : std::stod(o_.speed);
+    pace_.paused = o_.paused;
+    pace_.begin(start_);
+    Tick seen = -1;  // the last tick at which all that is due was done
+    for (;;) {
+        serve_calls();
+        const Tick now = simulation_->tick();
+        if (now != seen && !look(due)) return false;
+        seen = now;
+        if (pace_.step_until && now >= *pace_.step_until) pace_.paused = true, pace_.step_until.reset();
+        if (now >= end || interrupted() || pace_.quit) return true;
+        if (pace_.paused) {
+            if (!rest()) return false;
+            continue;
+        }
+        const Due pace(pace_.speed > 0 ? kPaceEvery_s * pace_.speed : 0.0, dt, start_);
+        const Tick next = std::min({end, due.next(now), pace.next(now), journal_->next_check(now)});
+        if (!advance_to(std::min(next, pace_.step_until.value_or(kNever)))) return false;
+        if (pace_.speed <= 0) continue;
+        const double due_s = static_cast<double>(simulation_->tick() - pace_.from) * dt / pace_.speed;
         std::this_thread::sleep_until(
-            began + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due_s)));
+            pace_.since + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due_s)));
     }
 }
 
 void Run::tell_notices() {
-    for (const auto& notices :
-         {simulation_->take_notices(), company_->take_notices(), journal_->take_notices()})
+    for (const auto& notices : {simulation_->take_notices(), company_->take_notices(),
+                                journal_->take_notices(), std::exchange(notices_, {})})
         for (const std::string& notice : notices)
             if (!o_.quiet) progress_.clear(), fmt::print(stderr, "roboss: {}\n", notice);
 }
@@ -112,7 +140,8 @@ bool Run::write_contacts() {
 
 void Run::collect_paths() {
     const std::vector<RobotState>& states = simulation_->states();
-    for (std::size_t r = 0; r < paths_.size(); ++r) {
+    paths_.resize(std::max(paths_.size(), states.size()));
+    for (std::size_t r = 0; r < states.size(); ++r) {
         paths_[r].robot = model_->robots[r].name;
         paths_[r].points_W.push_back(base_pose(states[r]).p);
     }

@@ -108,6 +108,7 @@ void add_pace_options(CLI::App& command, RunOptions& o) {
                     "simulated seconds a real second, max, or world (its real_time_factor)")
         ->check(number_or({"max", "world"}))
         ->capture_default_str();
+    command.add_flag("--paused", o.paused, "wait for `roboss control resume` at the start");
     command.add_option("--threads", o.threads, "threads a Simulator steps its islands with")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
@@ -218,7 +219,14 @@ void add_controller_options(CLI::App& command, RunOptions& o) {
     command
         .add_option("--simulators", o.simulators,
                     "the run starts when so many `roboss simulator` have come; others may join at any time")
-        ->check(CLI::Range(1, 1024))
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    command
+        .add_option(
+            "--local", o.local,
+            "Simulators in this process, too; with --simulators 0 a run that needs no other process and "
+            "can be controlled and joined")
+        ->check(CLI::Range(0, 1024))
         ->capture_default_str();
     command.add_option(
         "--await-client", o.clients_awaited,

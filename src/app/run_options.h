@@ -21,10 +21,12 @@ struct RunOptions {
     bool no_sleep = false;
     AccuracySpec accuracy;        // --accuracy and each number by itself
     std::string speed = "max";    // "max", "world" or a factor of real time
+    bool paused = false;          // at the start
     std::string window = "auto";  // "auto" or a number of ticks
     int threads = 1;
     int simulators = 1;
     int processes = 0;           // Simulators as processes of their own; 0: in this one
+    int local = 0;               // Simulators in the process of a Controller
     bool is_controller = false;  // `roboss controller`: Simulators come from anywhere
     std::vector<std::string> clients_awaited;
     DdsOptions network;

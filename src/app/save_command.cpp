@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "app/control_command.h"
 #include "app/exit_codes.h"
 #include "app/journal_place.h"
 #include "app/run.h"
@@ -17,10 +18,13 @@ const char* const kFooter =
 read it too.
 Examples:
   roboss save half.roboss --from run.journal@30       out of a journal
+  roboss save half.roboss --simulation mine           of a running simulation: its Controller writes the file, on its
+                                                      computer
 
 Exit codes: 0 done, 1 it cannot be read, 2 wrong usage, 3 it cannot be written.)";
 
 struct SaveOptions {
+    MemberOptions member;
     std::string file, from;
 };
 
@@ -44,13 +48,17 @@ int save_from_journal(const SaveOptions& o) {
 }  // namespace
 
 void add_save_command(CLI::App& app, int& exit_code) {
-    CLI::App* command = app.add_subcommand("save", "save a moment of a journal in a file of its own");
+    CLI::App* command = app.add_subcommand("save", "save a moment of a journal or of a running simulation");
     command->footer(kFooter);
     auto o = std::make_shared<SaveOptions>();
     command->add_option("file", o->file, "the file to write")->required();
-    command->add_option("--from", o->from, "FILE@TIME or FILE#BRANCH@TIME of a journal (default: its end)")
-        ->required();
-    command->callback([o, &exit_code] { exit_code = save_from_journal(*o); });
+    command->add_option(
+        "--from", o->from,
+        "FILE, FILE@TIME or FILE#BRANCH@TIME of a journal; without it, a running simulation is asked");
+    add_member_options(*command, o->member);
+    command->callback([o, &exit_code] {
+        exit_code = o->from.empty() ? ask_controller(o->member, {"save", o->file}) : save_from_journal(*o);
+    });
 }
 
 }  // namespace roboss

@@ -258,7 +258,9 @@ Result<LogBatch> Journal::log(const Branch& branch, Tick from, Tick until) const
         log.append(std::move(entries).value());
     }
     std::erase_if(log.orders, [&](const SaidOrder& o) { return o.order.apply_at < from || o.said >= until; });
-    std::erase_if(log.words, [&](const SaidWord& w) { return w.observed < from || w.observed >= until; });
+    std::erase_if(log.words, [&](const SaidWord& w) {
+        return w.observed < from || (w.observed >= until && w.observed != kGoneForGood);
+    });
     std::erase_if(log.notes, [&](const LogNote& n) { return n.tick < from || n.tick > until; });
     std::stable_sort(log.orders.begin(), log.orders.end(),
                      [](const SaidOrder& x, const SaidOrder& y) { return comes_before(x.order, y.order); });
@@ -306,6 +308,10 @@ Result<SavedRun> Journal::run_from(const Branch& branch, const CheckpointPlace& 
     for (const SaidWord& word : entries.value().words) {
         if (word.client.index() >= run.clients.size())
             return damaged("a Client that never came has a word in it");
+        if (word.observed == kGoneForGood) {
+            run.left.push_back(run.clients[word.client.index()]);
+            continue;
+        }
         Tick& answered = run.answered[run.clients[word.client.index()]];
         answered = std::max(answered, word.observed);
     }

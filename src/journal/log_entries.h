@@ -29,6 +29,9 @@ struct SaidWord {
     friend bool operator==(const SaidWord&, const SaidWord&) = default;
 };
 
+/// What a Client that leaves has answered: everything.
+inline constexpr Tick kGoneForGood = Tick{1} << 61;
+
 /// Something that is no part of the state and worth remembering: pause, speed, a Simulator that came.
 struct LogNote {
     Tick tick = 0;

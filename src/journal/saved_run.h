@@ -25,6 +25,7 @@ struct SavedRun {
     /// The last observation before logged_until that each Client has answered, by its name.
     std::map<std::string, Tick> answered;
     std::vector<std::string> clients;  // names by ClientId, as far as they are known
+    std::vector<std::string> left;     // of these, who took leave
 };
 
 /// Hash of the world in the file: what state_hash a run has at this tick.

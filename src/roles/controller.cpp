@@ -20,6 +20,8 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
                        StartingPoint start)
     : model_(std::move(model)),
       options_(options),
+      control_(options.before.control),
+      roster_(options.before.seats),
       desk_(options.clients),
       tick_(start.tick),
       target_(start.tick),
@@ -27,6 +29,8 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
       answered_(std::move(start.answered)),
       forecast_(model_),
       length_(options.window, options.window_max) {
+    epoch_ = options_.before.epoch;
+    window_ = options_.before.window;
     const std::size_t n = model_->robots.size();
     ROBOSS_CHECK(start.states.size() == n, "the starting point has not one state a robot");
     const ExactFloatScope exact;
@@ -82,7 +86,7 @@ void Controller::handle(Bus& bus, Envelope& envelope) {
                 (*next_base_->states)[robot.index()] = std::move(s);
             });
     } else if (const auto* word = std::get_if<ClientWord>(&envelope.message)) {
-        take_word(bus, *word);
+        take_word(bus, from, *word);
     } else if (const auto* hello = std::get_if<Hello>(&envelope.message)) {
         take_hello(bus, from, *hello);
     } else if (const auto* client_hello = std::get_if<ClientHello>(&envelope.message)) {
@@ -90,13 +94,17 @@ void Controller::handle(Bus& bus, Envelope& envelope) {
     } else if (const auto* leave = std::get_if<LeaveRequest>(&envelope.message)) {
         take_leave(bus, from, *leave);
     } else if (const auto* bye = std::get_if<ClientBye>(&envelope.message)) {
-        take_bye(bus, *bye);
+        take_bye(bus, from, *bye);
+    } else if (const auto* asked = std::get_if<ControlRequest>(&envelope.message)) {
+        control_.take(bus, from, *asked);
     } else if (const auto* wanted = std::get_if<ModelRequest>(&envelope.message)) {
         serve_model(bus, from, *wanted);
     }
 }
 
 void Controller::take_hello(Bus& bus, const Address& from, const Hello& hello) {
+    if (is_earlier_model(hello.model_hash))
+        return bus.send(kControllerAddress, from, ModelChanged{model_->hash});
     if (hello.model_hash != model_->hash)
         return bus.send(kControllerAddress, from,
                         Refused{"its world (model hash " + to_hex(hello.model_hash) +
@@ -107,6 +115,32 @@ void Controller::take_hello(Bus& bus, const Address& from, const Hello& hello) {
     if (is_new) notice("simulator " + std::to_string(id.value) + " joined at tick " + std::to_string(tick_));
     counters_.simulators = roster_.alive_count();
     bus.send(kControllerAddress, from, Welcome{id});
+}
+
+bool Controller::is_earlier_model(std::uint64_t hash) const {
+    const auto& models = options_.before.models;
+    return hash != model_->hash && std::find(models.begin(), models.end(), hash) != models.end();
+}
+
+ControllerOptions::Before Controller::hand_over() {
+    ControllerOptions::Before before = options_.before;
+    before.seats = roster_.size();
+    before.epoch = epoch_ + 1;
+    before.window = window_;
+    before.models.push_back(model_->hash);
+    before.control = control_;
+    return before;
+}
+
+void Controller::set_window(Tick ticks) {
+    length_ = WindowLength(ticks, options_.window_max);
+}
+
+bool Controller::send_one_home() {
+    const std::vector<std::uint32_t> workers = roster_.workers();
+    if (workers.size() < 2) return false;
+    roster_.seat(workers.back()).leaving = true;
+    return true;
 }
 
 bool Controller::heard_from(Bus& bus, const Address& from, SimulatorId id) {

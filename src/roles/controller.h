@@ -17,6 +17,7 @@
 #include "plan/forecast.h"
 #include "plan/window_length.h"
 #include "roles/client_desk.h"
+#include "roles/control_desk.h"
 #include "roles/order_book.h"
 #include "roles/roster.h"
 #include "roles/round.h"
@@ -37,7 +38,16 @@ struct ControllerOptions {
     std::int64_t client_gone_ms = 0;  // and one that the Bus says has vanished and that stays away; 0: never
     Tick checkpoint_ticks = 0;        // recovery checkpoints at most so far apart; 0: none by ticks
     double checkpoint_work_s =
-        0;                  // and so much stepping CPU time of the busiest Simulator apart; 0: none by work
+        0;  // and so much stepping CPU time of the busiest Simulator apart; 0: none by work
+    /// Of the Controller that this one takes over from on the same Bus (after a rewind, say).
+    struct Before {
+        std::size_t seats = 0;  // never given again
+        std::uint32_t epoch = 0;
+        std::uint64_t window = 0;
+        std::vector<std::uint64_t> models;  // hashes of earlier Models of the run
+        bool went_back = false;             // Clients may have seen ticks that are no more
+        ControlDesk control;
+    } before;
     RunLog* log = nullptr;  // outlives the Controller; none: nothing is kept
     Tick log_ticks = 0;     // checkpoints for the log at multiples of so many ticks; 0: none
 };
@@ -123,6 +133,8 @@ class Controller {
     std::vector<SaidOrder> pending_orders() { return book_.pending(tick_); }
     /// Names of all Clients so far, by ClientId.
     std::vector<std::string> client_names() const;
+    /// Of these, those that are here.
+    std::vector<std::string> clients_serving() const;
 
     /// A checkpoint for the log is being fetched: its tick. What Clients of this process remember there has
     /// to be noted meanwhile.
@@ -135,6 +147,15 @@ class Controller {
     /// From now on all goes to this log, first what is still to come. Only while nothing is under way. None:
     /// nothing is logged any more.
     void start_log(RunLog* log, Tick log_ticks);
+
+    /// What a Controller that takes over has to know.
+    ControllerOptions::Before hand_over();
+    /// Requests to the run: pause, rewind ...
+    ControlDesk& control() { return control_; }
+    /// Of the windows to come; 0: adaptive.
+    void set_window(Tick ticks);
+    /// Lets the Simulator with the highest number go, in good order. False: there is none but one.
+    bool send_one_home();
 
     const Counters& counters() const { return counters_; }
     /// What happened since the last call: losses, refusals, joins. One line each.
@@ -150,15 +171,16 @@ class Controller {
     void take_leave(Bus& bus, const Address& from, const LeaveRequest& request);
     bool heard_from(Bus& bus, const Address& from, SimulatorId id);
     void serve(Bus& bus, const Address& from, const StateRequest& request) const;
+    bool is_earlier_model(std::uint64_t hash) const;
     void serve_model(Bus& bus, const Address& from, const ModelRequest& request);
     void fail(Error error);
     void notice(std::string text) { notices_.push_back(std::move(text)); }
 
     // controller_clients.cpp
     void take_client_hello(Bus& bus, const Address& from, const ClientHello& hello);
-    void take_word(Bus& bus, const ClientWord& word);
+    void take_word(Bus& bus, const Address& from, const ClientWord& word);
     void take_orders(ClientSeat& seat, const ClientWord& word);
-    void take_bye(Bus& bus, const ClientBye& bye);
+    void take_bye(Bus& bus, const Address& from, const ClientBye& bye);
     void tell_observers();
     void tell_observer(ClientId id, Tick tick);
     void forget(ClientId id, Tick tick);
@@ -211,6 +233,7 @@ class Controller {
     std::vector<std::uint8_t> model_bytes_;  // encoded for the first who asks
     std::uint64_t model_bytes_hash_ = 0;
     ControllerOptions options_;
+    ControlDesk control_;
     Roster roster_;
     ClientDesk desk_;
     OrderBook book_;

@@ -7,10 +7,18 @@
 namespace roboss {
 
 void Controller::take_client_hello(Bus& bus, const Address& from, const ClientHello& hello) {
+    if (is_earlier_model(hello.model_hash))
+        return bus.send(kControllerAddress, from, ModelChanged{model_->hash});
     if (hello.model_hash != model_->hash)
         return bus.send(kControllerAddress, from, Refused{"its world is not this run's"});
     bool is_new = false;
-    const ClientId id = desk_.welcome(from, hello, plannable(), is_new);
+    const bool goes_on = plannable() < logged_until_;  // by a log, in which its words so far are
+    ClientHello new_hello = hello;
+    if (options_.before.went_back) {  // what it said was for a time that is no more
+        new_hello.expected = -1;
+        new_hello.acknowledged = new_hello.said;
+    }
+    const ClientId id = desk_.welcome(from, new_hello, goes_on ? tick_ : plannable(), is_new);
     ClientSeat& seat = desk_.seats()[id.index()];
     seat.vanished_ms.reset();
     bus.send(kControllerAddress, from, ClientWelcome{id, seat.first, options_.seed});
@@ -21,9 +29,12 @@ void Controller::take_client_hello(Bus& bus, const Address& from, const ClientHe
     if (at_rest && ClientDesk::observes(seat, tick_)) tell_observer(id, tick_);
 }
 
-void Controller::take_word(Bus& bus, const ClientWord& word) {
+void Controller::take_word(Bus& bus, const Address& from, const ClientWord& word) {
     ClientSeat* seat = desk_.find(word.client);
-    if (seat == nullptr || !seat->serves()) return;
+    // A seat of an earlier Controller's run: who held it is to join afresh.
+    if (seat == nullptr || !seat->joined || seat->address != from)
+        return bus.send(kControllerAddress, from, ClientUnknown{word.client});
+    if (!seat->serves()) return;
     seat->heard_ms = bus.now_ms();
     seat->vanished_ms.reset();
     if (word.word == seat->last_word + 1) {
@@ -72,9 +83,11 @@ void Controller::take_orders(ClientSeat& seat, const ClientWord& word) {
     if (options_.log != nullptr) options_.log->word(word.client, word.observed);
 }
 
-void Controller::take_bye(Bus& bus, const ClientBye& bye) {
+void Controller::take_bye(Bus& bus, const Address& from, const ClientBye& bye) {
     ClientSeat* seat = desk_.find(bye.client);
-    if (seat == nullptr || !seat->joined || bye.word > seat->last_word + 1) return;
+    if (seat == nullptr || !seat->joined || seat->address != from)
+        return bus.send(kControllerAddress, from, ClientUnknown{bye.client});
+    if (bye.word > seat->last_word + 1) return;
     bus.send(kControllerAddress, seat->address, WordAck{bye.client, bye.word, {}});
     if (seat->gone || bye.word <= seat->last_word) return;
     seat->last_word = bye.word;
@@ -89,6 +102,7 @@ void Controller::take_bye(Bus& bus, const ClientBye& bye) {
 void Controller::drop_client(ClientId id) {
     ClientSeat& seat = desk_.seats()[id.index()];
     seat.gone = true;
+    if (options_.log != nullptr) options_.log->word(id, kGoneForGood);
     for (const Tick tick : std::exchange(seat.unanswered, {})) forget(id, tick);
 }
 

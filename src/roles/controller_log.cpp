@@ -23,6 +23,13 @@ std::vector<std::string> Controller::client_names() const {
     return names;
 }
 
+std::vector<std::string> Controller::clients_serving() const {
+    std::vector<std::string> names;
+    for (const ClientSeat& seat : desk_.seats())
+        if (seat.serves()) names.push_back(seat.name);
+    return names;
+}
+
 bool Controller::waits_for_log() const {
     return options_.log != nullptr && round_ && !round_->span().recovery && round_->all_answered() &&
            !options_.log->safe(log_needed_);

@@ -64,17 +64,35 @@ Simulation::Simulation(std::shared_ptr<const Model> model, const SimulationOptio
                   starting_point(*model_, from, controller_options(options, programs).clients)),
       probe_(*model_),
       log_(options.controller.log) {
-    std::uint64_t instance = 0;
+    instance_ = 1000 * static_cast<std::uint64_t>(options.controller.before.epoch);  // never twice on a Bus
     for (NamedProgram& program : programs) {
-        hosts_.push_back(std::make_unique<ProgramHost>(model_, Address{Role::kClient, ++instance},
+        hosts_.push_back(std::make_unique<ProgramHost>(model_, Address{Role::kClient, ++instance_},
                                                        program.name, std::move(program.program)));
         if (from == nullptr) continue;
         const auto memory = from->memory.find(program.name);
         if (memory != from->memory.end()) hosts_.back()->restore(memory->second);
     }
-    for (std::size_t i = 0; i < options.simulators; ++i)
-        simulators_.push_back(std::make_unique<Simulator>(model_, Address{Role::kSimulator, ++instance},
-                                                          SimulatorOptions{}, pool_));
+    for (std::size_t i = 0; i < options.simulators; ++i) add_simulator();
+}
+
+void Simulation::add_simulator() {
+    simulators_.push_back(std::make_unique<Simulator>(model_, Address{Role::kSimulator, ++instance_},
+                                                      SimulatorOptions{}, pool_));
+}
+
+bool Simulation::remove_simulator() {
+    return controller_.send_one_home();
+}
+
+std::vector<std::string> Simulation::clients_elsewhere() const {
+    std::vector<std::string> names = controller_.clients_serving();
+    for (const auto& host : hosts_) std::erase(names, host->name());
+    return names;
+}
+
+void Simulation::serve() {
+    turn();
+    wait();
 }
 
 void Simulation::turn() {
@@ -83,6 +101,7 @@ void Simulation::turn() {
     for (auto& host : hosts_) host->advance(*bus_);
     serve_log();
     for (auto& simulator : simulators_) simulator->advance(*bus_);
+    std::erase_if(simulators_, [](const auto& simulator) { return simulator->gone(); });
 }
 
 /// Puts what control programs remember at its tick into a checkpoint for the log.

@@ -70,6 +70,16 @@ class Simulation {
     /// of this branch begins with a checkpoint here.
     void start_log(RunLog* log, Tick log_ticks);
 
+    /// Names of the Clients that take part from other processes.
+    std::vector<std::string> clients_elsewhere() const;
+    /// One turn for everybody while the world rests: members come and go, requests are heard.
+    void serve();
+    /// Another Simulator in this process, or one less, in good order; false: there is only one left.
+    void add_simulator();
+    bool remove_simulator();
+    /// The end of this one; the next one goes on with the Bus. (Nothing of it may be used after that.)
+    std::unique_ptr<Bus> release_bus() { return std::move(bus_); }
+
     const Counters& counters() const { return controller_.counters(); }
     /// What happened since the last call, one line each: for the log.
     std::vector<std::string> take_notices();
@@ -92,6 +102,7 @@ class Simulation {
     std::uint64_t seed_;
     std::unique_ptr<Bus> bus_;
     ThreadPool pool_;
+    std::uint64_t instance_ = 0;  // of the last role made here
     Controller controller_;
     std::vector<std::unique_ptr<ProgramHost>> hosts_;
     std::vector<std::unique_ptr<Simulator>> simulators_;
