@@ -50,6 +50,11 @@ bool Run::prepare() {
     Result<std::unique_ptr<RunJournal>> journal = RunJournal::open(o_, *model_);
     if (!journal) return print(journal.error()), false;
     journal_ = std::move(journal).value();
+    if (journal_->changed_model()) {
+        model_ = journal_->changed_model();
+        if (!std::exchange(orders_, {}).empty())
+            notices_.push_back("the orders file is not read: what it says for this world is in the journal");
+    }
     return create() && submit(orders_) && open_files();
 }
 

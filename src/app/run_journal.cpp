@@ -65,6 +65,16 @@ Result<> RunJournal::check(Tick now, std::uint64_t hash) const {
     return Ok{};
 }
 
+/// The branch's Model: that of the world file, or one that a run of this world came to.
+Result<std::shared_ptr<const Model>> RunJournal::model_of(const Journal& journal, const Branch& branch,
+                                                          const Model& world) {
+    const Branch root = journal.holder_of(branch, -1);
+    if (Result<> fits = check_world(journal, root, world); !fits) return fits.error();
+    Result<std::shared_ptr<const Model>> model = journal.model(branch);
+    if (model && model.value()->hash != world.hash) changed_model_ = model.value();
+    return model;
+}
+
 Result<> RunJournal::open_from(const Model& model) {
     Result<JournalPlace> place = parse_place(o_.from);
     if (!place) return place.error();
@@ -73,8 +83,9 @@ Result<> RunJournal::open_from(const Model& model) {
     Result<Moment> moment = find_moment(journal.value(), place.value());
     if (!moment) return moment.error();
     const Branch& branch = moment.value().branch;
-    if (Result<> fits = check_world(journal.value(), branch, model); !fits) return fits;
-    Result<SavedRun> run = journal.value().run_at(branch, model, moment.value().tick);
+    Result<std::shared_ptr<const Model>> its_model = model_of(journal.value(), branch, model);
+    if (!its_model) return its_model.error();
+    Result<SavedRun> run = journal.value().run_at(branch, *its_model.value(), moment.value().tick);
     if (!run) return run.error();
     from_ = std::move(run).value();
     start_ = from_->logged_until;
@@ -118,8 +129,9 @@ Result<> RunJournal::resume(const Model& model) {
     if (!journal) return journal.error();
     Result<Branch> branch = journal.value().branch();
     if (!branch) return branch.error();
-    if (Result<> fits = check_world(journal.value(), branch.value(), model); !fits) return fits;
-    Result<SavedRun> run = last_run(journal.value(), branch.value(), model);
+    Result<std::shared_ptr<const Model>> its_model = model_of(journal.value(), branch.value(), model);
+    if (!its_model) return its_model.error();
+    Result<SavedRun> run = last_run(journal.value(), branch.value(), *its_model.value());
     if (!run) return run.error();
     from_ = std::move(run).value();
     start_ = from_->logged_until;

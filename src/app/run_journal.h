@@ -30,6 +30,8 @@ class RunJournal {
     Result<> check(Tick now, std::uint64_t hash) const;
 
     /// Where the run starts; none: at the world's beginning.
+    /// The Model of that moment, if it is not that of the world file (robots were added, say); else none.
+    const std::shared_ptr<const Model>& changed_model() const { return changed_model_; }
     const SavedRun* from() const { return from_ ? &*from_ : nullptr; }
     Tick start() const { return start_; }
     /// The journal of a run that goes on where it ended; it is to be told everything from the start.
@@ -55,12 +57,15 @@ class RunJournal {
     Result<> open_from(const Model& model);
     Result<> open_journal(const Model& model);
     Result<> resume(const Model& model);
+    Result<std::shared_ptr<const Model>> model_of(const Journal& journal, const Branch& branch,
+                                                  const Model& world);
     static Result<SavedRun> last_run(const Journal& journal, const Branch& branch, const Model& model);
 
     const RunOptions& o_;
     std::unique_ptr<JournalWriter> writer_;
     std::optional<SavedRun> from_;
     std::optional<Replay> replay_;
+    std::shared_ptr<const Model> changed_model_;
     Tick start_ = 0;
     std::vector<std::string> notices_;
     BranchId parent_ = 0;  // of the branch to begin

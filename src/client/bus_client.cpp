@@ -148,6 +148,9 @@ void BusClient::say_again(Bus& bus) {
         return bus.send(self_, kControllerAddress, std::move(hello));
     }
     for (const ClientWord& word : words_) bus.send(self_, kControllerAddress, word);
+    // Nothing to say: its last word once more now and then, to find out whether it is still known.
+    if (words_.empty() && !bye_ && ++silent_ % kAskEvery == 0)
+        bus.send(self_, kControllerAddress, ClientWord{id_, word_, tick_, {}});
     if (bye_) bus.send(self_, kControllerAddress, *bye_);
 }
 

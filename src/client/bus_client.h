@@ -86,6 +86,8 @@ class BusClient : public Client {
     std::optional<ClientBye> bye_;
     static constexpr std::int64_t kLongAgo = -1'000'000'000;
     std::int64_t said_ms_ = kLongAgo;
+    static constexpr std::uint64_t kAskEvery = 5;  // resend times
+    std::uint64_t silent_ = 0;
     bool outdated_ = false;
     std::uint64_t request_ = 0;
     std::deque<ControlRequest> requests_;  // the first is said until it is answered, then the next
