@@ -200,6 +200,8 @@ Answer Run::change_model(const ModelEdit& edit, const std::string& what) {
     SavedRun run = simulation_->saved_run();
     run.states = carry_over(edit, run.states);
     std::erase_if(run.orders, [&](SaidOrder& o) { return !carry_over(edit, o.order); });
+    if (edit.model->robots.size() < model_->robots.size())  // what sensors hold goes by RobotId
+        for (auto& [client, memory] : run.memory) memory = without_samples(memory);
     const std::string text = fmt::format("{} at {:.6f} s (tick {})", what, simulation_->time_s(), run.tick);
     const BranchId parent = journal_->writes() ? journal_->writer().branch() : 0;
     if (Result<> again = start_again(edit.model, run, {parent, text, false}); !again) return again.error();

@@ -105,6 +105,12 @@ void ProgramHost::advance(Bus& bus) {
     if (done) client_.answer(bus);
 }
 
+std::string without_samples(const std::string& memory) {
+    std::string samples, program;
+    if (!part(memory, samples, program)) return memory;
+    return joined({}, program);
+}
+
 std::string ProgramHost::memory_at(Tick tick) const {
     if (!started_ && restored_) return *restored_;
     return joined(client_.samples_before(tick), controlled_ >= tick ? memory_before_ : program_->memory());

@@ -49,6 +49,9 @@ class ProgramHost {
     std::string memory_before_;  // as that call found it
 };
 
+/// memory_at() without what sensors held: after robots were removed they measure afresh.
+std::string without_samples(const std::string& memory);
+
 /// The times of a control program in ticks of this world. `name` is for the message of an Error.
 Result<BusClientOptions> client_options(const ControlOptions& options, const Model& model,
                                         const std::string& name);

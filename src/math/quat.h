@@ -70,7 +70,9 @@ QuatT<T> exponential(const Vec3T<T>& rotation) {
     const T angle = norm(rotation);
     return either(
         angle < T(1e-9),
-        [&] { return normalized(QuatT<T>{T(1), 0.5 * rotation.x, 0.5 * rotation.y, 0.5 * rotation.z}); },
+        [&] {
+            return normalized(QuatT<T>{T(1), 0.5 * rotation.x, 0.5 * rotation.y, 0.5 * rotation.z});
+        },
         [&] { return axis_angle(rotation / angle, angle); });
 }
 

@@ -19,8 +19,7 @@ void turn(std::span<T> q, std::size_t i, const Vec3T<T>& rotation) {
 /// q := q moved by dt * v; rotations exactly by the rotation vector dt * w. Over T: one robot, or a few in
 /// lanes.
 template <class T>
-void advance_coordinates(const RobotType& type, std::span<const T> v, double dt,
-                         std::span<T> q) {
+void advance_coordinates(const RobotType& type, std::span<const T> v, double dt, std::span<T> q) {
     const auto rotation = [&](std::size_t k) { return Vec3T<T>{v[k], v[k + 1], v[k + 2]} * T(dt); };
     for (const Body& body : type.bodies) {
         const auto i = static_cast<std::size_t>(body.q_index);

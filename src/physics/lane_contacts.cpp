@@ -56,7 +56,8 @@ unsigned LaneContacts::alike(unsigned present) const {
         const auto first = static_cast<std::size_t>(std::countr_zero(unseen));
         unsigned like_first = 0;
         for (std::size_t lane = first; lane < contacts_.size(); ++lane)
-            if ((unseen & bit(lane)) != 0 && std::ranges::equal(contacts_[lane], contacts_[first], same_point))
+            if ((unseen & bit(lane)) != 0 &&
+                std::ranges::equal(contacts_[lane], contacts_[first], same_point))
                 like_first |= bit(lane);
         unseen &= ~like_first;
         const bool plain = std::ranges::all_of(contacts_[first], is_plain);

@@ -1,5 +1,5 @@
-// The step of a few robots of one type in lanes; see lane_stepper.h. Included only by the translation units of
-// the instruction sets.
+// The step of a few robots of one type in lanes; see lane_stepper.h. Included only by the translation units
+// of the instruction sets.
 #pragma once
 
 #include <bit>
@@ -170,8 +170,7 @@ class LaneStep final : public LaneStepper {
 
     void solve_way(SolveProblem<T> problem, Lockstep<T>& together) {
         problem.position = true;
-        for (ContactRowT<T>& row : rows_.contacts)
-            row.slip.bound = row.slip.coefficient * row.normal.impulse;
+        for (ContactRowT<T>& row : rows_.contacts) row.slip.bound = row.slip.coefficient * row.normal.impulse;
         way_ = v_;
         SolveReportT<T> report;
         newton_.start(problem, way_);

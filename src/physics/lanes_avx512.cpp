@@ -1,5 +1,5 @@
-// Lanes of AVX-512: eight doubles. Built for that instruction set alone (floor.cmake): nothing in here may run
-// before the processor has been asked (make_lane_stepper).
+// Lanes of AVX-512: eight doubles. Built for that instruction set alone (floor.cmake): nothing in here may
+// run before the processor has been asked (make_lane_stepper).
 #include "core/lanes_x86.h"
 #include "physics/lane_step.h"
 

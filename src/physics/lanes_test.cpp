@@ -63,8 +63,10 @@ World scattered(const ModelSpec& model, int count, double height, double dt_s = 
     const std::size_t prototype = world.prototypes.size();
     world.prototypes.push_back(model);
     for (int i = 0; i < count; ++i)
-        world.instances.push_back({"robot_" + std::to_string(i), prototype,
-                                   {{5.0 * i, 0.3 * i, height + 1e-3 * i}, from_rpy(0, 0, 0.4 * i)}, {}});
+        world.instances.push_back({"robot_" + std::to_string(i),
+                                   prototype,
+                                   {{5.0 * i, 0.3 * i, height + 1e-3 * i}, from_rpy(0, 0, 0.4 * i)},
+                                   {}});
     return world;
 }
 
@@ -130,12 +132,14 @@ TEST(Lanes, BouncingCarsAlike) {
     World world = scattered(car(), 8, 0.3);
     for (LinkSpec& l : world.prototypes.back().links)
         for (CollisionSpec& c : l.collisions) c.surface.restitution = 0.6;
-    compare(world, [](Simulation&) {}, 400);
+    compare(
+        world, [](Simulation&) {}, 400);
 }
 
 /// Deep in the ground at the start: the way of the tick has a solution of its own.
 TEST(Lanes, CarsThatStartInTheGroundAreMendedAlike) {
-    compare(scattered(car(), 8, -0.03), [](Simulation&) {}, 200);
+    compare(
+        scattered(car(), 8, -0.03), [](Simulation&) {}, 200);
 }
 
 TEST(Lanes, WhoSleepsSleepsAtTheSameTick) {
@@ -153,7 +157,12 @@ TEST(Lanes, WhoSleepsSleepsAtTheSameTick) {
 /// A crowd in which some meet and others do not, on slopes of each other.
 TEST(Lanes, CrowdsAlike) {
     for (std::uint64_t seed = 1; seed <= 6; ++seed)
-        compare(random_crowd(seed, 40), [&](Simulation& sim) { if (sim.tick == 0) stir(sim, seed); }, 60);
+        compare(
+            random_crowd(seed, 40),
+            [&](Simulation& sim) {
+                if (sim.tick == 0) stir(sim, seed);
+            },
+            60);
 }
 
 /// They are of use at all: most of the cars' steps are taken in lanes.
@@ -171,8 +180,7 @@ TEST(Lanes, DrivingCarsStayInTheirLanes) {
             robots.push_back({sim.ids[r], &sim.states[r], &sim.bounds[r]});
         StepReport report;
         int stepped = 0;
-        for (int i = 0; i < 20; ++i)
-            stepped += std::popcount(stepper->step(*sim.model, robots, report));
+        for (int i = 0; i < 20; ++i) stepped += std::popcount(stepper->step(*sim.model, robots, report));
         EXPECT_GT(stepped, static_cast<int>(18 * width)) << "of " << 20 * width;
         EXPECT_GE(report.contacts, stepped * 4);
     }

@@ -77,6 +77,8 @@ void compare_orders(const RobotState& a, const RobotState& b, Fields& fields) {
                      static_cast<std::uint64_t>(b.motors[i].mode));
         fields.number(name + " target", a.motors[i].target, b.motors[i].target);
         fields.number(name + " maximum effort", a.motors[i].max_effort, b.motors[i].max_effort);
+        fields.number(name + " impulse", a.motors[i].impulse, b.motors[i].impulse);
+        fields.number(name + " load", a.motors[i].load, b.motors[i].load);
     }
     fields.count("number of wrenches", a.wrenches.size(), b.wrenches.size());
     for (std::size_t i = 0; i < a.wrenches.size() && !fields.done(); ++i) {
