@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "app/exit_codes.h"
 #include "app/interrupt.h"
@@ -43,12 +44,21 @@ class ClientProcess {
             o_.name.empty() ? std::filesystem::path(o_.program).filename().string() : o_.name;
         if (Result<BusClientOptions> times = client_options(program.value()->options(), *model, name); !times)
             return member_.complain(times.error()), kBadInput;
-        ProgramHost host(model, self, name, std::move(program).value());
-        return serve(host);
+        auto host = std::make_unique<ProgramHost>(model, self, name, std::move(program).value());
+        for (;;) {
+            const std::optional<int> ended = serve(*host);
+            if (ended) return *ended;
+            member_.say("the world has changed, fetches it again");  // and start() is called again
+            const Address again = member_.new_address(Role::kClient);
+            const auto changed = member_.fetch_model(again);
+            if (!changed) return interrupted() ? kDone : kBadInput;
+            host = std::make_unique<ProgramHost>(changed, again, name, host->take_program());
+        }
     }
 
   private:
-    int serve(ProgramHost& host) {
+    /// The exit code; none: the run has another Model now.
+    std::optional<int> serve(ProgramHost& host) {
         std::int64_t leaving_ms = 0;
         while (host.client().over().empty()) {
             const std::int64_t now = member_.bus().now_ms();
@@ -59,6 +69,7 @@ class ClientProcess {
             if (leaving_ms != 0 && (host.client().heard() || now - leaving_ms > kGoodbye_ms)) break;
             host.advance(member_.bus());
             for (const std::string& refusal : host.client().take_refusals()) member_.say(refusal);
+            if (host.client().outdated()) return std::nullopt;
             if (!member_.wait()) return kBadInput;
         }
         member_.bus().flush(500);

@@ -89,7 +89,7 @@ Result<> Company::start_process() {
 
 void Company::brief(SimulationOptions& options) const {
     if (open_bus_ == nullptr) return;
-    options.simulators = 0;
+    options.simulators = static_cast<std::size_t>(o_.local);
     options.simulators_awaited = static_cast<std::size_t>(o_.processes > 0 ? o_.processes : o_.simulators);
     options.clients_awaited = o_.clients_awaited;
     options.controller.loss_ms = std::max<std::int64_t>(kSilence_ms, network_.liveliness_ms);
@@ -99,6 +99,15 @@ void Company::brief(SimulationOptions& options) const {
 
 std::unique_ptr<Bus> Company::take_bus() {
     return std::move(bus_);
+}
+
+Result<bool> Company::add_simulator() {
+    if (o_.is_controller && o_.local == 0)
+        return Error{"this run takes its Simulators from anywhere",
+                     "start `roboss simulator` where you want it"};
+    if (processes_.empty()) return false;
+    if (Result<> started = start_process(); !started) return started.error();
+    return true;
 }
 
 Result<> Company::look_after() {

@@ -22,6 +22,10 @@ class Company {
     void brief(SimulationOptions& options) const;
     /// For Simulation::create(); none: everybody is in this process.
     std::unique_ptr<Bus> take_bus();
+    /// Others may take part from their own processes.
+    bool reaches_others() const { return open_bus_ != nullptr; }
+    /// Starts a process more, if the run has its Simulators in processes of this computer; false: it has not.
+    Result<bool> add_simulator();
     /// To be called now and then. An Error: the run cannot go on.
     Result<> look_after();
     /// What happened since the last call, one line each.

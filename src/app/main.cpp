@@ -1,10 +1,15 @@
 // The roboss command: one subcommand a file.
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 
 #include "app/check_command.h"
 #include "app/client_command.h"
+#include "app/control_command.h"
+#include "app/diff_command.h"
+#include "app/journal_command.h"
 #include "app/run_command.h"
+#include "app/save_command.h"
 #include "app/simulator_command.h"
 
 int main(int argc, char** argv) {
@@ -13,12 +18,19 @@ int main(int argc, char** argv) {
         "Start with:  roboss check WORLD   then   roboss run WORLD --duration 10"};
     app.require_subcommand(1);
     app.set_help_all_flag("--help-all", "help of all subcommands");
+    std::signal(SIGXFSZ,
+                SIG_IGN);  // a file that may not grow is an error of its writer, not the end of the run
     int exit_code = 0;
     roboss::add_run_command(app, exit_code);
     roboss::add_check_command(app, exit_code);
     roboss::add_controller_command(app, exit_code);
     roboss::add_simulator_command(app, exit_code);
     roboss::add_client_command(app, exit_code);
+    roboss::add_replay_command(app, exit_code);
+    roboss::add_control_command(app, exit_code);
+    roboss::add_save_command(app, exit_code);
+    roboss::add_journal_command(app, exit_code);
+    roboss::add_diff_command(app, exit_code);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

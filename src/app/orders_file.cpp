@@ -166,7 +166,48 @@ Order parse_line(const std::string& line, const Model& model) {
     return order;
 }
 
+json list(const Vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+/// The action as the value of its key.
+struct ActionToJson {
+    const Model& model;
+    const RobotType& type;
+    nlohmann::ordered_json& line;
+
+    void operator()(const SetPose& a) const {
+        line["set_pose"] = {{"position", list(a.X_WR.p)},
+                            {"orientation", {a.X_WR.q.w, a.X_WR.q.x, a.X_WR.q.y, a.X_WR.q.z}}};
+    }
+    void operator()(const SetVelocity& a) const {
+        line["set_velocity"] = {{"linear", list(a.linear)}, {"angular", list(a.angular)}};
+    }
+    void operator()(const ApplyWrench& a) const {
+        line["wrench"] = {{"link", type.links[a.link.index()].name},
+                          {"force", list(a.force)},
+                          {"torque", list(a.torque)},
+                          {"duration", static_cast<double>(a.duration) * model.dt_s}};
+    }
+    void operator()(const SetJoint& a) const {
+        static constexpr const char* kModes[] = {"effort", "velocity", "position", "effort"};
+        nlohmann::ordered_json joint{{"name", type.joints[a.joint.index()].name}};
+        if (a.axis != 0) joint["axis"] = a.axis;
+        const bool passive = a.mode == MotorMode::kPassive;  // no line says it: an effort of 0 does the same
+        joint[kModes[static_cast<std::size_t>(a.mode)]] = passive ? 0.0 : a.target;
+        if (a.max_effort >= 0 && std::isfinite(a.max_effort)) joint["max_effort"] = a.max_effort;
+        line["joint"] = joint;
+    }
+};
+
 }  // namespace
+
+std::string order_line(const Order& order, const Model& model) {
+    nlohmann::ordered_json line{{"t", static_cast<double>(order.apply_at) * model.dt_s},
+                                {"robot", model.robots[order.robot.index()].name}};
+    std::visit(ActionToJson{model, model.type_of(order.robot), line}, order.action);
+    return line.dump(-1, ' ', false, json::error_handler_t::replace);
+}
 
 Tick tick_at(double time_s, double dt_s) {
     return static_cast<Tick>(std::floor(time_s / dt_s + 0.5));

@@ -19,6 +19,9 @@ std::vector<Order> load_orders(const std::string& file, const Model& model, Diag
 std::vector<Order> parse_orders(std::string_view content, const std::string& file, const Model& model,
                                 Diagnostics& diagnostics);
 
+/// A line that parse_orders() makes this order of (its Client and number apart).
+std::string order_line(const Order& order, const Model& model);
+
 /// The tick at which something due at `time_s` happens: the nearest one.
 Tick tick_at(double time_s, double dt_s);
 

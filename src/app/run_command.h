@@ -10,4 +10,7 @@ namespace roboss {
 void add_run_command(CLI::App& app, int& exit_code);
 void add_controller_command(CLI::App& app, int& exit_code);
 
+/// `roboss replay JOURNAL`: the same once more, from what was kept.
+void add_replay_command(CLI::App& app, int& exit_code);
+
 }  // namespace roboss

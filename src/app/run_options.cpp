@@ -17,6 +17,9 @@ const char* const kFooter = R"(Examples:
   roboss run world.sdf --duration 30 --save half.roboss      and later
   roboss run world.sdf --from half.roboss --duration 30      ends with the hash of an undisturbed 60 s run
 
+  roboss run world.sdf --journal run.journal --until 60      killed, and started again: goes on where it was
+  roboss run world.sdf --from run.journal@12.5 --journal run.journal    goes on from 12.5 s as a new branch
+
   roboss run world.sdf --profile precise --accuracy high --tolerance 1e-13
 
 An orders file has one JSON object a line:
@@ -34,6 +37,18 @@ const char* const kControllerFooter = R"(Examples:
   roboss client build/release/lib/roboss_city_driver.so --name driver
 
 Simulators get the world from here; they need no file. One that is killed costs a moment and no result.)";
+
+const char* const kReplayFooter =
+    R"(Steps a kept run again, without its world file and its control programs, and compares the state with what was
+kept at every checkpoint. Traces, contacts and pictures can be taken of it as of the run itself.
+
+Examples:
+  roboss replay run.journal
+  roboss replay run.journal@12 --duration 3 --trace crash.csv --contacts crash-contacts.csv
+  roboss replay run.journal#2 --speed 1
+
+Exit codes: 0 all states equal, 1 the journal cannot be read, 2 wrong usage, 3 a state differs or a file could not be
+written, 130 ended by Ctrl-C.)";
 
 const char* const kExitCodes =
     R"(Exit codes: 0 done, 1 the world, orders or saved state have errors, 2 wrong usage, 3 the run failed (a Client threw,
@@ -80,28 +95,20 @@ void add_accuracy_options(CLI::App& command, AccuracySpec& spec) {
     }
 }
 
-void add_common_options(CLI::App& command, RunOptions& o) {
-    command.add_option("world", o.world, "the world: an SDF or URDF file")->required();
-    command.add_option("--path", o.paths,
-                       "folder to look up model:// and package:// URIs in (may be given again)");
+/// How far and how fast.
+void add_pace_options(CLI::App& command, RunOptions& o) {
     command.add_option("--duration", o.duration_s, "simulated time to run, s (default: until Ctrl-C)")
         ->check(CLI::NonNegativeNumber);
-    command.add_option("--dt", o.dt_s, "time step, s (default: the world's max_step_size)")
-        ->check(CLI::PositiveNumber);
-    command.add_option(
-        "--profile", o.profile,
-        "name of the world's <physics> to use (default: the one with default=\"true\", else the "
-        "first)");
-    add_accuracy_options(command, o.accuracy);
-    command.add_flag(
-        "--no-sleep", o.no_sleep,
-        "step robots at rest too (default: they sleep until something touches or orders them, unless "
-        "the world says <roboss:sleep>false)");
+    command
+        .add_option("--until", o.until_s,
+                    "world time to run to, s; the same again ends a resumed run where it should")
+        ->check(CLI::NonNegativeNumber);
     command
         .add_option("--speed", o.speed,
                     "simulated seconds a real second, max, or world (its real_time_factor)")
         ->check(number_or({"max", "world"}))
         ->capture_default_str();
+    command.add_flag("--paused", o.paused, "wait for `roboss control resume` at the start");
     command.add_option("--threads", o.threads, "threads a Simulator steps its islands with")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
@@ -113,10 +120,10 @@ void add_common_options(CLI::App& command, RunOptions& o) {
     command.add_option("--window", o.window, "ticks between two talks with the Controller, or auto")
         ->check(number_or({"auto"}))
         ->capture_default_str();
-    command.add_flag("--merge-islands", o.merge_islands,
-                     "put all robots into one island (same result, slower)");
-    command.add_option("--client", o.clients, "control program: a shared library (may be given again)");
-    command.add_option("--orders", o.orders, "orders from a file, one JSON object a line");
+}
+
+/// What is written and shown of a run.
+void add_watch_options(CLI::App& command, RunOptions& o) {
     command.add_option("--trace", o.trace, "write poses and velocities of all links to this CSV file");
     command
         .add_option("--trace-every", o.trace_every_s,
@@ -131,13 +138,56 @@ void add_common_options(CLI::App& command, RunOptions& o) {
     command.add_option("--hash-every", o.hash_every_s, "print the state hash each so many simulated seconds")
         ->check(CLI::PositiveNumber);
     command.add_option("--json", o.json, "write the summary to this file");
-    command.add_option("--seed", o.seed, "seed of sensor noise and control programs")->capture_default_str();
-    command.add_option("--save", o.save, "write the state at the end to this file");
-    command.add_option("--from", o.from, "start from a state written by --save");
     command.add_option("--picture", o.paths_picture, "draw where the robots went into this SVG file");
     command.add_flag("--headless", o.headless,
                      "no viewer (there is none yet; for scripts that will meet one)");
     command.add_flag("--quiet", o.quiet, "no progress, only the summary");
+}
+
+/// Where it comes from and where it is kept.
+void add_kept_options(CLI::App& command, RunOptions& o) {
+    command.add_option("--save", o.save, "write the state at the end to this file");
+    command.add_option(
+        "--from", o.from,
+        "start from a file written by --save or --journal: FILE, FILE@TIME or FILE#BRANCH@TIME; "
+        "with the same file as --journal, as a new branch of it");
+    command.add_option(
+        "--journal", o.journal,
+        "keep the run in this file, so that any moment of it can be had again; if the file exists, "
+        "go on where it ended (after a crash, say)");
+    command
+        .add_option(
+            "--journal-every", o.journal_every_s,
+            "simulated time between two checkpoints of the journal, s; rewinding steps again at most so much")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+}
+
+void add_common_options(CLI::App& command, RunOptions& o) {
+    command.add_option("world", o.world, "the world: an SDF or URDF file")->required();
+    command.add_option("--path", o.paths,
+                       "folder to look up model:// and package:// URIs in (may be given again)");
+    command.add_option("--dt", o.dt_s, "time step, s (default: the world's max_step_size)")
+        ->check(CLI::PositiveNumber);
+    command.add_option(
+        "--profile", o.profile,
+        "name of the world's <physics> to use (default: the one with default=\"true\", else the "
+        "first)");
+    add_accuracy_options(command, o.accuracy);
+    command.add_flag(
+        "--no-sleep", o.no_sleep,
+        "step robots at rest too (default: they sleep until something touches or orders them, unless "
+        "the world says <roboss:sleep>false)");
+    command.add_flag("--merge-islands", o.merge_islands,
+                     "put all robots into one island (same result, slower)");
+    command.add_option("--client", o.clients, "control program: a shared library (may be given again)");
+    command.add_option("--orders", o.orders, "orders from a file, one JSON object a line");
+    command.add_option(
+        "--seed", o.seed,
+        "seed of sensor noise and control programs (default: that of --from or of the journal, else 0)");
+    add_kept_options(command, o);
+    add_pace_options(command, o);
+    add_watch_options(command, o);
 }
 
 }  // namespace
@@ -157,6 +207,16 @@ void add_run_options(CLI::App& command, RunOptions& o) {
         ->excludes(simulators);
 }
 
+void add_replay_options(CLI::App& command, RunOptions& o) {
+    command.footer(kReplayFooter);
+    command.add_option("journal", o.replay, "FILE, FILE@TIME to begin later, FILE#BRANCH@TIME")->required();
+    add_pace_options(command, o);
+    add_watch_options(command, o);
+    command.add_option("--simulators", o.simulators, "Simulators that share the robots, all in this process")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+}
+
 void add_controller_options(CLI::App& command, RunOptions& o) {
     o.is_controller = true;
     command.footer(fmt::format("{}\n\n{}", kControllerFooter, kExitCodes));
@@ -164,7 +224,14 @@ void add_controller_options(CLI::App& command, RunOptions& o) {
     command
         .add_option("--simulators", o.simulators,
                     "the run starts when so many `roboss simulator` have come; others may join at any time")
-        ->check(CLI::Range(1, 1024))
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    command
+        .add_option(
+            "--local", o.local,
+            "Simulators in this process, too; with --simulators 0 a run that needs no other process and "
+            "can be controlled and joined")
+        ->check(CLI::Range(0, 1024))
         ->capture_default_str();
     command.add_option(
         "--await-client", o.clients_awaited,

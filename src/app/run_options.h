@@ -21,11 +21,13 @@ struct RunOptions {
     bool no_sleep = false;
     AccuracySpec accuracy;        // --accuracy and each number by itself
     std::string speed = "max";    // "max", "world" or a factor of real time
+    bool paused = false;          // at the start
     std::string window = "auto";  // "auto" or a number of ticks
     int threads = 1;
     std::size_t lanes = kMostLanes;
     int simulators = 1;
     int processes = 0;           // Simulators as processes of their own; 0: in this one
+    int local = 0;               // Simulators in the process of a Controller
     bool is_controller = false;  // `roboss controller`: Simulators come from anywhere
     std::vector<std::string> clients_awaited;
     DdsOptions network;
@@ -38,9 +40,13 @@ struct RunOptions {
     double contacts_every_s = 0;
     double hash_every_s = 0;
     std::string json;
-    std::uint64_t seed = 0;
+    std::optional<std::uint64_t> seed;  // none: that of the saved run, else 0
     std::string save;
-    std::string from;
+    std::string from;     // FILE[#BRANCH][@TIME]
+    std::string journal;  // kept here; gone on with if it exists
+    double journal_every_s = 1;
+    std::optional<double> until_s;
+    std::string replay;         // FILE[#BRANCH][@TIME]: stepped again and checked, instead of a world
     std::string paths_picture;  // SVG of where the robots went
     bool headless = false;
     bool quiet = false;
@@ -48,6 +54,8 @@ struct RunOptions {
 
 /// Of `roboss run`: everybody on this computer.
 void add_run_options(CLI::App& command, RunOptions& options);
+/// Of `roboss replay`: a journal instead of a world.
+void add_replay_options(CLI::App& command, RunOptions& options);
 /// Of `roboss controller`: the same, and where the others come from.
 void add_controller_options(CLI::App& command, RunOptions& options);
 

@@ -44,7 +44,12 @@ class SimulatorProcess {
             Simulator simulator(model, self, role, pool_);
             if (!serve(simulator)) return kBadInput;
             if (interrupted()) return kDone;
-            if (!simulator.over().empty()) {
+            if (simulator.outdated()) {
+                member_.say("the world has changed, fetches it again");
+            } else if (simulator.sent_home()) {
+                member_.say("sent home by the Controller");
+                return kDone;
+            } else if (!simulator.over().empty()) {
                 member_.say(simulator.over());
                 if (!o_.stay) return kDone;
             } else if (!o_.stay && !simulator.refusal().empty()) {

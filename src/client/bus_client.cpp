@@ -50,12 +50,38 @@ void BusClient::handle(Envelope& envelope) {
         if (id_.valid()) return;
         id_ = welcome->client;
         seed_ = welcome->seed;
+        if (was_here_ && welcome->first < expected_) {  // the world was set back
+            words_.clear();
+            orders_.clear();
+            observing_ = false;
+            tick_ = -1;
+        }
         expected_ = welcome->first;
+        for (ClientWord& word : words_) word.client = id_;
+        if (bye_) bye_->client = id_;
+    } else if (const auto* unknown = std::get_if<ClientUnknown>(&envelope.message)) {
+        if (unknown->client == id_) join_again();
     } else if (const auto* refused = std::get_if<Refused>(&envelope.message)) {
         refusals_.push_back(refused->reason);
+    } else if (const auto* answer = std::get_if<ControlReply>(&envelope.message)) {
+        if (requests_.empty() || requests_.front().number != answer->number) return;
+        answers_.push_back({requests_.front().words, answer->done, answer->text});
+        requests_.pop_front();
+        said_ms_ = kLongAgo;  // the next one at once
+    } else if (std::holds_alternative<ModelChanged>(envelope.message)) {
+        outdated_ = outdated_ || !id_.valid();
     } else if (const auto* over = std::get_if<RunOver>(&envelope.message)) {
         over_ = over->reason;
     }
+}
+
+/// The Controller was started again: what it has not acknowledged is said again, and what it has not shown
+/// is awaited.
+void BusClient::join_again() {
+    id_ = ClientId();
+    was_here_ = true;
+    offers_.clear();
+    pull_.cancel();
 }
 
 void BusClient::heard_up_to(std::uint64_t word) {
@@ -111,12 +137,25 @@ void BusClient::say_again(Bus& bus) {
     const std::int64_t now = bus.now_ms();
     if (now - said_ms_ < options_.resend_ms) return;
     said_ms_ = now;
-    if (!id_.valid())
-        bus.send(self_, kControllerAddress,
-                 ClientHello{options_.name, model_->hash, options_.period, options_.latency,
-                             options_.synchronous});
+    if (!requests_.empty()) bus.send(self_, kControllerAddress, requests_.front());
+    if (!id_.valid()) {
+        ClientHello hello{options_.name, model_->hash, options_.period, options_.latency,
+                          options_.synchronous};
+        const std::uint64_t said = word_ - (bye_ ? 1 : 0);
+        if (was_here_) hello.expected = expected_;
+        hello.said = said;
+        hello.acknowledged = said - words_.size();
+        return bus.send(self_, kControllerAddress, std::move(hello));
+    }
     for (const ClientWord& word : words_) bus.send(self_, kControllerAddress, word);
+    // Nothing to say: its last word once more now and then, to find out whether it is still known.
+    if (words_.empty() && !bye_ && ++silent_ % kAskEvery == 0)
+        bus.send(self_, kControllerAddress, ClientWord{id_, word_, tick_, {}});
     if (bye_) bus.send(self_, kControllerAddress, *bye_);
+}
+
+void BusClient::control(std::vector<std::string> words) {
+    requests_.push_back({++request_, std::move(words)});
 }
 
 RayScene& BusClient::ray_scene() {

@@ -29,6 +29,8 @@ class BusClient : public Client {
     const RobotState& state(RobotId robot) const override { return states_[robot.index()]; }
     std::uint64_t seed() const override { return seed_; }
     Result<> order(RobotId robot, const Action& action) override;
+    void control(std::vector<std::string> words) override;
+    std::vector<ControlAnswer> take_control_answers() override { return std::exchange(answers_, {}); }
 
     /// Handles what has come and asks for what is missing. Never waits.
     void advance(Bus& bus);
@@ -40,10 +42,15 @@ class BusClient : public Client {
     void leave(Bus& bus, const std::string& failure = {});
 
     bool joined() const { return id_.valid(); }
+    bool synchronous() const { return options_.synchronous; }
+    /// Tick of the next observation of a synchronous Client.
+    Tick expected() const { return expected_; }
     /// Every word has reached the Controller.
     bool heard() const { return words_.empty() && !bye_; }
     /// Why the run is over; empty: it is not.
     const std::string& over() const { return over_; }
+    /// The run has another Model than this one: make another BusClient with that.
+    bool outdated() const { return outdated_; }
     /// Refusals by the Controller since the last call.
     std::vector<std::string> take_refusals() { return std::exchange(refusals_, {}); }
 
@@ -52,6 +59,7 @@ class BusClient : public Client {
 
   private:
     void handle(Envelope& envelope);
+    void join_again();
     void heard_up_to(std::uint64_t word);
     void take_observation(Observation& observation);
     void pull_next();
@@ -62,6 +70,7 @@ class BusClient : public Client {
     Address self_;
     BusClientOptions options_;
     ClientId id_;
+    bool was_here_ = false;  // with an earlier Controller of this run
     std::uint64_t seed_ = 0;
 
     Tick tick_ = -1;
@@ -75,7 +84,14 @@ class BusClient : public Client {
     std::uint64_t sequence_ = 0, word_ = 0;
     std::deque<ClientWord> words_;  // not known to have arrived
     std::optional<ClientBye> bye_;
-    std::int64_t said_ms_ = -1'000'000'000;
+    static constexpr std::int64_t kLongAgo = -1'000'000'000;
+    std::int64_t said_ms_ = kLongAgo;
+    static constexpr std::uint64_t kAskEvery = 5;  // resend times
+    std::uint64_t silent_ = 0;
+    bool outdated_ = false;
+    std::uint64_t request_ = 0;
+    std::deque<ControlRequest> requests_;  // the first is said until it is answered, then the next
+    std::vector<ControlAnswer> answers_;
     std::vector<std::string> refusals_;
     std::string over_;
 

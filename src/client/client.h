@@ -21,6 +21,13 @@
 
 namespace roboss {
 
+/// What became of a request to the run.
+struct ControlAnswer {
+    std::vector<std::string> words;  // as they were asked
+    bool done = false;
+    std::string text;  // what was done, or why not
+};
+
 class Client {
   public:
     virtual ~Client() = default;
@@ -47,6 +54,11 @@ class Client {
     Result<> set_joint(RobotId robot, JointId joint, MotorMode mode, double target, double max_effort = -1,
                        int axis = 0);
     virtual Result<> order(RobotId robot, const Action& action) = 0;
+
+    // --- control of the run itself, in the words of `roboss control`: {"pause"}, {"speed", "2"}, {"add",
+    // ...}. A request takes effect at the end of the window under way; answers come some time later.
+    virtual void control(std::vector<std::string> words) = 0;
+    virtual std::vector<ControlAnswer> take_control_answers() = 0;
 
     // --- sensors: `sensor` is an index into RobotType::sensors
     // ------------------------------------------------------ Readings include the sensor's noise, a pure

@@ -105,8 +105,21 @@ void ProgramHost::advance(Bus& bus) {
     if (done) client_.answer(bus);
 }
 
+std::string without_samples(const std::string& memory) {
+    std::string samples, program;
+    if (!part(memory, samples, program)) return memory;
+    return joined({}, program);
+}
+
 std::string ProgramHost::memory_at(Tick tick) const {
+    if (!started_ && restored_) return *restored_;
     return joined(client_.samples_before(tick), controlled_ >= tick ? memory_before_ : program_->memory());
+}
+
+std::optional<std::string> ProgramHost::settled_memory(Tick tick) const {
+    const bool behind = client_.synchronous() && started_ && failure_.empty() && client_.expected() < tick;
+    if (behind) return std::nullopt;
+    return memory_at(tick);
 }
 
 }  // namespace roboss

@@ -28,6 +28,11 @@ class ProgramHost {
     /// What the program and its sensors remembered when it had answered every observation before `tick`, and
     /// none since.
     std::string memory_at(Tick tick) const;
+    /// memory_at(), once every observation before `tick` is answered; nothing before. To be asked between any
+    /// two advance()s until it answers, while the world waits for this Client.
+    std::optional<std::string> settled_memory(Tick tick) const;
+    /// Gives the program back, for another world.
+    std::unique_ptr<ControlProgram> take_program() { return std::move(program_); }
 
   private:
     bool restore_all(Bus& bus);
@@ -43,6 +48,9 @@ class ProgramHost {
     Tick controlled_ = -1;       // tick of the last control()
     std::string memory_before_;  // as that call found it
 };
+
+/// memory_at() without what sensors held: after robots were removed they measure afresh.
+std::string without_samples(const std::string& memory);
 
 /// The times of a control program in ticks of this world. `name` is for the message of an Error.
 Result<BusClientOptions> client_options(const ControlOptions& options, const Model& model,

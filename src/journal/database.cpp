@@ -7,6 +7,8 @@ namespace roboss {
 
 namespace {
 
+constexpr int kBusy_ms = 5'000;  // for which a reader and a writer wait for each other
+
 struct Finalize {
     void operator()(sqlite3_stmt* s) const { sqlite3_finalize(s); }
 };
@@ -53,13 +55,14 @@ Error Database::error(const std::string& doing) const {
             "check the path, the permissions and the free space"};
 }
 
-Result<Database> Database::create(const std::string& path) {
+Result<Database> Database::open_write(const std::string& path) {
     Database d;
     d.path_ = path;
     sqlite3* db = nullptr;
     const int rc = sqlite3_open_v2(path.c_str(), &db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
     d.db_.reset(db);
     if (rc != SQLITE_OK) return d.error("cannot write it");
+    sqlite3_busy_timeout(db, kBusy_ms);
     return d;
 }
 
@@ -70,6 +73,7 @@ Result<Database> Database::open_read(const std::string& path) {
     const int rc = sqlite3_open_v2(path.c_str(), &db, SQLITE_OPEN_READONLY, nullptr);
     d.db_.reset(db);
     if (rc != SQLITE_OK) return d.error("cannot read it");
+    sqlite3_busy_timeout(db, kBusy_ms);
     return d;
 }
 
@@ -90,9 +94,11 @@ Result<> Database::insert(const std::string& sql, const std::vector<Row>& rows) 
     return Ok{};
 }
 
-Result<std::vector<Row>> Database::select(const std::string& sql) const {
+Result<std::vector<Row>> Database::select(const std::string& sql, const Row& parameters) const {
     const Statement statement = prepare(db_.get(), sql);
     if (!statement) return error("cannot read it");
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+        bind(statement.get(), static_cast<int>(i) + 1, parameters[i]);
     std::vector<Row> rows;
     int rc = SQLITE_ROW;
     while ((rc = sqlite3_step(statement.get())) == SQLITE_ROW) {

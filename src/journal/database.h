@@ -21,13 +21,13 @@ using Row = std::vector<Value>;
 
 class Database {
   public:
-    static Result<Database> create(const std::string& path);     // a new, empty file
-    static Result<Database> open_read(const std::string& path);  // must exist
+    static Result<Database> open_write(const std::string& path);  // made if it does not exist
+    static Result<Database> open_read(const std::string& path);   // must exist
 
     Result<> run(const std::string& sql);
     /// One statement for many rows of parameters.
     Result<> insert(const std::string& sql, const std::vector<Row>& rows);
-    Result<std::vector<Row>> select(const std::string& sql) const;
+    Result<std::vector<Row>> select(const std::string& sql, const Row& parameters = {}) const;
 
   private:
     struct Close {

@@ -1,222 +1,348 @@
-// Checkpoint files: tables meta(key, value), states(robot, bytes), orders(bytes), memory(client, bytes).
+// Reading a journal with distrust.
 #include "journal/journal.h"
 
+#include <algorithm>
 #include <bit>
-#include <cstdio>
+#include <charconv>
 #include <filesystem>
+#include <limits>
 
-#include "journal/database.h"
-#include "wire/codec.h"
+#include "core/hash.h"
+#include "journal/journal_format.h"
+#include "wire/model_codec.h"
 
 namespace roboss {
 
 namespace {
 
-constexpr std::int64_t kFormat = 1;
-constexpr const char* kTables =
-    "CREATE TABLE meta(key TEXT PRIMARY KEY, value);"
-    "CREATE TABLE states(robot INTEGER PRIMARY KEY, bytes BLOB);"
-    "CREATE TABLE orders(bytes BLOB);"
-    "CREATE TABLE memory(client TEXT PRIMARY KEY, bytes BLOB);";
-constexpr const char* kSaveAgain = "save the run again, or start without --from";
+constexpr const char* kAnother = "take another copy of the file, or start without it";
+constexpr std::uintmax_t kLookedThrough_bytes = 64u << 20;  // a file up to this size is always looked through
 
-/// Everything beside the states, so that no damage goes unnoticed.
-std::uint64_t rest_hash(const Blob& orders, const SavedRun& run) {
-    const auto text = [](const Blob& b) {
-        return std::string_view(reinterpret_cast<const char*>(b.data()), b.size());
-    };
-    Hash hash;
-    hash.add(static_cast<std::uint64_t>(run.tick));
-    hash.add(run.seed);
-    hash.add(std::string_view(run.world_file));
-    hash.add(text(orders));
-    for (const auto& [client, memory] : run.memory) {
-        hash.add(std::string_view(client));
-        hash.add(std::string_view(memory));
-    }
-    return hash.value();
-}
-
-std::vector<Row> meta_rows(const Model& model, const SavedRun& run, const Blob& orders) {
-    char dt[40];
-    std::snprintf(dt, sizeof dt, "%.17g", model.dt_s);
-    return {{std::string("format"), kFormat},
-            {std::string("world_file"), run.world_file},
-            {std::string("world"), model.name},
-            {std::string("dt_s"), std::string(dt)},
-            {std::string("model_hash"), to_hex(model.hash)},
-            {std::string("robots"), static_cast<std::int64_t>(run.states.size())},
-            {std::string("tick"), run.tick},
-            {std::string("seed"), std::bit_cast<std::int64_t>(run.seed)},
-            {std::string("state_hash"), to_hex(state_hash_of(model, run))},
-            {std::string("rest_hash"), to_hex(rest_hash(orders, run))}};
-}
-
-Result<> write(const std::string& path, const Model& model, const SavedRun& run) {
-    Result<Database> opened = Database::create(path);
-    if (!opened) return opened.error();
-    Database& db = opened.value();
-    const Blob orders = encode_orders(run.orders);
-    std::vector<Row> states, memory;
-    for (std::size_t i = 0; i < run.states.size(); ++i) {
-        Blob bytes;
-        encode(run.states[i], bytes);
-        states.push_back({static_cast<std::int64_t>(i), std::move(bytes)});
-    }
-    for (const auto& [client, bytes] : run.memory)
-        memory.push_back({client, Blob(bytes.begin(), bytes.end())});
-    if (Result<> r = db.run(std::string("BEGIN;") + kTables); !r) return r;
-    if (Result<> r = db.insert("INSERT INTO meta VALUES(?,?)", meta_rows(model, run, orders)); !r) return r;
-    if (Result<> r = db.insert("INSERT INTO states VALUES(?,?)", states); !r) return r;
-    if (Result<> r = db.insert("INSERT INTO orders VALUES(?)", {{orders}}); !r) return r;
-    if (Result<> r = db.insert("INSERT INTO memory VALUES(?,?)", memory); !r) return r;
-    return db.run("COMMIT;");
-}
-
-/// The meta table, with answers of the expected type or a fault that is remembered.
-class Meta {
+/// The columns of a row, by type; anything else than expected is a fault that is remembered.
+class Columns {
   public:
-    explicit Meta(const std::vector<Row>& rows) {
-        for (const Row& row : rows)
-            if (const auto* key = std::get_if<std::string>(&row[0])) values_[*key] = row[1];
-    }
+    explicit Columns(const Row& row) : row_(row) {}
     template <class T>
-    T get(const std::string& key) {
-        const auto found = values_.find(key);
-        if (found != values_.end())
-            if (const T* value = std::get_if<T>(&found->second)) return *value;
-        if (missing_.empty()) missing_ = key;
+    T get() {
+        if (at_ < row_.size())
+            if (const T* value = std::get_if<T>(&row_[at_++])) return *value;
+        good_ = false;
         return T{};
     }
-    const std::string& missing() const { return missing_; }
+    std::int64_t number() { return get<std::int64_t>(); }
+    std::uint64_t hash() {
+        const auto text = get<std::string>();
+        std::uint64_t value = 0;
+        const auto end = text.data() + text.size();
+        if (text.size() != 16 || std::from_chars(text.data(), end, value, 16).ptr != end) good_ = false;
+        return value;
+    }
+    bool good() const { return good_; }
 
   private:
-    std::map<std::string, Value> values_;
-    std::string missing_;
+    const Row& row_;
+    std::size_t at_ = 0;
+    bool good_ = true;
 };
 
-Error damaged(const std::string& path, const std::string& what) {
-    return {path + " is damaged: " + what, kSaveAgain};
-}
-
-/// Whether the file is a checkpoint of this world.
-Result<> check_meta(const std::string& path, const Model& model, Meta& meta) {
-    const auto format = meta.get<std::int64_t>("format");
-    if (!meta.missing().empty()) return damaged(path, "it has no '" + meta.missing() + "'");
-    if (format != kFormat)
-        return Error{path + " has checkpoint format " + std::to_string(format) + ", this program reads " +
-                         std::to_string(kFormat),
-                     "use the version of RoBOSS that wrote it"};
-    const auto hash = meta.get<std::string>("model_hash"), file = meta.get<std::string>("world_file");
-    const auto dt = meta.get<std::string>("dt_s");
-    if (!meta.missing().empty()) return damaged(path, "it has no '" + meta.missing() + "'");
-    if (hash != to_hex(model.hash))
-        return Error{path + " was saved from another world: " + file + ", step " + dt + " s, model hash " +
-                         hash + "; this one has model hash " + to_hex(model.hash),
-                     "give the world file, the step and the version of RoBOSS that it was saved with"};
-    return Ok{};
-}
-
-Result<std::vector<RobotState>> read_states(const std::string& path, const Database& db, const Model& model) {
-    Result<std::vector<Row>> rows = db.select("SELECT robot, bytes FROM states ORDER BY robot");
-    if (!rows) return damaged(path, rows.error().message);
-    if (rows.value().size() != model.robots.size())
-        return damaged(path, "it has " + std::to_string(rows.value().size()) + " robots' states instead of " +
-                                 std::to_string(model.robots.size()));
-    std::vector<RobotState> states;
-    for (std::size_t i = 0; i < rows.value().size(); ++i) {
-        const Blob* bytes = std::get_if<Blob>(&rows.value()[i][1]);
-        if (bytes == nullptr)
-            return damaged(path, "the state of robot " + std::to_string(i) + " is not a blob");
-        Result<RobotState> state = decode_state(*bytes, model.type_of(RobotId(i)));
-        if (!state) return damaged(path, "robot '" + model.robots[i].name + "': " + state.error().message);
-        states.push_back(std::move(state).value());
-    }
-    return states;
-}
-
-Result<Blob> read_rest(const std::string& path, const Database& db, const Model& model, SavedRun& run) {
-    Result<std::vector<Row>> orders = db.select("SELECT bytes FROM orders");
-    Result<std::vector<Row>> memory = db.select("SELECT client, bytes FROM memory");
-    if (!orders || !memory) return damaged(path, (orders ? memory : orders).error().message);
-    if (orders.value().size() != 1 || !std::holds_alternative<Blob>(orders.value()[0][0]))
-        return damaged(path, "its orders are missing");
-    for (const Row& row : memory.value()) {
-        const auto* client = std::get_if<std::string>(&row[0]);
-        const auto* bytes = std::get_if<Blob>(&row[1]);
-        if (client == nullptr || bytes == nullptr)
-            return damaged(path, "a Client's memory is of the wrong type");
-        run.memory[*client] = std::string(bytes->begin(), bytes->end());
-    }
-    Blob bytes = std::get<Blob>(orders.value()[0][0]);
-    Result<std::vector<Order>> decoded = decode_orders(bytes);
-    if (!decoded) return damaged(path, decoded.error().message);
-    run.orders = std::move(decoded).value();
-    for (const Order& order : run.orders)
-        if (Result<> checked = check_order(model, order); !checked)
-            return damaged(path, checked.error().message);
-    return bytes;
+std::string at_tick(Tick tick) {
+    return "at tick " + std::to_string(tick);
 }
 
 }  // namespace
 
-std::uint64_t state_hash_of(const Model& model, const SavedRun& run) {
-    std::vector<std::uint64_t> hashes;
-    for (std::size_t i = 0; i < run.states.size(); ++i)
-        hashes.push_back(state_hash(RobotId(i), run.tick, run.states[i]));
-    return world_hash(model.hash, hashes);
+Error Journal::damaged(const std::string& what) const {
+    return {path_ + " is damaged: " + what, kAnother};
 }
 
-Result<> save_run(const std::string& path, const Model& model, const SavedRun& run) {
-    const std::string beside = path + ".part";
-    std::error_code ignored;
-    std::filesystem::remove(beside, ignored);
-    if (Result<> written = write(beside, model, run); !written) {
-        std::filesystem::remove(beside, ignored);
-        return written;
-    }
+Result<Journal> Journal::open(const std::string& path, bool thorough) {
     std::error_code error;
-    std::filesystem::rename(beside, path, error);
-    if (error)
-        return Error{"cannot rename " + beside + " to " + path + ": " + error.message(),
-                     "check the path and the permissions"};
+    if (!std::filesystem::is_regular_file(path, error))
+        return Error{path + ": there is no such file", "give a file that --journal or --save wrote"};
+    Result<Database> opened = Database::open_read(path);
+    if (!opened) return opened.error();
+    Journal journal;
+    journal.path_ = path;
+    journal.db_ = std::move(opened).value();
+    if (Result<> read = journal.read_meta(); !read) return read.error();
+    if (thorough || std::filesystem::file_size(path, error) <= kLookedThrough_bytes) {
+        Result<std::vector<Row>> sound = journal.db_->select("PRAGMA integrity_check(1)");
+        if (!sound || sound.value().size() != 1 || sound.value()[0][0] != Value(std::string("ok")))
+            return journal.damaged("it is truncated or was changed");
+    }
+    for (Result<> (Journal::*read)() :
+         {&Journal::read_branches, &Journal::read_checkpoint_places, &Journal::read_log_heads})
+        if (Result<> done = (journal.*read)(); !done) return done.error();
+    return journal;
+}
+
+Result<> Journal::read_meta() {
+    Result<std::vector<Row>> rows = db_->select("SELECT key, value FROM meta");
+    if (!rows)
+        return Error{
+            path_ + " is not a checkpoint or journal of RoBOSS, or is truncated: " + rows.error().message,
+            kAnother};
+    std::int64_t format = 0;
+    for (const Row& row : rows.value()) {
+        const auto* key = std::get_if<std::string>(&row[0]);
+        if (key != nullptr && *key == "format" && std::holds_alternative<std::int64_t>(row[1]))
+            format = std::get<std::int64_t>(row[1]);
+        if (key != nullptr && *key == "version" && std::holds_alternative<std::string>(row[1]))
+            version_ = std::get<std::string>(row[1]);
+    }
+    if (format == 0) return damaged("it does not say its format");
+    if (format != kJournalFormat)
+        return Error{path_ + " has journal format " + std::to_string(format) + " (written by RoBOSS " +
+                         (version_.empty() ? "of long ago" : version_) + "), this program reads " +
+                         std::to_string(kJournalFormat),
+                     "use the version of RoBOSS that wrote it"};
     return Ok{};
 }
 
-Result<SavedRun> load_run(const std::string& path, const Model& model) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error))
-        return Error{path + ": there is no such file", "give a file that --save wrote"};
-    Result<Database> opened = Database::open_read(path);
-    if (!opened) return opened.error();
-    const Database& db = opened.value();
-    Result<std::vector<Row>> rows = db.select("SELECT key, value FROM meta");
-    if (!rows)
-        return Error{path + " is not a checkpoint of RoBOSS, or is truncated: " + rows.error().message,
-                     kSaveAgain};
-    Result<std::vector<Row>> sound = db.select("PRAGMA integrity_check(1)");
-    if (!sound || sound.value().size() != 1 || sound.value()[0][0] != Value(std::string("ok")))
-        return damaged(path, "it is truncated or was changed");
-    Meta meta(rows.value());
-    if (Result<> fits = check_meta(path, model, meta); !fits) return fits.error();
+Result<> Journal::read_branches() {
+    Result<std::vector<Row>> rows = db_->select(
+        "SELECT id, parent, tick, model, seed, world_file, reason, row_hash FROM branches ORDER BY id");
+    if (!rows) return damaged(rows.error().message);
+    for (const Row& row : rows.value()) {
+        Columns c(row);
+        Branch b;
+        b.id = c.number(), b.parent = c.number(), b.tick = c.number();
+        b.model_hash = c.hash();
+        b.seed = std::bit_cast<std::uint64_t>(c.number());
+        b.world_file = c.get<std::string>(), b.reason = c.get<std::string>();
+        const std::uint64_t check = c.hash();
+        if (!c.good() || check != check_of(b))
+            return damaged("the row of branch " + std::to_string(branches_.size() + 1) + " was changed");
+        if (b.id != static_cast<BranchId>(branches_.size() + 1) || b.parent < 0 || b.parent >= b.id ||
+            b.tick < 0)
+            return damaged("its branches do not make a tree");
+        b.committed = b.end = b.tick;
+        branches_.push_back(std::move(b));
+    }
+    if (branches_.empty()) return Error{path_ + " holds nothing yet: its run never began", kAnother};
+    return Ok{};
+}
 
+Result<> Journal::read_checkpoint_places() {
+    Result<std::vector<Row>> rows = db_->select(
+        "SELECT branch, tick, state_hash, length(memory) + length(states) FROM checkpoints ORDER BY branch, "
+        "tick");
+    if (!rows) return damaged(rows.error().message);
+    for (const Row& row : rows.value()) {
+        Columns c(row);
+        CheckpointPlace place;
+        place.branch = c.number(), place.tick = c.number();
+        place.hash = c.hash();
+        const std::int64_t bytes = c.number();
+        if (!c.good() || place.branch < 1 || place.branch > static_cast<BranchId>(branches_.size()) ||
+            place.tick < branches_[static_cast<std::size_t>(place.branch - 1)].tick)
+            return damaged("a checkpoint has no place");
+        Branch& b = branches_[static_cast<std::size_t>(place.branch - 1)];
+        ++b.checkpoints;
+        b.bytes += static_cast<std::uint64_t>(bytes);
+        if (place.tick >= b.committed) b.committed = place.tick, b.hash = place.hash;
+        b.end = std::max(b.end, place.tick);
+        checkpoints_.push_back(place);
+    }
+    for (const Branch& b : branches_)
+        if (b.checkpoints == 0) return damaged("branch " + std::to_string(b.id) + " has no checkpoint");
+    return Ok{};
+}
+
+Result<> Journal::read_log_heads() {
+    Result<std::vector<Row>> rows = db_->select(
+        "SELECT branch, serial, planned, committed, state_hash, orders, length(entries), chain FROM batches "
+        "ORDER BY branch, serial");
+    if (!rows) return damaged(rows.error().message);
+    for (const Row& row : rows.value()) {
+        Columns c(row);
+        const BranchId id = c.number();
+        const std::int64_t serial = c.number(), planned = c.number(), committed = c.number();
+        const std::uint64_t hash = c.hash();
+        const std::int64_t orders = c.number(), bytes = c.number();
+        const std::uint64_t chain = c.hash();
+        if (!c.good() || id < 1 || id > static_cast<BranchId>(branches_.size()))
+            return damaged("a row of its log has no place");
+        Tail& tail = tails_[id];
+        if (serial != ++tail.serial)
+            return damaged("row " + std::to_string(tail.serial) + " of its log is missing");
+        tail.chain = chain;
+        Branch& b = branches_[static_cast<std::size_t>(id - 1)];
+        b.orders += static_cast<std::size_t>(orders);
+        b.bytes += static_cast<std::uint64_t>(bytes);
+        if (committed >= b.committed && hash != 0) b.committed = committed, b.hash = hash;
+        b.end = std::max({b.end, planned, committed});
+    }
+    return Ok{};
+}
+
+Result<Branch> Journal::branch(std::optional<BranchId> id) const {
+    const BranchId wanted = id.value_or(static_cast<BranchId>(branches_.size()));
+    if (wanted < 1 || wanted > static_cast<BranchId>(branches_.size()))
+        return Error{path_ + " has no branch " + std::to_string(wanted) + ", it has " +
+                         std::to_string(branches_.size()),
+                     "`roboss journal info " + path_ + "` shows them"};
+    return branches_[static_cast<std::size_t>(wanted - 1)];
+}
+
+Branch Journal::holder_of(Branch branch, Tick tick) const {
+    while (tick < branch.tick && branch.parent != 0)
+        branch = branches_[static_cast<std::size_t>(branch.parent - 1)];
+    return branch;
+}
+
+Result<std::shared_ptr<const Model>> Journal::model(const Branch& branch) const {
+    Result<std::vector<Row>> rows =
+        db_->select("SELECT bytes, bytes_hash FROM models WHERE hash = ?", {to_hex(branch.model_hash)});
+    if (!rows) return damaged(rows.error().message);
+    if (rows.value().size() != 1) return damaged("a Model is missing");
+    Columns c(rows.value()[0]);
+    const Blob bytes = c.get<Blob>();
+    const std::uint64_t hash = c.hash();
+    if (!c.good() || hash_of_bytes(bytes) != hash) return damaged("a Model was changed");
+    Result<std::shared_ptr<const Model>> model = decode_model(bytes);
+    if (!model) return damaged(model.error().message);
+    if (model.value()->hash != branch.model_hash)
+        return damaged("a Model is not the one that it is said to be");
+    return model;
+}
+
+std::vector<CheckpointPlace> Journal::checkpoints(const Branch& branch) const {
+    std::vector<CheckpointPlace> places;
+    for (const CheckpointPlace& place : checkpoints_)
+        if (place.branch == branch.id) places.push_back(place);
+    return places;
+}
+
+Result<StoredCheckpoint> Journal::checkpoint(const CheckpointPlace& place, const Model& model) const {
+    Result<std::vector<Row>> rows =
+        db_->select("SELECT memory, states, row_hash FROM checkpoints WHERE branch = ? AND tick = ?",
+                    {place.branch, place.tick});
+    const std::string name = "the checkpoint " + at_tick(place.tick);
+    if (!rows) return damaged(rows.error().message);
+    if (rows.value().size() != 1) return damaged(name + " is missing");
+    Columns c(rows.value()[0]);
+    const Blob memory = c.get<Blob>(), states = c.get<Blob>();
+    const std::uint64_t check = c.hash();
+    if (!c.good() || check != check_of(place, memory, states)) return damaged(name + " was changed");
+    Result<std::vector<RobotState>> decoded = decode_states(states, model);
+    if (!decoded) return damaged(name + ": " + decoded.error().message);
+    Result<ClientMemory> remembered = decode_memory(memory);
+    if (!remembered) return damaged(name + ": " + remembered.error().message);
+    if (state_hash_of(model, place.tick, decoded.value()) != place.hash)
+        return damaged(name + " does not have the hash that was saved");
+    return StoredCheckpoint{std::move(decoded).value(), std::move(remembered).value()};
+}
+
+Result<LogBatch> Journal::log(const Branch& branch, Tick from, Tick until) const {
+    Result<std::vector<Row>> rows = db_->select(
+        "SELECT b.serial, b.planned, b.committed, b.state_hash, b.low, b.high, b.orders, b.entries, b.chain, "
+        "coalesce(a.chain, '0000000000000000') FROM batches b LEFT JOIN batches a ON a.branch = b.branch AND "
+        "a.serial = b.serial - 1 WHERE b.branch = ? AND b.high >= ? AND b.low < ? ORDER BY b.serial",
+        {branch.id, from, until});
+    if (!rows) return damaged(rows.error().message);
+    LogBatch log;
+    for (const Row& values : rows.value()) {
+        Columns c(values);
+        BatchRow row;
+        row.branch = branch.id;
+        row.serial = c.number(), row.planned = c.number(), row.committed = c.number();
+        row.hash = c.hash();
+        row.low = c.number(), row.high = c.number(), row.orders = c.number();
+        row.bytes = c.get<Blob>();
+        const std::uint64_t chain = c.hash(), before = c.hash();
+        const std::string name = "row " + std::to_string(row.serial) + " of the log";
+        if (!c.good() || chain_of(before, row) != chain) return damaged(name + " was changed");
+        Result<LogBatch> entries = decode_batch(row.bytes);
+        if (!entries) return damaged(name + ": " + entries.error().message);
+        log.append(std::move(entries).value());
+    }
+    std::erase_if(log.orders, [&](const SaidOrder& o) { return o.order.apply_at < from || o.said >= until; });
+    std::erase_if(log.words, [&](const SaidWord& w) {
+        return w.observed < from || (w.observed >= until && w.observed != kGoneForGood);
+    });
+    std::erase_if(log.notes, [&](const LogNote& n) { return n.tick < from || n.tick > until; });
+    std::stable_sort(log.orders.begin(), log.orders.end(),
+                     [](const SaidOrder& x, const SaidOrder& y) { return comes_before(x.order, y.order); });
+    return log;
+}
+
+Result<SavedRun> Journal::run_at(const Branch& branch, const Model& model, Tick tick) const {
+    const std::vector<CheckpointPlace> places = checkpoints(branch);
+    const auto above = std::upper_bound(places.begin(), places.end(), tick,
+                                        [](Tick t, const CheckpointPlace& p) { return t < p.tick; });
+    const auto time = [&](Tick t) { return std::to_string(static_cast<double>(t) * model.dt_s) + " s"; };
+    if (above == places.begin() || tick > branch.end) {
+        const Tick first = places.empty() ? branch.tick : places.front().tick;
+        return Error{path_ + " has nothing at " + time(tick) + " (tick " + std::to_string(tick) +
+                         ") of branch " + std::to_string(branch.id) + ", it has " + time(first) + " to " +
+                         time(branch.end) + " (ticks " + std::to_string(first) + " to " +
+                         std::to_string(branch.end) + ")",
+                     "give a time that it has"};
+    }
+    return run_from(branch, *std::prev(above), model, tick);
+}
+
+Result<SavedRun> Journal::run_from(const Branch& branch, const CheckpointPlace& place, const Model& model,
+                                   Tick until) const {
+    Result<StoredCheckpoint> stored = checkpoint(place, model);
+    if (!stored) return stored.error();
+    Result<LogBatch> entries = log(branch, place.tick, until);
+    if (!entries) return entries.error();
     SavedRun run;
-    run.world_file = meta.get<std::string>("world_file");
-    run.tick = meta.get<std::int64_t>("tick");
-    run.seed = std::bit_cast<std::uint64_t>(meta.get<std::int64_t>("seed"));
-    const auto states_hash = meta.get<std::string>("state_hash"),
-               others_hash = meta.get<std::string>("rest_hash");
-    if (!meta.missing().empty()) return damaged(path, "it has no '" + meta.missing() + "'");
-    Result<std::vector<RobotState>> states = read_states(path, db, model);
-    if (!states) return states.error();
-    run.states = std::move(states).value();
-    Result<Blob> orders = read_rest(path, db, model, run);
-    if (!orders) return orders.error();
-    if (to_hex(state_hash_of(model, run)) != states_hash)
-        return damaged(path, "its states do not have the hash that was saved");
-    if (to_hex(rest_hash(orders.value(), run)) != others_hash)
-        return damaged(path, "its orders or what goes with them do not have the hash that was saved");
+    run.world_file = branch.world_file;
+    run.seed = branch.seed;
+    run.tick = place.tick;
+    run.states = std::move(stored.value().states);
+    run.memory = std::move(stored.value().memory);
+    run.orders = std::move(entries.value().orders);
+    run.logged_until = until;
+    for (const SaidOrder& o : run.orders)
+        if (Result<> checked = check_order(model, o.order); !checked) return damaged(checked.error().message);
+    for (const auto& [client, name] : entries.value().clients) {
+        if (client > 1'000'000) return damaged("a Client has an impossible number");
+        if (run.clients.size() <= client) run.clients.resize(client + 1);
+        run.clients[client] = name;
+        run.answered.try_emplace(name, -1);
+    }
+    for (const SaidWord& word : entries.value().words) {
+        if (word.client.index() >= run.clients.size())
+            return damaged("a Client that never came has a word in it");
+        if (word.observed == kGoneForGood) {
+            run.left.push_back(run.clients[word.client.index()]);
+            continue;
+        }
+        Tick& answered = run.answered[run.clients[word.client.index()]];
+        answered = std::max(answered, word.observed);
+    }
     return run;
+}
+
+Journal::Tail Journal::tail(BranchId branch) const {
+    const auto found = tails_.find(branch);
+    return found == tails_.end() ? Tail{} : found->second;
+}
+
+Result<> Journal::inspect() const {
+    for (const Branch& b : branches_) {
+        Result<std::shared_ptr<const Model>> model = this->model(b);
+        if (!model) return model.error();
+        for (const CheckpointPlace& place : checkpoints_)
+            if (place.branch == b.id)
+                if (Result<StoredCheckpoint> stored = checkpoint(place, *model.value()); !stored)
+                    return stored.error();
+        constexpr Tick kAll = std::numeric_limits<Tick>::max();
+        if (Result<LogBatch> entries = log(b, -kAll, kAll); !entries) return entries.error();
+    }
+    return Ok{};
+}
+
+Result<> check_world(const Journal& journal, const Branch& branch, const Model& model) {
+    if (branch.model_hash == model.hash) return Ok{};
+    return Error{journal.path() + " was written of another world: " + branch.world_file + ", model hash " +
+                     to_hex(branch.model_hash) + "; this one has model hash " + to_hex(model.hash),
+                 "give the world file, the step, the accuracy and the version of RoBOSS (" +
+                     journal.version() + ") that it was written with"};
 }
 
 }  // namespace roboss

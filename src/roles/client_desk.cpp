@@ -33,7 +33,9 @@ ClientId ClientDesk::welcome(const Address& address, const ClientHello& hello, T
         seat->latency = hello.latency;
         seat->synchronous = hello.synchronous;
         seat->joined = true;
-        seat->first = next_multiple(earliest, hello.period);
+        seat->first = next_multiple(std::max(earliest, hello.expected), hello.period);
+        seat->last_word = hello.acknowledged;
+        seat->word_awaited = hello.said;
     }
     return ClientId(static_cast<std::size_t>(seat - seats_.begin()));
 }
@@ -46,6 +48,7 @@ Tick ClientDesk::limit(Tick tick) const {
     Tick limit = std::numeric_limits<Tick>::max();
     for (const ClientSeat& seat : seats_) {
         if (!seat.serves()) continue;
+        if (seat.synchronous && seat.last_word < seat.word_awaited) return tick;
         const Tick next = std::max(next_multiple(tick + 1, seat.period), seat.first);
         if (next > tick) limit = std::min(limit, next);
         if (!seat.synchronous) continue;

@@ -20,10 +20,12 @@ struct ClientSeat {
     bool joined = false, gone = false;
     Tick first = 0;  // tick of its first observation
     std::uint64_t last_word = 0;
+    std::uint64_t word_awaited = 0;     // said to an earlier Controller, and on its way again
     std::vector<RefusedOrder> refused;  // of the last word
     std::deque<Tick> unanswered;        // observations told and not answered, ascending
     std::int64_t told_ms = 0, heard_ms = 0;
-    std::optional<std::int64_t> vanished_ms;  // since when the Bus has not seen it
+    std::optional<std::uint64_t> acknowledge_at;  // once so many log entries are safe; none: nothing to say
+    std::optional<std::int64_t> vanished_ms;      // since when the Bus has not seen it
     bool serves() const { return joined && !gone; }
 };
 

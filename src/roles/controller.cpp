@@ -20,11 +20,17 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
                        StartingPoint start)
     : model_(std::move(model)),
       options_(options),
+      control_(options.before.control),
+      roster_(options.before.seats),
       desk_(options.clients),
       tick_(start.tick),
       target_(start.tick),
+      logged_until_(std::max(start.tick, start.logged_until)),
+      answered_(std::move(start.answered)),
       forecast_(model_),
       length_(options.window, options.window_max) {
+    epoch_ = options_.before.epoch;
+    window_ = options_.before.window;
     const std::size_t n = model_->robots.size();
     ROBOSS_CHECK(start.states.size() == n, "the starting point has not one state a robot");
     const ExactFloatScope exact;
@@ -35,9 +41,9 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
     }
     next_hashes_ = hashes_;
     holder_.assign(n, kAtController);
-    for (const Order& order : start.orders) book_.add(order, OrderBook::kGiven);
+    for (const SaidOrder& o : start.orders) book_.add(o.order, o.said);
     base_.tick = tick_;
-    base_.states = std::move(start.states);
+    base_.states = std::make_shared<std::vector<RobotState>>(std::move(start.states));
     base_.touched.reset(n);
 }
 
@@ -50,6 +56,7 @@ void Controller::advance(Bus& bus) {
     if (round_ && round_->all_answered()) finish_round();
     if (!round_) at_boundary(bus);
     if (round_) round_->send(bus, roster_, options_.resend_ms);
+    acknowledge(bus);
     send_observations(bus, std::exchange(tell_again_, false));
     say_alive(bus);
 }
@@ -76,10 +83,10 @@ void Controller::handle(Bus& bus, Envelope& envelope) {
     } else if (const auto* reply = std::get_if<StateReply>(&envelope.message)) {
         if (next_base_)
             pull_.accept(*model_, *reply, [&](RobotId robot, RobotState&& s) {
-                next_base_->states[robot.index()] = std::move(s);
+                (*next_base_->states)[robot.index()] = std::move(s);
             });
     } else if (const auto* word = std::get_if<ClientWord>(&envelope.message)) {
-        take_word(bus, *word);
+        take_word(bus, from, *word);
     } else if (const auto* hello = std::get_if<Hello>(&envelope.message)) {
         take_hello(bus, from, *hello);
     } else if (const auto* client_hello = std::get_if<ClientHello>(&envelope.message)) {
@@ -87,13 +94,17 @@ void Controller::handle(Bus& bus, Envelope& envelope) {
     } else if (const auto* leave = std::get_if<LeaveRequest>(&envelope.message)) {
         take_leave(bus, from, *leave);
     } else if (const auto* bye = std::get_if<ClientBye>(&envelope.message)) {
-        take_bye(bus, *bye);
+        take_bye(bus, from, *bye);
+    } else if (const auto* asked = std::get_if<ControlRequest>(&envelope.message)) {
+        control_.take(bus, from, *asked);
     } else if (const auto* wanted = std::get_if<ModelRequest>(&envelope.message)) {
         serve_model(bus, from, *wanted);
     }
 }
 
 void Controller::take_hello(Bus& bus, const Address& from, const Hello& hello) {
+    if (is_earlier_model(hello.model_hash))
+        return bus.send(kControllerAddress, from, ModelChanged{model_->hash});
     if (hello.model_hash != model_->hash)
         return bus.send(kControllerAddress, from,
                         Refused{"its world (model hash " + to_hex(hello.model_hash) +
@@ -104,6 +115,32 @@ void Controller::take_hello(Bus& bus, const Address& from, const Hello& hello) {
     if (is_new) notice("simulator " + std::to_string(id.value) + " joined at tick " + std::to_string(tick_));
     counters_.simulators = roster_.alive_count();
     bus.send(kControllerAddress, from, Welcome{id});
+}
+
+bool Controller::is_earlier_model(std::uint64_t hash) const {
+    const auto& models = options_.before.models;
+    return hash != model_->hash && std::find(models.begin(), models.end(), hash) != models.end();
+}
+
+ControllerOptions::Before Controller::hand_over() {
+    ControllerOptions::Before before = options_.before;
+    before.seats = roster_.size();
+    before.epoch = epoch_ + 1;
+    before.window = window_;
+    before.models.push_back(model_->hash);
+    before.control = control_;
+    return before;
+}
+
+void Controller::set_window(Tick ticks) {
+    length_ = WindowLength(ticks, options_.window_max);
+}
+
+bool Controller::send_one_home() {
+    const std::vector<std::uint32_t> workers = roster_.workers();
+    if (workers.size() < 2) return false;
+    roster_.seat(workers.back()).leaving = true;
+    return true;
 }
 
 bool Controller::heard_from(Bus& bus, const Address& from, SimulatorId id) {
@@ -135,7 +172,7 @@ void Controller::serve(Bus& bus, const Address& from, const StateRequest& reques
     StateReply reply;
     reply.states.tick = request.tick;
     for (const RobotId robot : request.robots)
-        if (robot.index() < base_.states.size()) append(reply.states, robot, base_.states[robot.index()]);
+        if (robot.index() < base_.states->size()) append(reply.states, robot, (*base_.states)[robot.index()]);
     bus.send(kControllerAddress, from, std::move(reply));
 }
 
@@ -166,17 +203,19 @@ bool Controller::settled() const {
 }
 
 const std::vector<RobotState>* Controller::states() const {
-    if (base_.tick == tick_) return &base_.states;
-    return next_base_ && next_base_->tick == tick_ && pull_.complete() ? &next_base_->states : nullptr;
+    if (base_.tick == tick_) return base_.states.get();
+    return next_base_ && next_base_->tick == tick_ && pull_.complete() ? next_base_->states.get() : nullptr;
 }
 
 Result<> Controller::submit(const Order& order) {
     if (Result<> checked = check_order(*model_, order); !checked) return checked;
-    if (order.apply_at < plannable())
+    if (order.apply_at < stampable())
         return Error{"an order for tick " + std::to_string(order.apply_at) +
-                         " comes too late, the world is at tick " + std::to_string(plannable()),
+                         " comes too late, the world is at tick " + std::to_string(stampable()),
                      "give a later time"};
-    book_.add(order, OrderBook::kGiven);
+    // given before anything is seen of this tick: a save or a branch at this tick takes it along
+    const Tick said = std::max(tick_, logged_until_) - 1;
+    if (book_.add(order, said) && options_.log != nullptr) options_.log->order(order, said);
     return Ok{};
 }
 

@@ -4,6 +4,7 @@
 // asked for again.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,9 +13,11 @@
 
 #include "bus/bus.h"
 #include "bus/state_pull.h"
+#include "journal/run_log.h"
 #include "plan/forecast.h"
 #include "plan/window_length.h"
 #include "roles/client_desk.h"
+#include "roles/control_desk.h"
 #include "roles/order_book.h"
 #include "roles/roster.h"
 #include "roles/round.h"
@@ -36,13 +39,28 @@ struct ControllerOptions {
     Tick checkpoint_ticks = 0;        // recovery checkpoints at most so far apart; 0: none by ticks
     double checkpoint_work_s =
         0;  // and so much stepping CPU time of the busiest Simulator apart; 0: none by work
+    /// Of the Controller that this one takes over from on the same Bus (after a rewind, say).
+    struct Before {
+        std::size_t seats = 0;  // never given again
+        std::uint32_t epoch = 0;
+        std::uint64_t window = 0;
+        std::vector<std::uint64_t> models;  // hashes of earlier Models of the run
+        bool went_back = false;             // Clients may have seen ticks that are no more
+        ControlDesk control;
+    } before;
+    RunLog* log = nullptr;  // outlives the Controller; none: nothing is kept
+    Tick log_ticks = 0;     // checkpoints for the log at multiples of so many ticks; 0: none
 };
 
-/// Where a run starts: the world's beginning, or a saved run.
+/// Where a run starts: the world's beginning, a saved run, or a journal.
 struct StartingPoint {
     Tick tick = 0;
     std::vector<RobotState> states;  // by RobotId
-    std::vector<Order> orders;       // still to come
+    std::vector<SaidOrder> orders;   // still to come
+    /// Up to here the run goes by `orders`: nothing new is given an earlier tick.
+    Tick logged_until = 0;
+    /// By ClientId: words for observations up to this one are in `orders` already and are not taken again.
+    std::vector<Tick> answered;
 };
 StartingPoint beginning_of(const Model& model);
 
@@ -71,8 +89,8 @@ struct WantedTick {
 
 struct RecoveryCheckpoint {
     Tick tick = 0;
-    std::vector<RobotState> states;  // by RobotId
-    UnionFind touched;               // robots that may have interacted since
+    std::shared_ptr<std::vector<RobotState>> states;  // by RobotId; never changed once it is complete
+    UnionFind touched;                                // robots that may have interacted since
 };
 
 class Controller {
@@ -112,7 +130,32 @@ class Controller {
     /// An order with a given tick, `apply_at` >= tick().
     Result<> submit(const Order& order);
     /// Orders that a run saved at tick() takes along.
-    std::vector<Order> pending_orders() { return book_.pending(tick_); }
+    std::vector<SaidOrder> pending_orders() { return book_.pending(tick_); }
+    /// Names of all Clients so far, by ClientId.
+    std::vector<std::string> client_names() const;
+    /// Of these, those that are here.
+    std::vector<std::string> clients_serving() const;
+
+    /// A checkpoint for the log is being fetched: its tick. What Clients of this process remember there has
+    /// to be noted meanwhile.
+    std::optional<Tick> log_tick() const { return log_tick_; }
+    /// It is complete: taken once. What is missing in it is the Clients' memory.
+    std::optional<RunCheckpoint> take_log_checkpoint();
+    /// The next commit waits for the log.
+    bool waits_for_log() const;
+    std::uint64_t log_needed() const { return log_needed_; }
+    /// From now on all goes to this log, first what is still to come. Only while nothing is under way. None:
+    /// nothing is logged any more.
+    void start_log(RunLog* log, Tick log_ticks);
+
+    /// What a Controller that takes over has to know.
+    ControllerOptions::Before hand_over();
+    /// Requests to the run: pause, rewind ...
+    ControlDesk& control() { return control_; }
+    /// Of the windows to come; 0: adaptive.
+    void set_window(Tick ticks);
+    /// Lets the Simulator with the highest number go, in good order. False: there is none but one.
+    bool send_one_home();
 
     const Counters& counters() const { return counters_; }
     /// What happened since the last call: losses, refusals, joins. One line each.
@@ -128,15 +171,16 @@ class Controller {
     void take_leave(Bus& bus, const Address& from, const LeaveRequest& request);
     bool heard_from(Bus& bus, const Address& from, SimulatorId id);
     void serve(Bus& bus, const Address& from, const StateRequest& request) const;
+    bool is_earlier_model(std::uint64_t hash) const;
     void serve_model(Bus& bus, const Address& from, const ModelRequest& request);
     void fail(Error error);
     void notice(std::string text) { notices_.push_back(std::move(text)); }
 
     // controller_clients.cpp
     void take_client_hello(Bus& bus, const Address& from, const ClientHello& hello);
-    void take_word(Bus& bus, const ClientWord& word);
+    void take_word(Bus& bus, const Address& from, const ClientWord& word);
     void take_orders(ClientSeat& seat, const ClientWord& word);
-    void take_bye(Bus& bus, const ClientBye& bye);
+    void take_bye(Bus& bus, const Address& from, const ClientBye& bye);
     void tell_observers();
     void tell_observer(ClientId id, Tick tick);
     void forget(ClientId id, Tick tick);
@@ -145,7 +189,11 @@ class Controller {
     bool stays_away(const ClientSeat& seat, std::int64_t now_ms) const;
     void send_observations(Bus& bus, bool again_now);
     WantedTick& want_at_this_tick();
+    void acknowledge(Bus& bus);
     Tick plannable() const { return round_ && !round_->span().recovery ? round_->span().until : tick_; }
+    /// The first tick that a new order may be given.
+    Tick stampable() const { return std::max(plannable(), logged_until_); }
+    bool is_in_log(const ClientSeat& seat, const ClientWord& word) const;
 
     // controller_window.cpp
     void at_boundary(Bus& bus);
@@ -167,6 +215,12 @@ class Controller {
     void begin_checkpoint();
     void finish_checkpoint();
     bool checkpoint_due() const;
+
+    // controller_log.cpp
+    void begin_log_checkpoint();
+    Tick next_log_tick() const;
+    void log_window(Tick until);
+    void log_commit();
     bool let_leavers_go(Bus& bus);
     bool anything_lost() const;
     void begin_recovery();
@@ -179,11 +233,18 @@ class Controller {
     std::vector<std::uint8_t> model_bytes_;  // encoded for the first who asks
     std::uint64_t model_bytes_hash_ = 0;
     ControllerOptions options_;
+    ControlDesk control_;
     Roster roster_;
     ClientDesk desk_;
     OrderBook book_;
 
     Tick tick_ = 0, target_ = 0;
+    Tick logged_until_ = 0;
+    std::vector<Tick> answered_;    // by ClientId, in the log that this run started from
+    std::uint64_t log_needed_ = 0;  // entries that must be safe before the round is committed
+    std::optional<Tick> log_tick_;  // of the checkpoint for the log that is under way
+    Tick log_tried_ = -1;           // tick of the last one, whatever came of it
+    std::optional<RunCheckpoint> log_checkpoint_;
     bool started_ = false;
     std::vector<std::uint64_t> hashes_, next_hashes_;  // by RobotId: committed; of the round
     std::vector<std::uint32_t> holder_;                // by RobotId: place of its state at tick_

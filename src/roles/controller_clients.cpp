@@ -7,39 +7,67 @@
 namespace roboss {
 
 void Controller::take_client_hello(Bus& bus, const Address& from, const ClientHello& hello) {
+    if (is_earlier_model(hello.model_hash))
+        return bus.send(kControllerAddress, from, ModelChanged{model_->hash});
     if (hello.model_hash != model_->hash)
         return bus.send(kControllerAddress, from, Refused{"its world is not this run's"});
     bool is_new = false;
-    const ClientId id = desk_.welcome(from, hello, plannable(), is_new);
+    const bool goes_on = plannable() < logged_until_;  // by a log, in which its words so far are
+    ClientHello new_hello = hello;
+    if (options_.before.went_back) {  // what it said was for a time that is no more
+        new_hello.expected = -1;
+        new_hello.acknowledged = new_hello.said;
+    }
+    const ClientId id = desk_.welcome(from, new_hello, goes_on ? tick_ : plannable(), is_new);
     ClientSeat& seat = desk_.seats()[id.index()];
     seat.vanished_ms.reset();
     bus.send(kControllerAddress, from, ClientWelcome{id, seat.first, options_.seed});
     if (!is_new) return;
     notice("client '" + seat.name + "' joined at tick " + std::to_string(tick_));
+    if (options_.log != nullptr) options_.log->joined(id, seat.name);
     const bool at_rest = !round_ || round_->span().recovery;
     if (at_rest && ClientDesk::observes(seat, tick_)) tell_observer(id, tick_);
 }
 
-void Controller::take_word(Bus& bus, const ClientWord& word) {
+void Controller::take_word(Bus& bus, const Address& from, const ClientWord& word) {
     ClientSeat* seat = desk_.find(word.client);
-    if (seat == nullptr || !seat->serves()) return;
+    // A seat of an earlier Controller's run: who held it is to join afresh.
+    if (seat == nullptr || !seat->joined || seat->address != from)
+        return bus.send(kControllerAddress, from, ClientUnknown{word.client});
+    if (!seat->serves()) return;
     seat->heard_ms = bus.now_ms();
     seat->vanished_ms.reset();
     if (word.word == seat->last_word + 1) {
         seat->last_word = word.word;
-        take_orders(*seat, word);
+        if (!is_in_log(*seat, word)) take_orders(*seat, word);
         std::erase_if(seat->unanswered, [&](Tick tick) { return tick == word.observed; });
         forget(word.client, word.observed);
     }
-    const bool is_last = word.word == seat->last_word;
-    bus.send(kControllerAddress, seat->address,
-             WordAck{word.client, seat->last_word, is_last ? seat->refused : std::vector<RefusedOrder>{}});
+    // What is acknowledged is never lost: with a log, it is there first.
+    seat->acknowledge_at = options_.log != nullptr ? options_.log->given() : 0;
+}
+
+void Controller::acknowledge(Bus& bus) {
+    for (std::size_t i = 0; i < desk_.seats().size(); ++i) {
+        ClientSeat& seat = desk_.seats()[i];
+        if (!seat.acknowledge_at) continue;
+        if (options_.log != nullptr && !options_.log->safe(*seat.acknowledge_at)) continue;
+        seat.acknowledge_at.reset();
+        bus.send(kControllerAddress, seat.address, WordAck{ClientId(i), seat.last_word, seat.refused});
+    }
+}
+
+/// A run that goes on from a log asks Clients again what they have answered there.
+bool Controller::is_in_log(const ClientSeat& seat, const ClientWord& word) const {
+    const auto i = static_cast<std::size_t>(&seat - desk_.seats().data());
+    const Tick answered = i < answered_.size() ? answered_[i] : logged_until_ - 1;
+    return word.observed <= answered || (!seat.synchronous && word.observed < logged_until_);
 }
 
 void Controller::take_orders(ClientSeat& seat, const ClientWord& word) {
     seat.refused.clear();
     const Tick apply_at =
-        seat.synchronous ? std::max(word.observed + seat.latency, plannable()) : plannable();
+        seat.synchronous ? std::max(word.observed + seat.latency, stampable()) : stampable();
     for (const ClientOrder& given : word.orders) {
         const Order order{apply_at, word.client, given.sequence, given.robot, given.action};
         if (Result<> checked = check_order(*model_, order); !checked) {
@@ -50,12 +78,16 @@ void Controller::take_orders(ClientSeat& seat, const ClientWord& word) {
             continue;
         }
         book_.add(order, word.observed);
+        if (options_.log != nullptr) options_.log->order(order, word.observed);
     }
+    if (options_.log != nullptr) options_.log->word(word.client, word.observed);
 }
 
-void Controller::take_bye(Bus& bus, const ClientBye& bye) {
+void Controller::take_bye(Bus& bus, const Address& from, const ClientBye& bye) {
     ClientSeat* seat = desk_.find(bye.client);
-    if (seat == nullptr || !seat->joined || bye.word > seat->last_word + 1) return;
+    if (seat == nullptr || !seat->joined || seat->address != from)
+        return bus.send(kControllerAddress, from, ClientUnknown{bye.client});
+    if (bye.word > seat->last_word + 1) return;
     bus.send(kControllerAddress, seat->address, WordAck{bye.client, bye.word, {}});
     if (seat->gone || bye.word <= seat->last_word) return;
     seat->last_word = bye.word;
@@ -70,6 +102,7 @@ void Controller::take_bye(Bus& bus, const ClientBye& bye) {
 void Controller::drop_client(ClientId id) {
     ClientSeat& seat = desk_.seats()[id.index()];
     seat.gone = true;
+    if (options_.log != nullptr) options_.log->word(id, kGoneForGood);
     for (const Tick tick : std::exchange(seat.unanswered, {})) forget(id, tick);
 }
 

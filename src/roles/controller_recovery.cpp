@@ -38,7 +38,7 @@ void Controller::begin_checkpoint() {
     if (base_.tick == tick_ || anything_lost()) return;
     next_base_.emplace();
     next_base_->tick = tick_;
-    next_base_->states.resize(model_->robots.size());
+    next_base_->states = std::make_shared<std::vector<RobotState>>(model_->robots.size());
     next_base_->touched.reset(model_->robots.size());
     want_at_this_tick().checkpoint = true;
     pull_.begin(*model_, tick_, holdings_of(holder_, roster_));
@@ -56,6 +56,7 @@ void Controller::finish_checkpoint() {
     pull_.cancel();
     book_.trim(base_.tick);
     ++counters_.checkpoints;
+    if (log_tick_ == base_.tick) log_checkpoint_ = RunCheckpoint{base_.tick, base_.states, {}};
 }
 
 /// Nothing is planned while somebody leaves, so the checkpoint taken for it has everything it held.
@@ -114,6 +115,7 @@ void Controller::give_up(std::uint32_t place, const std::string& why) {
     round_.reset();
     if (next_base_ && !pull_.complete()) {
         pull_.cancel();
+        if (log_tick_ == next_base_->tick) log_tick_.reset();
         next_base_.reset();
         for (WantedTick& want : wants_) want.checkpoint = false;
         std::erase_if(wants_, [](const WantedTick& want) { return !want.open(); });

@@ -56,6 +56,7 @@ void Controller::at_boundary(Bus& bus) {
     }
     if (anything_lost()) return begin_recovery();
     if (let_leavers_go(bus)) return;
+    begin_log_checkpoint();
     if (states_wanted_ || checkpoint_due()) begin_checkpoint();
     if (may_plan()) plan_window();
 }
@@ -65,7 +66,7 @@ bool Controller::may_plan() const {
 }
 
 void Controller::plan_window() {
-    const Tick until = std::min({tick_ + length_.ticks(), target_, desk_.limit(tick_)});
+    const Tick until = std::min({tick_ + length_.ticks(), target_, desk_.limit(tick_), next_log_tick()});
     round_.emplace(RoundSpan{epoch_, ++window_, tick_, until, false}, book_.between(tick_, until),
                    model_->robots.size());
     forecast_.islands(motions_, round_->orders(), until - tick_, options_.forecast, round_->islands);
@@ -74,6 +75,7 @@ void Controller::plan_window() {
     for (std::size_t r = 0; r < holder_.size(); ++r)
         if (holder_[r] != kAtController && holder_[r] != round_->seat_of(RobotId(r))) ++counters_.migrations;
     keep_wanted(*round_);
+    log_window(until);
 }
 
 void Controller::keep_wanted(Round& round) const {
@@ -108,6 +110,7 @@ void Controller::take_frame(const Frame& frame) {
 }
 
 void Controller::finish_round() {
+    if (waits_for_log()) return options_.log->hurry();
     counters_.critical_cpu_s += 1e-9 * static_cast<double>(std::exchange(busiest_ns_, 0));
     if (round_->span().recovery) return finish_leg();
     if (merge_touching()) return;
@@ -196,6 +199,7 @@ void Controller::commit() {
     tick_ = round.span().until;
     islands_ = std::move(round_->islands);
     round_.reset();
+    log_commit();
     tell_observers();
 }
 

@@ -5,17 +5,17 @@
 
 namespace roboss {
 
-bool OrderBook::add(const Order& order, Tick observed) {
-    // only given orders can come twice (from a file and from a saved run); words of Clients are numbered
-    if (observed == kGiven && !given_.insert({order.apply_at, order.client, order.sequence}).second)
+bool OrderBook::add(const Order& order, Tick said) {
+    // those from a file come from a saved run too; words of Clients are numbered
+    if (!order.client.valid() && !given_.insert({order.apply_at, order.client, order.sequence}).second)
         return false;
-    fresh_.push_back({order, observed});
+    fresh_.push_back({order, said});
     return true;
 }
 
 void OrderBook::settle() {
     if (fresh_.empty()) return;
-    const auto before = [](const Entry& a, const Entry& b) { return comes_before(a.order, b.order); };
+    const auto before = [](const SaidOrder& a, const SaidOrder& b) { return comes_before(a.order, b.order); };
     std::sort(fresh_.begin(), fresh_.end(), before);
     const auto middle = static_cast<std::ptrdiff_t>(entries_.size());
     entries_.insert(entries_.end(), fresh_.begin(), fresh_.end());
@@ -25,7 +25,7 @@ void OrderBook::settle() {
 
 std::vector<Order> OrderBook::between(Tick from, Tick until) {
     settle();
-    const auto earlier = [](const Entry& e, Tick tick) { return e.order.apply_at < tick; };
+    const auto earlier = [](const SaidOrder& e, Tick tick) { return e.order.apply_at < tick; };
     const auto first = std::lower_bound(entries_.begin(), entries_.end(), from, earlier);
     const auto last = std::lower_bound(first, entries_.end(), until, earlier);
     std::vector<Order> orders;
@@ -34,17 +34,17 @@ std::vector<Order> OrderBook::between(Tick from, Tick until) {
     return orders;
 }
 
-std::vector<Order> OrderBook::pending(Tick tick) {
+std::vector<SaidOrder> OrderBook::pending(Tick tick) {
     settle();
-    std::vector<Order> orders;
-    for (const Entry& e : entries_)
-        if (e.order.apply_at >= tick && e.observed < tick) orders.push_back(e.order);
+    std::vector<SaidOrder> orders;
+    for (const SaidOrder& e : entries_)
+        if (e.order.apply_at >= tick && e.said < tick) orders.push_back(e);
     return orders;
 }
 
 void OrderBook::trim(Tick tick) {
     settle();
-    const auto earlier = [](const Entry& e, Tick t) { return e.order.apply_at < t; };
+    const auto earlier = [](const SaidOrder& e, Tick t) { return e.order.apply_at < t; };
     entries_.erase(entries_.begin(), std::lower_bound(entries_.begin(), entries_.end(), tick, earlier));
     given_.erase(given_.begin(), given_.lower_bound({tick, ClientId(0u), 0}));
 }

@@ -6,35 +6,30 @@
 #include <tuple>
 #include <vector>
 
-#include "model/order.h"
+#include "journal/log_entries.h"
 
 namespace roboss {
 
 class OrderBook {
   public:
-    static constexpr Tick kGiven = -1;  // not the answer to an observation (a file's order, say)
-
-    /// Takes an order that was checked and stamped. `observed`: the tick it answers, or kGiven. False: an
-    /// order with this (apply_at, client, sequence) is here already, and nothing changes.
-    bool add(const Order& order, Tick observed);
+    /// Takes an order that was checked and stamped. `said`: the tick it answers, or at which it was given. An
+    /// order without Client (from a file, say) may come twice. False: one with this (apply_at, client,
+    /// sequence) is here already, and nothing changes.
+    bool add(const Order& order, Tick said);
     /// Those with from <= apply_at < until, canonical order.
     std::vector<Order> between(Tick from, Tick until);
     /// What a run saved at `tick` must take along: orders still to come that do not answer an observation of
     /// `tick` or later (the restored run observes those ticks itself).
-    std::vector<Order> pending(Tick tick);
+    std::vector<SaidOrder> pending(Tick tick);
     /// Forgets orders with apply_at < tick.
     void trim(Tick tick);
     std::size_t size() const { return entries_.size() + fresh_.size(); }
 
   private:
-    struct Entry {
-        Order order;
-        Tick observed = kGiven;
-    };
     void settle();
 
-    std::vector<Entry> entries_;  // canonical order
-    std::vector<Entry> fresh_;    // not sorted in yet
+    std::vector<SaidOrder> entries_;  // canonical order
+    std::vector<SaidOrder> fresh_;    // not sorted in yet
     std::set<std::tuple<Tick, ClientId, std::uint64_t>> given_;
 };
 

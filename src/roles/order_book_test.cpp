@@ -29,9 +29,9 @@ TEST(OrderBook, SortsByTickThenClientThenSequence) {
 
 TEST(OrderBook, TakesAGivenOrderOnce) {
     OrderBook book;
-    EXPECT_TRUE(book.add(order(5, 1, 1), OrderBook::kGiven));
-    EXPECT_FALSE(book.add(order(5, 1, 1), OrderBook::kGiven));
-    EXPECT_TRUE(book.add(order(6, 1, 1), OrderBook::kGiven));
+    EXPECT_TRUE(book.add(order(5, ClientId().value, 1), -1));
+    EXPECT_FALSE(book.add(order(5, ClientId().value, 1), -1));
+    EXPECT_TRUE(book.add(order(6, ClientId().value, 1), -1));
     EXPECT_EQ(book.size(), 2u);
 }
 
@@ -40,11 +40,11 @@ TEST(OrderBook, SavesWhatTheRestoredRunWillNotOrderAgain) {
     book.add(order(30, 0, 1), 10);                 // ordered on seeing tick 10: goes along
     book.add(order(40, 0, 2), 20);                 // on seeing tick 20: a run restored at 20 sees that itself
     book.add(order(19, 0, 3), 5);                  // past
-    book.add(order(50, 1, 1), OrderBook::kGiven);  // from a file: goes along
-    const std::vector<Order> pending = book.pending(20);
+    book.add(order(50, ClientId().value, 1), -1);  // from a file: goes along
+    const std::vector<SaidOrder> pending = book.pending(20);
     ASSERT_EQ(pending.size(), 2u);
-    EXPECT_EQ(pending[0].apply_at, 30);
-    EXPECT_EQ(pending[1].apply_at, 50);
+    EXPECT_EQ(pending[0].order.apply_at, 30);
+    EXPECT_EQ(pending[1].order.apply_at, 50);
     book.trim(35);
     EXPECT_EQ(book.size(), 2u);
 }

@@ -26,6 +26,10 @@ struct SimulatorSeat {
 
 class Roster {
   public:
+    /// `taken`: seats that were given before; these are lost ones.
+    explicit Roster(std::size_t taken = 0) : seats_(taken) {
+        for (SimulatorSeat& seat : seats_) seat.alive = false;
+    }
     /// The seat of the living Simulator at this address; a new one if there is none. Invalid if it has left
     /// in good order: then the hello is a late copy.
     SimulatorId seat_for(const Address& address, std::uint32_t threads, std::int64_t now_ms, bool& is_new);

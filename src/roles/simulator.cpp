@@ -74,7 +74,11 @@ void Simulator::handle(Bus& bus, Envelope& envelope) {
     } else if (const auto* expelled = std::get_if<Expelled>(&envelope.message)) {
         if (expelled->simulator == id_) start_over();
     } else if (const auto* goodbye = std::get_if<Goodbye>(&envelope.message)) {
-        gone_ = gone_ || (goodbye->simulator == id_ && leaving_);
+        if (goodbye->simulator != id_) return;
+        gone_ = true;
+        sent_home_ = !leaving_;
+    } else if (std::holds_alternative<ModelChanged>(envelope.message)) {
+        if (!id_.valid()) gone_ = outdated_ = true;
     } else if (const auto* refused = std::get_if<Refused>(&envelope.message)) {
         refusal_ = refused->reason;
         gone_ = true;

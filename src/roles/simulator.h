@@ -38,6 +38,10 @@ class Simulator {
     bool idle() const { return !plan_.has_value(); }
     /// Why the Controller does not want it (another Model, say); empty: nothing of the kind.
     const std::string& refusal() const { return refusal_; }
+    /// The run has another Model than this one.
+    bool outdated() const { return outdated_; }
+    /// Sent home by the Controller.
+    bool sent_home() const { return sent_home_; }
     /// Why the run is over; empty: it is not.
     const std::string& over() const { return over_; }
 
@@ -56,7 +60,7 @@ class Simulator {
 
     SimulatorId id_;
     std::string refusal_, over_;
-    bool leaving_ = false, gone_ = false;
+    bool leaving_ = false, gone_ = false, outdated_ = false, sent_home_ = false;
     std::int64_t asked_ms_ = kLongAgo, alive_ms_ = kLongAgo;
 
     StateStore store_;

@@ -19,9 +19,16 @@ ControllerOptions controller_options(const SimulationOptions& options,
     return result;
 }
 
-StartingPoint starting_point(const Model& model, const SavedRun* from) {
+StartingPoint starting_point(const Model& model, const SavedRun* from,
+                             const std::vector<std::string>& clients) {
     if (from == nullptr) return beginning_of(model);
-    return {from->tick, from->states, from->orders};
+    StartingPoint start{from->tick, from->states, from->orders, from->logged_until, {}};
+    if (from->logged_until <= from->tick) return start;
+    for (const std::string& name : clients) {
+        const auto known = from->answered.find(name);
+        start.answered.push_back(known != from->answered.end() ? known->second : from->logged_until - 1);
+    }
+    return start;
 }
 
 }  // namespace
@@ -53,35 +60,89 @@ Simulation::Simulation(std::shared_ptr<const Model> model, const SimulationOptio
       seed_(options.controller.seed),
       bus_(bus ? std::move(bus) : std::make_unique<InProcessBus>()),
       pool_(options.threads),
-      controller_(model_, controller_options(options, programs), starting_point(*model_, from)),
-      probe_(*model_) {
-    std::uint64_t instance = 0;
+      lanes_(options.lanes),
+      controller_(model_, controller_options(options, programs),
+                  starting_point(*model_, from, controller_options(options, programs).clients)),
+      probe_(*model_),
+      log_(options.controller.log) {
+    instance_ = 1000 * static_cast<std::uint64_t>(options.controller.before.epoch);  // never twice on a Bus
     for (NamedProgram& program : programs) {
-        hosts_.push_back(std::make_unique<ProgramHost>(model_, Address{Role::kClient, ++instance},
+        hosts_.push_back(std::make_unique<ProgramHost>(model_, Address{Role::kClient, ++instance_},
                                                        program.name, std::move(program.program)));
         if (from == nullptr) continue;
         const auto memory = from->memory.find(program.name);
         if (memory != from->memory.end()) hosts_.back()->restore(memory->second);
     }
+    for (std::size_t i = 0; i < options.simulators; ++i) add_simulator();
+}
+
+void Simulation::add_simulator() {
     SimulatorOptions role;
-    role.lanes = options.lanes;
-    for (std::size_t i = 0; i < options.simulators; ++i)
-        simulators_.push_back(
-            std::make_unique<Simulator>(model_, Address{Role::kSimulator, ++instance}, role, pool_));
+    role.lanes = lanes_;
+    simulators_.push_back(
+        std::make_unique<Simulator>(model_, Address{Role::kSimulator, ++instance_}, role, pool_));
+}
+
+bool Simulation::remove_simulator() {
+    return controller_.send_one_home();
+}
+
+std::vector<std::string> Simulation::clients_elsewhere() const {
+    std::vector<std::string> names = controller_.clients_serving();
+    for (const auto& host : hosts_) std::erase(names, host->name());
+    return names;
+}
+
+void Simulation::serve() {
+    turn();
+    wait();
 }
 
 void Simulation::turn() {
     controller_.advance(*bus_);
+    serve_log();
     for (auto& host : hosts_) host->advance(*bus_);
+    serve_log();
     for (auto& simulator : simulators_) simulator->advance(*bus_);
+    std::erase_if(simulators_, [](const auto& simulator) { return simulator->gone(); });
+}
+
+/// Puts what control programs remember at its tick into a checkpoint for the log.
+void Simulation::serve_log() {
+    if (log_ == nullptr) return;
+    if (controller_.log_tick() && controller_.log_tick() != noting_) {
+        noting_ = controller_.log_tick();
+        noted_.clear();
+    }
+    if (!noting_) return;
+    bool complete = true;
+    for (const auto& host : hosts_) {
+        if (noted_.contains(host->name())) continue;
+        std::optional<std::string> memory = host->settled_memory(*noting_);
+        complete = complete && memory.has_value();
+        if (memory) noted_[host->name()] = std::move(*memory);
+    }
+    if (auto checkpoint = controller_.take_log_checkpoint()) log_checkpoint_ = std::move(checkpoint);
+    if (!complete || !log_checkpoint_ || log_checkpoint_->tick != *noting_) return;
+    std::erase_if(noted_, [](const auto& memory) { return memory.second.empty(); });
+    log_checkpoint_->memory = std::move(noted_);
+    log_->checkpoint(std::move(*log_checkpoint_));
+    log_checkpoint_.reset();
+    noting_.reset();
+    noted_.clear();
+}
+
+void Simulation::wait() {
+    constexpr std::int64_t kLongestWait_ms = 10;  // roles send again and notice losses by the clock
+    if (controller_.waits_for_log()) return log_->wait_safe(controller_.log_needed(), kLongestWait_ms);
+    bus_->wait(kLongestWait_ms);
 }
 
 template <class Done>
 void Simulation::turn_until(Done&& done) {
-    constexpr std::int64_t kLongestWait_ms = 10;  // roles send again and notice losses by the clock
     while (!done()) {
         turn();
-        if (!done()) bus_->wait(kLongestWait_ms);
+        if (!done()) wait();
     }
 }
 
@@ -118,13 +179,26 @@ SavedRun Simulation::saved_run() {
     SavedRun run;
     run.world_file = world_file_;
     run.seed = seed_;
-    run.tick = tick();
+    run.tick = run.logged_until = tick();
     run.states = states();
     run.orders = controller_.pending_orders();
+    run.clients = controller_.client_names();
     for (const auto& host : hosts_)
         if (std::string memory = host->memory_at(run.tick); !memory.empty())
             run.memory[host->name()] = std::move(memory);
     return run;
+}
+
+void Simulation::start_log(RunLog* log, Tick log_ticks) {
+    log_ = log;
+    log_checkpoint_.reset();
+    noting_.reset();
+    if (log == nullptr) return controller_.start_log(nullptr, 0);
+    SavedRun here = saved_run();
+    controller_.start_log(log, log_ticks);
+    log->committed(here.tick, controller_.hash());
+    log->checkpoint({here.tick, std::make_shared<const std::vector<RobotState>>(std::move(here.states)),
+                     std::move(here.memory)});
 }
 
 std::vector<std::string> Simulation::take_notices() {

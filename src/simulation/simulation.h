@@ -12,7 +12,8 @@
 #include "bus/bus.h"
 #include "client/program_host.h"
 #include "core/thread_pool.h"
-#include "journal/journal.h"
+#include "journal/run_log.h"
+#include "journal/saved_run.h"
 #include "physics/probe.h"
 #include "roles/controller.h"
 #include "roles/simulator.h"
@@ -55,6 +56,7 @@ class Simulation {
     Tick tick() const { return controller_.tick(); }
     double time_s() const { return static_cast<double>(tick()) * model_->dt_s; }
     const Model& model() const { return *model_; }
+    std::uint64_t seed() const { return seed_; }
     std::uint64_t hash() const { return controller_.hash(); }
     /// All states at tick(), by RobotId. Valid until the next run_until().
     const std::vector<RobotState>& states();
@@ -65,6 +67,19 @@ class Simulation {
     /// Everything needed to go on exactly.
     SavedRun saved_run();
     Result<> save(const std::string& path) { return save_run(path, *model_, saved_run()); }
+    /// From now on the run is logged, with checkpoints at multiples of log_ticks. A log that has nothing yet
+    /// of this branch begins with a checkpoint here.
+    void start_log(RunLog* log, Tick log_ticks);
+
+    /// Names of the Clients that take part from other processes.
+    std::vector<std::string> clients_elsewhere() const;
+    /// One turn for everybody while the world rests: members come and go, requests are heard.
+    void serve();
+    /// Another Simulator in this process, or one less, in good order; false: there is only one left.
+    void add_simulator();
+    bool remove_simulator();
+    /// The end of this one; the next one goes on with the Bus. (Nothing of it may be used after that.)
+    std::unique_ptr<Bus> release_bus() { return std::move(bus_); }
 
     const Counters& counters() const { return controller_.counters(); }
     /// What happened since the last call, one line each: for the log.
@@ -79,6 +94,8 @@ class Simulation {
     /// Gives everybody turns until done().
     template <class Done>
     void turn_until(Done&& done);
+    void wait();
+    void serve_log();
     StepProbe& probe();
 
     std::shared_ptr<const Model> model_;
@@ -86,10 +103,17 @@ class Simulation {
     std::uint64_t seed_;
     std::unique_ptr<Bus> bus_;
     ThreadPool pool_;
+    std::size_t lanes_;           // robots of a type stepped at once
+    std::uint64_t instance_ = 0;  // of the last role made here
     Controller controller_;
     std::vector<std::unique_ptr<ProgramHost>> hosts_;
     std::vector<std::unique_ptr<Simulator>> simulators_;
     StepProbe probe_;
+
+    RunLog* log_ = nullptr;
+    std::optional<RunCheckpoint> log_checkpoint_;  // complete but for its memory
+    std::optional<Tick> noting_;                   // what control programs remember at this tick
+    ClientMemory noted_;
 };
 
 }  // namespace roboss

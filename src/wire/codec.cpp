@@ -65,7 +65,7 @@ template <class A> void field(A& a, Of<A, Frame>& m) {
 template <class A> void field(A& a, Of<A, StateRequest>& m) { fields(a, m.tick, m.robots); }
 template <class A> void field(A& a, Of<A, StateReply>& m) { fields(a, m.states); }
 template <class A> void field(A& a, Of<A, ClientHello>& m) {
-    fields(a, m.name, m.model_hash, m.period, m.latency, m.synchronous);
+    fields(a, m.name, m.model_hash, m.period, m.latency, m.synchronous, m.expected, m.acknowledged, m.said);
 }
 template <class A> void field(A& a, Of<A, ClientWelcome>& m) { fields(a, m.client, m.first, m.seed); }
 template <class A> void field(A& a, Of<A, Observation>& m) { fields(a, m.tick, m.last_word, m.holders); }
@@ -75,6 +75,10 @@ template <class A> void field(A& a, Of<A, RefusedOrder>& m) { fields(a, m.sequen
 template <class A> void field(A& a, Of<A, WordAck>& m) { fields(a, m.client, m.word, m.refused); }
 template <class A> void field(A& a, Of<A, ClientBye>& m) { fields(a, m.client, m.word, m.failed, m.reason); }
 template <class A> void field(A& a, Of<A, RunOver>& m) { fields(a, m.reason); }
+template <class A> void field(A& a, Of<A, ClientUnknown>& m) { fields(a, m.client); }
+template <class A> void field(A& a, Of<A, ControlRequest>& m) { fields(a, m.number, m.words); }
+template <class A> void field(A& a, Of<A, ControlReply>& m) { fields(a, m.number, m.done, m.text); }
+template <class A> void field(A& a, Of<A, ModelChanged>& m) { fields(a, m.model_hash); }
 template <class A> void field(A& a, Of<A, ModelRequest>& m) { fields(a, m.offset); }
 template <class A> void field(A& a, Of<A, ModelPart>& m) { fields(a, m.bytes_hash, m.total, m.offset, m.bytes); }
 // clang-format on
@@ -153,7 +157,8 @@ const char* broken_rule(const StateReply& reply) {
 
 const char* broken_rule(const ClientHello& hello) {
     constexpr Tick kLongest = Tick{1} << 50;
-    return hello.period < 1 || hello.period > kLongest || hello.latency < 0 || hello.latency > kLongest
+    return hello.period < 1 || hello.period > kLongest || hello.latency < 0 || hello.latency > kLongest ||
+                   hello.expected > kLongest || hello.said < hello.acknowledged
                ? "its period or latency is out of range"
                : nullptr;
 }
@@ -177,9 +182,10 @@ const char* role_rule(const Envelope& e) {
 
 const char* message_name(const Message& message) {
     static constexpr const char* kNames[] = {
-        "Hello",      "Welcome", "Refused",      "Expelled",   "Alive",        "LeaveRequest",  "Goodbye",
-        "Plan",       "Frame",   "StateRequest", "StateReply", "ClientHello",  "ClientWelcome", "Observation",
-        "ClientWord", "WordAck", "ClientBye",    "RunOver",    "ModelRequest", "ModelPart"};
+        "Hello",         "Welcome",     "Refused",       "Expelled",       "Alive",        "LeaveRequest",
+        "Goodbye",       "Plan",        "Frame",         "StateRequest",   "StateReply",   "ClientHello",
+        "ClientWelcome", "Observation", "ClientWord",    "WordAck",        "ClientBye",    "RunOver",
+        "ModelRequest",  "ModelPart",   "ClientUnknown", "ControlRequest", "ControlReply", "ModelChanged"};
     static_assert(std::size(kNames) == std::variant_size_v<Message>);
     return kNames[message.index()];
 }

@@ -52,7 +52,7 @@ std::vector<Message> one_of_each() {
             frame,
             StateRequest{12, {kRobot, kOther}},
             reply,
-            ClientHello{"driver", 5, 20, 20, true},
+            ClientHello{"driver", 5, 20, 20, true, 40, 3, 5},
             ClientWelcome{ClientId(0u), 40, 99},
             Observation{40, 3, {{{Role::kController, 0}, {kRobot}}}},
             ClientWord{ClientId(0u), 4, 40, orders},
@@ -60,7 +60,11 @@ std::vector<Message> one_of_each() {
             ClientBye{ClientId(0u), 5, true, "it threw"},
             RunOver{"the run has ended"},
             ModelRequest{7},
-            ModelPart{1, 100, 7, {1, 2, 3}}};
+            ModelPart{1, 100, 7, {1, 2, 3}},
+            ClientUnknown{ClientId(2u)},
+            ControlRequest{3, {"step", "10"}},
+            ControlReply{3, true, "at tick 10"},
+            ModelChanged{99}};
 }
 
 Envelope envelope_of(Message message) {

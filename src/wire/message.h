@@ -163,6 +163,10 @@ struct ClientHello {
     Tick period = 1;   // ticks between observations
     Tick latency = 1;  // ticks from an observation to the effect of its orders
     bool synchronous = true;
+    // Of a Client that was here before and meets a Controller that does not know it:
+    Tick expected = -1;              // its next observation; negative: it is new
+    std::uint64_t acknowledged = 0;  // its last word that a Controller has acknowledged
+    std::uint64_t said = 0;          // its last word; those between are on their way
 };
 struct ClientWelcome {
     ClientId client;
@@ -189,6 +193,9 @@ struct ClientWord {
     Tick observed = 0;
     std::vector<ClientOrder> orders;
 };
+struct ClientUnknown {  // Controller -> Client whose seat it does not have: it may say ClientHello again
+    ClientId client;
+};
 struct RefusedOrder {
     std::uint64_t sequence = 0;
     std::string reason;
@@ -206,9 +213,28 @@ struct ClientBye {
     std::string reason;
 };
 
-using Message = std::variant<Hello, Welcome, Refused, Expelled, Alive, LeaveRequest, Goodbye, Plan, Frame,
-                             StateRequest, StateReply, ClientHello, ClientWelcome, Observation, ClientWord,
-                             WordAck, ClientBye, RunOver, ModelRequest, ModelPart>;
+// --- control of the run
+// --------------------------------------------------------------------------------------------------
+
+/// Anyone -> Controller: pause, step, speed, rewind ... (simulation/control.h). Sent again until answered.
+struct ControlRequest {
+    std::uint64_t number = 0;  // of the sender's requests, ascending
+    std::vector<std::string> words;
+};
+struct ControlReply {  // Controller -> who asked
+    std::uint64_t number = 0;
+    bool done = false;
+    std::string text;
+};
+/// Controller -> member that has an earlier Model of this run: fetch it again and join again.
+struct ModelChanged {
+    std::uint64_t model_hash = 0;
+};
+
+using Message =
+    std::variant<Hello, Welcome, Refused, Expelled, Alive, LeaveRequest, Goodbye, Plan, Frame, StateRequest,
+                 StateReply, ClientHello, ClientWelcome, Observation, ClientWord, WordAck, ClientBye, RunOver,
+                 ModelRequest, ModelPart, ClientUnknown, ControlRequest, ControlReply, ModelChanged>;
 
 struct Envelope {
     Address from, to;

@@ -75,6 +75,13 @@ void FaultyCluster::turn() {
     std::erase_if(simulators_, [](const Member& m) { return m.role->gone(); });
 }
 
+void FaultyCluster::restart_controller(StartingPoint start) {
+    options_.before.seats = controller_->hand_over().seats;
+    options_.before.epoch = controller_->hand_over().epoch;
+    options_.before.window = controller_->hand_over().window;
+    controller_ = std::make_unique<Controller>(model_, options_, std::move(start));
+}
+
 bool FaultyCluster::run_until(Tick target, int turns_max) {
     if (!controller_) turn();
     controller_->run_until(target);

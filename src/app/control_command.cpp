@@ -1,0 +1,142 @@
+// Requests from the command line.
+#include "app/control_command.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <sstream>
+
+#include "app/exit_codes.h"
+#include "app/interrupt.h"
+#include "app/run.h"
+
+namespace roboss {
+namespace {
+
+constexpr std::int64_t kAgain_ms = 250;
+constexpr double kPatience_s = 10;
+
+const char* const kFooter =
+    R"(The run is found as by its other members: by --simulation and the network options. A request takes effect at the end
+of the window under way. Pause, step, speed, window and Simulators change no bit of the result. Rewinding, adding, removing
+and another accuracy change the world at a tick; with a journal each begins a branch there.
+
+Examples:
+  roboss controller world.sdf --local 1 --simulators 0 --journal run.journal      a run that can be controlled
+  roboss control pause
+  roboss control step 100
+  roboss control rewind 12.5
+  roboss control add robot.sdf --pose "1 0 0.5 0 0 0" --name guest
+  roboss control remove guest
+
+Exit codes: 0 done, 1 no Controller was found or a file cannot be read, 2 wrong usage, 3 the run refuses it.)";
+
+struct ControlCommandOptions {
+    MemberOptions member;
+    std::string value, pose = "0 0 0 0 0 0", name;
+    std::vector<std::string> values;
+};
+
+using Ask = std::function<void(const std::vector<std::string>&)>;
+
+void add_plain(CLI::App& command, ControlCommandOptions& o, const Ask& ask) {
+    const auto none = [&](const char* verb, const char* what) {
+        command.add_subcommand(verb, what)->callback([verb, ask] { ask({verb}); });
+    };
+    const auto one = [&](const char* verb, const char* what, const char* value, bool required) {
+        CLI::App* sub = command.add_subcommand(verb, what);
+        sub->add_option(value, o.value)->required(required);
+        sub->callback([verb, ask, &o] {
+            if (o.value.empty()) return ask({verb});
+            ask({verb, o.value});
+        });
+    };
+    none("status", "time, pace, Simulators, hash and robots, as one JSON object");
+    none("pause", "stop at the end of this window; members stay");
+    none("resume", "go on");
+    one("step", "go on for so many ticks (default: 1) and pause", "ticks", false);
+    one("speed", "simulated seconds a real second, max or world", "speed", true);
+    one("window", "ticks between two talks with the Controller, or auto", "window", true);
+    one("simulators", "add or remove one Simulator of the run's own", "action", true);
+    one("save", "save the state; the Controller writes the file, on its computer", "file", true);
+    one("rewind", "back to this time (s) of the journal, or #BRANCH@TIME, and on from there", "time", true);
+    none("quit", "end the run as at its duration");
+}
+
+void add_changes(CLI::App& command, ControlCommandOptions& o, const Ask& ask, int& exit_code) {
+    const auto all = [&o, ask](const char* verb) {
+        std::vector<std::string> words{verb};
+        words.insert(words.end(), o.values.begin(), o.values.end());
+        ask(words);
+    };
+    CLI::App* sub = command.add_subcommand("accuracy", "fast, standard, high and numbers (tolerance=1e-10)");
+    sub->add_option("values", o.values)->required();
+    sub->callback([all] { all("accuracy"); });
+    sub = command.add_subcommand("remove", "take robots out of the world, by name");
+    sub->add_option("robots", o.values)->required();
+    sub->callback([all] { all("remove"); });
+    sub = command.add_subcommand("add", "put the models of an SDF or URDF file into the world");
+    sub->add_option("file", o.value, "its meshes are looked up on the Controller's computer")->required();
+    sub->add_option("--pose", o.pose, "\"x y z roll pitch yaw\", m and rad")->capture_default_str();
+    sub->add_option("--name", o.name, "its name in the world (default: that of the file)");
+    sub->callback([&o, ask, &exit_code] {
+        std::ifstream in(o.value, std::ios::binary);
+        std::stringstream content;
+        if (in && content << in.rdbuf()) return ask({"add", o.value, content.str(), o.pose, o.name});
+        print(Error{o.value + " cannot be read", "check the path"});
+        exit_code = kBadInput;
+    });
+}
+
+/// Prints the answer, if it is among these.
+std::optional<int> take_answer(const std::vector<Envelope>& inbox) {
+    for (const Envelope& envelope : inbox) {
+        const auto* reply = std::get_if<ControlReply>(&envelope.message);
+        if (reply == nullptr) continue;
+        if (reply->done) fmt::print("{}\n", reply->text);
+        if (!reply->done) fmt::print(stderr, "roboss control: {}\n", reply->text);
+        return reply->done ? kDone : kRunFailed;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+int ask_controller(const MemberOptions& options, const std::vector<std::string>& words) {
+    MemberOptions patient = options;
+    if (patient.patience_s <= 0) patient.patience_s = kPatience_s;
+    Member member("control", patient);
+    if (!member.open()) return kBadInput;
+    const Address self = member.new_address(Role::kClient);
+    std::vector<Envelope> inbox;
+    std::int64_t asked_ms = -kAgain_ms;
+    for (;;) {
+        const std::int64_t now = member.bus().now_ms();
+        if (now - asked_ms >= kAgain_ms) {
+            asked_ms = now;
+            member.bus().send(self, kControllerAddress, ControlRequest{1, words});
+        }
+        member.bus().drain(self, inbox);
+        if (const std::optional<int> answered = take_answer(inbox)) return *answered;
+        if (interrupted()) return kInterrupted;
+        if (!member.wait()) return kBadInput;
+    }
+}
+
+void add_control_command(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand("control", "pause, step, rewind or change a running simulation");
+    command->footer(kFooter);
+    command->require_subcommand(1);
+    auto o = std::make_shared<ControlCommandOptions>();
+    add_member_options(*command, o->member);
+    const Ask ask = [o, &exit_code](const std::vector<std::string>& words) {
+        exit_code = ask_controller(o->member, words);
+    };
+    add_plain(*command, *o, ask);
+    add_changes(*command, *o, ask, exit_code);
+    for (CLI::App* sub : command->get_subcommands({})) sub->fallthrough();
+}
+
+}  // namespace roboss

@@ -1,0 +1,230 @@
+// How a run begins and how it ends.
+#include "app/run.h"
+
+#include <fmt/format.h>
+
+#include "app/exit_codes.h"
+#include "app/interrupt.h"
+#include "app/orders_file.h"
+#include "client/plugin.h"
+#include "core/hash.h"
+#include "sdf/load_world.h"
+
+namespace roboss {
+namespace {
+
+/// Warnings and errors in full, notes as a count: `roboss check` tells them all.
+void print(const Diagnostics& diagnostics, const std::string& world) {
+    for (const Diagnostic& d : diagnostics.items())
+        if (d.severity != Severity::kNote) fmt::print(stderr, "{}\n", to_text(d));
+    if (const std::size_t notes = diagnostics.count(Severity::kNote); notes > 0)
+        fmt::print(stderr, "{} notes about this world: `roboss check {}` shows them\n", notes, world);
+}
+
+}  // namespace
+
+void print(const Error& error) {
+    fmt::print(stderr, "roboss: {}\n", error.text());
+}
+
+int Run::go() {
+    if (!prepare()) return kBadInput;
+    watch_for_interrupts();
+    if (!begin()) return finish(false, 0);
+    const auto began = Clock::now();
+    const bool fine = drive();
+    tell_notices();
+    progress_.clear();
+    return finish(fine, std::chrono::duration<double>(Clock::now() - began).count());
+}
+
+bool Run::prepare() {
+    if (!o_.replay.empty()) return prepare_replay();
+    Diagnostics diagnostics;
+    const std::optional<World> world = load_world(o_.world, {o_.paths, o_.profile}, diagnostics);
+    if (world && !diagnostics.has_errors()) model_ = compile(*world, compile_options(), diagnostics);
+    if (world) world_speed_ = world->real_time_factor;
+    if (model_ && !o_.orders.empty()) orders_ = load_orders(o_.orders, *model_, diagnostics);
+    print(diagnostics, o_.world);
+    if (!model_ || diagnostics.has_errors()) return false;
+    Result<std::unique_ptr<RunJournal>> journal = RunJournal::open(o_, *model_);
+    if (!journal) return print(journal.error()), false;
+    journal_ = std::move(journal).value();
+    if (journal_->changed_model()) {
+        model_ = journal_->changed_model();
+        if (!std::exchange(orders_, {}).empty())
+            notices_.push_back("the orders file is not read: what it says for this world is in the journal");
+    }
+    return create() && submit(orders_) && open_files();
+}
+
+bool Run::prepare_replay() {
+    Result<std::unique_ptr<RunJournal>> journal = RunJournal::open_replay(o_);
+    if (!journal) return print(journal.error()), false;
+    journal_ = std::move(journal).value();
+    model_ = journal_->replay()->model;
+    world_speed_ = 1;
+    return create() && open_files();
+}
+
+CompileOptions Run::compile_options() const {
+    CompileOptions options;
+    options.dt_s = o_.dt_s;
+    options.accuracy = o_.accuracy;
+    if (o_.no_sleep) options.sleep = false;
+    return options;
+}
+
+bool Run::load_programs(std::vector<NamedProgram>& programs) const {
+    for (const std::string& path : o_.clients) {
+        Result<std::unique_ptr<ControlProgram>> program = load_control_program(path);
+        if (!program) return print(program.error()), false;
+        programs.push_back({fmt::format("{}#{}", path, programs.size()), std::move(program.value())});
+    }
+    return true;
+}
+
+bool Run::create() {
+    std::vector<NamedProgram> programs;
+    if (!load_programs(programs)) return false;
+    std::vector<std::string> names;
+    for (const NamedProgram& program : programs) names.push_back(program.name);
+    names.insert(names.end(), o_.clients_awaited.begin(), o_.clients_awaited.end());
+    const Result<std::vector<std::string>> others = journal_->awaited(names, o_.is_controller);
+    if (!others) return print(others.error()), false;
+    Result<std::unique_ptr<Company>> company = Company::gather(o_);
+    if (!company) return print(company.error()), false;
+    company_ = std::move(company.value());
+    const SavedRun* from = journal_->from();
+    SimulationOptions options = simulation_options(from);
+    options.controller.log = journal_->resumed();
+    company_->brief(options);
+    options.clients_awaited.insert(options.clients_awaited.end(), others.value().begin(),
+                                   others.value().end());
+    auto simulation = Simulation::create(model_, options, std::move(programs), from, company_->take_bus());
+    if (!simulation) return print(simulation.error()), false;
+    simulation_ = std::move(simulation.value());
+    start_ = journal_->start();
+    return true;
+}
+
+SimulationOptions Run::simulation_options(const SavedRun* from) const {
+    SimulationOptions options;
+    options.simulators = static_cast<std::size_t>(o_.simulators);
+    options.threads = static_cast<unsigned>(o_.threads);
+    options.lanes = o_.lanes;
+    options.world_file = o_.world;
+    options.controller.seed = o_.seed.value_or(from != nullptr ? from->seed : 0);
+    options.controller.window = o_.window == "auto" ? 0 : static_cast<Tick>(std::stod(o_.window));
+    options.controller.forecast.merge_all = o_.merge_islands;
+    options.controller.log_ticks = journal_->log_ticks();
+    return options;
+}
+
+Result<> Run::start_again(std::shared_ptr<const Model> model, const SavedRun& from, const Turn& turn) {
+    std::vector<NamedProgram> programs;
+    if (!load_programs(programs))
+        return Error{"a control program cannot be loaded again", "see the lines above"};
+    SimulationOptions options = simulation_options(&from);
+    company_->brief(options);
+    options.simulators_awaited = options.simulators > 0 ? 0 : 1;
+    options.controller.before = simulation_->controller().hand_over();
+    options.controller.before.went_back = options.controller.before.went_back || turn.back;
+    options.clients_awaited = simulation_->clients_elsewhere();
+    const bool reaches_others = company_->reaches_others();
+    simulation_->start_log(nullptr, 0);
+    auto made = Simulation::create(model, options, std::move(programs), &from,
+                                   reaches_others ? simulation_->release_bus() : nullptr);
+    if (!made) return made.error();
+    simulation_ = std::move(made).value();
+    model_ = std::move(model);
+    busy_until_ = from.logged_until;
+    if (!advance_to(from.logged_until))
+        return Error{"the run could not be brought there", "see the lines above"};
+    return journal_->begin_branch(*simulation_, turn.parent, turn.reason);
+}
+
+/// Orders from before the start of a continued run have been applied already.
+bool Run::submit(const std::vector<Order>& orders) {
+    for (const Order& order : orders) {
+        if (order.apply_at < start_) continue;
+        const Result<> taken = simulation_->submit(order);
+        if (!taken) return print(taken.error()), false;
+    }
+    return true;
+}
+
+bool Run::open_files() {
+    if (!o_.contacts.empty()) {
+        Result<ContactsFile> contacts = ContactsFile::create(o_.contacts);
+        if (!contacts) return print(contacts.error()), false;
+        contacts_ = std::move(contacts.value());
+    }
+    if (o_.trace.empty()) return true;
+    Result<TraceFile> trace = TraceFile::create(o_.trace);
+    if (!trace) return print(trace.error()), false;
+    trace_ = std::move(trace.value());
+    return true;
+}
+
+/// From the checkpoint to where the run starts, and the journal's new branch there.
+bool Run::begin() {
+    busy_until_ = start_;
+    if (start_ > simulation_->tick() && !advance_to(start_)) return false;
+    if (interrupted()) return true;
+    const Result<> begun = journal_->begin(*simulation_);
+    if (!begun) print(begun.error());
+    return begun.ok();
+}
+
+Summary Run::summary(double wall_s) const {
+    const Counters& c = simulation_->counters();
+    const double ticks = std::max(1.0, static_cast<double>(c.ticks));
+    Summary s;
+    s.world = journal_->replay() ? journal_->replay()->branch.world_file : o_.world;
+    s.robots = model_->robots.size();
+    s.ticks = std::max<Tick>(simulation_->tick() - start_, 0);
+    s.dt_s = model_->dt_s;
+    s.sim_time_s = simulation_->time_s();
+    s.wall_time_s = wall_s;
+    s.real_time_factor = wall_s > 0 ? static_cast<double>(s.ticks) * s.dt_s / wall_s : 0.0;
+    s.step_cpu_s = c.step_cpu_s;
+    s.windows = c.windows;
+    s.windows_repeated = c.windows_repeated;
+    s.islands_mean = static_cast<double>(c.island_ticks) / ticks;
+    s.contacts_mean = static_cast<double>(c.contacts) / ticks;
+    s.building_contacts_mean = static_cast<double>(c.static_contacts) / ticks;
+    s.model_hash = model_->hash;
+    s.state_hash = simulation_->hash();
+    s.losses = c.losses;
+    s.recoveries = c.recoveries;
+    s.migrations = c.migrations;
+    s.simulators = c.simulators;
+    return s;
+}
+
+/// Files and summary, also of a run that failed: nothing that was computed is lost.
+int Run::finish(bool fine, double wall_s) {
+    const Summary s = summary(wall_s);
+    bool written = true;
+    const auto check = [&](const Result<>& result) {
+        if (!result) print(result.error()), written = false;
+    };
+    if (trace_) check(trace_->close());
+    if (contacts_) check(contacts_->close());
+    if (!o_.save.empty() && !abandoned_) check(simulation_->save(o_.save));
+    check(journal_->close());
+    if (!o_.json.empty()) check(write_json(s, o_.json));
+    if (!o_.paths_picture.empty()) {
+        const std::string subtitle = fmt::format("{} robots, {:.1f} s simulated, state hash {}", s.robots,
+                                                 static_cast<double>(s.ticks) * s.dt_s, to_hex(s.state_hash));
+        check(write_path_picture(o_.paths_picture, *model_, paths_, {model_->name, subtitle}));
+    }
+    simulation_->controller().dismiss(simulation_->bus(), fine ? "the run has ended" : "the run has failed");
+    company_->see_off();
+    fmt::print("{}", to_text(s));
+    if (!fine || !written) return kRunFailed;
+    return interrupted() ? kInterrupted : kDone;
+}
+
+}  // namespace roboss

@@ -1,0 +1,110 @@
+// Run: loads, runs, watches and ends one run. Everything that decides a result is in the roles; here are
+// files, clock and terminal.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+
+#include "app/company.h"
+#include "app/contacts_file.h"
+#include "app/path_picture.h"
+#include "app/progress.h"
+#include "app/run_journal.h"
+#include "app/run_options.h"
+#include "app/summary.h"
+#include "app/trace_file.h"
+#include "model/edit.h"
+#include "simulation/simulation.h"
+
+namespace roboss {
+
+class Run {
+  public:
+    explicit Run(const RunOptions& options) : o_(options), progress_(!options.quiet) {}
+    /// The exit code.
+    int go();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    struct Schedule;  // what is due when
+
+    // run.cpp: the beginning and the end
+    bool prepare();
+    bool prepare_replay();
+    CompileOptions compile_options() const;
+    bool create();
+    bool load_programs(std::vector<NamedProgram>& programs) const;
+    bool submit(const std::vector<Order>& orders);
+    bool open_files();
+    bool begin();
+    /// The same run with another Model or from another time: a new Simulation on the same Bus, a new branch.
+    struct Turn {
+        BranchId parent = 0;
+        std::string reason;
+        bool back = false;  // in time
+    };
+    Result<> start_again(std::shared_ptr<const Model> model, const SavedRun& from, const Turn& turn);
+    SimulationOptions simulation_options(const SavedRun* from) const;
+    Summary summary(double wall_s) const;
+    int finish(bool fine, double wall_s);
+
+    // run_loop.cpp: the time between
+    bool drive();
+    bool look(const Schedule& due);
+    bool rest();
+    Tick end_of_run() const;
+
+    // run_control.cpp: what others ask for
+    using Answer = Result<std::string>;
+    void serve_calls();
+    Answer execute(const std::vector<std::string>& words);
+    std::string status() const;
+    void resume();
+    Answer step(const std::vector<std::string>& words);
+    Answer set_speed(const std::vector<std::string>& words);
+    Answer set_window(const std::vector<std::string>& words);
+    Answer change_simulators(const std::vector<std::string>& words);
+    Answer save(const std::string& file);
+    Answer rewind(const std::string& moment);
+    Answer change_model(const ModelEdit& edit, const std::string& what);
+    Answer change_accuracy(const std::vector<std::string>& words);
+    Answer add_models(const std::vector<std::string>& words);
+    Answer remove_robots(const std::vector<std::string>& words);
+
+    bool advance_to(Tick target);
+    void tell_notices();
+    bool write_trace();
+    bool write_contacts();
+    void collect_paths();
+
+    const RunOptions& o_;
+    Progress progress_;
+    std::shared_ptr<const Model> model_;
+    std::vector<Order> orders_;  // of the orders file
+    std::unique_ptr<RunJournal> journal_;
+    std::unique_ptr<Company> company_;
+    std::unique_ptr<Simulation> simulation_;
+    std::optional<TraceFile> trace_;
+    std::optional<ContactsFile> contacts_;
+    std::vector<RobotPath> paths_;
+    double world_speed_ = 0;  // simulated seconds a real second; 0: as fast as possible
+    Tick start_ = 0;
+    /// How fast, and whether at all. No part of the state.
+    struct Pace {
+        double speed = 0;  // simulated seconds a real second; 0: as fast as possible
+        bool paused = false, quit = false;
+        std::optional<Tick> step_until;  // and pauses there
+        Tick from = 0;                   // since `since`
+        Clock::time_point since;
+        void begin(Tick tick) { from = tick, since = Clock::now(); }
+    } pace_;
+    std::vector<ControlCall> calls_;  // requests to be served
+    std::vector<std::string> notices_;
+    Tick busy_until_ = 0;     // to which requests wait: the run is being brought to its start
+    bool abandoned_ = false;  // nobody is left who has the states
+};
+
+void print(const Error& error);
+
+}  // namespace roboss

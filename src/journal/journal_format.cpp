@@ -1,0 +1,112 @@
+// Tables and checks.
+#include "journal/journal_format.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "core/hash.h"
+#include "wire/codec.h"
+#include "wire/model_codec.h"
+
+namespace roboss {
+
+const char* const kJournalTables =
+    "CREATE TABLE meta(key TEXT PRIMARY KEY, value);"
+    "CREATE TABLE models(hash TEXT PRIMARY KEY, bytes BLOB, bytes_hash TEXT);"
+    "CREATE TABLE branches(id INTEGER PRIMARY KEY, parent INTEGER, tick INTEGER, model TEXT, seed INTEGER, "
+    "world_file TEXT, reason TEXT, row_hash TEXT);"
+    "CREATE TABLE checkpoints(branch INTEGER, tick INTEGER, state_hash TEXT, memory BLOB, states BLOB, "
+    "row_hash TEXT, PRIMARY KEY(branch, tick));"
+    "CREATE TABLE batches(branch INTEGER, serial INTEGER, planned INTEGER, committed INTEGER, state_hash "
+    "TEXT, low INTEGER, high INTEGER, orders INTEGER, chain TEXT, entries BLOB, PRIMARY KEY(branch, "
+    "serial));";
+
+std::string program_version() {
+    return ROBOSS_VERSION " (wire " + std::to_string(kWireVersion) + ")";
+}
+
+namespace {
+
+std::string_view text(const Blob& b) {
+    return {reinterpret_cast<const char*>(b.data()), b.size()};
+}
+
+}  // namespace
+
+BatchRow to_batch_row(const LogBatch& entries) {
+    constexpr Tick kAlways = std::numeric_limits<Tick>::max();
+    BatchRow row;
+    row.low = kAlways;
+    row.high = -1;
+    const auto include = [&row](Tick low, Tick high) {
+        row.low = std::min(row.low, low);
+        row.high = std::max(row.high, high);
+    };
+    for (const SaidOrder& o : entries.orders) include(o.said, o.order.apply_at);
+    for (const SaidWord& word : entries.words) include(word.observed, word.observed);
+    for (const LogNote& note : entries.notes) include(note.tick, note.tick);
+    if (!entries.clients.empty()) include(std::numeric_limits<Tick>::min(), kAlways);
+    row.orders = static_cast<std::int64_t>(entries.orders.size());
+    row.bytes = encode(entries);
+    return row;
+}
+
+std::uint64_t chain_of(std::uint64_t before, const BatchRow& row) {
+    Hash hash;
+    hash.add(before);
+    for (const std::int64_t n :
+         {row.branch, row.serial, row.planned, row.committed, row.low, row.high, row.orders})
+        hash.add(static_cast<std::uint64_t>(n));
+    hash.add(row.hash);
+    hash.add(text(row.bytes));
+    return hash.value();
+}
+
+std::uint64_t check_of(const Branch& b) {
+    Hash hash;
+    for (const std::int64_t n : {b.id, b.parent, b.tick}) hash.add(static_cast<std::uint64_t>(n));
+    hash.add(b.model_hash);
+    hash.add(b.seed);
+    hash.add(std::string_view(b.world_file));
+    hash.add(std::string_view(b.reason));
+    return hash.value();
+}
+
+std::uint64_t check_of(const CheckpointPlace& place, const Blob& memory, const Blob& states) {
+    Hash hash;
+    for (const std::int64_t n : {place.branch, place.tick}) hash.add(static_cast<std::uint64_t>(n));
+    hash.add(place.hash);
+    hash.add(text(memory));
+    hash.add(text(states));
+    return hash.value();
+}
+
+Row to_row(const BatchRow& row, std::uint64_t chain) {
+    return {row.branch, row.serial, row.planned, row.committed, to_hex(row.hash),
+            row.low,    row.high,   row.orders,  to_hex(chain), row.bytes};
+}
+
+Row to_row(const Branch& b) {
+    return {b.id,
+            b.parent,
+            b.tick,
+            to_hex(b.model_hash),
+            std::bit_cast<std::int64_t>(b.seed),
+            b.world_file,
+            b.reason,
+            to_hex(check_of(b))};
+}
+
+Row to_row(const CheckpointPlace& place, Blob memory, Blob states) {
+    const std::string check = to_hex(check_of(place, memory, states));
+    return {place.branch, place.tick, to_hex(place.hash), std::move(memory), std::move(states), check};
+}
+
+Row model_row(const Model& model) {
+    Blob bytes = encode_model(model);
+    const std::string hash = to_hex(hash_of_bytes(bytes));
+    return {to_hex(model.hash), std::move(bytes), hash};
+}
+
+}  // namespace roboss

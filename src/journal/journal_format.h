@@ -1,0 +1,41 @@
+// The tables of a journal, and the check in every row, by which damage is noticed that SQLite does not see.
+#pragma once
+
+#include "journal/journal.h"
+
+namespace roboss {
+
+inline constexpr std::int64_t kJournalFormat = 2;
+
+extern const char* const kJournalTables;
+
+std::string program_version();
+
+struct BatchRow {
+    BranchId branch = 0;
+    std::int64_t serial = 0;
+    Tick planned = 0, committed = 0;
+    std::uint64_t hash = 0;  // of the world at `committed`
+    // A reader of ticks [from, until) needs the row if high >= from and low < until.
+    Tick low = 0, high = 0;
+    std::int64_t orders = 0;
+    Blob bytes;
+};
+BatchRow to_batch_row(const LogBatch& entries);  // low, high, orders, bytes
+/// Ties a row to those before it: a row that is missing or changed breaks the chain.
+std::uint64_t chain_of(std::uint64_t before, const BatchRow& row);
+std::uint64_t check_of(const Branch& branch);
+std::uint64_t check_of(const CheckpointPlace& place, const Blob& memory, const Blob& states);
+
+Row to_row(const BatchRow& row, std::uint64_t chain);
+Row to_row(const Branch& branch);
+Row to_row(const CheckpointPlace& place, Blob memory, Blob states);
+
+inline constexpr const char* kInsertModel = "INSERT OR IGNORE INTO models VALUES(?,?,?)";
+inline constexpr const char* kInsertBranch = "INSERT INTO branches VALUES(?,?,?,?,?,?,?,?)";
+inline constexpr const char* kInsertCheckpoint = "INSERT OR IGNORE INTO checkpoints VALUES(?,?,?,?,?,?)";
+inline constexpr const char* kInsertBatch = "INSERT INTO batches VALUES(?,?,?,?,?,?,?,?,?,?)";
+
+Row model_row(const Model& model);
+
+}  // namespace roboss

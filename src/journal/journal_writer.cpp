@@ -1,0 +1,301 @@
+// The journal's thread, and what it writes.
+#include "journal/journal_writer.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <chrono>
+
+#include "journal/journal_format.h"
+
+namespace roboss {
+
+namespace {
+
+// WAL: readers look at a journal that is being written, and a killed process leaves a whole one. NORMAL: the
+// disk is waited for when the WAL is folded in, so only a loss of power can cost the last moments.
+constexpr const char* kPragmas =
+    "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; PRAGMA wal_autocheckpoint=2000;";
+
+std::chrono::milliseconds ms(std::int64_t n) {
+    return std::chrono::milliseconds(n);
+}
+
+std::size_t bytes_about(const LogBatch& entries) {
+    return 160 * entries.orders.size() + 16 * entries.words.size() + 80 * entries.notes.size();
+}
+
+Result<int> lock(const std::string& path) {
+    const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    if (file < 0)
+        return Error{path + ": cannot write it", "check the path, the permissions and the free space"};
+    if (flock(file, LOCK_EX | LOCK_NB) == 0) return file;
+    ::close(file);
+    return Error{path + " is being written by another run", "end that run, or give another file"};
+}
+
+/// The one number that the question is answered with; -1 if it is not.
+std::int64_t count(const Database& db, const char* question) {
+    const Result<std::vector<Row>> rows = db.select(question);
+    if (!rows || rows.value().size() != 1) return -1;
+    const auto* number = std::get_if<std::int64_t>(&rows.value()[0][0]);
+    return number != nullptr ? *number : -1;
+}
+
+Result<> make_tables(Database& db) {
+    const std::vector<Row> meta{{std::string("format"), kJournalFormat},
+                                {std::string("version"), program_version()}};
+    if (Result<> r = db.run(std::string("BEGIN;") + kJournalTables); !r) return r;
+    if (Result<> r = db.insert("INSERT INTO meta VALUES(?,?)", meta); !r) return r;
+    return db.run("COMMIT;");
+}
+
+}  // namespace
+
+Result<std::unique_ptr<JournalWriter>> JournalWriter::open(const std::string& path,
+                                                           const JournalWriterOptions& options) {
+    std::unique_ptr<JournalWriter> writer(new JournalWriter);
+    writer->path_ = path;
+    writer->options_ = options;
+    Result<int> locked = lock(path);
+    if (!locked) return locked.error();
+    writer->lock_file_ = locked.value();
+    Result<Database> opened = Database::open_write(path);
+    if (!opened) return opened.error();
+    writer->db_ = std::move(opened).value();
+    const std::int64_t tables = count(*writer->db_, "SELECT count(*) FROM sqlite_master");
+    const bool began = tables > 0 && count(*writer->db_, "SELECT count(*) FROM branches") != 0;
+    if (tables < 0 || began) {  // something is in it: see what
+        Result<Journal> journal = Journal::open(path);
+        if (!journal) return journal.error();
+        writer->branches_ = static_cast<BranchId>(journal.value().branches().size());
+    }
+    if (Result<> r = writer->db_->run(kPragmas); !r) return r.error();
+    if (tables == 0)
+        if (Result<> r = make_tables(*writer->db_); !r) return r.error();
+    writer->thread_ = std::thread([w = writer.get()] { w->serve(); });
+    return writer;
+}
+
+JournalWriter::~JournalWriter() {
+    if (thread_.joinable()) (void)close();
+    db_.reset();
+    if (lock_file_ >= 0) ::close(lock_file_);
+}
+
+Result<BranchId> JournalWriter::start_branch(Branch branch, const Model& model) {
+    if (Result<> flushed = flush(); !flushed) return flushed.error();
+    const std::lock_guard guard(mutex_);
+    branch.id = branches_ + 1;
+    branch.model_hash = model.hash;
+    waiting_.models.push_back(model_row(model));
+    waiting_.branches.push_back(to_row(branch));
+    beginning_ = true;
+    branches_ = branch_ = branch.id;
+    model_hash_ = model.hash;
+    tail_ = {};
+    return branch_;
+}
+
+void JournalWriter::continue_branch(const Journal& journal, const Branch& branch) {
+    (void)flush();
+    const std::lock_guard guard(mutex_);
+    branch_ = branch.id;
+    model_hash_ = branch.model_hash;
+    tail_ = journal.tail(branch.id);
+}
+
+void JournalWriter::serve() {
+    std::unique_lock guard(mutex_);
+    auto last = std::chrono::steady_clock::now() - ms(options_.gather_ms);
+    for (;;) {
+        wake_.wait(guard, [&] { return ending_ || (!beginning_ && !waiting_.empty()); });
+        if (waiting_.empty()) return;
+        const auto due = last + ms(failing_ ? options_.retry_ms : options_.gather_ms);
+        wake_.wait_until(guard, due, [&] { return ending_ || (hurry_ && !failing_); });
+        hurry_ = false;
+        Pending pending = std::move(waiting_);
+        waiting_ = {};
+        writing_ = true;
+        guard.unlock();
+        const Result<> written = write(pending);
+        guard.lock();
+        writing_ = false;
+        settle(written, pending);
+        last = std::chrono::steady_clock::now();
+        done_.notify_all();
+        if (ending_ && failing_) return;
+    }
+}
+
+/// After a transaction: what is safe now, or back to those that wait.
+void JournalWriter::settle(const Result<>& written, Pending& pending) {
+    if (written) {
+        tail_ = next_tail_;
+        waiting_bytes_ = bytes_about(waiting_.entries);
+        if (pending.checkpoint) checkpoint_waits_ = false;
+        if (failing_.exchange(false) && !lost_)
+            notices_.push_back("journal " + path_ + " can be written again; nothing is missing in it");
+        trouble_.reset();
+        safe_ = pending.given;
+        return;
+    }
+    trouble_ = written.error();
+    if (!failing_.exchange(true))
+        notices_.push_back(written.error().message + "; the run goes on, what the journal has stays whole");
+    take_in(pending);
+}
+
+/// Puts what could not be written before what has come since; drops it all if that is too much.
+void JournalWriter::take_in(Pending& pending) {
+    pending.entries.append(std::move(waiting_.entries));
+    pending.planned = std::max(pending.planned, waiting_.planned);
+    if (waiting_.committed >= 0) pending.committed = waiting_.committed, pending.hash = waiting_.hash;
+    if (waiting_.checkpoint && pending.branches.empty()) pending.checkpoint = std::move(waiting_.checkpoint);
+    pending.given = given_;
+    waiting_ = std::move(pending);
+    waiting_bytes_ = bytes_about(waiting_.entries);
+    if (waiting_bytes_ <= options_.waiting_bytes_max || lost_) return;
+    lost_ = Error{path_ + ": no room for too long, the journal ends where it is",
+                  "free some space, and start again with it"};
+    notices_.push_back(lost_->message);
+    waiting_ = {};
+    checkpoint_waits_ = true;
+}
+
+Result<> JournalWriter::write(const Pending& pending) {
+    if (lost_) return *lost_;
+    if (Result<> r = db_->run("BEGIN IMMEDIATE;"); !r) return r;
+    Result<> r = write_rows(pending);
+    if (r) r = db_->run("COMMIT;");
+    if (!r) (void)db_->run("ROLLBACK;");
+    return r;
+}
+
+Result<> JournalWriter::write_rows(const Pending& pending) {
+    if (Result<> r = db_->insert(kInsertModel, pending.models); !r) return r;
+    if (Result<> r = db_->insert(kInsertBranch, pending.branches); !r) return r;
+    if (pending.checkpoint) {
+        const RunCheckpoint& c = *pending.checkpoint;
+        std::vector<std::uint64_t> hashes;
+        for (std::size_t i = 0; i < c.states->size(); ++i)
+            hashes.push_back(state_hash(RobotId(i), c.tick, (*c.states)[i]));
+        const CheckpointPlace place{branch_, c.tick, world_hash(model_hash_, hashes)};
+        if (Result<> r = db_->insert(kInsertCheckpoint,
+                                     {to_row(place, encode_memory(c.memory), encode_states(*c.states))});
+            !r)
+            return r;
+    }
+    next_tail_ = tail_;
+    BatchRow row = to_batch_row(pending.entries);
+    row.branch = branch_;
+    row.serial = ++next_tail_.serial;
+    row.planned = pending.planned;
+    row.committed = pending.committed;
+    row.hash = pending.hash;
+    next_tail_.chain = chain_of(tail_.chain, row);
+    return db_->insert(kInsertBatch, {to_row(row, next_tail_.chain)});
+}
+
+Result<> JournalWriter::flush() {
+    std::unique_lock guard(mutex_);
+    hurry_ = true;
+    beginning_ = false;
+    wake_.notify_all();
+    done_.wait(guard, [&] { return (waiting_.empty() && !writing_) || failing_ || !thread_.joinable(); });
+    if (lost_) return *lost_;
+    if (trouble_) return *trouble_;
+    return Ok{};
+}
+
+Result<> JournalWriter::close() {
+    {
+        const std::lock_guard guard(mutex_);
+        ending_ = true;
+        wake_.notify_all();
+    }
+    if (thread_.joinable()) thread_.join();
+    const std::lock_guard guard(mutex_);
+    if (lost_) return *lost_;
+    if (!waiting_.empty() && trouble_) return *trouble_;
+    return Ok{};
+}
+
+std::vector<std::string> JournalWriter::take_notices() {
+    const std::lock_guard guard(mutex_);
+    return std::exchange(notices_, {});
+}
+
+void JournalWriter::joined(ClientId client, const std::string& name) {
+    const std::lock_guard guard(mutex_);
+    waiting_.entries.clients[client.value] = name;
+    waiting_.given = ++given_;
+    wake_.notify_one();
+}
+
+void JournalWriter::order(const Order& order, Tick said) {
+    const std::lock_guard guard(mutex_);
+    ++given_;
+    if (lost_) return;
+    waiting_.entries.orders.push_back({order, said});
+    waiting_.given = given_;
+    wake_.notify_one();
+}
+
+void JournalWriter::word(ClientId client, Tick observed) {
+    const std::lock_guard guard(mutex_);
+    ++given_;
+    if (lost_) return;
+    waiting_.entries.words.push_back({client, observed});
+    waiting_.given = given_;
+    wake_.notify_one();
+}
+
+void JournalWriter::note(Tick tick, const std::string& text) {
+    const std::lock_guard guard(mutex_);
+    if (!lost_) waiting_.entries.notes.push_back({tick, text});
+    waiting_.given = given_;
+    wake_.notify_one();
+}
+
+void JournalWriter::planned(Tick until) {
+    const std::lock_guard guard(mutex_);
+    waiting_.planned = std::max(waiting_.planned, until);
+    waiting_.given = given_;
+}
+
+void JournalWriter::committed(Tick tick, std::uint64_t world_hash) {
+    const std::lock_guard guard(mutex_);
+    waiting_.committed = tick;
+    waiting_.hash = world_hash;
+    waiting_.given = given_;
+    wake_.notify_one();
+}
+
+bool JournalWriter::takes_checkpoint() const {
+    return !checkpoint_waits_;
+}
+
+void JournalWriter::checkpoint(RunCheckpoint checkpoint) {
+    const std::lock_guard guard(mutex_);
+    waiting_.checkpoint = std::move(checkpoint);
+    checkpoint_waits_ = true;
+    waiting_.given = given_;
+    wake_.notify_one();
+}
+
+void JournalWriter::hurry() {
+    const std::lock_guard guard(mutex_);
+    hurry_ = true;
+    wake_.notify_one();
+}
+
+void JournalWriter::wait_safe(std::uint64_t count, std::int64_t ms_max) {
+    std::unique_lock guard(mutex_);
+    hurry_ = true;
+    wake_.notify_one();
+    done_.wait_for(guard, ms(ms_max), [&] { return safe(count); });
+}
+
+}  // namespace roboss

@@ -1,0 +1,104 @@
+// JournalWriter: a RunLog that appends to a journal's file in a thread of its own. The run never waits for
+// the disk: what is handed over gathers in memory and goes to the file as one transaction at a time, at once
+// when somebody waits for it, else some times a second. When the file cannot be written (disk full), entries
+// wait in memory within a bound and the run goes on; what the file has stays whole.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "journal/journal.h"
+#include "journal/run_log.h"
+
+namespace roboss {
+
+struct JournalWriterOptions {
+    std::int64_t gather_ms = 20;                // between two transactions that nobody waits for
+    std::int64_t retry_ms = 500;                // after one that failed
+    std::size_t waiting_bytes_max = 64u << 20;  // in memory while the file cannot be written
+};
+
+class JournalWriter : public RunLog {
+  public:
+    /// Opens a journal to append, or makes one. Refuses what open() of Journal refuses, and a journal that
+    /// another process writes.
+    static Result<std::unique_ptr<JournalWriter>> open(const std::string& path,
+                                                       const JournalWriterOptions& options = {});
+    ~JournalWriter() override;
+    JournalWriter(const JournalWriter&) = delete;
+    JournalWriter& operator=(const JournalWriter&) = delete;
+
+    bool is_new() const { return branches_ == 0; }
+    /// A new branch, which begins where `branch` says; its number is set here. What is handed over from now
+    /// on belongs to it. It comes to the file as a whole, by flush(), which has to follow when its first
+    /// checkpoint and the orders still to come were handed over.
+    Result<BranchId> start_branch(Branch branch, const Model& model);
+    /// What is handed over from now on goes behind what the branch has.
+    void continue_branch(const Journal& journal, const Branch& branch);
+    BranchId branch() const { return branch_; }
+
+    /// Writes all that was handed over. Waits for the disk.
+    Result<> flush();
+    /// flush() and the end; an Error if anything that was handed over is not in the file.
+    Result<> close();
+    /// What happened since the last call (the disk is full, there is room again), one line each.
+    std::vector<std::string> take_notices();
+
+    void joined(ClientId client, const std::string& name) override;
+    void order(const Order& order, Tick said) override;
+    void word(ClientId client, Tick observed) override;
+    void note(Tick tick, const std::string& text) override;
+    void planned(Tick until) override;
+    void committed(Tick tick, std::uint64_t world_hash) override;
+    bool takes_checkpoint() const override;
+    void checkpoint(RunCheckpoint checkpoint) override;
+    std::uint64_t given() const override { return given_; }
+    bool safe(std::uint64_t count) const override { return safe_ >= count || failing_; }
+    void hurry() override;
+    void wait_safe(std::uint64_t count, std::int64_t ms_max) override;
+
+  private:
+    /// What waits to be written.
+    struct Pending {
+        LogBatch entries;
+        Tick planned = -1, committed = -1;
+        std::uint64_t hash = 0;
+        std::optional<RunCheckpoint> checkpoint;
+        std::vector<Row> models, branches;  // that begin here
+        std::uint64_t given = 0;            // counted with the last of it
+        bool empty() const { return entries.empty() && planned < 0 && committed < 0 && !checkpoint; }
+    };
+    JournalWriter() = default;
+    void serve();
+    Result<> write(const Pending& pending);
+    Result<> write_rows(const Pending& pending);
+    void take_in(Pending& pending);
+    void settle(const Result<>& written, Pending& pending);
+
+    std::string path_;
+    JournalWriterOptions options_;
+    int lock_file_ = -1;
+    std::optional<Database> db_;  // of the thread alone, once it runs
+    std::uint64_t model_hash_ = 0;
+    BranchId branches_ = 0, branch_ = 0;
+    Journal::Tail tail_, next_tail_;
+
+    mutable std::mutex mutex_;
+    std::condition_variable wake_, done_;
+    Pending waiting_;
+    bool writing_ = false, hurry_ = false, ending_ = false;
+    bool beginning_ = false;  // a branch: nothing is written before flush()
+    std::size_t waiting_bytes_ = 0;
+    std::optional<Error> lost_;  // entries were dropped
+    std::optional<Error> trouble_;
+    std::vector<std::string> notices_;
+    std::atomic<std::uint64_t> given_{0}, safe_{0};
+    std::atomic<bool> failing_{false}, checkpoint_waits_{false};
+    std::thread thread_;
+};
+
+}  // namespace roboss

@@ -1,0 +1,41 @@
+// A running world changed: a Model made of another one by adding robots, taking some away, or setting other
+// accuracy, and the states and orders of the old one carried over. What is not named stays as it is, bit for
+// bit.
+//
+// Canonical order: RobotIds count robots in the order in which they came, first those of the world file, and
+// close the gap when one goes. So those that stay keep their order among each other, whatever happens.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/order.h"
+
+namespace roboss {
+
+struct ModelEdit {
+    std::shared_ptr<const Model> model;
+    std::vector<RobotId> now;      // by the old RobotId: the new one; not valid: it is gone
+    bool scenery_changed = false;  // all sleepers wake
+};
+
+/// The accuracy set anew, after the world's own and in this order of settings and numbers.
+Result<ModelEdit> with_accuracy(const Model& model, const AccuracySpec& spec);
+
+/// All that `addition` holds, robots and scenery, put at X_WA. `name`: of its only model, instead of its own;
+/// empty: its own. Refuses names that are taken and another step.
+Result<ModelEdit> with_models(const Model& model, const Model& addition, const Pose& X_WA,
+                              const std::string& name);
+
+/// Without these robots. Their scenery, if any, stays.
+Result<ModelEdit> without_robots(const Model& model, const std::vector<std::string>& names);
+
+/// States by the new RobotIds; of those that came: their initial state. Contacts with robots that are gone
+/// are forgotten, and who slept against one wakes.
+std::vector<RobotState> carry_over(const ModelEdit& edit, const std::vector<RobotState>& states);
+
+/// Whether the order is for a robot that stays; then it is renumbered.
+bool carry_over(const ModelEdit& edit, Order& order);
+
+}  // namespace roboss

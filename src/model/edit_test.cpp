@@ -1,0 +1,113 @@
+// A Model made of Models is the one that a world with all of it compiles to; what stays keeps every bit.
+#include "model/edit.h"
+
+#include <gtest/gtest.h>
+
+#include <support/robots.h>
+
+namespace roboss::test {
+namespace {
+
+std::shared_ptr<const Model> made(const World& world) {
+    Diagnostics diagnostics;
+    auto model = compile(world, {}, diagnostics);
+    EXPECT_FALSE(diagnostics.has_errors());
+    return model;
+}
+
+World base_world() {
+    World world = empty_world(1e-3);
+    place(world, ground(surface(0.5)), "ground");
+    place(world, car(), "car", {{0, 0, 0.1}, {}});
+    place(world, arm(), "arm", {{3, 0, 0}, {}});
+    place(world, solid_box(1, {0.2, 0.2, 0.2}, surface(0.5)), "box", {{0, 2, 0.1}, {}});
+    return world;
+}
+
+World a_spider(const std::string& name, const Pose& X = {}) {
+    World world = empty_world(1e-3);
+    place(world, spider(), name, X);
+    return world;
+}
+
+TEST(ModelEdit, AddingGivesTheModelOfTheWholeWorld) {
+    const Pose X{{1, -2, 0.5}, from_rpy(0.1, 0.2, 0.3)};
+    World whole = base_world();
+    place(whole, spider(), "guest", X);
+    const Result<ModelEdit> edit = with_models(*made(base_world()), *made(a_spider("spider")), X, "guest");
+    ASSERT_TRUE(edit.ok()) << edit.error().text();
+    const auto expected = made(whole);
+    ASSERT_EQ(edit.value().model->robots.size(), expected->robots.size());
+    EXPECT_EQ(edit.value().model->robots.back().name, "guest");
+    EXPECT_EQ(edit.value().model->types.back().hash, expected->types.back().hash);
+    EXPECT_EQ(initial_state(*edit.value().model, RobotId(3u)), initial_state(*expected, RobotId(3u)));
+    EXPECT_EQ(edit.value().model->hash, expected->hash);
+}
+
+TEST(ModelEdit, EqualTypesAreSharedAndNamesAreUnique) {
+    World box = empty_world(1e-3);
+    place(box, solid_box(1, {0.2, 0.2, 0.2}, surface(0.5)), "box");
+    const auto model = made(base_world());
+    EXPECT_FALSE(with_models(*model, *made(box), {}, "").ok()) << "there is a box already";
+    const Result<ModelEdit> edit = with_models(*model, *made(box), {{5, 5, 1}, {}}, "other");
+    ASSERT_TRUE(edit.ok());
+    EXPECT_EQ(edit.value().model->types.size(), model->types.size());
+    EXPECT_EQ(edit.value().model->robots[3].type, edit.value().model->robots[2].type);
+}
+
+TEST(ModelEdit, RemovingKeepsTheOthersAndTheirOrder) {
+    const auto model = made(base_world());
+    const Result<ModelEdit> edit = without_robots(*model, {"arm"});
+    ASSERT_TRUE(edit.ok());
+    ASSERT_EQ(edit.value().model->robots.size(), 2u);
+    EXPECT_EQ(edit.value().model->robots[1].name, "box");
+    EXPECT_FALSE(edit.value().now[1].valid());
+    std::vector<RobotState> states;
+    for (std::size_t i = 0; i < 3; ++i) states.push_back(initial_state(*model, RobotId(i)));
+    states[0].v[0] = 7;
+    states[0].contacts = {
+        {1, 0, 0, 0, 5, 5, {}}, {2, 0, 0, 0, 6, 6, {}}, {RobotId::kNone, 0, 0, 0, 7, 7, {}}};
+    states[0].rest = {9, true, {2}, {}};
+    states[2].rest = {9, true, {0, 1}, {}};
+    const std::vector<RobotState> now = carry_over(edit.value(), states);
+    ASSERT_EQ(now.size(), 2u);
+    EXPECT_EQ(now[0].v, states[0].v);
+    ASSERT_EQ(now[0].contacts.size(), 2u) << "that with the arm is forgotten";
+    EXPECT_EQ(now[0].contacts[0].other_robot, 1u) << "the box is robot 1 now";
+    EXPECT_EQ(now[0].contacts[1].other_robot, std::uint32_t{RobotId::kNone});
+    EXPECT_EQ(now[0].rest.neighbours, std::vector<std::uint32_t>{1}) << "it did not sleep against the arm";
+    EXPECT_FALSE(now[1].rest.asleep) << "the box did";
+    Order for_box{1, {}, 1, RobotId(2u), SetVelocity{}}, for_arm{1, {}, 1, RobotId(1u), SetVelocity{}};
+    EXPECT_TRUE(carry_over(edit.value(), for_box));
+    EXPECT_EQ(for_box.robot, RobotId(1u));
+    EXPECT_FALSE(carry_over(edit.value(), for_arm));
+    EXPECT_FALSE(without_robots(*model, {"nobody"}).ok());
+}
+
+TEST(ModelEdit, ComingAndGoingLeavesTheModelAsItWas) {
+    const auto model = made(base_world());
+    const Result<ModelEdit> come = with_models(*model, *made(a_spider("spider")), {}, "guest");
+    ASSERT_TRUE(come.ok());
+    const Result<ModelEdit> gone = without_robots(*come.value().model, {"guest"});
+    ASSERT_TRUE(gone.ok());
+    ASSERT_EQ(gone.value().model->robots.size(), model->robots.size());
+    for (std::size_t i = 0; i < model->robots.size(); ++i)
+        EXPECT_EQ(gone.value().model->type_of(RobotId(i)).hash, model->type_of(RobotId(i)).hash);
+}
+
+TEST(ModelEdit, AccuracyIsSetWithinItsBounds) {
+    const auto model = made(base_world());
+    AccuracySpec finer;
+    finer.numbers.push_back({"tolerance", 1e-11});
+    const Result<ModelEdit> edit = with_accuracy(*model, finer);
+    ASSERT_TRUE(edit.ok());
+    EXPECT_EQ(edit.value().model->accuracy.tolerance, 1e-11);
+    EXPECT_NE(edit.value().model->hash, model->hash);
+    finer.numbers.push_back({"tolerance", 7});
+    EXPECT_FALSE(with_accuracy(*model, finer).ok());
+    finer.numbers = {{"no_such_number", 1}};
+    EXPECT_FALSE(with_accuracy(*model, finer).ok());
+}
+
+}  // namespace
+}  // namespace roboss::test

@@ -1,0 +1,237 @@
+// Comparing two journals: stored checkpoints first, then by stepping again.
+#include "simulation/divergence.h"
+
+#include <algorithm>
+
+#include "wire/codec.h"
+
+namespace roboss {
+
+namespace {
+
+using States = std::vector<RobotState>;
+
+/// One of the two runs.
+class Side {
+  public:
+    Side(const Journal& journal, Branch branch, const ReplayOptions& options)
+        : journal_(journal), branch_(std::move(branch)), options_(options) {}
+
+    Result<> open() {
+        Result<std::shared_ptr<const Model>> model = journal_.model(branch_);
+        if (!model) return model.error();
+        model_ = model.value();
+        places_ = journal_.checkpoints(branch_);
+        return Ok{};
+    }
+    const Model& model() const { return *model_; }
+    const Branch& branch() const { return branch_; }
+    const Journal& journal() const { return journal_; }
+    Tick first() const { return places_.front().tick; }
+    Tick last() const { return branch_.end; }
+
+    const CheckpointPlace* place(Tick tick) const {
+        for (const CheckpointPlace& place : places_)
+            if (place.tick == tick) return &place;
+        return nullptr;
+    }
+    const std::vector<CheckpointPlace>& places() const { return places_; }
+    /// The states at a tick: kept ones if there are any, else stepped again.
+    Result<States> states(Tick tick) const {
+        if (const CheckpointPlace* kept = place(tick)) {
+            Result<StoredCheckpoint> stored = journal_.checkpoint(*kept, *model_);
+            if (!stored) return stored.error();
+            return std::move(stored.value().states);
+        }
+        auto simulation = at(tick, tick);
+        if (!simulation) return simulation.error();
+        return simulation.value()->states();
+    }
+    /// A simulation at `tick` that can go on to `until`.
+    Result<std::unique_ptr<Simulation>> at(Tick tick, Tick until) const {
+        return replay_at(journal_, branch_, model_, tick, until, options_);
+    }
+
+  private:
+    const Journal& journal_;
+    Branch branch_;
+    ReplayOptions options_;
+    std::shared_ptr<const Model> model_;
+    std::vector<CheckpointPlace> places_;
+};
+
+/// Fills in who differs and in what; false if nobody does.
+bool describe(const Model& model, const States& a, const States& b, Divergence& result) {
+    result.robots = 0;
+    for (std::size_t r = 0; r < a.size(); ++r) {
+        const auto difference = first_difference(model.type_of(RobotId(r)), a[r], b[r]);
+        if (!difference) continue;
+        if (result.robots++ > 0) continue;
+        result.robot = model.robots[r].name;
+        result.field = *difference;
+    }
+    return result.robots > 0;
+}
+
+std::string describe(const Model& model, const Order& order) {
+    static constexpr const char* kKinds[] = {"set pose", "set velocity", "wrench", "joint"};
+    static_assert(std::size(kKinds) == std::variant_size_v<Action>);
+    std::string text = std::string(kKinds[order.action.index()]) + " of robot '" +
+                       model.robots[order.robot.index()].name + "'";
+    if (const auto* joint = std::get_if<SetJoint>(&order.action))
+        text += ", joint '" + model.type_of(order.robot).joints[joint->joint.index()].name + "', target " +
+                std::to_string(joint->target);
+    return order.client.valid() ? text + ", from Client " + std::to_string(order.client.value) : text;
+}
+
+/// Orders that apply at `tick` in one run and not in the other.
+Result<> describe_orders(const Side& a, const Side& b, Tick tick, Divergence& result) {
+    std::vector<std::pair<std::vector<std::uint8_t>, std::string>> orders[2];
+    const Side* sides[] = {&a, &b};
+    for (std::size_t i = 0; i < 2; ++i) {
+        Result<LogBatch> log = sides[i]->journal().log(sides[i]->branch(), tick, tick + 1);
+        if (!log) return log.error();
+        for (const SaidOrder& o : log.value().orders) {
+            if (o.order.apply_at != tick) continue;
+            if (Result<> checked = check_order(sides[i]->model(), o.order); !checked) return checked;
+            orders[i].emplace_back(encode_orders({o.order}), describe(sides[i]->model(), o.order));
+        }
+    }
+    const auto only = [](const auto& mine, const auto& others) {
+        std::vector<std::string> texts;
+        for (const auto& [bytes, text] : mine)
+            if (std::none_of(others.begin(), others.end(), [&](const auto& o) { return o.first == bytes; }))
+                texts.push_back(text);
+        return texts;
+    };
+    result.orders_a_only = only(orders[0], orders[1]);
+    result.orders_b_only = only(orders[1], orders[0]);
+    return Ok{};
+}
+
+/// Both runs from `from`, where they are equal, to the first tick at which they differ; nothing if they are
+/// still equal at `until`.
+Result<std::optional<Divergence>> step_apart(const Side& a, const Side& b, Tick from, Tick until) {
+    auto run_a = a.at(from, until), run_b = b.at(from, until);
+    if (!run_a) return run_a.error();
+    if (!run_b) return run_b.error();
+    for (Tick tick = from; tick <= until; ++tick) {
+        for (auto* run : {&run_a, &run_b})
+            if (Result<> done = run->value()->run_until(tick); !done) return done.error();
+        Divergence found;
+        if (!describe(a.model(), run_a.value()->states(), run_b.value()->states(), found)) continue;
+        found.tick = tick;
+        if (tick > from)
+            if (Result<> told = describe_orders(a, b, tick - 1, found); !told) return told.error();
+        return std::optional(std::move(found));
+    }
+    return std::optional<Divergence>{};
+}
+
+/// Ticks to be compared, ascending: checkpoints that both have; else those of one; and the last.
+std::vector<Tick> ticks_to_compare(const Side& a, const Side& b, Tick from, Tick until) {
+    std::vector<Tick> common{from, until}, all{from, until};
+    for (const CheckpointPlace& place : a.places()) {
+        if (place.tick <= from || place.tick >= until) continue;
+        all.push_back(place.tick);
+        if (b.place(place.tick) != nullptr) common.push_back(place.tick);
+    }
+    std::vector<Tick>& chosen = common.size() > 2 ? common : all;
+    std::sort(chosen.begin(), chosen.end());
+    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+    return chosen;
+}
+
+Result<bool> equal_at(const Side& a, const Side& b, Tick tick, Divergence& found) {
+    const CheckpointPlace *kept_a = a.place(tick), *kept_b = b.place(tick);
+    if (kept_a != nullptr && kept_b != nullptr && a.model().hash == b.model().hash &&
+        kept_a->hash == kept_b->hash)
+        return true;
+    Result<States> states_a = a.states(tick), states_b = b.states(tick);
+    if (!states_a) return states_a.error();
+    if (!states_b) return states_b.error();
+    found.tick = tick;
+    return !describe(a.model(), states_a.value(), states_b.value(), found);
+}
+
+/// The place of the first tick whose kept hashes differ; the last place if there is none. Costs nothing.
+std::size_t first_kept_apart(const Side& a, const Side& b, const std::vector<Tick>& ticks) {
+    for (std::size_t i = 0; i < ticks.size() && a.model().hash == b.model().hash; ++i) {
+        const CheckpointPlace *kept_a = a.place(ticks[i]), *kept_b = b.place(ticks[i]);
+        if (kept_a != nullptr && kept_b != nullptr && kept_a->hash != kept_b->hash) return i;
+    }
+    return ticks.size() - 1;
+}
+
+/// The first tick of `ticks` that differs, by halving; ticks.size() if none does.
+Result<std::size_t> first_that_differs(const Side& a, const Side& b, const std::vector<Tick>& ticks,
+                                       Divergence& found) {
+    std::size_t low = 0, high = first_kept_apart(a, b, ticks);  // equal before low; different from high on
+    Result<bool> equal = equal_at(a, b, ticks[high], found);
+    if (!equal) return equal.error();
+    if (equal.value()) return ticks.size();
+    while (low < high) {
+        const std::size_t middle = low + (high - low) / 2;
+        Divergence here;
+        equal = equal_at(a, b, ticks[middle], here);
+        if (!equal) return equal.error();
+        if (equal.value()) {
+            low = middle + 1;
+        } else {
+            high = middle;
+            found = std::move(here);
+        }
+    }
+    return high;
+}
+
+Result<> check_comparable(const Side& a, const Side& b) {
+    const auto& x = a.model().robots;
+    const auto& y = b.model().robots;
+    const bool same = std::equal(x.begin(), x.end(), y.begin(), y.end(),
+                                 [](const Robot& p, const Robot& q) { return p.name == q.name; });
+    if (!same || a.model().dt_s != b.model().dt_s)
+        return Error{
+            a.journal().path() + " and " + b.journal().path() + " are of worlds with other robots or steps",
+            "compare runs of one world"};
+    if (std::max(a.first(), b.first()) > std::min(a.last(), b.last()))
+        return Error{a.journal().path() + " and " + b.journal().path() + " have no time in common",
+                     "compare runs of the same time"};
+    return Ok{};
+}
+
+}  // namespace
+
+Result<Comparison> compare(const Journal& journal_a, const Branch& branch_a, const Journal& journal_b,
+                           const Branch& branch_b, const ReplayOptions& options) {
+    Side a(journal_a, branch_a, options), b(journal_b, branch_b, options);
+    for (Side* side : {&a, &b})
+        if (Result<> opened = side->open(); !opened) return opened.error();
+    if (Result<> comparable = check_comparable(a, b); !comparable) return comparable.error();
+    Comparison result{std::max(a.first(), b.first()), std::min(a.last(), b.last()), a.model().hash,
+                      b.model().hash, std::nullopt};
+    const std::vector<Tick> ticks = ticks_to_compare(a, b, result.from, result.until);
+    Divergence kept;
+    Result<std::size_t> at = first_that_differs(a, b, ticks, kept);
+    if (!at) return at.error();
+    if (at.value() == ticks.size()) return result;
+    if (at.value() == 0) {
+        kept.remark = "they differ from the first tick that both have";
+        result.divergence = std::move(kept);
+    } else {
+        Result<std::optional<Divergence>> found = step_apart(a, b, ticks[at.value() - 1], ticks[at.value()]);
+        if (!found) return found.error();
+        if (!found.value()) {
+            kept.remark =
+                "stepped again from the checkpoint before, both runs are equal here: one of them was "
+                "computed with other "
+                "bits (`roboss journal verify` says which)";
+            found.value() = std::move(kept);
+        }
+        result.divergence = std::move(*found.value());
+    }
+    result.divergence->time_s = static_cast<double>(result.divergence->tick) * a.model().dt_s;
+    return result;
+}
+
+}  // namespace roboss

@@ -1,0 +1,46 @@
+// Where two runs part: the first tick at which their states differ, and what differs there. Checkpoints that
+// both journals have are compared; the first stretch whose end differs is stepped again, both runs side by
+// side, tick by tick. So a journal need not hold every tick. Runs that have parted are taken to stay apart.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulation/replay.h"
+
+namespace roboss {
+
+/// One number of a robot's state, by a name that a person can read.
+struct FieldDifference {
+    std::string field;  // "joint 'wheel_0' velocity"
+    std::string a, b;   // the values, exact
+};
+
+/// The first field of the state, in a fixed order, that differs; nothing if all bits are equal.
+std::optional<FieldDifference> first_difference(const RobotType& type, const RobotState& a,
+                                                const RobotState& b);
+
+struct Divergence {
+    Tick tick = 0;  // the first at which the states differ
+    double time_s = 0;
+    std::string robot;
+    FieldDifference field;
+    std::size_t robots = 0;  // that differ at this tick
+    /// Orders that took effect in the step before it in one run only, in words.
+    std::vector<std::string> orders_a_only, orders_b_only;
+    std::string remark;  // what else is to be known
+};
+
+struct Comparison {
+    Tick from = 0, until = 0;  // what was compared
+    std::uint64_t model_a = 0, model_b = 0;
+    std::optional<Divergence> divergence;
+};
+
+/// `a` and `b`: the journals with the branches to compare. An Error: they have nothing in common (other
+/// robots, no common time), or cannot be read.
+Result<Comparison> compare(const Journal& journal_a, const Branch& a, const Journal& journal_b,
+                           const Branch& b, const ReplayOptions& options);
+
+}  // namespace roboss

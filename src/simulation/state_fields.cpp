@@ -1,0 +1,135 @@
+// Names for the numbers of a robot's state.
+#include <bit>
+#include <cstdio>
+
+#include "simulation/divergence.h"
+
+namespace roboss {
+
+namespace {
+
+std::string text(double x) {
+    char line[64];
+    std::snprintf(line, sizeof line, "%.17g", x);
+    return line;
+}
+std::string text(std::uint64_t x) {
+    return std::to_string(x);
+}
+
+bool same(double a, double b) {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+/// Compares field by field and keeps the first difference.
+class Fields {
+  public:
+    void number(const std::string& name, double a, double b) {
+        if (!found_ && !same(a, b)) found_ = FieldDifference{name, text(a), text(b)};
+    }
+    void count(const std::string& name, std::uint64_t a, std::uint64_t b) {
+        if (!found_ && a != b) found_ = FieldDifference{name, text(a), text(b)};
+    }
+    void vector(const std::string& name, const Vec3& a, const Vec3& b) {
+        number(name + " x", a.x, b.x), number(name + " y", a.y, b.y), number(name + " z", a.z, b.z);
+    }
+    bool done() const { return found_.has_value(); }
+    std::optional<FieldDifference> take() { return std::move(found_); }
+
+  private:
+    std::optional<FieldDifference> found_;
+};
+
+const char* const kPose[] = {"base position x",    "base position y",    "base position z",
+                             "base orientation w", "base orientation x", "base orientation y",
+                             "base orientation z"};
+const char* const kTwist[] = {"base angular velocity x", "base angular velocity y", "base angular velocity z",
+                              "base linear velocity x",  "base linear velocity y",  "base linear velocity z"};
+
+/// "joint 'wheel_0' position", by where the joint's coordinates begin.
+std::string joint_field(const RobotType& type, int index, bool velocity) {
+    std::string name = "coordinate";
+    int offset = 0;
+    for (const Joint& joint : type.joints) {
+        const int first = velocity ? joint.v_index : joint.q_index;
+        if (joint.body < 0 || joint.loop >= 0 || joint.nv == 0 || first < 0 || first > index) continue;
+        name = "joint '" + joint.name + "'";
+        offset = index - first;
+    }
+    return name + (velocity ? " velocity" : " position") + (offset > 0 ? " " + std::to_string(offset) : "");
+}
+
+void compare_coordinates(const RobotType& type, const RobotState& a, const RobotState& b, Fields& fields) {
+    for (std::size_t i = 0; i < a.q.size(); ++i)
+        if (!same(a.q[i], b.q[i]))
+            fields.number(i < 7 ? kPose[i] : joint_field(type, static_cast<int>(i), false), a.q[i], b.q[i]);
+    const auto base = static_cast<std::size_t>(type.base_nv());
+    for (std::size_t i = 0; i < a.v.size(); ++i)
+        if (!same(a.v[i], b.v[i]))
+            fields.number(i < base ? kTwist[i] : joint_field(type, static_cast<int>(i), true), a.v[i],
+                          b.v[i]);
+}
+
+void compare_orders(const RobotState& a, const RobotState& b, Fields& fields) {
+    for (std::size_t i = 0; i < a.motors.size() && !fields.done(); ++i) {
+        const std::string name = "motor " + std::to_string(i);
+        fields.count(name + " mode", static_cast<std::uint64_t>(a.motors[i].mode),
+                     static_cast<std::uint64_t>(b.motors[i].mode));
+        fields.number(name + " target", a.motors[i].target, b.motors[i].target);
+        fields.number(name + " maximum effort", a.motors[i].max_effort, b.motors[i].max_effort);
+        fields.number(name + " impulse", a.motors[i].impulse, b.motors[i].impulse);
+        fields.number(name + " load", a.motors[i].load, b.motors[i].load);
+    }
+    fields.count("number of wrenches", a.wrenches.size(), b.wrenches.size());
+    for (std::size_t i = 0; i < a.wrenches.size() && !fields.done(); ++i) {
+        const std::string name = "wrench " + std::to_string(i);
+        fields.count(name + " link", a.wrenches[i].link.value, b.wrenches[i].link.value);
+        fields.vector(name + " force", a.wrenches[i].force, b.wrenches[i].force);
+        fields.vector(name + " torque", a.wrenches[i].torque, b.wrenches[i].torque);
+        fields.count(name + " end", static_cast<std::uint64_t>(a.wrenches[i].until),
+                     static_cast<std::uint64_t>(b.wrenches[i].until));
+    }
+}
+
+void compare_contacts(const RobotState& a, const RobotState& b, Fields& fields) {
+    fields.count("number of contacts", a.contacts.size(), b.contacts.size());
+    for (std::size_t i = 0; i < a.contacts.size() && !fields.done(); ++i) {
+        const ContactMemory &x = a.contacts[i], &y = b.contacts[i];
+        const std::string name = "contact " + std::to_string(i);
+        fields.count(name + " with robot", x.other_robot, y.other_robot);
+        fields.count(name + " shape", x.shape, y.shape);
+        fields.count(name + " other shape", x.other_shape, y.other_shape);
+        fields.count(name + " feature", x.feature, y.feature);
+        fields.number(name + " impulse", x.impulse, y.impulse);
+        fields.number(name + " load", x.load, y.load);
+        fields.vector(name + " friction", x.friction, y.friction);
+    }
+}
+
+void compare_rest(const Rest& a, const Rest& b, Fields& fields) {
+    fields.count("ticks at rest", a.still_ticks, b.still_ticks);
+    fields.count("asleep", a.asleep ? 1 : 0, b.asleep ? 1 : 0);
+    fields.count("number of a sleeper's neighbours", a.neighbours.size(), b.neighbours.size());
+    for (std::size_t i = 0; i < a.neighbours.size() && !fields.done(); ++i)
+        fields.count("a sleeper's neighbour " + std::to_string(i), a.neighbours[i], b.neighbours[i]);
+    fields.vector("a sleeper's bound, minimum", a.bound.min, b.bound.min);
+    fields.vector("a sleeper's bound, maximum", a.bound.max, b.bound.max);
+}
+
+}  // namespace
+
+std::optional<FieldDifference> first_difference(const RobotType& type, const RobotState& a,
+                                                const RobotState& b) {
+    Fields fields;
+    fields.count("number of coordinates", a.q.size(), b.q.size());
+    fields.count("number of velocities", a.v.size(), b.v.size());
+    fields.count("number of motors", a.motors.size(), b.motors.size());
+    if (fields.done()) return fields.take();
+    compare_coordinates(type, a, b, fields);
+    compare_orders(a, b, fields);
+    compare_contacts(a, b, fields);
+    compare_rest(a.rest, b.rest, fields);
+    return fields.take();
+}
+
+}  // namespace roboss

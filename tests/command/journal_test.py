@@ -1,0 +1,185 @@
+"""A kept run: the journal leaves no trace in the result, gives back every moment, survives kill -9 and full disks, and two
+of them tell where they part. Three worlds with collisions, one of them with a control program that remembers."""
+import json
+import random
+import resource
+import shutil
+import signal
+import subprocess
+import time
+import unittest
+
+from running import DRIVER, FOLDER, ROBOSS, WORLDS, roboss, summary
+
+RUNS = {
+    "city": [WORLDS / "city.sdf", "--client", DRIVER],
+    "crossroads": [WORLDS / "crossroads.sdf", "--orders", WORLDS / "crossroads.jsonl"],
+    "heap": [WORLDS / "heap.sdf"],
+}
+UNTIL = 1.2
+expected = {}
+
+
+def undisturbed(name):
+    if name not in expected:
+        expected[name] = summary(*RUNS[name], "--until", UNTIL)
+    return expected[name]["state_hash"]
+
+
+def fresh(name):
+    file = FOLDER / name
+    for part in ("", "-wal", "-shm"):
+        file.with_name(file.name + part).unlink(missing_ok=True)
+    return file
+
+
+def kept(name, every=0.25):
+    """A finished journal of this world; made once."""
+    file = FOLDER / f"kept_{name}.journal"
+    if not file.exists():
+        found = summary(*RUNS[name], "--until", UNTIL, "--journal", file, "--journal-every", every)
+        assert found["state_hash"] == undisturbed(name), f"the journal changed {name}"
+    return file
+
+
+def as_json(*arguments, code=0):
+    done = roboss(*arguments, "--json")
+    assert done.returncode == code, f"{arguments} ended with {done.returncode}:\n{done.stdout}{done.stderr}"
+    return json.loads(done.stdout)
+
+
+class Journal(unittest.TestCase):
+    def refused(self, arguments, exit_code, *words):
+        done = roboss(*arguments)
+        self.assertEqual(done.returncode, exit_code, done.stderr + done.stdout)
+        for word in words:
+            self.assertIn(word, done.stderr + done.stdout)
+        return done
+
+    def test_a_run_with_a_journal_ends_as_without_and_can_be_stepped_again(self):
+        for name in RUNS:
+            with self.subTest(world=name):
+                file = kept(name)
+                verified = as_json("journal", "verify", file)
+                self.assertTrue(verified["good"])
+                self.assertGreaterEqual(len(verified["stretches"]), 2)
+                replayed = roboss("replay", file, "--quiet", "--simulators", "3", "--window", "7")
+                self.assertEqual(replayed.returncode, 0, replayed.stderr)
+                self.assertIn(undisturbed(name), replayed.stdout)
+                branch = as_json("journal", "info", file)["branches"][0]
+                self.assertEqual((branch["committed_hash"], branch["end_s"]), (undisturbed(name), UNTIL))
+
+    def test_from_any_time_the_run_goes_on_to_the_same_end(self):
+        for name, at in (("city", 0.734), ("city", 0.5), ("crossroads", 1.1), ("heap", 0.001)):
+            with self.subTest(world=name, at=at):
+                self.assertEqual(summary(*RUNS[name], "--until", UNTIL, "--from", f"{kept(name)}@{at}")["state_hash"],
+                                 undisturbed(name))
+
+    def test_a_state_saved_out_of_a_journal_goes_on_to_the_same_end(self):
+        saved = FOLDER / "out.roboss"
+        self.assertEqual(roboss("save", saved, "--from", f"{kept('city')}@0.611").returncode, 0)
+        self.assertEqual(summary(*RUNS["city"], "--until", UNTIL, "--from", saved)["state_hash"], undisturbed("city"))
+
+    def test_rewound_runs_are_branches_of_the_same_journal(self):
+        file = fresh("branches.journal")
+        shutil.copy(kept("heap"), file)
+        shove = FOLDER / "shove.jsonl"
+        shove.write_text('{"t":0.9,"robot":"arm","wrench":{"link":"lower","force":[30,0,0],"duration":0.05}}\n')
+        other = summary(*RUNS["heap"], "--orders", shove, "--until", UNTIL, "--from", f"{file}@0.8", "--journal", file)
+        self.assertNotEqual(other["state_hash"], undisturbed("heap"))
+        third = summary(*RUNS["heap"], "--until", UNTIL, "--from", f"{file}#2@0.3", "--journal", file)
+        self.assertEqual(third["state_hash"], undisturbed("heap"), "0.3 s is before the branch left: the first branch's history")
+        branches = as_json("journal", "info", file)["branches"]
+        self.assertEqual([(b["parent"], round(b["time_s"], 6)) for b in branches], [(0, 0.0), (1, 0.8), (1, 0.3)])
+        self.assertTrue(as_json("journal", "verify", file)["good"])
+        apart = as_json("diff", f"{file}#1", f"{file}#2", code=3)
+        self.assertEqual((apart["tick"] - 1) * 0.8 / branches[1]["tick"], 0.9, "the step that the order takes effect in")
+        self.assertEqual(apart["orders_b_only"], ["wrench of robot 'arm'"])
+        self.assertTrue(as_json("diff", f"{file}#1", f"{file}#3")["equal"])
+
+    def test_exported_orders_make_the_same_run_without_its_control_program(self):
+        orders = FOLDER / "exported.jsonl"
+        orders.write_text(roboss("journal", "export", kept("city"), "--orders").stdout)
+        self.assertGreater(len(orders.read_text().splitlines()), 1000)
+        self.assertEqual(summary(WORLDS / "city.sdf", "--orders", orders, "--until", UNTIL)["state_hash"], undisturbed("city"))
+
+    def test_killed_at_random_moments_and_started_again_nothing_is_lost(self):
+        for name, seed in (("city", 1), ("city", 2), ("crossroads", 3), ("heap", 4)):
+            with self.subTest(world=name, seed=seed):
+                print(f"    seed {seed}")
+                chance = random.Random(seed)
+                file = fresh(f"killed_{name}_{seed}.journal")
+                arguments = [ROBOSS, "run", *map(str, RUNS[name]), "--until", str(UNTIL), "--quiet", "--speed", "1", "--journal", str(file),
+                             "--journal-every", "0.2"]
+                reached = []
+                for _ in range(5):
+                    run = subprocess.Popen(arguments, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                    time.sleep(chance.uniform(0.2, 0.7))
+                    run.send_signal(signal.SIGKILL)
+                    run.wait()
+                    info = roboss("journal", "info", file, "--json")
+                    if info.returncode == 0:  # else it was killed before it began
+                        reached.append(json.loads(info.stdout)["branches"][-1]["end_tick"])
+                self.assertEqual(reached, sorted(reached), "what is in the journal stays there")
+                self.assertGreater(len(set(reached)), 1)
+                found = summary(*RUNS[name], "--until", UNTIL, "--journal", file)
+                self.assertEqual(found["state_hash"], undisturbed(name))
+                self.assertTrue(as_json("journal", "verify", file)["good"])
+                self.assertTrue(as_json("diff", file, kept(name))["equal"])
+                self.assertEqual(len(as_json("journal", "info", file)["branches"]), 1)
+
+    def test_two_journals_tell_the_first_tick_robot_and_field_that_differ(self):
+        changed = FOLDER / "changed.jsonl"
+        lines = (WORLDS / "crossroads.jsonl").read_text().splitlines()
+        changed.write_text("\n".join(lines) + '\n{"t":0.7,"robot":"%s","wrench":{"link":"%s","force":[1e-9,0,0],"duration":0.01}}\n' % (
+            self.first_robot()))
+        other = fresh("changed.journal")
+        summary(WORLDS / "crossroads.sdf", "--orders", changed, "--until", UNTIL, "--journal", other, "--journal-every", 0.33)
+        found = as_json("diff", kept("crossroads"), other, code=3)
+        self.assertFalse(found["equal"])
+        self.assertAlmostEqual(found["time_s"], 0.7, delta=0.0021)
+        self.assertEqual(found["robot"], self.first_robot()[0])
+        self.assertNotEqual(found["a"], found["b"])
+        self.assertEqual(len(found["orders_b_only"]), 1)
+        self.assertTrue(as_json("diff", other, other)["equal"])
+        self.refused(["diff", other, kept("heap")], 1, "other robots")
+
+    def first_robot(self):
+        first = json.loads(next(line for line in (WORLDS / "crossroads.jsonl").read_text().splitlines() if line.startswith("{")))
+        return first["robot"], "chassis"
+
+    def test_on_a_full_disk_the_run_goes_on_and_says_so(self):
+        file = fresh("full.journal")
+        arguments = [ROBOSS, "run", *map(str, RUNS["city"]), "--until", str(UNTIL), "--journal", str(file)]
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (400_000, resource.RLIM_INFINITY))
+        done = subprocess.run(arguments, capture_output=True, text=True, preexec_fn=limit, timeout=120)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("the run goes on", done.stderr)
+        self.assertIn(undisturbed("city"), done.stdout, "the result is what it would have been")
+        self.assertTrue(as_json("journal", "verify", file)["good"], "what was written is whole")
+        self.assertEqual(summary(*RUNS["city"], "--until", UNTIL, "--journal", file)["state_hash"], undisturbed("city"),
+                         "and with room again, it goes on")
+
+    def test_a_journal_that_does_not_fit_is_refused_in_words_and_left_alone(self):
+        file = kept("heap")
+        whole = file.read_bytes()
+        cut = FOLDER / "cut.journal"
+        cut.write_bytes(whole[: len(whole) * 2 // 3])
+        for command in (["journal", "info"], ["journal", "verify"], ["replay"], ["run", WORLDS / "heap.sdf", "--until", 1, "--journal"]):
+            self.refused([*command, cut], 1, "cut.journal")
+        self.assertEqual(cut.read_bytes(), whole[: len(whole) * 2 // 3])
+        self.refused(["run", *RUNS["crossroads"], "--until", 1, "--journal", file], 1, "another world", "heap.sdf")
+        self.refused(["run", *RUNS["heap"], "--dt", 0.001, "--until", 1, "--journal", file], 1, "another world")
+        self.refused(["run", *RUNS["heap"], "--from", f"{file}@7"], 1, "nothing at 7")
+        self.refused(["run", *RUNS["heap"], "--from", f"{file}#9"], 1, "no branch 9")
+        self.refused(["run", WORLDS / "city.sdf", "--until", 2, "--journal", kept("city")], 1, "other Clients")
+        text = FOLDER / "text.journal"
+        text.write_text("not a journal, but something that somebody needs\n")
+        self.refused(["run", *RUNS["heap"], "--until", 1, "--journal", text], 1, "text.journal")
+        self.assertIn("somebody needs", text.read_text())
+        self.refused(["run", *RUNS["heap"], "--until", 1, "--journal", "no/such/folder.journal"], 1, "no/such/folder.journal")
+        self.assertEqual(file.read_bytes(), whole)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,123 @@
+"""A Controller killed with -9 in the middle of a run of many processes goes on from its journal; a running simulation is
+controlled from the command line; and all of it can be stepped again to the same hash."""
+import json
+import random
+import subprocess
+import time
+import unittest
+
+from members import DRIVER, FOLDER, NETWORK, ROBOSS, WORLDS, Cluster, embedded
+
+CITY = [WORLDS / "city.sdf", "--until", 1.2, "--seed", 7]
+HEAP = [WORLDS / "heap.sdf", "--until", 2.0]
+BALL = """<sdf version="1.9"><model name="ball"><link name="ball"><inertial><mass>1</mass><inertia><ixx>.004</ixx><iyy>.004</iyy>
+<izz>.004</izz></inertia></inertial><collision name="c"><geometry><sphere><radius>.1</radius></sphere></geometry></collision></link></model></sdf>"""
+
+
+def journal(*arguments):
+    done = subprocess.run([ROBOSS, "journal", *map(str, arguments), "--json"], capture_output=True, text=True, timeout=120)
+    return json.loads(done.stdout) if done.returncode == 0 else None
+
+
+class Control(unittest.TestCase):
+    def ask(self, cluster, *words, code=0):
+        done = subprocess.run([ROBOSS, "control", "--simulation", cluster.name, *NETWORK, "--quiet", *map(str, words)],
+                              capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, code, f"{words}: {done.stdout}{done.stderr}")
+        return done.stdout + done.stderr
+
+    def status(self, cluster):
+        return json.loads(self.ask(cluster, "status"))
+
+    def test_a_killed_controller_goes_on_from_its_journal_with_its_simulators_and_clients(self):
+        expected = embedded(*CITY, "--client", DRIVER)
+        for seed in (1, 2):
+            with self.subTest(seed=seed), Cluster() as cluster:
+                chance = random.Random(seed)
+                file = FOLDER / f"killed-{seed}.journal"
+                arguments = [*CITY, "--simulators", 2, "--await-client", "driver", "--journal", file, "--journal-every", 0.2]
+                controller = cluster.controller(*arguments, "--speed", 0.5)
+                members = [cluster.simulator(), cluster.start("client", DRIVER, "--name", "driver"), cluster.simulator()]
+                controller.hears("client 'driver' joined")
+                reached = []
+                for _ in range(2):
+                    time.sleep(chance.uniform(0.3, 0.9))
+                    controller.kill()
+                    reached.append(journal("info", file)["branches"][0]["end_tick"])
+                    controller = cluster.controller(*arguments, "--speed", 0.5)
+                    controller.hears("goes on from")
+                self.assertEqual(cluster.summary(controller)["state_hash"], expected["state_hash"], (reached, controller.said()))
+                self.assertGreater(reached[0], 0)
+                self.assertEqual([member.end(10) for member in members], [0, 0, 0])
+                self.assertTrue(journal("verify", file)["good"])
+
+    def test_a_running_simulation_obeys_and_its_result_does_not_depend_on_pace(self):
+        expected = embedded(*HEAP)
+        with Cluster() as cluster:
+            file = FOLDER / "controlled.journal"
+            controller = cluster.controller(*HEAP, "--local", 1, "--simulators", 1, "--paused", "--journal", file)
+            other = cluster.simulator()
+            controller.hears("joined", 2)
+            self.assertEqual(self.status(cluster)["tick"], 0)
+            self.ask(cluster, "step", 100)
+            while not self.status(cluster)["paused"]:
+                time.sleep(0.02)
+            self.assertEqual(self.status(cluster)["tick"], 100)
+            self.ask(cluster, "window", 3)
+            self.ask(cluster, "speed", 2)
+            self.ask(cluster, "simulators", "add")
+            controller.hears("joined", 3)
+            self.ask(cluster, "resume")
+            time.sleep(0.3)
+            self.ask(cluster, "simulators", "remove")
+            self.ask(cluster, "pause")
+            self.assertTrue(self.status(cluster)["paused"])
+            saved = FOLDER / "controlled.roboss"
+            self.ask(cluster, "save", saved)
+            self.ask(cluster, "speed", "max")
+            self.ask(cluster, "fly", code=2)
+            self.ask(cluster, "rewind", 99, code=3)
+            self.ask(cluster, "rewind", 0.15)
+            self.assertEqual(self.status(cluster)["tick"], 75)
+            self.ask(cluster, "resume")
+            self.assertEqual(cluster.summary(controller)["state_hash"], expected["state_hash"], controller.said())
+            self.assertEqual(other.end(10), 0)
+            self.assertEqual(embedded(*HEAP, "--from", saved)["state_hash"], expected["state_hash"])
+            self.assertTrue(journal("verify", file)["good"])
+
+    def test_robots_and_accuracy_change_at_a_tick_and_the_journal_keeps_it(self):
+        ball = FOLDER / "ball.sdf"
+        ball.write_text(BALL)
+        hashes = []
+        for way in (["--local", 1, "--simulators", 0], ["--simulators", 2]):
+            with self.subTest(way=way), Cluster() as cluster:
+                file = FOLDER / f"changed-{len(hashes)}.journal"
+                controller = cluster.controller(*HEAP, *way, "--paused", "--journal", file)
+                for _ in range(2 if way[1] == 2 else 0):
+                    cluster.simulator()
+                self.ask(cluster, "step", 200)
+                while not self.status(cluster)["paused"]:
+                    time.sleep(0.02)
+                before = self.status(cluster)["robots"]
+                self.ask(cluster, "add", ball, "--pose", "0 0 1.5 0 0 0", "--name", "guest")
+                self.assertEqual(self.status(cluster)["robots"], [*before, "guest"], "who comes is the last")
+                self.ask(cluster, "add", ball, "--name", "guest", code=3)
+                self.ask(cluster, "step", 200)
+                while not self.status(cluster)["paused"]:
+                    time.sleep(0.02)
+                self.ask(cluster, "accuracy", "high", "tolerance=1e-11")
+                self.ask(cluster, "accuracy", "tolerance=7", code=3)
+                self.ask(cluster, "remove", before[3])
+                self.assertEqual(self.status(cluster)["robots"], [*before[:3], *before[4:], "guest"])
+                self.ask(cluster, "remove", "nobody", code=3)
+                controller.kill()
+                again = cluster.controller(*HEAP, *way, "--journal", file)
+                hashes.append(cluster.summary(again)["state_hash"])
+                self.assertTrue(journal("verify", file)["good"])
+                self.assertEqual(len(journal("info", file)["branches"]), 4)
+        self.assertEqual(hashes[0], hashes[1])
+        self.assertNotEqual(hashes[0], embedded(*HEAP)["state_hash"])
+
+
+if __name__ == "__main__":
+    unittest.main()
