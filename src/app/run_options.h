@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dds/dds_options.h"
+#include "physics/step.h"
 #include "world/world.h"
 
 namespace roboss {
