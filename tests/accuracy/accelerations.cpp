@@ -55,16 +55,16 @@ std::vector<double> free_acceleration(const Model& model, RobotState& state,
     RobotWork work;
     work.type = &type;
     work.state = &state;
-    place_bodies(type, state.q, work);
-    move_bodies(type, state.v, work);
+    place_bodies<double>(type, state.q, work);
+    move_bodies<double>(type, state.v, work);
     compute_impulse(model, 1.0, 0.0, state.q, state.v, work);
-    compute_mass_matrix(type, 0.0, work);
+    compute_mass_matrix<double>(type, 0.0, work);
     for (std::size_t d = 0; d < type.dofs.size(); ++d) {
         const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
         work.impulse[i] += joint_force[d] - type.dofs[d].damping * state.v[i];
     }
-    tree_factor(type.paths, work.mass_matrix);
-    tree_solve(type.paths, work.mass_matrix, work.impulse.data());
+    tree_factor(type.paths, work.mass_matrix.data());
+    tree_solve(type.paths, work.mass_matrix.data(), work.impulse.data());
     Equalities equalities;
     gather_equalities(work, state.q, equalities);
     EqualitySolver solver;
@@ -103,7 +103,7 @@ RobotState random_state_on_loops(const Model& model, Random& random, double spre
     std::vector<double> way(state.v.size());
     for (std::size_t i = static_cast<std::size_t>(type.base_nv()); i < way.size(); ++i)
         way[i] = random.uniform(-spread, spread);
-    advance_coordinates(type, way, 1.0, state.q);
+    advance_coordinates<double>(type, way, 1.0, state.q);
     EqualityProjection projection;
     for (int i = 0; i < 5; ++i) projection.close_coordinates(type, state.q);
     for (double& v : state.v) v = random.uniform(-2, 2);

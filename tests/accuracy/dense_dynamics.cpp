@@ -74,7 +74,7 @@ class Dense {
   private:
     RobotState moved(const std::vector<double>& v, double t) const {
         RobotState s = state_;
-        advance_coordinates(type_, v, t, s.q);
+        advance_coordinates<double>(type_, v, t, s.q);
         return s;
     }
 

@@ -16,7 +16,10 @@ constexpr double kG = 9.81, kDt = 1e-3;
 
 std::shared_ptr<const Model> model_of(const World& world) {
     Diagnostics diagnostics;
-    return compile(world, {}, diagnostics);
+    const std::shared_ptr<const Model> model = compile(world, {}, diagnostics);
+    if (!model)
+        for (const Diagnostic& d : diagnostics.items()) ADD_FAILURE() << d.message;
+    return model;
 }
 
 class Asking : public ControlProgram {
@@ -118,18 +121,20 @@ TEST(Forces, AFollowersHingeBearsTheTorqueOfItsMimic) {
     constexpr double kInertia = 0.5;
     World world = empty_world(kDt, {});
     ModelSpec m;
-    m.name = "pair", m.canonical_link = "a";
+    m.name = "pair", m.canonical_link = "base";
+    m.links.push_back(link("base", 1, Mat3::identity()));
+    m.joints.push_back(joint(JointSpecKind::kFixed, "weld", "world", "base", {}));
     for (const std::string name : {"a", "b"}) {
         m.links.push_back(link(name, 1, Mat3::identity() * kInertia, {{name == "a" ? 0.0 : 1.0, 0, 0}, {}}));
         m.joints.push_back(
-            joint(JointSpecKind::kRevolute, "hinge_" + name, "world", name, m.links.back().X_ML, {0, 0, 1}));
+            joint(JointSpecKind::kRevolute, "hinge_" + name, "base", name, m.links.back().X_ML, {0, 0, 1}));
     }
-    m.joints[1].axes[0].mimic = MimicSpec{"hinge_a", 0, 2.0, 0, 0};
+    m.joints[2].axes[0].mimic = MimicSpec{"hinge_a", 0, 2.0, 0, 0};
     place(world, m, "pair");
     int asked = 0;
     run(world, 0.1, [&](Client& client) {
-        ASSERT_TRUE(client.set_joint(RobotId(0u), JointId(0u), MotorMode::kEffort, 1.0).ok());
-        if (client.tick() < 10) return;
+        ASSERT_TRUE(client.set_joint(RobotId(0u), JointId(1u), MotorMode::kEffort, 1.0).ok());
+        if (client.tick() < 20) return;
         ++asked;
         const std::vector<JointReaction> reactions = client.joint_reactions(RobotId(0u));
         ASSERT_EQ(reactions.size(), 2u);
