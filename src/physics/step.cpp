@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "core/float_env.h"
@@ -187,6 +188,7 @@ struct Call {
             lanes[k] = {robots[batch[k]], states[batch[k]], &bounds[batch[k]], false, {}};
         const unsigned stepped =
             batch.size() > 1 ? s.lanes->step(model, std::span(lanes).first(batch.size()), report) : 0;
+        report.placed += std::popcount(stepped);
         bool good = true;
         for (std::size_t k = 0; k < batch.size() && good; ++k)
             if ((stepped >> k & 1u) == 0) good = step({&batch[k], 1}, s.alone, s, report);
