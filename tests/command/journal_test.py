@@ -48,6 +48,12 @@ def as_json(*arguments, code=0):
     return json.loads(done.stdout)
 
 
+def written_at(file):
+    """When the journal was written last; 0 if it is not there."""
+    wal = file.with_name(file.name + "-wal")
+    return wal.stat().st_mtime_ns if wal.exists() and wal.stat().st_size > 0 else 0
+
+
 class Journal(unittest.TestCase):
     def refused(self, arguments, exit_code, *words):
         done = roboss(*arguments)
@@ -113,8 +119,11 @@ class Journal(unittest.TestCase):
                              "--journal-every", "0.2"]
                 reached = []
                 for _ in range(5):
+                    before = written_at(file)
                     run = subprocess.Popen(arguments, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-                    time.sleep(chance.uniform(0.2, 0.7))
+                    while written_at(file) == before and run.poll() is None:
+                        time.sleep(0.002)
+                    time.sleep(chance.uniform(0, 0.4))
                     run.send_signal(signal.SIGKILL)
                     run.wait()
                     info = roboss("journal", "info", file, "--json")
