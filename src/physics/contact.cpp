@@ -56,21 +56,6 @@ Contact& add_contact(const Pair& pair, const Vec3& normal, std::vector<Contact>&
     return contact;
 }
 
-/// What the two materials make of a contact along contact.normal.
-void combine(const Placed& pa, const Placed& pb, Contact& contact) {
-    const Material &a = pa.material, &b = pb.material;
-    const FrictionEllipse friction = friction_of(a, pa.R_WS, b, pb.R_WS, contact.normal);
-    contact.mu = friction.mu, contact.mu_across = friction.across;
-    contact.has_friction_axis = !(friction.axis == Vec3{}), contact.friction_axis = friction.axis;
-    contact.restitution = std::max(a.restitution, b.restitution);
-    contact.bounce_threshold = std::max(a.bounce_threshold, b.bounce_threshold);
-    contact.torsional = torsional_lever(a, b, -contact.gap);
-    contact.rolling = std::max(a.rolling, b.rolling);
-    const Softness soft = softness_of(a, b);
-    contact.stiffness = soft.stiffness, contact.damping = soft.damping;
-    contact.slop = std::max(a.slop, b.slop), contact.mend_speed = std::min(a.mend_speed, b.mend_speed);
-}
-
 /// Points of a triangle surface, each with a normal of its own; all but the deepest are dropped.
 void add_points(std::vector<SurfaceContact>& points, const Pair& pair, const Placed& pa, const Placed& pb,
                 std::vector<Contact>& contacts) {
@@ -83,7 +68,7 @@ void add_points(std::vector<SurfaceContact>& points, const Pair& pair, const Pla
     for (const SurfaceContact& point : points) {
         Contact& contact = add_contact(pair, point.n_W, contacts);
         contact.p_W = point.p_W, contact.gap = point.gap, contact.feature = point.feature;
-        combine(pa, pb, contact);
+        combine(pa.material, pa.R_WS, pb.material, pb.R_WS, contact);
     }
 }
 
@@ -97,7 +82,7 @@ void add_points(const Manifold& manifold, const Pair& pair, const Placed& pa, co
         const ContactPoint& point = manifold.points[static_cast<std::size_t>(i)];
         Contact& contact = add_contact(pair, manifold.n_W, contacts);
         contact.p_W = point.p_W, contact.gap = point.gap, contact.feature = point.feature;
-        combine(pa, pb, contact);
+        combine(pa.material, pa.R_WS, pb.material, pb.R_WS, contact);
     }
 }
 
@@ -124,6 +109,19 @@ void sort_contacts(std::span<const RobotWork> robots, std::span<Contact> contact
 }
 
 }  // namespace
+
+void combine(const Material& a, const Mat3& R_WA, const Material& b, const Mat3& R_WB, Contact& contact) {
+    const FrictionEllipse friction = friction_of(a, R_WA, b, R_WB, contact.normal);
+    contact.mu = friction.mu, contact.mu_across = friction.across;
+    contact.has_friction_axis = !(friction.axis == Vec3{}), contact.friction_axis = friction.axis;
+    contact.restitution = std::max(a.restitution, b.restitution);
+    contact.bounce_threshold = std::max(a.bounce_threshold, b.bounce_threshold);
+    contact.torsional = torsional_lever(a, b, -contact.gap);
+    contact.rolling = std::max(a.rolling, b.rolling);
+    const Softness soft = softness_of(a, b);
+    contact.stiffness = soft.stiffness, contact.damping = soft.damping;
+    contact.slop = std::max(a.slop, b.slop), contact.mend_speed = std::min(a.mend_speed, b.mend_speed);
+}
 
 void ContactFinder::find(const Model& model, std::span<RobotWork> robots, std::vector<Contact>& contacts) {
     contacts.clear();

@@ -51,6 +51,38 @@ bool LaneContacts::find(const Model& model, std::size_t lane) {
     return true;
 }
 
+std::optional<std::uint32_t> LaneContacts::only_plane(const Model& model, const Aabb& box) {
+    model.static_bvh.query(box, scenery_);
+    if (scenery_.size() != 1 || model.statics[scenery_[0]].shape.kind != ShapeKind::kPlane) return {};
+    return scenery_[0];
+}
+
+std::optional<Contact> LaneContacts::plain_surface(const Model& model, const BodyShape& shape,
+                                                   std::uint32_t i) {
+    constexpr std::uint32_t kPointsMax = 4;  // of a shape on a plane, as far as lanes know them
+    const Material &a = shape.material, &b = model.statics[i].material;
+    const bool directed = (a.direction_S != Vec3{} || b.direction_S != Vec3{}) &&
+                          std::min(a.mu, b.mu) != std::min(a.mu2, b.mu2);
+    if (directed || std::min(a.contacts_max, b.contacts_max) < kPointsMax) return {};
+    Contact contact;
+    combine(a, Mat3::identity(), b, Mat3::identity(), contact);
+    if (std::min(a.torsional_mu, b.torsional_mu) > 0 || contact.rolling > 0) return {};
+    return contact;
+}
+
+void LaneContacts::clear_memory() {
+    memory_.clear();
+}
+
+void LaneContacts::add_memory(const ContactMemory& memory) {
+    memory_.push_back(memory);
+}
+
+int LaneContacts::remember(RobotState& state) const {
+    state.contacts.assign(memory_.begin(), memory_.end());
+    return static_cast<int>(memory_.size());
+}
+
 unsigned LaneContacts::alike(unsigned present) const {
     unsigned best = 0, unseen = present;
     while (std::popcount(unseen) > std::popcount(best)) {

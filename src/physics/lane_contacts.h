@@ -2,6 +2,7 @@
 // same. Compiled for every processor, unlike lane_step.h.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "physics/contact.h"
@@ -21,6 +22,15 @@ class LaneContacts {
     /// The contacts of a lane with the scenery, with what the last tick remembers. False if the robot is
     /// beyond numbers.
     bool find(const Model& model, std::size_t lane);
+    /// If all the scenery near `box` is one plane: its number.
+    std::optional<std::uint32_t> only_plane(const Model& model, const Aabb& box);
+    /// What the materials make of a shape on scenery `i`; nothing if that is more than lanes know.
+    static std::optional<Contact> plain_surface(const Model& model, const BodyShape& shape, std::uint32_t i);
+    /// Collects what a robot's state is to remember; returns how many contacts that are.
+    void clear_memory();
+    void add_memory(const ContactMemory& memory);
+    int remember(RobotState& state) const;
+
     /// Contacts found elsewhere.
     void take(std::size_t lane, std::span<Contact> contacts) { spans_[lane] = contacts; }
     /// Of the lanes `present`, those that have the same contact points as the first, or as another if that
@@ -38,6 +48,8 @@ class LaneContacts {
     std::vector<std::vector<Contact>> contacts_;
     std::vector<std::span<Contact>> spans_;  // the same, or those found elsewhere
     ContactFinder finder_;
+    std::vector<std::uint32_t> scenery_;
+    std::vector<ContactMemory> memory_;
 };
 
 }  // namespace roboss

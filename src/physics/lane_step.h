@@ -5,6 +5,7 @@
 #include <bit>
 #include <vector>
 
+#include "geometry/plane_contacts.h"
 #include "model/coordinates.h"
 #include "physics/contact_rows.h"
 #include "physics/dynamics.h"
@@ -13,6 +14,7 @@
 #include "physics/loads.h"
 #include "physics/newton.h"
 #include "physics/sleep.h"
+#include "physics/surface_pair.h"
 #include "physics/tree_hessian.h"
 #include "physics/velocity_forces.h"
 
@@ -86,6 +88,9 @@ class LaneStep final : public LaneStepper {
         const bool has_contacts = robots[0].has_contacts;
         if (model.sleep || !has_contacts) place_shapes<T>(type, model.dt_s, q_, work_);
         if (model.sleep) leave_where(work_.speed <= T(kRestSpeed), together);
+        if (!has_contacts) leave_where(!is_finite(work_), together);
+        on_plane_ = !has_contacts && find_on_plane(model, robots, together);
+        if (on_plane_) return;
         for (std::size_t lane = 0; lane < robots.size(); ++lane) {
             if (!is_in(together, lane)) continue;
             if (has_contacts) {
@@ -98,6 +103,81 @@ class LaneStep final : public LaneStepper {
         const unsigned alike = found_.alike(together.present());
         for (std::size_t lane = 0; lane < kLanesOf<T>; ++lane)
             if ((alike >> lane & 1u) == 0) together.leave(lane);
+    }
+
+    /// Whether everything that contacts are found from is a number.
+    static Mask is_finite(const Mechanics<T>& work) {
+        T sum = work.origin.x - work.origin.x + (work.origin.y - work.origin.y) +
+                (work.origin.z - work.origin.z);
+        for (const ShapeWorkT<T>& shape : work.shapes) sum += shape.margin - shape.margin;
+        return equal(sum, T(0));
+    }
+
+    /// Where one plane is all that is near, the narrow phase itself goes in lanes. False if it cannot.
+    bool find_on_plane(const Model& model, std::span<const LaneRobot> robots, Lockstep<T>& together) {
+        std::optional<std::uint32_t> plane;
+        for (std::size_t i = 0; i < robots.size(); ++i) {
+            if (!is_in(together, i)) continue;
+            const auto found = found_.only_plane(model, box_of(i));
+            if (!found || (plane && *plane != *found)) return false;
+            plane = found;
+        }
+        if (!plane) return false;
+        contacts_.clear();
+        for (std::size_t s = 0; s < work_.shapes.size(); ++s)
+            if (work_.type->shapes[s].body >= 0 && !add_on_plane(model, s, *plane, together)) return false;
+        for (std::size_t i = 0; i < robots.size(); ++i)
+            if (is_in(together, i)) recall(i, *robots[i].state);
+        return true;
+    }
+
+    bool add_on_plane(const Model& model, std::size_t s, std::uint32_t plane, Lockstep<T>& together) {
+        const BodyShape& shape = work_.type->shapes[s];
+        const StaticShape& scenery = model.statics[plane];
+        if (!may_collide(shape.material, scenery.material)) return true;
+        const Vec3 n = scenery.X_WS.R.col(2);
+        PlaneContacts<T> points(scenery.X_WS.p, n, work_.shapes[s].margin, together);
+        const std::optional<Contact> surface = found_.plain_surface(model, shape, plane);
+        if (!surface || !points.add(shape.shape, work_.shapes[s].X_WS)) return false;
+        for (std::size_t i = 0; i < points.count(); ++i) {
+            if (i > 0 && points[i].feature < points[i - 1].feature) return false;  // they would be sorted
+            ContactT<T>& c = contacts_.emplace_back();
+            c.shape_a = static_cast<std::uint32_t>(s), c.shape_b = plane, c.feature = points[i].feature;
+            c.body_a = shape.body;
+            set_surface(*surface, c);
+            c.p_W = points[i].p_W, c.gap = points[i].gap, c.normal = broadcast<T>(n);
+        }
+        return true;
+    }
+
+    /// What the last tick remembers of the contacts; both sorted.
+    void recall(std::size_t i, const RobotState& state) {
+        const auto key = [](std::uint32_t shape, std::uint32_t other, std::uint32_t feature) {
+            return std::array{shape, other, feature};
+        };
+        auto m = state.contacts.begin();
+        const auto is_before = [&](const ContactT<T>& c) {
+            return m->other_robot != RobotId::kNone ||
+                   key(m->shape, m->other_shape, m->feature) < key(c.shape_a, c.shape_b, c.feature);
+        };
+        for (ContactT<T>& c : contacts_) {
+            while (m != state.contacts.end() && is_before(c)) ++m;
+            if (m == state.contacts.end()) return;
+            if (key(m->shape, m->other_shape, m->feature) != key(c.shape_a, c.shape_b, c.feature)) continue;
+            set_lane(c.impulse, i, m->impulse), set_lane(c.load, i, m->load);
+            set_lanes(c.friction, i, m->friction);
+        }
+    }
+
+    static Vec3 vector_of(const Vec3T<T>& x, std::size_t i) {
+        return {lane(x.x, i), lane(x.y, i), lane(x.z, i)};
+    }
+    Aabb box_of(std::size_t i) const { return {vector_of(work_.box.min, i), vector_of(work_.box.max, i)}; }
+
+    static void set_surface(const Contact& from, ContactT<T>& to) {
+        to.mu = from.mu, to.restitution = from.restitution, to.bounce_threshold = from.bounce_threshold;
+        to.stiffness = from.stiffness, to.damping = from.damping;
+        to.slop = from.slop, to.mend_speed = from.mend_speed;
     }
 
     void put_shapes(std::size_t i, ShapeWork* shapes) const {
@@ -113,15 +193,14 @@ class LaneStep final : public LaneStepper {
 
     /// What all lanes have in common from the first of them, the rest lane by lane.
     void take_contacts(const Lockstep<T>& together) {
+        if (on_plane_) return;
         const auto first = static_cast<std::size_t>(std::countr_zero(together.present()));
         contacts_.resize(found_.count(first));
         for (std::size_t c = 0; c < contacts_.size(); ++c) {
             const Contact& all = found_.contact(first, c);
             ContactT<T>& to = contacts_[c];
             to.body_a = all.body_a;
-            to.mu = all.mu, to.restitution = all.restitution, to.bounce_threshold = all.bounce_threshold;
-            to.stiffness = all.stiffness, to.damping = all.damping;
-            to.slop = all.slop, to.mend_speed = all.mend_speed;
+            set_surface(all, to);
             for (std::size_t i = 0; i < kLanesOf<T>; ++i) {
                 const Contact& from = found_.contact(is_in(together, i) ? i : first, c);
                 set_lanes(to.p_W, i, from.p_W), set_lanes(to.normal, i, from.normal);
@@ -207,15 +286,34 @@ class LaneStep final : public LaneStepper {
             state.motors[m].load = lane(motors_[m].load, i);
         }
         if (model.sleep) state.rest.still_ticks = 0;
+        if (on_plane_)
+            remember_on_plane(i, robot, report);
+        else
+            scatter_contacts(i);
+        if (!robot.has_contacts) *robot.bound = box_of(i);
+        if (!robot.has_contacts && !on_plane_) found_.remember(model, i, report);
+        report.iterations += static_cast<int>(lane(solved_.iterations, i));
+        if (lane(solved_.residual, i) > report.residual) report.residual = lane(solved_.residual, i);
+    }
+
+    void scatter_contacts(std::size_t i) {
         for (std::size_t c = 0; c < contacts_.size(); ++c) {
             Contact& to = found_.contact(i, c);
             const ContactT<T>& from = contacts_[c];
             to.impulse = lane(from.impulse, i), to.load = lane(from.load, i);
-            to.friction = {lane(from.friction.x, i), lane(from.friction.y, i), lane(from.friction.z, i)};
+            to.friction = vector_of(from.friction, i);
         }
-        if (!robot.has_contacts) found_.remember(model, i, report), *robot.bound = found_.box(i);
-        report.iterations += static_cast<int>(lane(solved_.iterations, i));
-        if (lane(solved_.residual, i) > report.residual) report.residual = lane(solved_.residual, i);
+    }
+
+    void remember_on_plane(std::size_t i, const LaneRobot& robot, StepReport& report) {
+        found_.clear_memory();
+        for (const ContactT<T>& c : contacts_) {
+            const double impulse = lane(c.impulse, i);
+            if (impulse <= 0) continue;
+            found_.add_memory({RobotId::kNone, c.shape_a, c.shape_b, c.feature, impulse, lane(c.load, i),
+                         vector_of(c.friction, i)});
+        }
+        report.contacts += found_.remember(*robot.state);
     }
 
     Mechanics<T> work_;
@@ -228,6 +326,7 @@ class LaneStep final : public LaneStepper {
     SolveReportT<T> solved_;
     Mask split_{false}, free_{false}, pushed_{false};
     LaneContacts found_{kLanesOf<T>};
+    bool on_plane_ = false;  // contacts_ are not from found_
 };
 
 }  // namespace roboss

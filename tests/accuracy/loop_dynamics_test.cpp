@@ -26,11 +26,11 @@ void shift_half_a_tick(const Model& model, RobotState& state) {
     EqualitySolver solver;
     std::vector<double> wanted, change(state.v.size());
     for (int i = 0; i < 4; ++i) {
-        place_bodies(type, state.q, work);
-        move_bodies(type, state.v, work);
+        place_bodies<double>(type, state.q, work);
+        move_bodies<double>(type, state.v, work);
         compute_inertias(type, work);
-        compute_mass_matrix(type, 0.0, work);
-        tree_factor(type.paths, work.mass_matrix);
+        compute_mass_matrix<double>(type, 0.0, work);
+        tree_factor(type.paths, work.mass_matrix.data());
         gather_equalities(work, state.q, equalities);
         solver.prepare(type, work.mass_matrix, equalities);
         wanted.clear();
