@@ -34,7 +34,7 @@ ClientId ClientDesk::welcome(const Address& address, const ClientHello& hello, T
         seat->synchronous = hello.synchronous;
         seat->joined = true;
         seat->first = next_multiple(std::max(earliest, hello.expected), hello.period);
-        seat->last_word = hello.acknowledged;
+        seat->last_word = seat->acknowledged = hello.acknowledged;
         seat->word_awaited = hello.said;
     }
     return ClientId(static_cast<std::size_t>(seat - seats_.begin()));

@@ -20,6 +20,7 @@ struct ClientSeat {
     bool joined = false, gone = false;
     Tick first = 0;  // tick of its first observation
     std::uint64_t last_word = 0;
+    std::uint64_t acknowledged = 0;     // the last word that it has been told is taken
     std::uint64_t word_awaited = 0;     // said to an earlier Controller, and on its way again
     std::vector<RefusedOrder> refused;  // of the last word
     std::deque<Tick> unanswered;        // observations told and not answered, ascending

@@ -53,6 +53,7 @@ void Controller::acknowledge(Bus& bus) {
         if (!seat.acknowledge_at) continue;
         if (options_.log != nullptr && !options_.log->safe(*seat.acknowledge_at)) continue;
         seat.acknowledge_at.reset();
+        seat.acknowledged = seat.last_word;
         bus.send(kControllerAddress, seat.address, WordAck{ClientId(i), seat.last_word, seat.refused});
     }
 }
@@ -88,10 +89,13 @@ void Controller::take_bye(Bus& bus, const Address& from, const ClientBye& bye) {
     if (seat == nullptr || !seat->joined || seat->address != from)
         return bus.send(kControllerAddress, from, ClientUnknown{bye.client});
     if (bye.word > seat->last_word + 1) return;
-    bus.send(kControllerAddress, seat->address, WordAck{bye.client, bye.word, {}});
-    if (seat->gone || bye.word <= seat->last_word) return;
-    seat->last_word = bye.word;
-    drop_client(bye.client);
+    const bool is_news = !seat->gone && bye.word > seat->last_word;
+    if (is_news) {
+        seat->last_word = bye.word;
+        drop_client(bye.client);
+    }
+    seat->acknowledge_at = options_.log != nullptr ? options_.log->given() : 0;
+    if (!is_news) return;
     if (bye.failed)
         fail({"client '" + seat->name + "' failed at tick " + std::to_string(tick_) + ": " + bye.reason,
               "mend the control program; the world up to this tick is intact and can be saved"});
@@ -172,7 +176,7 @@ void Controller::send_observations(Bus& bus, bool again_now) {
         for (const WantedTick& want : wants_) {
             if (std::find(want.clients.begin(), want.clients.end(), ClientId(i)) == want.clients.end())
                 continue;
-            Observation observation{want.tick, seat.last_word, {}};
+            Observation observation{want.tick, seat.acknowledged, {}};
             std::vector<std::uint32_t> places;
             for (std::size_t r = 0; r < want.holder.size(); ++r) {
                 if (is_lost(want.holder[r])) continue;  // told again when it is back

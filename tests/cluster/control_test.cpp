@@ -1,0 +1,47 @@
+// A Client asks the run itself for something, and hears what became of it, over a bad Bus too.
+#include <gtest/gtest.h>
+
+#include "bus/faulty_bus.h"
+#include "client/bus_client.h"
+#include "roles/controller.h"
+#include "roles/simulator.h"
+#include "test_worlds.h"
+
+namespace roboss::test {
+namespace {
+
+TEST(Control, AClientsRequestsComeOnceAndInOrderAndAreAnswered) {
+    const auto model = pair_world();
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        FaultyBus bus({seed, 0.2, 0.2, 5});
+        ControllerOptions options;
+        options.resend_ms = 20;
+        Controller controller(model, options, beginning_of(*model));
+        BusClientOptions asking;
+        asking.synchronous = false;
+        asking.resend_ms = 20;
+        BusClient client(model, {Role::kClient, 1}, asking);
+        client.control({"pause"});
+        client.control({"speed", "2"});
+        std::vector<std::string> heard;
+        std::vector<ControlAnswer> answers;
+        for (int turns = 0; turns < 5'000 && answers.size() < 2; ++turns) {
+            bus.advance_clock(1);
+            controller.advance(bus);
+            for (const ControlCall& call : controller.control().take_calls()) {
+                heard.push_back(call.request.words.front());
+                controller.control().answer(bus, call, heard.size() == 1, "heard");
+            }
+            client.advance(bus);
+            for (ControlAnswer& answer : client.take_control_answers()) answers.push_back(std::move(answer));
+        }
+        EXPECT_EQ(heard, (std::vector<std::string>{"pause", "speed"})) << "seed " << seed;
+        ASSERT_EQ(answers.size(), 2u) << "seed " << seed;
+        EXPECT_TRUE(answers[0].done);
+        EXPECT_FALSE(answers[1].done);
+        EXPECT_EQ(answers[1].words, (std::vector<std::string>{"speed", "2"}));
+    }
+}
+
+}  // namespace
+}  // namespace roboss::test
