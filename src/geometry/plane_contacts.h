@@ -1,6 +1,6 @@
-// Half-space against sphere, box, cylinder and capsule, in closed form: the hot path of all that drives, walks
-// and stands on the ground. Over T: one shape, or the same shape of a few robots in lanes, which vote on
-// everything that decides how many points there are and what they are called.
+// Half-space against sphere, box, cylinder and capsule, in closed form: the hot path of all that drives,
+// walks and stands on the ground. Over T: one shape, or the same shape of a few robots in lanes, which vote
+// on everything that decides how many points there are and what they are called.
 #pragma once
 
 #include <array>

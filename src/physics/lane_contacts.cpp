@@ -66,7 +66,8 @@ std::optional<Contact> LaneContacts::plain_surface(const Model& model, const Bod
     if (directed || std::min(a.contacts_max, b.contacts_max) < kPointsMax) return {};
     Contact contact;
     combine(a, Mat3::identity(), b, Mat3::identity(), contact);
-    if (std::min(a.torsional_mu, b.torsional_mu) > 0 || contact.rolling > 0) return {};
+    const bool has_patch = std::max({a.patch_radius, b.patch_radius, a.surface_radius, b.surface_radius}) > 0;
+    if ((std::min(a.torsional_mu, b.torsional_mu) > 0 && has_patch) || contact.rolling > 0) return {};
     return contact;
 }
 

@@ -107,8 +107,8 @@ class LaneStep final : public LaneStepper {
 
     /// Whether everything that contacts are found from is a number.
     static Mask is_finite(const Mechanics<T>& work) {
-        T sum = work.origin.x - work.origin.x + (work.origin.y - work.origin.y) +
-                (work.origin.z - work.origin.z);
+        T sum =
+            work.origin.x - work.origin.x + (work.origin.y - work.origin.y) + (work.origin.z - work.origin.z);
         for (const ShapeWorkT<T>& shape : work.shapes) sum += shape.margin - shape.margin;
         return equal(sum, T(0));
     }
@@ -311,7 +311,7 @@ class LaneStep final : public LaneStepper {
             const double impulse = lane(c.impulse, i);
             if (impulse <= 0) continue;
             found_.add_memory({RobotId::kNone, c.shape_a, c.shape_b, c.feature, impulse, lane(c.load, i),
-                         vector_of(c.friction, i)});
+                               vector_of(c.friction, i)});
         }
         report.contacts += found_.remember(*robot.state);
     }
