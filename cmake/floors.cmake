@@ -8,6 +8,8 @@ target_compile_options(roboss_options INTERFACE
 target_compile_options(roboss_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 # clang counts changes of sign to -Wconversion, g++ does not; g++ is the measure.
 target_compile_options(roboss_options INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>)
+# Kernels say & and | for lanes' masks and for bool alike.
+target_compile_options(roboss_options INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>)
 target_compile_features(roboss_options INTERFACE cxx_std_20)
 if(ROBOSS_SANITIZE)
   target_compile_options(roboss_options INTERFACE -fsanitize=${ROBOSS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)

@@ -99,9 +99,10 @@ Result<> describe_orders(const Side& a, const Side& b, Tick tick, Divergence& re
     }
     const auto only = [](const auto& mine, const auto& others) {
         std::vector<std::string> texts;
-        for (const auto& [bytes, text] : mine)
-            if (std::none_of(others.begin(), others.end(), [&](const auto& o) { return o.first == bytes; }))
-                texts.push_back(text);
+        for (const auto& one : mine)  // its bytes and its text
+            if (std::none_of(others.begin(), others.end(),
+                             [&](const auto& other) { return other.first == one.first; }))
+                texts.push_back(one.second);
         return texts;
     };
     result.orders_a_only = only(orders[0], orders[1]);
