@@ -1,4 +1,4 @@
-"""One world, one hash: for any threads, Simulators, windows, grouping, after save and load, run after run; and another
+"""One world, one hash: for any threads, lanes, Simulators, windows, grouping, after save and load, run after run; and another
 hash as soon as one bit of the input is another. Six worlds with collisions: one with a control program in the loop, two of
 closed linkages, screws, gearboxes and mimic joints, one of meshes and other shapes."""
 import unittest
@@ -14,6 +14,8 @@ RUNS = {
     "shapes": ([WORLDS / "shapes.sdf"], 0.8),
 }
 WAYS = [
+    ["--lanes", "1"],
+    ["--lanes", "4", "--merge-islands"],
     ["--threads", "2"],
     ["--simulators", "2"],
     ["--simulators", "5", "--threads", "2"],
