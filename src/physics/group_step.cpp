@@ -229,6 +229,12 @@ std::span<Contact> contacts_of(std::uint32_t robot, std::vector<Contact>& contac
     return {first, last};
 }
 
+/// Robots that stand on the same ground have contacts alike; who leans on something too is mostly the only
+/// one of its lanes.
+bool touches_one_thing(std::span<const Contact> contacts) {
+    return std::ranges::all_of(contacts, [&](const Contact& c) { return c.shape_b == contacts[0].shape_b; });
+}
+
 /// The contact islands of a group, each by itself, or those of one robot a few at a time in lanes.
 struct IslandStepper {
     const Model& model;
@@ -245,7 +251,8 @@ struct IslandStepper {
     void step_or_wait(std::span<const std::uint32_t> members) const {
         const RobotWork& work = robots[members[0]];
         const bool waits = s.lanes != nullptr && robots.size() > 1 && members.size() == 1 &&
-                           !work.touches_robot && !s.keep_loads && fits_lanes(*work.type, *work.state);
+                           !work.touches_robot && !s.keep_loads && fits_lanes(*work.type, *work.state) &&
+                           touches_one_thing(contacts_of(members[0], s.contacts));
         if (!waits) return step(members);
         std::vector<std::uint32_t>& batch = s.batches[model.robots[work.id.index()].type.index()];
         batch.push_back(members[0]);
