@@ -81,7 +81,8 @@ class StartClosure {
         gap_ = {};
         for (const LoopJoint& loop : type_.loops) {
             const BodyMotion a{placement_.of(loop.body_a), {}, {}}, b{placement_.of(loop.body_b), {}, {}};
-            for (const ClosureRow& row : closure_rows(loop, a, b).all()) {
+            const auto rows = closure_rows(loop, a, b);
+            for (const ClosureRow& row : rows.all()) {
                 const bool way = norm_squared(row.wrench.linear) > 0;
                 double* const j = add_row(row.error, way);
                 visit_between(type_, loop.body_a, loop.body_b, [&](std::size_t k, double sign) {

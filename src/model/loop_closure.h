@@ -30,7 +30,8 @@ struct ClosureRow {
 struct ClosureRows {
     std::array<ClosureRow, 6> rows;
     std::size_t count = 0;
-    std::span<const ClosureRow> all() const { return {rows.data(), count}; }
+    std::span<const ClosureRow> all() const& { return {rows.data(), count}; }
+    std::span<const ClosureRow> all() const&& = delete;  // it would outlive the rows
 };
 
 ClosureRows closure_rows(const LoopJoint& loop, const BodyMotion& a, const BodyMotion& b);
@@ -45,7 +46,8 @@ struct FreeDirection {
 struct FreeDirections {
     std::array<FreeDirection, 3> directions;
     std::size_t count = 0;
-    std::span<const FreeDirection> all() const { return {directions.data(), count}; }
+    std::span<const FreeDirection> all() const& { return {directions.data(), count}; }
+    std::span<const FreeDirection> all() const&& = delete;
 };
 
 FreeDirections free_directions(const LoopJoint& loop, const Transform& X_OA, const Transform& X_OB);

@@ -18,6 +18,22 @@ std::size_t allocations = 0;  // this program has one thread
     if (void* p = std::malloc(size > 0 ? size : 1)) return p;
     throw std::bad_alloc();
 }
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    ++allocations;
+    return std::malloc(size > 0 ? size : 1);
+}
+[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {  // of registers
+    ++allocations;
+    const auto unit = static_cast<std::size_t>(alignment);
+    if (void* p = std::aligned_alloc(unit, (size + unit - 1) / unit * unit)) return p;
+    throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* p, std::align_val_t) noexcept {
+    std::free(p);
+}
+[[gnu::noinline]] void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
+    std::free(p);
+}
 [[gnu::noinline]] void operator delete(void* p) noexcept {
     std::free(p);
 }
@@ -46,6 +62,9 @@ TEST(Allocation, TheCounterCounts) {
     void* p = ::operator new(8);  // a call: a compiler may leave out new-expressions
     EXPECT_EQ(allocations, before + 1);
     ::operator delete(p);
+    p = ::operator new (64, std::align_val_t{64});
+    EXPECT_EQ(allocations, before + 2);
+    ::operator delete (p, std::align_val_t{64});
 }
 
 TEST(Allocation, CarsOnAPlaneAllocateNothing) {
