@@ -2,7 +2,9 @@
 // for the instruction set may include this.
 #pragma once
 
+#if defined(__x86_64__)
 #include <immintrin.h>
+#endif
 
 #include "core/lanes.h"
 
