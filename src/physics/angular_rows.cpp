@@ -5,26 +5,19 @@
 namespace roboss {
 namespace {
 
-void add_columns(const RobotWork& robot, int body, int offset, double sign, const ContactFrame& frame,
+void add_columns(const ContactSide<double>& side, double sign, const ContactFrame& frame,
                  ContactColumns& columns) {
-    if (body < 0) return;
-    const Body& info = robot.type->bodies[static_cast<std::size_t>(body)];
-    const auto last = static_cast<std::size_t>(info.v_index + info.nv - 1);
-    const int* path = robot.type->paths.path(last);
-    const std::size_t begin = columns.size(), length = robot.type->paths.length(last);
-    columns.extend(length);
-    const Spatial* axes = robot.axes.data();
-    int* dof = columns.dof.data() + begin;
-    double *n = columns.n.data() + begin, *t1 = columns.t1.data() + begin, *t2 = columns.t2.data() + begin;
+    if (side.info() == nullptr) return;
+    const auto [path, length, n, t1, t2] = contact::add_path(side, columns);
     for (std::size_t k = 0; k < length; ++k) {
-        const Vec3 w = axes[path[k]].angular * sign;
-        dof[k] = offset + path[k];
+        const Vec3 w = side.robot->axes[static_cast<std::size_t>(path[k])].angular * sign;
         n[k] = dot(frame.n, w), t1[k] = dot(frame.t1, w), t2[k] = dot(frame.t2, w);
     }
 }
 
-double mobility(const RobotWork& robot, int body) {
-    return body < 0 ? 0.0 : robot.type->bodies[static_cast<std::size_t>(body)].inverse_inertia_angular;
+double mobility(const ContactSide<double>& side) {
+    const Body* info = side.info();
+    return info == nullptr ? 0.0 : info->inverse_inertia_angular;
 }
 
 }  // namespace
@@ -37,14 +30,14 @@ void add_angular_row(const Model& model, const Contact& c, std::span<const Robot
     AngularRow row;
     row.contact = rows.contacts.size() - 1;
     row.first = rows.columns.size();
-    const RobotWork& a = robots[static_cast<std::size_t>(c.robot_a)];
-    add_columns(a, c.body_a, offsets[static_cast<std::size_t>(c.robot_a)], 1.0, frame, rows.columns);
+    const ContactSide<double> a = side_of(robots, offsets, c.robot_a, c.body_a);
+    add_columns(a, 1.0, frame, rows.columns);
     const std::size_t middle = rows.columns.size();
-    double ease = mobility(a, c.body_a);
+    double ease = mobility(a);
     if (c.robot_b >= 0) {
-        const RobotWork& b = robots[static_cast<std::size_t>(c.robot_b)];
-        add_columns(b, c.body_b, offsets[static_cast<std::size_t>(c.robot_b)], -1.0, frame, rows.columns);
-        ease += mobility(b, c.body_b);
+        const ContactSide<double> b = side_of(robots, offsets, c.robot_b, c.body_b);
+        add_columns(b, -1.0, frame, rows.columns);
+        ease += mobility(b);
     }
     if (c.robot_b == c.robot_a) rows.columns.merge(row.first, middle);
     row.last = rows.columns.size();

@@ -5,13 +5,9 @@ namespace roboss {
 
 bool add_contact_row(const Model& model, const Contact& c, std::span<const RobotWork> robots,
                      std::span<const int> offsets, IslandRows& rows) {
-    const auto side = [&](int robot, int body) {
-        const auto i = static_cast<std::size_t>(robot);
-        return ContactSide<double>{&robots[i], body, offsets[i]};
-    };
-    const ContactSide<double> a = side(c.robot_a, c.body_a);
+    const ContactSide<double> a = side_of(robots, offsets, c.robot_a, c.body_a);
     if (c.robot_b < 0) return add_contact_row<double>(model, c, a, nullptr, rows);
-    const ContactSide<double> b = side(c.robot_b, c.body_b);
+    const ContactSide<double> b = side_of(robots, offsets, c.robot_b, c.body_b);
     return add_contact_row<double>(model, c, a, &b, rows);
 }
 

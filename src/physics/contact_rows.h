@@ -42,6 +42,13 @@ struct ContactSide {
     }
 };
 
+/// Side of a contact in an island; offsets[i] is the first dof of robots[i].
+inline ContactSide<double> side_of(std::span<const RobotWork> robots, std::span<const int> offsets, int robot,
+                                   int body) {
+    const auto i = static_cast<std::size_t>(robot);
+    return {&robots[i], body, offsets[i]};
+}
+
 namespace contact {
 
 inline constexpr double kWeights =
@@ -58,6 +65,27 @@ void put_base_columns(const Vec3T<T>& direction, const Vec3T<T>& p, T* columns) 
     columns[3] = direction.x, columns[4] = direction.y, columns[5] = direction.z;
 }
 
+/// Columns of a side along its path, not set yet but for their dofs.
+template <class T>
+struct PathColumns {
+    const int* path = nullptr;
+    std::size_t length = 0;
+    T *n = nullptr, *t1 = nullptr, *t2 = nullptr;
+};
+
+/// Adds them; the side must have a body.
+template <class T>
+PathColumns<T> add_path(const ContactSide<T>& side, ContactColumnsT<T>& columns) {
+    const Body& body = *side.info();
+    const DofPaths& paths = side.robot->type->paths;
+    const auto last = static_cast<std::size_t>(body.v_index + body.nv - 1);
+    const int* path = paths.path(last);
+    const std::size_t begin = columns.size(), length = paths.length(last);
+    columns.extend(length);
+    for (std::size_t k = 0; k < length; ++k) columns.dof[begin + k] = side.offset + path[k];
+    return {path, length, columns.n.data() + begin, columns.t1.data() + begin, columns.t2.data() + begin};
+}
+
 template <class T>
 void add_columns(const ContactSide<T>& side, double sign, const Vec3T<T>& p_W, const ContactFrameT<T>& frame,
                  ContactColumnsT<T>& columns) {
@@ -65,14 +93,8 @@ void add_columns(const ContactSide<T>& side, double sign, const Vec3T<T>& p_W, c
     if (info == nullptr) return;
     const Mechanics<T>& robot = *side.robot;
     const Vec3T<T> p = p_W - robot.origin;
-    const auto last = static_cast<std::size_t>(info->v_index + info->nv - 1);
-    const int* path = robot.type->paths.path(last);
-    const std::size_t begin = columns.size(), length = robot.type->paths.length(last);
-    columns.extend(length);
     const SpatialT<T>* axes = robot.axes.data();
-    int* dof = columns.dof.data() + begin;
-    T *n = columns.n.data() + begin, *t1 = columns.t1.data() + begin, *t2 = columns.t2.data() + begin;
-    for (std::size_t k = 0; k < length; ++k) dof[k] = side.offset + path[k];
+    const auto [path, length, n, t1, t2] = add_path(side, columns);
     std::size_t k = 0;
     if (robot.type->free_base) {
         k = 6;

@@ -2,7 +2,6 @@
 #include "physics/group_step.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "physics/loads.h"
@@ -74,6 +73,15 @@ void finish_island(const Model& model, std::span<RobotWork> robots, GroupScratch
     }
 }
 
+/// Contacts of the robot: they are sorted by their first robot.
+std::span<Contact> contacts_of(std::uint32_t robot, std::span<Contact> contacts) {
+    const auto first = std::lower_bound(contacts.begin(), contacts.end(), static_cast<int>(robot),
+                                        [](const Contact& c, int r) { return c.robot_a < r; });
+    auto last = first;
+    while (last != contacts.end() && last->robot_a == static_cast<int>(robot)) ++last;
+    return {first, last};
+}
+
 /// Gathers rows and first guess of one contact island; true if the way of the tick needs a solution of its
 /// own.
 bool gather_island(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
@@ -94,13 +102,11 @@ bool gather_island(const Model& model, std::span<RobotWork> robots, GroupScratch
         split |= add_joint_rows(model, work, offset, s.buffer, s.rows);
         s.v.insert(s.v.end(), work.state->v.begin(), work.state->v.end());
     }
-    for (std::uint32_t m : members) {  // contacts are sorted by their first robot
-        const auto first = std::lower_bound(contacts.begin(), contacts.end(), static_cast<int>(m),
-                                            [](const Contact& c, int robot) { return c.robot_a < robot; });
-        for (auto c = first; c != contacts.end() && c->robot_a == static_cast<int>(m); ++c) {
-            split |= add_contact_row(model, *c, robots, s.offsets, s.rows);
-            add_angular_row(model, *c, robots, s.offsets, s.rows);
-            s.island_contacts.push_back(&*c);
+    for (std::uint32_t m : members) {
+        for (Contact& c : contacts_of(m, contacts)) {
+            split |= add_contact_row(model, c, robots, s.offsets, s.rows);
+            add_angular_row(model, c, robots, s.offsets, s.rows);
+            s.island_contacts.push_back(&c);
         }
     }
     return split;
@@ -220,15 +226,6 @@ void count_contacts(const Model& model, std::span<const Contact> contacts, StepR
     }
 }
 
-/// Contacts of the robot: they are sorted by their first robot.
-std::span<Contact> contacts_of(std::uint32_t robot, std::vector<Contact>& contacts) {
-    const auto first = std::lower_bound(contacts.begin(), contacts.end(), static_cast<int>(robot),
-                                        [](const Contact& c, int r) { return c.robot_a < r; });
-    auto last = first;
-    while (last != contacts.end() && last->robot_a == static_cast<int>(robot)) ++last;
-    return {first, last};
-}
-
 /// Robots that stand on the same ground have contacts alike; who leans on something too is mostly the only
 /// one of its lanes.
 bool touches_one_thing(std::span<const Contact> contacts) {
@@ -254,31 +251,23 @@ struct IslandStepper {
                            !work.touches_robot && !s.keep_loads && fits_lanes(*work.type, *work.state) &&
                            touches_one_thing(contacts_of(members[0], s.contacts));
         if (!waits) return step(members);
-        std::vector<std::uint32_t>& batch = s.batches[model.robots[work.id.index()].type.index()];
-        batch.push_back(members[0]);
-        if (batch.size() == s.lanes->width()) step_in_lanes(batch);
+        s.queue.add(model.robots[work.id.index()].type.index(), members[0], s.lanes->width(),
+                    [&](auto& batch) { return step_in_lanes(batch); });
     }
 
-    void step_in_lanes(std::vector<std::uint32_t>& batch) const {
-        std::array<LaneRobot, kMostLanes> lanes;
-        for (std::size_t k = 0; k < batch.size(); ++k) {
-            const RobotWork& work = robots[batch[k]];
-            lanes[k] = {work.id, work.state, nullptr, true, contacts_of(batch[k], s.contacts)};
-        }
-        const unsigned stepped =
-            batch.size() > 1 ? s.lanes->step(model, std::span(lanes).first(batch.size()), report) : 0;
-        for (std::size_t k = 0; k < batch.size(); ++k) {
-            if ((stepped >> k & 1u) == 0)
-                step({&batch[k], 1});
-            else
-                robots[batch[k]].held = true;
-        }
-        batch.clear();
-    }
-
-    void step_those_who_wait() const {
-        for (std::vector<std::uint32_t>& batch : s.batches)
-            if (!batch.empty()) step_in_lanes(batch);
+    bool step_in_lanes(std::vector<std::uint32_t>& batch) const {
+        return step_batch(
+            *s.lanes, model, batch, report,
+            [&](std::uint32_t i) {
+                return LaneRobot{robots[i].id, robots[i].state, nullptr, true, contacts_of(i, s.contacts)};
+            },
+            [&](std::uint32_t i, bool stepped) {
+                if (stepped)
+                    robots[i].held = true;
+                else
+                    step({&i, 1});
+                return true;
+            });
     }
 };
 
@@ -289,7 +278,7 @@ void step_group(const Model& model, std::span<RobotWork> robots, GroupScratch& s
     s.finder.find(model, robots, s.contacts);
     recall_impulses(robots, s.contacts);
     build_contact_islands(s, robots);
-    s.batches.resize(std::max(s.batches.size(), model.types.size()));
+    s.queue.start(model.types.size());
     report.asleep += static_cast<int>(robots.size() - s.members.size());
     const IslandStepper islands{model, robots, s, report};
     for (std::size_t first = 0; first < s.members.size();) {
@@ -298,7 +287,7 @@ void step_group(const Model& model, std::span<RobotWork> robots, GroupScratch& s
         islands.step_or_wait(std::span<const std::uint32_t>(s.members).subspan(first, last - first));
         first = last;
     }
-    islands.step_those_who_wait();
+    s.queue.finish([&](auto& batch) { return islands.step_in_lanes(batch); });
     remember_impulses(robots, s.contacts);
     count_contacts(model, s.contacts, report);
 }

@@ -20,8 +20,7 @@ struct GroupScratch {
     bool keep_loads = false;  // then robots with loops do not move freely, for then nothing knows their loads
     std::vector<LoopLoad> loads;
     LaneStepper* lanes = nullptr;  // for robots that touch nobody; may be none
-    std::vector<std::vector<std::uint32_t>>
-        batches;  // of these, by type, that wait for a register to be full
+    LaneQueue queue;
     ContactFinder finder;
     std::vector<Contact> contacts;
     std::vector<int> group;  // union-find over the robots: contact islands

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 namespace roboss {
 namespace {
@@ -25,30 +24,23 @@ unsigned bit(std::size_t lane) {
 LaneContacts::LaneContacts(std::size_t lanes) : works_(lanes), contacts_(lanes), spans_(lanes) {}
 LaneContacts::~LaneContacts() = default;
 
-ShapeWork* LaneContacts::start(const Model& model, std::size_t lane, const LaneRobot& robot) {
+ShapeWork* LaneContacts::start(const Model& model, std::size_t lane, const LaneRobot& robot,
+                               const Aabb& box) {
     RobotWork& work = works_[lane];
     work.id = robot.id;
     work.type = &model.type_of(robot.id);
     work.state = robot.state;
     work.asleep = false;
+    work.box = box;
     work.shapes.resize(work.type->shapes.size());
     return work.shapes.data();
 }
 
-bool LaneContacts::find(const Model& model, std::size_t lane) {
+void LaneContacts::find(const Model& model, std::size_t lane) {
     RobotWork& work = works_[lane];
-    work.box = {};
-    for (const ShapeWork& shape : work.shapes) {
-        if (!std::isfinite(shape.margin)) return false;
-        work.box.include(shape.box);
-    }
-    work.origin = {work.state->q[0], work.state->q[1], work.state->q[2]};
-    if (!is_finite(work.origin)) return false;
-    if (work.shapes.empty()) work.box.include(work.origin);
     finder_.find(model, {&work, 1}, contacts_[lane]);
     recall_impulses({&work, 1}, contacts_[lane]);
     spans_[lane] = contacts_[lane];
-    return true;
 }
 
 std::optional<std::uint32_t> LaneContacts::only_plane(const Model& model, const Aabb& box) {

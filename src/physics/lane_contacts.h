@@ -17,11 +17,10 @@ class LaneContacts {
     LaneContacts(const LaneContacts&) = delete;
     LaneContacts& operator=(const LaneContacts&) = delete;
 
-    /// Room for the placed shapes of a lane's robot, to be filled in before find().
-    ShapeWork* start(const Model& model, std::size_t lane, const LaneRobot& robot);
-    /// The contacts of a lane with the scenery, with what the last tick remembers. False if the robot is
-    /// beyond numbers.
-    bool find(const Model& model, std::size_t lane);
+    /// Room for the placed shapes of a lane's robot, to be filled in before find(); `box` holds them all.
+    ShapeWork* start(const Model& model, std::size_t lane, const LaneRobot& robot, const Aabb& box);
+    /// The contacts of a lane with the scenery, with what the last tick remembers.
+    void find(const Model& model, std::size_t lane);
     /// If all the scenery near `box` is one plane: its number.
     std::optional<std::uint32_t> only_plane(const Model& model, const Aabb& box);
     /// What the materials make of a shape on scenery `i`; nothing if that is more than lanes know.
@@ -37,7 +36,6 @@ class LaneContacts {
     /// are more; none if they have points that lanes do not know (friction axes, torsion, rolling).
     unsigned alike(unsigned present) const;
 
-    const Aabb& box(std::size_t lane) const { return works_[lane].box; }
     std::size_t count(std::size_t lane) const { return spans_[lane].size(); }
     Contact& contact(std::size_t lane, std::size_t i) { return spans_[lane][i]; }
     /// Writes the solved contacts of a lane, found here, into its state and the report.

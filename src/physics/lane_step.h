@@ -48,11 +48,12 @@ class LaneStep final : public LaneStepper {
         return (together.present() >> lane & 1u) != 0;
     }
 
-    static void leave_where(const Mask& m, Lockstep<T>& together) {
-        const unsigned bits = LaneTraits<T>::bits(m);
+    /// Bit i: lane i leaves.
+    static void leave(unsigned bits, Lockstep<T>& together) {
         for (std::size_t lane = 0; lane < kLanesOf<T>; ++lane)
             if ((bits >> lane & 1u) != 0) together.leave(lane);
     }
+    static void leave_where(const Mask& m, Lockstep<T>& together) { leave(LaneTraits<T>::bits(m), together); }
 
     /// Coordinates, velocities and motors. Lanes without a robot, or with a motor in another mode than the
     /// first robot's, leave, but compute along with the first robot's values.
@@ -96,13 +97,11 @@ class LaneStep final : public LaneStepper {
             if (has_contacts) {
                 found_.take(lane, robots[lane].contacts);
             } else {
-                put_shapes(lane, found_.start(model, lane, robots[lane]));
-                if (!found_.find(model, lane)) together.leave(lane);
+                put_shapes(lane, found_.start(model, lane, robots[lane], box_of(lane)));
+                found_.find(model, lane);
             }
         }
-        const unsigned alike = found_.alike(together.present());
-        for (std::size_t lane = 0; lane < kLanesOf<T>; ++lane)
-            if ((alike >> lane & 1u) == 0) together.leave(lane);
+        leave(~found_.alike(together.present()), together);
     }
 
     /// Whether everything that contacts are found from is a number.
@@ -172,7 +171,10 @@ class LaneStep final : public LaneStepper {
     static Vec3 vector_of(const Vec3T<T>& x, std::size_t i) {
         return {lane(x.x, i), lane(x.y, i), lane(x.z, i)};
     }
-    Aabb box_of(std::size_t i) const { return {vector_of(work_.box.min, i), vector_of(work_.box.max, i)}; }
+    static Aabb box_of(const AabbT<T>& box, std::size_t i) {
+        return {vector_of(box.min, i), vector_of(box.max, i)};
+    }
+    Aabb box_of(std::size_t i) const { return box_of(work_.box, i); }
 
     static void set_surface(const Contact& from, ContactT<T>& to) {
         to.mu = from.mu, to.restitution = from.restitution, to.bounce_threshold = from.bounce_threshold;
@@ -181,12 +183,12 @@ class LaneStep final : public LaneStepper {
     }
 
     void put_shapes(std::size_t i, ShapeWork* shapes) const {
-        const auto vector = [&](const Vec3T<T>& x) { return Vec3{lane(x.x, i), lane(x.y, i), lane(x.z, i)}; };
         for (const ShapeWorkT<T>& from : work_.shapes) {
             ShapeWork& to = *shapes++;
-            to.X_WS.R = {vector(from.X_WS.R.r0), vector(from.X_WS.R.r1), vector(from.X_WS.R.r2)};
-            to.X_WS.p = vector(from.X_WS.p);
-            to.box = {vector(from.box.min), vector(from.box.max)};
+            const Mat3T<T>& R = from.X_WS.R;
+            to.X_WS = {{vector_of(R.r0, i), vector_of(R.r1, i), vector_of(R.r2, i)},
+                       vector_of(from.X_WS.p, i)};
+            to.box = box_of(from.box, i);
             to.margin = lane(from.margin, i);
         }
     }

@@ -4,8 +4,11 @@
 // decisions differ from those of most are left to the ordinary step.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "physics/contact.h"
 #include "physics/step.h"
@@ -33,6 +36,44 @@ class LaneStepper {
     /// the caller: to remember, to count.
     virtual unsigned step(const Model& model, std::span<const LaneRobot> robots, StepReport& report) = 0;
 };
+
+/// Robots that wait, by type, until a register is full. They have numbers of the caller.
+class LaneQueue {
+  public:
+    void start(std::size_t types) {
+        waiting_.resize(std::max(waiting_.size(), types));
+        for (std::vector<std::uint32_t>& batch : waiting_) batch.clear();
+    }
+    /// Robot i waits; once there are enough, step(batch) steps and clears them. False if step says so.
+    template <class Step>
+    bool add(std::size_t type, std::uint32_t i, std::size_t width, Step&& step) {
+        waiting_[type].push_back(i);
+        return waiting_[type].size() < width || step(waiting_[type]);
+    }
+    /// Steps those who still wait.
+    template <class Step>
+    bool finish(Step&& step) {
+        return std::ranges::all_of(waiting_, [&](auto& batch) { return batch.empty() || step(batch); });
+    }
+
+  private:
+    std::vector<std::vector<std::uint32_t>> waiting_;
+};
+
+/// Steps a batch in lanes, each robot as lane_of(i) says; then visit(i, whether it was stepped) for each of
+/// them until one is false. The batch is empty afterwards.
+template <class LaneOf, class Visit>
+bool step_batch(LaneStepper& lanes, const Model& model, std::vector<std::uint32_t>& batch, StepReport& report,
+                LaneOf&& lane_of, Visit&& visit) {
+    std::array<LaneRobot, kMostLanes> robots;
+    std::ranges::transform(batch, robots.begin(), lane_of);
+    const unsigned stepped =
+        batch.size() > 1 ? lanes.step(model, std::span(robots).first(batch.size()), report) : 0;
+    bool good = true;
+    for (std::size_t k = 0; k < batch.size() && good; ++k) good = visit(batch[k], (stepped >> k & 1u) != 0);
+    batch.clear();
+    return good;
+}
 
 /// Whether a robot may be stepped in lanes at all: no loops, couplings or drag, no contact with itself, no
 /// wrench; and no lone body (what slides without turning is stepped apart, see group_step.cpp).

@@ -3,8 +3,6 @@
 #include "physics/step.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 
 #include "core/float_env.h"
@@ -25,7 +23,7 @@ struct StepScratch::Impl {
     std::vector<char> is_near, ordered, moved_freely;
     std::vector<ContactReport> contacts;
     std::unique_ptr<LaneStepper> lanes = make_lane_stepper(kMostLanes);
-    std::vector<std::vector<std::uint32_t>> batches;  // by type: robots that wait for a register to be full
+    LaneQueue queue;
 };
 
 StepScratch::StepScratch() : impl_(std::make_unique<Impl>()) {}
@@ -177,33 +175,27 @@ struct Call {
         const std::size_t type = model.robots[robots[i].index()].type.index();
         if (!s.lanes || s.group.keep_loads || !fits_lanes(model.types[type], *states[i]))
             return step({&i, 1}, s.alone, s, report);
-        std::vector<std::uint32_t>& batch = s.batches[type];
-        batch.push_back(i);
-        return batch.size() < s.lanes->width() || step_in_lanes(batch, s, report);
+        return s.queue.add(type, i, s.lanes->width(),
+                           [&](auto& batch) { return step_in_lanes(batch, s, report); });
     }
 
     bool step_in_lanes(std::vector<std::uint32_t>& batch, Impl& s, StepReport& report) const {
-        std::array<LaneRobot, kMostLanes> lanes;
-        for (std::size_t k = 0; k < batch.size(); ++k)
-            lanes[k] = {robots[batch[k]], states[batch[k]], &bounds[batch[k]], false, {}};
-        const unsigned stepped =
-            batch.size() > 1 ? s.lanes->step(model, std::span(lanes).first(batch.size()), report) : 0;
-        report.placed += std::popcount(stepped);
-        bool good = true;
-        for (std::size_t k = 0; k < batch.size() && good; ++k)
-            if ((stepped >> k & 1u) == 0) good = step({&batch[k], 1}, s.alone, s, report);
-        batch.clear();
-        return good;
+        return step_batch(
+            *s.lanes, model, batch, report,
+            [&](std::uint32_t i) {
+                return LaneRobot{robots[i], states[i], &bounds[i], false, {}};
+            },
+            [&](std::uint32_t i, bool stepped) {
+                report.placed += stepped ? 1 : 0;
+                return stepped || step({&i, 1}, s.alone, s, report);
+            });
     }
 
     bool step_all_alone(Impl& s, StepReport& report) const {
-        s.batches.resize(std::max(s.batches.size(), model.types.size()));
-        for (std::vector<std::uint32_t>& batch : s.batches) batch.clear();
+        s.queue.start(model.types.size());
         for (std::uint32_t i = 0; i < robots.size(); ++i)
             if (!s.is_near[i] && !step_alone(i, s, report)) return false;
-        for (std::vector<std::uint32_t>& batch : s.batches)
-            if (!batch.empty() && !step_in_lanes(batch, s, report)) return false;
-        return true;
+        return s.queue.finish([&](auto& batch) { return step_in_lanes(batch, s, report); });
     }
 };
 
