@@ -59,4 +59,14 @@ Result<Moment> find_moment(const Journal& journal, const JournalPlace& place) {
     return moment;
 }
 
+Result<OpenedMoment> open_moment(const std::string& text) {
+    Result<JournalPlace> place = parse_place(text);
+    if (!place) return place.error();
+    Result<Journal> journal = Journal::open(place.value().file);
+    if (!journal) return journal.error();
+    Result<Moment> moment = find_moment(journal.value(), place.value());
+    if (!moment) return moment.error();
+    return OpenedMoment{std::move(place).value(), std::move(journal).value(), std::move(moment).value()};
+}
+
 }  // namespace roboss

@@ -25,4 +25,12 @@ struct Moment {
 };
 Result<Moment> find_moment(const Journal& journal, const JournalPlace& place);
 
+/// The file that the text names, opened, and the moment in it.
+struct OpenedMoment {
+    JournalPlace place;
+    Journal journal;
+    Moment moment;
+};
+Result<OpenedMoment> open_moment(const std::string& text);
+
 }  // namespace roboss

@@ -24,20 +24,17 @@ Result<std::unique_ptr<RunJournal>> RunJournal::open(const RunOptions& options, 
 
 Result<std::unique_ptr<RunJournal>> RunJournal::open_replay(const RunOptions& options) {
     std::unique_ptr<RunJournal> result(new RunJournal(options));
-    Result<JournalPlace> place = parse_place(options.replay);
-    if (!place) return place.error();
-    Result<Journal> journal = Journal::open(place.value().file);
-    if (!journal) return journal.error();
-    Result<Moment> moment = find_moment(journal.value(), place.value());
-    if (!moment) return moment.error();
-    const Branch& branch = moment.value().branch;
-    Replay replay{moment.value().model, branch, journal.value().checkpoints(branch)};
+    Result<OpenedMoment> opened = open_moment(options.replay);
+    if (!opened) return opened.error();
+    const auto& [place, journal, moment] = opened.value();
+    const Branch& branch = moment.branch;
+    Replay replay{moment.model, branch, journal.checkpoints(branch)};
     if (branch.hash != 0 && branch.committed > replay.checks.back().tick)
         replay.checks.push_back({branch.id, branch.committed, branch.hash});
-    result->start_ = place.value().time_s ? moment.value().tick : branch.tick;
-    Result<SavedRun> to_start = journal.value().run_at(branch, *replay.model, result->start_);
+    result->start_ = place.time_s ? moment.tick : branch.tick;
+    Result<SavedRun> to_start = journal.run_at(branch, *replay.model, result->start_);
     if (!to_start) return to_start.error();
-    Result<SavedRun> run = journal.value().run_from(
+    Result<SavedRun> run = journal.run_from(
         branch, {branch.id, to_start.value().tick, state_hash_of(*replay.model, to_start.value())},
         *replay.model, branch.end);
     if (!run) return run.error();
@@ -76,22 +73,18 @@ Result<std::shared_ptr<const Model>> RunJournal::model_of(const Journal& journal
 }
 
 Result<> RunJournal::open_from(const Model& model) {
-    Result<JournalPlace> place = parse_place(o_.from);
-    if (!place) return place.error();
-    Result<Journal> journal = Journal::open(place.value().file);
-    if (!journal) return journal.error();
-    Result<Moment> moment = find_moment(journal.value(), place.value());
-    if (!moment) return moment.error();
-    const Branch& branch = moment.value().branch;
-    Result<std::shared_ptr<const Model>> its_model = model_of(journal.value(), branch, model);
+    Result<OpenedMoment> opened = open_moment(o_.from);
+    if (!opened) return opened.error();
+    const auto& [place, journal, moment] = opened.value();
+    const Branch& branch = moment.branch;
+    Result<std::shared_ptr<const Model>> its_model = model_of(journal, branch, model);
     if (!its_model) return its_model.error();
-    Result<SavedRun> run = journal.value().run_at(branch, *its_model.value(), moment.value().tick);
+    Result<SavedRun> run = journal.run_at(branch, *its_model.value(), moment.tick);
     if (!run) return run.error();
     from_ = std::move(run).value();
     start_ = from_->logged_until;
     std::error_code none;
-    if (!o_.journal.empty() && std::filesystem::equivalent(place.value().file, o_.journal, none))
-        parent_ = branch.id;
+    if (!o_.journal.empty() && std::filesystem::equivalent(place.file, o_.journal, none)) parent_ = branch.id;
     reason_ = fmt::format("from {}", o_.from);
     return Ok{};
 }

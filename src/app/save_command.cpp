@@ -29,19 +29,16 @@ struct SaveOptions {
 };
 
 int save_from_journal(const SaveOptions& o) {
-    Result<JournalPlace> place = parse_place(o.from);
-    if (!place) return print(place.error()), kBadInput;
-    Result<Journal> journal = Journal::open(place.value().file);
-    if (!journal) return print(journal.error()), kBadInput;
-    Result<Moment> moment = find_moment(journal.value(), place.value());
-    if (!moment) return print(moment.error()), kBadInput;
-    const Model& model = *moment.value().model;
-    Result<SavedRun> run = journal.value().run_at(moment.value().branch, model, moment.value().tick);
+    Result<OpenedMoment> opened = open_moment(o.from);
+    if (!opened) return print(opened.error()), kBadInput;
+    const auto& [place, journal, moment] = opened.value();
+    const Model& model = *moment.model;
+    Result<SavedRun> run = journal.run_at(moment.branch, model, moment.tick);
     if (!run) return print(run.error()), kBadInput;
     if (Result<> saved = save_run(o.file, model, run.value()); !saved)
         return print(saved.error()), kRunFailed;
-    fmt::print("saved {:.6f} s (tick {}) in {}\n", static_cast<double>(moment.value().tick) * model.dt_s,
-               moment.value().tick, o.file);
+    fmt::print("saved {:.6f} s (tick {}) in {}\n", static_cast<double>(moment.tick) * model.dt_s, moment.tick,
+               o.file);
     return kDone;
 }
 

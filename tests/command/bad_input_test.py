@@ -2,7 +2,7 @@
 import json
 import unittest
 
-from running import DRIVER, FOLDER, WORLDS, roboss, summary
+from running import DRIVER, FOLDER, WORLDS, RobossTest, roboss, summary
 
 HEAP = WORLDS / "heap.sdf"
 
@@ -13,14 +13,7 @@ def written(name, text):
     return file
 
 
-class BadInput(unittest.TestCase):
-    def refused(self, arguments, exit_code, *words):
-        done = roboss(*arguments)
-        self.assertEqual(done.returncode, exit_code, done.stderr + done.stdout)
-        for word in words:
-            self.assertIn(word, done.stderr + done.stdout)
-        return done
-
+class BadInput(RobossTest):
     def test_a_world_that_is_not_there_or_no_xml(self):
         self.refused(["run", "no/such.sdf", "--duration", "1"], 1, "no/such.sdf")
         broken = written("broken.sdf", "<sdf version='1.9'>\n<world name='w'>\n<model name='m'>\n</wrong></world></sdf>")

@@ -9,7 +9,7 @@ import subprocess
 import time
 import unittest
 
-from running import DRIVER, FOLDER, ROBOSS, WORLDS, roboss, summary
+from running import DRIVER, FOLDER, ROBOSS, WORLDS, RobossTest, roboss, summary
 
 RUNS = {
     "city": [WORLDS / "city.sdf", "--client", DRIVER],
@@ -54,14 +54,7 @@ def written_at(file):
     return wal.stat().st_mtime_ns if wal.exists() and wal.stat().st_size > 0 else 0
 
 
-class Journal(unittest.TestCase):
-    def refused(self, arguments, exit_code, *words):
-        done = roboss(*arguments)
-        self.assertEqual(done.returncode, exit_code, done.stderr + done.stdout)
-        for word in words:
-            self.assertIn(word, done.stderr + done.stdout)
-        return done
-
+class Journal(RobossTest):
     def test_a_run_with_a_journal_ends_as_without_and_can_be_stepped_again(self):
         for name in RUNS:
             with self.subTest(world=name):

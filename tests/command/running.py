@@ -3,6 +3,7 @@ import json
 import subprocess
 import sys
 import tempfile
+import unittest
 from pathlib import Path
 
 ROBOSS, DRIVER, WORLDS = sys.argv[1], sys.argv[2], Path(sys.argv[3])
@@ -22,3 +23,13 @@ def summary(*arguments):
     if done.returncode != 0:
         raise AssertionError(f"roboss run {arguments} ended with {done.returncode}:\n{done.stderr}")
     return json.loads(file.read_text())
+
+
+class RobossTest(unittest.TestCase):
+    def refused(self, arguments, exit_code, *words):
+        """The command ends with this code and says these words."""
+        done = roboss(*arguments)
+        self.assertEqual(done.returncode, exit_code, done.stderr + done.stdout)
+        for word in words:
+            self.assertIn(word, done.stderr + done.stdout)
+        return done
