@@ -110,6 +110,16 @@ Result<bool> Company::add_simulator() {
     return true;
 }
 
+Result<> Company::kill(const std::string& name) {
+    for (LocalProcess& process : processes_) {
+        if (name != place_name(process.id())) continue;
+        process.kill();
+        return Ok{};
+    }
+    return Error{"Simulator '" + name + "' is no process of this run's own",
+                 "end it where it runs; runs started with --processes have processes of their own"};
+}
+
 Result<> Company::look_after() {
     if (processes_.empty()) return Ok{};
     std::erase_if(processes_, [&](LocalProcess& process) {

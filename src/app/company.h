@@ -26,6 +26,8 @@ class Company {
     bool reaches_others() const { return open_bus_ != nullptr; }
     /// Starts a process more, if the run has its Simulators in processes of this computer; false: it has not.
     Result<bool> add_simulator();
+    /// Ends this process of the run's own, by the name that its Simulator gave, without a word to it.
+    Result<> kill(const std::string& name);
     /// To be called now and then. An Error: the run cannot go on.
     Result<> look_after();
     /// What happened since the last call, one line each.

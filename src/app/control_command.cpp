@@ -59,7 +59,8 @@ void add_plain(CLI::App& command, ControlCommandOptions& o, const Ask& ask) {
     one("step", "go on for so many ticks (default: 1) and pause", "ticks", false);
     one("speed", "simulated seconds a real second, max or world", "speed", true);
     one("window", "ticks between two talks with the Controller, or auto", "window", true);
-    one("simulators", "add or remove one Simulator of the run's own", "action", true);
+    none("groups", "by robot, the number of its Simulator and of its island, as JSON");
+    none("bounds", "by robot, the box that it swept in the last window (m), as JSON");
     one("save", "save the state; the Controller writes the file, on its computer", "file", true);
     one("rewind", "back to this time (s) of the journal, or #BRANCH@TIME, and on from there", "time", true);
     none("quit", "end the run as at its duration");
@@ -71,7 +72,13 @@ void add_changes(CLI::App& command, ControlCommandOptions& o, const Ask& ask, in
         words.insert(words.end(), o.values.begin(), o.values.end());
         ask(words);
     };
-    CLI::App* sub = command.add_subcommand("accuracy", "fast, standard, high and numbers (tolerance=1e-10)");
+    CLI::App* sub = command.add_subcommand(
+        "simulators", "add or remove one Simulator of the run's own, or kill one of its processes");
+    sub->add_option("action", o.values, "add, remove, or kill and a number as `status` lists them")
+        ->required()
+        ->expected(1, 2);
+    sub->callback([all] { all("simulators"); });
+    sub = command.add_subcommand("accuracy", "fast, standard, high and numbers (tolerance=1e-10)");
     sub->add_option("values", o.values)->required();
     sub->callback([all] { all("accuracy"); });
     sub = command.add_subcommand("remove", "take robots out of the world, by name");

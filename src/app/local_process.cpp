@@ -14,6 +14,12 @@
 
 namespace roboss {
 
+std::string place_name(pid_t process) {
+    char host[256] = {};
+    gethostname(host, sizeof host - 1);
+    return std::string(host) + "/" + std::to_string(process);
+}
+
 Result<LocalProcess> LocalProcess::start(const std::vector<std::string>& arguments) {
     std::vector<char*> words;
     for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
@@ -45,8 +51,12 @@ LocalProcess& LocalProcess::operator=(LocalProcess&& other) noexcept {
 
 LocalProcess::~LocalProcess() {
     if (id_ < 0 || ended()) return;
-    kill(id_, SIGKILL);
+    kill();
     waitpid(id_, nullptr, 0);
+}
+
+void LocalProcess::kill() {
+    if (!ended()) ::kill(id_, SIGKILL);
 }
 
 std::optional<std::string> LocalProcess::ended() {

@@ -11,6 +11,9 @@
 
 namespace roboss {
 
+/// "HOST/PID" of a process of this computer, for people.
+std::string place_name(pid_t process);
+
 class LocalProcess {
   public:
     static Result<LocalProcess> start(const std::vector<std::string>& arguments);
@@ -20,6 +23,8 @@ class LocalProcess {
     ~LocalProcess();
 
     pid_t id() const { return id_; }
+    /// SIGKILL; ended() tells later.
+    void kill();
     /// How it ended, in words; nothing while it runs.
     std::optional<std::string> ended();
     /// Waits for its end, at most so long. False: it still runs.

@@ -59,12 +59,16 @@ class Run {
     using Answer = Result<std::string>;
     void serve_calls();
     Answer execute(const std::vector<std::string>& words);
+    // run_status.cpp: what others want to know, as JSON
     std::string status() const;
+    std::string groups() const;
+    std::string bounds() const;
     void resume();
     Answer step(const std::vector<std::string>& words);
     Answer set_speed(const std::vector<std::string>& words);
     Answer set_window(const std::vector<std::string>& words);
     Answer change_simulators(const std::vector<std::string>& words);
+    Answer kill_simulator(const std::vector<std::string>& words);
     Answer save(const std::string& file);
     Answer rewind(const std::string& moment);
     Answer change_model(const ModelEdit& edit, const std::string& what);

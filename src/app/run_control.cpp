@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "app/orders_file.h"
 #include "app/run.h"
@@ -24,6 +23,11 @@ Answer wrong(const Words& words) {
     std::string said;
     for (const std::string& word : words) said += (said.empty() ? "" : " ") + word.substr(0, 40);
     return Error{"'" + said + "' is not understood", "see `roboss control --help`"};
+}
+
+/// What changes nothing and is not worth a line.
+bool only_asks(const Words& words) {
+    return words.empty() || words[0] == "status" || words[0] == "groups" || words[0] == "bounds";
 }
 
 std::optional<double> number(const std::string& text) {
@@ -68,7 +72,7 @@ void Run::serve_calls() {
         const Tick tick = simulation_->tick();
         const Answer answer = execute(call.request.words);
         const std::string text = answer ? answer.value() : answer.error().text();
-        if (answer && !call.request.words.empty() && call.request.words[0] != "status") {
+        if (answer && !only_asks(call.request.words)) {
             notices_.push_back(fmt::format("asked to {}: {}", call.request.words[0], text));
             if (journal_->writes()) journal_->writer().note(tick, text);
         }
@@ -82,6 +86,8 @@ Answer Run::execute(const Words& words) {
     const std::string& verb = words[0];
     const std::size_t n = words.size();
     if (verb == "status" && n == 1) return status();
+    if (verb == "groups" && n == 1) return groups();
+    if (verb == "bounds" && n == 1) return bounds();
     if (verb == "pause" && n == 1)
         return pace_.paused = true, fmt::format("paused at {:.6f} s", simulation_->time_s());
     if (verb == "resume" && n == 1)
@@ -89,7 +95,7 @@ Answer Run::execute(const Words& words) {
     if (verb == "step" && n <= 2) return step(words);
     if (verb == "speed" && n == 2) return set_speed(words);
     if (verb == "window" && n == 2) return set_window(words);
-    if (verb == "simulators" && n == 2) return change_simulators(words);
+    if (verb == "simulators" && (n == 2 || n == 3)) return change_simulators(words);
     if (verb == "save" && n == 2) return save(words[1]);
     if (verb == "rewind" && n == 2) return rewind(words[1]);
     if (verb == "accuracy" && n >= 2) return change_accuracy(words);
@@ -97,24 +103,6 @@ Answer Run::execute(const Words& words) {
     if (verb == "remove" && n >= 2) return remove_robots(words);
     if (verb == "quit" && n == 1) return pace_.quit = true, std::string("ends");
     return wrong(words);
-}
-
-std::string Run::status() const {
-    const Counters& c = simulation_->counters();
-    nlohmann::ordered_json o{{"world", o_.world},
-                             {"time_s", simulation_->time_s()},
-                             {"tick", simulation_->tick()},
-                             {"paused", pace_.paused},
-                             {"speed", pace_.speed > 0 ? fmt::format("{:g}", pace_.speed) : "max"},
-                             {"simulators", c.simulators},
-                             {"windows", c.windows},
-                             {"islands", c.islands_now},
-                             {"model_hash", to_hex(model_->hash)},
-                             {"state_hash", to_hex(simulation_->hash())}};
-    if (journal_->writes()) o["branch"] = journal_->writer().branch();
-    o["robots"] = nlohmann::ordered_json::array();
-    for (const Robot& robot : model_->robots) o["robots"].push_back(robot.name);
-    return o.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 void Run::resume() {
@@ -152,6 +140,8 @@ Answer Run::set_window(const Words& words) {
 }
 
 Answer Run::change_simulators(const Words& words) {
+    if (words[1] == "kill" && words.size() == 3) return kill_simulator(words);
+    if (words.size() != 2) return wrong(words);
     if (words[1] == "remove") {
         if (simulation_->remove_simulator()) return std::string("one Simulator is sent home");
         return Error{"there is only one Simulator", "a run needs one; add another first"};
@@ -163,6 +153,16 @@ Answer Run::change_simulators(const Words& words) {
         simulation_->add_simulator();
     }
     return std::string("one Simulator more is started");
+}
+
+/// A process of this run's own, without a word to it: to see the run recover.
+Answer Run::kill_simulator(const Words& words) {
+    for (const MemberReport& member : simulation_->controller().members()) {
+        if (std::to_string(member.id.value) != words[2] || !member.alive) continue;
+        if (Result<> killed = company_->kill(member.name); !killed) return killed.error();
+        return fmt::format("Simulator {} ({}) is killed", words[2], member.name);
+    }
+    return Error{"there is no Simulator '" + words[2] + "'", "`roboss control status` lists them"};
 }
 
 Answer Run::save(const std::string& file) {

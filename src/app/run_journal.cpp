@@ -84,7 +84,10 @@ Result<> RunJournal::open_from(const Model& model) {
     from_ = std::move(run).value();
     start_ = from_->logged_until;
     std::error_code none;
-    if (!o_.journal.empty() && std::filesystem::equivalent(place.file, o_.journal, none)) parent_ = branch.id;
+    if (!o_.journal.empty() && std::filesystem::equivalent(place.file, o_.journal, none)) {
+        parent_ = branch.id;
+        first_tick_ = journal.holder_of(branch, -1).tick;
+    }
     reason_ = fmt::format("from {}", o_.from);
     return Ok{};
 }
@@ -129,6 +132,7 @@ Result<> RunJournal::resume(const Model& model) {
     from_ = std::move(run).value();
     start_ = from_->logged_until;
     resumes_ = true;
+    first_tick_ = journal.value().holder_of(branch.value(), -1).tick;
     writer_->continue_branch(journal.value(), branch.value());
     notices_.push_back(fmt::format("goes on from {} where it ended, at {:.6f} s (tick {})", o_.journal,
                                    static_cast<double>(branch.value().end) * model.dt_s, branch.value().end));
@@ -161,6 +165,7 @@ Result<> RunJournal::begin(Simulation& simulation) {
 
 Result<> RunJournal::begin_branch(Simulation& simulation, BranchId parent, const std::string& reason) {
     if (!writer_) return Ok{};
+    if (parent == 0) first_tick_ = simulation.tick();
     Branch branch;
     branch.parent = parent;
     branch.tick = simulation.tick();

@@ -49,6 +49,8 @@ class RunJournal {
     bool writes() const { return writer_ != nullptr; }
     JournalWriter& writer() { return *writer_; }
     Tick log_ticks() const { return log_ticks_; }
+    /// The first tick that can be rewound to.
+    Tick first_tick() const { return first_tick_; }
     std::vector<std::string> take_notices();
     Result<> close();
 
@@ -72,6 +74,7 @@ class RunJournal {
     std::string reason_ = "run";
     bool resumes_ = false;
     Tick log_ticks_ = 0;
+    Tick first_tick_ = 0;
 };
 
 }  // namespace roboss

@@ -2,9 +2,11 @@
 #include "app/simulator_command.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "app/exit_codes.h"
 #include "app/interrupt.h"
+#include "app/local_process.h"
 #include "app/member.h"
 #include "core/hash.h"
 #include "roles/simulator.h"
@@ -41,6 +43,7 @@ class SimulatorProcess {
             member_.say(fmt::format("has the world '{}' (model hash {})", model->name, to_hex(model->hash)));
             SimulatorOptions role;
             role.lanes = o_.lanes;
+            role.name = place_name(getpid());
             Simulator simulator(model, self, role, pool_);
             if (!serve(simulator)) return kBadInput;
             if (interrupted()) return kDone;

@@ -110,9 +110,11 @@ void Controller::take_hello(Bus& bus, const Address& from, const Hello& hello) {
                         Refused{"its world (model hash " + to_hex(hello.model_hash) +
                                 ") is not this run's (" + to_hex(model_->hash) + ")"});
     bool is_new = false;
-    const SimulatorId id = roster_.seat_for(from, hello.threads, bus.now_ms(), is_new);
+    const SimulatorId id = roster_.seat_for(from, hello, bus.now_ms(), is_new);
     if (!id.valid()) return;
-    if (is_new) notice("simulator " + std::to_string(id.value) + " joined at tick " + std::to_string(tick_));
+    if (is_new)
+        notice("simulator " + std::to_string(id.value) + (hello.name.empty() ? "" : " (" + hello.name + ")") +
+               " joined at tick " + std::to_string(tick_));
     counters_.simulators = roster_.alive_count();
     bus.send(kControllerAddress, from, Welcome{id});
 }

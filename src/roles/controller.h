@@ -78,6 +78,17 @@ struct Counters {
     std::size_t simulators = 0, islands_now = 0;
 };
 
+/// A Simulator as people want to see it. Loads and times are running means over windows.
+struct MemberReport {
+    SimulatorId id;
+    std::string name;
+    std::uint32_t threads = 1;
+    bool alive = false, leaving = false;  // neither: it was lost; leaving and not alive: it has left
+    std::size_t robots = 0, islands = 0;  // that it has now
+    double step_us = 0;                   // CPU time of its stepping a tick and thread
+    double load = 0;                      // the same, relative to the busiest
+};
+
 /// A committed tick that somebody still wants to fetch.
 struct WantedTick {
     Tick tick = 0;
@@ -163,6 +174,13 @@ class Controller {
     /// Index of the Simulator that has the robot; for drawing.
     std::uint32_t place_of(RobotId robot) const { return holder_[robot.index()]; }
     const Islands& islands() const { return islands_; }
+    /// Everybody who holds a seat, or held one.
+    std::vector<MemberReport> members() const;
+    /// How evenly the stepping of late windows was spread: 1 is perfect; what messages cost is not in it.
+    double balance() const;
+    /// What is known of each robot's whereabouts in the last window, by RobotId.
+    std::span<const RobotMotion> motions() const { return motions_; }
+    Tick window_ticks() const { return length_.ticks(); }
 
   private:
     // controller.cpp: messages in

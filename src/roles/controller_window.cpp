@@ -12,6 +12,7 @@ namespace {
 
 constexpr float kNewCostShare = 0.3f;  // of a window's measurement in a robot's running mean cost
 constexpr double kNewRateShare = 0.1;
+constexpr double kNewSpentShare = 0.1;
 
 /// Speeds of these seats, relative to their mean, so that costs measured on one machine hold for the others.
 std::vector<double> speeds_of(const Roster& roster, std::span<const std::uint32_t> workers) {
@@ -225,9 +226,10 @@ void Controller::learn_costs() {
     }
     double busiest_ns = 0;
     for (std::size_t place = 0; place < work.size(); ++place) {
+        SimulatorSeat& seat = roster_.seat(static_cast<std::uint32_t>(place));
+        seat.spent_ns += kNewSpentShare * (spent_ns[place] / (ticks * seat.threads) - seat.spent_ns);
         if (spent_ns[place] <= 0) continue;
         busiest_ns = std::max(busiest_ns, spent_ns[place]);
-        SimulatorSeat& seat = roster_.seat(static_cast<std::uint32_t>(place));
         const double rate = work[place] / spent_ns[place];
         seat.rate = seat.rate_known ? seat.rate + kNewRateShare * (rate - seat.rate) : rate;
         seat.rate_known = true;

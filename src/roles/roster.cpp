@@ -7,8 +7,7 @@
 
 namespace roboss {
 
-SimulatorId Roster::seat_for(const Address& address, std::uint32_t threads, std::int64_t now_ms,
-                             bool& is_new) {
+SimulatorId Roster::seat_for(const Address& address, const Hello& hello, std::int64_t now_ms, bool& is_new) {
     const auto here = std::find_if(seats_.begin(), seats_.end(),
                                    [&](const SimulatorSeat& s) { return s.alive && s.address == address; });
     is_new = here == seats_.end();
@@ -19,7 +18,8 @@ SimulatorId Roster::seat_for(const Address& address, std::uint32_t threads, std:
     if (has_left) return is_new = false, SimulatorId();
     SimulatorSeat seat;
     seat.address = address;
-    seat.threads = std::max(threads, 1u);
+    seat.name = hello.name;
+    seat.threads = std::max(hello.threads, 1u);
     seat.heard_ms = now_ms;
     seats_.push_back(seat);
     return SimulatorId(seats_.size() - 1);

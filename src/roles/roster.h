@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "wire/message.h"
@@ -15,12 +16,14 @@ inline constexpr std::uint32_t kLost = 0xFFFFFFFDu;
 
 struct SimulatorSeat {
     Address address;
+    std::string name;
     bool alive = true;
     bool leaving = false;  // asked to go; with !alive: has gone in good order
     std::uint32_t threads = 1;
     std::int64_t heard_ms = 0;
     double rate = 1;  // measured: work per ns of CPU time
     bool rate_known = false;
+    double spent_ns = 0;  // CPU time of its stepping a tick and thread, running mean
     double speed() const { return rate * threads; }
 };
 
@@ -32,7 +35,7 @@ class Roster {
     }
     /// The seat of the living Simulator at this address; a new one if there is none. Invalid if it has left
     /// in good order: then the hello is a late copy.
-    SimulatorId seat_for(const Address& address, std::uint32_t threads, std::int64_t now_ms, bool& is_new);
+    SimulatorId seat_for(const Address& address, const Hello& hello, std::int64_t now_ms, bool& is_new);
     bool known(SimulatorId id) const { return id.index() < seats_.size(); }
     bool alive(std::uint32_t place) const { return place < seats_.size() && seats_[place].alive; }
     SimulatorSeat& seat(std::uint32_t place) { return seats_[place]; }

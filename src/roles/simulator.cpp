@@ -123,7 +123,7 @@ void Simulator::keep_in_touch(Bus& bus) {
     if (now - asked_ms_ < options_.resend_ms) return;
     if (!id_.valid())
         bus.send(self_, kControllerAddress,
-                 Hello{model_->hash, static_cast<std::uint32_t>(stepper_.threads())});
+                 Hello{model_->hash, static_cast<std::uint32_t>(stepper_.threads()), options_.name});
     if (id_.valid() && leaving_) bus.send(self_, kControllerAddress, LeaveRequest{id_});
     asked_ms_ = now;
 }

@@ -20,6 +20,7 @@ struct SimulatorOptions {
     std::int64_t alive_ms = 50;      // sign of life, also from within a long step
     bool measure_cpu = true;         // false: cost is counted work, so that a seeded test repeats exactly
     std::size_t lanes = kMostLanes;  // robots stepped at once (StepScratch::use_lanes)
+    std::string name;                // for people: where it runs
 };
 
 class Simulator {

@@ -79,6 +79,7 @@ Simulation::Simulation(std::shared_ptr<const Model> model, const SimulationOptio
 void Simulation::add_simulator() {
     SimulatorOptions role;
     role.lanes = lanes_;
+    role.name = "inside";
     simulators_.push_back(
         std::make_unique<Simulator>(model_, Address{Role::kSimulator, ++instance_}, role, pool_));
 }

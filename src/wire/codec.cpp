@@ -43,7 +43,7 @@ template <class A> void field(A& a, Of<A, SetJoint>& m) {
     if constexpr (A::kReading) if (m.mode > MotorMode::kEffort) a.fail("a motor mode is unknown");
 }
 template <class A> void field(A& a, Of<A, Order>& m) { fields(a, m.apply_at, m.client, m.sequence, m.robot, m.action); }
-template <class A> void field(A& a, Of<A, Hello>& m) { fields(a, m.model_hash, m.threads); }
+template <class A> void field(A& a, Of<A, Hello>& m) { fields(a, m.model_hash, m.threads, m.name); }
 template <class A> void field(A& a, Of<A, Welcome>& m) { fields(a, m.simulator); }
 template <class A> void field(A& a, Of<A, Refused>& m) { fields(a, m.reason); }
 template <class A> void field(A& a, Of<A, Expelled>& m) { fields(a, m.simulator); }

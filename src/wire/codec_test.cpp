@@ -41,7 +41,7 @@ std::vector<Message> one_of_each() {
     StateReply reply{{12, {kRobot, kOther}, {2, 3}, {1, 2, 3, 4, 5}}};
     std::vector<ClientOrder> orders;
     for (const Order& o : some_orders()) orders.push_back({o.sequence, o.robot, o.action});
-    return {Hello{0xABCDEF, 4},
+    return {Hello{0xABCDEF, 4, "elsewhere/17"},
             Welcome{SimulatorId(1u)},
             Refused{"another world"},
             Expelled{SimulatorId(1u)},

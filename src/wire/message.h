@@ -48,6 +48,7 @@ struct Holding {
 struct Hello {  // Simulator -> Controller
     std::uint64_t model_hash = 0;
     std::uint32_t threads = 1;
+    std::string name;  // for people: where it runs
 };
 struct Welcome {  // Controller -> Simulator
     SimulatorId simulator;

@@ -63,6 +63,18 @@ class Control(unittest.TestCase):
             while not self.status(cluster)["paused"]:
                 time.sleep(0.02)
             self.assertEqual(self.status(cluster)["tick"], 100)
+            members = self.status(cluster)["members"]
+            self.assertEqual([member["state"] for member in members], ["at work", "at work"])
+            self.assertTrue(members[1]["name"].endswith(f"/{other.process.pid}") or members[0]["name"].endswith(f"/{other.process.pid}"))
+            robots = len(self.status(cluster)["robots"])
+            self.assertEqual(sum(member["robots"] for member in members), robots)
+            self.assertEqual(max(member["load"] for member in members), 1)
+            groups = json.loads(self.ask(cluster, "groups"))
+            self.assertEqual([groups["simulator"].count(member["id"]) for member in members], [member["robots"] for member in members])
+            self.assertTrue(all(groups["island"][island] == island for island in groups["island"]), "an island is called by its first robot")
+            self.assertEqual(len(json.loads(self.ask(cluster, "bounds"))["boxes"]), robots)
+            self.assertIn("no process of this run's own", self.ask(cluster, "simulators", "kill", 0, code=3))
+            self.assertIn("there is no Simulator '7'", self.ask(cluster, "simulators", "kill", 7, code=3))
             self.ask(cluster, "window", 3)
             self.ask(cluster, "speed", 2)
             self.ask(cluster, "simulators", "add")
