@@ -1,0 +1,12 @@
+// What a message costs over the real Bus: two members of a run on this computer, a thread each, send each other
+// messages of a plan's size over Fast DDS and UDP on the loopback interface.
+#pragma once
+
+#include "cluster/virtual_cluster.h"
+
+namespace roboss::bench {
+
+/// Medians of `rounds` round trips. Throws std::runtime_error if the network cannot be had.
+NetworkCosts measure_dds(int rounds);
+
+}  // namespace roboss::bench

@@ -1,0 +1,94 @@
+// Recording a run, and running it again in one process for its cost.
+#include "cluster/work.h"
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "app/city_world.h"
+#include "client/plugin.h"
+#include "cluster/virtual_cluster.h"
+#include "sdf/load_world.h"
+#include "simulation/simulation.h"
+
+namespace roboss::bench {
+namespace {
+
+template <class T>
+T take(Result<T> result) {
+    if (!result) throw std::runtime_error(result.error().text());
+    return std::move(result).value();
+}
+
+/// A log in memory that keeps the orders.
+class OrderRecorder : public RunLog {
+  public:
+    std::vector<SaidOrder> orders;
+    void joined(ClientId, const std::string&) override {}
+    void order(const Order& order, Tick said) override { orders.push_back({order, said}); }
+    void word(ClientId, Tick) override {}
+    void note(Tick, const std::string&) override {}
+    void planned(Tick) override {}
+    void committed(Tick, std::uint64_t) override {}
+    bool takes_checkpoint() const override { return false; }
+    void checkpoint(RunCheckpoint) override {}
+    std::uint64_t given() const override { return 0; }
+    bool safe(std::uint64_t) const override { return true; }
+    void hurry() override {}
+    void wait_safe(std::uint64_t, std::int64_t) override {}
+};
+
+std::shared_ptr<const Model> load(const std::string& file) {
+    Diagnostics found;
+    const std::optional<World> world = load_world(file, {}, found);
+    const auto model = world && !found.has_errors() ? compile(*world, {}, found) : nullptr;
+    if (!model) throw std::runtime_error(file + " has errors; see `roboss check`");
+    return model;
+}
+
+}  // namespace
+
+StartingPoint Work::start() const {
+    StartingPoint start = beginning_of(*model);
+    start.orders = orders;
+    start.logged_until = ticks;
+    return start;
+}
+
+std::string city_file(std::size_t cars) {
+    CityOptions options;
+    options.cars = static_cast<int>(cars);
+    const auto file = std::filesystem::temp_directory_path() / ("roboss-city-" + std::to_string(cars) + ".sdf");
+    if (!(std::ofstream(file) << city_sdf(options))) throw std::runtime_error("cannot write " + file.string());
+    return file.string();
+}
+
+Work record(const std::string& name, const std::string& file, const std::string& driver, Tick ticks, std::size_t lanes) {
+    Work work{name, load(file), {}, ticks, 0, 0, 0};
+    OrderRecorder recorder;
+    SimulationOptions options;
+    options.lanes = lanes;
+    options.controller.seed = 7;
+    options.controller.log = &recorder;
+    std::vector<NamedProgram> programs;
+    if (!driver.empty()) programs.push_back({"driver", take(load_control_program(driver))});
+    const auto recording = take(Simulation::create(work.model, options, std::move(programs)));
+    take(recording->run_until(ticks));
+    work.hash = recording->hash();
+    work.orders = std::move(recorder.orders);
+
+    options.controller.log = nullptr;
+    SavedRun from;
+    from.states = beginning_of(*work.model).states;
+    from.orders = work.orders;
+    from.logged_until = ticks;
+    const auto again = take(Simulation::create(work.model, options, {}, &from));
+    const std::int64_t begin_ns = thread_cpu_ns();
+    take(again->run_until(ticks));
+    work.process_cpu_s = 1e-9 * static_cast<double>(thread_cpu_ns() - begin_ns);
+    work.step_cpu_s = again->counters().step_cpu_s;
+    if (again->hash() != work.hash) throw std::runtime_error(name + ": the recorded orders do not give the recorded run");
+    return work;
+}
+
+}  // namespace roboss::bench

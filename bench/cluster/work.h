@@ -1,0 +1,34 @@
+// The work of the cluster measurements: a world driven by the orders that its control program gave in a run recorded
+// before (Clients take no part in what is measured), with what that run cost in one process and where it ended.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "journal/log_entries.h"
+#include "model/model.h"
+#include "roles/controller.h"
+
+namespace roboss::bench {
+
+struct Work {
+    std::string name;
+    std::shared_ptr<const Model> model;
+    std::vector<SaidOrder> orders;
+    Tick ticks = 0;
+    std::uint64_t hash = 0;    // of the world after so many ticks
+    double step_cpu_s = 0;     // of the stepping alone
+    double process_cpu_s = 0;  // of the Controller and the Simulator in one process, without Clients
+
+    StartingPoint start() const;
+};
+
+/// A file with the city of so many cars.
+std::string city_file(std::size_t cars);
+
+/// The world of `file`, run for `ticks`; `driver`: shared library of its control program, or empty. Throws
+/// std::runtime_error.
+Work record(const std::string& name, const std::string& file, const std::string& driver, Tick ticks, std::size_t lanes);
+
+}  // namespace roboss::bench
