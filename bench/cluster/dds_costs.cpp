@@ -41,7 +41,8 @@ Plan letter() {
 }
 
 double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                     values.end());
     return values[values.size() / 2];
 }
 
@@ -69,7 +70,8 @@ NetworkCosts measure_dds(int rounds) {
     std::vector<Envelope> inbox;
     bus->drain(kControllerAddress, inbox);
     const std::int64_t end_ms = bus->now_ms() + kPatience_ms;
-    for (; inbox.empty() && bus->now_ms() < end_ms; bus->drain(kControllerAddress, inbox)) {  // until both know each other
+    for (; inbox.empty() && bus->now_ms() < end_ms;
+         bus->drain(kControllerAddress, inbox)) {  // until both know each other
         if (bus->present(kEcho)) bus->send(kControllerAddress, kEcho, letter());
         bus->wait(10);
         std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -58,12 +58,15 @@ StartingPoint Work::start() const {
 std::string city_file(std::size_t cars) {
     CityOptions options;
     options.cars = static_cast<int>(cars);
-    const auto file = std::filesystem::temp_directory_path() / ("roboss-city-" + std::to_string(cars) + ".sdf");
-    if (!(std::ofstream(file) << city_sdf(options))) throw std::runtime_error("cannot write " + file.string());
+    const auto file =
+        std::filesystem::temp_directory_path() / ("roboss-city-" + std::to_string(cars) + ".sdf");
+    if (!(std::ofstream(file) << city_sdf(options)))
+        throw std::runtime_error("cannot write " + file.string());
     return file.string();
 }
 
-Work record(const std::string& name, const std::string& file, const std::string& driver, Tick ticks, std::size_t lanes) {
+Work record(const std::string& name, const std::string& file, const std::string& driver, Tick ticks,
+            std::size_t lanes) {
     Work work{name, load(file), {}, ticks, 0, 0, 0};
     OrderRecorder recorder;
     SimulationOptions options;
@@ -87,7 +90,8 @@ Work record(const std::string& name, const std::string& file, const std::string&
     take(again->run_until(ticks));
     work.process_cpu_s = 1e-9 * static_cast<double>(thread_cpu_ns() - begin_ns);
     work.step_cpu_s = again->counters().step_cpu_s;
-    if (again->hash() != work.hash) throw std::runtime_error(name + ": the recorded orders do not give the recorded run");
+    if (again->hash() != work.hash)
+        throw std::runtime_error(name + ": the recorded orders do not give the recorded run");
     return work;
 }
 

@@ -1,5 +1,6 @@
-// The work of the cluster measurements: a world driven by the orders that its control program gave in a run recorded
-// before (Clients take no part in what is measured), with what that run cost in one process and where it ended.
+// The work of the cluster measurements: a world driven by the orders that its control program gave in a run
+// recorded before (Clients take no part in what is measured), with what that run cost in one process and
+// where it ended.
 #pragma once
 
 #include <memory>
@@ -29,6 +30,7 @@ std::string city_file(std::size_t cars);
 
 /// The world of `file`, run for `ticks`; `driver`: shared library of its control program, or empty. Throws
 /// std::runtime_error.
-Work record(const std::string& name, const std::string& file, const std::string& driver, Tick ticks, std::size_t lanes);
+Work record(const std::string& name, const std::string& file, const std::string& driver, Tick ticks,
+            std::size_t lanes);
 
 }  // namespace roboss::bench

@@ -1,0 +1,85 @@
+// Clocks and the way of messages.
+#include "cluster/virtual_network.h"
+
+#include <algorithm>
+#include <ctime>
+
+namespace roboss::bench {
+
+std::int64_t thread_cpu_ns() {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return std::int64_t{1'000'000'000} * t.tv_sec + t.tv_nsec;
+}
+
+void VirtualNetwork::add(const Address& address) {
+    places_[address] = members_.size();
+    members_.emplace_back();
+    members_.back().clock_ns = members_.front().clock_ns;
+}
+
+void VirtualNetwork::send(const Address& from, const Address& to, Message message) {
+    const auto place = places_.find(to);
+    if (place == places_.end()) return;
+    Letter letter{0, serial_++, encode({from, to, std::move(message)})};
+    members_[at_work_].toll_ns += static_cast<std::int64_t>(1e3 * costs_.send_us);
+    const double way_us = costs_.way_us + static_cast<double>(letter.bytes.size()) / costs_.bytes_per_us;
+    letter.arrival_ns = now_ns() + static_cast<std::int64_t>(1e3 * way_us);
+    members_[place->second].inbox.push(std::move(letter));
+}
+
+void VirtualNetwork::drain(const Address&, std::vector<Envelope>& inbox) {
+    inbox.clear();
+    Member& member = members_[at_work_];
+    while (!member.inbox.empty() && member.inbox.top().arrival_ns <= now_ns()) {
+        const std::vector<std::uint8_t>& bytes = member.inbox.top().bytes;
+        Result<Envelope> envelope = decode_envelope(bytes);
+        if (!envelope) throw std::runtime_error(envelope.error().text());
+        if (at_work_ == 0) {
+            Traffic& traffic = received[message_name(envelope.value().message)];
+            ++traffic.messages;
+            traffic.bytes += bytes.size();
+        }
+        inbox.push_back(std::move(envelope).value());
+        member.inbox.pop();
+    }
+}
+
+std::int64_t VirtualNetwork::latest_ns() const {
+    std::int64_t latest = 0;
+    for (const Member& member : members_) latest = std::max(latest, member.clock_ns);
+    return latest;
+}
+
+std::int64_t VirtualNetwork::ready_ns(std::size_t i) const {
+    const Member& m = members_[i];
+    return m.inbox.empty() ? kNever : std::max(m.clock_ns, m.inbox.top().arrival_ns);
+}
+
+std::size_t VirtualNetwork::next() const {
+    std::size_t first = 0;
+    for (std::size_t i = 1; i < members_.size(); ++i)
+        if (ready_ns(i) < ready_ns(first)) first = i;
+    return ready_ns(first) == kNever ? members_.size() : first;
+}
+
+void VirtualNetwork::begin(std::size_t i, std::int64_t start_ns) {
+    at_work_ = i;
+    members_[i].clock_ns = start_ns;
+    members_[i].toll_ns = 0;
+    began_ns_ = thread_cpu_ns();
+}
+
+void VirtualNetwork::end() {
+    Member& member = members_[at_work_];
+    const std::int64_t spent = thread_cpu_ns() - began_ns_ + member.toll_ns;
+    member.clock_ns += spent;
+    member.spent_ns += spent;
+}
+
+std::int64_t VirtualNetwork::now_ns() const {
+    const Member& m = members_[at_work_];
+    return m.clock_ns + m.toll_ns + thread_cpu_ns() - began_ns_;
+}
+
+}  // namespace roboss::bench
