@@ -81,8 +81,8 @@ class Answerer {
         RobotFrame f;
         f.robot = robot;
         f.swept = outward(swept);
-        f.centre = {static_cast<float>(centre.x), static_cast<float>(centre.y), static_cast<float>(centre.z)};
-        f.velocity = {static_cast<float>(kSpeed), 0, 0};
+        f.place = pack_place({centre.x, centre.y, centre.z}, f.swept);
+        f.velocity = pack_velocity({kSpeed, 0, 0});
         f.hash = 0x9E3779B97F4A7C15ull * (robot.value + 1u) ^ static_cast<std::uint64_t>(plan.until);
         return f;
     }

@@ -5,7 +5,8 @@
 
 namespace roboss {
 
-void StatePull::begin(const Model& model, Tick tick, std::vector<Holding> holders) {
+void StatePull::begin(const Model& model, Tick tick, std::vector<Holding> holders,
+                      std::optional<std::int64_t> unasked_ms) {
     active_ = true;
     tick_ = tick;
     wanted_.assign(model.robots.size(), false);
@@ -18,6 +19,9 @@ void StatePull::begin(const Model& model, Tick tick, std::vector<Holding> holder
             ++missing_;
         }
     redirect(std::move(holders));
+    if (!unasked_ms) return;
+    ask_now_ = false;
+    asked_ms_ = *unasked_ms;
 }
 
 void StatePull::begin_all(const Model& model, Tick tick) {

@@ -12,8 +12,10 @@ namespace roboss {
 
 class StatePull {
   public:
-    /// Starts to fetch `holders`' robots at `tick`; accept() says where each state goes.
-    void begin(const Model& model, Tick tick, std::vector<Holding> holders);
+    /// Starts to fetch `holders`' robots at `tick`; accept() says where each state goes. `unasked_ms`: they
+    /// are sent without being asked for; who has not done so by then (Bus::now_ms()) is asked.
+    void begin(const Model& model, Tick tick, std::vector<Holding> holders,
+               std::optional<std::int64_t> unasked_ms = {});
     /// Starts to fetch every robot; redirect() says from whom.
     void begin_all(const Model& model, Tick tick);
     /// Who has the robots now; what has come stays. Asks at once on the next advance() if this is news.

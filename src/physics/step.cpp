@@ -19,8 +19,9 @@ struct StepScratch::Impl {
     std::vector<RobotWork> alone{1};  // the others, one after the other
     std::vector<Aabb> coarse;
     Meetings meetings;
-    std::vector<std::uint32_t> awake, near;
+    std::vector<std::uint32_t> awake, near, batch;
     std::vector<char> is_near, ordered, moved_freely;
+    std::vector<float> efforts;
     std::vector<ContactReport> contacts;
     std::unique_ptr<LaneStepper> lanes = make_lane_stepper(kMostLanes);
     LaneQueue queue;
@@ -76,6 +77,14 @@ bool is_beyond_numbers(const RobotWork& work) {
     for (const ShapeWork& shape : work.shapes)
         if (!std::isfinite(shape.margin)) return true;
     return !is_finite(work.origin);
+}
+
+constexpr float kEffort = 2;  // of a step beside its Newton iterations
+
+/// What these robots' step was worth, each the same.
+void share_effort(std::span<const std::uint32_t> robots, int iterations, std::vector<float>& efforts) {
+    const float each = kEffort + static_cast<float>(iterations) / static_cast<float>(robots.size());
+    for (const std::uint32_t i : robots) efforts[i] = each;
 }
 
 constexpr double kFar = 1e300;
@@ -157,7 +166,9 @@ struct Call {
     bool step(std::span<const std::uint32_t> chosen, std::span<RobotWork> works, Impl& s,
               StepReport& report) const {
         if (!place_all(chosen, works, s, report)) return false;
+        const int before = report.iterations;
         step_group(model, works, s.group, report);
+        share_effort(chosen, report.iterations - before, s.efforts);
         for (std::size_t k = 0; k < chosen.size(); ++k) {
             s.moved_freely[chosen[k]] = !works[k].held;
             report.placed += works[k].placed ? 1 : 0;
@@ -180,7 +191,9 @@ struct Call {
     }
 
     bool step_in_lanes(std::vector<std::uint32_t>& batch, Impl& s, StepReport& report) const {
-        return step_batch(
+        const int before = report.iterations;
+        s.batch = batch;
+        const bool fine = step_batch(
             *s.lanes, model, batch, report,
             [&](std::uint32_t i) {
                 return LaneRobot{robots[i], states[i], &bounds[i], false, {}};
@@ -189,6 +202,8 @@ struct Call {
                 report.placed += stepped ? 1 : 0;
                 return stepped || step({&i, 1}, s.alone, s, report);
             });
+        share_effort(s.batch, report.iterations - before, s.efforts);
+        return fine;
     }
 
     bool step_all_alone(Impl& s, StepReport& report) const {
@@ -218,6 +233,7 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
     s.contacts.clear(), s.group.loads.clear();
     s.group.lanes = s.lanes.get();
     s.moved_freely.assign(robots.size(), 0);
+    s.efforts.assign(robots.size(), 0);
     apply_orders(model, robots, states, orders, s.ordered);
     find_near(model, robots, states, s);
     if (s.works.size() < s.near.size()) s.works.resize(s.near.size());
@@ -250,6 +266,10 @@ std::span<const ContactReport> read_contacts(StepScratch& scratch) {
 
 std::span<const LoopLoad> read_loop_loads(StepScratch& scratch) {
     return scratch.impl().group.loads;
+}
+
+std::span<const float> read_efforts(StepScratch& scratch) {
+    return scratch.impl().efforts;
 }
 
 bool moved_freely(StepScratch& scratch, std::size_t index) {

@@ -82,6 +82,10 @@ struct LoopLoad {
 /// Of the step made last with this scratch; empty unless it keeps them.
 std::span<const LoopLoad> read_loop_loads(StepScratch& scratch);
 
+/// By robot of the last call: how much work its step was, in Newton iterations and about two for all else; in
+/// lanes the mean of the batch. For sharing out measured time, never for results.
+std::span<const float> read_efforts(StepScratch& scratch);
+
 /// Whether robot number `index` of the last call moved without contact and rows, by the Runge-Kutta method.
 bool moved_freely(StepScratch& scratch, std::size_t index);
 

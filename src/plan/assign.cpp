@@ -73,9 +73,10 @@ std::vector<std::uint32_t> assign(const AssignRequest& r) {
               [&](auto a, auto b) { return cost[a] != cost[b] ? cost[a] > cost[b] : a < b; });
 
     // How soon all could be done if moving were free; nobody moves as long as staying is not much worse than
-    // that.
+    // that, measurements being what they are.
+    constexpr double kLittle = 0.01;
     const Placing free = place_all(r, cost, order, home, -1);
-    return place_all(r, cost, order, home, (1 + r.slack) * free.done).place;
+    return place_all(r, cost, order, home, free.done + r.patience + kLittle * free.done).place;
 }
 
 }  // namespace roboss

@@ -20,7 +20,7 @@ struct AssignRequest {
     std::span<const std::uint32_t>
         robot_place;                // by RobotId: index of the Simulator that has it, or kNowhere
     std::span<const double> speed;  // by Simulator index: work a second, relative; > 0
-    double slack = 0.1;             // how far above the even share a Simulator may get to avoid a move
+    double patience = 0;            // how much later all may be done than they could be, to avoid moves
 };
 
 /// For each island the index of its Simulator. `speed` must not be empty.

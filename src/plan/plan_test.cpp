@@ -87,7 +87,7 @@ TEST(Assign, BalancesByCostAndSpeed) {
     const std::vector<std::uint32_t> nowhere(60, kNowhere);
     const std::vector<double> speed{1, 2, 1};
     std::vector<double> load(3, 0.0);
-    const auto place = assign({islands, cost, nowhere, speed});
+    const auto place = assign({islands, cost, nowhere, speed, 0});
     for (std::size_t i = 0; i < 60; ++i) load[place[i]] += static_cast<double>(cost[i]);
     EXPECT_NEAR(load[0], 45, 5);
     EXPECT_NEAR(load[1], 90, 5);
@@ -100,14 +100,14 @@ TEST(Assign, MovesNobodyWhileStayingIsNearlyAsGood) {
     std::vector<float> cost(40);
     for (std::uint32_t i = 0; i < 40; ++i)
         here[i] = i % 2, cost[i] = 1.0f + 0.001f * static_cast<float>(i % 3);
-    EXPECT_EQ(assign({islands, cost, here, std::vector<double>{1, 1}}), here);
+    EXPECT_EQ(assign({islands, cost, here, std::vector<double>{1, 1}, 1}), here);
 }
 
 TEST(Assign, MovesOnlyWhatIsTooMuch) {
     const Islands islands = single_islands(40);
     const std::vector<std::uint32_t> here(40, 0);
     const std::vector<float> cost(40, 1.0f);
-    const auto place = assign({islands, cost, here, std::vector<double>{1, 1}});
+    const auto place = assign({islands, cost, here, std::vector<double>{1, 1}, 2});
     const auto moved = std::count(place.begin(), place.end(), 1u);
     EXPECT_GE(moved, 18);
     EXPECT_LE(moved, 20);

@@ -223,6 +223,7 @@ class Controller {
     bool merge_touching();
     void commit();
     void learn_costs();
+    void learn_rates(std::span<const double> expected_ns, std::span<const double> spent_ns);
     std::optional<Error> failed_island() const;
 
     // controller_recovery.cpp: checkpoints, leaving, losses
@@ -267,7 +268,8 @@ class Controller {
     std::vector<std::uint64_t> hashes_, next_hashes_;  // by RobotId: committed; of the round
     std::vector<std::uint32_t> holder_;                // by RobotId: place of its state at tick_
     std::vector<RobotMotion> motions_;                 // by RobotId, for the forecast
-    std::vector<float> cost_;                          // by RobotId: work a tick
+    std::vector<float> cost_;                          // by RobotId: ns a tick on the mean Simulator
+    bool costs_known_ = false;                         // measured, not guessed
     Forecast forecast_;
     WindowLength length_;
     Islands islands_;  // of the last window committed

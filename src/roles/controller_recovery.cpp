@@ -183,7 +183,7 @@ void Controller::begin_leg(Tick from) {
         std::vector<double> speeds;
         speeds.reserve(workers.size());
         for (const std::uint32_t worker : workers) speeds.push_back(roster_.seat(worker).threads);
-        place = assign({islands, cost_, nowhere, speeds});
+        place = assign({islands, cost_, nowhere, speeds, 0});
         for (std::uint32_t& seat : place) seat = workers[seat];
     } else {
         for (std::size_t i = 0; i < islands.count(); ++i)

@@ -11,34 +11,29 @@ namespace roboss {
 namespace {
 
 constexpr float kNewCostShare = 0.3f;  // of a window's measurement in a robot's running mean cost
-constexpr double kNewRateShare = 0.1;
+constexpr double kNewRateShare = 0.03;
 constexpr double kNewSpentShare = 0.1;
+constexpr double kMove_ns =
+    100'000;  // what it costs a Simulator to have a robot's state sent: nobody moves for less
 
-/// Speeds of these seats, relative to their mean, so that costs measured on one machine hold for the others.
 std::vector<double> speeds_of(const Roster& roster, std::span<const std::uint32_t> workers) {
     std::vector<double> speeds;
-    double known = 0, sum = 0;
-    for (const std::uint32_t place : workers)
-        if (roster.seat(place).rate_known) known += 1, sum += roster.seat(place).rate;
-    const double mean = known > 0 ? sum / known : 1;
-    for (const std::uint32_t place : workers) {
-        const SimulatorSeat& seat = roster.seat(place);
-        speeds.push_back((seat.rate_known ? seat.rate : mean) * seat.threads);
-    }
+    for (const std::uint32_t place : workers) speeds.push_back(roster.seat(place).speed());
     return speeds;
 }
 
 /// assign() for seats: places in and out are seats, of which only `workers` may get islands.
 std::vector<std::uint32_t> assign_to_seats(const Islands& islands, std::span<const float> cost,
                                            const Roster& roster, std::span<const std::uint32_t> holder,
-                                           double slack) {
+                                           Tick ticks) {
     const std::vector<std::uint32_t> workers = roster.workers();
     std::vector<std::uint32_t> index_of(roster.size(), kNowhere), place(holder.size(), kNowhere);
     for (std::uint32_t i = 0; i < workers.size(); ++i) index_of[workers[i]] = i;
     for (std::size_t r = 0; r < holder.size(); ++r)
         if (holder[r] < roster.size()) place[r] = index_of[holder[r]];
     const std::vector<double> speeds = speeds_of(roster, workers);
-    std::vector<std::uint32_t> result = assign({islands, cost, place, speeds, slack});
+    std::vector<std::uint32_t> result =
+        assign({islands, cost, place, speeds, kMove_ns / static_cast<double>(ticks)});
     for (std::uint32_t& seat : result) seat = workers[seat];
     return result;
 }
@@ -71,8 +66,10 @@ void Controller::plan_window() {
     round_.emplace(RoundSpan{epoch_, ++window_, tick_, until, false}, book_.between(tick_, until),
                    model_->robots.size());
     forecast_.islands(motions_, round_->orders(), until - tick_, options_.forecast, round_->islands);
-    const std::vector<std::uint32_t> place = assign_to_seats(round_->islands, cost_, roster_, holder_, 0.1);
+    const std::vector<std::uint32_t> place =
+        assign_to_seats(round_->islands, cost_, roster_, holder_, until - tick_);
     round_->plan(round_->islands, place, holder_, roster_);
+    round_->send_dearest_first(cost_);
     for (std::size_t r = 0; r < holder_.size(); ++r)
         if (holder_[r] != kAtController && holder_[r] != round_->seat_of(RobotId(r))) ++counters_.migrations;
     keep_wanted(*round_);
@@ -97,7 +94,9 @@ void Controller::take_frame(const Frame& frame) {
     const bool plan_is_recovery = round_->span().recovery;
     const auto span_s = static_cast<float>(static_cast<double>(plan->until - plan->from) * model_->dt_s);
     for (const RobotFrame& f : frame.robots) {
-        if (!plan_is_recovery) motions_[f.robot.index()] = {f.swept, f.centre, f.velocity, span_s};
+        if (!plan_is_recovery)
+            motions_[f.robot.index()] = {f.swept, unpack_place(f.place, f.swept), unpack_velocity(f.velocity),
+                                         span_s};
         next_hashes_[f.robot.index()] = f.hash;
     }
     std::uint64_t cost_ns = 0;
@@ -150,7 +149,8 @@ bool Controller::merge_touching() {
     std::erase_if(round_->earlier, [&](const EarlierBox& e) { return stepped_again[e.robot.index()]; });
     round_->islands = std::move(all);
     counters_.robots_repeated += again.robots.size();
-    const std::vector<std::uint32_t> place = assign_to_seats(again, cost_, roster_, round_->seats(), 0.5);
+    const std::vector<std::uint32_t> place =
+        assign_to_seats(again, cost_, roster_, round_->seats(), round_->span().until - round_->span().from);
     round_->plan(again, place, round_->seats(), roster_);
     return true;
 }
@@ -204,37 +204,54 @@ void Controller::commit() {
     tell_observers();
 }
 
+/// A robot's cost is in ns a tick on the mean Simulator; a Simulator's rate is how much faster than the mean
+/// it is: it grows where its islands, taken together, cost less than what their robots lately did, wherever
+/// that was.
 void Controller::learn_costs() {
     const Round& round = *round_;
     const auto ticks = static_cast<double>(round.span().until - round.span().from);
-    std::vector<double> work(roster_.size(), 0.0), spent_ns(roster_.size(), 0.0);
+    std::vector<double> expected_ns(roster_.size(), 0.0), spent_ns(roster_.size(), 0.0);
     for (std::size_t i = 0; i < round.islands.count(); ++i) {
         const auto robots = round.islands.of(i);
-        const IslandFrame& outcome = round.outcome[robots.front().index()];
         const std::uint32_t place = round.seat_of(robots.front());
-        const double rate = roster_.seat(place).rate_known ? roster_.seat(place).rate : 1;
-        double freedoms = 0;
-        for (const RobotId robot : robots) freedoms += 4 + model_->type_of(robot).nv;
-        work[place] += freedoms * ticks + static_cast<double>(outcome.contacts);
-        spent_ns[place] += static_cast<double>(outcome.cost_ns);
-        const double each =
-            rate * static_cast<double>(outcome.cost_ns) / (ticks * static_cast<double>(robots.size()));
+        const auto cost_ns = static_cast<double>(round.outcome[robots.front().index()].cost_ns);
+        double expected = 0;
+        for (const RobotId robot : robots) expected += static_cast<double>(cost_[robot.index()]);
+        expected_ns[place] += ticks * expected / roster_.seat(place).rate;
+        spent_ns[place] += cost_ns;
+        const double each = roster_.seat(place).rate * cost_ns / (ticks * static_cast<double>(robots.size()));
         for (const RobotId robot : robots) {
             float& cost = cost_[robot.index()];
-            cost += kNewCostShare * (static_cast<float>(std::max(each, 1e-3)) - cost);
+            cost += (costs_known_ ? kNewCostShare : 1.0f) * (static_cast<float>(std::max(each, 1e-3)) - cost);
         }
     }
+    if (std::exchange(costs_known_, true)) learn_rates(expected_ns, spent_ns);
     double busiest_ns = 0;
-    for (std::size_t place = 0; place < work.size(); ++place) {
-        SimulatorSeat& seat = roster_.seat(static_cast<std::uint32_t>(place));
+    for (std::uint32_t place = 0; place < roster_.size(); ++place) {
+        SimulatorSeat& seat = roster_.seat(place);
         seat.spent_ns += kNewSpentShare * (spent_ns[place] / (ticks * seat.threads) - seat.spent_ns);
-        if (spent_ns[place] <= 0) continue;
         busiest_ns = std::max(busiest_ns, spent_ns[place]);
-        const double rate = work[place] / spent_ns[place];
-        seat.rate = seat.rate_known ? seat.rate + kNewRateShare * (rate - seat.rate) : rate;
-        seat.rate_known = true;
     }
     work_since_s_ += 1e-9 * busiest_ns;
+}
+
+/// Only what sets Simulators apart is learnt of them; what became dearer everywhere is the robots' own.
+void Controller::learn_rates(std::span<const double> expected_ns, std::span<const double> spent_ns) {
+    double expected = 0, spent = 0;
+    for (std::size_t place = 0; place < spent_ns.size(); ++place)
+        if (spent_ns[place] > 0) expected += expected_ns[place], spent += spent_ns[place];
+    if (expected <= 0 || spent <= 0) return;
+    for (std::uint32_t place = 0; place < roster_.size(); ++place) {
+        if (spent_ns[place] <= 0 || expected_ns[place] <= 0) continue;
+        const double faster = expected_ns[place] / spent_ns[place] * spent / expected;
+        double& rate = roster_.seat(place).rate;
+        rate = std::clamp(rate * (1 + kNewRateShare * (std::clamp(faster, 0.5, 2.0) - 1)), 0.01, 100.0);
+    }
+    double sum = 0;
+    const std::vector<std::uint32_t> workers = roster_.workers();
+    for (const std::uint32_t place : workers) sum += roster_.seat(place).rate;
+    for (const std::uint32_t place : workers)
+        roster_.seat(place).rate *= static_cast<double>(workers.size()) / sum;
 }
 
 }  // namespace roboss

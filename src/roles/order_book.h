@@ -23,12 +23,16 @@ class OrderBook {
     std::vector<SaidOrder> pending(Tick tick);
     /// Forgets orders with apply_at < tick.
     void trim(Tick tick);
-    std::size_t size() const { return entries_.size() + fresh_.size(); }
+    std::size_t size() const { return entries_.size() - first_ + fresh_.size(); }
 
   private:
     void settle();
+    std::vector<SaidOrder>::iterator begin() {
+        return entries_.begin() + static_cast<std::ptrdiff_t>(first_);
+    }
 
     std::vector<SaidOrder> entries_;  // canonical order
+    std::size_t first_ = 0;           // of them; those before are forgotten
     std::vector<SaidOrder> fresh_;    // not sorted in yet
     std::set<std::tuple<Tick, ClientId, std::uint64_t>> given_;
 };

@@ -21,8 +21,7 @@ struct SimulatorSeat {
     bool leaving = false;  // asked to go; with !alive: has gone in good order
     std::uint32_t threads = 1;
     std::int64_t heard_ms = 0;
-    double rate = 1;  // measured: work per ns of CPU time
-    bool rate_known = false;
+    double rate = 1;      // measured: how much faster than the mean of all one of its threads is
     double spent_ns = 0;  // CPU time of its stepping a tick and thread, running mean
     double speed() const { return rate * threads; }
 };

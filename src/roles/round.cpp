@@ -5,6 +5,16 @@
 
 namespace roboss {
 
+namespace {
+
+void give(std::vector<HandOver>& gives, const Address& to, RobotId robot) {
+    auto here = std::find_if(gives.begin(), gives.end(), [&](const HandOver& g) { return g.to == to; });
+    if (here == gives.end()) here = gives.insert(gives.end(), HandOver{to, {}});
+    here->robots.push_back(robot);
+}
+
+}  // namespace
+
 Round::Round(const RoundSpan& span, std::vector<Order> orders, std::size_t robots)
     : outcome(robots), span_(span), orders_(std::move(orders)), seat_(robots, kLost) {}
 
@@ -32,19 +42,22 @@ void Round::plan(const Islands& part, std::span<const std::uint32_t> place,
                                     source.end());  // `source` may be seats(), which change below
     std::vector<bool> in_part(seat_.size(), false);
     for (std::size_t i = 0; i < part.count(); ++i) {
-        Plan& plan = plan_for(place[i]);
         for (const RobotId robot : part.of(i)) {
+            Plan& plan = plan_for(place[i]);
             plan.robots.push_back(robot);
             seat_[robot.index()] = place[i];
             in_part[robot.index()] = true;
             if (from[robot.index()] == place[i]) continue;
             const Address address = roster.address_of(from[robot.index()]);
-            auto& holdings = plan.hand_offs;
+            if (from[robot.index()] < roster.size())
+                give(plan_for(from[robot.index()]).gives, roster.address_of(place[i]), robot);
+            auto& holdings = plan_for(place[i]).hand_offs;  // `plan` may have moved
             auto holding = std::find_if(holdings.begin(), holdings.end(),
                                         [&](const Holding& h) { return h.source == address; });
             if (holding == holdings.end()) holding = holdings.insert(holdings.end(), Holding{address, {}});
             holding->robots.push_back(robot);
         }
+        Plan& plan = plan_for(place[i]);
         plan.island_offsets.push_back(static_cast<std::uint32_t>(plan.robots.size()));
     }
     for (const Order& order : orders_)
@@ -57,6 +70,20 @@ void Round::keep(std::uint32_t place, std::vector<RobotId> robots) {
 
 void Round::release_before(Tick tick) {
     for (Sent& sent : sent_) sent.plan.release_before = tick;
+}
+
+void Round::send_dearest_first(std::span<const float> cost) {
+    const auto work = [cost](const Sent& sent) {
+        double sum = 0;
+        for (const RobotId robot : sent.plan.robots) sum += static_cast<double>(cost[robot.index()]);
+        return sum;
+    };
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < sent_.size(); ++i) order.emplace_back(-work(sent_[i]), i);
+    std::sort(order.begin(), order.end());
+    std::vector<Sent> sorted;
+    for (const auto& [work_before, i] : order) sorted.push_back(std::move(sent_[i]));
+    sent_ = std::move(sorted);
 }
 
 void Round::send(Bus& bus, const Roster& roster, std::int64_t resend_ms) {

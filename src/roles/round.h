@@ -36,6 +36,8 @@ class Round {
     /// To be kept by the Simulator at `place` on receiving the plan; writes an empty plan if it has none.
     void keep(std::uint32_t place, std::vector<RobotId> robots);
     void release_before(Tick tick);
+    /// Who has most to do is told first. `cost`: by RobotId.
+    void send_dearest_first(std::span<const float> cost);
     /// Sends plans that were never sent or not answered for resend_ms.
     void send(Bus& bus, const Roster& roster, std::int64_t resend_ms);
 

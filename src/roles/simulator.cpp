@@ -8,6 +8,8 @@ namespace roboss {
 
 namespace {
 
+constexpr std::size_t kEarlyMost = 64;  // more would be another's mistake; what is dropped is asked for
+
 template <class A, class B>
 bool same_attempt(const A& a, const B& b) {
     return std::tie(a.epoch, a.window, a.attempt) == std::tie(b.epoch, b.window, b.attempt);
@@ -48,12 +50,13 @@ Simulator::Simulator(std::shared_ptr<const Model> model, const Address& self, co
 
 void Simulator::advance(Bus& bus) {
     if (gone_) return;
+    for (Envelope& envelope : std::exchange(later_, {})) handle(bus, envelope);
     bus.drain(self_, inbox_);
     for (Envelope& envelope : inbox_) handle(bus, envelope);
     keep_in_touch(bus);
     if (gone_ || !plan_) return;
     if (!pull_.complete()) return pull_.advance(bus, self_, options_.resend_ms);
-    answer_ = stepper_.step(*plan_, store_, [&] { say_alive(bus); });
+    answer_ = stepper_.step(*plan_, store_, [&] { attend(bus); });
     plan_.reset();
     bus.send(self_, kControllerAddress, *answer_);
 }
@@ -63,10 +66,8 @@ void Simulator::handle(Bus& bus, Envelope& envelope) {
         take_plan(bus, *plan);
     } else if (const auto* request = std::get_if<StateRequest>(&envelope.message)) {
         serve(bus, envelope.from, *request);
-    } else if (const auto* reply = std::get_if<StateReply>(&envelope.message)) {
-        const Tick tick = reply->states.tick;
-        pull_.accept(*model_, *reply,
-                     [&](RobotId robot, RobotState&& state) { store_.put(robot, tick, std::move(state)); });
+    } else if (auto* reply = std::get_if<StateReply>(&envelope.message)) {
+        take_states(*reply);
     } else if (const auto* welcome = std::get_if<Welcome>(&envelope.message)) {
         if (id_.valid() && welcome->simulator <= id_) return;  // an old one
         start_over();
@@ -92,10 +93,42 @@ void Simulator::take_plan(Bus& bus, Plan& plan) {
     if (plan.simulator != id_) return;
     if (answer_ && same_attempt(plan, *answer_)) return bus.send(self_, kControllerAddress, *answer_);
     if ((answer_ && !is_newer(plan, *answer_)) || (plan_ && !is_newer(plan, *plan_))) return;
-    if (plausible(*model_, plan)) adopt(plan);
+    if (plausible(*model_, plan)) adopt(bus, plan);
 }
 
-void Simulator::adopt(Plan& plan) {
+void Simulator::take_states(StateReply& reply) {
+    const Tick tick = reply.states.tick;
+    if (pull_.active() && tick == pull_.tick())
+        return pull_.accept(*model_, reply, [&](RobotId robot, RobotState&& state) {
+            store_.put(robot, tick, std::move(state));
+        });
+    if (early_.size() < kEarlyMost) early_.push_back(std::move(reply));
+}
+
+/// In the midst of stepping: others wait for states of the window's start, and want to know that it lives.
+void Simulator::attend(Bus& bus) {
+    say_alive(bus);
+    bus.drain(self_, inbox_);
+    for (Envelope& envelope : inbox_) {
+        const auto* request = std::get_if<StateRequest>(&envelope.message);
+        if (request != nullptr && request->tick <= plan_->from)
+            serve(bus, envelope.from, *request);
+        else
+            later_.push_back(std::move(envelope));
+    }
+}
+
+void Simulator::give(Bus& bus, const Plan& plan) const {
+    for (const HandOver& hand_over : plan.gives) {
+        StateReply states;
+        states.states.tick = plan.from;
+        for (const RobotId robot : hand_over.robots) store_.copy_to(states.states, robot, plan.from);
+        if (!states.states.robots.empty()) bus.send(self_, hand_over.to, std::move(states));
+    }
+}
+
+void Simulator::adopt(Bus& bus, Plan& plan) {
+    give(bus, plan);
     store_.keep(plan.keep, plan.from);
     store_.release_before(plan.release_before);
     std::vector<bool> comes(model_->robots.size(), false);
@@ -106,8 +139,12 @@ void Simulator::adopt(Plan& plan) {
         ROBOSS_CHECK(comes[robot.index()] || store_.start(robot, plan.from),
                      "simulator " + std::to_string(id_.value) + " lacks robot " +
                          std::to_string(robot.value) + " at tick " + std::to_string(plan.from));
-    pull_.begin(*model_, plan.from, plan.hand_offs);
+    const bool all_given = std::all_of(plan.hand_offs.begin(), plan.hand_offs.end(),
+                                       [](const Holding& h) { return h.source.role == Role::kSimulator; });
+    pull_.begin(*model_, plan.from, plan.hand_offs, all_given ? std::optional(bus.now_ms()) : std::nullopt);
     plan_ = std::move(plan);
+    for (StateReply& reply : std::exchange(early_, {}))
+        if (reply.states.tick >= plan_->from) take_states(reply);
 }
 
 void Simulator::serve(Bus& bus, const Address& from, const StateRequest& request) const {
@@ -140,6 +177,7 @@ void Simulator::start_over() {
     plan_.reset();
     answer_.reset();
     pull_.cancel();
+    early_.clear();
     store_.clear();
     asked_ms_ = kLongAgo;
 }

@@ -49,7 +49,10 @@ class Simulator {
   private:
     void handle(Bus& bus, Envelope& envelope);
     void take_plan(Bus& bus, Plan& plan);
-    void adopt(Plan& plan);
+    void adopt(Bus& bus, Plan& plan);
+    void give(Bus& bus, const Plan& plan) const;
+    void take_states(StateReply& reply);
+    void attend(Bus& bus);
     void serve(Bus& bus, const Address& from, const StateRequest& request) const;
     void keep_in_touch(Bus& bus);
     void say_alive(Bus& bus);
@@ -65,9 +68,11 @@ class Simulator {
     std::int64_t asked_ms_ = kLongAgo, alive_ms_ = kLongAgo;
 
     StateStore store_;
-    std::optional<Plan> plan_;     // being worked on
-    StatePull pull_;               // of its hand-offs
-    std::optional<Frame> answer_;  // to the last plan worked on
+    std::optional<Plan> plan_;       // being worked on
+    StatePull pull_;                 // of its hand-offs
+    std::vector<StateReply> early_;  // that came before the plan that speaks of them
+    std::vector<Envelope> later_;    // came while it was stepping
+    std::optional<Frame> answer_;    // to the last plan worked on
     WindowStepper stepper_;
     std::vector<Envelope> inbox_;
 

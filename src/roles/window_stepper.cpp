@@ -13,6 +13,8 @@ namespace {
 constexpr std::size_t kRobotsPerBatch = 8;  // a look at the clock costs about a tenth of a robot's step
 constexpr std::size_t kLargeIsland = 64;    // robots; such islands show signs of life every tick
 
+constexpr double kCounted_ns = 10'000;  // for an effort (step.h), where no time is measured
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const Aabb kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
 
@@ -23,10 +25,6 @@ bool sensible(const Aabb& b) {
 
 bool teleports(const Order& order) {
     return std::holds_alternative<SetPose>(order.action);
-}
-
-std::array<float, 3> to_floats(const Vec3& v) {
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
 }  // namespace
@@ -111,6 +109,7 @@ Frame WindowStepper::step(const Plan& plan, StateStore& store, const std::functi
     bounds_.resize(n);
     swept_.assign(n, Aabb{});
     earlier_.resize(plan.island_offsets.size() - 1);
+    efforts_.assign(plan.island_offsets.size() - 1, 0.0);
     for (std::size_t k = 0; k < n; ++k) states_[k] = &store.begin_window(plan.robots[k], plan.until);
 
     Job job{plan, between, Frame{plan.epoch, plan.window, plan.attempt, plan.simulator, {}, {}, {}}};
@@ -130,22 +129,18 @@ void WindowStepper::step_batch(Job& job, std::size_t batch, std::size_t worker) 
     const auto islands = std::span(sequence_).subspan(batch_offsets_[batch],
                                                       batch_offsets_[batch + 1] - batch_offsets_[batch]);
     const std::uint64_t start_ns = measure_cpu_ ? thread_cpu_ns() : 0;
-    std::uint64_t work = 0;  // robot-ticks and contacts, to share the measured time out
-    const auto ticks = static_cast<std::uint64_t>(job.plan.until - job.plan.from);
-    const auto work_of = [&](std::uint32_t i) {
-        return 4 * ticks * job.robots(i).size() + job.frame.islands[i].contacts;
-    };
     const auto first_single = std::find_if(islands.begin(), islands.end(),
                                            [&](std::uint32_t i) { return job.robots(i).size() == 1; });
     for (auto island = islands.begin(); island != first_single; ++island)
         step_island_through(job, *island, worker);
     if (first_single != islands.end()) step_convoy_through(job, {first_single, islands.end()}, worker);
-    for (const std::uint32_t island : islands) work += work_of(island);
-    const std::uint64_t spent_ns = measure_cpu_ ? thread_cpu_ns() - start_ns : work;
+    double effort = 0;  // by which the measured time is shared out
+    for (const std::uint32_t island : islands) effort += efforts_[island];
+    const double spent_ns =
+        measure_cpu_ ? static_cast<double>(thread_cpu_ns() - start_ns) : kCounted_ns * effort;
     for (const std::uint32_t island : islands)
         job.frame.islands[island].cost_ns =
-            static_cast<std::uint64_t>(static_cast<double>(spent_ns) * static_cast<double>(work_of(island)) /
-                                       static_cast<double>(std::max<std::uint64_t>(work, 1)));
+            static_cast<std::uint64_t>(spent_ns * efforts_[island] / std::max(effort, 1.0));
     if (worker == 0) job.between();
 }
 
@@ -169,6 +164,7 @@ bool WindowStepper::step_tick(Job& job, std::size_t island, Tick tick, std::span
         step_island(*model_, tick, robots, std::span(states_).subspan(first, robots.size()), orders,
                     std::span(bounds_).subspan(first, robots.size()), scratch_[worker]);
     sweep(job, island, orders);
+    for (const float effort : read_efforts(scratch_[worker])) efforts_[island] += static_cast<double>(effort);
     IslandFrame& outcome = job.frame.islands[island];
     outcome.contacts += static_cast<std::uint64_t>(report.contacts);
     outcome.static_contacts += static_cast<std::uint64_t>(report.static_contacts);
@@ -227,6 +223,9 @@ void WindowStepper::step_convoy_through(Job& job, std::span<const std::uint32_t>
         for (std::size_t i = 0; i < c.islands.size(); ++i)
             bounds_[job.plan.island_offsets[c.islands[i]]] = c.bounds[i];
         for (const std::uint32_t i : c.islands) sweep(job, i, c.orders);
+        const std::span<const float> efforts = read_efforts(scratch_[worker]);
+        for (std::size_t i = 0; i < c.islands.size(); ++i)
+            efforts_[c.islands[i]] += static_cast<double>(efforts[i]);
         IslandFrame& outcome = job.frame.islands[c.islands[0]];
         outcome.contacts += static_cast<std::uint64_t>(report.contacts);
         outcome.static_contacts += static_cast<std::uint64_t>(report.static_contacts);
@@ -245,9 +244,10 @@ void WindowStepper::report_robots(Job& job, std::size_t island) {
         const RobotState& state = *states_[k];
         out.robot = job.plan.robots[k];
         out.swept = outward(swept_[k]);
-        out.centre = to_floats(bounds_[k].centre());
+        const Vec3 centre = bounds_[k].centre();
+        out.place = pack_place({centre.x, centre.y, centre.z}, out.swept);
         if (model_->type_of(out.robot).free_base)
-            out.velocity = to_floats({state.v[3], state.v[4], state.v[5]});
+            out.velocity = pack_velocity({state.v[3], state.v[4], state.v[5]});
         out.hash = state_hash(out.robot, job.plan.until, state);
     }
 }

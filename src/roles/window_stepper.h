@@ -58,6 +58,7 @@ class WindowStepper {
     // islands by falling size, in batches worth one look at the clock
     std::vector<std::uint32_t> sequence_;
     std::vector<std::size_t> batch_offsets_;
+    std::vector<double> efforts_;                   // by island (step.h)
     std::vector<std::vector<EarlierBox>> earlier_;  // by island
     std::vector<Convoy> convoys_;                   // one a thread
 };

@@ -106,6 +106,22 @@ inline void field(Reader& a, bool& value) {
     value = byte == 1;
 }
 
+/// A number that is mostly small: seven bits a byte, the lowest first.
+inline void compact(Writer& a, std::uint64_t value) {
+    for (; value > 0x7F; value >>= 7) a.scalar(static_cast<std::uint8_t>(value | 0x80));
+    a.scalar(static_cast<std::uint8_t>(value));
+}
+inline void compact(Reader& a, std::uint64_t& value) {
+    value = 0;
+    for (unsigned shift = 0; shift < 64; shift += 7) {
+        std::uint8_t byte = 0;
+        a.scalar(byte);
+        value |= static_cast<std::uint64_t>(byte & 0x7F) << shift;
+        if (byte < 0x80) return;
+    }
+    a.fail("a number has too many bytes");
+}
+
 template <class Tag>
 void field(Writer& a, const Id<Tag>& id) {
     a.scalar(id.value);

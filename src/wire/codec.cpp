@@ -35,6 +35,7 @@ template <class A> void field(A& a, Of<A, Box32>& m) { fields(a, m.min, m.max); 
 template <class A> void field(A& a, Of<A, Address>& m) { fields(a, m.role, m.instance); }
 template <class A> void field(A& a, Of<A, StateBlock>& m) { fields(a, m.tick, m.robots, m.sizes, m.bytes); }
 template <class A> void field(A& a, Of<A, Holding>& m) { fields(a, m.source, m.robots); }
+template <class A> void field(A& a, Of<A, HandOver>& m) { fields(a, m.to, m.robots); }
 template <class A> void field(A& a, Of<A, SetPose>& m) { fields(a, m.X_WR.p, m.X_WR.q); }
 template <class A> void field(A& a, Of<A, SetVelocity>& m) { fields(a, m.linear, m.angular); }
 template <class A> void field(A& a, Of<A, ApplyWrench>& m) { fields(a, m.link, m.force, m.torque, m.duration); }
@@ -51,13 +52,18 @@ template <class A> void field(A& a, Of<A, Alive>& m) { fields(a, m.simulator); }
 template <class A> void field(A& a, Of<A, LeaveRequest>& m) { fields(a, m.simulator); }
 template <class A> void field(A& a, Of<A, Goodbye>& m) { fields(a, m.simulator); }
 template <class A> void field(A& a, Of<A, Plan>& m) {
-    fields(a, m.epoch, m.window, m.attempt, m.simulator, m.from, m.until, m.island_offsets, m.robots, m.hand_offs, m.orders, m.keep,
+    fields(a, m.epoch, m.window, m.attempt, m.simulator, m.from, m.until, m.island_offsets, m.robots, m.hand_offs, m.gives, m.orders, m.keep,
            m.release_before);
 }
-template <class A> void field(A& a, Of<A, RobotFrame>& m) { fields(a, m.robot, m.swept, m.centre, m.velocity, m.hash); }
+template <class A> void field(A& a, Of<A, RobotFrame>& m) { fields(a, m.robot, m.swept, m.place, m.velocity, m.hash); }
 template <class A> void field(A& a, Of<A, EarlierBox>& m) { fields(a, m.robot, m.swept); }
 template <class A> void field(A& a, Of<A, IslandFrame>& m) {
-    fields(a, m.cost_ns, m.contacts, m.static_contacts, m.failed, m.failed_at);
+    compact(a, m.cost_ns);
+    compact(a, m.contacts);
+    compact(a, m.static_contacts);
+    bool failed = m.failed.valid();
+    field(a, failed);
+    if (failed) fields(a, m.failed, m.failed_at);
 }
 template <class A> void field(A& a, Of<A, Frame>& m) {
     fields(a, m.epoch, m.window, m.attempt, m.simulator, m.robots, m.earlier, m.islands);

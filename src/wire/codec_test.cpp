@@ -28,6 +28,7 @@ std::vector<Message> one_of_each() {
               {0, 1, 2},
               {kRobot, kOther},
               {{{Role::kSimulator, 5}, {kOther}}},
+              {{{Role::kSimulator, 6}, {kRobot}}},
               some_orders(),
               {kRobot},
               8};
@@ -37,7 +38,7 @@ std::vector<Message> one_of_each() {
                 SimulatorId(3u),
                 {{kRobot, {}, {1, 2, 3}, {4, 5, 6}, 77}},
                 {{kRobot, {}}},
-                {{100, 5, 2, kRobot, 12}}};
+                {{100, 5, 2, kRobot, 12}, {1ull << 63, 0x3FFF, 0x4000, {}, 0}}};
     StateReply reply{{12, {kRobot, kOther}, {2, 3}, {1, 2, 3, 4, 5}}};
     std::vector<ClientOrder> orders;
     for (const Order& o : some_orders()) orders.push_back({o.sequence, o.robot, o.action});
@@ -93,6 +94,7 @@ TEST(Codec, KeepsTheFieldsOfPlansAndFrames) {
             EXPECT_EQ(got.robots, plan->robots);
             EXPECT_EQ(got.until, 26);
             EXPECT_EQ(got.hand_offs, plan->hand_offs);
+            EXPECT_EQ(got.gives, plan->gives);
             ASSERT_EQ(got.orders.size(), 4u);
             EXPECT_EQ(std::get<SetPose>(got.orders[0].action).X_WR,
                       std::get<SetPose>(plan->orders[0].action).X_WR);

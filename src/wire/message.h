@@ -13,6 +13,7 @@
 #include "core/types.h"
 #include "math/box32.h"
 #include "model/order.h"
+#include "wire/robot_frame.h"
 
 namespace roboss {
 
@@ -40,6 +41,13 @@ struct Holding {
     Address source;
     std::vector<RobotId> robots;
     friend bool operator==(const Holding&, const Holding&) = default;
+};
+
+/// Robots whose states are to be sent to somebody.
+struct HandOver {
+    Address to;
+    std::vector<RobotId> robots;
+    friend bool operator==(const HandOver&, const HandOver&) = default;
 };
 
 // --- joining and leaving
@@ -88,21 +96,13 @@ struct Plan {
     std::vector<std::uint32_t> island_offsets;
     std::vector<RobotId> robots;
     std::vector<Holding>
-        hand_offs;              // robots whose states at `from` must be fetched; the others are here already
+        hand_offs;  // robots whose states at `from` come from elsewhere; the others are here already
+    std::vector<HandOver>
+        gives;                  // robots that others get: their states at `from` are sent before any stepping
     std::vector<Order> orders;  // for these robots, from <= apply_at < until, canonical order
     std::vector<RobotId> keep;  // robots of this Simulator whose states at `from` somebody still wants
     Tick release_before = 0;    // states kept for earlier ticks may go
     friend bool operator==(const Plan&, const Plan&);
-};
-
-/// What the Controller learns of a robot from a window: 60 bytes.
-struct RobotFrame {
-    RobotId robot;
-    Box32 swept;  // all interaction bounds since the window's start, or since the last teleport
-    std::array<float, 3> centre{};    // of the last bound, m
-    std::array<float, 3> velocity{};  // of the base at the end, m/s
-    std::uint64_t hash = 0;           // state_hash at the end of the window
-    friend bool operator==(const RobotFrame&, const RobotFrame&) = default;
 };
 
 /// Interaction bounds from before a teleport within the window.
@@ -113,8 +113,8 @@ struct EarlierBox {
 };
 
 struct IslandFrame {
-    std::uint64_t cost_ns =
-        0;  // thread CPU time of the stepping; for balance and telemetry, never for results
+    /// Thread CPU time of the stepping; for balance and telemetry, never for results.
+    std::uint64_t cost_ns = 0;
     std::uint64_t contacts = 0, static_contacts = 0;  // summed over the ticks
     RobotId failed;  // valid: this robot's state was not finite after the step from tick `failed_at`
     Tick failed_at = 0;
