@@ -1,107 +1,112 @@
-// roboss-table1: the paper's experiment. Fifty cars in the city on 1 to 12 Simulators, and larger ones; one
-// Simulator is detached every so often; and the worst case, one island of all robots.
+// roboss-table1: the paper's experiment. One world on 1 to 12 Simulators, each with a computer of its own in
+// virtual time; one Simulator is detached every so often; the worst case, one island of all robots; and how
+// far a Controller reaches.
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "cluster/crowd.h"
 #include "cluster/dds_costs.h"
-#include "cluster/virtual_cluster.h"
-#include "cluster/work.h"
-#include "physics/step.h"
+#include "cluster/measure.h"
 
 namespace {
 
 using namespace roboss;
 using namespace roboss::bench;
-using Json = nlohmann::ordered_json;
+
+constexpr Tick kSettle = 1500;  // until windows have grown
+constexpr double kDt_s = 0.002;
 
 struct Wishes {
-    std::vector<std::size_t> cars{50, 500, 2000};
-    std::vector<std::size_t> simulators{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
-    std::string driver, worlds = "worlds", json;
-    std::vector<std::size_t> crowd;
-    double seconds = 20;  // simulated, for 50 cars; larger worlds take their share
-    Tick window_max = 64;
-    std::size_t lanes = 1;
+    std::vector<std::size_t> cars{50, 500, 2000}, simulators{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+    std::vector<std::size_t> crowd{1000, 10'000, 100'000};
+    std::string driver, heap, json;
+    double seconds = 20, detach_s = 20;
+    ClusterSettings settings;
     double send_us = -1, way_us = -1;
 };
 
-double share(double part, double whole) {
-    return whole > 0 ? part / whole : 0;
+void add_options(CLI::App& app, Wishes& w) {
+    app.add_option("--driver", w.driver, "shared library of the cars' control program")->required();
+    app.add_option("--heap", w.heap, "world in which all robots lie on one heap");
+    app.add_option("--cars", w.cars, "sizes of the city")->capture_default_str();
+    app.add_option("--simulators", w.simulators, "numbers of Simulators")->capture_default_str();
+    app.add_option("--crowd", w.crowd, "robots of the made-up load on the Controller")->capture_default_str();
+    app.add_option("--seconds", w.seconds,
+                   "simulated seconds measured with 50 cars; more cars get their share")
+        ->capture_default_str();
+    app.add_option("--detach", w.detach_s, "simulated seconds until a Simulator leaves; 0: none does")
+        ->capture_default_str();
+    app.add_option("--window-max", w.settings.window_max, "ticks")->capture_default_str();
+    app.add_option("--lanes", w.settings.lanes, "robots stepped at once")->capture_default_str();
+    app.add_option("--send-us", w.send_us, "CPU time of sending a message (default: measured over Fast DDS)");
+    app.add_option("--way-us", w.way_us, "its time on the way (default: measured)");
+    app.add_option("--json", w.json, "rows as JSON");
 }
 
-/// What n Simulators could reach at best with fifty equal islands that cannot be parted, and so on.
-double even_ceiling(std::size_t islands, std::size_t n) {
-    const std::size_t most = (islands + n - 1) / n;
-    return static_cast<double>(islands) / static_cast<double>(n * most);
-}
-
-Json measure(const Work& work, std::size_t n, const Wishes& wishes, const NetworkCosts& network,
-             bool one_island) {
-    VirtualCluster::Options options;
-    options.simulators = n;
-    options.lanes = wishes.lanes;
-    options.network = network;
-    options.controller.seed = 7;
-    options.controller.window_max = wishes.window_max;
-    options.controller.loss_ms = 60'000;
-    options.controller.checkpoint_work_s = 0.2;  // as `roboss controller` has it
-    options.controller.forecast.merge_all = one_island;
-    VirtualCluster cluster(work.model, options, work.start());
-    double begin_s = 0, begin_cpu_s = 0;
-    cluster.run_until(1, [&](double) {});
-    begin_s = cluster.time_s(), begin_cpu_s = cluster.controller_cpu_s();
-    const Counters before = cluster.controller().counters();
-    cluster.run_until(work.ticks);
-    if (cluster.controller().hash() != work.hash)
-        throw std::runtime_error(work.name + ": another state hash");
-    const Counters& c = cluster.controller().counters();
-    const double time_s = cluster.time_s() - begin_s, nn = static_cast<double>(n);
-    const auto windows = static_cast<double>(c.windows - before.windows);
-    const auto robots = static_cast<double>(work.model->robots.size());
-    Json row{{"world", work.name},
-             {"robots", work.model->robots.size()},
-             {"simulators", n},
-             {"one_island", one_island}};
-    row["ceiling"] = one_island ? 1 / nn : even_ceiling(work.model->robots.size(), n);
-    row["balanced"] = share(work.step_cpu_s, nn * (c.critical_cpu_s - before.critical_cpu_s));
-    row["all"] = share(work.step_cpu_s, nn * time_s);
-    row["speedup"] = share(work.process_cpu_s, time_s);
-    row["step_us"] = 1e6 * time_s / static_cast<double>(work.ticks);
-    row["window_ticks"] = share(static_cast<double>(work.ticks), windows);
-    row["repeated"] = share(static_cast<double>(c.windows_repeated), static_cast<double>(c.windows));
-    row["repeated_robots"] = share(static_cast<double>(c.robots_repeated), robots * windows);
-    row["islands"] = share(static_cast<double>(c.island_ticks), static_cast<double>(c.ticks));
-    row["migrations"] = c.migrations;
-    row["controller_us"] = share(1e6 * (cluster.controller_cpu_s() - begin_cpu_s), windows);
-    row["controller_us_robot"] = share(1e6 * (cluster.controller_cpu_s() - begin_cpu_s), windows * robots);
-    std::uint64_t bytes = 0;
-    for (const auto& [name, traffic] : cluster.network().received) {
-        row["to_controller"][name] = {traffic.messages, traffic.bytes};
-        if (name == "Frame") bytes = traffic.bytes;
-    }
-    row["frame_bytes_robot"] = share(static_cast<double>(bytes), robots * static_cast<double>(c.windows) +
-                                                                     static_cast<double>(c.robots_repeated));
+Json tell(Json row) {
+    std::printf("%s\n", line_of(row).c_str());
+    std::fflush(stdout);
     return row;
 }
 
-void print(const Json& row) {
-    std::printf(
-        "%-10s %5d robots %3d Simulators%s: ceiling %.3f, stepping %.3f, everything %.3f; speed-up %5.2f; "
-        "step %7.1f us; "
-        "window %4.1f ticks, repeated %.3f; islands %.0f; Controller %.0f us a window (%.3f a robot), %.1f "
-        "bytes a robot\n",
-        row["world"].get<std::string>().c_str(), row["robots"].get<int>(), row["simulators"].get<int>(),
-        row["one_island"].get<bool>() ? ", one island" : "", row["ceiling"].get<double>(),
-        row["balanced"].get<double>(), row["all"].get<double>(), row["speedup"].get<double>(),
-        row["step_us"].get<double>(), row["window_ticks"].get<double>(), row["repeated"].get<double>(),
-        row["islands"].get<double>(), row["controller_us"].get<double>(),
-        row["controller_us_robot"].get<double>(), row["frame_bytes_robot"].get<double>());
-    std::fflush(stdout);
+void tell_work(const Work& work) {
+    const auto ticks = static_cast<double>(work.ticks - work.settle);
+    std::printf("%s, %zu robots, %.1f s: in one process %.1f us a step, of it stepping %.1f\n",
+                work.name.c_str(), work.model->robots.size(), ticks * work.model->dt_s,
+                1e6 * work.process_cpu_s / ticks, 1e6 * work.step_cpu_s / ticks);
+}
+
+void measure_cities(const Wishes& w, Json& rows) {
+    for (const std::size_t cars : w.cars) {
+        const double seconds = std::max(1.0, w.seconds * 50 / static_cast<double>(cars));
+        const Work work = record("city", city_file(cars), w.driver, kSettle,
+                                 kSettle + static_cast<Tick>(seconds / kDt_s), w.settings.lanes);
+        tell_work(work);
+        for (const std::size_t n : w.simulators) rows.push_back(tell(measure(work, n, w.settings)));
+        if (cars != w.cars.front()) continue;
+        const Work together = as_one_island(work, w.settings.lanes);
+        for (const std::size_t n : {w.simulators.front(), w.simulators.back()})
+            rows.push_back(tell(measure(together, n, w.settings, true)));
+    }
+}
+
+void measure_heap(const Wishes& w, Json& rows) {
+    if (w.heap.empty()) return;
+    const Work work = record("heap", w.heap, "", kSettle, 2 * kSettle, w.settings.lanes);
+    tell_work(work);
+    for (const std::size_t n : {w.simulators.front(), w.simulators.back()})
+        rows.push_back(tell(measure(work, n, w.settings)));
+}
+
+Json measure_crowds(const Wishes& w) {
+    Json rows = Json::array();
+    for (const std::size_t robots : w.crowd)
+        for (const std::size_t n : {std::size_t{12}, std::size_t{100}}) {
+            const CrowdCosts c = measure_crowd(robots, n, 20);
+            rows.push_back({{"robots", robots},
+                            {"simulators", n},
+                            {"window_us", c.window_us},
+                            {"last_frame_us", c.last_frame_us},
+                            {"bytes", c.bytes_to_controller / static_cast<double>(robots)}});
+            std::printf(
+                "made-up load, %zu robots, %zu Simulators: Controller %.0f us a window, %.3f a robot; %.1f "
+                "bytes a robot to it\n",
+                robots, n, c.window_us, c.window_us / static_cast<double>(robots),
+                c.bytes_to_controller / static_cast<double>(robots));
+            std::fflush(stdout);
+        }
+    return rows;
+}
+
+Json measure_detaching(const Wishes& w) {
+    if (w.detach_s <= 0) return Json::array();
+    const std::size_t n = w.simulators.back();
+    const auto every = static_cast<Tick>(w.detach_s / kDt_s);
+    const Work work =
+        record("city", city_file(50), w.driver, 1, every * static_cast<Tick>(n), w.settings.lanes);
+    return detach(work, n, every, w.settings);
 }
 
 }  // namespace
@@ -110,53 +115,27 @@ int main(int argc, char** argv) try {
     CLI::App app(
         "The paper's experiment: one world on 1 to 12 Simulators, each with a computer of its own in virtual "
         "time.");
-    Wishes wishes;
-    app.add_option("--cars", wishes.cars, "sizes of the city")->capture_default_str();
-    app.add_option("--simulators", wishes.simulators, "numbers of Simulators")->capture_default_str();
-    app.add_option("--driver", wishes.driver, "control program of the cars");
-    app.add_option("--worlds", wishes.worlds, "folder with heap.sdf")->capture_default_str();
-    app.add_option("--seconds", wishes.seconds, "simulated seconds of 50 cars")->capture_default_str();
-    app.add_option("--crowd", wishes.crowd, "robots of a made-up load on the Controller alone");
-    app.add_option("--window-max", wishes.window_max, "ticks")->capture_default_str();
-    app.add_option("--lanes", wishes.lanes, "robots stepped at once")->capture_default_str();
-    app.add_option("--send-us", wishes.send_us,
-                   "CPU time of sending a message (default: measured over Fast DDS)");
-    app.add_option("--way-us", wishes.way_us, "time on the way (default: measured)");
-    app.add_option("--json", wishes.json, "rows as JSON");
+    Wishes w;
+    add_options(app, w);
     CLI11_PARSE(app, argc, argv);
-    for (const std::size_t robots : wishes.crowd)
-        for (const std::size_t n : wishes.simulators) {
-            const CrowdCosts c = measure_crowd(robots, n, 20);
-            std::printf(
-                "crowd of %zu on %zu: Controller %.0f us a window (%.3f a robot), of it %.0f after the last "
-                "frame; %.1f bytes a robot\n",
-                robots, n, c.window_us, c.window_us / static_cast<double>(robots), c.last_frame_us,
-                c.bytes_to_controller / static_cast<double>(robots));
-        }
-    if (!wishes.crowd.empty()) return 0;
-    NetworkCosts network;
-    if (wishes.send_us < 0 || wishes.way_us < 0) network = measure_dds(2000);
-    if (wishes.send_us >= 0) network.send_us = wishes.send_us;
-    if (wishes.way_us >= 0) network.way_us = wishes.way_us;
-    std::printf("a message: %.1f us of CPU to send, %.1f us on the way\n", network.send_us, network.way_us);
+    if (w.send_us < 0 || w.way_us < 0) w.settings.network = measure_dds(2000);
+    if (w.send_us >= 0) w.settings.network.send_us = w.send_us;
+    if (w.way_us >= 0) w.settings.network.way_us = w.way_us;
+    std::printf("a message costs %.1f us of CPU time to send and is %.1f us on the way\n",
+                w.settings.network.send_us, w.settings.network.way_us);
     Json rows = Json::array();
-    for (const std::size_t cars : wishes.cars) {
-        const double seconds = std::max(1.0, wishes.seconds * 50 / static_cast<double>(cars));
-        const Work work =
-            record("city", city_file(cars), wishes.driver, static_cast<Tick>(seconds / 0.002), wishes.lanes);
-        std::printf(
-            "%s, %zu cars, %.1f s: stepping %.1f us a tick in one process, with the Controller %.1f\n",
-            work.name.c_str(), cars, seconds, 1e6 * work.step_cpu_s / static_cast<double>(work.ticks),
-            1e6 * work.process_cpu_s / static_cast<double>(work.ticks));
-        for (const std::size_t n : wishes.simulators)
-            print(rows.emplace_back(measure(work, n, wishes, network, false)));
-        if (cars == wishes.cars.front()) print(rows.emplace_back(measure(work, 12, wishes, network, true)));
-    }
-    if (!wishes.json.empty())
-        std::ofstream(wishes.json) << Json{
-            {"send_us", network.send_us},
-            {"way_us", network.way_us},
-            {"rows", rows}}.dump(1);
+    measure_cities(w, rows);
+    measure_heap(w, rows);
+    const Json crowd = measure_crowds(w), detaching = measure_detaching(w);
+    if (!w.json.empty())
+        std::ofstream(w.json) << Json{
+            {"send_us", w.settings.network.send_us},
+            {"way_us", w.settings.network.way_us},
+            {"lanes", w.settings.lanes},
+            {"rows", rows},
+            {"crowd", crowd},
+            {"detach_s", w.detach_s},
+            {"detach", detaching}}.dump(1);
     return 0;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "roboss-table1: %s\n", error.what());

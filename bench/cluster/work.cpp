@@ -46,6 +46,27 @@ std::shared_ptr<const Model> load(const std::string& file) {
     return model;
 }
 
+/// Steps the work again without Clients, for its cost.
+void measure_in_one_process(Work& work, bool one_island, std::size_t lanes) {
+    SimulationOptions options;
+    options.lanes = lanes;
+    options.controller.seed = 7;
+    options.controller.forecast.merge_all = one_island;
+    SavedRun from;
+    from.states = beginning_of(*work.model).states;
+    from.orders = work.orders;
+    from.logged_until = work.ticks;
+    const auto again = take(Simulation::create(work.model, options, {}, &from));
+    take(again->run_until(work.settle));
+    const std::int64_t begin_ns = thread_cpu_ns();
+    const double begin_s = again->counters().step_cpu_s;
+    take(again->run_until(work.ticks));
+    work.process_cpu_s = 1e-9 * static_cast<double>(thread_cpu_ns() - begin_ns);
+    work.step_cpu_s = again->counters().step_cpu_s - begin_s;
+    if (again->hash() != work.hash)
+        throw std::runtime_error(work.name + ": the recorded orders do not give the recorded run");
+}
+
 }  // namespace
 
 StartingPoint Work::start() const {
@@ -65,9 +86,9 @@ std::string city_file(std::size_t cars) {
     return file.string();
 }
 
-Work record(const std::string& name, const std::string& file, const std::string& driver, Tick ticks,
-            std::size_t lanes) {
-    Work work{name, load(file), {}, ticks, 0, 0, 0};
+Work record(const std::string& name, const std::string& file, const std::string& driver, Tick settle,
+            Tick ticks, std::size_t lanes) {
+    Work work{name, load(file), {}, settle, ticks, 0, 0, 0};
     OrderRecorder recorder;
     SimulationOptions options;
     options.lanes = lanes;
@@ -80,18 +101,13 @@ Work record(const std::string& name, const std::string& file, const std::string&
     work.hash = recording->hash();
     work.orders = std::move(recorder.orders);
 
-    options.controller.log = nullptr;
-    SavedRun from;
-    from.states = beginning_of(*work.model).states;
-    from.orders = work.orders;
-    from.logged_until = ticks;
-    const auto again = take(Simulation::create(work.model, options, {}, &from));
-    const std::int64_t begin_ns = thread_cpu_ns();
-    take(again->run_until(ticks));
-    work.process_cpu_s = 1e-9 * static_cast<double>(thread_cpu_ns() - begin_ns);
-    work.step_cpu_s = again->counters().step_cpu_s;
-    if (again->hash() != work.hash)
-        throw std::runtime_error(name + ": the recorded orders do not give the recorded run");
+    measure_in_one_process(work, false, lanes);
+    return work;
+}
+
+Work as_one_island(Work work, std::size_t lanes) {
+    work.name += ", one island";
+    measure_in_one_process(work, true, lanes);
     return work;
 }
 

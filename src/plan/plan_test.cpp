@@ -113,6 +113,21 @@ TEST(Assign, MovesOnlyWhatIsTooMuch) {
     EXPECT_LE(moved, 20);
 }
 
+TEST(WindowLength, IsLongForAHeapThatShortWindowsDoNotPartAndLooksNowAndThen) {
+    WindowLength length(0, 64);
+    int shortest = 0;
+    for (int i = 0; i < 400; ++i) {
+        if (i >= 100) shortest += length.ticks() == 4 ? 1 : 0;
+        length.committed(length.ticks(), false, 12);
+    }
+    EXPECT_EQ(length.ticks(), 64);
+    EXPECT_GE(shortest, 5);
+    EXPECT_LE(shortest, 12);
+    for (int i = 0; i < 64; ++i)  // from now on short windows show it parted, long ones do not
+        length.committed(length.ticks(), false, length.ticks() > 8 ? 12 : 0.5);
+    EXPECT_LE(length.ticks(), 16);
+}
+
 TEST(WindowLength, GrowsWhenCalmAndShrinksWhenRepeated) {
     WindowLength length(0, 64);
     for (int i = 0; i < 100; ++i) length.committed(length.ticks(), false, 0.1);

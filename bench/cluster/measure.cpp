@@ -1,0 +1,121 @@
+// From a run in virtual time to its figures.
+#include "cluster/measure.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "cluster/virtual_cluster.h"
+
+namespace roboss::bench {
+namespace {
+
+double share(double part, double whole) {
+    return whole > 0 ? part / whole : 0;
+}
+
+/// What n Simulators could reach with so many equal islands, none of which can be parted.
+double packing_ceiling(std::size_t islands, std::size_t n) {
+    const std::size_t most = (islands + n - 1) / n;
+    return static_cast<double>(islands) / static_cast<double>(n * most);
+}
+
+VirtualCluster::Options options_for(std::size_t simulators, const ClusterSettings& settings) {
+    VirtualCluster::Options options;
+    options.simulators = simulators;
+    options.lanes = settings.lanes;
+    options.network = settings.network;
+    options.controller.seed = 7;
+    options.controller.window_max = settings.window_max;
+    options.controller.loss_ms = 60'000;
+    options.controller.checkpoint_work_s = 0.2;  // as `roboss controller` has it
+    return options;
+}
+
+void check_hash(const Work& work, const Controller& controller) {
+    if (controller.hash() != work.hash)
+        throw std::runtime_error(work.name + ": the cluster came to another state hash");
+}
+
+/// Bytes of frames so far.
+double frame_bytes(const VirtualCluster& cluster) {
+    const auto found = cluster.network().received.find("Frame");
+    return found == cluster.network().received.end() ? 0 : static_cast<double>(found->second.bytes);
+}
+
+}  // namespace
+
+Json measure(const Work& work, std::size_t simulators, const ClusterSettings& settings, bool one_island) {
+    VirtualCluster::Options options = options_for(simulators, settings);
+    options.controller.forecast.merge_all = one_island;
+    VirtualCluster cluster(work.model, options, work.start());
+    cluster.run_until(work.settle);
+    const Counters before = cluster.controller().counters();
+    const double begin_s = cluster.time_s(), begin_cpu_s = cluster.controller_cpu_s(),
+                 begin_bytes = frame_bytes(cluster);
+    cluster.run_until(work.ticks);
+    check_hash(work, cluster.controller());
+
+    const Counters& c = cluster.controller().counters();
+    const auto since = [&](auto member) {
+        return static_cast<double>(c.*member) - static_cast<double>(before.*member);
+    };
+    const double time_s = cluster.time_s() - begin_s, controller_s = cluster.controller_cpu_s() - begin_cpu_s;
+    const auto n = static_cast<double>(simulators), robots = static_cast<double>(work.model->robots.size());
+    const auto ticks = static_cast<double>(work.ticks - work.settle);
+    const double windows = since(&Counters::windows);
+    return {{"world", work.name},
+            {"robots", work.model->robots.size()},
+            {"simulators", simulators},
+            {"ceiling", one_island ? 1 / n : packing_ceiling(work.model->robots.size(), simulators)},
+            {"stepping", share(work.step_cpu_s, n * since(&Counters::critical_cpu_s))},
+            {"everything", share(work.step_cpu_s, n * time_s)},
+            {"speedup", share(work.process_cpu_s, time_s)},
+            {"step_us", 1e6 * time_s / ticks},
+            {"window_ticks", share(ticks, windows)},
+            {"repeated", share(since(&Counters::windows_repeated), windows)},
+            {"islands", share(since(&Counters::island_ticks), ticks)},
+            {"migrations", share(since(&Counters::migrations), windows)},
+            {"controller_us", share(1e6 * controller_s, windows)},
+            {"frame_bytes", share(frame_bytes(cluster) - begin_bytes,
+                                  robots * windows + since(&Counters::robots_repeated))}};
+}
+
+Json detach(const Work& work, std::size_t simulators, Tick every, const ClusterSettings& settings) {
+    VirtualCluster cluster(work.model, options_for(simulators, settings), work.start());
+    constexpr double kBin_s = 0.5;  // simulated
+    Json points = Json::array();
+    double bin_began_s = 0;
+    Tick bin_tick = 0, leaves_at = every;
+    cluster.run_until(work.ticks, [&](double time_s) {
+        const Tick tick = cluster.controller().tick();
+        const double dt = work.model->dt_s;
+        if (static_cast<double>(tick - bin_tick) * dt >= kBin_s) {
+            points.push_back({static_cast<double>(tick) * dt,
+                              1e6 * (time_s - bin_began_s) / static_cast<double>(tick - bin_tick),
+                              cluster.controller().counters().simulators});
+            bin_began_s = time_s, bin_tick = tick;
+        }
+        if (tick < leaves_at || leaves_at >= every * static_cast<Tick>(simulators)) return;
+        cluster.controller().send_one_home();
+        leaves_at += every;
+    });
+    check_hash(work, cluster.controller());
+    return points;
+}
+
+std::string line_of(const Json& row) {
+    char text[400];
+    const auto number = [&](const char* name) { return row[name].get<double>(); };
+    std::snprintf(text, sizeof text,
+                  "%-18s %5.0f robots, %2.0f Simulators: efficiency ceiling %.3f, stepping %.3f, everything "
+                  "%.3f; speed-up %.2f; %.1f us a step; "
+                  "windows of %.1f ticks, %.3f repeated; Controller %.0f us a window, %.1f bytes a robot to "
+                  "it; %.1f moves",
+                  row["world"].get<std::string>().c_str(), number("robots"), number("simulators"),
+                  number("ceiling"), number("stepping"), number("everything"), number("speedup"),
+                  number("step_us"), number("window_ticks"), number("repeated"), number("controller_us"),
+                  number("frame_bytes"), number("migrations"));
+    return text;
+}
+
+}  // namespace roboss::bench
