@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Sets up, builds and runs the benchmarks: ./bench.sh [NAME] [flags]; without a name it lists them.
-# A name is a program of its own (peers, accuracy), or a Google Benchmark of roboss-bench; flags go on to it.
+# A name is a program of its own (peers, accuracy, table1), or a Google Benchmark of roboss-bench; flags go on to it.
 # Rows carry commit, compiler, CPU, world and number of robots; the same rows as JSON go to build/bench/NAME.json.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -38,15 +38,32 @@ accuracy() {
     build/release/bin/roboss-accuracy "${outputs[@]}" "$@"
 }
 
+# One world on 1 to 12 Simulators: the paper's experiment. Only a whole run, without flags, changes
+# docs/cluster-efficiency.md and its plot.
+table1() {
+    tools/setup.sh build bench peers
+    tools/build.sh release -DROBOSS_BENCHMARKS=ON roboss-table1 roboss roboss-world roboss_city_driver
+    local rows=build/bench/table1.json wall=build/bench/wall_clock.json driver=build/release/lib/roboss_city_driver.so
+    build/release/bin/roboss-table1 --driver "$driver" --heap worlds/heap.sdf --json "$rows" "$@"
+    if [[ $# -eq 0 ]]; then
+        bench/cluster/wall_clock.py build/release/bin "$driver" "$wall"
+        tools/table1_report "$rows" --wall "$wall" --page docs/cluster-efficiency.md --plot docs/images/table1.svg
+    else
+        tools/table1_report "$rows" --plot build/bench/table1.svg
+    fi
+    printf 'rows as JSON: %s\n' "$rows"
+}
+
 # Google Benchmarks whose names match.
 google_benchmark() {
     tools/setup.sh build bench
     build roboss-bench
     local program=build/release/bin/roboss-bench
     if [[ $# -eq 0 ]]; then
-        printf 'benchmarks (./bench.sh NAME runs one, ./bench.sh all runs all but peers and accuracy):\n'
+        printf 'benchmarks (./bench.sh NAME runs one, ./bench.sh all runs all but these):\n'
         printf 'peers  (RoBOSS beside ODE, Bullet, MuJoCo, DART: about 12 minutes; --quick: two; --help)\n'
         printf 'accuracy  (RoBOSS and the same engines against known truths: some minutes; --list; --help)\n'
+        printf 'table1  (one world on 1 to 12 Simulators, the paper'"'"'s experiment: about 20 minutes; --help)\n'
         exec "$program" --benchmark_list_tests
     fi
     local name=$1
@@ -59,6 +76,6 @@ google_benchmark() {
 }
 
 case ${1:-} in
-    peers | accuracy) "$@" ;;
+    peers | accuracy | table1) "$@" ;;
     *) google_benchmark "$@" ;;
 esac
