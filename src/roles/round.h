@@ -58,6 +58,7 @@ class Round {
         std::uint32_t place = 0;
         Plan plan;
         std::optional<std::int64_t> sent_ms;
+        int times = 0;  // sent again
     };
     Plan& plan_for(std::uint32_t place);
 

@@ -110,6 +110,8 @@ void Simulator::attend(Bus& bus) {
     say_alive(bus);
     bus.drain(self_, inbox_);
     for (Envelope& envelope : inbox_) {
+        if (const auto* plan = std::get_if<Plan>(&envelope.message))
+            if (plan->simulator == id_ && same_attempt(*plan, *plan_)) continue;  // it is being worked on
         const auto* request = std::get_if<StateRequest>(&envelope.message);
         if (request != nullptr && request->tick <= plan_->from)
             serve(bus, envelope.from, *request);
