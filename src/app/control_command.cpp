@@ -97,25 +97,18 @@ void add_changes(CLI::App& command, ControlCommandOptions& o, const Ask& ask, in
     });
 }
 
-/// Prints the answer, if it is among these.
-std::optional<int> take_answer(const std::vector<Envelope>& inbox) {
-    for (const Envelope& envelope : inbox) {
-        const auto* reply = std::get_if<ControlReply>(&envelope.message);
-        if (reply == nullptr) continue;
-        if (reply->done) fmt::print("{}\n", reply->text);
-        if (!reply->done) fmt::print(stderr, "roboss control: {}\n", reply->text);
-        return reply->done ? kDone : kRunFailed;
-    }
+std::optional<ControlReply> find_reply(const std::vector<Envelope>& inbox) {
+    for (const Envelope& envelope : inbox)
+        if (const auto* reply = std::get_if<ControlReply>(&envelope.message)) return *reply;
     return std::nullopt;
 }
 
-}  // namespace
-
-int ask_controller(const MemberOptions& options, const std::vector<std::string>& words) {
+/// What came of a request: nothing if there was no Controller (it has been said) or Ctrl-C was pressed.
+std::optional<ControlReply> reply_of_controller(const MemberOptions& options, const std::vector<std::string>& words) {
     MemberOptions patient = options;
     if (patient.patience_s <= 0) patient.patience_s = kPatience_s;
     Member member("control", patient);
-    if (!member.open()) return kBadInput;
+    if (!member.open()) return std::nullopt;
     const Address self = member.new_address(Role::kClient);
     std::vector<Envelope> inbox;
     std::int64_t asked_ms = -kAgain_ms;
@@ -126,10 +119,26 @@ int ask_controller(const MemberOptions& options, const std::vector<std::string>&
             member.bus().send(self, kControllerAddress, ControlRequest{1, words});
         }
         member.bus().drain(self, inbox);
-        if (const std::optional<int> answered = take_answer(inbox)) return *answered;
-        if (interrupted()) return kInterrupted;
-        if (!member.wait()) return kBadInput;
+        if (std::optional<ControlReply> reply = find_reply(inbox)) return reply;
+        if (interrupted() || !member.wait()) return std::nullopt;
     }
+}
+
+}  // namespace
+
+Result<std::string> request_of_controller(const MemberOptions& options, const std::vector<std::string>& words) {
+    const std::optional<ControlReply> reply = reply_of_controller(options, words);
+    if (!reply) return Error{"no Controller has answered", "see the network options"};
+    if (!reply->done) return Error{reply->text, ""};
+    return reply->text;
+}
+
+int ask_controller(const MemberOptions& options, const std::vector<std::string>& words) {
+    const std::optional<ControlReply> reply = reply_of_controller(options, words);
+    if (!reply) return interrupted() ? kInterrupted : kBadInput;
+    if (reply->done) fmt::print("{}\n", reply->text);
+    if (!reply->done) fmt::print(stderr, "roboss control: {}\n", reply->text);
+    return reply->done ? kDone : kRunFailed;
 }
 
 void add_control_command(CLI::App& app, int& exit_code) {

@@ -5,6 +5,7 @@
 
 #include "app/check_command.h"
 #include "app/client_command.h"
+#include "app/cluster_command.h"
 #include "app/control_command.h"
 #include "app/diff_command.h"
 #include "app/journal_command.h"
@@ -28,6 +29,7 @@ int main(int argc, char** argv) {
     roboss::add_client_command(app, exit_code);
     roboss::add_replay_command(app, exit_code);
     roboss::add_control_command(app, exit_code);
+    roboss::add_cluster_command(app, exit_code);
     roboss::add_save_command(app, exit_code);
     roboss::add_journal_command(app, exit_code);
     roboss::add_diff_command(app, exit_code);
