@@ -1,5 +1,5 @@
-// Starting, watching and ending the processes of a run on many hosts. It only starts and ends; who takes part in the run
-// is between the members and the Controller, and any of them may as well be started by hand.
+// Starting, watching and ending the processes of a run on many hosts. It only starts and ends; who takes part
+// in the run is between the members and the Controller, and any of them may as well be started by hand.
 #include "app/cluster_command.h"
 
 #include <fmt/format.h>
@@ -69,11 +69,13 @@ std::vector<std::string> shell_on(const ClusterFile& file, const std::string& ho
     return words;
 }
 
-std::string command_line(const ClusterFile& file, const std::vector<std::string>& arguments) {
+/// `arguments` for `roboss` where this process is.
+std::string command_line(const ClusterFile& file, const ClusterProcess& process,
+                         const std::vector<std::string>& arguments) {
     std::string line = quoted(file.program);
     for (const std::string& word : arguments) line += " " + quoted(word);
     line += " --simulation " + quoted(file.simulation);
-    for (const std::string& word : file.network) line += " " + quoted(word);
+    for (const std::string& word : process.network) line += " " + quoted(word);
     return line;
 }
 
@@ -82,8 +84,7 @@ std::string in_folder(const ClusterFile& file) {
 }
 
 std::string starting_script(const ClusterFile& file, const ClusterProcess& process) {
-    return in_folder(file) +
-           fmt::format(R"(folder="${{HOME:-/tmp}}/.roboss/logs"
+    return in_folder(file) + fmt::format(R"(folder="${{HOME:-/tmp}}/.roboss/logs"
 mkdir -p "$folder" || exit 3
 log="$folder/"{}
 command -v {} >/dev/null || {{ echo {} is not there; exit 3; }}
@@ -93,8 +94,9 @@ sleep 0.5
 kill -0 $pid 2>/dev/null || {{ echo it ended at once:; tail -n 5 "$log"; exit 4; }}
 echo "started $pid $log"
 )",
-                       quoted(file.simulation + "-" + process.name + ".log"), quoted(file.program), quoted(file.program),
-                       command_line(file, process.arguments));
+                                         quoted(file.simulation + "-" + process.name + ".log"),
+                                         quoted(file.program), quoted(file.program),
+                                         command_line(file, process, process.arguments));
 }
 
 /// Asks for the process, and makes sure that it is the one that was started.
@@ -103,25 +105,31 @@ std::string about(const Started& process, const ClusterFile& file) {
                        quoted("--simulation " + file.simulation + " "));
 }
 
-std::string notes_of(const ClusterFile& file) { return file.path + ".running"; }
+std::string notes_of(const ClusterFile& file) {
+    return file.path + ".running";
+}
 
 Result<> write_notes(const ClusterFile& file, const std::vector<Started>& all) {
     Json o{{"simulation", file.simulation}, {"processes", Json::array()}};
     for (const Started& s : all)
-        o["processes"].push_back({{"name", s.name}, {"role", s.role}, {"host", s.host}, {"pid", s.pid}, {"log", s.log}});
+        o["processes"].push_back(
+            {{"name", s.name}, {"role", s.role}, {"host", s.host}, {"pid", s.pid}, {"log", s.log}});
     std::ofstream out(notes_of(file));
     if (out << o.dump(1) << '\n') return Ok{};
-    return Error{notes_of(file) + " cannot be written", "what was started cannot be ended by `down` then: put the file where you may write"};
+    return Error{notes_of(file) + " cannot be written",
+                 "what was started cannot be ended by `down` then: put the file where you may write"};
 }
 
 Result<std::vector<Started>> read_notes(const ClusterFile& file) {
     std::ifstream in(notes_of(file));
     const Json o = Json::parse(in, nullptr, false);
     if (!in || o.is_discarded() || !o.contains("processes"))
-        return Error{"nothing was started by " + file.path, "`roboss cluster up " + file.path + "` starts it"};
+        return Error{"nothing was started by " + file.path,
+                     "`roboss cluster up " + file.path + "` starts it"};
     std::vector<Started> all;
     for (const Json& p : o["processes"])
-        all.push_back({p.value("name", ""), p.value("role", ""), p.value("host", ""), p.value("log", ""), p.value("pid", 0l)});
+        all.push_back({p.value("name", ""), p.value("role", ""), p.value("host", ""), p.value("log", ""),
+                       p.value("pid", 0l)});
     return all;
 }
 
@@ -137,12 +145,15 @@ void side_by_side(std::size_t count, What&& what) {
 
 Result<Started> start(const ClusterFile& file, const ClusterProcess& process) {
     Result<std::string> said = run_script(shell_on(file, process.host), starting_script(file, process));
-    if (!said) return Error{process.name + " on " + process.host + ": " + said.error().text(), "see that the host is reached and has the program"};
+    if (!said)
+        return Error{process.name + " on " + process.host + ": " + said.error().text(),
+                     "see that the host is reached and has the program"};
     Started started{process.name, process.role, process.host, "", 0};
     std::istringstream words(said.value());
     for (std::string word; words >> word;)
         if (word == "started" && words >> started.pid >> started.log) return started;
-    return Error{process.name + " on " + process.host + " said: " + said.value(), "is there a shell behind `reach`?"};
+    return Error{process.name + " on " + process.host + " said: " + said.value(),
+                 "is there a shell behind `reach`?"};
 }
 
 /// Those of `all` that still run, by their hosts' word.
@@ -160,7 +171,8 @@ int up(const std::string& path) {
     if (Result<std::vector<Started>> before = read_notes(file.value()); before) {
         const std::vector<bool> lives = alive(file.value(), before.value());
         if (std::find(lives.begin(), lives.end(), true) != lives.end())
-            return print(Error{"it is up already", "`roboss cluster down " + path + "` ends it first"}), kRunFailed;
+            return print(Error{"it is up already", "`roboss cluster down " + path + "` ends it first"}),
+                   kRunFailed;
     }
     const std::vector<ClusterProcess>& processes = file.value().processes;
     std::vector<Result<Started>> results(processes.size(), Error{"not started", ""});
@@ -172,10 +184,12 @@ int up(const std::string& path) {
         if (!result) print(result.error());
         if (!result) continue;
         all.push_back(result.value());
-        fmt::print("{:<24} on {:<16} process {}, log {}\n", all.back().name, all.back().host, all.back().pid, all.back().log);
+        fmt::print("{:<24} on {:<16} process {}, log {}\n", all.back().name, all.back().host, all.back().pid,
+                   all.back().log);
     }
     if (Result<> written = write_notes(file.value(), all); !written) print(written.error()), good = false;
-    if (!good) fmt::print(stderr, "roboss: not all has started; `roboss cluster down {}` ends the rest\n", path);
+    if (!good)
+        fmt::print(stderr, "roboss: not all has started; `roboss cluster down {}` ends the rest\n", path);
     return good ? kDone : kRunFailed;
 }
 
@@ -194,7 +208,8 @@ std::vector<Started> outlived(const ClusterFile& file, std::vector<Started> all,
 
 void send_signal(const ClusterFile& file, const std::vector<Started>& to, const char* name) {
     side_by_side(to.size(), [&](std::size_t i) {
-        (void)run_script(shell_on(file, to[i].host), about(to[i], file) + fmt::format(" && kill -{} {}\n", name, to[i].pid));
+        (void)run_script(shell_on(file, to[i].host),
+                         about(to[i], file) + fmt::format(" && kill -{} {}\n", name, to[i].pid));
     });
 }
 
@@ -205,14 +220,16 @@ int down(const std::string& path) {
     if (!all) return print(all.error()), kBadInput;
     std::vector<Started> controller, others;
     for (const Started& s : all.value()) (s.role == "controller" ? controller : others).push_back(s);
-    send_signal(file.value(), controller, "INT");  // as Ctrl-C: the run ends as at its duration, and sends everybody home
+    send_signal(file.value(), controller,
+                "INT");  // as Ctrl-C: the run ends as at its duration, and sends everybody home
     std::vector<Started> left = outlived(file.value(), all.value(), 10);
     for (const char* name : {"TERM", "KILL"}) {
         if (left.empty()) break;
         send_signal(file.value(), left, name);
         left = outlived(file.value(), left, 5);
     }
-    for (const Started& s : left) fmt::print(stderr, "roboss: {} (process {} on {}) does not end\n", s.name, s.pid, s.host);
+    for (const Started& s : left)
+        fmt::print(stderr, "roboss: {} (process {} on {}) does not end\n", s.name, s.pid, s.host);
     if (!left.empty()) return kRunFailed;
     std::filesystem::remove(notes_of(file.value()));
     fmt::print("all {} processes have ended\n", all.value().size());
@@ -220,15 +237,21 @@ int down(const std::string& path) {
 }
 
 void print_status(const Json& o) {
-    fmt::print("{} at {:.3f} s (tick {}), {}; {} robots in {} islands; windows of {} ticks\n", o.value("world", "?"), o.value("time_s", 0.0),
-               o.value("tick", 0), o.value("paused", false) ? "paused" : "speed " + o.value("speed", "?"), o["robots"].size(), o.value("islands", 0),
-               o.value("window_ticks", 0));
-    fmt::print("{} windows, {} repeated; efficiency before messages {:.3f}; {} losses, {} recoveries, {} migrations\n", o.value("windows", 0),
-               o.value("windows_repeated", 0), o.value("efficiency", 0.0), o.value("losses", 0), o.value("recoveries", 0), o.value("migrations", 0));
-    fmt::print("{:>4}  {:<32} {:<8} {:>7} {:>7} {:>8} {:>6} {:>10}\n", "id", "where", "state", "threads", "robots", "islands", "load", "us a tick");
+    fmt::print("{} at {:.3f} s (tick {}), {}; {} robots in {} islands; windows of {} ticks\n",
+               o.value("world", "?"), o.value("time_s", 0.0), o.value("tick", 0),
+               o.value("paused", false) ? "paused" : "speed " + o.value("speed", "?"), o["robots"].size(),
+               o.value("islands", 0), o.value("window_ticks", 0));
+    fmt::print(
+        "{} windows, {} repeated; efficiency before messages {:.3f}; {} losses, {} recoveries, {} "
+        "migrations\n",
+        o.value("windows", 0), o.value("windows_repeated", 0), o.value("efficiency", 0.0),
+        o.value("losses", 0), o.value("recoveries", 0), o.value("migrations", 0));
+    fmt::print("{:>4}  {:<32} {:<8} {:>7} {:>7} {:>8} {:>6} {:>10}\n", "id", "where", "state", "threads",
+               "robots", "islands", "load", "us a tick");
     for (const Json& m : o["members"])
-        fmt::print("{:>4}  {:<32} {:<8} {:>7} {:>7} {:>8} {:>6.2f} {:>10.1f}\n", m.value("id", 0), m.value("name", ""), m.value("state", ""),
-                   m.value("threads", 0), m.value("robots", 0), m.value("islands", 0), m.value("load", 0.0), m.value("step_us", 0.0));
+        fmt::print("{:>4}  {:<32} {:<8} {:>7} {:>7} {:>8} {:>6.2f} {:>10.1f}\n", m.value("id", 0),
+                   m.value("name", ""), m.value("state", ""), m.value("threads", 0), m.value("robots", 0),
+                   m.value("islands", 0), m.value("load", 0.0), m.value("step_us", 0.0));
 }
 
 struct StatusOptions {
@@ -239,7 +262,10 @@ struct StatusOptions {
 
 Result<std::string> ask_status(const StatusOptions& o, const ClusterFile* file) {
     if (file == nullptr) return request_of_controller(o.member, {"status"});
-    const std::string script = in_folder(*file) + "exec " + command_line(*file, {"control", "status", "--quiet", "--patience", "5"}) + "\n";
+    const std::string script =
+        in_folder(*file) + "exec " +
+        command_line(*file, file->processes.front(), {"control", "status", "--quiet", "--patience", "5"}) +
+        "\n";
     return run_script(shell_on(*file, file->processes.front().host), script);
 }
 
@@ -255,8 +281,14 @@ int status(const StatusOptions& o) {
         const std::vector<bool> lives = alive(*file, all.value());
         for (std::size_t i = 0; i < lives.size(); ++i) {
             const Started& s = all.value()[i];
-            processes.push_back({{"name", s.name}, {"host", s.host}, {"pid", s.pid}, {"runs", static_cast<bool>(lives[i])}, {"log", s.log}});
-            if (!lives[i]) fmt::print(stderr, "roboss: {} (process {} on {}) has ended; its log: {}\n", s.name, s.pid, s.host, s.log);
+            processes.push_back({{"name", s.name},
+                                 {"host", s.host},
+                                 {"pid", s.pid},
+                                 {"runs", static_cast<bool>(lives[i])},
+                                 {"log", s.log}});
+            if (!lives[i])
+                fmt::print(stderr, "roboss: {} (process {} on {}) has ended; its log: {}\n", s.name, s.pid,
+                           s.host, s.log);
         }
     }
     Result<std::string> text = ask_status(o, file ? &*file : nullptr);
@@ -276,7 +308,8 @@ void add_cluster_command(CLI::App& app, int& exit_code) {
     command->footer(kFooter);
     command->require_subcommand(1);
     auto o = std::make_shared<StatusOptions>();
-    CLI::App* sub = command->add_subcommand("up", "start Controller, Simulators and Clients as the file says");
+    CLI::App* sub =
+        command->add_subcommand("up", "start Controller, Simulators and Clients as the file says");
     sub->add_option("hosts", o->path, "TOML file")->required();
     sub->callback([o, &exit_code] { exit_code = up(o->path); });
     sub = command->add_subcommand("down", "end all that `up` has started: the run first, then who is left");

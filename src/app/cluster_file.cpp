@@ -42,16 +42,19 @@ class Reading {
         const toml::node* node = table.get(key);
         if (node == nullptr) return otherwise;
         const auto value = node->value_exact<std::string>();
-        if (!value) fail(*node, fmt::format("'{}' is not a text", key), fmt::format("write {} = \"...\"", key));
+        if (!value)
+            fail(*node, fmt::format("'{}' is not a text", key), fmt::format("write {} = \"...\"", key));
         return value.value_or(otherwise);
     }
 
-    std::int64_t number(const toml::table& table, const char* key, std::int64_t otherwise, std::int64_t most) {
+    std::int64_t number(const toml::table& table, const char* key, std::int64_t otherwise,
+                        std::int64_t most) {
         const toml::node* node = table.get(key);
         if (node == nullptr) return otherwise;
         const auto value = node->value_exact<std::int64_t>();
         if (!value || *value < 0 || *value > most)
-            fail(*node, fmt::format("'{}' is not a whole number from 0 to {}", key, most), "give such a number");
+            fail(*node, fmt::format("'{}' is not a whole number from 0 to {}", key, most),
+                 "give such a number");
         return value.value_or(otherwise);
     }
 
@@ -61,7 +64,8 @@ class Reading {
         if (node == nullptr) return values;
         const toml::array* array = node->as_array();
         if (array == nullptr) {
-            fail(*node, fmt::format("'{}' is not a list of texts", key), fmt::format("write {} = [\"...\", \"...\"]", key));
+            fail(*node, fmt::format("'{}' is not a list of texts", key),
+                 fmt::format("write {} = [\"...\", \"...\"]", key));
             return values;
         }
         for (const toml::node& entry : *array) {
@@ -79,12 +83,14 @@ class Reading {
         if (node == nullptr) return found;
         const toml::array* array = node->as_array();
         if (array == nullptr) {
-            fail(*node, fmt::format("'{}' is not a list of tables", key), fmt::format("write [[{}]], once for each", key));
+            fail(*node, fmt::format("'{}' is not a list of tables", key),
+                 fmt::format("write [[{}]], once for each", key));
             return found;
         }
         for (const toml::node& entry : *array) {
             if (entry.as_table() == nullptr) {
-                fail(entry, fmt::format("an entry of '{}' is not a table", key), fmt::format("write [[{}]], once for each", key));
+                fail(entry, fmt::format("an entry of '{}' is not a table", key),
+                     fmt::format("write [[{}]], once for each", key));
                 break;
             }
             found.push_back(entry.as_table());
@@ -101,16 +107,18 @@ void append(std::vector<std::string>& words, const std::vector<std::string>& mor
     words.insert(words.end(), more.begin(), more.end());
 }
 
-/// What finds the others; each may be said for all and again for one.
-std::vector<std::string> network_options(Reading& read, const toml::table& table) {
+/// How it finds the others: what `own` says, else what `all` says.
+std::vector<std::string> network_options(Reading& read, const toml::table& own, const toml::table& all) {
+    const auto where = [&](const char* key) -> const toml::table& { return own.contains(key) ? own : all; };
     std::vector<std::string> words;
-    if (const std::string interface = read.text(table, "interface", ""); !interface.empty())
+    if (const std::string interface = read.text(where("interface"), "interface", ""); !interface.empty())
         append(words, {"--interface", interface});
-    if (table.contains("domain")) append(words, {"--domain", std::to_string(read.number(table, "domain", 0, 232))});
-    for (const std::string& peer : read.texts(table, "peers")) append(words, {"--peer", peer});
-    if (const std::string server = read.text(table, "discovery_server", ""); !server.empty())
+    if (all.contains("domain"))
+        append(words, {"--domain", std::to_string(read.number(all, "domain", 0, 232))});
+    for (const std::string& peer : read.texts(where("peers"), "peers")) append(words, {"--peer", peer});
+    if (const std::string server = read.text(all, "discovery_server", ""); !server.empty())
         append(words, {"--discovery-server", server});
-    if (const toml::node* node = table.get("multicast")) {
+    if (const toml::node* node = all.get("multicast")) {
         const auto value = node->value_exact<bool>();
         if (!value) read.fail(*node, "'multicast' is neither true nor false", "write multicast = false");
         if (value && !*value) words.push_back("--no-multicast");
@@ -122,12 +130,18 @@ void add_controller(Reading& read, const toml::table& root, ClusterFile& file) {
     const toml::node* node = root.get("controller");
     const toml::table* table = node == nullptr ? nullptr : node->as_table();
     if (table == nullptr)
-        return read.fail(root, "there is no [controller]", "say where it runs and which world: host and world");
+        return read.fail(root, "there is no [controller]",
+                         "say where it runs and which world: host and world");
     read.only(*table, {"host", "world", "interface", "peers", "options"});
     const std::string world = read.text(*table, "world", "");
-    if (world.empty()) read.fail(*table, "[controller] has no world", "write world = \"city.sdf\", as it is called on that host");
-    ClusterProcess process{"controller", "controller", read.text(*table, "host", "local"), {"controller", world}};
-    append(process.arguments, network_options(read, *table));
+    if (world.empty())
+        read.fail(*table, "[controller] has no world",
+                  "write world = \"city.sdf\", as it is called on that host");
+    ClusterProcess process{"controller",
+                           "controller",
+                           read.text(*table, "host", "local"),
+                           {"controller", world},
+                           network_options(read, *table, root)};
     append(process.arguments, read.texts(*table, "options"));
     file.processes.push_back(std::move(process));
 }
@@ -136,10 +150,15 @@ void add_simulators(Reading& read, const toml::table& root, ClusterFile& file) {
     for (const toml::table* table : read.tables(root, "simulators")) {
         read.only(*table, {"host", "count", "threads", "interface", "peers", "options"});
         const std::string host = read.text(*table, "host", "local");
-        const std::int64_t count = read.number(*table, "count", 1, kMostPerHost), threads = read.number(*table, "threads", 1, kMostPerHost);
+        const std::int64_t count = read.number(*table, "count", 1, kMostPerHost),
+                           threads = read.number(*table, "threads", 1, kMostPerHost);
         for (std::int64_t i = 1; i <= count; ++i) {
-            ClusterProcess process{"simulator", "", host, {"simulator", "--threads", std::to_string(std::max<std::int64_t>(threads, 1))}};
-            append(process.arguments, network_options(read, *table));
+            ClusterProcess process{
+                "simulator",
+                "",
+                host,
+                {"simulator", "--threads", std::to_string(std::max<std::int64_t>(threads, 1))},
+                network_options(read, *table, root)};
             append(process.arguments, read.texts(*table, "options"));
             file.processes.push_back(std::move(process));
         }
@@ -150,10 +169,16 @@ void add_clients(Reading& read, const toml::table& root, ClusterFile& file) {
     for (const toml::table* table : read.tables(root, "clients")) {
         read.only(*table, {"host", "program", "name", "interface", "peers", "options"});
         const std::string program = read.text(*table, "program", "");
-        if (program.empty()) read.fail(*table, "a client has no program", "write program = \"driver.so\", as it is called on that host");
-        ClusterProcess process{"client", "", read.text(*table, "host", "local"), {"client", program}};
-        if (const std::string name = read.text(*table, "name", ""); !name.empty()) append(process.arguments, {"--name", name});
-        append(process.arguments, network_options(read, *table));
+        if (program.empty())
+            read.fail(*table, "a client has no program",
+                      "write program = \"driver.so\", as it is called on that host");
+        ClusterProcess process{"client",
+                               "",
+                               read.text(*table, "host", "local"),
+                               {"client", program},
+                               network_options(read, *table, root)};
+        if (const std::string name = read.text(*table, "name", ""); !name.empty())
+            append(process.arguments, {"--name", name});
         append(process.arguments, read.texts(*table, "options"));
         file.processes.push_back(std::move(process));
     }
@@ -164,7 +189,8 @@ void name_processes(std::vector<ClusterProcess>& processes) {
     std::map<std::string, int> numbers;
     for (ClusterProcess& process : processes)
         if (process.name.empty())
-            process.name = fmt::format("{}-{}-{}", process.role, process.host, ++numbers[process.role + process.host]);
+            process.name =
+                fmt::format("{}-{}-{}", process.role, process.host, ++numbers[process.role + process.host]);
 }
 
 }  // namespace
@@ -175,19 +201,20 @@ Result<ClusterFile> load_cluster_file(const std::string& path) {
     if (!parsed) {
         const toml::parse_error& e = parsed.error();
         if (e.source().begin.line == 0) return Error{path + " cannot be read", "check the path"};
-        return Error{fmt::format("{}:{}: {}", path, e.source().begin.line, e.description()), "see https://toml.io for how TOML is written"};
+        return Error{fmt::format("{}:{}: {}", path, e.source().begin.line, e.description()),
+                     "see https://toml.io for how TOML is written"};
     }
     const toml::table& root = parsed.table();
-    read.only(root, {"simulation", "program", "folder", "reach", "interface", "domain", "peers", "discovery_server", "multicast",
-                     "controller", "simulators", "clients"});
+    read.only(root, {"simulation", "program", "folder", "reach", "interface", "domain", "peers",
+                     "discovery_server", "multicast", "controller", "simulators", "clients"});
     ClusterFile file;
     file.path = path;
     file.simulation = read.text(root, "simulation", "default");
     file.program = read.text(root, "program", "roboss");
     file.folder = read.text(root, "folder", "");
     file.reach = read.texts(root, "reach");
-    if (file.reach.empty()) file.reach = {"ssh", "-o", "BatchMode=yes", "-o", "ConnectTimeout=10", "{host}", "sh", "-s"};
-    file.network = network_options(read, root);
+    if (file.reach.empty())
+        file.reach = {"ssh", "-o", "BatchMode=yes", "-o", "ConnectTimeout=10", "{host}", "sh", "-s"};
     add_controller(read, root, file);
     add_simulators(read, root, file);
     add_clients(read, root, file);

@@ -10,10 +10,11 @@ namespace roboss {
 
 /// One process of the run, wherever it is to be.
 struct ClusterProcess {
-    std::string role;  // "controller", "simulator", "client"
-    std::string name;  // unique in the file: "controller", "node2-1" ...
-    std::string host;  // "local": this computer, without any other program in between
+    std::string role;                    // "controller", "simulator", "client"
+    std::string name;                    // unique in the file: "controller", "node2-1" ...
+    std::string host;                    // "local": this computer, without any other program in between
     std::vector<std::string> arguments;  // of `roboss`
+    std::vector<std::string> network;    // network options: what the file says for it, else for all
 };
 
 struct ClusterFile {
@@ -22,7 +23,6 @@ struct ClusterFile {
     std::string program = "roboss";  // on the hosts
     std::string folder;              // in which it is started there; empty: where the login leaves us
     std::vector<std::string> reach;  // how a shell on "{host}" is had; it reads a script from its input
-    std::vector<std::string> network;  // network options for all of them
     std::vector<ClusterProcess> processes;  // the Controller first
 };
 

@@ -104,7 +104,8 @@ std::optional<ControlReply> find_reply(const std::vector<Envelope>& inbox) {
 }
 
 /// What came of a request: nothing if there was no Controller (it has been said) or Ctrl-C was pressed.
-std::optional<ControlReply> reply_of_controller(const MemberOptions& options, const std::vector<std::string>& words) {
+std::optional<ControlReply> reply_of_controller(const MemberOptions& options,
+                                                const std::vector<std::string>& words) {
     MemberOptions patient = options;
     if (patient.patience_s <= 0) patient.patience_s = kPatience_s;
     Member member("control", patient);
@@ -126,7 +127,8 @@ std::optional<ControlReply> reply_of_controller(const MemberOptions& options, co
 
 }  // namespace
 
-Result<std::string> request_of_controller(const MemberOptions& options, const std::vector<std::string>& words) {
+Result<std::string> request_of_controller(const MemberOptions& options,
+                                          const std::vector<std::string>& words) {
     const std::optional<ControlReply> reply = reply_of_controller(options, words);
     if (!reply) return Error{"no Controller has answered", "see the network options"};
     if (!reply->done) return Error{reply->text, ""};

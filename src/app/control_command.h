@@ -13,7 +13,8 @@ namespace roboss {
 void add_control_command(CLI::App& app, int& exit_code);
 
 /// What the Controller answers to these words; an Error: there is none, or it refuses.
-Result<std::string> request_of_controller(const MemberOptions& options, const std::vector<std::string>& words);
+Result<std::string> request_of_controller(const MemberOptions& options,
+                                          const std::vector<std::string>& words);
 /// Asks the Controller, waits for its answer and prints it. The exit code.
 int ask_controller(const MemberOptions& options, const std::vector<std::string>& words);
 

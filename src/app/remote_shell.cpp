@@ -54,12 +54,15 @@ std::string quoted(const std::string& word) {
 
 Result<std::string> run_script(const std::vector<std::string>& words, const std::string& script) {
     Pipe in, out;
-    if (!in.open() || !out.open()) return Error{std::string("no pipe: ") + std::strerror(errno), "see the limits (ulimit -n)"};
+    if (!in.open() || !out.open())
+        return Error{std::string("no pipe: ") + std::strerror(errno), "see the limits (ulimit -n)"};
     std::vector<char*> pointers;
     for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
     pointers.push_back(nullptr);
     const pid_t id = fork();
-    if (id < 0) return Error{std::string("a process could not be started: ") + std::strerror(errno), "see the limits (ulimit -u)"};
+    if (id < 0)
+        return Error{std::string("a process could not be started: ") + std::strerror(errno),
+                     "see the limits (ulimit -u)"};
     if (id == 0) {
         dup2(in.ends[0], STDIN_FILENO);
         dup2(out.ends[1], STDOUT_FILENO);
@@ -79,7 +82,8 @@ Result<std::string> run_script(const std::vector<std::string>& words, const std:
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return said;
     while (!said.empty() && said.back() == '\n') said.pop_back();
     if (WIFEXITED(status) && WEXITSTATUS(status) == 127 && said.empty())
-        return Error{"'" + words[0] + "' is not found here", "install it, or say how hosts are reached (reach = [...])"};
+        return Error{"'" + words[0] + "' is not found here",
+                     "install it, or say how hosts are reached (reach = [...])"};
     return Error{said.empty() ? "it ended with code " + std::to_string(WEXITSTATUS(status)) : said, ""};
 }
 

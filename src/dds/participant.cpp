@@ -21,6 +21,7 @@ namespace rtps = eprosima::fastrtps::rtps;
 namespace {
 
 constexpr std::uint32_t kSocketBuffer = 4u << 20;
+constexpr std::uint32_t kLeaseByServer_ms = 10'000;
 constexpr std::uint32_t kSignsPerLease = 3;
 
 eprosima::fastrtps::Duration_t from_ms(std::uint32_t ms) {
@@ -63,9 +64,14 @@ std::shared_ptr<eprosima::fastdds::rtps::UDPv4TransportDescriptor> transport(con
 
 Result<> set_discovery(const DdsOptions& options, const std::string& address,
                        rtps::BuiltinAttributes& builtin) {
-    builtin.discovery_config.leaseDuration = from_ms(options.liveliness_ms);
+    // A discovery server hands announcements on as it finds time: who is found through it is missed by his
+    // silence only (ControllerOptions::loss_ms).
+    const std::uint32_t lease_ms = options.discovery_server.empty()
+                                       ? options.liveliness_ms
+                                       : std::max(options.liveliness_ms, kLeaseByServer_ms);
+    builtin.discovery_config.leaseDuration = from_ms(lease_ms);
     builtin.discovery_config.leaseDuration_announcementperiod =
-        from_ms(std::max(options.liveliness_ms / kSignsPerLease, 1u));
+        from_ms(std::max(lease_ms / kSignsPerLease, 1u));
     // The liveliness of single writers is of no use: in Fast DDS 2.9 any living participant keeps the
     // AUTOMATIC writers of all others alive (issue 4373 there).
     builtin.use_WriterLivelinessProtocol = false;

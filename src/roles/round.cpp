@@ -7,7 +7,8 @@ namespace roboss {
 
 namespace {
 
-constexpr int kPatienceMost = 4;  // doublings of the time until a plan is sent again: most are not lost, but long
+constexpr int kPatienceMost =
+    4;  // doublings of the time until a plan is sent again: most are not lost, but long
 
 void give(std::vector<HandOver>& gives, const Address& to, RobotId robot) {
     auto here = std::find_if(gives.begin(), gives.end(), [&](const HandOver& g) { return g.to == to; });
@@ -91,7 +92,8 @@ void Round::send_dearest_first(std::span<const float> cost) {
 void Round::send(Bus& bus, const Roster& roster, std::int64_t resend_ms) {
     const std::int64_t now = bus.now_ms();
     for (Sent& sent : sent_) {
-        if (sent.sent_ms && now - *sent.sent_ms < (resend_ms << std::min(sent.times, kPatienceMost))) continue;
+        if (sent.sent_ms && now - *sent.sent_ms < (resend_ms << std::min(sent.times, kPatienceMost)))
+            continue;
         sent.times += sent.sent_ms ? 1 : 0;
         sent.sent_ms = now;
         bus.send(kControllerAddress, roster.address_of(sent.place), sent.plan);

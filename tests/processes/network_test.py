@@ -1,0 +1,172 @@
+"""A run over hosts of their own (network namespaces) and a network that loses one packet in a hundred and takes five
+milliseconds: the same state hash as in one process, with multicast and with named peers; `roboss cluster` starts, shows and
+ends such a run; and members of one host find each other by a discovery server."""
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+import time
+import unittest
+
+import bad_cable
+from members import DRIVER, FOLDER, ROBOSS, WORLDS, Member, embedded  # takes its own arguments
+
+CITY = [WORLDS / "city.sdf", "--until", 0.4, "--seed", 7]
+HEAP = [WORLDS / "heap.sdf", "--until", 2.0]
+
+
+class HostMember(Member):
+    """A member of the run on one of the hosts."""
+
+    def __init__(self, hosts, host, *arguments):
+        self.log = tempfile.TemporaryFile(mode="w+", dir=FOLDER)
+        self.process = subprocess.Popen([*hosts.inside(host), ROBOSS, *map(str, arguments)], stdout=self.log, stderr=subprocess.STDOUT)
+
+
+@unittest.skipIf(bad_cable.missing(), bad_cable.missing())
+class Network(unittest.TestCase):
+    def run_on(self, hosts, finding, members):
+        """The summary of a run whose Controller is on host 0."""
+        summary = FOLDER / f"network-{time.monotonic_ns()}.json"
+        started = []
+        try:
+            for host, *arguments in members:
+                more = ["--json", summary] if arguments[0] == "controller" else []
+                started.append(HostMember(hosts, host, *arguments, *more, "--simulation", "net", "--interface", hosts.address(host), *finding(host)))
+            code = started[0].end(150)
+            self.assertEqual(code, 0, started[0].said())
+            for member in started[1:]:
+                member.end(20)
+            return json.loads(summary.read_text())
+        finally:
+            for member in started:
+                member.kill()
+
+    def city(self, finding, hosts):
+        return self.run_on(hosts, finding, [
+            (0, "controller", *CITY, "--simulators", 2, "--await-client", "driver"),
+            (1, "simulator", "--patience", 60), (2, "simulator", "--patience", 60), (2, "client", DRIVER, "--name", "driver", "--patience", 60)])
+
+    def test_a_bad_network_changes_no_bit_with_and_without_multicast(self):
+        expected = embedded(*CITY, "--client", DRIVER)["state_hash"]
+        with bad_cable.Hosts(3, loss=0.01, delay_s=0.005, seed=3) as hosts:
+            with self.subTest("multicast"):
+                self.assertEqual(self.city(lambda _: [], hosts)["state_hash"], expected)
+            with self.subTest("peers"):
+                peers = [word for i in range(3) for word in ("--peer", hosts.address(i))]
+                self.assertEqual(self.city(lambda _: ["--no-multicast", *peers], hosts)["state_hash"], expected)
+            self.assertGreater(hosts.lost, 20, "the network lost nothing")
+
+    def test_a_simulator_cut_off_by_its_host_is_done_without(self):
+        expected = embedded(*HEAP)["state_hash"]
+        with bad_cable.Hosts(3, loss=0.01, delay_s=0.002, seed=4) as hosts:
+            place = ["--simulation", "net", "--interface"]
+            summary = FOLDER / "cut.json"
+            controller = HostMember(hosts, 0, "controller", *HEAP, "--simulators", 2, "--speed", 0.5, "--json", summary, *place, hosts.address(0))
+            simulators = [HostMember(hosts, i, "simulator", "--patience", 30, *place, hosts.address(i)) for i in (1, 2)]
+            try:
+                controller.hears("joined", 2)
+                time.sleep(1.0)
+                bad_cable.ip("-n", hosts.name(2), "link", "set", "eth0", "down")
+                controller.hears("lost", 1, 5)
+                self.assertEqual(controller.end(100), 0, controller.said())
+                told = json.loads(summary.read_text())
+                self.assertEqual(told["state_hash"], expected)
+                self.assertEqual(simulators[0].end(20), 0)
+            finally:
+                for member in [controller, *simulators]:
+                    member.kill()
+
+    def cluster(self, action, file, code=0):
+        done = subprocess.run([ROBOSS, "cluster", *action, file], capture_output=True, text=True, timeout=100)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stdout + done.stderr
+
+    def test_the_cluster_command_starts_shows_and_ends_a_run_on_many_hosts(self):
+        with bad_cable.Hosts(3) as hosts:
+            file = FOLDER / "hosts.toml"
+            file.write_text(f"""
+simulation = "cluster-test"
+program = "{ROBOSS}"
+reach = ["ip", "netns", "exec", "{{host}}", "sh", "-s"]
+[controller]
+host = "{hosts.name(0)}"
+world = "{WORLDS / 'heap.sdf'}"
+interface = "{hosts.address(0)}"
+options = ["--simulators", "3", "--speed", "0.5", "--headless"]
+[[simulators]]
+host = "{hosts.name(1)}"
+interface = "{hosts.address(1)}"
+count = 2
+[[simulators]]
+host = "{hosts.name(2)}"
+interface = "{hosts.address(2)}"
+threads = 2
+""")
+            said = self.cluster(["up"], file)
+            try:
+                self.assertEqual(said.count("process "), 4, said)
+                self.assertIn("it is up already", self.cluster(["up"], file, 3))
+                end = time.monotonic() + 30
+                while time.monotonic() < end:
+                    told = json.loads(subprocess.run([*hosts.inside(0), ROBOSS, "cluster", "status", "--json", file], capture_output=True, text=True).stdout or "{}")
+                    if told.get("tick", 0) > 50:
+                        break
+                    time.sleep(0.3)
+                # on a busy machine one may have been missed for a moment, and be back with another number
+                self.assertEqual(sorted(m["threads"] for m in told["members"] if m["state"] == "at work"), [1, 1, 2], told)
+                self.assertTrue(all(p["runs"] for p in told["processes"]))
+                self.assertIn("efficiency before messages", self.cluster(["status"], file))
+            finally:
+                said = self.cluster(["down"], file)
+            self.assertIn("all 4 processes have ended", said)
+            self.assertIn("nothing was started by", self.cluster(["down"], file, 1))
+
+
+@unittest.skipUnless(shutil.which("fast-discovery-server"), "there is no fast-discovery-server (fastdds-tools)")
+class DiscoveryServer(unittest.TestCase):
+    def test_members_find_each_other_by_it(self):
+        port = 20_000 + os.getpid() % 10_000
+        server = subprocess.Popen(["fast-discovery-server", "-i", "0", "-l", "127.0.0.1", "-p", str(port)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        summary = FOLDER / "server.json"
+        place = ["--simulation", f"server-{os.getpid()}", "--discovery-server", f"127.0.0.1:{port}"]
+        time.sleep(0.5)
+        members = [Member("controller", *HEAP, "--simulators", 2, "--json", summary, *place), Member("simulator", *place), Member("simulator", *place)]
+        try:
+            self.assertEqual(members[0].end(60), 0, members[0].said())
+            self.assertEqual(json.loads(summary.read_text())["state_hash"], embedded(*HEAP)["state_hash"])
+        finally:
+            for member in members:
+                member.kill()
+            server.kill()
+            server.wait()
+
+
+class ClusterFile(unittest.TestCase):
+    def refused(self, text):
+        file = FOLDER / "wrong.toml"
+        file.write_text(text)
+        done = subprocess.run([ROBOSS, "cluster", "up", file], capture_output=True, text=True, timeout=30)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        return done.stderr
+
+    def test_a_wrong_file_is_refused_with_line_and_remedy(self):
+        good = '[controller]\nworld = "a.sdf"\n'
+        self.assertIn("wrong.toml:3: 'wrld' is not known here", self.refused(good + 'wrld = "b.sdf"\n'))
+        self.assertIn("there is no [controller]", self.refused('simulation = "x"\n'))
+        self.assertIn("[controller] has no world", self.refused('[controller]\nhost = "a"\n'))
+        self.assertIn("wrong.toml:4: 'count' is not a whole number", self.refused(good + '[[simulators]]\ncount = "two"\n'))
+        self.assertIn("a client has no program", self.refused(good + '[[clients]]\nhost = "a"\n'))
+        self.assertIn("wrong.toml:1:", self.refused("= 3\n"))
+
+    def test_a_process_that_does_not_start_is_named(self):
+        file = FOLDER / "absent.toml"
+        file.write_text('program = "/nowhere/roboss"\n[controller]\nworld = "a.sdf"\n')
+        done = subprocess.run([ROBOSS, "cluster", "up", file], capture_output=True, text=True, timeout=30)
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("controller on local: /nowhere/roboss is not there", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
