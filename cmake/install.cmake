@@ -15,6 +15,7 @@ set(ROBOSS_EXTERNALS
   "^fastrtps$" "find_dependency(fastcdr 1)\nfind_dependency(fastrtps 2.9)"
   "^fastcdr$" "find_dependency(fastcdr 1)"
   "^Threads::Threads$" "find_dependency(Threads)"
+  "^Boost::" "find_dependency(Boost)"
   "^fmt::" "find_dependency(fmt)"
   "^spdlog::" "find_dependency(spdlog)"
   "^nlohmann_json::" "find_dependency(nlohmann_json)"
