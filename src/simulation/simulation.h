@@ -34,7 +34,7 @@ struct SimulationOptions {
     std::string world_file;          // for saved runs
     /// Whoever else has its turns in this process, a viewer say; no result may depend on it.
     std::function<void(Bus&)> guest;
-    ControllerOptions controller;    // its `simulators` and `clients` are set from here
+    ControllerOptions controller;  // its `simulators` and `clients` are set from here
 };
 
 class Simulation {
@@ -105,7 +105,7 @@ class Simulation {
     std::uint64_t seed_;
     std::unique_ptr<Bus> bus_;
     ThreadPool pool_;
-    std::size_t lanes_;           // robots of a type stepped at once
+    std::size_t lanes_;  // robots of a type stepped at once
     std::function<void(Bus&)> guest_;
     std::uint64_t instance_ = 0;  // of the last role made here
     Controller controller_;
