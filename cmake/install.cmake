@@ -55,7 +55,7 @@ foreach(floor ${floors})
   endforeach()
   install(TARGETS roboss_${floor} EXPORT roboss ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/src/${floor} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/roboss
-    FILES_MATCHING PATTERN "*.h")
+    FILES_MATCHING PATTERN "*.h" PATTERN "*_session.h" EXCLUDE)  # Boost shows in these
 endforeach()
 list(REMOVE_DUPLICATES ROBOSS_FIND_DEPENDENCIES)
 list(JOIN ROBOSS_FIND_DEPENDENCIES "\n" ROBOSS_FIND_DEPENDENCIES)
@@ -75,4 +75,5 @@ endforeach()
 if(TARGET roboss_city_driver)
   install(TARGETS roboss_city_driver LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/roboss)
 endif()
+install(DIRECTORY ${CMAKE_BINARY_DIR}/share/roboss/web DESTINATION ${CMAKE_INSTALL_DATADIR}/roboss OPTIONAL)  # the viewer's page, if it is built
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/worlds DESTINATION ${CMAKE_INSTALL_DATADIR}/roboss OPTIONAL)

@@ -86,8 +86,7 @@ void HttpSession::serve() {
 void HttpSession::upgrade() {
     if (!beast::websocket::is_upgrade(request_))
         return refuse(http::status::upgrade_required, "it asks for /ws without a WebSocket");
-    static std::uint64_t pages = 0;  // only the gateway's thread is here
-    auto page = std::make_shared<PageSession>(std::move(stream_), core_, ++pages, peer_);
+    auto page = std::make_shared<PageSession>(std::move(stream_), core_, core_.next_page(), peer_);
     if (!core_.admit(page)) {
         core_.notice("viewer: a page of " + peer_ + " is turned away, there are too many");
         return page->close();

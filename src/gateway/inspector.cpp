@@ -62,7 +62,8 @@ Json json_of(const LaserReading& reading) {
 
 Json json_of(const GpsReading& reading) {
     constexpr double kDegrees = 180 / std::numbers::pi;
-    if (!reading.geodetic) return {{"position", json_of(reading.p_W)}, {"velocity", json_of(reading.v_W)}};
+    if (!reading.geodetic)
+        return {{"position", json_of(reading.p_W)}, {"geodetic", false}, {"velocity", json_of(reading.v_W)}};
     return {{"position",
              {json_of(reading.latitude_rad * kDegrees), json_of(reading.longitude_rad * kDegrees),
               json_of(reading.altitude_m)}},

@@ -60,13 +60,14 @@ std::string groups_line(const std::string& text, const ShownScene& scene) {
     return dumped(line);
 }
 
-std::string bounds_line(const std::string& text, const ShownScene& scene) {
+std::string bounds_line(const std::string& text, Tick tick, const ShownScene& scene) {
     const Json read = read_by_robot(text, scene);
     if (!read.is_object() || !read.contains("boxes") || !read["boxes"].is_array()) return {};
     Json bounds = Json::array();
     for (std::size_t r = 0; r < read["boxes"].size(); ++r)
         bounds.push_back({{"robot", r}, {"box", read["boxes"][r]}});
-    return dumped({{"type", "overlay"}, {"scene", scene.number}, {"bounds", std::move(bounds)}});
+    return dumped(
+        {{"type", "overlay"}, {"scene", scene.number}, {"tick", tick}, {"bounds", std::move(bounds)}});
 }
 
 }  // namespace
@@ -224,9 +225,9 @@ void RunWatcher::tell_status(const ControlReply& reply) {
 
 void RunWatcher::tell_by_robot(const ControlReply& reply, Line::To to,
                                std::shared_ptr<const ShownScene> scene) {
-    exchange_->say({to, 0, true, [text = reply.text, to, scene = std::move(scene)]() {
+    exchange_->say({to, 0, true, [text = reply.text, to, tick = tick_, scene = std::move(scene)]() {
                         return to == Line::To::kGroups ? groups_line(text, *scene)
-                                                       : bounds_line(text, *scene);
+                                                       : bounds_line(text, tick, *scene);
                     }});
 }
 

@@ -41,6 +41,7 @@ class ServerCore {
     const std::shared_ptr<const ShownScene>& scene() const { return scene_; }
     const StateBook& book() const { return book_; }
     std::string hello() const;
+    std::uint64_t next_page() { return ++last_page_; }
     /// False: there are too many.
     bool admit(const std::shared_ptr<PageSession>& page);
     void dismiss(std::uint64_t page);
@@ -76,6 +77,7 @@ class ServerCore {
     std::thread thread_;
     std::size_t connections_ = 0;
     std::map<std::uint64_t, std::shared_ptr<PageSession>> pages_;
+    std::uint64_t last_page_ = 0;
     std::vector<std::function<void()>> scene_waiters_;
     std::shared_ptr<const ShownScene> scene_;
     StateBook book_;
