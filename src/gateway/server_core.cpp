@@ -19,6 +19,7 @@ using tcp = asio::ip::tcp;
 
 constexpr std::size_t kConnectionsMax = 64, kPagesMax = 16;
 constexpr std::size_t kNoticesMax = 100;
+constexpr int kSendBytes = 256 << 10;  // what lies in a socket is old when it is read: not much of it
 constexpr auto kLatePart = std::chrono::milliseconds(8);
 constexpr auto kSceneWait = std::chrono::seconds(5);
 
@@ -90,6 +91,7 @@ void ServerCore::accept() {
         if (!error && connections_ < kConnectionsMax) {
             boost::system::error_code ignored;
             socket.set_option(tcp::no_delay(true), ignored);
+            socket.set_option(asio::socket_base::send_buffer_size(kSendBytes), ignored);
             ++connections_;
             std::make_shared<HttpSession>(std::move(socket), *this)->start();
         } else if (!error) {

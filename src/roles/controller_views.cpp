@@ -15,6 +15,7 @@ void Controller::take_view_request(Bus& bus, const Address& from, const ViewRequ
 
 void Controller::serve_views(Bus& bus) {
     if (views_.empty()) return;
+    views_.note(tick_, bus.now_ms());
     const std::vector<ViewDesk::Due> due = views_.take_due(tick_, bus.now_ms());
     if (due.empty()) return;
     ++view_serial_;

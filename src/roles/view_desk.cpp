@@ -8,6 +8,8 @@ namespace {
 
 constexpr std::int64_t kForgottenAfter_ms = 3'000;
 constexpr std::size_t kWatchersMax = 16;
+constexpr std::int64_t kMeasured_ms = 20;
+constexpr Tick kFirstWindow = 8;  // while it is not known how fast the world goes
 
 }  // namespace
 
@@ -33,6 +35,29 @@ void ViewDesk::take(const Address& viewer, const ViewRequest& request, std::int6
     found->request = request;
     found->heard_ms = now_ms;
     found->view.asked_again = found->exact.asked_again = true;
+}
+
+void ViewDesk::note(Tick tick, std::int64_t now_ms) {
+    if (!from_ms_ || tick <= from_) {  // it begins, rests, or was turned back
+        from_ = tick;
+        from_ms_ = now_ms;
+        return;
+    }
+    if (now_ms - *from_ms_ < kMeasured_ms) return;
+    const double measured = static_cast<double>(now_ms - *from_ms_) / static_cast<double>(tick - from_);
+    ms_per_tick_ = ms_per_tick_ > 0 ? 0.5 * (ms_per_tick_ + measured) : measured;
+    from_ = tick;
+    from_ms_ = now_ms;
+}
+
+std::optional<Tick> ViewDesk::window_max() const {
+    std::uint32_t interval_ms = 0;  // of the one who wants most
+    for (const Watcher& w : watchers_)
+        if (w.request.interval_ms > 0 && (interval_ms == 0 || w.request.interval_ms < interval_ms))
+            interval_ms = w.request.interval_ms;
+    if (interval_ms == 0) return std::nullopt;
+    if (!(ms_per_tick_ > 0)) return kFirstWindow;
+    return std::max<Tick>(1, static_cast<Tick>(std::min(interval_ms / ms_per_tick_, 1e6)));
 }
 
 std::vector<ViewDesk::Due> ViewDesk::take_due(Tick tick, std::int64_t now_ms) {

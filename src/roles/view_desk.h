@@ -2,6 +2,7 @@
 // forgotten soon after its last word. Costs nothing while nobody watches.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "wire/message.h"
@@ -23,6 +24,12 @@ class ViewDesk {
     /// (something may have been lost).
     std::vector<Due> take_due(Tick tick, std::int64_t now_ms);
 
+    /// At a boundary, before take_due(): how fast the world goes is measured.
+    void note(Tick tick, std::int64_t now_ms);
+    /// Windows should be no longer, so that who watches sees the world move; none: nobody watches, or it is
+    /// not known yet how fast it goes.
+    std::optional<Tick> window_max() const;
+
   private:
     /// Shown at most once in so long; each tick once.
     struct Pace {
@@ -38,6 +45,9 @@ class ViewDesk {
         Pace view, exact;
     };
     std::vector<Watcher> watchers_;
+    Tick from_ = 0;  // of the measurement under way
+    std::optional<std::int64_t> from_ms_;
+    double ms_per_tick_ = 0;  // 0: not known
 };
 
 }  // namespace roboss

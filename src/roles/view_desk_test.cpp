@@ -41,6 +41,18 @@ TEST(ViewDesk, ExactStatesHaveAPaceOfTheirOwn) {
     EXPECT_NEAR(exact, 10, 1);
 }
 
+TEST(ViewDesk, AsksForWindowsThatEndWhenAViewIsDue) {
+    ViewDesk desk;
+    EXPECT_FALSE(desk.window_max()) << "nobody watches";
+    desk.take(kViewer, {1, 30, 0, false, {}}, 0);
+    for (Tick tick = 0; tick < 400; tick += 4) desk.note(tick, 2 * tick);
+    EXPECT_EQ(desk.window_max(), 15) << "at 2 ms a tick";
+    for (std::int64_t ms = 800; ms < 9'000; ++ms) desk.note(396, ms);  // it rests
+    EXPECT_EQ(desk.window_max(), 15) << "a rest tells nothing";
+    desk.take(kViewer, {1, 0, 100, false, {RobotId(1u)}}, 0);
+    EXPECT_FALSE(desk.window_max()) << "exact states come when they come";
+}
+
 TEST(ViewDesk, ForgetsWhoFallsSilent) {
     ViewDesk desk;
     desk.take(kViewer, {1, 30, 0, false, {}}, 0);

@@ -61,7 +61,11 @@ HttpAnswer http_get(const ViewerUrl& url, const std::string& target, const std::
 
 Browser::Browser(const ViewerUrl& url, const SocketHeaders& headers) : socket_(io_) {
     beast::error_code error;
-    beast::get_lowest_layer(socket_).connect(endpoint_of(url), error);
+    auto& tcp_socket = beast::get_lowest_layer(socket_).socket();
+    tcp_socket.open(endpoint_of(url).protocol(), error);
+    if (headers.receive_bytes > 0)
+        tcp_socket.set_option(asio::socket_base::receive_buffer_size(headers.receive_bytes), error);
+    tcp_socket.connect(endpoint_of(url), error);
     if (error) return;
     socket_.read_message_max(64u << 20);
     socket_.set_option(beast::websocket::stream_base::decorator([&](beast::websocket::request_type& request) {
@@ -78,7 +82,9 @@ Browser::~Browser() = default;
 
 void Browser::read() {
     if (!reading_) return;
+    pending_ = true;
     socket_.async_read(buffer_, [this](beast::error_code error, std::size_t) {
+        pending_ = false;
         if (error) {
             closed_ = true;
             return;

@@ -35,6 +35,7 @@ HttpAnswer http_get(const ViewerUrl& url, const std::string& target, const std::
 struct SocketHeaders {
     std::string target = "/ws";
     std::string origin, host;  // empty: none; the right one
+    int receive_bytes = 0;     // of the socket's buffer; 0: as usual
 };
 
 class Browser {
@@ -54,6 +55,10 @@ class Browser {
     void vanish();
     /// From now on nothing is read.
     void stop_reading() { reading_ = false; }
+    void read_again() {
+        reading_ = true;
+        if (!pending_) read();
+    }
 
     /// Works until `done` or the time is over; whether it is done.
     bool until(const std::function<bool()>& done, int ms_max = 10'000);
@@ -89,7 +94,8 @@ class Browser {
     boost::asio::io_context io_;
     boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
     boost::beast::flat_buffer buffer_;
-    bool connected_ = false, closed_ = false, reading_ = true, whole_ = false, damaged_ = false;
+    bool connected_ = false, closed_ = false, reading_ = true, whole_ = false, damaged_ = false,
+         pending_ = false;
     std::map<std::string, Json> last_;
     std::map<int, std::string> answers_;
     std::map<std::uint32_t, std::vector<std::size_t>> coordinates_;  // by scene

@@ -1,6 +1,7 @@
 // Browsers of all kinds at the gateway of a living run: what they see is what is, what they order is done,
 // and what they do wrong harms nobody but themselves.
 #include <gtest/gtest.h>
+#include <support/bodies.h>
 
 #include <cmath>
 #include <filesystem>
@@ -172,19 +173,39 @@ TEST_F(Viewed, AnotherModelIsAnotherSceneAndTheFirstStateOfItIsWhole) {
     EXPECT_TRUE(page.answer(2)->starts_with("yes")) << *page.answer(2);
 }
 
+/// Boxes in free fall, far from each other: much to tell, and little to compute.
+std::shared_ptr<const Model> falling_boxes(int boxes) {
+    World world;
+    world.dt_s = 0.002;
+    world.prototypes.push_back(solid_box(1, {0.1, 0.1, 0.1}, surface(1)));
+    for (int i = 0; i < boxes; ++i)
+        world.instances.push_back(
+            {"box_" + std::to_string(i), 0, {{2.0 * (i % 50), 2.0 * (i / 50), 0}, {}}, {}});
+    Diagnostics diagnostics;
+    return compile(world, {}, diagnostics);
+}
+
 TEST_F(Viewed, ASlowReaderHoldsNobodyUpAndSeesTheLatestWhenItReadsAgain) {
-    LiveRunOptions options;
-    options.speed = 0;
-    options.end = 60'000;
-    const auto run = begin(options);
-    Browser slow{ViewerUrl(run->url())}, quick{ViewerUrl(run->url())};
-    for (Browser* browser : {&slow, &quick}) {
-        browser->know(coordinates_of(*model));
-        browser->send(watch({0, 1, 2, 3, 4, 5}, {"contacts"}));
-    }
+    const auto boxes = falling_boxes(1000);
+    LiveRun run(boxes, {});
+    SocketHeaders narrow;
+    narrow.receive_bytes = 4096;
+    Browser slow(ViewerUrl(run.url()), narrow), quick{ViewerUrl(run.url())};
+    for (Browser* browser : {&slow, &quick}) browser->send(watch({}));
+    ASSERT_TRUE(slow.until([&] { return slow.states() > 0; }));
     slow.stop_reading();
-    ASSERT_TRUE(quick.until([&] { return quick.states() > 60; }));
-    EXPECT_FALSE(quick.closed());
+    const auto states = [&] { return run.gateway().load().sent_bytes; };
+    ASSERT_TRUE(quick.until([&] { return quick.states() > 60; }, 60'000));
+    const std::uint64_t before = states(), quick_before = quick.state_bytes();
+    ASSERT_TRUE(quick.until([&] { return quick.states() > 120; }, 60'000));
+    const double share =
+        static_cast<double>(states() - before) / static_cast<double>(quick.state_bytes() - quick_before);
+    EXPECT_LT(share, 1.2) << "nothing more goes to who does not read";
+    const Tick tick = run.tick();
+    slow.read_again();
+    EXPECT_TRUE(slow.until([&] { return slow.tick() >= static_cast<double>(tick); })) << slow.tick();
+    EXPECT_LT(slow.states(), quick.states() / 2);
+    EXPECT_FALSE(slow.closed());
 }
 
 TEST_F(Viewed, WrongHostsOriginsTokensAndPathsAreRefusedWithALine) {

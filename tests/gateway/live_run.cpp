@@ -61,10 +61,10 @@ LiveRun::~LiveRun() {
 }
 
 void LiveRun::live() {
-    constexpr Tick kStride = 16;
+    const Tick stride = options_.speed > 0 ? 16 : 4096;
     auto since = Clock::now();
     Tick from = 0;
-    const std::uint64_t cpu_before = thread_cpu_ns();
+    cpu_before_ns_ = thread_cpu_ns();
     while (!stop_) {
         serve_calls();
         {
@@ -84,20 +84,26 @@ void LiveRun::live() {
             since = Clock::now(), from = now;
             continue;
         }
-        const Tick next = options_.end > 0 ? std::min(now + kStride, options_.end) : now + kStride;
+        const Tick next = options_.end > 0 ? std::min(now + stride, options_.end) : now + stride;
         const Result<> done = simulation_->run_until(next, [&] {
             for (ControlCall& call : simulation_->controller().control().take_calls())
                 calls_.push_back(std::move(call));
+            note_progress();
             return !stop_ && calls_.empty();
         });
         ROBOSS_CHECK(done.ok(), "the run goes on");
-        tick_ = simulation_->tick();
-        cpu_s_ = 1e-9 * static_cast<double>(thread_cpu_ns() - cpu_before);
+        note_progress();
         if (options_.speed <= 0) continue;
         const double due_s = static_cast<double>(simulation_->tick() - from) * model_->dt_s / options_.speed;
         std::this_thread::sleep_until(
             since + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due_s)));
     }
+}
+
+void LiveRun::note_progress() {
+    if (tick_ == simulation_->tick()) return;
+    tick_ = simulation_->tick();
+    cpu_s_ = 1e-9 * static_cast<double>(thread_cpu_ns() - cpu_before_ns_);
 }
 
 void LiveRun::serve_calls() {

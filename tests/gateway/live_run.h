@@ -49,6 +49,7 @@ class LiveRun {
 
   private:
     void live();
+    void note_progress();
     void serve_calls();
     void start_again(std::shared_ptr<const Model> model);
     SimulationOptions simulation_options() const;
@@ -64,6 +65,7 @@ class LiveRun {
     std::atomic<Tick> tick_ = 0;
     std::atomic<std::uint64_t> hash_ = 0;
     std::atomic<double> cpu_s_ = 0;
+    std::uint64_t cpu_before_ns_ = 0;
     std::mutex mutex_;
     std::string log_;
     std::shared_ptr<const Model> next_model_;

@@ -33,6 +33,12 @@ class Browser:
             raise AssertionError(head.decode())
         self.states, self.tick = 0, -1
 
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.socket.close()
+
     def need(self, count):
         while len(self.bytes) < count:
             more = self.socket.recv(1 << 16)
@@ -98,16 +104,16 @@ class Viewer(unittest.TestCase):
             self.assertEqual(len(scene["robots"]), 50)
             self.assertTrue(any(visual["rgb"] != [0.7, 0.7, 0.7] for visual in scene["statics"]))
             self.assertIn(b"<!doctype html>", get(url, "/").lower())
-            page = Browser(url)
-            page.say({"type": "watch", "robots": [7], "overlays": ["groups", "bounds", "contacts"], "rate": 60})
-            for kind in ("hello", "status", "robot", "groups", "overlay"):
-                told = page.hears(lambda said, kind=kind: said is not None and said["type"] == kind)
-                if kind == "groups":
-                    self.assertEqual(len(told["simulator"]), 50)
-            bounds = page.hears(lambda said: said is not None and "bounds" in said)
-            self.assertEqual(len(bounds["bounds"][0]["box"]), 6)
-            self.assertTrue(page.asks({"type": "control", "id": 1, "words": ["pause"]})[0])
-            self.assertTrue(page.asks({"type": "control", "id": 2, "words": ["resume"]})[0])
+            with Browser(url) as page:
+                page.say({"type": "watch", "robots": [7], "overlays": ["groups", "bounds", "contacts"], "rate": 60})
+                for kind in ("hello", "status", "robot", "groups", "overlay"):
+                    told = page.hears(lambda said, kind=kind: said is not None and said["type"] == kind)
+                    if kind == "groups":
+                        self.assertEqual(len(told["simulator"]), 50)
+                bounds = page.hears(lambda said: said is not None and "bounds" in said)
+                self.assertEqual(len(bounds["bounds"][0]["box"]), 6)
+                self.assertTrue(page.asks({"type": "control", "id": 1, "words": ["pause"]})[0])
+                self.assertTrue(page.asks({"type": "control", "id": 2, "words": ["resume"]})[0])
             summary = cluster.summary(run)
             self.assertGreater(page.states, 5)
         self.assertEqual(summary["state_hash"], embedded(*CITY, "--until", 3, "--headless")["state_hash"])
@@ -125,14 +131,14 @@ class Viewer(unittest.TestCase):
             for _ in range(2):
                 cluster.simulator()
             url = url_of(viewer)
-            page = Browser(url)
-            scene = json.loads(get(url, "/scene"))
-            self.assertEqual(len(scene["robots"]), 50)
-            self.assertGreater(len(scene["types"][0]["links"][0]["visuals"]), 0)
-            page.hears(lambda _: page.states > 5)
-            status = page.hears(lambda said: said is not None and said["type"] == "status")
-            self.assertEqual(status["simulators"], 2)
-            page.hears(lambda _: page.tick == round(4 / scene["dt"]) or page.tick > 1500)
+            with Browser(url) as page:
+                scene = json.loads(get(url, "/scene"))
+                self.assertEqual(len(scene["robots"]), 50)
+                self.assertGreater(len(scene["types"][0]["links"][0]["visuals"]), 0)
+                page.hears(lambda _: page.states > 5)
+                status = page.hears(lambda said: said is not None and said["type"] == "status")
+                self.assertEqual(status["simulators"], 2)
+                page.hears(lambda _: page.tick == round(4 / scene["dt"]) or page.tick > 1500)
             summary = cluster.summary(controller)
         self.assertEqual(summary["state_hash"], embedded(WORLDS / "city.sdf", "--until", 4, "--headless")["state_hash"])
 
@@ -140,15 +146,16 @@ class Viewer(unittest.TestCase):
         journal = FOLDER / "viewed.journal"
         with Cluster() as cluster:
             run = cluster.start_plain("run", WORLDS / "city.sdf", "--journal", journal, "--speed", 2, "--view", 0)
-            page = Browser(url_of(run))
-            page.hears(lambda _: page.states > 3)
-            order = {"type": "order", "id": 1, "robot": 3, "action": "velocity", "linear": [0, 0, 4], "angular": [0, 0, 0]}
-            self.assertTrue(page.asks(order)[0])
-            tick = page.tick
-            page.hears(lambda _: page.tick > tick + 1200)
+            with Browser(url_of(run)) as page:
+                page.hears(lambda _: page.states > 3)
+                order = {"type": "order", "id": 1, "robot": 3, "action": "velocity", "linear": [0, 0, 4], "angular": [0, 0, 0]}
+                self.assertTrue(page.asks(order)[0])
+                tick = page.tick
+                page.hears(lambda _: page.tick > tick + 1200)
             run.kill()
-            again = cluster.start_plain("run", WORLDS / "city.sdf", "--journal", journal, "--until", 8, "--json", cluster.json, "--view", 0)
-            page = Browser(url_of(again))
+            again = cluster.start_plain("run", WORLDS / "city.sdf", "--journal", journal, "--until", 8, "--speed", 2, "--json", cluster.json, "--view", 0)
+            with Browser(url_of(again)) as page:
+                page.hears(lambda _: page.states > 0)
             cluster.summary(again)
             verified = cluster.start_plain("journal", "verify", journal)
             self.assertEqual(verified.end(), 0, verified.said())
