@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Sets up, builds and runs the benchmarks: ./bench.sh [NAME] [flags]; without a name it lists them.
-# A name is a program of its own (peers, accuracy, table1), or a Google Benchmark of roboss-bench; flags go on to it.
+# A name is a program of its own (peers, accuracy, table1, viewer), or a Google Benchmark of roboss-bench; flags go on to it.
 # Rows carry commit, compiler, CPU, world and number of robots; the same rows as JSON go to build/bench/NAME.json.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -54,6 +54,14 @@ table1() {
     printf 'rows as JSON: %s\n' "$rows"
 }
 
+# What browsers cost a run of 2000 moving cars: bytes, CPU of the gateway, speed of the simulation (docs/viewer.md).
+viewer() {
+    tools/setup.sh build bench
+    build roboss-viewer-cost
+    build/release/bin/roboss-viewer-cost --json build/bench/viewer.json "$@"
+    printf 'rows as JSON: build/bench/viewer.json\n'
+}
+
 # Google Benchmarks whose names match.
 google_benchmark() {
     tools/setup.sh build bench
@@ -64,6 +72,7 @@ google_benchmark() {
         printf 'peers  (RoBOSS beside ODE, Bullet, MuJoCo, DART: about 12 minutes; --quick: two; --help)\n'
         printf 'accuracy  (RoBOSS and the same engines against known truths: some minutes; --list; --help)\n'
         printf 'table1  (one world on 1 to 12 Simulators, the paper'"'"'s experiment: about 20 minutes; --help)\n'
+        printf 'viewer  (what browsers cost a run of 2000 cars: a minute; --help)\n'
         exec "$program" --benchmark_list_tests
     fi
     local name=$1
@@ -76,6 +85,6 @@ google_benchmark() {
 }
 
 case ${1:-} in
-    peers | accuracy | table1) "$@" ;;
+    peers | accuracy | table1 | viewer) "$@" ;;
     *) google_benchmark "$@" ;;
 esac

@@ -15,6 +15,7 @@ set(ROBOSS_EXTERNALS
   "^fastrtps$" "find_dependency(fastcdr 1)\nfind_dependency(fastrtps 2.9)"
   "^fastcdr$" "find_dependency(fastcdr 1)"
   "^Threads::Threads$" "find_dependency(Threads)"
+  "^Boost::" "find_dependency(Boost)"
   "^fmt::" "find_dependency(fmt)"
   "^spdlog::" "find_dependency(spdlog)"
   "^nlohmann_json::" "find_dependency(nlohmann_json)"
@@ -54,7 +55,7 @@ foreach(floor ${floors})
   endforeach()
   install(TARGETS roboss_${floor} EXPORT roboss ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/src/${floor} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/roboss
-    FILES_MATCHING PATTERN "*.h")
+    FILES_MATCHING PATTERN "*.h" PATTERN "*_session.h" EXCLUDE)  # Boost shows in these
 endforeach()
 list(REMOVE_DUPLICATES ROBOSS_FIND_DEPENDENCIES)
 list(JOIN ROBOSS_FIND_DEPENDENCIES "\n" ROBOSS_FIND_DEPENDENCIES)
@@ -74,4 +75,5 @@ endforeach()
 if(TARGET roboss_city_driver)
   install(TARGETS roboss_city_driver LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/roboss)
 endif()
+install(DIRECTORY ${CMAKE_BINARY_DIR}/share/roboss/web DESTINATION ${CMAKE_INSTALL_DATADIR}/roboss OPTIONAL)  # the viewer's page, if it is built
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/worlds DESTINATION ${CMAKE_INSTALL_DATADIR}/roboss OPTIONAL)

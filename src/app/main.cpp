@@ -12,6 +12,7 @@
 #include "app/run_command.h"
 #include "app/save_command.h"
 #include "app/simulator_command.h"
+#include "app/view_command.h"
 
 int main(int argc, char** argv) {
     CLI::App app{
@@ -27,6 +28,7 @@ int main(int argc, char** argv) {
     roboss::add_controller_command(app, exit_code);
     roboss::add_simulator_command(app, exit_code);
     roboss::add_client_command(app, exit_code);
+    roboss::add_view_command(app, exit_code);
     roboss::add_replay_command(app, exit_code);
     roboss::add_control_command(app, exit_code);
     roboss::add_cluster_command(app, exit_code);

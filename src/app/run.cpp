@@ -8,6 +8,7 @@
 #include "app/orders_file.h"
 #include "client/plugin.h"
 #include "core/hash.h"
+#include "scene/scene_file.h"
 #include "sdf/load_world.h"
 
 namespace roboss {
@@ -44,6 +45,7 @@ bool Run::prepare() {
     const std::optional<World> world = load_world(o_.world, {o_.paths, o_.profile}, diagnostics);
     if (world && !diagnostics.has_errors()) model_ = compile(*world, compile_options(), diagnostics);
     if (world) world_speed_ = world->real_time_factor;
+    if (world && !o_.viewer.headless) world_ = std::make_shared<const World>(*world);
     if (model_ && !o_.orders.empty()) orders_ = load_orders(o_.orders, *model_, diagnostics);
     print(diagnostics, o_.world);
     if (!model_ || diagnostics.has_errors()) return false;
@@ -95,6 +97,7 @@ bool Run::create() {
     Result<std::unique_ptr<Company>> company = Company::gather(o_);
     if (!company) return print(company.error()), false;
     company_ = std::move(company.value());
+    if (!open_gateway()) return false;
     const SavedRun* from = journal_->from();
     SimulationOptions options = simulation_options(from);
     options.controller.log = journal_->resumed();
@@ -108,6 +111,15 @@ bool Run::create() {
     return true;
 }
 
+bool Run::open_gateway() {
+    if (o_.viewer.headless) return true;
+    Result<std::unique_ptr<Gateway>> gateway = open_viewer(o_.viewer, !o_.journal.empty());
+    if (!gateway) return print(gateway.error()), false;
+    gateway_ = std::move(gateway).value();
+    if (!o_.quiet) fmt::print(stderr, "roboss: viewer at {}\n", gateway_->url());
+    return true;
+}
+
 SimulationOptions Run::simulation_options(const SavedRun* from) const {
     SimulationOptions options;
     options.simulators = static_cast<std::size_t>(o_.simulators);
@@ -118,6 +130,11 @@ SimulationOptions Run::simulation_options(const SavedRun* from) const {
     options.controller.window = o_.window == "auto" ? 0 : static_cast<Tick>(std::stod(o_.window));
     options.controller.forecast.merge_all = o_.merge_islands;
     options.controller.log_ticks = journal_->log_ticks();
+    if (!gateway_) return options;
+    options.guest = [gateway = gateway_.get()](Bus& bus) { gateway->advance(bus); };
+    options.controller.scene = [world = world_, seed = options.controller.seed](const Model& model) {
+        return encode(scene_file(make_scene(model, world.get()), model, seed));
+    };
     return options;
 }
 

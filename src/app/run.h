@@ -14,6 +14,7 @@
 #include "app/run_options.h"
 #include "app/summary.h"
 #include "app/trace_file.h"
+#include "app/viewer.h"
 #include "model/edit.h"
 #include "simulation/simulation.h"
 
@@ -46,6 +47,7 @@ class Run {
     };
     Result<> start_again(std::shared_ptr<const Model> model, const SavedRun& from, const Turn& turn);
     SimulationOptions simulation_options(const SavedRun* from) const;
+    bool open_gateway();
     Summary summary(double wall_s) const;
     int finish(bool fine, double wall_s);
 
@@ -85,7 +87,9 @@ class Run {
     const RunOptions& o_;
     Progress progress_;
     std::shared_ptr<const Model> model_;
-    std::vector<Order> orders_;  // of the orders file
+    std::shared_ptr<const World> world_;  // for the viewer; none: of a replay
+    std::unique_ptr<Gateway> gateway_;    // none: headless
+    std::vector<Order> orders_;           // of the orders file
     std::unique_ptr<RunJournal> journal_;
     std::unique_ptr<Company> company_;
     std::unique_ptr<Simulation> simulation_;

@@ -120,8 +120,9 @@ bool Run::drive() {
 }
 
 void Run::tell_notices() {
-    for (const auto& notices : {simulation_->take_notices(), company_->take_notices(),
-                                journal_->take_notices(), std::exchange(notices_, {})})
+    for (const auto& notices :
+         {simulation_->take_notices(), company_->take_notices(), journal_->take_notices(),
+          std::exchange(notices_, {}), gateway_ ? gateway_->take_notices() : std::vector<std::string>()})
         for (const std::string& notice : notices)
             if (!o_.quiet) progress_.clear(), fmt::print(stderr, "roboss: {}\n", notice);
 }

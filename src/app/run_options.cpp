@@ -139,8 +139,7 @@ void add_watch_options(CLI::App& command, RunOptions& o) {
         ->check(CLI::PositiveNumber);
     command.add_option("--json", o.json, "write the summary to this file");
     command.add_option("--picture", o.paths_picture, "draw where the robots went into this SVG file");
-    command.add_flag("--headless", o.headless,
-                     "no viewer (there is none yet; for scripts that will meet one)");
+    add_viewer_options(command, o.viewer, true);
     command.add_flag("--quiet", o.quiet, "no progress, only the summary");
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/viewer.h"
 #include "dds/dds_options.h"
 #include "physics/step.h"
 #include "world/world.h"
@@ -49,7 +50,7 @@ struct RunOptions {
     std::optional<double> until_s;
     std::string replay;         // FILE[#BRANCH][@TIME]: stepped again and checked, instead of a world
     std::string paths_picture;  // SVG of where the robots went
-    bool headless = false;
+    ViewerOptions viewer;
     bool quiet = false;
 };
 

@@ -1,11 +1,11 @@
-// ModelPull: gets the Model from the Controller, part by part, so that who joins needs neither file nor
-// compiler. It stands before the role: what else comes for `self` meanwhile will be said again.
+// ModelPull: gets the Model from the Controller, so that who joins needs neither file nor compiler. It stands
+// before the role: what else comes for `self` meanwhile will be said again.
 #pragma once
 
 #include <optional>
 #include <string>
 
-#include "bus/bus.h"
+#include "bus/whole_pull.h"
 #include "core/result.h"
 #include "model/model.h"
 
@@ -19,17 +19,11 @@ class ModelPull {
     void advance(Bus& bus, const Address& self, std::int64_t resend_ms);
     /// Nothing as long as it is under way; then the Model, or why it cannot be used.
     const std::optional<Outcome>& model() const { return model_; }
-    std::uint64_t bytes_here() const { return bytes_.size(); }
+    std::uint64_t bytes_here() const { return pull_.bytes().size(); }
 
   private:
-    void take(const ModelPart& part);
-
-    std::vector<std::uint8_t> bytes_;
-    std::uint64_t bytes_hash_ = 0, total_ = 0;
+    WholePull pull_{Whole::kModel};
     std::optional<Outcome> model_;
-    bool ask_now_ = true;
-    std::int64_t asked_ms_ = 0;
-    std::vector<Envelope> inbox_;
 };
 
 }  // namespace roboss

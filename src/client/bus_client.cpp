@@ -124,6 +124,14 @@ void BusClient::answer(Bus& bus) {
     said_ms_ = bus.now_ms();
 }
 
+void BusClient::say(Bus& bus, Tick observed) {
+    ROBOSS_CHECK(!options_.synchronous, "only a free-running Client speaks unasked");
+    words_.push_back({id_, ++word_, observed, std::exchange(orders_, {})});
+    if (!id_.valid()) return;  // it is said when it has joined
+    bus.send(self_, kControllerAddress, words_.back());
+    said_ms_ = bus.now_ms();
+}
+
 void BusClient::leave(Bus& bus, const std::string& failure) {
     bye_ = ClientBye{id_, ++word_, !failure.empty(), failure};
     observing_ = false;
@@ -139,8 +147,8 @@ void BusClient::say_again(Bus& bus) {
     said_ms_ = now;
     if (!requests_.empty()) bus.send(self_, kControllerAddress, requests_.front());
     if (!id_.valid()) {
-        ClientHello hello{options_.name, model_->hash, options_.period, options_.latency,
-                          options_.synchronous};
+        ClientHello hello{options_.name,    model_->hash,         options_.period,
+                          options_.latency, options_.synchronous, options_.guest};
         const std::uint64_t said = word_ - (bye_ ? 1 : 0);
         if (was_here_) hello.expected = expected_;
         hello.said = said;

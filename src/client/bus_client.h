@@ -17,6 +17,7 @@ struct BusClientOptions {
     std::string name = "client";
     Tick period = 1, latency = 1;  // ticks
     bool synchronous = true;
+    bool guest = false;  // comes and goes: the run never waits for it
     std::int64_t resend_ms = 100;
 };
 
@@ -38,6 +39,9 @@ class BusClient : public Client {
     bool observing() const { return observing_; }
     /// Says the word for the observation shown, with the orders given since.
     void answer(Bus& bus);
+    /// A free-running Client says the orders given so far at once, having seen the world at `observed`, told
+    /// or not.
+    void say(Bus& bus, Tick observed);
     /// Takes leave. `failure`: why, if something broke; it ends the run.
     void leave(Bus& bus, const std::string& failure = {});
 

@@ -32,6 +32,7 @@ ClientId ClientDesk::welcome(const Address& address, const ClientHello& hello, T
         seat->period = hello.period;
         seat->latency = hello.latency;
         seat->synchronous = hello.synchronous;
+        seat->guest = hello.guest;
         seat->joined = true;
         seat->first = next_multiple(std::max(earliest, hello.expected), hello.period);
         seat->last_word = seat->acknowledged = hello.acknowledged;

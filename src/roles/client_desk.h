@@ -18,7 +18,8 @@ struct ClientSeat {
     Tick period = 1, latency = 1;
     bool synchronous = true;
     bool joined = false, gone = false;
-    Tick first = 0;  // tick of its first observation
+    bool guest = false;  // nobody waits for it
+    Tick first = 0;      // tick of its first observation
     std::uint64_t last_word = 0;
     std::uint64_t acknowledged = 0;     // the last word that it has been told is taken
     std::uint64_t word_awaited = 0;     // said to an earlier Controller, and on its way again

@@ -54,6 +54,7 @@ void Controller::advance(Bus& bus) {
     notice_client_losses(bus);
     pull_.advance(bus, kControllerAddress, options_.resend_ms);
     if (round_ && round_->all_answered()) finish_round();
+    if (!round_) serve_views(bus);
     if (!round_) at_boundary(bus);
     if (round_) round_->send(bus, roster_, options_.resend_ms);
     acknowledge(bus);
@@ -99,6 +100,8 @@ void Controller::handle(Bus& bus, Envelope& envelope) {
         control_.take(bus, from, *asked);
     } else if (const auto* wanted = std::get_if<ModelRequest>(&envelope.message)) {
         serve_model(bus, from, *wanted);
+    } else if (const auto* view = std::get_if<ViewRequest>(&envelope.message)) {
+        take_view_request(bus, from, *view);
     }
 }
 
@@ -178,16 +181,25 @@ void Controller::serve(Bus& bus, const Address& from, const StateRequest& reques
     bus.send(kControllerAddress, from, std::move(reply));
 }
 
+const Controller::WholeBytes& Controller::whole(Whole what) {
+    std::optional<WholeBytes>& kept = what == Whole::kModel ? model_bytes_ : scene_bytes_;
+    if (!kept) {
+        kept.emplace();
+        if (what == Whole::kModel) kept->bytes = encode_model(*model_);
+        if (what == Whole::kScene && options_.scene) kept->bytes = options_.scene(*model_);
+        kept->hash = hash_of_bytes(kept->bytes);
+    }
+    return *kept;
+}
+
 void Controller::serve_model(Bus& bus, const Address& from, const ModelRequest& request) {
     constexpr std::uint64_t kPartBytes = 1u << 20;
-    if (model_bytes_.empty()) {
-        model_bytes_ = encode_model(*model_);
-        model_bytes_hash_ = hash_of_bytes(model_bytes_);
-    }
-    const std::uint64_t total = model_bytes_.size(), offset = std::min(request.offset, total);
-    const auto first = model_bytes_.begin() + static_cast<std::ptrdiff_t>(offset);
+    const WholeBytes& all = whole(request.what);
+    const std::uint64_t total = all.bytes.size(), offset = std::min(request.offset, total);
+    const auto first = all.bytes.begin() + static_cast<std::ptrdiff_t>(offset);
     const auto count = static_cast<std::ptrdiff_t>(std::min(kPartBytes, total - offset));
-    bus.send(kControllerAddress, from, ModelPart{model_bytes_hash_, total, offset, {first, first + count}});
+    bus.send(kControllerAddress, from,
+             ModelPart{request.what, all.hash, total, offset, {first, first + count}});
 }
 
 void Controller::dismiss(Bus& bus, const std::string& reason) {

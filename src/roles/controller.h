@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,6 +22,8 @@
 #include "roles/order_book.h"
 #include "roles/roster.h"
 #include "roles/round.h"
+#include "roles/view_desk.h"
+#include "wire/view_state.h"
 
 namespace roboss {
 
@@ -48,6 +51,8 @@ struct ControllerOptions {
         bool went_back = false;             // Clients may have seen ticks that are no more
         ControlDesk control;
     } before;
+    /// What the world looks like, in bytes for viewers; asked for when the first viewer asks.
+    std::function<std::vector<std::uint8_t>(const Model&)> scene;
     RunLog* log = nullptr;  // outlives the Controller; none: nothing is kept
     Tick log_ticks = 0;     // checkpoints for the log at multiples of so many ticks; 0: none
 };
@@ -144,7 +149,7 @@ class Controller {
     std::vector<SaidOrder> pending_orders() { return book_.pending(tick_); }
     /// Names of all Clients so far, by ClientId.
     std::vector<std::string> client_names() const;
-    /// Of these, those that are here.
+    /// Of these, those that are here and no guests.
     std::vector<std::string> clients_serving() const;
 
     /// A checkpoint for the log is being fetched: its tick. What Clients of this process remember there has
@@ -191,6 +196,11 @@ class Controller {
     void serve(Bus& bus, const Address& from, const StateRequest& request) const;
     bool is_earlier_model(std::uint64_t hash) const;
     void serve_model(Bus& bus, const Address& from, const ModelRequest& request);
+    struct WholeBytes {
+        std::vector<std::uint8_t> bytes;
+        std::uint64_t hash = 0;
+    };
+    const WholeBytes& whole(Whole what);
     void fail(Error error);
     void notice(std::string text) { notices_.push_back(std::move(text)); }
 
@@ -226,6 +236,12 @@ class Controller {
     void learn_rates(std::span<const double> expected_ns, std::span<const double> spent_ns);
     std::optional<Error> failed_island() const;
 
+    // controller_views.cpp
+    void take_view_request(Bus& bus, const Address& from, const ViewRequest& request);
+    void serve_views(Bus& bus);
+    void show(Bus& bus, const ViewDesk::Due& due);
+    void show_here(Bus& bus, const ViewDue& part);
+
     // controller_recovery.cpp: checkpoints, leaving, losses
     void notice_losses(Bus& bus);
     void take_vanished(const Address& address, std::int64_t now_ms);
@@ -249,8 +265,7 @@ class Controller {
     bool is_lost(std::uint32_t place) const { return place != kAtController && !roster_.alive(place); }
 
     std::shared_ptr<const Model> model_;
-    std::vector<std::uint8_t> model_bytes_;  // encoded for the first who asks
-    std::uint64_t model_bytes_hash_ = 0;
+    std::optional<WholeBytes> model_bytes_, scene_bytes_;  // made for the first who asks
     ControllerOptions options_;
     ControlDesk control_;
     Roster roster_;
@@ -292,6 +307,10 @@ class Controller {
     std::vector<RobotId> recovering_;  // robots of the recovery under way, ascending
     bool tell_again_ = false;
     std::int64_t alive_said_ms_ = 0;
+
+    ViewDesk views_;
+    std::uint64_t view_serial_ = 0;
+    std::optional<ViewLayout> view_layout_;  // made by the first view
 
     std::optional<Error> failure_;
     Counters counters_;

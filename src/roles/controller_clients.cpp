@@ -25,6 +25,7 @@ void Controller::take_client_hello(Bus& bus, const Address& from, const ClientHe
     if (!is_new) return;
     notice("client '" + seat.name + "' joined at tick " + std::to_string(tick_));
     if (options_.log != nullptr) options_.log->joined(id, seat.name);
+    if (options_.log != nullptr && seat.guest) options_.log->word(id, kGoneForGood);  // not to be awaited
     const bool at_rest = !round_ || round_->span().recovery;
     if (at_rest && ClientDesk::observes(seat, tick_)) tell_observer(id, tick_);
 }

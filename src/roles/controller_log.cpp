@@ -26,7 +26,7 @@ std::vector<std::string> Controller::client_names() const {
 std::vector<std::string> Controller::clients_serving() const {
     std::vector<std::string> names;
     for (const ClientSeat& seat : desk_.seats())
-        if (seat.serves()) names.push_back(seat.name);
+        if (seat.serves() && !seat.guest) names.push_back(seat.name);
     return names;
 }
 

@@ -62,7 +62,8 @@ bool Controller::may_plan() const {
 }
 
 void Controller::plan_window() {
-    const Tick until = std::min({tick_ + length_.ticks(), target_, desk_.limit(tick_), next_log_tick()});
+    const Tick length = std::min(length_.ticks(), views_.window_max().value_or(length_.ticks()));
+    const Tick until = std::min({tick_ + length, target_, desk_.limit(tick_), next_log_tick()});
     round_.emplace(RoundSpan{epoch_, ++window_, tick_, until, false}, book_.between(tick_, until),
                    model_->robots.size());
     forecast_.islands(motions_, round_->orders(), until - tick_, options_.forecast, round_->islands);

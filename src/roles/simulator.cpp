@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "roles/send_views.h"
+
 namespace roboss {
 
 namespace {
@@ -66,6 +68,8 @@ void Simulator::handle(Bus& bus, Envelope& envelope) {
         take_plan(bus, *plan);
     } else if (const auto* request = std::get_if<StateRequest>(&envelope.message)) {
         serve(bus, envelope.from, *request);
+    } else if (const auto* due = std::get_if<ViewDue>(&envelope.message)) {
+        show(bus, *due);
     } else if (auto* reply = std::get_if<StateReply>(&envelope.message)) {
         take_states(*reply);
     } else if (const auto* welcome = std::get_if<Welcome>(&envelope.message)) {
@@ -154,6 +158,12 @@ void Simulator::serve(Bus& bus, const Address& from, const StateRequest& request
     reply.states.tick = request.tick;
     for (const RobotId robot : request.robots) store_.copy_to(reply.states, robot, request.tick);
     if (!reply.states.robots.empty()) bus.send(self_, from, std::move(reply));
+}
+
+void Simulator::show(Bus& bus, const ViewDue& due) {
+    if (!view_layout_) view_layout_.emplace(*model_);
+    const auto state = [&](RobotId robot) { return store_.find(robot, due.tick); };
+    send_views(*model_, *view_layout_, due, state, self_, bus);
 }
 
 void Simulator::keep_in_touch(Bus& bus) {

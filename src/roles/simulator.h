@@ -12,6 +12,7 @@
 #include "bus/state_pull.h"
 #include "roles/state_store.h"
 #include "roles/window_stepper.h"
+#include "wire/view_state.h"
 
 namespace roboss {
 
@@ -54,6 +55,7 @@ class Simulator {
     void take_states(StateReply& reply);
     void attend(Bus& bus);
     void serve(Bus& bus, const Address& from, const StateRequest& request) const;
+    void show(Bus& bus, const ViewDue& due);
     void keep_in_touch(Bus& bus);
     void say_alive(Bus& bus);
     void start_over();
@@ -74,6 +76,7 @@ class Simulator {
     std::vector<Envelope> later_;    // came while it was stepping
     std::optional<Frame> answer_;    // to the last plan worked on
     WindowStepper stepper_;
+    std::optional<ViewLayout> view_layout_;  // made by the first view
     std::vector<Envelope> inbox_;
 
     static constexpr std::int64_t kLongAgo = -1'000'000'000;

@@ -30,6 +30,8 @@ class StateStore {
     void release_before(Tick tick);
     /// Appends the state to `out`; false: not here.
     bool copy_to(StateBlock& out, RobotId robot, Tick tick) const;
+    /// The state, if it is that of a window under way or just done; copies that were kept do not count.
+    const RobotState* find(RobotId robot, Tick tick) const;
     void clear();
 
   private:
@@ -38,7 +40,6 @@ class StateStore {
         Tick start_tick = kNone, end_tick = kNone;
         RobotState start, end;
     };
-    const RobotState* find(RobotId robot, Tick tick) const;
 
     std::vector<Slot> slots_;
     std::vector<StateShelf> kept_;

@@ -32,7 +32,9 @@ struct SimulationOptions {
     unsigned threads = 1;            // that step islands, shared by the Simulators of this process
     std::size_t lanes = kMostLanes;  // robots of a type stepped at once, as far as the processor can
     std::string world_file;          // for saved runs
-    ControllerOptions controller;    // its `simulators` and `clients` are set from here
+    /// Whoever else has its turns in this process, a viewer say; no result may depend on it.
+    std::function<void(Bus&)> guest;
+    ControllerOptions controller;  // its `simulators` and `clients` are set from here
 };
 
 class Simulation {
@@ -103,7 +105,8 @@ class Simulation {
     std::uint64_t seed_;
     std::unique_ptr<Bus> bus_;
     ThreadPool pool_;
-    std::size_t lanes_;           // robots of a type stepped at once
+    std::size_t lanes_;  // robots of a type stepped at once
+    std::function<void(Bus&)> guest_;
     std::uint64_t instance_ = 0;  // of the last role made here
     Controller controller_;
     std::vector<std::unique_ptr<ProgramHost>> hosts_;

@@ -71,7 +71,7 @@ template <class A> void field(A& a, Of<A, Frame>& m) {
 template <class A> void field(A& a, Of<A, StateRequest>& m) { fields(a, m.tick, m.robots); }
 template <class A> void field(A& a, Of<A, StateReply>& m) { fields(a, m.states); }
 template <class A> void field(A& a, Of<A, ClientHello>& m) {
-    fields(a, m.name, m.model_hash, m.period, m.latency, m.synchronous, m.expected, m.acknowledged, m.said);
+    fields(a, m.name, m.model_hash, m.period, m.latency, m.synchronous, m.guest, m.expected, m.acknowledged, m.said);
 }
 template <class A> void field(A& a, Of<A, ClientWelcome>& m) { fields(a, m.client, m.first, m.seed); }
 template <class A> void field(A& a, Of<A, Observation>& m) { fields(a, m.tick, m.last_word, m.holders); }
@@ -85,8 +85,13 @@ template <class A> void field(A& a, Of<A, ClientUnknown>& m) { fields(a, m.clien
 template <class A> void field(A& a, Of<A, ControlRequest>& m) { fields(a, m.number, m.words); }
 template <class A> void field(A& a, Of<A, ControlReply>& m) { fields(a, m.number, m.done, m.text); }
 template <class A> void field(A& a, Of<A, ModelChanged>& m) { fields(a, m.model_hash); }
-template <class A> void field(A& a, Of<A, ModelRequest>& m) { fields(a, m.offset); }
-template <class A> void field(A& a, Of<A, ModelPart>& m) { fields(a, m.bytes_hash, m.total, m.offset, m.bytes); }
+template <class A> void field(A& a, Of<A, ModelRequest>& m) { fields(a, m.what, m.offset); }
+template <class A> void field(A& a, Of<A, ModelPart>& m) { fields(a, m.what, m.bytes_hash, m.total, m.offset, m.bytes); }
+template <class A> void field(A& a, Of<A, ViewRequest>& m) {
+    fields(a, m.model_hash, m.interval_ms, m.exact_interval_ms, m.exact_all, m.exact);
+}
+template <class A> void field(A& a, Of<A, ViewDue>& m) { fields(a, m.epoch, m.serial, m.tick, m.viewer, m.robots, m.exact); }
+template <class A> void field(A& a, Of<A, ViewStates>& m) { fields(a, m.model_hash, m.epoch, m.serial, m.tick, m.entries); }
 // clang-format on
 
 template <class A, class... Fields>
@@ -169,9 +174,18 @@ const char* broken_rule(const ClientHello& hello) {
                : nullptr;
 }
 
+const char* broken_rule(const ModelRequest& request) {
+    return request.what > Whole::kScene ? "it asks for something unknown" : nullptr;
+}
+
 const char* broken_rule(const ModelPart& part) {
+    if (part.what > Whole::kScene) return "it is of something unknown";
     const bool inside = part.offset <= part.total && part.bytes.size() <= part.total - part.offset;
-    return inside ? nullptr : "it goes beyond the Model's end";
+    return inside ? nullptr : "it goes beyond the end of the whole";
+}
+
+const char* broken_rule(const ViewDue& due) {
+    return due.viewer.role > Role::kClient ? "it names an unknown role" : nullptr;
 }
 
 template <class T>
@@ -191,7 +205,8 @@ const char* message_name(const Message& message) {
         "Hello",         "Welcome",     "Refused",       "Expelled",       "Alive",        "LeaveRequest",
         "Goodbye",       "Plan",        "Frame",         "StateRequest",   "StateReply",   "ClientHello",
         "ClientWelcome", "Observation", "ClientWord",    "WordAck",        "ClientBye",    "RunOver",
-        "ModelRequest",  "ModelPart",   "ClientUnknown", "ControlRequest", "ControlReply", "ModelChanged"};
+        "ModelRequest",  "ModelPart",   "ClientUnknown", "ControlRequest", "ControlReply", "ModelChanged",
+        "ViewRequest",   "ViewDue",     "ViewStates"};
     static_assert(std::size(kNames) == std::variant_size_v<Message>);
     return kNames[message.index()];
 }

@@ -53,19 +53,22 @@ std::vector<Message> one_of_each() {
             frame,
             StateRequest{12, {kRobot, kOther}},
             reply,
-            ClientHello{"driver", 5, 20, 20, true, 40, 3, 5},
+            ClientHello{"driver", 5, 20, 20, true, true, 40, 3, 5},
             ClientWelcome{ClientId(0u), 40, 99},
             Observation{40, 3, {{{Role::kController, 0}, {kRobot}}}},
             ClientWord{ClientId(0u), 4, 40, orders},
             WordAck{ClientId(0u), 4, {{2, "no such link"}}},
             ClientBye{ClientId(0u), 5, true, "it threw"},
             RunOver{"the run has ended"},
-            ModelRequest{7},
-            ModelPart{1, 100, 7, {1, 2, 3}},
+            ModelRequest{Whole::kScene, 7},
+            ModelPart{Whole::kModel, 1, 100, 7, {1, 2, 3}},
             ClientUnknown{ClientId(2u)},
             ControlRequest{3, {"step", "10"}},
             ControlReply{3, true, "at tick 10"},
-            ModelChanged{99}};
+            ModelChanged{99},
+            ViewRequest{5, 33, 100, false, {kRobot}},
+            ViewDue{2, 77, 1000, {Role::kClient, 4}, {kRobot, kOther}, {kOther}},
+            ViewStates{5, 2, 77, 1000, {1, 2, 3, 4}}};
 }
 
 Envelope envelope_of(Message message) {

@@ -135,11 +135,16 @@ struct Frame {  // Simulator -> Controller: the answer to a Plan, robots and isl
 // --- the Model
 // -----------------------------------------------------------------------------------------------------------
 
+/// What the Controller gives to whoever asks: the Model (wire/model_codec.h), or what the world looks like,
+/// in bytes that only viewers understand (none: the Controller does not know).
+enum class Whole : std::uint8_t { kModel, kScene };
 struct ModelRequest {  // anyone -> Controller, before anything else: who joins needs no file
+    Whole what = Whole::kModel;
     std::uint64_t offset = 0;
 };
-/// Controller -> who asked: some of the Model's bytes (wire/model_codec.h). Equal hashes: of the same whole.
+/// Controller -> who asked: some of its bytes. Equal hashes: of the same whole.
 struct ModelPart {
+    Whole what = Whole::kModel;
     std::uint64_t bytes_hash = 0, total = 0, offset = 0;
     std::vector<std::uint8_t> bytes;
 };
@@ -155,6 +160,33 @@ struct StateReply {
     StateBlock states;  // may lack robots that are not here (yet)
 };
 
+// --- views: what is shown of the world; nothing is computed from them, and none is missed
+// -----------------------------------------------------
+
+/// Viewer -> Controller: show me the world as it is committed. Said again each second; forgotten after a few.
+struct ViewRequest {
+    std::uint64_t model_hash = 0;         // another than the run's is answered by ModelChanged
+    std::uint32_t interval_ms = 0;        // at most one view in so long; 0: none
+    std::uint32_t exact_interval_ms = 0;  // and exact states of these (StateReply)
+    bool exact_all = false;
+    std::vector<RobotId> exact;
+};
+/// Controller -> who holds the robots: send these to the viewer, if they are still here.
+struct ViewDue {
+    std::uint32_t epoch = 0;   // of the Controller
+    std::uint64_t serial = 0;  // of its views, ascending
+    Tick tick = 0;             // committed
+    Address viewer;
+    std::vector<RobotId> robots, exact;
+};
+struct ViewStates {  // -> viewer: entries of wire/view_state.h
+    std::uint64_t model_hash = 0;
+    std::uint32_t epoch = 0;
+    std::uint64_t serial = 0;
+    Tick tick = 0;
+    std::vector<std::uint8_t> entries;
+};
+
 // --- Clients
 // -------------------------------------------------------------------------------------------------------------
 
@@ -164,6 +196,7 @@ struct ClientHello {
     Tick period = 1;   // ticks between observations
     Tick latency = 1;  // ticks from an observation to the effect of its orders
     bool synchronous = true;
+    bool guest = false;  // comes and goes: nobody waits for it, whatever it said before
     // Of a Client that was here before and meets a Controller that does not know it:
     Tick expected = -1;              // its next observation; negative: it is new
     std::uint64_t acknowledged = 0;  // its last word that a Controller has acknowledged
@@ -232,10 +265,10 @@ struct ModelChanged {
     std::uint64_t model_hash = 0;
 };
 
-using Message =
-    std::variant<Hello, Welcome, Refused, Expelled, Alive, LeaveRequest, Goodbye, Plan, Frame, StateRequest,
-                 StateReply, ClientHello, ClientWelcome, Observation, ClientWord, WordAck, ClientBye, RunOver,
-                 ModelRequest, ModelPart, ClientUnknown, ControlRequest, ControlReply, ModelChanged>;
+using Message = std::variant<Hello, Welcome, Refused, Expelled, Alive, LeaveRequest, Goodbye, Plan, Frame,
+                             StateRequest, StateReply, ClientHello, ClientWelcome, Observation, ClientWord,
+                             WordAck, ClientBye, RunOver, ModelRequest, ModelPart, ClientUnknown,
+                             ControlRequest, ControlReply, ModelChanged, ViewRequest, ViewDue, ViewStates>;
 
 struct Envelope {
     Address from, to;

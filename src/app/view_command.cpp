@@ -1,0 +1,56 @@
+// Joins the network of a run and gives the gateway its turns.
+#include "app/view_command.h"
+
+#include <fmt/format.h>
+
+#include "app/exit_codes.h"
+#include "app/interrupt.h"
+#include "app/member.h"
+#include "app/viewer.h"
+
+namespace roboss {
+namespace {
+
+const char* const kFooter =
+    R"(It needs no world: Model and looks come from the Controller when the first browser opens the page. It stays when the
+Controller ends, and shows the next one of that name. What is watched and ordered here changes nothing of the result but
+what is ordered.
+
+Examples:
+  roboss view                                      a run on this computer (`roboss controller ...`)
+  roboss view --interface eth0 --view 0.0.0.0:8090  for browsers elsewhere, with a token
+
+Exit codes: 0 ended by Ctrl-C, 1 an option is wrong, or no Controller came in time (--patience).)";
+
+struct ViewCommandOptions {
+    MemberOptions member;
+    ViewerOptions viewer;
+};
+
+int view(const ViewCommandOptions& o) {
+    Member member("view", o.member);
+    Result<std::unique_ptr<Gateway>> gateway = open_viewer(o.viewer, true);
+    if (!gateway) return member.complain(gateway.error()), kBadInput;
+    if (!member.open()) return kBadInput;
+    fmt::print(stderr, "roboss: viewer at {}\n", gateway.value()->url());
+    while (!interrupted()) {
+        gateway.value()->advance(member.bus());
+        for (const std::string& line : gateway.value()->take_notices()) member.say(line);
+        if (!member.wait()) return kBadInput;
+    }
+    member.bus().flush(500);
+    return kDone;
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand("view", "show a running Controller's world to browsers");
+    command->footer(kFooter);
+    auto options = std::make_shared<ViewCommandOptions>();
+    add_viewer_options(*command, options->viewer, false);
+    add_member_options(*command, options->member);
+    command->callback([options, &exit_code] { exit_code = view(*options); });
+}
+
+}  // namespace roboss

@@ -1,0 +1,37 @@
+// Options and addresses.
+#include "app/viewer.h"
+
+#include <random>
+
+namespace roboss {
+
+void add_viewer_options(CLI::App& command, ViewerOptions& o, bool may_do_without) {
+    const std::string group = "Viewer (docs/viewer.md)";
+    command
+        .add_option(
+            "--view", o.listen,
+            "[ADDRESS:]PORT at which browsers find the viewer; if the port is taken, the next one. The "
+            "default address is this computer's own; on any other the address printed carries a token")
+        ->group(group)
+        ->capture_default_str();
+    command
+        .add_option("--web", o.page_folder, "folder of the viewer's page (default: as built or installed)")
+        ->check(CLI::ExistingDirectory)
+        ->group(group);
+    if (may_do_without) command.add_flag("--headless", o.headless, "no viewer")->group(group);
+}
+
+Result<std::unique_ptr<Gateway>> open_viewer(const ViewerOptions& o, bool journal) {
+    GatewayOptions options;
+    options.listen = o.listen;
+    options.page_folder = o.page_folder;
+    options.program = "roboss " ROBOSS_VERSION;
+    options.journal = journal;
+    options.new_address = [] {
+        std::random_device device;
+        return Address{Role::kClient, static_cast<std::uint64_t>(device()) << 32 | device()};
+    };
+    return Gateway::open(options);
+}
+
+}  // namespace roboss

@@ -1,0 +1,23 @@
+// The viewer of a run or of a cluster: its options, the same for all subcommands, and its gateway.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "gateway/gateway.h"
+
+namespace roboss {
+
+struct ViewerOptions {
+    std::string listen = "8090";  // [ADDRESS:]PORT
+    std::string page_folder;      // empty: where it was built or installed
+    bool headless = false;        // none at all
+};
+/// `may_do_without`: with --headless.
+void add_viewer_options(CLI::App& command, ViewerOptions& options, bool may_do_without);
+
+/// Listens; `journal`: the run keeps one.
+Result<std::unique_ptr<Gateway>> open_viewer(const ViewerOptions& options, bool journal);
+
+}  // namespace roboss

@@ -1,0 +1,30 @@
+// WholePull: gets something big (the Model, the scene) from the Controller, part by part. It stands before a
+// role: what else comes for `self` meanwhile is dropped and will be said again.
+#pragma once
+
+#include "bus/bus.h"
+
+namespace roboss {
+
+class WholePull {
+  public:
+    explicit WholePull(Whole what) : what_(what) {}
+
+    /// Handles what has come and asks for what is missing. Never waits.
+    void advance(Bus& bus, const Address& self, std::int64_t resend_ms);
+    bool complete() const { return complete_; }
+    /// Whole once it is complete; may be empty then.
+    const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+
+  private:
+    void take(const ModelPart& part);
+
+    Whole what_;
+    std::vector<std::uint8_t> bytes_;
+    std::uint64_t bytes_hash_ = 0, total_ = 0;
+    bool complete_ = false, ask_now_ = true;
+    std::int64_t asked_ms_ = 0;
+    std::vector<Envelope> inbox_;
+};
+
+}  // namespace roboss

@@ -1,0 +1,58 @@
+// Who may use the gateway: hosts, origins, tokens, and how often one may speak. Pure, so that it can be
+// tested without a network.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/result.h"
+
+namespace roboss {
+
+/// "PORT", "ADDRESS:PORT" or "[ADDRESS]:PORT".
+struct ListenAddress {
+    std::string address = "127.0.0.1";
+    std::uint16_t port = 8090;
+};
+Result<ListenAddress> parse_listen_address(const std::string& text);
+
+bool is_loopback(std::string_view address);
+
+/// Everything that decides about a request, as its headers say.
+struct Visitor {
+    std::string_view host, origin, target, cookie;
+    bool wants_socket = false;
+};
+
+class Access {
+  public:
+    /// `token`: empty: the gateway listens on loopback and needs none.
+    explicit Access(std::string token) : token_(std::move(token)) {}
+
+    /// Why the visitor is refused; empty: it may come in.
+    std::string refusal(const Visitor& visitor) const;
+    /// The visitor named the token in its address (then it may keep it).
+    bool named_token(const Visitor& visitor) const;
+    const std::string& token() const { return token_; }
+
+  private:
+    std::string token_;
+};
+
+/// 128 random bits as hex.
+std::string random_token();
+
+/// At most so many in a second, counted in a bucket that fills steadily.
+class RateLimit {
+  public:
+    explicit RateLimit(double per_second) : per_second_(per_second), left_(per_second) {}
+    /// False: too many.
+    bool take(std::int64_t now_ms);
+
+  private:
+    double per_second_, left_;
+    std::int64_t then_ms_ = 0;
+};
+
+}  // namespace roboss

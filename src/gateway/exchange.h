@@ -1,0 +1,98 @@
+// Exchange: what the run's thread and the gateway's thread hand each other. Neither ever waits for the other:
+// of what is shown only the latest is kept, and while nobody watches the run's side costs one atomic read a
+// turn.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "gateway/page_request.h"
+#include "model/model.h"
+#include "scene/scene_file.h"
+#include "wire/message.h"
+#include "wire/view_state.h"
+
+namespace roboss {
+
+/// What all pages together want to see.
+struct Wish {
+    bool anyone = false;
+    std::uint32_t interval_ms = 0;  // between two views; 0: none
+    std::vector<RobotId> robots;    // whose exact states are wanted, ascending
+    bool contacts = false, bounds = false, groups = false;
+    friend bool operator==(const Wish&, const Wish&) = default;
+};
+
+/// Words or an order of a page.
+struct PageCall {
+    std::uint64_t page = 0;
+    std::int64_t id = 0;
+    std::variant<ControlWords, PageOrder> what;
+};
+
+/// A Model and what it looks like; never changed.
+struct ShownScene {
+    std::uint32_t number = 0;
+    std::shared_ptr<const Model> model;
+    SceneFile file;
+    ViewLayout layout;
+};
+
+/// A line for pages. Its text is made where it is sent from, so that the run does not pay for it.
+struct Line {
+    enum class To { kPage, kAll, kStatus, kGroups, kBounds };
+    To to = To::kAll;
+    std::uint64_t page = 0;
+    bool may_miss = false;  // by a page that is slow
+    std::function<std::string()> make;
+};
+
+/// What the gateway's thread has not seen yet.
+struct News {
+    std::shared_ptr<const ShownScene> scene;  // nullptr: as before
+    std::vector<ViewStates> views;            // the latest of each sender
+    std::vector<StateBlock> exact;            // of one tick
+    std::vector<Line> lines;
+};
+
+class Exchange {
+  public:
+    // --- the gateway's side
+    /// Called once from the run's thread when there is news after take_news().
+    void set_bell(std::function<void()> bell);
+    News take_news();
+    void wish(const Wish& wish);
+    /// False: too many are waiting.
+    bool call(PageCall call);
+
+    // --- the run's side
+    /// Cheap; true if anything was said since the last take.
+    bool stirred() const { return stirred_.load(std::memory_order_acquire); }
+    Wish take_wish();
+    std::vector<PageCall> take_calls();
+    void show(std::shared_ptr<const ShownScene> scene);
+    void show(const Address& sender, ViewStates views);
+    void show(StateBlock exact);
+    void say(Line line);
+
+  private:
+    void ring(std::unique_lock<std::mutex>& lock);
+
+    std::mutex mutex_;
+    std::function<void()> bell_;
+    bool rung_ = false;
+    std::atomic<bool> stirred_ = false;
+    Wish wish_;
+    std::vector<PageCall> calls_;
+    std::shared_ptr<const ShownScene> scene_;
+    std::map<Address, ViewStates> views_;
+    std::vector<StateBlock> exact_;
+    std::vector<Line> lines_;
+};
+
+}  // namespace roboss

@@ -1,0 +1,54 @@
+// Gateway: serves the viewer's page to browsers (docs/viewer.md). Its HTTP and WebSocket server has a thread
+// of its own; towards the run it is a guest that is advanced with the roles, watches what is committed, and
+// gives orders as an ordinary Client. No header of this floor shows Boost, but those named *_session.h.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bus/bus.h"
+#include "core/result.h"
+
+namespace roboss {
+
+struct GatewayOptions {
+    std::string listen = "8090";  // [ADDRESS:]PORT
+    std::string page_folder;      // empty: where it was built or installed
+    bool next_port = true;        // if the port is taken, one of those behind it
+    std::string program = "roboss";
+    bool journal = false;  // the run keeps one: pages offer to rewind
+    /// A new address for the Bus, never used before.
+    std::function<Address()> new_address;
+};
+
+struct GatewayLoad {
+    std::uint64_t pages = 0, sent_bytes = 0;
+    double cpu_s = 0;  // of the server's thread
+};
+
+class Gateway {
+  public:
+    /// Listens at once; an Error says why it cannot.
+    static Result<std::unique_ptr<Gateway>> open(const GatewayOptions& options);
+    ~Gateway();
+
+    /// Where browsers find it, with the token if one is needed.
+    const std::string& url() const;
+    /// The run's side: a turn. Never waits; costs nothing while nobody watches.
+    void advance(Bus& bus);
+    /// Refusals and such, one line each, since the last call.
+    std::vector<std::string> take_notices();
+    /// Why the run is over, as far as it was said; empty: it is not.
+    const std::string& over() const;
+    GatewayLoad load() const;
+
+  private:
+    struct Parts;
+    explicit Gateway(std::unique_ptr<Parts> parts);
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace roboss

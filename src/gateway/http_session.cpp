@@ -1,0 +1,161 @@
+// Requests, and the headers that keep a browser on its guard.
+#include "gateway/http_session.h"
+
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/websocket.hpp>
+#include <charconv>
+
+#include "gateway/page_session.h"
+#include "gateway/server_core_session.h"
+
+namespace roboss {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+
+constexpr auto kPatience = std::chrono::seconds(20);
+constexpr std::uint32_t kHeaderBytesMax = 16u << 10;
+
+const char* const kContentSecurityPolicy =
+    "default-src 'self'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
+    "media-src 'self' blob:; worker-src 'self' blob:; connect-src 'self'; object-src 'none'; base-uri "
+    "'none'; "
+    "form-action 'none'; frame-ancestors 'none'";
+
+std::string_view view_of(beast::string_view text) {
+    return {text.data(), text.size()};
+}
+
+std::string_view path_of(std::string_view target) {
+    return target.substr(0, target.find('?'));
+}
+
+std::string name_of(const asio::ip::tcp::socket& socket) {
+    beast::error_code error;
+    const auto endpoint = socket.remote_endpoint(error);
+    return error ? "someone" : endpoint.address().to_string();
+}
+
+}  // namespace
+
+HttpSession::HttpSession(asio::ip::tcp::socket&& socket, ServerCore& core)
+    : stream_(std::move(socket)), core_(core), peer_(name_of(stream_.socket())) {}
+
+HttpSession::~HttpSession() {
+    if (counted_) core_.connection_ended();
+}
+
+void HttpSession::read() {
+    parser_.emplace();
+    parser_->header_limit(kHeaderBytesMax);
+    parser_->body_limit(0);
+    stream_.expires_after(kPatience);
+    http::async_read(
+        stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+            if (error == http::error::end_of_stream || error == asio::error::operation_aborted ||
+                error == beast::error::timeout || error == asio::error::connection_reset)
+                return self->stream_.close();
+            if (error) {
+                self->request_ = {};
+                self->request_.version(11);
+                return self->refuse(http::status::bad_request, "its request is damaged: " + error.message());
+            }
+            self->request_ = self->parser_->release();
+            self->serve();
+        });
+}
+
+void HttpSession::serve() {
+    const std::string_view path = path_of(view_of(request_.target()));
+    const bool socket = path == "/ws";
+    const Visitor visitor{view_of(request_[http::field::host]), view_of(request_[http::field::origin]),
+                          view_of(request_.target()), view_of(request_[http::field::cookie]), socket};
+    if (const std::string refusal = core_.access().refusal(visitor); !refusal.empty())
+        return refuse(http::status::forbidden, refusal);
+    if (request_.method() != http::verb::get && request_.method() != http::verb::head)
+        return refuse(http::status::method_not_allowed, "it may only ask");
+    if (socket) return upgrade();
+    if (path == "/scene") return serve_scene();
+    Answer answer = answer_for(path);
+    answer.keeps_token = core_.access().named_token(visitor);
+    send(std::move(answer));
+}
+
+void HttpSession::upgrade() {
+    if (!beast::websocket::is_upgrade(request_))
+        return refuse(http::status::upgrade_required, "it asks for /ws without a WebSocket");
+    auto page = std::make_shared<PageSession>(std::move(stream_), core_, core_.next_page(), peer_);
+    if (!core_.admit(page)) {
+        core_.notice("viewer: a page of " + peer_ + " is turned away, there are too many");
+        return page->close();
+    }
+    page->start(request_);
+}
+
+/// The scene may have to be fetched first.
+void HttpSession::serve_scene() {
+    core_.want_scene([self = shared_from_this()] {
+        const auto& scene = self->core_.scene();
+        if (!scene)
+            return self->send({http::status::service_unavailable, "text/plain; charset=utf-8",
+                               "the run does not answer yet\n", false});
+        self->send({http::status::ok, "application/json", numbered(scene->file, scene->number), false});
+    });
+}
+
+HttpSession::Answer HttpSession::mesh(std::string_view number) const {
+    std::size_t n = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), n);
+    const auto& scene = core_.scene();
+    if (error != std::errc() || end != number.data() + number.size() || !scene ||
+        n >= scene->file.meshes.size())
+        return {http::status::not_found, "text/plain; charset=utf-8", "there is no such mesh\n", false};
+    const std::vector<std::uint8_t>& bytes = scene->file.meshes[n];
+    return {http::status::ok, "application/octet-stream", std::string(bytes.begin(), bytes.end()), false};
+}
+
+HttpSession::Answer HttpSession::answer_for(std::string_view path) const {
+    constexpr std::string_view kMesh = "/mesh/";
+    if (path.starts_with(kMesh)) return mesh(path.substr(kMesh.size()));
+    std::optional<PageFile> file = core_.files().find(path);
+    if (!file)
+        return {http::status::not_found, "text/plain; charset=utf-8", "there is no such file\n", false};
+    return {http::status::ok, file->type, std::move(file->content), false};
+}
+
+void HttpSession::refuse(http::status status, const std::string& why) {
+    core_.notice("viewer: a request of " + peer_ + " is refused: " + why);
+    request_.keep_alive(false);
+    send({status, "text/plain; charset=utf-8", "refused: " + why + "\n", false});
+}
+
+void HttpSession::send(Answer answer) {
+    auto response = std::make_shared<http::response<http::string_body>>(answer.status, request_.version());
+    response->set(http::field::server, "roboss");
+    response->set(http::field::content_type, answer.type);
+    response->set(http::field::cache_control, "no-cache");
+    response->set("Content-Security-Policy", kContentSecurityPolicy);
+    response->set("X-Content-Type-Options", "nosniff");
+    response->set("Referrer-Policy", "no-referrer");
+    response->set("Cross-Origin-Resource-Policy", "same-origin");
+    if (answer.keeps_token)
+        response->set(http::field::set_cookie,
+                      "roboss_token=" + core_.access().token() + "; HttpOnly; SameSite=Strict; Path=/");
+    response->body() = std::move(answer.body);
+    response->prepare_payload();
+    if (request_.method() == http::verb::head) response->body().clear();
+    response->keep_alive(request_.keep_alive());
+    stream_.expires_after(kPatience);
+    http::async_write(stream_, *response,
+                      [self = shared_from_this(), response](beast::error_code error, std::size_t bytes) {
+                          self->core_.count_sent(bytes);
+                          if (error) return self->stream_.close();
+                          if (response->keep_alive()) return self->read();
+                          beast::error_code ignored;
+                          self->stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
+                      });
+}
+
+}  // namespace roboss

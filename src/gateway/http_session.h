@@ -1,0 +1,47 @@
+// HttpSession: one connection before it is a WebSocket: the page's files, the scene and its meshes.
+#pragma once
+
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace roboss {
+
+class ServerCore;
+
+class HttpSession : public std::enable_shared_from_this<HttpSession> {
+  public:
+    HttpSession(boost::asio::ip::tcp::socket&& socket, ServerCore& core);
+    ~HttpSession();
+    void start() { read(); }
+
+  private:
+    using Request = boost::beast::http::request<boost::beast::http::empty_body>;
+    struct Answer {
+        boost::beast::http::status status = boost::beast::http::status::ok;
+        std::string type = "text/plain; charset=utf-8";
+        std::string body;
+        bool keeps_token = false;
+    };
+
+    void read();
+    void serve();
+    void upgrade();
+    void serve_scene();
+    Answer answer_for(std::string_view path) const;
+    Answer mesh(std::string_view number) const;
+    void send(Answer answer);
+    void refuse(boost::beast::http::status status, const std::string& why);
+
+    boost::beast::tcp_stream stream_;
+    ServerCore& core_;
+    std::string peer_;
+    boost::beast::flat_buffer buffer_;
+    std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> parser_;
+    Request request_;
+    bool counted_ = true;
+};
+
+}  // namespace roboss

@@ -1,0 +1,230 @@
+// Exact states to the JSON of a page.
+#include "gateway/inspector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "physics/kinematics.h"
+#include "wire/state_block.h"
+
+namespace roboss {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has no infinity.
+Json json_of(double value) {
+    return std::isfinite(value) ? Json(value) : Json();
+}
+
+Json json_of(const Vec3& v) {
+    return {json_of(v.x), json_of(v.y), json_of(v.z)};
+}
+
+Json json_of(const Pose& X) {
+    return {json_of(X.p.x), json_of(X.p.y), json_of(X.p.z), json_of(X.q.w),
+            json_of(X.q.x), json_of(X.q.y), json_of(X.q.z)};
+}
+
+Json json_of(const std::vector<double>& values) {
+    Json list = Json::array();
+    for (const double value : values) list.push_back(json_of(value));
+    return list;
+}
+
+const char* name_of(MotorMode mode) {
+    static constexpr const char* kNames[] = {"passive", "velocity", "position", "effort"};
+    return kNames[static_cast<std::size_t>(mode) % 4];
+}
+
+Json joint_json(const RobotType& type, const RobotState& state, JointId id, double dt_s) {
+    const Joint& joint = type.joints[id.index()];
+    Json position = Json::array(), velocity = Json::array(), motors = Json::array();
+    for (int axis = 0; axis < joint.nv; ++axis) {
+        const JointState s = joint_state(type, state, id, axis);
+        position.push_back(json_of(s.position));
+        velocity.push_back(json_of(s.velocity));
+        const MotorSetpoint& motor = state.motors[type.motor_index(joint, axis)];
+        motors.push_back({{"mode", name_of(motor.mode)},
+                          {"target", json_of(motor.target)},
+                          {"effort", json_of(motor.impulse / dt_s)},
+                          {"max_effort", json_of(motor.max_effort)}});
+    }
+    return {
+        {"position", std::move(position)}, {"velocity", std::move(velocity)}, {"motors", std::move(motors)}};
+}
+
+Json json_of(const LaserReading& reading) {
+    return {{"ranges", json_of(reading.ranges)}};
+}
+
+Json json_of(const GpsReading& reading) {
+    constexpr double kDegrees = 180 / std::numbers::pi;
+    if (!reading.geodetic)
+        return {{"position", json_of(reading.p_W)}, {"geodetic", false}, {"velocity", json_of(reading.v_W)}};
+    return {{"position",
+             {json_of(reading.latitude_rad * kDegrees), json_of(reading.longitude_rad * kDegrees),
+              json_of(reading.altitude_m)}},
+            {"geodetic", true},
+            {"velocity", json_of(reading.v_W)}};
+}
+
+Json json_of(const CompassReading& reading) {
+    const Quat& q = reading.q_WS;
+    const double yaw = std::atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z));
+    return {{"yaw", json_of(yaw)},
+            {"heading", json_of(reading.heading_rad)},
+            {"orientation", {json_of(q.w), json_of(q.x), json_of(q.y), json_of(q.z)}},
+            {"angular_velocity", json_of(reading.angular_velocity_S)},
+            {"magnetic_field", json_of(reading.magnetic_field_S)}};
+}
+
+Json json_of(const OdometerReading& reading) {
+    return {{"distance", json_of(reading.distance)},
+            {"speed", json_of(reading.speed)},
+            {"joints", json_of(reading.joint_positions)}};
+}
+
+bool has_laser(const RobotType& type) {
+    return std::any_of(type.sensors.begin(), type.sensors.end(),
+                       [](const SensorInfo& s) { return s.spec.kind == SensorKind::kLaser; });
+}
+
+struct SensorQuestion {
+    const Model& model;
+    RobotId robot;
+    const RobotState& state;
+    Tick tick;
+    std::uint64_t seed;
+    RayScene* rays;  // nullptr: not all states are here, lasers see nothing
+};
+
+Json sensor_json(const SensorQuestion& ask, std::size_t sensor) {
+    switch (ask.model.type_of(ask.robot).sensors[sensor].spec.kind) {
+        case SensorKind::kLaser:
+            if (ask.rays == nullptr) return Json::object();
+            return json_of(
+                read_laser(ask.model, ask.robot, sensor, ask.state, ask.tick, ask.seed, *ask.rays));
+        case SensorKind::kGps:
+            return json_of(read_gps(ask.model, ask.robot, sensor, ask.state, ask.tick, ask.seed));
+        case SensorKind::kCompass:
+            return json_of(read_compass(ask.model, ask.robot, sensor, ask.state, ask.tick, ask.seed));
+        case SensorKind::kOdometer:
+            return json_of(read_odometer(ask.model, ask.robot, sensor, ask.state, ask.tick, ask.seed));
+        case SensorKind::kUnsupported:
+            break;
+    }
+    return Json::object();
+}
+
+/// From what the robot's own state remembers of its contacts: against whom, and how hard along the normal.
+/// The lower RobotId of a pair remembers it.
+Json contacts_json(const RobotState& state, double dt_s) {
+    Json list = Json::array();
+    for (const ContactMemory& contact : state.contacts)
+        list.push_back(
+            {{"other",
+              contact.other_robot == RobotId::kNone ? -1 : static_cast<std::int64_t>(contact.other_robot)},
+             {"normal_force", json_of(contact.impulse / dt_s)}});
+    return list;
+}
+
+}  // namespace
+
+void Inspector::begin(std::shared_ptr<const ShownScene> scene) {
+    rays_.reset();
+    probe_.reset();
+    scene_ = std::move(scene);
+    tick_ = rays_tick_ = -1;
+    states_.assign(scene_->model->robots.size(), std::nullopt);
+    known_ = 0;
+}
+
+void Inspector::take(const StateBlock& block) {
+    if (!scene_) return;
+    if (block.tick != tick_) {
+        std::fill(states_.begin(), states_.end(), std::nullopt);
+        known_ = 0;
+        tick_ = block.tick;
+        rays_tick_ = -1;
+    }
+    std::size_t offset = 0;
+    for (std::size_t i = 0; i < block.robots.size(); ++i) {
+        const RobotId robot = block.robots[i];
+        if (robot.index() < states_.size() && !states_[robot.index()]) {
+            Result<RobotState> state =
+                decode_state(state_bytes(block, i, offset), scene_->model->type_of(robot));
+            if (state) states_[robot.index()] = std::move(state).value(), ++known_;
+        }
+        offset += block.sizes[i];
+    }
+}
+
+bool Inspector::shows(RobotId robot) const {
+    if (robot.index() >= states_.size() || !states_[robot.index()]) return false;
+    return complete() || !has_laser(scene_->model->type_of(robot));
+}
+
+RayScene* Inspector::rays() {
+    if (!complete()) return nullptr;
+    if (!rays_) rays_ = std::make_unique<RayScene>(scene_->model);
+    if (rays_tick_ != tick_) {
+        std::vector<const RobotState*> states;
+        for (const auto& state : states_) states.push_back(&*state);
+        rays_->update(states);
+        rays_tick_ = tick_;
+    }
+    return rays_.get();
+}
+
+std::string Inspector::robot(RobotId robot) {
+    const Model& model = *scene_->model;
+    const RobotType& type = model.type_of(robot);
+    const RobotState& state = *states_[robot.index()];
+    const SensorQuestion ask{
+        model, robot, state, tick_, scene_->file.seed, has_laser(type) ? rays() : nullptr};
+    Json joints = Json::array(), sensors = Json::array();
+    for (std::size_t j = 0; j < type.joints.size(); ++j)
+        joints.push_back(joint_json(type, state, JointId(j), model.dt_s));
+    for (std::size_t s = 0; s < type.sensors.size(); ++s) sensors.push_back(sensor_json(ask, s));
+    const auto v = [&](std::size_t k) { return type.free_base ? state.v[k] : 0.0; };
+    const Pose X_WR = to_pose(to_transform(base_pose(state)) * inverse(type.X_RB));
+    return Json{{"type", "robot"},
+                {"scene", scene_->number},
+                {"robot", robot.value},
+                {"tick", tick_},
+                {"time", static_cast<double>(tick_) * model.dt_s},
+                {"pose", json_of(X_WR)},
+                {"linear", json_of(Vec3{v(3), v(4), v(5)})},
+                {"angular", json_of(Vec3{v(0), v(1), v(2)})},
+                {"joints", std::move(joints)},
+                {"sensors", std::move(sensors)},
+                {"contacts", contacts_json(state, model.dt_s)}}
+        .dump();
+}
+
+std::string Inspector::contacts() {
+    const Model& model = *scene_->model;
+    if (!probe_) probe_ = std::make_unique<StepProbe>(model);
+    if (probe_->tick() != tick_) {
+        std::vector<const RobotState*> states;
+        for (const auto& state : states_) states.push_back(&*state);
+        probe_->step(tick_, states);
+    }
+    Json list = Json::array();
+    for (const ContactReport& c : probe_->contacts()) {
+        const Vec3 force = (c.normal * c.impulse + c.friction) * (1 / model.dt_s);
+        list.push_back({{"a", c.robot_a.value},
+                        {"b", c.robot_b.valid() ? static_cast<std::int64_t>(c.robot_b.value) : -1},
+                        {"point", json_of(c.p_W)},
+                        {"normal", json_of(c.normal)},
+                        {"force", json_of(force)}});
+    }
+    return Json{
+        {"type", "overlay"}, {"scene", scene_->number}, {"tick", tick_}, {"contacts", std::move(list)}}
+        .dump();
+}
+
+}  // namespace roboss

@@ -1,0 +1,44 @@
+// Inspector: what pages look at closely. From exact states, in the gateway's thread, it computes what a
+// Client would: poses, motors and sensors of watched robots, contacts of the world. Pure functions of (Model,
+// states), so that looking changes nothing.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gateway/exchange.h"
+#include "physics/probe.h"
+#include "sensors/readings.h"
+
+namespace roboss {
+
+class Inspector {
+  public:
+    void begin(std::shared_ptr<const ShownScene> scene);
+    void take(const StateBlock& block);
+    /// Its state at tick() is here, and all that its sensors see.
+    bool shows(RobotId robot) const;
+    Tick tick() const { return tick_; }
+    /// All states of tick() are here: lasers and contacts can be had.
+    bool complete() const { return known_ == states_.size(); }
+
+    /// The JSON of "robot", of a robot that it shows().
+    std::string robot(RobotId robot);
+    /// The JSON of "overlay" with the contacts, once complete().
+    std::string contacts();
+
+  private:
+    RayScene* rays();
+
+    std::shared_ptr<const ShownScene> scene_;
+    Tick tick_ = -1;
+    std::vector<std::optional<RobotState>> states_;  // by RobotId, at tick_
+    std::size_t known_ = 0;
+    std::unique_ptr<RayScene> rays_;
+    Tick rays_tick_ = -1;
+    std::unique_ptr<StepProbe> probe_;
+};
+
+}  // namespace roboss

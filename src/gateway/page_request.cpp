@@ -1,0 +1,193 @@
+// Reading JSON that anybody may have written.
+#include "gateway/page_request.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "wire/viewer_protocol.h"
+
+namespace roboss {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t kWordsMax = 64;
+constexpr int kDepthMax = 8;
+
+/// Fields of one object; the first that is wrong is remembered.
+class Fields {
+  public:
+    explicit Fields(const Json& object) : object_(object) {}
+
+    const Json* find(const char* name) const {
+        const auto found = object_.find(name);
+        return found == object_.end() ? nullptr : &*found;
+    }
+    std::string text(const char* name) {
+        const Json* value = find(name);
+        if (value != nullptr && value->is_string()) return value->get<std::string>();
+        return fail(name, "a string"), std::string();
+    }
+    double number(const char* name, std::optional<double> otherwise = {}) {
+        const Json* value = find(name);
+        if (value == nullptr && otherwise) return *otherwise;
+        if (value != nullptr && value->is_number() && std::isfinite(value->get<double>()))
+            return value->get<double>();
+        return fail(name, "a finite number"), 0;
+    }
+    std::uint32_t index(const char* name, std::optional<std::uint32_t> otherwise = {}) {
+        const Json* value = find(name);
+        if (value == nullptr && otherwise) return *otherwise;
+        return value == nullptr ? (fail(name, "a number from 0 on"), 0) : index_of(*value, name);
+    }
+    std::vector<double> numbers(const char* name, std::size_t count) {
+        std::vector<double> values;
+        const Json* list = find(name);
+        if (list != nullptr && list->is_array() && list->size() == count)
+            for (const Json& value : *list)
+                if (value.is_number() && std::isfinite(value.get<double>())) values.push_back(value);
+        if (values.size() != count) fail(name, "a list of " + std::to_string(count) + " finite numbers");
+        values.resize(count);
+        return values;
+    }
+    Vec3 vec3(const char* name) {
+        const std::vector<double> v = numbers(name, 3);
+        return {v[0], v[1], v[2]};
+    }
+    std::uint32_t index_of(const Json& value, const char* name) {
+        if (value.is_number_unsigned() && value.get<std::uint64_t>() < RobotId::kNone)
+            return value.get<std::uint32_t>();
+        return fail(name, "a number from 0 on"), 0;
+    }
+    void fail(const std::string& name, const std::string& wanted) {
+        if (wrong_.empty()) wrong_ = "\"" + name + "\" is not " + wanted;
+    }
+    const std::string& wrong() const { return wrong_; }
+
+  private:
+    const Json& object_;
+    std::string wrong_;
+};
+
+ControlWords control_of(Fields& fields) {
+    ControlWords control;
+    const Json* words = fields.find("words");
+    if (words == nullptr || !words->is_array() || words->empty() || words->size() > kWordsMax)
+        return fields.fail("words", "a list of 1 to 64 strings"), control;
+    for (const Json& word : *words) {
+        if (!word.is_string()) return fields.fail("words", "a list of strings"), control;
+        control.words.push_back(word.get<std::string>());
+    }
+    return control;
+}
+
+SetPose pose_of(Fields& fields) {
+    const std::vector<double> v = fields.numbers("pose", 7);
+    const double norm_squared = v[3] * v[3] + v[4] * v[4] + v[5] * v[5] + v[6] * v[6];
+    if (!(norm_squared > 1e-6 && norm_squared < 1e6))
+        return fields.fail("pose", "a place and a quaternion"), SetPose{};
+    return {{{v[0], v[1], v[2]}, normalized(Quat{v[3], v[4], v[5], v[6]})}};
+}
+
+SetJoint joint_of(Fields& fields) {
+    SetJoint joint;
+    joint.joint = JointId(fields.index("joint"));
+    joint.axis = static_cast<int>(fields.index("axis", 0u) % 8);
+    const std::string mode = fields.text("mode");
+    joint.target = fields.number("target", 0.0);
+    joint.max_effort = fields.number("max_effort", -1.0);
+    if (mode == "passive") return joint.mode = MotorMode::kPassive, joint;
+    if (mode == "velocity") return joint.mode = MotorMode::kVelocity, joint;
+    if (mode == "position") return joint.mode = MotorMode::kPosition, joint;
+    if (mode == "effort") return joint.mode = MotorMode::kEffort, joint;
+    return fields.fail("mode", "passive, velocity, position or effort"), joint;
+}
+
+PageOrder order_of(Fields& fields) {
+    PageOrder order;
+    order.robot = RobotId(fields.index("robot"));
+    const std::string action = fields.text("action");
+    if (action == "pose") {
+        order.action = pose_of(fields);
+    } else if (action == "velocity") {
+        order.action = SetVelocity{fields.vec3("linear"), fields.vec3("angular")};
+    } else if (action == "wrench") {
+        order.action = PageWrench{LinkId(fields.index("link", 0u)), fields.vec3("force"),
+                                  fields.vec3("torque"), fields.number("duration", 0.1)};
+    } else if (action == "joint") {
+        order.action = joint_of(fields);
+    } else {
+        fields.fail("action", "pose, velocity, wrench or joint");
+    }
+    return order;
+}
+
+PageWatch watch_of(Fields& fields) {
+    PageWatch watch;
+    const Json none = Json::array();
+    const Json* robots = fields.find("robots");
+    if (robots == nullptr) robots = &none;
+    if (!robots->is_array() || robots->size() > viewer_protocol::kWatchedRobotsMax)
+        return fields.fail("robots", "a list of at most 8 robots"), watch;
+    for (const Json& robot : *robots) watch.robots.emplace_back(fields.index_of(robot, "robots"));
+    const Json* overlays = fields.find("overlays");
+    if (overlays == nullptr) overlays = &none;
+    if (!overlays->is_array() || overlays->size() > 16)
+        return fields.fail("overlays", "a list of names"), watch;
+    for (const Json& overlay : *overlays) {
+        watch.contacts = watch.contacts || overlay == "contacts";
+        watch.bounds = watch.bounds || overlay == "bounds";
+        watch.groups = watch.groups || overlay == "groups";
+    }
+    watch.rate = fields.number("rate", 30.0);
+    if (!(watch.rate >= 0)) fields.fail("rate", "a number from 0 on");
+    watch.rate = std::min(watch.rate, static_cast<double>(viewer_protocol::kRateMax));
+    return watch;
+}
+
+/// Deep nesting costs a parser its stack: it is counted before anything is parsed.
+bool too_deep(std::string_view text) {
+    int depth = 0, deepest = 0;
+    bool quoted = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (quoted && c == '\\') ++i;
+        if (c == '"') quoted = !quoted;
+        if (quoted) continue;
+        if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
+        if (c == ']' || c == '}') --depth;
+    }
+    return deepest > kDepthMax;
+}
+
+}  // namespace
+
+Result<PageRequest> parse_page_request(std::string_view text) {
+    const auto refused = [](const std::string& why) {
+        return Error{"a page's message is not understood: " + why, "see docs/viewer-protocol.md"};
+    };
+    if (too_deep(text)) return refused("it is nested too deeply");
+    const Json json = Json::parse(text, nullptr, false);
+    if (!json.is_object()) return refused("it is no JSON object");
+    Fields fields(json);
+    const std::string type = fields.text("type");
+    PageRequest request;
+    if (type == "control" || type == "order") request.id = static_cast<std::int64_t>(fields.index("id", 0u));
+    if (type == "control") {
+        request.what = control_of(fields);
+    } else if (type == "order") {
+        request.what = order_of(fields);
+    } else if (type == "watch") {
+        request.what = watch_of(fields);
+    } else if (type == "whole") {
+        request.what = PageWhole{};
+    } else {
+        fields.fail("type", "control, order, watch or whole");
+    }
+    if (!fields.wrong().empty()) return refused(fields.wrong());
+    return request;
+}
+
+}  // namespace roboss

@@ -1,0 +1,43 @@
+// What a page says, from its JSON to plain data (docs/viewer-protocol.md). A page is not believed: whatever
+// is not as the protocol says is an Error that names it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/result.h"
+#include "model/order.h"
+
+namespace roboss {
+
+struct ControlWords {
+    std::vector<std::string> words;
+};
+/// A wrench as pages give it: its duration in seconds.
+struct PageWrench {
+    LinkId link;
+    Vec3 force, torque;
+    double duration_s = 0.1;
+};
+struct PageOrder {
+    RobotId robot;
+    std::variant<SetPose, SetVelocity, PageWrench, SetJoint> action;
+};
+struct PageWatch {
+    std::vector<RobotId> robots;
+    bool contacts = false, bounds = false, groups = false;
+    double rate = 30;  // States a second
+};
+struct PageWhole {};
+
+struct PageRequest {
+    std::int64_t id = 0;  // of words and orders, for the answer
+    std::variant<ControlWords, PageOrder, PageWatch, PageWhole> what;
+};
+
+Result<PageRequest> parse_page_request(std::string_view text);
+
+}  // namespace roboss

@@ -1,0 +1,83 @@
+// What pages may say is understood; anything else is refused by name.
+#include "gateway/page_request.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace roboss {
+namespace {
+
+TEST(PageRequest, UnderstandsEveryKindOfOrder) {
+    const auto order = [](const std::string& rest) {
+        Result<PageRequest> request = parse_page_request(R"({"type":"order","id":6,"robot":7,)" + rest + "}");
+        EXPECT_TRUE(request.ok()) << request.error().text();
+        EXPECT_EQ(request.value().id, 6);
+        return std::get<PageOrder>(request.value().what);
+    };
+    const PageOrder pose = order(R"("action":"pose","pose":[1,2,3,2,0,0,0])");
+    EXPECT_EQ(pose.robot, RobotId(7u));
+    EXPECT_EQ(std::get<SetPose>(pose.action).X_WR.p, (Vec3{1, 2, 3}));
+    EXPECT_EQ(std::get<SetPose>(pose.action).X_WR.q.w, 1) << "normalised";
+    const PageOrder push =
+        order(R"("action":"wrench","link":2,"force":[0,0,9],"torque":[0,0,0],"duration":0.5)");
+    EXPECT_EQ(std::get<PageWrench>(push.action).duration_s, 0.5);
+    const PageOrder joint = order(R"("action":"joint","joint":1,"axis":1,"mode":"position","target":-2)");
+    EXPECT_EQ(std::get<SetJoint>(joint.action).mode, MotorMode::kPosition);
+    EXPECT_EQ(std::get<SetJoint>(joint.action).max_effort, -1) << "the joint's own";
+    EXPECT_EQ(std::get<SetVelocity>(order(R"("action":"velocity","linear":[1,0,0],"angular":[0,0,2])").action)
+                  .angular,
+              (Vec3{0, 0, 2}));
+}
+
+TEST(PageRequest, UnderstandsWatchesAndBoundsTheirRate) {
+    const auto request =
+        parse_page_request(R"({"type":"watch","robots":[3,9],"overlays":["contacts","new"],"rate":500})");
+    ASSERT_TRUE(request.ok());
+    const PageWatch& watch = std::get<PageWatch>(request.value().what);
+    EXPECT_EQ(watch.robots, (std::vector<RobotId>{RobotId(3u), RobotId(9u)}));
+    EXPECT_TRUE(watch.contacts);
+    EXPECT_FALSE(watch.bounds);
+    EXPECT_EQ(watch.rate, 60);
+}
+
+TEST(PageRequest, RefusesWhatIsWrongByName) {
+    const std::pair<const char*, const char*> wrongs[] = {
+        {"", "no JSON object"},
+        {"[]", "no JSON object"},
+        {R"({"type":7})", "\"type\""},
+        {R"({"type":"control","words":[]})", "\"words\""},
+        {R"({"type":"control","words":["a",1]})", "\"words\""},
+        {R"({"type":"control","id":-1,"words":["a"]})", "\"id\""},
+        {R"({"type":"order","robot":1.5,"action":"velocity"})", "\"robot\""},
+        {R"({"type":"order","robot":1,"action":"explode"})", "\"action\""},
+        {R"({"type":"order","robot":1,"action":"pose","pose":[0,0,0,0,0,0,0]})", "\"pose\""},
+        {R"({"type":"order","robot":1,"action":"pose","pose":[0,0,"a",1,0,0,0]})", "\"pose\""},
+        {R"({"type":"order","robot":1,"action":"joint","joint":0,"mode":"magic"})", "\"mode\""},
+        {R"({"type":"watch","robots":[1,2,3,4,5,6,7,8,9]})", "\"robots\""},
+        {R"({"type":"watch","rate":-3})", "\"rate\""},
+        {R"({"a":[[[[[[[[[1]]]]]]]]]})", "nested too deeply"},
+    };
+    for (const auto& [text, named] : wrongs) {
+        const auto request = parse_page_request(text);
+        ASSERT_FALSE(request.ok()) << text;
+        EXPECT_NE(request.error().message.find(named), std::string::npos)
+            << text << ": " << request.error().message;
+    }
+}
+
+TEST(PageRequest, NoBytesBreakIt) {
+    std::mt19937_64 random(20261121);
+    const std::string good = R"({"type":"order","id":6,"robot":7,"action":"pose","pose":[1,2,3,1,0,0,0]})";
+    int refused = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        std::string text = good;
+        for (std::uint64_t k = 0; k < 1 + random() % 4; ++k)
+            text[random() % text.size()] = static_cast<char>(random());
+        refused += parse_page_request(text).ok() ? 0 : 1;
+    }
+    EXPECT_GT(refused, 1000);
+}
+
+}  // namespace
+}  // namespace roboss

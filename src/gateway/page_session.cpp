@@ -1,0 +1,168 @@
+// Beast does the protocol; here is what may be said and when.
+#include "gateway/page_session.h"
+
+#include <boost/asio/buffer.hpp>
+
+#include "gateway/server_core_session.h"
+#include "wire/viewer_protocol.h"
+
+namespace roboss {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace websocket = beast::websocket;
+
+constexpr std::size_t kLinesMissAt = 8, kLinesMax = 4'000;
+constexpr std::int64_t kSilent_s = 30;
+
+}  // namespace
+
+PageSession::PageSession(beast::tcp_stream&& stream, ServerCore& core, std::uint64_t number, std::string peer)
+    : socket_(std::move(stream)),
+      core_(core),
+      number_(number),
+      peer_(std::move(peer)),
+      timer_(socket_.get_executor()),
+      rate_(static_cast<double>(viewer_protocol::kMessagesASecondMax)) {}
+
+void PageSession::start(const Request& request) {
+    beast::get_lowest_layer(socket_).expires_never();
+    websocket::stream_base::timeout timeout =
+        websocket::stream_base::timeout::suggested(beast::role_type::server);
+    timeout.idle_timeout = std::chrono::seconds(kSilent_s);
+    timeout.keep_alive_pings = true;
+    socket_.set_option(timeout);
+    beast::http::token_list offered(request[beast::http::field::sec_websocket_protocol]);
+    const bool ours = offered.exists(viewer_protocol::kSubprotocol);
+    socket_.set_option(websocket::stream_base::decorator([ours](websocket::response_type& response) {
+        if (ours) response.set(beast::http::field::sec_websocket_protocol, viewer_protocol::kSubprotocol);
+        response.set(beast::http::field::server, "roboss");
+    }));
+    socket_.read_message_max(viewer_protocol::kMessageBytesMax);
+    socket_.write_buffer_bytes(1 << 16);
+    socket_.auto_fragment(false);
+    socket_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
+        if (error) return self->end("its handshake failed: " + error.message());
+        self->open_ = true;
+        if (self->core_.scene()) self->greet();
+        self->core_.watch_changed();
+        self->show_state();
+        self->read();
+    });
+}
+
+void PageSession::close() {
+    beast::error_code ignored;
+    beast::get_lowest_layer(socket_).socket().close(ignored);
+}
+
+/// The end of the session; `why` is for the log, empty: it left by itself.
+void PageSession::end(const std::string& why) {
+    if (std::exchange(ended_, true)) return;
+    open_ = false;
+    if (!why.empty()) core_.notice("viewer: page " + std::to_string(number_) + " of " + peer_ + ": " + why);
+    timer_.cancel();
+    close();
+    core_.dismiss(number_);
+}
+
+void PageSession::read() {
+    buffer_.clear();
+    socket_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+        if (self->ended_) return;
+        if (error == websocket::error::closed || error == asio::error::operation_aborted)
+            return self->end({});
+        if (error == websocket::error::message_too_big)
+            return self->end("its message is larger than " +
+                             std::to_string(viewer_protocol::kMessageBytesMax) + " bytes");
+        if (error == beast::error::timeout) return self->end("it has fallen silent");
+        if (error) return self->end("its connection broke: " + error.message());
+        if (!self->socket_.got_text()) return self->end("it sent a binary message");
+        if (!self->rate_.take(steady_ms()))
+            return self->end("it floods: more than " + std::to_string(viewer_protocol::kMessagesASecondMax) +
+                             " messages a second");
+        self->take(beast::buffers_to_string(self->buffer_.data()));
+        if (!self->ended_) self->read();
+    });
+}
+
+void PageSession::take(const std::string& text) {
+    Result<PageRequest> request = parse_page_request(text);
+    if (!request) return end(request.error().message);
+    if (std::holds_alternative<PageWatch>(request.value().what)) {
+        watch_ = std::get<PageWatch>(request.value().what);
+        core_.watch_changed();
+    } else if (std::holds_alternative<PageWhole>(request.value().what)) {
+        shelf_.whole = true;
+        show_state();
+    } else {
+        core_.call(*this, std::move(request).value());
+    }
+}
+
+bool PageSession::greet() {
+    if (!open_ || std::exchange(greeted_, true)) return false;
+    say(core_.hello(), false);
+    return true;
+}
+
+void PageSession::say(std::string text, bool may_miss) {
+    if (!open_ || (may_miss && lines_.size() >= kLinesMissAt)) return;
+    if (lines_.size() >= kLinesMax) return end("it does not read what it asked for");
+    lines_.push_back(std::move(text));
+    write_next();
+}
+
+void PageSession::begin_scene() {
+    shelf_ = {};
+    state_wanted_ = false;
+}
+
+void PageSession::show_state() {
+    state_wanted_ = true;
+    write_next();
+}
+
+/// At its rate, within a tenth; if it is too early, a timer is set.
+bool PageSession::state_due() {
+    if (!core_.book().known() || !(watch_.rate > 0)) return false;
+    const auto interval_ms = static_cast<std::int64_t>(900 / watch_.rate);
+    const std::int64_t left_ms = state_ms_ + interval_ms - steady_ms();
+    if (left_ms <= 0) return true;
+    if (std::exchange(timing_, true)) return false;
+    timer_.expires_after(std::chrono::milliseconds(left_ms));
+    timer_.async_wait([self = shared_from_this()](beast::error_code error) {
+        self->timing_ = false;
+        if (!error) self->write_next();
+    });
+    return false;
+}
+
+void PageSession::write_next() {
+    if (!open_ || writing_) return;
+    const auto done = [self = shared_from_this()](beast::error_code error, std::size_t bytes) {
+        self->writing_ = false;
+        self->sent_bytes_ += bytes;
+        self->core_.count_sent(bytes);
+        if (error)
+            return self->end(error == asio::error::operation_aborted ? "" : "it is gone: " + error.message());
+        self->write_next();
+    };
+    if (!lines_.empty()) {
+        line_under_way_ = std::move(lines_.front());
+        lines_.pop_front();
+        writing_ = true;
+        socket_.text(true);
+        return socket_.async_write(asio::buffer(line_under_way_), done);
+    }
+    if (!state_wanted_ || !state_due()) return;
+    state_wanted_ = false;
+    state_ms_ = steady_ms();
+    state_under_way_ = core_.book().message(shelf_);
+    writing_ = true;
+    socket_.binary(true);
+    socket_.async_write(asio::buffer(state_under_way_), done);
+}
+
+}  // namespace roboss

@@ -1,0 +1,68 @@
+// PageSession: one browser's WebSocket. It is read at a bounded rate and written at the pace at which it
+// reads: one State is under way at most, and who is slow gets the latest one next.
+#pragma once
+
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <deque>
+#include <memory>
+#include <string>
+
+#include "gateway/access.h"
+#include "gateway/page_request.h"
+#include "gateway/state_book.h"
+
+namespace roboss {
+
+class ServerCore;
+
+class PageSession : public std::enable_shared_from_this<PageSession> {
+  public:
+    using Request = boost::beast::http::request<boost::beast::http::empty_body>;
+
+    PageSession(boost::beast::tcp_stream&& stream, ServerCore& core, std::uint64_t number, std::string peer);
+
+    void start(const Request& request);
+    void close();
+    std::uint64_t number() const { return number_; }
+    const PageWatch& watch() const { return watch_; }
+    std::uint64_t sent_bytes() const { return sent_bytes_; }
+    bool open() const { return open_; }
+
+    /// Says hello, once; false: it has been said.
+    bool greet();
+    /// A line of text. `may_miss`: it is dropped where others wait already.
+    void say(std::string text, bool may_miss);
+    /// The world has moved: a State is sent when it is due.
+    void show_state();
+    /// The scene is another one: the next State is whole.
+    void begin_scene();
+
+  private:
+    void read();
+    void take(const std::string& text);
+    void write_next();
+    void end(const std::string& why);
+    bool state_due();
+
+    boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
+    ServerCore& core_;
+    std::uint64_t number_;
+    std::string peer_;
+    boost::asio::steady_timer timer_;
+    boost::beast::flat_buffer buffer_;
+    RateLimit rate_;
+    PageWatch watch_;
+    bool open_ = false, ended_ = false, writing_ = false, state_wanted_ = false, timing_ = false,
+         greeted_ = false;
+    std::deque<std::string> lines_;
+    std::string line_under_way_;
+    std::vector<std::uint8_t> state_under_way_;
+    StateBook::Shelf shelf_;
+    std::int64_t state_ms_ = 0;
+    std::uint64_t sent_bytes_ = 0;
+};
+
+}  // namespace roboss

@@ -1,0 +1,95 @@
+// RunWatcher: the gateway's side towards the run. It fetches Model and scene, asks for views and exact states
+// of what pages want, and brings their words and orders; all over the Bus, so it is the same in the run's
+// process and elsewhere. A role: no thread, clock or socket.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/model_pull.h"
+#include "bus/whole_pull.h"
+#include "client/bus_client.h"
+#include "gateway/exchange.h"
+
+namespace roboss {
+
+class RunWatcher {
+  public:
+    RunWatcher(std::shared_ptr<Exchange> exchange, std::function<Address()> new_address)
+        : exchange_(std::move(exchange)), new_address_(std::move(new_address)) {}
+
+    /// Handles what has come and asks for what is wanted. Never waits.
+    void advance(Bus& bus);
+    const std::string& over() const { return over_; }
+    /// What went wrong, one line each, since the last call.
+    std::vector<std::string> take_notices() { return std::exchange(notices_, {}); }
+
+  private:
+    /// Words to the Controller, one request after the other, each said until it is answered.
+    struct Asker {
+        struct Question {
+            std::vector<std::string> words;
+            std::function<void(const ControlReply&)> answered;
+        };
+        Address self;
+        std::uint64_t number = 0;
+        std::deque<Question> questions;
+        std::optional<std::int64_t> asked_ms;
+        std::vector<Envelope> inbox;
+        void advance(Bus& bus);
+    };
+    struct OpenOrder {
+        std::uint64_t page = 0, sequence = 0;
+        std::int64_t id = 0;
+    };
+    struct Pulls {
+        Address self;
+        ModelPull model;
+        WholePull scene{Whole::kScene};
+    };
+
+    void rest(Bus& bus);
+    void fetch(Bus& bus);
+    void finish_fetch(std::int64_t now_ms);
+    void handle(Bus& bus, Envelope& envelope);
+    void look(Bus& bus);
+    void poll(std::int64_t now_ms);
+    void tell_status(const ControlReply& reply);
+    void tell_by_robot(const ControlReply& reply, Line::To to, std::shared_ptr<const ShownScene> scene);
+    void serve(Bus& bus, PageCall& call);
+    void order(Bus& bus, const PageCall& call, const PageOrder& order);
+    void serve_orders(Bus& bus);
+    void answer(std::uint64_t page, std::int64_t id, bool done, std::string text);
+
+    std::shared_ptr<Exchange> exchange_;
+    std::function<Address()> new_address_;
+    Wish wish_;
+    std::optional<Address> self_;  // for views
+    std::shared_ptr<const ShownScene> scene_;
+    std::uint32_t scenes_ = 0;
+    std::unique_ptr<Pulls> pulls_;
+    bool outdated_ = true;
+    std::int64_t fetch_from_ms_ = std::numeric_limits<std::int64_t>::min();  // not before, after a failure
+    Tick tick_ = 0;                                                          // of the last view
+
+    std::optional<std::int64_t> said_ms_;  // when the last ViewRequest was
+    bool wish_changed_ = false;
+    Asker polls_, words_;
+    std::optional<std::int64_t> status_ms_, groups_ms_, bounds_ms_;
+    double status_time_s_ = 0;
+    std::int64_t status_at_ms_ = 0, status_was_ms_ = 0;
+
+    std::unique_ptr<BusClient> client_;  // for orders; made by the first
+    std::uint64_t sequence_ = 0;
+    std::deque<OpenOrder> orders_;
+    std::vector<std::string> notices_;
+    std::string over_;
+    std::vector<Envelope> inbox_;
+};
+
+}  // namespace roboss

@@ -1,0 +1,287 @@
+// The gateway's thread: news come from the run's side, pages are told.
+#include <time.h>
+
+#include <boost/asio/post.hpp>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "gateway/http_session.h"
+#include "gateway/page_session.h"
+#include "gateway/server_core_session.h"
+#include "wire/viewer_protocol.h"
+
+namespace roboss {
+namespace {
+
+namespace asio = boost::asio;
+using tcp = asio::ip::tcp;
+
+constexpr std::size_t kConnectionsMax = 64, kPagesMax = 16;
+constexpr std::size_t kNoticesMax = 100;
+constexpr int kSendBytes = 256 << 10;  // what lies in a socket is old when it is read: not much of it
+constexpr auto kLatePart = std::chrono::milliseconds(8);
+constexpr auto kSceneWait = std::chrono::seconds(5);
+
+}  // namespace
+
+std::int64_t steady_ms() {
+    return std::chrono::duration_cast<std::chrono::milliseconds>(
+               std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+ServerCore::ServerCore(const GatewayOptions& options, const std::string& token,
+                       std::shared_ptr<Exchange> exchange)
+    : options_(options),
+      access_(token),
+      files_(find_page_folder(options.page_folder)),
+      exchange_(std::move(exchange)),
+      io_(1),
+      acceptor_(io_),
+      clock_(io_),
+      late_(io_) {}
+
+ServerCore::~ServerCore() {
+    stop();
+}
+
+Result<> ServerCore::listen(const ListenAddress& address) {
+    boost::system::error_code error;
+    const auto ip = asio::ip::make_address(address.address, error);
+    if (error)
+        return Error{"'" + address.address + "' is no address of this computer",
+                     "give an IPv4 or IPv6 address, as 0.0.0.0 for all"};
+    const tcp::endpoint endpoint(ip, address.port);
+    acceptor_.open(endpoint.protocol(), error);
+    if (!error) acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
+    if (!error) acceptor_.bind(endpoint, error);
+    if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
+    if (!error) return Ok{};
+    boost::system::error_code ignored;
+    acceptor_.close(ignored);
+    return Error{"the viewer cannot listen at " + address.address + ":" + std::to_string(address.port) +
+                     ": " + error.message(),
+                 "give another port with --view, or --headless"};
+}
+
+std::uint16_t ServerCore::port() const {
+    boost::system::error_code error;
+    return acceptor_.local_endpoint(error).port();
+}
+
+void ServerCore::start() {
+    exchange_->set_bell([this] { asio::post(io_, [this] { take_news(); }); });
+    accept();
+    measure();
+    thread_ = std::thread([this] { io_.run(); });
+}
+
+void ServerCore::stop() {
+    if (!thread_.joinable()) return;
+    exchange_->set_bell({});
+    io_.stop();
+    thread_.join();
+    pages_.clear();
+}
+
+void ServerCore::accept() {
+    acceptor_.async_accept([this](boost::system::error_code error, tcp::socket socket) {
+        if (error == asio::error::operation_aborted) return;
+        if (!error && connections_ < kConnectionsMax) {
+            boost::system::error_code ignored;
+            socket.set_option(tcp::no_delay(true), ignored);
+            socket.set_option(asio::socket_base::send_buffer_size(kSendBytes), ignored);
+            ++connections_;
+            std::make_shared<HttpSession>(std::move(socket), *this)->start();
+        } else if (!error) {
+            notice("viewer: a connection is turned away, there are " + std::to_string(kConnectionsMax));
+        }
+        accept();
+    });
+}
+
+bool ServerCore::admit(const std::shared_ptr<PageSession>& page) {
+    if (pages_.size() >= kPagesMax) return false;
+    pages_[page->number()] = page;
+    page_count_ = pages_.size();
+    return true;
+}
+
+void ServerCore::dismiss(std::uint64_t page) {
+    if (pages_.erase(page) == 0) return;
+    page_count_ = pages_.size();
+    watch_changed();
+}
+
+void ServerCore::watch_changed() {
+    Wish wish;
+    double rate = 0;
+    std::set<RobotId> robots;
+    for (const auto& [number, page] : pages_) {
+        if (!page->open()) continue;
+        const PageWatch& watch = page->watch();
+        wish.anyone = true;
+        wish.contacts = wish.contacts || watch.contacts;
+        wish.bounds = wish.bounds || watch.bounds;
+        wish.groups = wish.groups || watch.groups;
+        rate = std::max(rate, watch.rate);
+        robots.insert(watch.robots.begin(), watch.robots.end());
+    }
+    wish.anyone = wish.anyone || !scene_waiters_.empty();
+    wish.robots.assign(robots.begin(), robots.end());
+    if (rate > 0) wish.interval_ms = static_cast<std::uint32_t>(std::max(1.0, 1000 / rate));
+    exchange_->wish(wish);
+}
+
+void ServerCore::call(PageSession& page, PageRequest&& request) {
+    PageCall call{page.number(), request.id, ControlWords{}};
+    if (auto* words = std::get_if<ControlWords>(&request.what)) {
+        call.what = std::move(*words);
+    } else {
+        call.what = std::get<PageOrder>(std::move(request.what));
+    }
+    const std::int64_t id = call.id;
+    if (exchange_->call(std::move(call))) return;
+    page.say(
+        nlohmann::json{{"type", "answer"}, {"id", id}, {"done", false}, {"text", "too much is asked at once"}}
+            .dump(),
+        false);
+}
+
+void ServerCore::want_scene(std::function<void()> then) {
+    if (scene_) return then();  // should it be old, the page hears of the new one over its WebSocket
+    auto timer = std::make_shared<asio::steady_timer>(io_, kSceneWait);
+    auto once = std::make_shared<std::function<void()>>(std::move(then));
+    const auto call_once = [once, timer] {
+        if (const std::function<void()> what = std::exchange(*once, nullptr)) timer->cancel(), what();
+    };
+    scene_waiters_.push_back(call_once);
+    watch_changed();
+    timer->async_wait([this, call_once](boost::system::error_code error) {
+        if (!error) call_once(), watch_changed();
+    });
+}
+
+std::string ServerCore::hello() const {
+    nlohmann::ordered_json hello{{"type", "hello"},
+                                 {"version", viewer_protocol::kVersion},
+                                 {"scene", scene_ ? scene_->number : 0},
+                                 {"world", scene_ ? scene_->model->name : ""},
+                                 {"journal", options_.journal},
+                                 {"rate", viewer_protocol::kRateMax},
+                                 {"program", options_.program}};
+    return hello.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+void ServerCore::take_news() {
+    News news = exchange_->take_news();
+    if (news.scene) {
+        scene_ = news.scene;
+        tell_scene();
+    }
+    tell_states(news);
+    for (const StateBlock& block : news.exact) inspector_.take(block);
+    if (!news.exact.empty()) tell_exact();
+    tell_lines(news.lines);
+}
+
+void ServerCore::tell_scene() {
+    book_.begin(scene_);
+    inspector_.begin(scene_);
+    for (const auto& waiter : std::exchange(scene_waiters_, {})) waiter();
+    const std::string text = nlohmann::json{{"type", "scene"}, {"scene", scene_->number}}.dump();
+    for (const auto& [number, page] : std::map(pages_)) {
+        page->begin_scene();
+        if (!page->greet()) page->say(text, false);
+    }
+    watch_changed();
+}
+
+/// Views of several Simulators come in parts: a State waits a moment for the last one.
+void ServerCore::tell_states(const News& news) {
+    bool taken = false;
+    for (const ViewStates& views : news.views) taken = book_.take(views, steady_ms()) || taken;
+    if (!taken) return;
+    const auto tell = [this] {
+        for (const auto& [number, page] : std::map(pages_)) page->show_state();
+    };
+    if (book_.complete()) {
+        late_.cancel();
+        return tell();
+    }
+    late_.expires_after(kLatePart);
+    late_.async_wait([tell](boost::system::error_code error) {
+        if (!error) tell();
+    });
+}
+
+void ServerCore::tell_exact() {
+    std::map<RobotId, std::string> robots;
+    std::string contacts;
+    for (const auto& [number, page] : std::map(pages_)) {
+        for (const RobotId robot : page->watch().robots) {
+            if (!inspector_.shows(robot)) continue;
+            std::string& text = robots[robot];
+            if (text.empty()) text = inspector_.robot(robot);
+            page->say(text, true);
+        }
+        if (!page->watch().contacts || !inspector_.complete()) continue;
+        if (contacts.empty()) contacts = inspector_.contacts();
+        page->say(contacts, true);
+    }
+}
+
+void ServerCore::tell_lines(std::vector<Line>& lines) {
+    for (const Line& line : lines) {
+        std::string text;  // made for the first who hears it
+        for (const auto& [number, page] : std::map(pages_)) {
+            const bool hears = line.to == Line::To::kPage     ? number == line.page
+                               : line.to == Line::To::kGroups ? page->watch().groups
+                               : line.to == Line::To::kBounds ? page->watch().bounds
+                                                              : true;
+            if (!hears) continue;
+            if (text.empty()) text = line.make();
+            if (text.empty()) break;
+            std::string said = text;
+            if (line.to == Line::To::kStatus && said.size() > 2) {
+                said.pop_back();
+                said += ",\"viewers\":" + std::to_string(pages_.size()) +
+                        ",\"sent_bytes\":" + std::to_string(page->sent_bytes()) + "}";
+            }
+            page->say(std::move(said), line.may_miss);
+        }
+    }
+}
+
+void ServerCore::notice(std::string text) {
+    const std::scoped_lock lock(mutex_);
+    if (notices_.size() < kNoticesMax) return notices_.push_back(std::move(text));
+    ++notices_left_out_;
+}
+
+std::vector<std::string> ServerCore::take_notices() {
+    const std::scoped_lock lock(mutex_);
+    if (const std::size_t n = std::exchange(notices_left_out_, 0); n > 0)
+        notices_.push_back("viewer: " + std::to_string(n) + " more refusals");
+    return std::exchange(notices_, {});
+}
+
+/// CPU time of this thread, for those who ask from another.
+void ServerCore::measure() {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    if (thread_.joinable())
+        cpu_ns_ =
+            static_cast<std::uint64_t>(t.tv_sec) * 1'000'000'000u + static_cast<std::uint64_t>(t.tv_nsec);
+    clock_.expires_after(std::chrono::milliseconds(100));
+    clock_.async_wait([this](boost::system::error_code error) {
+        if (!error) measure();
+    });
+}
+
+GatewayLoad ServerCore::load() const {
+    return {page_count_, sent_bytes_, 1e-9 * static_cast<double>(cpu_ns_)};
+}
+
+}  // namespace roboss

@@ -1,0 +1,94 @@
+// ServerCore: what the sessions of the gateway's thread share. Everything in it belongs to that thread, but
+// for the notices and the counters.
+#pragma once
+
+#include <atomic>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "gateway/access.h"
+#include "gateway/exchange.h"
+#include "gateway/gateway.h"
+#include "gateway/inspector.h"
+#include "gateway/page_files.h"
+#include "gateway/state_book.h"
+
+namespace roboss {
+
+class PageSession;
+
+class ServerCore {
+  public:
+    ServerCore(const GatewayOptions& options, const std::string& token, std::shared_ptr<Exchange> exchange);
+    ~ServerCore();
+
+    /// Binds and listens; an Error if the port is taken.
+    Result<> listen(const ListenAddress& address);
+    std::uint16_t port() const;
+    void start();
+    void stop();
+
+    // --- for sessions
+    const Access& access() const { return access_; }
+    const PageFiles& files() const { return files_; }
+    const std::shared_ptr<const ShownScene>& scene() const { return scene_; }
+    const StateBook& book() const { return book_; }
+    std::string hello() const;
+    std::uint64_t next_page() { return ++last_page_; }
+    /// False: there are too many.
+    bool admit(const std::shared_ptr<PageSession>& page);
+    void dismiss(std::uint64_t page);
+    void connection_ended() { --connections_; }
+    /// What the page wants has changed.
+    void watch_changed();
+    void call(PageSession& page, PageRequest&& request);
+    void count_sent(std::size_t bytes) { sent_bytes_.fetch_add(bytes, std::memory_order_relaxed); }
+    void notice(std::string text);
+    /// Somebody waits for the scene: it is fetched.
+    void want_scene(std::function<void()> then);
+
+    std::vector<std::string> take_notices();
+    GatewayLoad load() const;
+
+  private:
+    void accept();
+    void take_news();
+    void tell_scene();
+    void tell_lines(std::vector<Line>& lines);
+    void tell_states(const News& news);
+    void tell_exact();
+    void measure();
+
+    GatewayOptions options_;
+    Access access_;
+    PageFiles files_;
+    std::shared_ptr<Exchange> exchange_;
+    boost::asio::io_context io_;
+    boost::asio::ip::tcp::acceptor acceptor_;
+    boost::asio::steady_timer clock_,
+        late_;  // CPU time is read now and then; a view's last part may come late
+    std::thread thread_;
+    std::size_t connections_ = 0;
+    std::map<std::uint64_t, std::shared_ptr<PageSession>> pages_;
+    std::uint64_t last_page_ = 0;
+    std::vector<std::function<void()>> scene_waiters_;
+    std::shared_ptr<const ShownScene> scene_;
+    StateBook book_;
+    Inspector inspector_;
+
+    mutable std::mutex mutex_;
+    std::vector<std::string> notices_;
+    std::size_t notices_left_out_ = 0;
+    std::atomic<std::uint64_t> sent_bytes_ = 0, cpu_ns_ = 0, page_count_ = 0;
+};
+
+std::int64_t steady_ms();
+
+}  // namespace roboss

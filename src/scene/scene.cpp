@@ -1,0 +1,156 @@
+// Which robot looks like what: by the names of models and links.
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "core/hash.h"
+#include "scene/shape_book.h"
+
+namespace roboss {
+namespace {
+
+const Vec3 kGround{0.62, 0.64, 0.66};
+const Vec3 kScenery{0.55, 0.60, 0.68};
+
+/// A pleasant colour for what has none, the same for the same name.
+Vec3 colour_of(const std::string& name) {
+    static constexpr Vec3 kPalette[] = {{0.23, 0.49, 0.77}, {0.90, 0.49, 0.13}, {0.33, 0.66, 0.41},
+                                        {0.77, 0.31, 0.32}, {0.51, 0.45, 0.70}, {0.58, 0.47, 0.38},
+                                        {0.85, 0.55, 0.76}, {0.10, 0.65, 0.68}};
+    Hash hash;
+    hash.add(std::string_view(name));
+    return kPalette[hash.value() % std::size(kPalette)];
+}
+
+bool has_visuals(const ModelSpec& spec) {
+    return std::any_of(spec.links.begin(), spec.links.end(),
+                       [](const LinkSpec& link) { return !link.visuals.empty(); });
+}
+
+class SceneMaker {
+  public:
+    SceneMaker(const Model& model, const World* world) : model_(model), world_(world) {
+        if (world == nullptr) return;
+        for (const ModelInstance& instance : world->instances) instances_[instance.name] = &instance;
+    }
+
+    Scene make() {
+        std::map<std::pair<TypeId, std::size_t>, std::size_t> known;
+        for (const Robot& robot : model_.robots) {
+            const std::pair key(robot.type, prototype_of(robot));
+            const auto [entry, is_new] = known.try_emplace(key, scene_.types.size());
+            if (is_new) add_type(robot.type, key.second);
+            scene_.robots.push_back(entry->second);
+        }
+        if (world_ != nullptr) add_world_statics();
+        add_other_statics();
+        scene_.meshes = shapes_.take_meshes();
+        return std::move(scene_);
+    }
+
+  private:
+    static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+    /// The World's prototype of a robot; a robot of several is called MODEL::LINK.
+    std::size_t prototype_of(const Robot& robot) const {
+        const RobotType& type = model_.types[robot.type.index()];
+        for (std::size_t end = robot.name.size(); end != std::string::npos && end > 0;
+             end = robot.name.rfind("::", end - 1)) {
+            const auto found = instances_.find(robot.name.substr(0, end));
+            if (found == instances_.end()) continue;
+            const ModelSpec& spec = world_->prototypes[found->second->prototype];
+            const bool fits = std::all_of(type.links.begin(), type.links.end(), [&](const Link& link) {
+                return link_of(spec, link.name) != nullptr;
+            });
+            if (fits && spec.is_static == type.is_static) return found->second->prototype;
+        }
+        return kNone;
+    }
+
+    static const LinkSpec* link_of(const ModelSpec& spec, const std::string& name) {
+        const auto found = std::find_if(spec.links.begin(), spec.links.end(),
+                                        [&](const LinkSpec& link) { return link.name == name; });
+        return found == spec.links.end() ? nullptr : &*found;
+    }
+
+    void add_type(TypeId id, std::size_t prototype) {
+        const RobotType& type = model_.types[id.index()];
+        SceneType result{id, std::vector<SceneLink>(type.links.size())};
+        const Vec3 rgb = colour_of(type.name);
+        for (const BodyShape& from : type.shapes) {
+            SceneShape shape = shapes_.shape_of(from.shape);
+            const Link& link = type.links[from.link.index()];
+            shape.frame = to_pose(inverse(link.X_BL) * from.X_BS);
+            shape.rgb = rgb;
+            shape.name = link.name;
+            result.links[from.link.index()].collisions.push_back(std::move(shape));
+        }
+        const bool drawn = prototype != kNone && has_visuals(world_->prototypes[prototype]);
+        for (std::size_t l = 0; l < type.links.size(); ++l) {
+            SceneLink& link = result.links[l];
+            if (type.is_static) continue;  // its visuals are scenery
+            if (!drawn) {
+                link.visuals = link.collisions;
+                continue;
+            }
+            for (const VisualSpec& visual :
+                 link_of(world_->prototypes[prototype], type.links[l].name)->visuals)
+                add_visual(visual, Pose{}, visual.name, link.visuals);
+        }
+        scene_.types.push_back(std::move(result));
+    }
+
+    void add_visual(const VisualSpec& visual, const Pose& X_FL, const std::string& name,
+                    std::vector<SceneShape>& shapes) {
+        std::optional<SceneShape> shape = shapes_.shape_of(visual.geometry);
+        if (!shape) return;
+        shape->name = name;
+        shape->frame = X_FL * visual.X_LV;
+        shape->rgb = visual.rgb;
+        shape->alpha = visual.alpha;
+        shapes.push_back(std::move(*shape));
+    }
+
+    /// Static models with visuals; those without are left to add_other_statics().
+    void add_world_statics() {
+        for (const ModelInstance& instance : world_->instances) {
+            const ModelSpec& spec = world_->prototypes[instance.prototype];
+            if (!spec.is_static || !has_visuals(spec)) continue;
+            for (const LinkSpec& link : spec.links) {
+                for (const VisualSpec& visual : link.visuals)
+                    add_visual(visual, instance.X_WM * link.X_ML,
+                               instance.name + "::" + link.name + "::" + visual.name, scene_.statics);
+                for (const CollisionSpec& collision : link.collisions)
+                    drawn_.insert(instance.name + "::" + link.name + "::" + collision.name);
+            }
+        }
+    }
+
+    void add_other_statics() {
+        for (const StaticShape& from : model_.statics) {
+            if (drawn_.contains(from.name)) continue;
+            SceneShape shape = shapes_.shape_of(from.shape);
+            shape.name = from.name;
+            shape.frame = to_pose(from.X_WS);
+            shape.rgb = from.shape.kind == ShapeKind::kPlane ? kGround : kScenery;
+            scene_.statics.push_back(std::move(shape));
+        }
+    }
+
+    const Model& model_;
+    const World* world_;
+    std::map<std::string, const ModelInstance*> instances_;
+    std::set<std::string> drawn_;  // scenery whose visuals are there
+    ShapeBook shapes_;
+    Scene scene_;
+};
+
+}  // namespace
+
+Scene make_scene(const Model& model, const World* world) {
+    return SceneMaker(model, world).make();
+}
+
+}  // namespace roboss

@@ -1,0 +1,55 @@
+// What a world looks like, as plain data for a viewer: shapes with colours on the links of robots and in the
+// world. The Model knows how bodies move but nothing of visuals; the World has the visuals, by the names of
+// models and links. Where there is no World (a journal that is replayed), or a robot has no visuals in it,
+// collision shapes stand in.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "model/model.h"
+#include "world/world.h"
+
+namespace roboss {
+
+enum class SceneShapeKind { kPlane, kBox, kSphere, kCylinder, kCapsule, kEllipsoid, kMesh };
+
+struct SceneShape {
+    std::string name;
+    SceneShapeKind kind = SceneShapeKind::kBox;
+    Vec3 size{1, 1, 1};  // box: edges; ellipsoid: radii; plane: extent in x and y, to be drawn
+    double radius = 0, length = 0;
+    std::size_t mesh = 0;  // in Scene::meshes
+    Pose frame;            // in the link, or in the world
+    Vec3 rgb{0.7, 0.7, 0.7};
+    double alpha = 1;
+};
+
+struct SceneMesh {
+    std::vector<Vec3> vertices;  // m
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+struct SceneLink {
+    std::vector<SceneShape> visuals, collisions;
+};
+
+/// Robots that move alike and look alike.
+struct SceneType {
+    TypeId type;
+    std::vector<SceneLink> links;  // by LinkId of the RobotType
+};
+
+struct Scene {
+    std::vector<SceneType> types;
+    std::vector<std::size_t> robots;  // by RobotId: place in `types`
+    std::vector<SceneShape> statics;
+    std::vector<SceneMesh> meshes;
+};
+
+/// `world`: nullptr if there is none. It need not be the very world that the Model was compiled from: robots
+/// that were added or taken away since are found by name.
+Scene make_scene(const Model& model, const World* world);
+
+}  // namespace roboss

@@ -1,0 +1,244 @@
+// The scene's JSON. Numbers are rounded to a millionth of a millimetre: shorter, and nobody sees it.
+#include "scene/scene_file.h"
+
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "wire/archive.h"
+#include "wire/view_state.h"
+
+namespace roboss {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double tidy(double value) {
+    constexpr double kSteps = 1e9;
+    const double rounded = std::floor(value * kSteps + 0.5) / kSteps;
+    return rounded == 0 ? 0 : rounded;  // no -0
+}
+
+Json json_of(const Vec3& v) {
+    return {tidy(v.x), tidy(v.y), tidy(v.z)};
+}
+
+Json json_of(const Pose& X) {
+    return {tidy(X.p.x), tidy(X.p.y), tidy(X.p.z), tidy(X.q.w), tidy(X.q.x), tidy(X.q.y), tidy(X.q.z)};
+}
+
+Json json_of(const Transform& X) {
+    return json_of(to_pose(X));
+}
+
+/// null: none.
+Json bound_of(double value) {
+    return std::isfinite(value) && std::abs(value) < 1e15 ? Json(tidy(value)) : Json();
+}
+
+const char* name_of(SceneShapeKind kind) {
+    static constexpr const char* kNames[] = {"plane",   "box",       "sphere", "cylinder",
+                                             "capsule", "ellipsoid", "mesh"};
+    return kNames[static_cast<std::size_t>(kind)];
+}
+
+const char* name_of(JointKind kind) {
+    static constexpr const char* kNames[] = {"free", "revolute", "prismatic", "ball", "screw"};
+    return kNames[static_cast<std::size_t>(kind)];
+}
+
+const char* name_of(JointSpecKind kind) {
+    static constexpr const char* kNames[] = {"fixed", "revolute",  "continuous", "prismatic", "ball",
+                                             "screw", "universal", "revolute2",  "gearbox"};
+    return kNames[static_cast<std::size_t>(kind)];
+}
+
+const char* name_of(SensorKind kind) {
+    static constexpr const char* kNames[] = {"laser", "gps", "compass", "odometer", "unsupported"};
+    return kNames[static_cast<std::size_t>(kind)];
+}
+
+Json json_of(const SceneShape& shape) {
+    Json o{{"name", shape.name}, {"shape", name_of(shape.kind)}};
+    switch (shape.kind) {
+        case SceneShapeKind::kBox:
+            o["size"] = json_of(shape.size);
+            break;
+        case SceneShapeKind::kPlane:
+            o["size"] = {tidy(shape.size.x), tidy(shape.size.y)};
+            break;
+        case SceneShapeKind::kEllipsoid:
+            o["radii"] = json_of(shape.size);
+            break;
+        case SceneShapeKind::kMesh:
+            o["mesh"] = shape.mesh;
+            break;
+        case SceneShapeKind::kCylinder:
+        case SceneShapeKind::kCapsule:
+            o["length"] = tidy(shape.length);
+            [[fallthrough]];
+        case SceneShapeKind::kSphere:
+            o["radius"] = tidy(shape.radius);
+    }
+    o["frame"] = json_of(shape.frame);
+    o["rgb"] = json_of(shape.rgb);
+    o["alpha"] = tidy(shape.alpha);
+    return o;
+}
+
+Json json_of(const std::vector<SceneShape>& shapes) {
+    Json list = Json::array();
+    for (const SceneShape& shape : shapes) list.push_back(json_of(shape));
+    return list;
+}
+
+Json json_of(const Body& body) {
+    const int width = body.joint == JointKind::kFree ? 0 : body.joint == JointKind::kBall ? 4 : 1;
+    return {{"parent", body.parent},
+            {"joint", name_of(body.joint)},
+            {"frame", json_of(body.X_PJ)},
+            {"axis", json_of(body.axis_J)},
+            {"pitch", tidy(body.pitch)},
+            {"q", width == 0 ? 0 : body.q_index - 7},
+            {"width", width}};
+}
+
+Json json_of(const RobotType& type, const Joint& joint) {
+    Json lower = Json::array(), upper = Json::array(), effort = Json::array(), speed = Json::array();
+    for (int axis = 0; axis < joint.nv; ++axis) {
+        const Dof& dof = type.dof(joint, axis);
+        lower.push_back(bound_of(dof.lower));
+        upper.push_back(bound_of(dof.upper));
+        effort.push_back(bound_of(dof.max_effort));
+        speed.push_back(bound_of(dof.max_velocity));
+    }
+    return {{"name", joint.name},
+            {"kind", name_of(joint.kind)},
+            {"body", joint.body},
+            {"axes", joint.nv},
+            {"q", joint.q_index < 0 ? -1 : joint.q_index - 7},
+            {"lower", std::move(lower)},
+            {"upper", std::move(upper)},
+            {"max_effort", std::move(effort)},
+            {"max_velocity", std::move(speed)}};
+}
+
+Json json_of(const SensorInfo& sensor) {
+    const SensorSpec& spec = sensor.spec;
+    Json o{{"name", spec.name},
+           {"kind", name_of(spec.kind)},
+           {"link", sensor.link.value},
+           {"frame", json_of(spec.X_LS)}};
+    if (spec.kind != SensorKind::kLaser) return o;
+    o["samples"] = spec.samples;
+    o["min_angle"] = spec.min_angle;
+    o["max_angle"] = spec.max_angle;
+    o["vertical_samples"] = spec.vertical_samples;
+    o["vertical_min_angle"] = spec.vertical_min_angle;
+    o["vertical_max_angle"] = spec.vertical_max_angle;
+    o["range_min"] = spec.range_min;
+    o["range_max"] = bound_of(spec.range_max);
+    return o;
+}
+
+Json json_of(const SceneType& scene_type, const Model& model) {
+    const RobotType& type = model.types[scene_type.type.index()];
+    Json bodies = Json::array(), links = Json::array(), joints = Json::array(), sensors = Json::array();
+    for (const Body& body : type.bodies) bodies.push_back(json_of(body));
+    for (std::size_t l = 0; l < type.links.size(); ++l) {
+        const Link& link = type.links[l];
+        links.push_back({{"name", link.name},
+                         {"body", link.body},
+                         {"frame", json_of(link.X_BL)},
+                         {"visuals", json_of(scene_type.links[l].visuals)},
+                         {"collisions", json_of(scene_type.links[l].collisions)}});
+    }
+    for (const Joint& joint : type.joints) joints.push_back(json_of(type, joint));
+    for (const SensorInfo& sensor : type.sensors) sensors.push_back(json_of(sensor));
+    return {{"name", type.name},
+            {"free_base", type.free_base},
+            {"mass", tidy(type.mass)},
+            {"reach", bound_of(type.reach)},
+            {"origin", json_of(inverse(type.X_RB))},
+            {"ranges", view_ranges(type)},
+            {"bodies", std::move(bodies)},
+            {"links", std::move(links)},
+            {"joints", std::move(joints)},
+            {"sensors", std::move(sensors)}};
+}
+
+std::vector<std::uint8_t> bytes_of(const SceneMesh& mesh) {
+    std::vector<std::uint8_t> bytes;
+    const auto put = [&](const void* data, std::size_t size) {
+        const auto* first = static_cast<const std::uint8_t*>(data);
+        bytes.insert(bytes.end(), first, first + size);
+    };
+    const std::uint32_t counts[] = {static_cast<std::uint32_t>(mesh.vertices.size()),
+                                    static_cast<std::uint32_t>(mesh.triangles.size())};
+    put(counts, sizeof(counts));
+    for (const Vec3& v : mesh.vertices) {
+        const float xyz[] = {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+        put(xyz, sizeof(xyz));
+    }
+    for (const auto& triangle : mesh.triangles) put(triangle.data(), sizeof(triangle));
+    return bytes;
+}
+
+}  // namespace
+
+SceneFile scene_file(const Scene& scene, const Model& model, std::uint64_t seed) {
+    constexpr std::size_t kGroupsMax = 12;
+    Json types = Json::array(), robots = Json::array();
+    for (const SceneType& type : scene.types) types.push_back(json_of(type, model));
+    for (std::size_t r = 0; r < model.robots.size(); ++r)
+        robots.push_back({{"name", model.robots[r].name}, {"type", scene.robots[r]}});
+    const Json o{{"world", model.name},
+                 {"dt", model.dt_s},
+                 {"gravity", json_of(model.gravity)},
+                 {"seed", seed},
+                 {"types", std::move(types)},
+                 {"robots", std::move(robots)},
+                 {"statics", json_of(scene.statics)},
+                 {"groups_max", kGroupsMax}};
+    SceneFile file{model.hash, seed, o.dump(-1, ' ', false, Json::error_handler_t::replace), {}};
+    for (const SceneMesh& mesh : scene.meshes) file.meshes.push_back(bytes_of(mesh));
+    return file;
+}
+
+std::string numbered(const SceneFile& file, std::uint32_t scene) {
+    return "{\"scene\":" + std::to_string(scene) + "," + file.json.substr(1);
+}
+
+std::vector<std::uint8_t> encode(const SceneFile& file) {
+    wire::Writer a;
+    a.scalar(file.model_hash);
+    a.scalar(file.seed);
+    field(a, file.json);
+    a.count(file.meshes.size());
+    for (const auto& mesh : file.meshes) {
+        a.count(mesh.size());
+        a.raw(mesh.data(), mesh.size());
+    }
+    return a.take();
+}
+
+Result<SceneFile> decode_scene_file(std::span<const std::uint8_t> bytes) {
+    wire::Reader a(bytes);
+    SceneFile file;
+    a.scalar(file.model_hash);
+    a.scalar(file.seed);
+    field(a, file.json);
+    file.meshes.resize(a.count(sizeof(std::uint32_t)));
+    for (auto& mesh : file.meshes) {
+        mesh.resize(a.count(1));
+        a.raw(mesh.data(), mesh.size());
+    }
+    if (a.left() > 0) a.fail("bytes are left over behind it");
+    if (!a.failed() && (file.json.size() < 2 || file.json.front() != '{')) a.fail("it holds no object");
+    if (a.failed())
+        return Error{"a damaged scene of " + std::to_string(bytes.size()) + " bytes: " + a.failure(),
+                     "run the same version of RoBOSS everywhere"};
+    return file;
+}
+
+}  // namespace roboss

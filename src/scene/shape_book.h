@@ -1,0 +1,27 @@
+// Shapes of both kinds, those that a file describes and those that the Model collides with, as shapes of a
+// scene; each mesh is kept once, however many shapes show it. Internal to the scene floor.
+#pragma once
+
+#include <map>
+#include <optional>
+
+#include "scene/scene.h"
+
+namespace roboss {
+
+class ShapeBook {
+  public:
+    /// Nothing where the file of a mesh could not be read, or an outline has no area.
+    std::optional<SceneShape> shape_of(const GeometrySpec& geometry);
+    SceneShape shape_of(const Shape& shape);
+    std::vector<SceneMesh> take_meshes() { return std::move(meshes_); }
+
+  private:
+    std::optional<SceneMesh> mesh_of(const GeometrySpec& geometry) const;
+    std::size_t keep(const void* source, SceneMesh mesh);
+
+    std::vector<SceneMesh> meshes_;
+    std::map<const void*, std::size_t> known_;  // by what a mesh was made of
+};
+
+}  // namespace roboss

@@ -1,0 +1,36 @@
+// Numbers of the binary messages between gateway and page (docs/viewer-protocol.md): places of fields in
+// bytes, limits. Made by tools/viewer_protocol from src/gateway/protocol.json: change that and run the tool.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace roboss::viewer_protocol {
+
+inline constexpr int kVersion = 1;
+inline constexpr char kSubprotocol[] = "roboss.1";
+inline constexpr std::size_t kMessageBytesMax = 65536;
+inline constexpr std::size_t kMessagesASecondMax = 200;
+inline constexpr std::size_t kWatchedRobotsMax = 8;
+inline constexpr std::size_t kRateMax = 60;
+inline constexpr std::uint8_t kFlagWhole = 1;
+inline constexpr std::uint8_t kFlagRest = 2;
+
+inline constexpr std::uint8_t kStateKind = 1;
+inline constexpr std::size_t kStateKindAt = 0;
+inline constexpr std::size_t kStateFlagsAt = 1;
+inline constexpr std::size_t kStateReservedAt = 2;
+inline constexpr std::size_t kStateSceneAt = 4;
+inline constexpr std::size_t kStateTickAt = 8;
+inline constexpr std::size_t kStateTimeAt = 16;
+inline constexpr std::size_t kStateRobotsAt = 24;
+inline constexpr std::size_t kStateBytes = 28;
+inline constexpr std::size_t kStateEntryRobotAt = 0;
+inline constexpr std::size_t kStateEntryPositionAt = 4;
+inline constexpr std::size_t kStateEntryOrientationAt = 16;
+inline constexpr std::size_t kStateEntryCoordinatesAt = 24;
+inline constexpr std::size_t kStateEntryBytes = 24;
+inline constexpr int kStateOrientationScale = 32767;
+inline constexpr int kStateCoordinateScale = 32767;
+
+}  // namespace roboss::viewer_protocol
