@@ -64,7 +64,7 @@ export function groupsOf(traffic: Traffic, scene: SceneInfo, members: MemberStat
 }
 
 export function robotReport(traffic: Traffic, scene: SceneInfo, robot: number): object {
-    const car = traffic.cars[robot], common = { type: "robot", robot, tick: Math.round(traffic.time / scene.dt), time: traffic.time };
+    const car = traffic.cars[robot], common = { type: "robot", scene: scene.scene, robot, tick: Math.round(traffic.time / scene.dt), time: traffic.time };
     if (car === undefined) {
         const { q, v, targets } = traffic.crane;
         return { ...common, pose: [3, 3, 0, 1, 0, 0, 0], linear: [0, 0, 0], angular: [0, 0, 0], sensors: [], contacts: [],
@@ -76,7 +76,7 @@ export function robotReport(traffic: Traffic, scene: SceneInfo, robot: number): 
         joints: car.wheels.map((angle, k) => ({ position: [angle], velocity: [wheelSpeed(car, k)], motors: [{ mode: "velocity", target: wheelSpeed(car, k), effort: 0.1 + 0.05 * Math.sin(traffic.time * 3 + k), max_effort: 0.8 }] })),
         sensors: [{ ranges }, { position: [52.2197 + car.y / 111320, 21.0121 + car.x / 68200, 113], velocity: [car.vx, car.vy, 0] }, { yaw: wrapped(car.yaw) },
             { distance: Math.abs(car.loop.at), speed: Math.hypot(car.vx, car.vy) }],
-        contacts: wheelContacts(car, robot),
+        contacts: [0, 1, 2, 3].map(() => ({ other: -1, normal_force: 15.2 })),
     };
 }
 
@@ -91,7 +91,7 @@ function wheelContacts(car: Car, robot: number): object[] {
 }
 
 export function overlayReport(traffic: Traffic, scene: SceneInfo, wanted: string[]): object {
-    const report: Record<string, unknown> = { type: "overlay", tick: Math.round(traffic.time / scene.dt) };
+    const report: Record<string, unknown> = { type: "overlay", scene: scene.scene, tick: Math.round(traffic.time / scene.dt) };
     if (wanted.includes("contacts")) report.contacts = traffic.cars.slice(0, 200).flatMap((car, r) => wheelContacts(car, r));
     const reach = (car: Car): [Triple, Triple] => {
         const dx = Math.abs(car.vx) * 0.1, dy = Math.abs(car.vy) * 0.1;

@@ -31,7 +31,7 @@ export class MockRun {
 
     private join(): void {
         const id = this.nextMember++;
-        this.members.push({ id, name: `simulator-${id}`, threads: 1, robots: 0, islands: 0, load: 0.7, step_us: 400, state: "stepping" });
+        this.members.push({ id, name: `simulator-${id}`, threads: 1, robots: 0, islands: 0, load: 0.7, step_us: 400, state: "at work" });
     }
 
     private keep(): void {

@@ -5,6 +5,7 @@ import type { CameraPointer } from "./camera/pointer";
 import type { CameraRig } from "./camera/rig";
 import type { RunLink } from "./model/run_link";
 import type { ViewerState, World } from "./model/viewer_state";
+import type { Effort } from "./view/effort";
 import type { FrameTimes } from "./view/frame_times";
 import type { Stage } from "./view/stage";
 
@@ -19,6 +20,7 @@ export interface FrameParts {
     /** Overlays and colours, in the order in which they are brought up to date. */
     layers: ((world: World | null, now: number) => void)[];
     hurried: () => boolean;
+    effort: Effort | null;
 }
 
 const IDLE_REDRAW_S = 0.5;
@@ -29,6 +31,7 @@ export class FrameLoop {
     private drawn = 0;
     private awakeUntil = 0;
     private lastEye = "";
+    private drewLast = false;
     private shownWorld: World | null = null;
 
     constructor(private readonly parts: FrameParts) {}
@@ -44,7 +47,7 @@ export class FrameLoop {
 
     private frame(stamp: number): void {
         requestAnimationFrame((next) => this.frame(next));
-        const began = performance.now(), now = began / 1000, seconds = Math.min(0.1, Math.max(0, (stamp - this.last) / 1000));
+        const began = performance.now(), now = began / 1000, interval = stamp - this.last, seconds = Math.min(0.1, Math.max(0, interval / 1000));
         this.last = stamp;
         const { stage, state, run, rig, director, pointer, layers, times } = this.parts, world = state.world.value;
         let moved = false;
@@ -61,7 +64,12 @@ export class FrameLoop {
         const eye = `${rig.eye().map((value) => value.toFixed(4)).join()} ${rig.now.target.map((value) => value.toFixed(4)).join()} ${stage.canvas.width} ${stage.canvas.height}`;
         const idle = !moved && eye === this.lastEye && now > this.awakeUntil && now - this.drawn < IDLE_REDRAW_S;
         this.lastEye = eye;
-        if (idle) return;
+        if (idle) {
+            this.drewLast = false;
+            return;
+        }
+        if (this.drewLast && document.visibilityState === "visible") this.parts.effort?.take(interval);
+        this.drewLast = true;
         stage.aim(rig);
         for (const update of layers) update(world, now);
         const updated = performance.now();

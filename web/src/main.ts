@@ -30,6 +30,7 @@ import { topBar } from "./panels/top_bar";
 import { viewOptions } from "./panels/view_options";
 import { h } from "./ui/dom";
 import { Colouring } from "./view/colouring";
+import { Effort } from "./view/effort";
 import { FrameTimes } from "./view/frame_times";
 import { Stage } from "./view/stage";
 
@@ -41,9 +42,10 @@ const rig = new CameraRig();
 const times = new FrameTimes();
 
 const canvas = h("canvas", { tabindex: 0, role: "application", "aria-label": "The world in three dimensions. Robots can also be chosen in the list." });
+const quality = (["low", "high"] as const).find((word) => word === address.get("quality")) ?? "auto";
 const view = h("main", { class: "view" }, canvas);
 document.body.append(view);
-const stage = new Stage(canvas, address.get("quality") === "low" ? "low" : "high");
+const stage = new Stage(canvas, quality);
 const labels = new LabelLayer(stage);
 const director = new Director(stage, state, rig, address);
 const said = notices(run);
@@ -74,6 +76,7 @@ const sensors = new RobotOverlays(stage, state), told = new RunOverlays(stage, s
 stage.overlays.add(mark.group);
 const loop = new FrameLoop({
     stage, state, run, rig, director, pointer, times, hurried: () => hurried,
+    effort: quality === "auto" ? new Effort((level) => stage.lower(level)) : null,
     layers: [
         (world) => world !== null && colouring.update(world), (world) => selection.update(world), (world) => sensors.update(world),
         (world, now) => told.update(world, now), (world) => tracks.update(world), (world) => names.update(world), () => labels.update(),

@@ -7,6 +7,9 @@ import type { Stage } from "../view/stage";
 import type { CameraRig } from "./rig";
 
 const OVERVIEW_AZIMUTH = -2.05;
+const CLEAR_MIN_M = 0.4;
+/** Larger scenery is not searched each frame. */
+const RAY_VERTICES_MAX = 200_000;
 const OVERVIEW_ELEVATION = 0.62;
 
 export class Director {
@@ -87,6 +90,14 @@ export class Director {
         goal.elevation = 0.26;
     }
 
+    /** How far from the target the camera may be before scenery comes between. */
+    private clearDistance(): number {
+        const solids = (this.stage.statics?.solids ?? []).filter((mesh) => mesh.name !== "planes" && mesh.geometry.getAttribute("position").count < RAY_VERTICES_MAX);
+        const target = new THREE.Vector3(...this.rig.now.target), way = new THREE.Vector3(...this.rig.eye({ ...this.rig.now, distance: 1 })).sub(target).normalize();
+        const met = new THREE.Raycaster(target, way, 0, this.rig.now.distance).intersectObjects(solids, false)[0];
+        return met === undefined ? this.rig.now.distance * 1.05 : Math.max(CLEAR_MIN_M, met.distance * 0.92);
+    }
+
     private yaw(world: World, robot: number): number {
         const base = world.history.drawn.base, at = robot * 7, w = base[at + 3], x = base[at + 4], y = base[at + 5], z = base[at + 6];
         return Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
@@ -95,7 +106,9 @@ export class Director {
     /** Each frame: the target stays on the robot; chasing, the camera turns with it. */
     follow(world: World, seconds: number): void {
         const robot = this.state.selected.value;
+        this.rig.clear = Infinity;
         if (!this.following() || robot === null) return;
+        this.rig.clear = this.clearDistance();
         const place = this.place(world, robot), far = Math.hypot(...place.map((value, k) => value - this.rig.now.target[k]));
         if (far < Math.max(2, this.rig.now.distance) || seconds === 0) this.rig.carry(place);
         else this.rig.goal.target = place;

@@ -10,6 +10,9 @@ const DISTANCE_MAX = 4000;
 
 export class CameraRig {
     readonly goal: CameraWords = { target: [0, 0, 0], azimuth: -1.1, elevation: 0.6, distance: 40 };
+    /** At most so far from the target: what stands between would hide it. */
+    clear = Infinity;
+    private squeezed = Infinity;
     readonly now: CameraWords = { target: [0, 0, 0], azimuth: -1.1, elevation: 0.6, distance: 40 };
 
     /** Goes there at once. */
@@ -60,13 +63,16 @@ export class CameraRig {
         for (let k = 0; k < 3; ++k) this.now.target[k] += f * (this.goal.target[k] - this.now.target[k]);
         this.now.azimuth += f * (this.goal.azimuth - this.now.azimuth);
         this.now.elevation += f * (this.goal.elevation - this.now.elevation);
+        const free = Math.min(this.clear, this.now.distance * 1.05);
+        if (this.squeezed === Infinity || this.clear === Infinity) this.squeezed = this.clear;
+        else this.squeezed += (free < this.squeezed ? 1 - Math.exp(-30 * seconds) : 1 - Math.exp(-3 * seconds)) * (free - this.squeezed);
         this.now.distance *= Math.pow(this.goal.distance / this.now.distance, f);
     }
 
     eye(place: CameraWords = this.now): [number, number, number] {
-        const flat = Math.cos(place.elevation) * place.distance;
+        const distance = Math.min(place.distance, this.squeezed), flat = Math.cos(place.elevation) * distance;
         return [place.target[0] + Math.cos(place.azimuth) * flat, place.target[1] + Math.sin(place.azimuth) * flat,
-            place.target[2] + Math.sin(place.elevation) * place.distance];
+            place.target[2] + Math.sin(place.elevation) * distance];
     }
 
     apply(camera: THREE.PerspectiveCamera): void {

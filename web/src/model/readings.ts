@@ -41,7 +41,7 @@ function jointReadings(type: TypeInfo, report: RobotReport): Reading[] {
     return found;
 }
 
-const SENSOR_UNITS: Record<string, string> = { yaw: "rad", distance: "m", speed: "m/s", roll: "rad", pitch: "rad" };
+const SENSOR_UNITS: Record<string, string> = { yaw: "rad", heading: "rad", distance: "m", speed: "m/s", roll: "rad", pitch: "rad" };
 const PLACE_NAMES = ["latitude", "longitude", "altitude"];
 const COURSE_NAMES = ["east", "north", "up"];
 
@@ -52,7 +52,10 @@ function sensorReadings(name: string, told: SensorReport): Reading[] {
         const met = told.ranges.filter((range): range is number => typeof range === "number" && Number.isFinite(range));
         add("nearest", "m", met.length > 0 ? Math.min(...met) : null);
     }
-    if (Array.isArray(told.position)) told.position.forEach((value, k) => add(PLACE_NAMES[k] ?? String(k), k < 2 ? "°" : "m", value));
+    if (Array.isArray(told.position)) {
+        const names = told.geodetic === false ? AXES : PLACE_NAMES;
+        told.position.forEach((value, k) => add(names[k] ?? String(k), k < 2 && names === PLACE_NAMES ? "°" : "m", value));
+    }
     if (Array.isArray(told.velocity)) told.velocity.forEach((value, k) => add(COURSE_NAMES[k] ?? String(k), "m/s", value));
     for (const [field, value] of Object.entries(told)) if (typeof value === "number") add(field, SENSOR_UNITS[field] ?? "", value);
     return found;

@@ -69,10 +69,10 @@ export class RunLink {
                 if (message.scene === this.sceneNumber()) this.state.groups.set(message);
                 break;
             case "robot":
-                this.state.report.set(message);
+                if (message.scene === this.sceneNumber()) this.state.report.set(message);
                 break;
             case "overlay":
-                this.state.overlayReport.set(message);
+                if (message.scene === this.sceneNumber()) this.state.overlayReport.set(message);
                 break;
             case "notice":
                 this.notice.set({ text: message.text, bad: false });

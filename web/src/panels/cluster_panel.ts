@@ -12,6 +12,11 @@ import { plotAxes } from "./plots_dock";
 const KEPT = 240;
 const PLOT_HEIGHT = 132;
 
+/** Lost and left ones stay listed, but do nothing. */
+function present(member: MemberStatus): boolean {
+    return member.state !== "lost" && member.state !== "left";
+}
+
 /** Step time of each member over wall time, as one aligned table; members come and go. */
 export class StepTimes {
     readonly times: number[] = [];
@@ -21,7 +26,7 @@ export class StepTimes {
         for (const member of members)
             if (!this.columns.has(member.id)) this.columns.set(member.id, new Array<null>(this.times.length).fill(null));
         this.times.push(now);
-        for (const [id, column] of this.columns) column.push(members.find((member) => member.id === id && member.state !== "lost")?.step_us ?? null);
+        for (const [id, column] of this.columns) column.push(members.find((member) => member.id === id && present(member))?.step_us ?? null);
         if (this.times.length <= KEPT) return;
         this.times.shift();
         for (const [id, column] of this.columns) {
@@ -35,7 +40,7 @@ export class ClusterPanel {
     readonly element: HTMLElement;
     private readonly facts = new Map<string, HTMLElement>();
     private readonly table = h("tbody");
-    private readonly rows = new Map<number, { row: HTMLTableRowElement; cells: HTMLElement[]; bar: HTMLElement }>();
+    private readonly rows = new Map<number, { row: HTMLTableRowElement; cells: HTMLElement[]; bar: HTMLElement; kill: HTMLButtonElement }>();
     private readonly history = new StepTimes();
     private readonly plotHost = h("div", { class: "chart-canvas" });
     private plot: uPlot | null = null;
@@ -100,17 +105,19 @@ export class ClusterPanel {
             texts.forEach((text, k) => setText(shown.cells[k], text));
             shown.bar.style.width = `${100 * Math.max(0, Math.min(1, member.load))}%`;
             shown.row.dataset.state = member.state;
+            shown.kill.disabled = !present(member);
             shown.row.title = `${member.name}: ${member.state}, ${member.threads} ${member.threads === 1 ? "thread" : "threads"}`;
         }
     }
 
-    private addRow(id: number): { row: HTMLTableRowElement; cells: HTMLElement[]; bar: HTMLElement } {
+    private addRow(id: number): { row: HTMLTableRowElement; cells: HTMLElement[]; bar: HTMLElement; kill: HTMLButtonElement } {
         const cells = Array.from({ length: 5 }, () => h("span", {})), bar = h("div", { class: "load-fill" });
+        const kill = h("button", { type: "button", class: "small danger", "aria-label": `Kill Simulator ${id}`, title: "Kill it, and watch the run recover", onclick: () => void this.kill(id) }, "Kill");
         const row = h("tr", {},
             h("th", { scope: "row" }, h("span", { class: "swatch", style: `background:${groupCss(id)}` }), cells[0]),
             h("td", {}, cells[1]), h("td", {}, cells[2]), h("td", { class: "load" }, h("div", { class: "load-bar", "aria-hidden": "true" }, bar), cells[3]), h("td", {}, cells[4]),
-            h("td", {}, h("button", { type: "button", class: "small danger", "aria-label": `Kill Simulator ${id}`, title: "Kill it, and watch the run recover", onclick: () => void this.kill(id) }, "Kill")));
-        const made = { row, cells, bar };
+            h("td", {}, kill));
+        const made = { row, cells, bar, kill };
         this.rows.set(id, made);
         this.table.append(row);
         return made;

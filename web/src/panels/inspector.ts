@@ -17,7 +17,8 @@ export class ReadingRows {
 
     constructor(private readonly robot: number, private readonly plotted: Plotted) {}
 
-    row(reading: Reading): HTMLElement {
+    /** `shown`: what the row says where its place already says the rest. */
+    row(reading: Reading, shown = reading.label): HTMLElement {
         const value = h("span", { class: "value" }), button = iconButton("plot", `Plot ${reading.label}`, () => {
             this.plotted.toggle(this.robot, reading.key, reading.label, reading.unit);
             this.mark();
@@ -25,13 +26,13 @@ export class ReadingRows {
         this.values.set(reading.key, value);
         this.buttons.set(reading.key, button);
         this.mark();
-        return h("div", { class: "reading" }, h("span", { class: "label" }, reading.label), value, h("span", { class: "unit" }, reading.unit), button);
+        return h("div", { class: "reading" }, h("span", { class: "label" }, shown), value, h("span", { class: "unit" }, reading.unit), button);
     }
 
     show(list: readonly Reading[]): void {
         for (const reading of list) {
             const element = this.values.get(reading.key);
-            if (element !== undefined) setText(element, fixed(reading.value, reading.key.includes("itude") && reading.unit === "°" ? 6 : 3));
+            if (element !== undefined) setText(element, fixed(reading.value, reading.unit !== "°" ? 3 : reading.key.startsWith("angle") ? 1 : 6));
         }
     }
 
@@ -111,10 +112,10 @@ export class Inspector {
     private showContacts(world: World, report: RobotReport): void {
         const byOther = new Map<number, { count: number; force: number }>();
         for (const contact of report.contacts) {
-            const other = contact.a === report.robot ? contact.b : contact.a, sum = byOther.get(other) ?? { count: 0, force: 0 };
+            const sum = byOther.get(contact.other) ?? { count: 0, force: 0 };
             sum.count += 1;
-            sum.force += Math.hypot(...contact.force);
-            byOther.set(other, sum);
+            sum.force += contact.normal_force;
+            byOther.set(contact.other, sum);
         }
         const lines = [...byOther].sort((a, b) => b[1].force - a[1].force).map(([other, { count, force }]) => h("div", { class: "reading" },
             h("span", { class: "label" }, other < 0 ? "scenery" : world.fleet.name(other)), h("span", { class: "value" }, fixed(force, 1)),

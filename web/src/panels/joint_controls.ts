@@ -95,7 +95,7 @@ export class JointControls {
         type.joints.forEach((joint, number) => {
             for (let axis = 0; axis < joint.axes; ++axis) {
                 const key = `joint.${joint.name}.${axis}.`;
-                const mine = all.filter((reading) => reading.key.startsWith(key)).map((reading) => rows.row({ ...reading, label: reading.key.slice(key.length) }));
+                const mine = all.filter((reading) => reading.key.startsWith(key)).map((reading) => rows.row(reading, reading.key.slice(key.length)));
                 const control = new AxisControl(robot, number, axis, joint, run, mine);
                 this.controls.push(control);
                 this.element.append(control.element);

@@ -24,6 +24,13 @@ export function plotAxes(unit: string): uPlot.Axis[] {
         { ...axis, size: 52, space: 26, label: unit === "" ? undefined : unit, labelSize: 14, labelFont: "11px system-ui, sans-serif", labelGap: 0 }];
 }
 
+/** A constant is a line in the middle, not noise blown up. */
+export function valueRange(_: uPlot, least: number | null, most: number | null): [number, number] {
+    if (least === null || most === null) return [0, 1];
+    const middle = (least + most) / 2, half = Math.max((most - least) * 0.55, Math.abs(middle) * 0.02, 0.005);
+    return [middle - half, middle + half];
+}
+
 class Chart {
     readonly element: HTMLElement;
     private readonly plot: uPlot;
@@ -35,7 +42,7 @@ class Chart {
             iconButton("close", `Remove ${curve.robotName} ${curve.label}`, () => plotted.toggle(curve.robot, curve.key, curve.label, curve.unit)))));
         this.element = h("div", { class: "chart" }, legend, host);
         this.plot = new uPlot({
-            width: 300, height: HEIGHT_PX - 34, legend: { show: false }, cursor: { y: false, points: { size: 6 } }, scales: { x: { time: false } },
+            width: 300, height: HEIGHT_PX - 34, legend: { show: false }, cursor: { y: false, points: { size: 6 } }, scales: { x: { time: false }, y: { range: valueRange } },
             axes: plotAxes(unit), series: [{}, ...curves.map((curve, k) => ({ label: curve.label, stroke: groupCss(offset + k), width: 1.5, spanGaps: true, points: { show: false } }))],
         }, joined(curves), host);
     }

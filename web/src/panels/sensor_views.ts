@@ -102,7 +102,7 @@ export class SensorViews {
             const prefix = `${sensor.name} `;
             this.element.append(h("div", { class: "sensor" },
                 h("div", { class: "joint-head" }, h("span", { class: "joint-name" }, sensor.name), h("span", { class: "kind" }, sensor.kind)), view?.element ?? null,
-                ...all[index].map((reading) => rows.row({ ...reading, label: reading.label.startsWith(prefix) ? reading.label.slice(prefix.length) : reading.label }))));
+                ...all[index].map((reading) => rows.row(reading, reading.label.startsWith(prefix) ? reading.label.slice(prefix.length) : reading.label))));
         });
     }
 

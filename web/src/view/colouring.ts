@@ -4,6 +4,8 @@ import type { ViewerState, World } from "../model/viewer_state";
 import { groupColour, rampColour } from "./palette";
 import type { Stage } from "./stage";
 
+/** Of no group yet. */
+const NOBODY = 0x8a929c;
 const SPEED_FULL = 3;
 const SPEED_EVERY_S = 0.1;
 
@@ -34,7 +36,7 @@ export class Colouring {
         if (by === "speed") return (robot, out) => void rampColour((this.speeds[robot] ?? 0) / SPEED_FULL, out);
         if (by === "model" || groups === null) return null;
         const of = by === "simulator" ? groups.simulator : groups.island;
-        return (robot, out) => void groupColour(of[robot] ?? 0, out);
+        return (robot, out) => void ((of[robot] ?? -1) < 0 ? out.set(NOBODY) : groupColour(of[robot], out));
     }
 
     /** Speeds from what is drawn, over a tenth of a second. */

@@ -10,20 +10,22 @@ export interface ScenePalette {
     gridStrength: number;
     sun: number;
     sunStrength: number;
-    hemisphereSky: number;
-    hemisphereGround: number;
-    hemisphereStrength: number;
+    /** What the sky, its rim and the ground send. */
+    lightSky: number;
+    lightHorizon: number;
+    lightGround: number;
+    skyStrength: number;
     accent: number;
 }
 
 export const PALETTES: Record<Theme, ScenePalette> = {
     dark: {
-        skyTop: 0x0d1117, skyHorizon: 0x1d242f, ground: 0x171c24, grid: 0x8fa3bd, gridStrength: 0.16,
-        sun: 0xfff1dc, sunStrength: 2.5, hemisphereSky: 0xb9cdec, hemisphereGround: 0x4a4640, hemisphereStrength: 1.3, accent: 0x5aa9ff,
+        skyTop: 0x0d1117, skyHorizon: 0x1d242f, ground: 0x262d38, grid: 0x8fa3bd, gridStrength: 0.16,
+        sun: 0xfff1dc, sunStrength: 2.3, lightSky: 0xbccfe8, lightHorizon: 0xd9dde4, lightGround: 0x8f8a84, skyStrength: 0.62, accent: 0x5aa9ff,
     },
     light: {
         skyTop: 0xc3d7ec, skyHorizon: 0xf1f4f8, ground: 0xe4e7eb, grid: 0x32465e, gridStrength: 0.13,
-        sun: 0xfff4e3, sunStrength: 2.7, hemisphereSky: 0xe6effb, hemisphereGround: 0xa39a8e, hemisphereStrength: 1.9, accent: 0x0b6bd8,
+        sun: 0xfff4e3, sunStrength: 2.6, lightSky: 0xd3e2f5, lightHorizon: 0xf3f4f6, lightGround: 0xb5afa7, skyStrength: 0.72, accent: 0x0b6bd8,
     },
 };
 

@@ -86,6 +86,7 @@ export class RobotsLayer {
         if (look.colour !== null) geometry.setAttribute("color", geometry.getAttribute("tint"));
         const material = new THREE.MeshStandardMaterial({
             vertexColors: true, roughness: 0.62, metalness: 0.02, transparent: look.alpha < 1, opacity: look.alpha, depthWrite: look.alpha >= 1,
+            shadowSide: THREE.FrontSide,
         });
         const mesh = new THREE.InstancedMesh(geometry, material, members.length);
         mesh.instanceMatrix.setUsage(THREE.DynamicDrawUsage);

@@ -5,11 +5,13 @@ import type { CameraRig } from "../camera/rig";
 import type { Theme, World } from "../model/viewer_state";
 import { Ground } from "./ground";
 import { PALETTES, type ScenePalette } from "./palette";
+import { skyLight } from "./sky_light";
 import { RobotsLayer } from "./robots_layer";
 import { StaticsLayer } from "./statics_layer";
 import { Sunlight } from "./sunlight";
 
-export type Quality = "low" | "high";
+/** auto: as good as the machine draws smoothly. */
+export type Quality = "low" | "high" | "auto";
 
 export class Stage {
     readonly scene = new THREE.Scene();
@@ -25,22 +27,32 @@ export class Stage {
     private readonly sunlight: Sunlight;
 
     constructor(readonly canvas: HTMLCanvasElement, quality: Quality) {
-        this.renderer = new THREE.WebGLRenderer({ canvas, antialias: quality === "high", powerPreference: "high-performance" });
-        this.renderer.setPixelRatio(quality === "high" ? Math.min(2, window.devicePixelRatio) : 1);
+        this.renderer = new THREE.WebGLRenderer({ canvas, antialias: quality !== "low", powerPreference: "high-performance" });
+        this.renderer.setPixelRatio(quality === "low" ? 1 : Math.min(2, window.devicePixelRatio));
         this.renderer.toneMapping = THREE.NeutralToneMapping;
         this.renderer.toneMappingExposure = 1.0;
-        this.renderer.shadowMap.enabled = quality === "high";
+        this.renderer.shadowMap.enabled = quality !== "low";
         this.renderer.shadowMap.type = THREE.PCFShadowMap;
-        this.sunlight = new Sunlight(quality === "high" ? 2048 : 0);
+        this.sunlight = new Sunlight(quality === "low" ? 0 : 2048);
         this.scene.add(this.ground.group, this.sunlight.group, this.overlays);
         new ResizeObserver(() => this.resize()).observe(canvas.parentElement as HTMLElement);
         this.resize();
+    }
+
+    /** Draws with less effort (view/effort.ts). */
+    lower(level: number): void {
+        this.renderer.setPixelRatio(level === 1 ? 1 : 0.75);
+        this.resize();
+        if (level > 1) this.sunlight.endShadows();
     }
 
     paint(theme: Theme): void {
         this.palette = PALETTES[theme];
         this.ground.paint(this.palette);
         this.sunlight.paint(this.palette);
+        this.scene.environment?.dispose();
+        this.scene.environment = skyLight(this.renderer, this.palette);
+        this.scene.environmentIntensity = this.palette.skyStrength;
         this.scene.fog = new THREE.Fog(this.palette.skyHorizon, 100, 600);
     }
 

@@ -43,6 +43,7 @@ export class StaticsLayer {
         const material = new THREE.MeshStandardMaterial({
             vertexColors: true, roughness: planes ? 0.95 : 0.85, transparent: alpha < 1, opacity: alpha, depthWrite: alpha >= 1,
             polygonOffset: planes, polygonOffsetFactor: 2, polygonOffsetUnits: 2,
+            shadowSide: THREE.FrontSide, // back faces would let light through at the foot of a wall
         });
         const mesh = new THREE.Mesh(geometry, material);
         mesh.castShadow = !planes && alpha >= 1;

@@ -1,4 +1,4 @@
-// Light: a hemisphere for the sky, a sun whose shadows cover what the camera looks at. The shadow's box moves in whole
+// The sun, whose shadows cover what the camera looks at. The shadow's box moves in whole
 // texels, so that its edges do not crawl while the camera does.
 import * as THREE from "three";
 import type { ScenePalette } from "./palette";
@@ -7,17 +7,15 @@ const TOWARDS_SUN = new THREE.Vector3(-0.52, -0.42, 0.9).normalize();
 
 export class Sunlight {
     readonly group = new THREE.Group();
-    private readonly hemisphere = new THREE.HemisphereLight(0xffffff, 0x888888, 1);
     private readonly sun = new THREE.DirectionalLight(0xffffff, 2);
 
     constructor(private readonly resolution: number) {
-        this.hemisphere.position.set(0, 0, 1);
         this.sun.castShadow = resolution > 0;
         this.sun.shadow.mapSize.set(resolution || 512, resolution || 512);
         this.sun.shadow.radius = 2.5;
-        this.sun.shadow.intensity = 0.82;
+        this.sun.shadow.intensity = 0.9;
         this.sun.shadow.bias = -0.0004;
-        this.group.add(this.hemisphere, this.sun, this.sun.target);
+        this.group.add(this.sun, this.sun.target);
     }
 
     follow(target: THREE.Vector3, distance: number): void {
@@ -33,15 +31,16 @@ export class Sunlight {
             camera.right = camera.top = half;
             camera.near = 1;
             camera.far = half * 4 + 60;
-            this.sun.shadow.normalBias = texel * 2.2;
+            this.sun.shadow.normalBias = texel * 1.6;
             camera.updateProjectionMatrix();
         }
     }
 
+    endShadows(): void {
+        this.sun.castShadow = false;
+    }
+
     paint(palette: ScenePalette): void {
-        this.hemisphere.color.setHex(palette.hemisphereSky);
-        this.hemisphere.groundColor.setHex(palette.hemisphereGround);
-        this.hemisphere.intensity = palette.hemisphereStrength;
         this.sun.color.setHex(palette.sun);
         this.sun.intensity = palette.sunStrength;
     }

@@ -161,8 +161,15 @@ export interface ContactReport {
     force: Triple;
 }
 
+/** What a robot's own state remembers of a contact; `other` -1 is scenery. */
+export interface RobotContact {
+    other: number;
+    normal_force: number;
+}
+
 export interface RobotReport {
     type: "robot";
+    scene: number;
     robot: number;
     tick: number;
     time: number;
@@ -171,11 +178,12 @@ export interface RobotReport {
     angular: Triple;
     joints: JointReport[];
     sensors: (SensorReport | null)[];
-    contacts: ContactReport[];
+    contacts: RobotContact[];
 }
 
 export interface OverlayReport {
     type: "overlay";
+    scene: number;
     tick: number;
     contacts?: ContactReport[];
     bounds?: { robot: number; box: [Triple, Triple] | number[] }[];
