@@ -13,8 +13,14 @@ async function buildPage() {
     await mkdir(folder, { recursive: true });
     await build({
         entryPoints: { page: join(here, "src/main.ts"), style: join(here, "style/page.css") },
-        outdir: folder, bundle: true, minify: true, sourcemap: flags.includes("--map"), format: "esm",
-        target: ["es2021", "chrome100", "firefox102", "safari15"], legalComments: "linked", logLevel: "warning",
+        outdir: folder,
+        bundle: true,
+        minify: true,
+        sourcemap: flags.includes("--map"),
+        format: "esm",
+        target: ["es2021", "chrome100", "firefox102", "safari15"],
+        legalComments: "linked",
+        logLevel: "warning",
     });
     await cp(join(here, "index.html"), join(folder, "index.html"));
     await cp(join(here, "icon.svg"), join(folder, "icon.svg"));
@@ -23,10 +29,19 @@ async function buildPage() {
 async function bundleFor(node, names, target) {
     await rm(target, { recursive: true, force: true });
     await build({
-        entryPoints: names.map((name) => join(here, node, name)), outdir: target, bundle: true, platform: "node",
-        format: "esm", target: "node18", outExtension: { ".js": ".mjs" }, logLevel: "warning", sourcemap: "inline",
+        entryPoints: names.map((name) => join(here, node, name)),
+        outdir: target,
+        bundle: true,
+        platform: "node",
+        format: "esm",
+        target: "node18",
+        outExtension: { ".js": ".mjs" },
+        logLevel: "warning",
+        sourcemap: "inline",
         external: ["playwright-core", "axe-core", "bufferutil", "utf-8-validate"],
-        banner: { js: 'import { createRequire } from "node:module"; const require = createRequire(import.meta.url);' },
+        banner: {
+            js: 'import { createRequire as requireFrom } from "node:module"; const require = requireFrom(import.meta.url);',
+        },
     });
 }
 

@@ -21,7 +21,12 @@ export class MockRun {
     private stepLeft = 0;
     private branch = 1;
 
-    constructor(cars: number, seed: number, simulators: number, readonly journal: boolean) {
+    constructor(
+        cars: number,
+        seed: number,
+        simulators: number,
+        readonly journal: boolean,
+    ) {
         const { scene, half } = makeCity(cars, seed);
         this.scene = scene;
         this.traffic = makeTraffic(scene, half, seed);
@@ -31,7 +36,16 @@ export class MockRun {
 
     private join(): void {
         const id = this.nextMember++;
-        this.members.push({ id, name: `simulator-${id}`, threads: 1, robots: 0, islands: 0, load: 0.7, step_us: 400, state: "at work" });
+        this.members.push({
+            id,
+            name: `simulator-${id}`,
+            threads: 1,
+            robots: 0,
+            islands: 0,
+            load: 0.7,
+            step_us: 400,
+            state: "at work",
+        });
     }
 
     private keep(): void {
@@ -55,38 +69,62 @@ export class MockRun {
         this.wander();
     }
 
+    alive(): MemberStatus[] {
+        return this.members.filter((member) => member.state !== "lost");
+    }
+
     private wander(): void {
-        const t = performance.now() / 1000, count = Math.max(1, this.members.length);
-        this.members.forEach((member, k) => {
-            member.robots = Math.floor(this.scene.robots.length / count) + (k < this.scene.robots.length % count ? 1 : 0);
+        const t = performance.now() / 1000,
+            alive = this.alive(),
+            count = Math.max(1, alive.length);
+        alive.forEach((member, k) => {
+            member.robots =
+                Math.floor(this.scene.robots.length / count) + (k < this.scene.robots.length % count ? 1 : 0);
             member.islands = Math.max(1, Math.round(member.robots * 0.85));
-            member.load = this.paused ? 0 : Math.min(1, 0.72 + 0.12 * Math.sin(t / 3 + k * 1.7) + 0.06 * Math.sin(t * 1.3 + k));
-            member.step_us = this.paused ? 0 : (member.robots * 14 * (1 + 0.15 * Math.sin(t / 2 + k)));
+            member.load = this.paused
+                ? 0
+                : Math.min(1, 0.72 + 0.12 * Math.sin(t / 3 + k * 1.7) + 0.06 * Math.sin(t * 1.3 + k));
+            member.step_us = this.paused ? 0 : member.robots * 14 * (1 + 0.15 * Math.sin(t / 2 + k));
         });
     }
 
     control(words: string[]): { done: boolean; text: string } {
-        const said = (text: string) => ({ done: true, text }), refused = (text: string) => ({ done: false, text });
-        const [verb, first, second] = words, now = this.traffic.time.toFixed(6);
+        const said = (text: string) => ({ done: true, text }),
+            refused = (text: string) => ({ done: false, text });
+        const [verb, first, second] = words,
+            now = this.traffic.time.toFixed(6);
         switch (verb) {
-            case "pause": this.paused = true; return said(`paused at ${now} s`);
-            case "resume": this.paused = false; return said(`goes on at ${now} s`);
-            case "step": this.paused = true; this.stepLeft = Number(first ?? 1) * this.scene.dt; return said(`steps ${first ?? 1}`);
+            case "pause":
+                this.paused = true;
+                return said(`paused at ${now} s`);
+            case "resume":
+                this.paused = false;
+                return said(`goes on at ${now} s`);
+            case "step":
+                this.paused = true;
+                this.stepLeft = Number(first ?? 1) * this.scene.dt;
+                return said(`steps ${first ?? 1}`);
             case "speed":
-                if (first !== "max" && !(Number(first) > 0)) return refused(`'speed ${first}' is not understood: see \`roboss control --help\``);
+                if (first !== "max" && !(Number(first) > 0))
+                    return refused(`'speed ${first}' is not understood: see \`roboss control --help\``);
                 this.speed = first === "max" ? "max" : Number(first);
                 return said(`speed ${first} from ${now} s`);
-            case "rewind": return this.rewind(Number(first));
-            case "simulators": return this.simulators(first, Number(second ?? 1));
-            case "status": return said(JSON.stringify(this.status()));
-            default: return refused(`'${words.join(" ")}' is not understood: see \`roboss control --help\``);
+            case "rewind":
+                return this.rewind(Number(first));
+            case "simulators":
+                return this.simulators(first, Number(second ?? 1));
+            case "status":
+                return said(JSON.stringify(this.status()));
+            default:
+                return refused(`'${words.join(" ")}' is not understood: see \`roboss control --help\``);
         }
     }
 
     private rewind(time: number): { done: boolean; text: string } {
         if (!this.journal) return { done: false, text: "no journal is kept: start the run with --journal" };
         const before = this.kept.filter((one) => one.time <= time + 1e-9);
-        if (before.length === 0) return { done: false, text: `the journal begins at ${this.kept[0].time.toFixed(3)} s` };
+        if (before.length === 0)
+            return { done: false, text: `the journal begins at ${this.kept[0].time.toFixed(3)} s` };
         this.kept = before;
         this.traffic = structuredClone(before[before.length - 1]);
         while (this.traffic.time < time - 1e-9) advance(this.traffic, Math.min(STEP_S, time - this.traffic.time));
@@ -99,33 +137,51 @@ export class MockRun {
             for (let k = 0; k < which; ++k) this.join();
             return { done: true, text: `${which} more` };
         }
-        const at = this.members.findIndex((member) => member.id === which);
+        const at = this.members.findIndex((member) => member.id === which && member.state !== "lost");
         if (what !== "kill" || at < 0) return { done: false, text: `there is no Simulator ${which}` };
-        if (this.members.length === 1) return { done: false, text: "the last Simulator of a run is not killed" };
+        if (this.alive().length === 1) return { done: false, text: "the last Simulator of a run is not killed" };
         this.members[at].state = "lost";
         ++this.losses;
         this.migrations += this.members[at].robots;
-        setTimeout(() => {
-            this.members = this.members.filter((member) => member.id !== which);
-            this.join();
-        }, 1200);
+        Object.assign(this.members[at], { robots: 0, islands: 0, load: 0, step_us: 0 });
         return { done: true, text: `Simulator ${which} killed` };
     }
 
     order(robot: number, action: OrderAction): { done: boolean; text: string } {
         if (this.scene.robots[robot] === undefined) return { done: false, text: `there is no robot ${robot}` };
         const refusal = obey(this.traffic, robot, action);
-        return { done: refusal === "", text: refusal === "" ? `applied at ${this.traffic.time.toFixed(3)} s` : refusal };
+        return {
+            done: refusal === "",
+            text: refusal === "" ? `applied at ${this.traffic.time.toFixed(3)} s` : refusal,
+        };
     }
 
     status(): object {
-        const time = this.traffic.time, alive = this.members.filter((member) => member.state !== "lost");
+        const time = this.traffic.time;
         return {
-            type: "status", world: this.scene.world, time_s: time, tick: Math.round(time / this.scene.dt), paused: this.paused, speed: String(this.speed),
-            simulators: alive.length, windows: Math.round(time / 0.06), islands: Math.round(this.scene.robots.length * 0.85), window_ticks: 30,
-            windows_repeated: Math.floor(time / 7), efficiency: 0.9 + 0.04 * Math.sin(time / 5), model_hash: "8f0c2a6d51e37b94", state_hash: "1b7e4490cd25aa03",
-            branch: this.branch, journal: this.journal ? { first_s: this.kept[0].time, last_s: time } : null, members: this.members,
-            losses: this.losses, migrations: this.migrations, messages: Math.round(time * 240), rtf: this.rtf, viewers: 1, sent_bytes: 0,
+            type: "status",
+            world: this.scene.world,
+            time_s: time,
+            tick: Math.round(time / this.scene.dt),
+            paused: this.paused,
+            speed: String(this.speed),
+            simulators: this.alive().length,
+            windows: Math.round(time / 0.06),
+            islands: Math.round(this.scene.robots.length * 0.85),
+            window_ticks: 30,
+            windows_repeated: Math.floor(time / 7),
+            efficiency: 0.9 + 0.04 * Math.sin(time / 5),
+            model_hash: "8f0c2a6d51e37b94",
+            state_hash: "1b7e4490cd25aa03",
+            branch: this.branch,
+            journal: this.journal ? { first_s: this.kept[0].time, last_s: time } : null,
+            members: this.members,
+            losses: this.losses,
+            migrations: this.migrations,
+            messages: Math.round(time * 240),
+            rtf: this.rtf,
+            viewers: 1,
+            sent_bytes: 0,
         };
     }
 }

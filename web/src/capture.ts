@@ -6,7 +6,8 @@ const VIDEO_RATE = 30;
 const VIDEO_BITS = 12_000_000;
 
 function download(blob: Blob, name: string): void {
-    const url = URL.createObjectURL(blob), anchor = document.createElement("a");
+    const url = URL.createObjectURL(blob),
+        anchor = document.createElement("a");
     anchor.href = url;
     anchor.download = name;
     anchor.click();
@@ -17,7 +18,11 @@ export class Capture {
     readonly recording = new Signal(false);
     private recorder: MediaRecorder | null = null;
 
-    constructor(private readonly stage: Stage, private readonly name: () => string, private readonly say: (text: string, bad?: boolean) => void) {}
+    constructor(
+        private readonly stage: Stage,
+        private readonly name: () => string,
+        private readonly say: (text: string, bad?: boolean) => void,
+    ) {}
 
     picture(): void {
         this.stage.draw();
@@ -29,15 +34,23 @@ export class Capture {
 
     toggleVideo(): void {
         if (this.recorder !== null) return this.recorder.stop();
-        const kind = ["video/mp4;codecs=avc1", "video/webm;codecs=vp9", "video/webm"].find((one) => MediaRecorder.isTypeSupported(one));
+        const kind = ["video/mp4;codecs=avc1", "video/webm;codecs=vp9", "video/webm"].find((one) =>
+            MediaRecorder.isTypeSupported(one),
+        );
         if (kind === undefined) return this.say("this browser cannot record videos", true);
-        const recorder = new MediaRecorder(this.stage.canvas.captureStream(VIDEO_RATE), { mimeType: kind, videoBitsPerSecond: VIDEO_BITS });
+        const recorder = new MediaRecorder(this.stage.canvas.captureStream(VIDEO_RATE), {
+            mimeType: kind,
+            videoBitsPerSecond: VIDEO_BITS,
+        });
         const parts: Blob[] = [];
         recorder.ondataavailable = (event) => parts.push(event.data);
         recorder.onstop = () => {
             this.recorder = null;
             this.recording.set(false);
-            download(new Blob(parts, { type: kind }), `${this.name()}.${kind.startsWith("video/mp4") ? "mp4" : "webm"}`);
+            download(
+                new Blob(parts, { type: kind }),
+                `${this.name()}.${kind.startsWith("video/mp4") ? "mp4" : "webm"}`,
+            );
         };
         recorder.start(1000);
         this.recorder = recorder;

@@ -21,6 +21,8 @@ export interface FrameParts {
     layers: ((world: World | null, now: number) => void)[];
     hurried: () => boolean;
     effort: Effort | null;
+    /** Least time between two frames. */
+    interval_ms: number;
 }
 
 const IDLE_REDRAW_S = 0.5;
@@ -47,9 +49,14 @@ export class FrameLoop {
 
     private frame(stamp: number): void {
         requestAnimationFrame((next) => this.frame(next));
-        const began = performance.now(), now = began / 1000, interval = stamp - this.last, seconds = Math.min(0.1, Math.max(0, interval / 1000));
+        if (stamp - this.last < this.parts.interval_ms) return;
+        const began = performance.now(),
+            now = began / 1000,
+            interval = stamp - this.last,
+            seconds = Math.min(0.1, Math.max(0, interval / 1000));
         this.last = stamp;
-        const { stage, state, run, rig, director, pointer, layers, times } = this.parts, world = state.world.value;
+        const { stage, state, run, rig, director, pointer, layers, times } = this.parts,
+            world = state.world.value;
         let moved = false;
         if (world !== null && world.history.latest !== null) {
             state.drawnTime.set(run.clock.read(now));
@@ -61,7 +68,10 @@ export class FrameLoop {
         }
         pointer.advance(seconds, this.parts.hurried());
         rig.advance(seconds);
-        const eye = `${rig.eye().map((value) => value.toFixed(4)).join()} ${rig.now.target.map((value) => value.toFixed(4)).join()} ${stage.canvas.width} ${stage.canvas.height}`;
+        const eye = `${rig
+            .eye()
+            .map((value) => value.toFixed(4))
+            .join()} ${rig.now.target.map((value) => value.toFixed(4)).join()} ${stage.canvas.width} ${stage.canvas.height}`;
         const idle = !moved && eye === this.lastEye && now > this.awakeUntil && now - this.drawn < IDLE_REDRAW_S;
         this.lastEye = eye;
         if (idle) {

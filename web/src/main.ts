@@ -34,6 +34,8 @@ import { Effort } from "./view/effort";
 import { FrameTimes } from "./view/frame_times";
 import { Stage } from "./view/stage";
 
+const LOW_INTERVAL_MS = 45;
+
 const address = new Address(location.search, location.hash);
 const state = new ViewerState();
 state.theme.set(startTheme(address));
@@ -41,7 +43,11 @@ const run = new RunLink(state);
 const rig = new CameraRig();
 const times = new FrameTimes();
 
-const canvas = h("canvas", { tabindex: 0, role: "application", "aria-label": "The world in three dimensions. Robots can also be chosen in the list." });
+const canvas = h("canvas", {
+    tabindex: 0,
+    role: "application",
+    "aria-label": "The world in three dimensions. Robots can also be chosen in the list.",
+});
 const quality = (["low", "high"] as const).find((word) => word === address.get("quality")) ?? "auto";
 const view = h("main", { class: "view" }, canvas);
 document.body.append(view);
@@ -49,37 +55,69 @@ const stage = new Stage(canvas, quality);
 const labels = new LabelLayer(stage);
 const director = new Director(stage, state, rig, address);
 const said = notices(run);
-const capture = new Capture(stage, () => `${state.world.value?.fleet.scene.world ?? "roboss"}_${state.drawnTime.value.toFixed(2)}s`.replace(/\s+/g, "_"), said.say);
+const capture = new Capture(
+    stage,
+    () =>
+        `${state.world.value?.fleet.scene.world ?? "roboss"}_${state.drawnTime.value.toFixed(2)}s`.replace(/\s+/g, "_"),
+    said.say,
+);
 const mark = new HandMark(labels);
 const hand = new RobotHand(stage, state, run, mark, (robot) => director.focus(robot));
 let hurried = false;
 window.addEventListener("keydown", (event) => (hurried = event.shiftKey));
 window.addEventListener("keyup", (event) => (hurried = event.shiftKey));
-const pointer = new CameraPointer(canvas, rig, hand, () => state.cameraMode.value, () => {
-    if (state.cameraMode.value === "follow" || state.cameraMode.value === "chase") state.cameraMode.set("orbit");
-});
+const pointer = new CameraPointer(
+    canvas,
+    rig,
+    hand,
+    () => state.cameraMode.value,
+    () => {
+        if (state.cameraMode.value === "follow" || state.cameraMode.value === "chase") state.cameraMode.set("orbit");
+    },
+);
 
 const plotted = new Plotted(state);
 const list = new RobotList(state, (robot) => director.focus(robot));
 const time = timeBar(state, run);
 const tabs = sideTabs([
-    { id: "inspector", title: "Robot", content: new Inspector(state, run, plotted, (robot) => {
-        state.selected.set(robot);
-        state.cameraMode.set("follow");
-    }).element },
+    {
+        id: "inspector",
+        title: "Robot",
+        content: new Inspector(state, run, plotted, (robot) => {
+            state.selected.set(robot);
+            state.cameraMode.set("follow");
+        }).element,
+    },
     { id: "cluster", title: "Cluster", content: new ClusterPanel(state, run).element },
     { id: "view", title: "View", content: viewOptions(state) },
 ]);
 
-const selection = new SelectionMark(stage, state, labels), names = new Names(stage, state, labels), colouring = new Colouring(stage, state);
-const sensors = new RobotOverlays(stage, state), told = new RunOverlays(stage, state), tracks = new Tracks(stage, state);
+const selection = new SelectionMark(stage, state, labels),
+    names = new Names(stage, state, labels),
+    colouring = new Colouring(stage, state);
+const sensors = new RobotOverlays(stage, state),
+    told = new RunOverlays(stage, state),
+    tracks = new Tracks(stage, state);
 stage.overlays.add(mark.group);
 const loop = new FrameLoop({
-    stage, state, run, rig, director, pointer, times, hurried: () => hurried,
+    stage,
+    state,
+    run,
+    rig,
+    director,
+    pointer,
+    times,
+    hurried: () => hurried,
+    interval_ms: quality === "low" ? LOW_INTERVAL_MS : 0,
     effort: quality === "auto" ? new Effort((level) => stage.lower(level)) : null,
     layers: [
-        (world) => world !== null && colouring.update(world), (world) => selection.update(world), (world) => sensors.update(world),
-        (world, now) => told.update(world, now), (world) => tracks.update(world), (world) => names.update(world), () => labels.update(),
+        (world) => world !== null && colouring.update(world),
+        (world) => selection.update(world),
+        (world) => sensors.update(world),
+        (world, now) => told.update(world, now),
+        (world) => tracks.update(world),
+        (world) => names.update(world),
+        () => labels.update(),
     ],
 });
 
@@ -110,7 +148,12 @@ const shortcuts: Shortcut[] = [
     { keys: ["V"], words: "select", group: "Tools", act: () => state.tool.set("select") },
     { keys: ["M"], words: "move a robot", group: "Tools", act: () => state.tool.set("move") },
     { keys: ["P"], words: "push a robot", group: "Tools", act: () => state.tool.set("push") },
-    { keys: ["Escape"], words: "let go", group: "Tools", act: () => (state.tool.value !== "select" ? state.tool.set("select") : state.selected.set(null)) },
+    {
+        keys: ["Escape"],
+        words: "let go",
+        group: "Tools",
+        act: () => (state.tool.value !== "select" ? state.tool.set("select") : state.selected.set(null)),
+    },
     { keys: ["1"], words: "orbit", group: "Camera", act: () => state.cameraMode.set("orbit") },
     { keys: ["2"], words: "fly", group: "Camera", act: () => state.cameraMode.set("fly") },
     { keys: ["3"], words: "follow the selected robot", group: "Camera", act: () => state.cameraMode.set("follow") },
@@ -120,7 +163,12 @@ const shortcuts: Shortcut[] = [
     { keys: ["/"], words: "find a robot", group: "Page", act: () => list.search.focus() },
     { keys: ["["], words: "robots panel", group: "Page", act: () => togglePanel("left") },
     { keys: ["]"], words: "side panel", group: "Page", act: () => togglePanel("right") },
-    { keys: ["T"], words: "light or dark", group: "Page", act: () => state.theme.set(state.theme.value === "dark" ? "light" : "dark") },
+    {
+        keys: ["T"],
+        words: "light or dark",
+        group: "Page",
+        act: () => state.theme.set(state.theme.value === "dark" ? "light" : "dark"),
+    },
     { keys: ["X"], words: "save a picture", group: "Page", act: () => capture.picture() },
     { keys: ["R"], words: "record a video", group: "Page", act: () => capture.toggleVideo() },
     { keys: ["L"], words: "copy a link to this view", group: "Page", act: () => void copyLink() },
@@ -129,7 +177,15 @@ const shortcuts: Shortcut[] = [
 const help = helpCard(shortcuts);
 listen(shortcuts);
 
-document.body.prepend(topBar(state, capture, { copyLink: () => void copyLink(), help: () => help.showModal(), home: () => director.home(), focus: focusSelected, togglePanel }));
+document.body.prepend(
+    topBar(state, capture, {
+        copyLink: () => void copyLink(),
+        help: () => help.showModal(),
+        home: () => director.home(),
+        focus: focusSelected,
+        togglePanel,
+    }),
+);
 view.append(labels.element, banner(state, run), said.element);
 document.body.append(list.element, tabs.element, plotsDock(state, plotted), time.element, help);
 if (address.get("hide") === "panels") document.body.classList.add("bare");
@@ -148,12 +204,25 @@ state.world.follow((world: World | null) => {
     if (wanted !== null && state.selected.value === null) state.selected.set(world.fleet.find(wanted) ?? null);
     if (state.overlays.value.has("collisions")) stage.showCollisions(world, true);
 });
-state.overlays.follow((on) => state.world.value !== null && stage.showCollisions(state.world.value, on.has("collisions")));
+state.overlays.follow(
+    (on) => state.world.value !== null && stage.showCollisions(state.world.value, on.has("collisions")),
+);
 state.selected.follow((robot) => robot !== null && tabs.open("inspector"));
 if (address.get("panel") !== null) tabs.open(address.get("panel") as string);
-for (const signal of [state.selected, state.overlays, state.colourBy, state.theme, state.report, state.overlayReport, state.groups, state.world, state.tool])
+for (const signal of [
+    state.selected,
+    state.overlays,
+    state.colourBy,
+    state.theme,
+    state.report,
+    state.overlayReport,
+    state.groups,
+    state.world,
+    state.tool,
+])
     (signal as Signal<unknown>).follow(() => loop.wake());
-for (const name of ["pointerdown", "pointermove", "keydown", "resize"]) window.addEventListener(name, () => loop.wake());
+for (const name of ["pointerdown", "pointermove", "keydown", "resize"])
+    window.addEventListener(name, () => loop.wake());
 applyAddress(address, state);
 
 // For tests and measurements; the page itself never reads it.

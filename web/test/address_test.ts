@@ -3,7 +3,13 @@ import { test } from "node:test";
 import { Address, formatCamera, parseCamera } from "../src/model/address";
 
 test("a camera comes back from the link that was made of it", () => {
-    const camera = { target: [1.25, -20.5, 0.5] as [number, number, number], azimuth: -1.1, elevation: 0.6, distance: 42.5 }, back = parseCamera(formatCamera(camera));
+    const camera = {
+            target: [1.25, -20.5, 0.5] as [number, number, number],
+            azimuth: -1.1,
+            elevation: 0.6,
+            distance: 42.5,
+        },
+        back = parseCamera(formatCamera(camera));
     assert.ok(back !== null);
     assert.deepEqual(back.target, camera.target);
     for (const name of ["azimuth", "elevation"] as const) assert.ok(Math.abs(back[name] - camera[name]) < 2e-3);
@@ -11,7 +17,8 @@ test("a camera comes back from the link that was made of it", () => {
 });
 
 test("what is no camera is taken as none", () => {
-    for (const text of ["", "top", "1,2,3", "1,2,3,4,5,x", "1,2,3,4,5,0", "1,2,3,4,,6"]) assert.equal(parseCamera(text), null, text);
+    for (const text of ["", "top", "1,2,3", "1,2,3,4,5,x", "1,2,3,4,5,0", "1,2,3,4,,6"])
+        assert.equal(parseCamera(text), null, text);
 });
 
 test("words behind # win over those behind ?", () => {

@@ -3,11 +3,18 @@ import { test } from "node:test";
 import { PlayClock } from "../src/model/play_clock";
 
 /** Draws 60 frames a second over States that come `late(k)` s after the beat of `rate` a second, at `pace`. */
-function played(pace: number, rate: number, late: (k: number) => number, seconds = 4): { steps: number[]; last: number; newest: number } {
-    const clock = new PlayClock(), arrivals: { at: number; time: number }[] = [];
+function played(
+    pace: number,
+    rate: number,
+    late: (k: number) => number,
+    seconds = 4,
+): { steps: number[]; last: number; newest: number } {
+    const clock = new PlayClock(),
+        arrivals: { at: number; time: number }[] = [];
     for (let k = 0; k < seconds * rate; ++k) arrivals.push({ at: 10 + k / rate + late(k), time: (k / rate) * pace });
     const steps: number[] = [];
-    let before: number | null = null, newest = 0;
+    let before: number | null = null,
+        newest = 0;
     for (let now = 10; now < 10 + seconds - 0.1; now += 1 / 60) {
         while (arrivals.length > 0 && arrivals[0].at <= now) {
             const { at, time } = arrivals.shift() as { at: number; time: number };

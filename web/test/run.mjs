@@ -1,23 +1,27 @@
-// Builds the tests and runs them: node test/run.mjs [unit] [page]; without words, both. The page's tests start the mock
-// gateway, or the program named by ROBOSS_PROGRAM, by themselves.
+// Runs the bundled tests: `node test/run.mjs unit`, `page` (all in a browser), or the name of one file without its ending.
+// The page's tests start the mock gateway, or the program that ROBOSS_PROGRAM names, by themselves.
 import { spawnSync } from "node:child_process";
 import { readdirSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
-const here = join(dirname(fileURLToPath(import.meta.url)), "..");
-const words = process.argv.slice(2), folders = words.length === 0 ? ["unit", "page"] : words;
+const tests = join(dirname(fileURLToPath(import.meta.url)), "../.tests");
 
-function run(command, args) {
-    const done = spawnSync(command, args, { cwd: here, stdio: "inherit" });
+function filesIn(folder) {
+    return readdirSync(join(tests, folder))
+        .filter((name) => name.endsWith("_test.mjs"))
+        .map((name) => join(tests, folder, name));
+}
+
+function run(files) {
+    const done = spawnSync(process.execPath, ["--test", ...files], { stdio: "inherit" });
     if (done.status !== 0) process.exit(done.status ?? 1);
 }
 
-run(process.execPath, ["build.mjs", "dist", "--tests"]);
-for (const word of folders) {
-    const folder = join(".tests", word === "unit" ? "test" : "e2e");
-    const files = readdirSync(join(here, folder)).filter((name) => name.endsWith("_test.mjs")).map((name) => join(folder, name));
-    // The page's tests one after the other: each has a browser of its own.
-    if (word === "page") for (const file of files) run(process.execPath, ["--test", file]);
-    else run(process.execPath, ["--test", ...files]);
+for (const word of process.argv.length > 2 ? process.argv.slice(2) : ["unit", "page"]) {
+    if (word === "unit") run(filesIn("test"));
+    // One after the other: each has a browser of its own.
+    else
+        for (const file of filesIn("e2e").filter((name) => word === "page" || name.endsWith(`/${word}.mjs`)))
+            run([file]);
 }

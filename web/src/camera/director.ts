@@ -15,7 +15,12 @@ const OVERVIEW_ELEVATION = 0.62;
 export class Director {
     private carriedYaw: number | null = null;
 
-    constructor(private readonly stage: Stage, private readonly state: ViewerState, private readonly rig: CameraRig, private readonly address: Address) {
+    constructor(
+        private readonly stage: Stage,
+        private readonly state: ViewerState,
+        private readonly rig: CameraRig,
+        private readonly address: Address,
+    ) {
         state.cameraMode.follow((mode, before) => {
             this.carriedYaw = null;
             if (mode !== before && (mode === "follow" || mode === "chase")) this.approach();
@@ -32,11 +37,16 @@ export class Director {
 
     /** Where the page starts: as its address says, else the whole world. */
     start(world: World): void {
-        const words = this.address.get("camera") ?? "", asked = parseCamera(words);
+        const words = this.address.get("camera") ?? "",
+            asked = parseCamera(words);
         if (asked !== null) return this.rig.jump(asked);
-        const top = words === "top", overview = this.overview(world, top);
+        const top = words === "top",
+            overview = this.overview(world, top);
         this.rig.jump(overview);
-        const named = words.startsWith("follow:") || words.startsWith("chase:") ? world.fleet.find(words.slice(words.indexOf(":") + 1)) : undefined;
+        const named =
+            words.startsWith("follow:") || words.startsWith("chase:")
+                ? world.fleet.find(words.slice(words.indexOf(":") + 1))
+                : undefined;
         if (named === undefined) return;
         this.state.selected.set(named);
         this.state.cameraMode.set(words.startsWith("chase") ? "chase" : "follow");
@@ -45,12 +55,20 @@ export class Director {
     }
 
     overview(world: World, top = false): CameraWords {
-        const box = (this.stage.statics?.extent ?? new THREE.Box3()).clone(), base = world.history.drawn.base;
-        for (let r = 0; r < world.fleet.count; ++r) box.expandByPoint(new THREE.Vector3(base[r * 7], base[r * 7 + 1], base[r * 7 + 2]));
-        const centre = box.isEmpty() ? new THREE.Vector3() : box.getCenter(new THREE.Vector3()), size = box.isEmpty() ? new THREE.Vector3(4, 4, 1) : box.getSize(new THREE.Vector3());
-        const span = Math.max(1.2, Math.hypot(size.x, size.y)), wide = Math.min(1, this.stage.camera.aspect / 1.5);
-        return { target: [centre.x, centre.y, Math.max(0, box.isEmpty() ? 0 : box.min.z)], azimuth: top ? -Math.PI / 2 : OVERVIEW_AZIMUTH,
-            elevation: top ? Math.PI / 2 - 0.001 : OVERVIEW_ELEVATION, distance: (span * 0.62) / wide };
+        const box = (this.stage.statics?.extent ?? new THREE.Box3()).clone(),
+            base = world.history.drawn.base;
+        for (let r = 0; r < world.fleet.count; ++r)
+            box.expandByPoint(new THREE.Vector3(base[r * 7], base[r * 7 + 1], base[r * 7 + 2]));
+        const centre = box.isEmpty() ? new THREE.Vector3() : box.getCenter(new THREE.Vector3()),
+            size = box.isEmpty() ? new THREE.Vector3(4, 4, 1) : box.getSize(new THREE.Vector3());
+        const span = Math.max(1.2, Math.hypot(size.x, size.y)),
+            wide = Math.min(1, this.stage.camera.aspect / 1.5);
+        return {
+            target: [centre.x, centre.y, Math.max(0, box.isEmpty() ? 0 : box.min.z)],
+            azimuth: top ? -Math.PI / 2 : OVERVIEW_AZIMUTH,
+            elevation: top ? Math.PI / 2 - 0.001 : OVERVIEW_ELEVATION,
+            distance: (span * 0.62) / wide,
+        };
     }
 
     home(): void {
@@ -69,7 +87,8 @@ export class Director {
     }
 
     private place(world: World, robot: number): [number, number, number] {
-        const base = world.history.drawn.base, at = robot * 7;
+        const base = world.history.drawn.base,
+            at = robot * 7;
         return [base[at], base[at + 1], base[at + 2]];
     }
 
@@ -78,7 +97,8 @@ export class Director {
     }
 
     private approach(): void {
-        const world = this.state.world.value, robot = this.state.selected.value;
+        const world = this.state.world.value,
+            robot = this.state.selected.value;
         if (world === null || robot === null) return;
         const goal = this.rig.goal;
         goal.distance = Math.min(goal.distance, this.closeness(world, robot));
@@ -92,14 +112,22 @@ export class Director {
 
     /** How far from the target the camera may be before scenery comes between. */
     private clearDistance(): number {
-        const solids = (this.stage.statics?.solids ?? []).filter((mesh) => mesh.name !== "planes" && mesh.geometry.getAttribute("position").count < RAY_VERTICES_MAX);
-        const target = new THREE.Vector3(...this.rig.now.target), way = new THREE.Vector3(...this.rig.eye({ ...this.rig.now, distance: 1 })).sub(target).normalize();
+        const solids = (this.stage.statics?.solids ?? []).filter(
+            (mesh) => mesh.name !== "planes" && mesh.geometry.getAttribute("position").count < RAY_VERTICES_MAX,
+        );
+        const target = new THREE.Vector3(...this.rig.now.target),
+            way = new THREE.Vector3(...this.rig.eye({ ...this.rig.now, distance: 1 })).sub(target).normalize();
         const met = new THREE.Raycaster(target, way, 0, this.rig.now.distance).intersectObjects(solids, false)[0];
         return met === undefined ? this.rig.now.distance * 1.05 : Math.max(CLEAR_MIN_M, met.distance * 0.92);
     }
 
     private yaw(world: World, robot: number): number {
-        const base = world.history.drawn.base, at = robot * 7, w = base[at + 3], x = base[at + 4], y = base[at + 5], z = base[at + 6];
+        const base = world.history.drawn.base,
+            at = robot * 7,
+            w = base[at + 3],
+            x = base[at + 4],
+            y = base[at + 5],
+            z = base[at + 6];
         return Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
     }
 
@@ -109,12 +137,14 @@ export class Director {
         this.rig.clear = Infinity;
         if (!this.following() || robot === null) return;
         this.rig.clear = this.clearDistance();
-        const place = this.place(world, robot), far = Math.hypot(...place.map((value, k) => value - this.rig.now.target[k]));
+        const place = this.place(world, robot),
+            far = Math.hypot(...place.map((value, k) => value - this.rig.now.target[k]));
         if (far < Math.max(2, this.rig.now.distance) || seconds === 0) this.rig.carry(place);
         else this.rig.goal.target = place;
         if (this.state.cameraMode.value !== "chase") return;
         const yaw = this.yaw(world, robot);
-        if (this.carriedYaw !== null) this.rig.goal.azimuth += Math.atan2(Math.sin(yaw - this.carriedYaw), Math.cos(yaw - this.carriedYaw));
+        if (this.carriedYaw !== null)
+            this.rig.goal.azimuth += Math.atan2(Math.sin(yaw - this.carriedYaw), Math.cos(yaw - this.carriedYaw));
         this.carriedYaw = yaw;
     }
 }

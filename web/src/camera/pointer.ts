@@ -15,9 +15,18 @@ export interface PointerHand {
 
 const CLICK_SLOP_PX = 4;
 const RADIANS_A_PIXEL = 0.0052;
-const MOVING = new Map([["KeyW", [0, 1, 0]], ["ArrowUp", [0, 1, 0]], ["KeyS", [0, -1, 0]], ["ArrowDown", [0, -1, 0]],
-    ["KeyA", [-1, 0, 0]], ["ArrowLeft", [-1, 0, 0]], ["KeyD", [1, 0, 0]], ["ArrowRight", [1, 0, 0]],
-    ["KeyE", [0, 0, 1]], ["KeyQ", [0, 0, -1]]]);
+const MOVING = new Map([
+    ["KeyW", [0, 1, 0]],
+    ["ArrowUp", [0, 1, 0]],
+    ["KeyS", [0, -1, 0]],
+    ["ArrowDown", [0, -1, 0]],
+    ["KeyA", [-1, 0, 0]],
+    ["ArrowLeft", [-1, 0, 0]],
+    ["KeyD", [1, 0, 0]],
+    ["ArrowRight", [1, 0, 0]],
+    ["KeyE", [0, 0, 1]],
+    ["KeyQ", [0, 0, -1]],
+]);
 
 export class CameraPointer {
     private readonly down = new Map<number, { x: number; y: number }>();
@@ -26,8 +35,13 @@ export class CameraPointer {
     private travelled = 0;
     private button = 0;
 
-    constructor(private readonly canvas: HTMLElement, private readonly rig: CameraRig, private readonly hand: PointerHand,
-                private readonly mode: () => CameraMode, private readonly free: () => void) {
+    constructor(
+        private readonly canvas: HTMLElement,
+        private readonly rig: CameraRig,
+        private readonly hand: PointerHand,
+        private readonly mode: () => CameraMode,
+        private readonly free: () => void,
+    ) {
         canvas.addEventListener("pointerdown", (event) => this.press(event));
         canvas.addEventListener("pointermove", (event) => this.move(event));
         canvas.addEventListener("pointerup", (event) => this.release(event, false));
@@ -47,7 +61,8 @@ export class CameraPointer {
     /** Moves with the keys held. */
     advance(seconds: number, hurried: boolean): void {
         if (this.keys.size === 0) return;
-        const pace = Math.max(1, this.rig.goal.distance) * (this.mode() === "fly" ? 0.8 : 0.6) * (hurried ? 3 : 1) * seconds;
+        const pace =
+            Math.max(1, this.rig.goal.distance) * (this.mode() === "fly" ? 0.8 : 0.6) * (hurried ? 3 : 1) * seconds;
         for (const key of this.keys) {
             const [right, forwards, up] = MOVING.get(key) ?? [0, 0, 0];
             if (right !== 0 || forwards !== 0) this.free();
@@ -72,7 +87,8 @@ export class CameraPointer {
     private move(event: PointerEvent): void {
         const before = this.down.get(event.pointerId);
         if (before === undefined) return;
-        const dx = event.offsetX - before.x, dy = event.offsetY - before.y;
+        const dx = event.offsetX - before.x,
+            dy = event.offsetY - before.y;
         this.travelled += Math.abs(dx) + Math.abs(dy);
         if (this.down.size === 2) this.pinch(event, before, dx, dy);
         else if (this.taken) this.hand.move(event.offsetX, event.offsetY, event);
@@ -96,7 +112,8 @@ export class CameraPointer {
     private pinch(event: PointerEvent, before: { x: number; y: number }, dx: number, dy: number): void {
         const other = [...this.down].find(([id]) => id !== event.pointerId)?.[1];
         if (other === undefined) return;
-        const was = Math.hypot(before.x - other.x, before.y - other.y), is = Math.hypot(event.offsetX - other.x, event.offsetY - other.y);
+        const was = Math.hypot(before.x - other.x, before.y - other.y),
+            is = Math.hypot(event.offsetX - other.x, event.offsetY - other.y);
         if (was > 10 && is > 10) this.rig.zoom(was / is);
         this.panPixels(dx / 2, dy / 2);
     }
@@ -105,7 +122,8 @@ export class CameraPointer {
         const known = this.down.delete(event.pointerId);
         if (!known || this.down.size > 0) return;
         if (this.taken) this.hand.release(cancelled);
-        if (!cancelled && event.button === 0 && this.travelled < CLICK_SLOP_PX) this.hand.click(event.offsetX, event.offsetY, event);
+        if (!cancelled && event.button === 0 && this.travelled < CLICK_SLOP_PX)
+            this.hand.click(event.offsetX, event.offsetY, event);
         this.taken = false;
     }
 

@@ -36,7 +36,8 @@ export class CameraRig {
 
     /** Moves the target along the ground: right and forwards as the camera sees them, in metres. */
     pan(right: number, forwards: number, up = 0): void {
-        const s = Math.sin(this.goal.azimuth), c = Math.cos(this.goal.azimuth);
+        const s = Math.sin(this.goal.azimuth),
+            c = Math.cos(this.goal.azimuth);
         this.goal.target[0] += -s * right - c * forwards;
         this.goal.target[1] += c * right - s * forwards;
         this.goal.target[2] = Math.max(-5, this.goal.target[2] + up);
@@ -65,14 +66,21 @@ export class CameraRig {
         this.now.elevation += f * (this.goal.elevation - this.now.elevation);
         const free = Math.min(this.clear, this.now.distance * 1.05);
         if (this.squeezed === Infinity || this.clear === Infinity) this.squeezed = this.clear;
-        else this.squeezed += (free < this.squeezed ? 1 - Math.exp(-30 * seconds) : 1 - Math.exp(-3 * seconds)) * (free - this.squeezed);
+        else
+            this.squeezed +=
+                (free < this.squeezed ? 1 - Math.exp(-30 * seconds) : 1 - Math.exp(-3 * seconds)) *
+                (free - this.squeezed);
         this.now.distance *= Math.pow(this.goal.distance / this.now.distance, f);
     }
 
     eye(place: CameraWords = this.now): [number, number, number] {
-        const distance = Math.min(place.distance, this.squeezed), flat = Math.cos(place.elevation) * distance;
-        return [place.target[0] + Math.cos(place.azimuth) * flat, place.target[1] + Math.sin(place.azimuth) * flat,
-            place.target[2] + Math.sin(place.elevation) * distance];
+        const distance = Math.min(place.distance, this.squeezed),
+            flat = Math.cos(place.elevation) * distance;
+        return [
+            place.target[0] + Math.cos(place.azimuth) * flat,
+            place.target[1] + Math.sin(place.azimuth) * flat,
+            place.target[2] + Math.sin(place.elevation) * distance,
+        ];
     }
 
     apply(camera: THREE.PerspectiveCamera): void {

@@ -36,18 +36,34 @@ export class RobotHand implements PointerHand {
     private pushTimer = 0;
     private readonly sendPose: (robot: number, pose: PoseArray) => void;
 
-    constructor(private readonly stage: Stage, private readonly state: ViewerState, private readonly run: RunLink,
-                private readonly mark: HandMark, private readonly onFocus: (robot: number) => void) {
+    constructor(
+        private readonly stage: Stage,
+        private readonly state: ViewerState,
+        private readonly run: RunLink,
+        private readonly mark: HandMark,
+        private readonly onFocus: (robot: number) => void,
+    ) {
         this.sendPose = throttled(ORDER_INTERVAL_MS, (robot, pose) => void run.order(robot, { action: "pose", pose }));
     }
 
     press(x: number, y: number): boolean {
-        const world = this.state.world.value, tool = this.state.tool.value;
+        const world = this.state.world.value,
+            tool = this.state.tool.value;
         if (world === null || tool === "select") return false;
         const picked = pick(this.stage, world, x, y);
         if (picked === null) return false;
         this.state.selected.set(picked.robot);
-        this.hold = { robot: picked.robot, tool, grab: picked.point, pose: robotFrame(world, picked.robot), moved: new THREE.Vector3(), turned: 0, x, y, dragged: false };
+        this.hold = {
+            robot: picked.robot,
+            tool,
+            grab: picked.point,
+            pose: robotFrame(world, picked.robot),
+            moved: new THREE.Vector3(),
+            turned: 0,
+            x,
+            y,
+            dragged: false,
+        };
         this.mark.begin(tool, picked.point);
         return true;
     }
@@ -58,7 +74,10 @@ export class RobotHand implements PointerHand {
         hold.dragged ||= Math.hypot(x - hold.x, y - hold.y) > 3;
         if (!hold.dragged) return;
         if (hold.tool === "move" && event.shiftKey) hold.turned += (x - hold.x) * METRES_A_TURN_PX;
-        else if (hold.tool === "move" && event.altKey) hold.moved.z -= ((y - hold.y) * 1.1 * this.stage.camera.position.distanceTo(hold.grab)) / this.stage.canvas.clientHeight;
+        else if (hold.tool === "move" && event.altKey)
+            hold.moved.z -=
+                ((y - hold.y) * 1.1 * this.stage.camera.position.distanceTo(hold.grab)) /
+                this.stage.canvas.clientHeight;
         else this.slide(hold, x, y);
         hold.x = x;
         hold.y = y;
@@ -67,7 +86,8 @@ export class RobotHand implements PointerHand {
 
     /** Over the horizontal plane through the point where the robot was taken. */
     private slide(hold: Hold, x: number, y: number): void {
-        const plane = new THREE.Plane(new THREE.Vector3(0, 0, 1), -(hold.grab.z + hold.moved.z)), at = new THREE.Vector3();
+        const plane = new THREE.Plane(new THREE.Vector3(0, 0, 1), -(hold.grab.z + hold.moved.z)),
+            at = new THREE.Vector3();
         if (this.stage.ray(x, y).ray.intersectPlane(plane, at) === null || at.distanceTo(hold.grab) > 500) return;
         hold.moved.set(at.x - hold.grab.x, at.y - hold.grab.y, hold.moved.z);
     }
@@ -86,7 +106,15 @@ export class RobotHand implements PointerHand {
 
     private target(hold: Hold): PoseArray {
         const turned = composed(fromAxisAngle([0, 0, 1], hold.turned), [0, 0, 0, ...hold.pose.slice(3)]);
-        return [hold.pose[0] + hold.moved.x, hold.pose[1] + hold.moved.y, hold.pose[2] + hold.moved.z, turned[3], turned[4], turned[5], turned[6]];
+        return [
+            hold.pose[0] + hold.moved.x,
+            hold.pose[1] + hold.moved.y,
+            hold.pose[2] + hold.moved.z,
+            turned[3],
+            turned[4],
+            turned[5],
+            turned[6],
+        ];
     }
 
     private force(hold: Hold): THREE.Vector3 {
@@ -107,7 +135,8 @@ export class RobotHand implements PointerHand {
         this.pushTimer = 0;
         this.hold = null;
         this.mark.end();
-        if (hold !== null && !cancelled && hold.dragged && hold.tool === "move") this.sendPose(hold.robot, this.target(hold));
+        if (hold !== null && !cancelled && hold.dragged && hold.tool === "move")
+            this.sendPose(hold.robot, this.target(hold));
     }
 
     click(x: number, y: number): void {
@@ -116,14 +145,17 @@ export class RobotHand implements PointerHand {
     }
 
     doubleClick(x: number, y: number): void {
-        const world = this.state.world.value, picked = world === null ? null : pick(this.stage, world, x, y);
+        const world = this.state.world.value,
+            picked = world === null ? null : pick(this.stage, world, x, y);
         if (picked !== null) this.onFocus(picked.robot);
     }
 }
 
 /** Where the robot's own frame (its SDF model frame) is now: what a pose order moves. */
 export function robotFrame(world: World, robot: number): PoseArray {
-    const type = world.fleet.type(robot), { drawn } = world.history, bodies = new Float64Array((type.bodies.length + 1) * 7);
+    const type = world.fleet.type(robot),
+        { drawn } = world.history,
+        bodies = new Float64Array((type.bodies.length + 1) * 7);
     placeBodies(type, drawn.base, robot * 7, drawn.joints, world.fleet.firstCoordinate[robot], bodies);
     const at = bodyAt(type.links[0]?.body ?? -1);
     return composed(Array.from(bodies.subarray(at, at + 7)), type.origin) as PoseArray;

@@ -7,7 +7,8 @@ const motion = new Float64Array(POSE_WIDTH);
 
 /** How a body moves in its joint's frame; `q` and `at`: the robot's joint coordinates. */
 function writeMotion(body: BodyInfo, q: Numbers, at: number): void {
-    const value = q[at + body.q], axis = body.axis;
+    const value = q[at + body.q],
+        axis = body.axis;
     motion[0] = motion[1] = motion[2] = motion[4] = motion[5] = motion[6] = 0;
     motion[3] = 1;
     if (body.joint === "ball") {
@@ -24,11 +25,19 @@ function writeMotion(body: BodyInfo, q: Numbers, at: number): void {
 }
 
 /** Poses of all bodies of one robot into `out`, seven numbers each; the base frame comes first (body -1), then body 0, ... */
-export function placeBodies(type: TypeInfo, base: Numbers, baseAt: number, q: Numbers, qAt: number, out: Float64Array): void {
+export function placeBodies(
+    type: TypeInfo,
+    base: Numbers,
+    baseAt: number,
+    q: Numbers,
+    qAt: number,
+    out: Float64Array,
+): void {
     for (let k = 0; k < POSE_WIDTH; ++k) out[k] = base[baseAt + k];
     const bodies = type.bodies;
     for (let b = 0; b < bodies.length; ++b) {
-        const body = bodies[b], at = (b + 1) * POSE_WIDTH;
+        const body = bodies[b],
+            at = (b + 1) * POSE_WIDTH;
         if (body.joint === "free") {
             for (let k = 0; k < POSE_WIDTH; ++k) out[at + k] = base[baseAt + k];
             continue;

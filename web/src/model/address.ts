@@ -19,8 +19,12 @@ export function parseCamera(text: string): CameraWords | null {
 
 export function formatCamera(camera: CameraWords): string {
     const round = (value: number, digits: number) => Number(value.toFixed(digits)).toString();
-    return [...camera.target.map((value) => round(value, 2)), round(camera.azimuth / DEGREE, 1),
-        round(camera.elevation / DEGREE, 1), round(camera.distance, 2)].join(",");
+    return [
+        ...camera.target.map((value) => round(value, 2)),
+        round(camera.azimuth / DEGREE, 1),
+        round(camera.elevation / DEGREE, 1),
+        round(camera.distance, 2),
+    ].join(",");
 }
 
 export class Address {

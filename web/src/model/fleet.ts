@@ -2,7 +2,12 @@
 import type { SceneInfo, TypeInfo } from "../wire/messages";
 
 /** How a joint coordinate is interpolated: along a line, around a circle, or as part of a quaternion. */
-export const enum Course { Line, Circle, QuaternionStart, QuaternionRest }
+export const enum Course {
+    Line,
+    Circle,
+    QuaternionStart,
+    QuaternionRest,
+}
 
 function courses(type: TypeInfo, count: number): Uint8Array {
     const found = new Uint8Array(count).fill(Course.Circle);
@@ -14,7 +19,8 @@ function courses(type: TypeInfo, count: number): Uint8Array {
     }
     // A screw's coordinate is an angle; it runs along a line only where its range is more than a turn.
     for (const body of type.bodies)
-        if (body.joint === "screw" && Math.abs((type.ranges[body.q] ?? Math.PI) - Math.PI) < 1e-6) found[body.q] = Course.Circle;
+        if (body.joint === "screw" && Math.abs((type.ranges[body.q] ?? Math.PI) - Math.PI) < 1e-6)
+            found[body.q] = Course.Circle;
     return found;
 }
 
@@ -40,7 +46,9 @@ export class Fleet {
         this.firstCoordinate = new Uint32Array(this.count + 1);
         const widths = scene.types.map(coordinateCount);
         this.courses = scene.types.map((type, k) => courses(type, widths[k]));
-        this.ranges = scene.types.map((type, k) => Float64Array.from({ length: widths[k] }, (_, q) => type.ranges?.[q] ?? Math.PI));
+        this.ranges = scene.types.map((type, k) =>
+            Float64Array.from({ length: widths[k] }, (_, q) => type.ranges?.[q] ?? Math.PI),
+        );
         scene.robots.forEach((robot, r) => {
             this.typeOf[r] = robot.type;
             this.firstCoordinate[r + 1] = this.firstCoordinate[r] + widths[robot.type];

@@ -73,7 +73,8 @@ export class History {
         if (this.filled === 0) return;
         let n = 0;
         while (n + 1 < this.filled && this.back(n).time > time) ++n;
-        const from = this.back(n), to = n === 0 ? from : this.back(n - 1);
+        const from = this.back(n),
+            to = n === 0 ? from : this.back(n - 1);
         const f = from === to ? 1 : Math.max(0, Math.min(1, (time - from.time) / (to.time - from.time || 1)));
         this.drawn.time = from === to ? to.time : from.time + f * (to.time - from.time);
         this.drawn.tick = Math.round(from.tick + f * (to.tick - from.tick));
@@ -87,12 +88,16 @@ export class History {
     }
 
     private between(robot: number, from: Snapshot, to: Snapshot, f: number): void {
-        const b = robot * POSE_WIDTH, out = this.drawn;
+        const b = robot * POSE_WIDTH,
+            out = this.drawn;
         for (let k = b; k < b + 3; ++k) out.base[k] = from.base[k] + f * (to.base[k] - from.base[k]);
         slerp(out.base, b + 3, from.base, b + 3, to.base, b + 3, f);
-        const first = this.fleet.firstCoordinate[robot], courses = this.fleet.courses[this.fleet.typeOf[robot]];
+        const first = this.fleet.firstCoordinate[robot],
+            courses = this.fleet.courses[this.fleet.typeOf[robot]];
         for (let k = 0; k < courses.length; ++k) {
-            const q = first + k, a = from.joints[q], z = to.joints[q];
+            const q = first + k,
+                a = from.joints[q],
+                z = to.joints[q];
             if (courses[k] === Course.Circle) out.joints[q] = betweenAngles(a, z, f);
             else if (courses[k] === Course.Line) out.joints[q] = a + f * (z - a);
             else if (courses[k] === Course.QuaternionStart) slerp(out.joints, q, from.joints, q, to.joints, q, f);

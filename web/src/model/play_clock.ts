@@ -26,7 +26,8 @@ export class PlayClock {
 
     /** A State of simulated time `time` came at wall time `now` (both s). */
     heard(time: number, now: number): void {
-        const passed = now - this.arrived, fresh = !this.started || time < this.latest;
+        const passed = now - this.arrived,
+            fresh = !this.started || time < this.latest;
         if (fresh) this.shown = time;
         if (fresh || passed >= 1) this.forget(time);
         else this.learn(time, passed);
@@ -45,18 +46,23 @@ export class PlayClock {
         this.interval = MEMORY * this.interval + (1 - MEMORY) * passed;
         this.simulated = MEMORY * this.simulated + (time - this.latest);
         this.waited = MEMORY * this.waited + passed;
-        const expected = this.live + this.pace * passed, off = time - expected;
+        const expected = this.live + this.pace * passed,
+            off = time - expected;
         const far = Math.abs(off) > 0.25 * this.pace;
         this.live = far ? time : expected + (1 - MEMORY) * off;
     }
 
     /** The simulated time to draw at wall time `now`. */
     read(now: number): number {
-        const passed = Math.max(0, Math.min(0.25, now - this.at)), pace = this.pace, before = this.shown;
+        const passed = Math.max(0, Math.min(0.25, now - this.at)),
+            pace = this.pace,
+            before = this.shown;
         this.at = now;
-        const since = now - this.arrived, quiet = since > 3 * this.interval + 0.05 || pace === 0;
+        const since = now - this.arrived,
+            quiet = since > 3 * this.interval + 0.05 || pace === 0;
         const delay = Math.min(DELAY_MAX_S, 1.5 * this.interval);
-        const wanted = quiet ? this.latest : Math.min(this.latest, this.live + pace * (since - delay)), behind = wanted - this.shown;
+        const wanted = quiet ? this.latest : Math.min(this.latest, this.live + pace * (since - delay)),
+            behind = wanted - this.shown;
         const far = Math.abs(behind) > Math.max(0.5 * pace, 0.05);
         if (quiet || far) this.shown += behind * Math.min(1, (far ? 20 : 12) * passed);
         else this.shown += pace * passed + behind * Math.min(1, PULL_PER_S * passed);

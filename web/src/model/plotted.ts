@@ -18,7 +18,11 @@ export interface Curve {
     values: (number | null)[];
 }
 
-export function append(curve: { times: number[]; values: (number | null)[] }, time: number, value: number | null): void {
+export function append(
+    curve: { times: number[]; values: (number | null)[] },
+    time: number,
+    value: number | null,
+): void {
     const { times, values } = curve;
     while (times.length > 0 && times[times.length - 1] >= time) {
         times.pop();
@@ -51,7 +55,18 @@ export class Plotted {
         const others = this.curves.value.filter((curve) => curve.robot !== robot || curve.key !== key);
         if (others.length < this.curves.value.length) this.set(others);
         else if (others.length < CURVES_MAX)
-            this.set([...others, { robot, robotName: this.state.world.value?.fleet.name(robot) ?? "", key, label, unit, times: [], values: [] }]);
+            this.set([
+                ...others,
+                {
+                    robot,
+                    robotName: this.state.world.value?.fleet.name(robot) ?? "",
+                    key,
+                    label,
+                    unit,
+                    times: [],
+                    values: [],
+                },
+            ]);
         else return false;
         return true;
     }
@@ -66,9 +81,11 @@ export class Plotted {
     }
 
     private take(report: RobotReport): void {
-        const mine = this.curves.value.filter((curve) => curve.robot === report.robot), world = this.state.world.value;
+        const mine = this.curves.value.filter((curve) => curve.robot === report.robot),
+            world = this.state.world.value;
         if (mine.length === 0 || world === null || report.robot >= world.fleet.count) return;
-        const all = readings(world.fleet.type(report.robot), report), values = new Map<string, number | null>();
+        const all = readings(world.fleet.type(report.robot), report),
+            values = new Map<string, number | null>();
         for (const one of [...all.base, ...all.joints, ...all.sensors.flat()]) values.set(one.key, one.value);
         for (const curve of mine) append(curve, report.time, values.get(curve.key) ?? null);
         this.grown.set(this.grown.value + 1);

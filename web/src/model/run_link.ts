@@ -9,7 +9,6 @@ import { PlayClock } from "./play_clock";
 import { Signal } from "./signal";
 import { type ViewerState, World } from "./viewer_state";
 
-
 export class RunLink {
     readonly clock = new PlayClock();
     readonly notice = new Signal<{ text: string; bad: boolean } | null>(null);
@@ -92,12 +91,14 @@ export class RunLink {
         try {
             const loaded = await loadScene();
             if (this.loading !== wanted) return;
-            const before = this.state.world.value?.fleet, selected = this.state.selected.value;
+            const before = this.state.world.value?.fleet,
+                selected = this.state.selected.value;
             const world = new World(loaded);
             this.state.groups.set(null);
             this.state.selected.set(null);
             this.state.world.set(world);
-            if (before !== undefined && selected !== null) this.state.selected.set(world.fleet.find(before.name(selected)) ?? null);
+            if (before !== undefined && selected !== null)
+                this.state.selected.set(world.fleet.find(before.name(selected)) ?? null);
             this.connection.askWhole();
             this.lastWatch = "";
             this.sendWatch();
@@ -125,7 +126,9 @@ export class RunLink {
 
     private sendWatch(): void {
         if (this.state.world.value === null || this.state.link.value.state !== "open") return;
-        const overlays: string[] = [], on = this.state.overlays.value, colour = this.state.colourBy.value;
+        const overlays: string[] = [],
+            on = this.state.overlays.value,
+            colour = this.state.colourBy.value;
         for (const name of ["contacts", "bounds"] as const) if (on.has(name)) overlays.push(name);
         if (on.has("islands") || colour === "island" || colour === "simulator") overlays.push("groups");
         const robots = new Set<number>(this.state.pinned.value);

@@ -17,14 +17,18 @@ export function keepTheme(theme: Theme): void {
 /** Choices that need no scene. */
 export function applyAddress(address: Address, state: ViewerState): void {
     const colour = address.get("colour");
-    if (colour !== null && ["model", "simulator", "island", "speed"].includes(colour)) state.colourBy.set(colour as ColourBy);
-    for (const name of address.list("show")) if ((OVERLAYS as readonly string[]).includes(name)) state.toggle(name as Overlay, true);
+    if (colour !== null && ["model", "simulator", "island", "speed"].includes(colour))
+        state.colourBy.set(colour as ColourBy);
+    for (const name of address.list("show"))
+        if ((OVERLAYS as readonly string[]).includes(name)) state.toggle(name as Overlay, true);
     const mode = address.get("mode");
     if (mode !== null && ["orbit", "fly", "follow", "chase"].includes(mode)) state.cameraMode.set(mode as CameraMode);
 }
 
 export function viewLink(state: ViewerState, camera: CameraWords): string {
-    const words = new URLSearchParams(), url = new URL(location.href), selected = state.selected.value;
+    const words = new URLSearchParams(),
+        url = new URL(location.href),
+        selected = state.selected.value;
     words.set("camera", formatCamera(camera));
     if (selected !== null) words.set("select", state.world.value?.fleet.name(selected) ?? "");
     if (state.cameraMode.value !== "orbit") words.set("mode", state.cameraMode.value);

@@ -11,7 +11,17 @@ export type ColourBy = "model" | "simulator" | "island" | "speed";
 export type Tool = "select" | "move" | "push";
 export type CameraMode = "orbit" | "fly" | "follow" | "chase";
 export type Theme = "light" | "dark";
-export const OVERLAYS = ["rays", "tracks", "compass", "contacts", "bounds", "spheres", "islands", "names", "collisions"] as const;
+export const OVERLAYS = [
+    "rays",
+    "tracks",
+    "compass",
+    "contacts",
+    "bounds",
+    "spheres",
+    "islands",
+    "names",
+    "collisions",
+] as const;
 export type Overlay = (typeof OVERLAYS)[number];
 
 /** A scene with the States that came for it. */

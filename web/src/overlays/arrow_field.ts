@@ -20,7 +20,10 @@ export class ArrowField {
     private readonly turn = new THREE.Quaternion();
 
     /** `thickness`: radius of the head's foot, m. */
-    constructor(private capacity: number, private readonly thickness: number) {
+    constructor(
+        private capacity: number,
+        private readonly thickness: number,
+    ) {
         this.mesh = this.make();
     }
 
@@ -51,7 +54,8 @@ export class ArrowField {
         const before = this.mesh;
         this.capacity *= 2;
         this.mesh = this.make();
-        const matrix = new THREE.Matrix4(), colour = new THREE.Color();
+        const matrix = new THREE.Matrix4(),
+            colour = new THREE.Color();
         for (let k = 0; k < this.used; ++k) {
             before.getMatrixAt(k, matrix);
             before.getColorAt(k, colour);

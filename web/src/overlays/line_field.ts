@@ -8,7 +8,13 @@ export class LineField {
     private used = 0;
 
     constructor(opacity = 1) {
-        const material = new THREE.LineBasicMaterial({ vertexColors: true, transparent: opacity < 1, opacity, toneMapped: false, depthWrite: false });
+        const material = new THREE.LineBasicMaterial({
+            vertexColors: true,
+            transparent: opacity < 1,
+            opacity,
+            toneMapped: false,
+            depthWrite: false,
+        });
         this.lines = new THREE.LineSegments(new THREE.BufferGeometry(), material);
         this.lines.frustumCulled = false;
         this.lines.renderOrder = 3;
@@ -34,7 +40,8 @@ export class LineField {
     }
 
     private grow(): void {
-        const data = new Float32Array(this.data.length * 2), colours = new Float32Array(this.data.length * 2);
+        const data = new Float32Array(this.data.length * 2),
+            colours = new Float32Array(this.data.length * 2);
         data.set(this.data);
         colours.set(this.colours);
         this.data = data;

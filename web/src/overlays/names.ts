@@ -7,20 +7,32 @@ import type { LabelLayer } from "./labels";
 const NAMED_MAX = 40;
 
 export class Names {
-    constructor(private readonly stage: Stage, private readonly state: ViewerState, private readonly labels: LabelLayer) {}
+    constructor(
+        private readonly stage: Stage,
+        private readonly state: ViewerState,
+        private readonly labels: LabelLayer,
+    ) {}
 
     update(world: World | null): void {
         const wanted = new Set<string>();
         if (world !== null && this.state.overlays.value.has("names")) {
-            const base = world.history.drawn.base, eye = this.stage.camera.position, place = new THREE.Vector3();
+            const base = world.history.drawn.base,
+                eye = this.stage.camera.position,
+                place = new THREE.Vector3();
             const near = Array.from({ length: world.fleet.count }, (_, robot) => ({
-                robot, away: eye.distanceToSquared(place.set(base[robot * 7], base[robot * 7 + 1], base[robot * 7 + 2])) }));
+                robot,
+                away: eye.distanceToSquared(place.set(base[robot * 7], base[robot * 7 + 1], base[robot * 7 + 2])),
+            }));
             near.sort((a, b) => a.away - b.away);
             for (const { robot } of near.slice(0, NAMED_MAX)) {
                 if (robot === this.state.selected.value) continue;
                 const key = `name ${robot}`;
                 wanted.add(key);
-                place.set(base[robot * 7], base[robot * 7 + 1], base[robot * 7 + 2] + world.fleet.type(robot).reach * 1.1);
+                place.set(
+                    base[robot * 7],
+                    base[robot * 7 + 1],
+                    base[robot * 7 + 2] + world.fleet.type(robot).reach * 1.1,
+                );
                 this.labels.put(key, place, world.fleet.name(robot));
             }
         }

@@ -11,8 +11,23 @@ import { LineField } from "./line_field";
 
 const METRES_A_NEWTON = 0.01;
 const ARROW_MAX_M = 3;
-const FORCE = new THREE.Color(0xff9f43), BOX = new THREE.Color(0x46c8e8), SPHERE = new THREE.Color(0xa78bfa);
-const CORNERS = [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]];
+const FORCE = new THREE.Color(0xff9f43),
+    BOX = new THREE.Color(0x46c8e8),
+    SPHERE = new THREE.Color(0xa78bfa);
+const CORNERS = [
+    [0, 1],
+    [2, 3],
+    [4, 5],
+    [6, 7],
+    [0, 2],
+    [1, 3],
+    [4, 6],
+    [5, 7],
+    [0, 4],
+    [1, 5],
+    [2, 6],
+    [3, 7],
+];
 const SPHERE_STEPS = 24;
 const HULL_HEIGHT_M = 0.02;
 const HULL_SPARE_M = 0.12;
@@ -26,9 +41,21 @@ export class RunOverlays {
     private lastHulls = 0;
     private readonly holder = new THREE.Group();
 
-    constructor(stage: Stage, private readonly state: ViewerState) {
-        this.hullFill = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshBasicMaterial({
-            vertexColors: true, transparent: true, opacity: 0.3, depthWrite: false, side: THREE.DoubleSide, toneMapped: false }));
+    constructor(
+        stage: Stage,
+        private readonly state: ViewerState,
+    ) {
+        this.hullFill = new THREE.Mesh(
+            new THREE.BufferGeometry(),
+            new THREE.MeshBasicMaterial({
+                vertexColors: true,
+                transparent: true,
+                opacity: 0.3,
+                depthWrite: false,
+                side: THREE.DoubleSide,
+                toneMapped: false,
+            }),
+        );
         this.hullFill.frustumCulled = false;
         this.hullFill.renderOrder = 2;
         this.holder.add(this.arrows.mesh);
@@ -51,7 +78,8 @@ export class RunOverlays {
     private drawBox(box: readonly number[]): void {
         const corner = (k: number) => [box[k & 1 ? 3 : 0], box[k & 2 ? 4 : 1], box[k & 4 ? 5 : 2]];
         for (const [a, b] of CORNERS) {
-            const p = corner(a), q = corner(b);
+            const p = corner(a),
+                q = corner(b);
             this.boxes.add(p[0], p[1], p[2], q[0], q[1], q[2], BOX);
         }
     }
@@ -60,15 +88,22 @@ export class RunOverlays {
     private drawSpheres(world: World): void {
         const base = world.history.drawn.base;
         this.spheres.begin();
-        for (let r = 0; r < world.fleet.count; ++r) this.drawSphere(base[r * 7], base[r * 7 + 1], base[r * 7 + 2], world.fleet.type(r).reach);
+        for (let r = 0; r < world.fleet.count; ++r)
+            this.drawSphere(base[r * 7], base[r * 7 + 1], base[r * 7 + 2], world.fleet.type(r).reach);
         this.spheres.end();
     }
 
     private drawSphere(x: number, y: number, z: number, radius: number): void {
         const steps = SPHERE_STEPS;
         for (let k = 0; k < steps; ++k) {
-            const a = (k / steps) * 2 * Math.PI, b = ((k + 1) / steps) * 2 * Math.PI;
-            const [ca, sa, cb, sb] = [Math.cos(a) * radius, Math.sin(a) * radius, Math.cos(b) * radius, Math.sin(b) * radius];
+            const a = (k / steps) * 2 * Math.PI,
+                b = ((k + 1) / steps) * 2 * Math.PI;
+            const [ca, sa, cb, sb] = [
+                Math.cos(a) * radius,
+                Math.sin(a) * radius,
+                Math.cos(b) * radius,
+                Math.sin(b) * radius,
+            ];
             this.spheres.add(x + ca, y + sa, z, x + cb, y + sb, z, SPHERE);
             this.spheres.add(x + ca, y, z + sa, x + cb, y, z + sb, SPHERE);
             this.spheres.add(x, y + ca, z + sa, x, y + cb, z + sb, SPHERE);
@@ -88,13 +123,25 @@ export class RunOverlays {
     }
 
     private drawHulls(world: World): void {
-        const island = this.state.groups.value?.island ?? [], members = new Map<number, number[]>();
-        island.forEach((of, robot) => robot < world.fleet.count && members.set(of, [...(members.get(of) ?? []), robot]));
-        const base = world.history.drawn.base, corners: number[] = [], colours: number[] = [], colour = new THREE.Color();
+        const island = this.state.groups.value?.island ?? [],
+            members = new Map<number, number[]>();
+        island.forEach(
+            (of, robot) => robot < world.fleet.count && members.set(of, [...(members.get(of) ?? []), robot]),
+        );
+        const base = world.history.drawn.base,
+            corners: number[] = [],
+            colours: number[] = [],
+            colour = new THREE.Color();
         this.hullLines.begin();
         for (const [of, robots] of members) {
             groupColour(of, colour);
-            const hull = hullAround(robots.map((robot) => ({ x: base[robot * 7], y: base[robot * 7 + 1], radius: world.fleet.type(robot).reach + HULL_SPARE_M })));
+            const hull = hullAround(
+                robots.map((robot) => ({
+                    x: base[robot * 7],
+                    y: base[robot * 7 + 1],
+                    radius: world.fleet.type(robot).reach + HULL_SPARE_M,
+                })),
+            );
             const z = HULL_HEIGHT_M;
             hull.forEach((p, k) => {
                 const q = hull[(k + 1) % hull.length];

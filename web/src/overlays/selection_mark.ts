@@ -4,7 +4,12 @@ import type { ViewerState, World } from "../model/viewer_state";
 import type { Stage } from "../view/stage";
 import type { LabelLayer } from "./labels";
 
-const RING_VERTEX = `varying vec2 place; void main() { place = position.xy; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }`;
+const RING_VERTEX = `
+varying vec2 place;
+void main() {
+    place = position.xy;
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+}`;
 const RING_FRAGMENT = `
 uniform vec3 colour; varying vec2 place;
 void main() {
@@ -20,12 +25,22 @@ const REACH_MIN_M = 0.15;
 
 export class SelectionMark {
     private readonly material = new THREE.ShaderMaterial({
-        vertexShader: RING_VERTEX, fragmentShader: RING_FRAGMENT, transparent: true, depthWrite: false, uniforms: { colour: { value: new THREE.Color() } },
-        polygonOffset: true, polygonOffsetFactor: -4, polygonOffsetUnits: -4,
+        vertexShader: RING_VERTEX,
+        fragmentShader: RING_FRAGMENT,
+        transparent: true,
+        depthWrite: false,
+        uniforms: { colour: { value: new THREE.Color() } },
+        polygonOffset: true,
+        polygonOffsetFactor: -4,
+        polygonOffsetUnits: -4,
     });
     private readonly ring = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), this.material);
 
-    constructor(private readonly stage: Stage, private readonly state: ViewerState, private readonly labels: LabelLayer) {
+    constructor(
+        private readonly stage: Stage,
+        private readonly state: ViewerState,
+        private readonly labels: LabelLayer,
+    ) {
         this.ring.renderOrder = 2;
         this.ring.visible = false;
         stage.overlays.add(this.ring);
@@ -35,10 +50,17 @@ export class SelectionMark {
         const robot = this.state.selected.value;
         this.ring.visible = world !== null && robot !== null;
         if (world === null || robot === null) return this.labels.put("selected", null, "");
-        const base = world.history.drawn.base, at = robot * 7, reach = Math.max(REACH_MIN_M, world.fleet.type(robot).reach);
+        const base = world.history.drawn.base,
+            at = robot * 7,
+            reach = Math.max(REACH_MIN_M, world.fleet.type(robot).reach);
         (this.material.uniforms.colour.value as THREE.Color).setHex(this.stage.palette.accent);
         this.ring.position.set(base[at], base[at + 1], Math.max(0.004, base[at + 2] - reach));
         this.ring.scale.setScalar(reach * 1.55);
-        this.labels.put("selected", new THREE.Vector3(base[at], base[at + 1], base[at + 2] + reach * 1.1), world.fleet.name(robot), "selected");
+        this.labels.put(
+            "selected",
+            new THREE.Vector3(base[at], base[at + 1], base[at + 2] + reach * 1.1),
+            world.fleet.name(robot),
+            "selected",
+        );
     }
 }

@@ -33,7 +33,10 @@ export class Tracks {
     private world: World | null = null;
     private time = 0;
 
-    constructor(stage: Stage, private readonly state: ViewerState) {
+    constructor(
+        stage: Stage,
+        private readonly state: ViewerState,
+    ) {
         stage.overlays.add(this.field.lines);
     }
 
@@ -41,16 +44,24 @@ export class Tracks {
     update(world: World | null): void {
         const all = this.state.overlays.value.has("tracks");
         this.field.lines.visible = all;
-        if (world !== this.world || (world !== null && world.history.drawn.time < this.time - 0.05)) this.tracks.clear();
+        if (world !== this.world || (world !== null && world.history.drawn.time < this.time - 0.05))
+            this.tracks.clear();
         this.world = world;
         if (world === null || !all) return;
         this.time = world.history.drawn.time;
-        const base = world.history.drawn.base, count = Math.min(world.fleet.count, TRACKED_MAX), selected = this.state.selected.value;
+        const base = world.history.drawn.base,
+            count = Math.min(world.fleet.count, TRACKED_MAX),
+            selected = this.state.selected.value;
         let grown = false;
         const take = (robot: number) => {
             const track = this.tracks.get(robot) ?? new Track();
             this.tracks.set(robot, track);
-            grown = track.take(base[robot * 7], base[robot * 7 + 1], Math.max(0.01, base[robot * 7 + 2] - world.fleet.type(robot).reach * 0.3)) || grown;
+            grown =
+                track.take(
+                    base[robot * 7],
+                    base[robot * 7 + 1],
+                    Math.max(0.01, base[robot * 7 + 2] - world.fleet.type(robot).reach * 0.3),
+                ) || grown;
         };
         for (let r = 0; r < count; ++r) take(r);
         if (selected !== null && selected >= count) take(selected);
@@ -58,7 +69,9 @@ export class Tracks {
     }
 
     private draw(): void {
-        const colour = new THREE.Color(), faded = new THREE.Color(), ground = new THREE.Color(0x6d7076);
+        const colour = new THREE.Color(),
+            faded = new THREE.Color(),
+            ground = new THREE.Color(0x6d7076);
         this.field.begin();
         for (const [robot, { points }] of this.tracks) {
             groupColour(robot, colour);
@@ -66,7 +79,15 @@ export class Tracks {
             for (let k = 0; k + 1 < n; ++k) {
                 faded.copy(ground).lerp(colour, Math.min(1, ((k + 1) / n) * 1.4));
                 const p = 3 * k;
-                this.field.add(points[p], points[p + 1], points[p + 2], points[p + 3], points[p + 4], points[p + 5], faded);
+                this.field.add(
+                    points[p],
+                    points[p + 1],
+                    points[p + 2],
+                    points[p + 3],
+                    points[p + 4],
+                    points[p + 5],
+                    faded,
+                );
             }
         }
         this.field.end();

@@ -24,9 +24,11 @@ export class StepTimes {
 
     take(now: number, members: readonly MemberStatus[]): void {
         for (const member of members)
-            if (!this.columns.has(member.id)) this.columns.set(member.id, new Array<null>(this.times.length).fill(null));
+            if (!this.columns.has(member.id))
+                this.columns.set(member.id, new Array<null>(this.times.length).fill(null));
         this.times.push(now);
-        for (const [id, column] of this.columns) column.push(members.find((member) => member.id === id && present(member))?.step_us ?? null);
+        for (const [id, column] of this.columns)
+            column.push(members.find((member) => member.id === id && present(member))?.step_us ?? null);
         if (this.times.length <= KEPT) return;
         this.times.shift();
         for (const [id, column] of this.columns) {
@@ -40,29 +42,65 @@ export class ClusterPanel {
     readonly element: HTMLElement;
     private readonly facts = new Map<string, HTMLElement>();
     private readonly table = h("tbody");
-    private readonly rows = new Map<number, { row: HTMLTableRowElement; cells: HTMLElement[]; bar: HTMLElement; kill: HTMLButtonElement }>();
+    private readonly rows = new Map<
+        number,
+        { row: HTMLTableRowElement; cells: HTMLElement[]; bar: HTMLElement; kill: HTMLButtonElement }
+    >();
     private readonly history = new StepTimes();
     private readonly plotHost = h("div", { class: "chart-canvas" });
     private plot: uPlot | null = null;
     private plotted = "";
     private readonly began = performance.now();
 
-    constructor(state: ViewerState, private readonly run: RunLink) {
+    constructor(
+        state: ViewerState,
+        private readonly run: RunLink,
+    ) {
         const fact = (name: string, title: string) => {
             const value = h("span", { class: "fact-value" }, "–");
             this.facts.set(name, value);
             return h("div", { class: "fact", title }, h("span", { class: "fact-name" }, name), value);
         };
         const add = h("button", { type: "button", class: "small", onclick: () => void this.add() }, "Add a Simulator");
-        this.element = h("div", { class: "cluster" },
-            h("div", { class: "facts-grid" }, fact("Simulators", "Members that step robots"), fact("Efficiency", "Of the time of one Simulator, shared by all"),
-                fact("Islands", "Groups of robots that may touch"), fact("Window", "Ticks that Simulators step without talking"), fact("Repeated", "Windows stepped again because a forecast was too small"),
-                fact("Migrations", "Robots handed from one Simulator to another"), fact("Losses", "Simulators lost and replaced"), fact("Messages", "Sent over the bus")),
+        this.element = h(
+            "div",
+            { class: "cluster" },
+            h(
+                "div",
+                { class: "facts-grid" },
+                fact("Simulators", "Members that step robots"),
+                fact("Efficiency", "Of the time of one Simulator, shared by all"),
+                fact("Islands", "Groups of robots that may touch"),
+                fact("Window", "Ticks that Simulators step without talking"),
+                fact("Repeated", "Windows stepped again because a forecast was too small"),
+                fact("Migrations", "Robots handed from one Simulator to another"),
+                fact("Losses", "Simulators lost and replaced"),
+                fact("Messages", "Sent over the bus"),
+            ),
             h("div", { class: "panel-head sub" }, h("h3", {}, "Members"), h("div", { class: "grow" }), add),
-            h("div", { class: "table-scroll", tabindex: 0, role: "region", "aria-label": "Members" },
-                h("table", { class: "members" }, h("thead", {}, h("tr", {}, ...["Member", "Robots", "Islands", "Load", "µs", ""].map((name) =>
-                    name === "" ? h("td", {}) : h("th", { scope: "col" }, name)))), this.table)),
-            h("div", { class: "panel-head sub" }, h("h3", {}, "Step time"), h("span", { class: "facts" }, "µs a tick")), this.plotHost);
+            h(
+                "div",
+                { class: "table-scroll", tabindex: 0, role: "region", "aria-label": "Members" },
+                h(
+                    "table",
+                    { class: "members" },
+                    h(
+                        "thead",
+                        {},
+                        h(
+                            "tr",
+                            {},
+                            ...["Member", "Robots", "Islands", "Load", "µs", ""].map((name) =>
+                                name === "" ? h("td", {}) : h("th", { scope: "col" }, name),
+                            ),
+                        ),
+                    ),
+                    this.table,
+                ),
+            ),
+            h("div", { class: "panel-head sub" }, h("h3", {}, "Step time"), h("span", { class: "facts" }, "µs a tick")),
+            this.plotHost,
+        );
         state.status.follow((status) => status !== null && this.show(status));
         state.theme.follow(() => this.dropPlot());
     }
@@ -101,7 +139,13 @@ export class ClusterPanel {
             }
         for (const member of members) {
             const shown = this.rows.get(member.id) ?? this.addRow(member.id);
-            const texts = [member.name === "" ? `Simulator ${member.id}` : member.name, short(member.robots), short(member.islands), percent(member.load), member.step_us > 0 ? fixed(member.step_us, 0) : "–"];
+            const texts = [
+                member.name === "" ? `Simulator ${member.id}` : member.name,
+                short(member.robots),
+                short(member.islands),
+                percent(member.load),
+                member.step_us > 0 ? fixed(member.step_us, 0) : "–",
+            ];
             texts.forEach((text, k) => setText(shown.cells[k], text));
             shown.bar.style.width = `${100 * Math.max(0, Math.min(1, member.load))}%`;
             shown.row.dataset.state = member.state;
@@ -110,13 +154,35 @@ export class ClusterPanel {
         }
     }
 
-    private addRow(id: number): { row: HTMLTableRowElement; cells: HTMLElement[]; bar: HTMLElement; kill: HTMLButtonElement } {
-        const cells = Array.from({ length: 5 }, () => h("span", {})), bar = h("div", { class: "load-fill" });
-        const kill = h("button", { type: "button", class: "small danger", "aria-label": `Kill Simulator ${id}`, title: "Kill it, and watch the run recover", onclick: () => void this.kill(id) }, "Kill");
-        const row = h("tr", {},
+    private addRow(id: number): {
+        row: HTMLTableRowElement;
+        cells: HTMLElement[];
+        bar: HTMLElement;
+        kill: HTMLButtonElement;
+    } {
+        const cells = Array.from({ length: 5 }, () => h("span", {})),
+            bar = h("div", { class: "load-fill" });
+        const kill = h(
+            "button",
+            {
+                type: "button",
+                class: "small danger",
+                "aria-label": `Kill Simulator ${id}`,
+                title: "Kill it, and watch the run recover",
+                onclick: () => void this.kill(id),
+            },
+            "Kill",
+        );
+        const row = h(
+            "tr",
+            {},
             h("th", { scope: "row" }, h("span", { class: "swatch", style: `background:${groupCss(id)}` }), cells[0]),
-            h("td", {}, cells[1]), h("td", {}, cells[2]), h("td", { class: "load" }, h("div", { class: "load-bar", "aria-hidden": "true" }, bar), cells[3]), h("td", {}, cells[4]),
-            h("td", {}, kill));
+            h("td", {}, cells[1]),
+            h("td", {}, cells[2]),
+            h("td", { class: "load" }, h("div", { class: "load-bar", "aria-hidden": "true" }, bar), cells[3]),
+            h("td", {}, cells[4]),
+            h("td", {}, kill),
+        );
         const made = { row, cells, bar, kill };
         this.rows.set(id, made);
         this.table.append(row);
@@ -132,14 +198,32 @@ export class ClusterPanel {
     private showPlot(): void {
         const width = this.plotHost.clientWidth;
         if (width < 40) return;
-        const ids = [...this.history.columns.keys()], key = ids.join(" ");
+        const ids = [...this.history.columns.keys()],
+            key = ids.join(" ");
         if (this.plot === null || key !== this.plotted) {
             this.dropPlot();
             this.plotted = key;
-            this.plot = new uPlot({
-                width, height: PLOT_HEIGHT, legend: { show: false }, cursor: { show: false }, scales: { x: { time: false } }, axes: plotAxes(""),
-                series: [{}, ...ids.map((id) => ({ label: String(id), stroke: groupCss(id), width: 1.5, points: { show: false } }))],
-            }, [this.history.times, ...this.history.columns.values()] as uPlot.AlignedData, this.plotHost);
+            this.plot = new uPlot(
+                {
+                    width,
+                    height: PLOT_HEIGHT,
+                    legend: { show: false },
+                    cursor: { show: false },
+                    scales: { x: { time: false } },
+                    axes: plotAxes(""),
+                    series: [
+                        {},
+                        ...ids.map((id) => ({
+                            label: String(id),
+                            stroke: groupCss(id),
+                            width: 1.5,
+                            points: { show: false },
+                        })),
+                    ],
+                },
+                [this.history.times, ...this.history.columns.values()] as uPlot.AlignedData,
+                this.plotHost,
+            );
             return;
         }
         if (this.plot.width !== width) this.plot.setSize({ width, height: PLOT_HEIGHT });

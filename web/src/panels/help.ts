@@ -9,19 +9,51 @@ export interface Shortcut {
 }
 
 const MOUSE: [string, string][] = [
-    ["Drag", "turn the camera"], ["Right drag, Shift drag", "move the camera"], ["Wheel, pinch", "nearer, farther"], ["Click", "select a robot"],
-    ["Double click", "look at a robot"], ["W A S D, Q E", "move the camera (click the picture first)"],
-    ["Move tool", "drag a robot; Shift turns it, Alt lifts it"], ["Push tool", "pull an arrow: the longer, the stronger"],
+    ["Drag", "turn the camera"],
+    ["Right drag, Shift drag", "move the camera"],
+    ["Wheel, pinch", "nearer, farther"],
+    ["Click", "select a robot"],
+    ["Double click", "look at a robot"],
+    ["W A S D, Q E", "move the camera (click the picture first)"],
+    ["Move tool", "drag a robot; Shift turns it, Alt lifts it"],
+    ["Push tool", "pull an arrow: the longer, the stronger"],
 ];
 
 export function helpCard(shortcuts: readonly Shortcut[]): HTMLDialogElement {
-    const list = (rows: [string, string][]) => h("dl", {}, ...rows.flatMap(([key, words]) => [h("dt", {}, h("kbd", {}, key)), h("dd", {}, words)]));
+    const list = (rows: [string, string][]) =>
+        h("dl", {}, ...rows.flatMap(([key, words]) => [h("dt", {}, h("kbd", {}, key)), h("dd", {}, words)]));
     const groups = [...new Set(shortcuts.map((one) => one.group))];
-    const dialog = h("dialog", { class: "help", "aria-labelledby": "help-title", onclick: (event: MouseEvent) => event.target === dialog && dialog.close() },
-        h("div", { class: "help-head" }, h("h2", { id: "help-title" }, "Keys and mouse"), h("button", { type: "button", class: "small", onclick: () => dialog.close() }, "Close")),
-        h("div", { class: "help-columns" }, h("section", {}, h("h3", {}, "Mouse and touch"), list(MOUSE)),
-            ...groups.map((group) => h("section", {}, h("h3", {}, group),
-                list(shortcuts.filter((one) => one.group === group).map((one) => [one.keys.map((key) => (key === " " ? "Space" : key)).join(" "), one.words]))))));
+    const dialog = h(
+        "dialog",
+        {
+            class: "help",
+            "aria-labelledby": "help-title",
+            onclick: (event: MouseEvent) => event.target === dialog && dialog.close(),
+        },
+        h(
+            "div",
+            { class: "help-head" },
+            h("h2", { id: "help-title" }, "Keys and mouse"),
+            h("button", { type: "button", class: "small", onclick: () => dialog.close() }, "Close"),
+        ),
+        h(
+            "div",
+            { class: "help-columns" },
+            h("section", {}, h("h3", {}, "Mouse and touch"), list(MOUSE)),
+            ...groups.map((group) =>
+                h(
+                    "section",
+                    {},
+                    h("h3", {}, group),
+                    list(
+                        shortcuts
+                            .filter((one) => one.group === group)
+                            .map((one) => [one.keys.map((key) => (key === " " ? "Space" : key)).join(" "), one.words]),
+                    ),
+                ),
+            ),
+        ),
+    );
     return dialog;
 }
 

@@ -15,29 +15,45 @@ export class ReadingRows {
     private readonly values = new Map<string, HTMLElement>();
     private readonly buttons = new Map<string, HTMLButtonElement>();
 
-    constructor(private readonly robot: number, private readonly plotted: Plotted) {}
+    constructor(
+        private readonly robot: number,
+        private readonly plotted: Plotted,
+    ) {}
 
     /** `shown`: what the row says where its place already says the rest. */
     row(reading: Reading, shown = reading.label): HTMLElement {
-        const value = h("span", { class: "value" }), button = iconButton("plot", `Plot ${reading.label}`, () => {
-            this.plotted.toggle(this.robot, reading.key, reading.label, reading.unit);
-            this.mark();
-        });
+        const value = h("span", { class: "value" }),
+            button = iconButton("plot", `Plot ${reading.label}`, () => {
+                this.plotted.toggle(this.robot, reading.key, reading.label, reading.unit);
+                this.mark();
+            });
         this.values.set(reading.key, value);
         this.buttons.set(reading.key, button);
         this.mark();
-        return h("div", { class: "reading" }, h("span", { class: "label" }, shown), value, h("span", { class: "unit" }, reading.unit), button);
+        return h(
+            "div",
+            { class: "reading" },
+            h("span", { class: "label" }, shown),
+            value,
+            h("span", { class: "unit" }, reading.unit),
+            button,
+        );
     }
 
     show(list: readonly Reading[]): void {
         for (const reading of list) {
             const element = this.values.get(reading.key);
-            if (element !== undefined) setText(element, fixed(reading.value, reading.unit !== "°" ? 3 : reading.key.startsWith("angle") ? 1 : 6));
+            if (element !== undefined)
+                setText(
+                    element,
+                    fixed(reading.value, reading.unit !== "°" ? 3 : reading.key.startsWith("angle") ? 1 : 6),
+                );
         }
     }
 
     mark(): void {
-        for (const [key, button] of this.buttons) button.setAttribute("aria-pressed", String(this.plotted.has(this.robot, key)));
+        for (const [key, button] of this.buttons)
+            button.setAttribute("aria-pressed", String(this.plotted.has(this.robot, key)));
     }
 }
 
@@ -53,8 +69,12 @@ export class Inspector {
     private contacts: HTMLElement | null = null;
     private built = false;
 
-    constructor(private readonly state: ViewerState, private readonly run: RunLink, private readonly plotted: Plotted,
-                private readonly follow: (robot: number) => void) {
+    constructor(
+        private readonly state: ViewerState,
+        private readonly run: RunLink,
+        private readonly plotted: Plotted,
+        private readonly follow: (robot: number) => void,
+    ) {
         state.selected.follow(() => this.reset());
         state.world.follow(() => this.reset());
         state.report.follow((report) => report !== null && this.show(report));
@@ -62,11 +82,14 @@ export class Inspector {
     }
 
     private reset(): void {
-        const world = this.state.world.value, robot = this.state.selected.value;
+        const world = this.state.world.value,
+            robot = this.state.selected.value;
         this.built = false;
         this.rows = this.joints = this.sensors = this.contacts = null;
         if (world === null || robot === null) {
-            this.element.replaceChildren(h("p", { class: "empty" }, "Select a robot: click it in the picture, or in the list."));
+            this.element.replaceChildren(
+                h("p", { class: "empty" }, "Select a robot: click it in the picture, or in the list."),
+            );
             return;
         }
         this.element.replaceChildren(this.head(world, robot), h("p", { class: "empty" }, "Waiting for its report…"));
@@ -76,25 +99,50 @@ export class Inspector {
 
     private head(world: World, robot: number): HTMLElement {
         const type = world.fleet.type(robot);
-        return h("div", { class: "robot-head" },
+        return h(
+            "div",
+            { class: "robot-head" },
             h("h3", {}, world.fleet.name(robot)),
-            h("span", { class: "facts" }, [type.name === world.fleet.name(robot) ? "" : type.name, `${fixed(type.mass, 2)} kg`,
-                type.free_base ? "free base" : "fixed base"].filter((word) => word !== "").join("  ·  ")),
-            h("button", { type: "button", class: "small", onclick: () => this.follow(robot) }, "Follow"));
+            h(
+                "span",
+                { class: "facts" },
+                [
+                    type.name === world.fleet.name(robot) ? "" : type.name,
+                    `${fixed(type.mass, 2)} kg`,
+                    type.free_base ? "free base" : "fixed base",
+                ]
+                    .filter((word) => word !== "")
+                    .join("  ·  "),
+            ),
+            h("button", { type: "button", class: "small", onclick: () => this.follow(robot) }, "Follow"),
+        );
     }
 
     private build(world: World, robot: number, report: RobotReport): void {
-        const type = world.fleet.type(robot), all = readings(type, report), rows = new ReadingRows(robot, this.plotted);
+        const type = world.fleet.type(robot),
+            all = readings(type, report),
+            rows = new ReadingRows(robot, this.plotted);
         this.rows = rows;
         this.joints = new JointControls(robot, type, this.run, rows, all.joints);
         this.sensors = new SensorViews(type, rows, all.sensors);
         this.contacts = h("div", { class: "contacts" });
-        this.element.replaceChildren(this.head(world, robot),
-            section("Pose and velocity", h("div", { class: "readings two" }, ...all.base.map((reading) => rows.row(reading)))),
-            type.free_base ? section("Drive by hand", velocityPad(this.run, this.state, robot)) : h("span", { hidden: true }),
-            type.joints.length > 0 ? section(`Joints (${type.joints.length})`, this.joints.element) : h("span", { hidden: true }),
-            type.sensors.length > 0 ? section(`Sensors (${type.sensors.length})`, this.sensors.element) : h("span", { hidden: true }),
-            section("Contacts", this.contacts));
+        this.element.replaceChildren(
+            this.head(world, robot),
+            section(
+                "Pose and velocity",
+                h("div", { class: "readings two" }, ...all.base.map((reading) => rows.row(reading))),
+            ),
+            type.free_base
+                ? section("Drive by hand", velocityPad(this.run, this.state, robot))
+                : h("span", { hidden: true }),
+            type.joints.length > 0
+                ? section(`Joints (${type.joints.length})`, this.joints.element)
+                : h("span", { hidden: true }),
+            type.sensors.length > 0
+                ? section(`Sensors (${type.sensors.length})`, this.sensors.element)
+                : h("span", { hidden: true }),
+            section("Contacts", this.contacts),
+        );
         this.built = true;
     }
 
@@ -117,9 +165,20 @@ export class Inspector {
             sum.force += contact.normal_force;
             byOther.set(contact.other, sum);
         }
-        const lines = [...byOther].sort((a, b) => b[1].force - a[1].force).map(([other, { count, force }]) => h("div", { class: "reading" },
-            h("span", { class: "label" }, other < 0 ? "scenery" : world.fleet.name(other)), h("span", { class: "value" }, fixed(force, 1)),
-            h("span", { class: "unit" }, "N"), h("span", { class: "count" }, `${count} ${count === 1 ? "point" : "points"}`)));
-        this.contacts?.replaceChildren(...(lines.length > 0 ? lines : [h("p", { class: "empty" }, "Touches nothing.")]));
+        const lines = [...byOther]
+            .sort((a, b) => b[1].force - a[1].force)
+            .map(([other, { count, force }]) =>
+                h(
+                    "div",
+                    { class: "reading" },
+                    h("span", { class: "label" }, other < 0 ? "scenery" : world.fleet.name(other)),
+                    h("span", { class: "value" }, fixed(force, 1)),
+                    h("span", { class: "unit" }, "N"),
+                    h("span", { class: "count" }, `${count} ${count === 1 ? "point" : "points"}`),
+                ),
+            );
+        this.contacts?.replaceChildren(
+            ...(lines.length > 0 ? lines : [h("p", { class: "empty" }, "Touches nothing.")]),
+        );
     }
 }

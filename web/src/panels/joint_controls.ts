@@ -13,9 +13,13 @@ const ORDER_INTERVAL_MS = 50;
 
 /** From where to where the slider goes in a mode. */
 export function sliderRange(joint: JointInfo, axis: number, mode: Mode): [number, number] {
-    const lower = joint.lower[axis] ?? null, upper = joint.upper[axis] ?? null, length = joint.kind === "prismatic";
+    const lower = joint.lower[axis] ?? null,
+        upper = joint.upper[axis] ?? null,
+        length = joint.kind === "prismatic";
     if (mode === "position") return [lower ?? (length ? -1 : -Math.PI), upper ?? (length ? 1 : Math.PI)];
-    const most = (mode === "velocity" ? joint.max_velocity[axis] : joint.max_effort[axis]) ?? (mode === "velocity" ? (length ? 1 : 20) : 10);
+    const most =
+        (mode === "velocity" ? joint.max_velocity[axis] : joint.max_effort[axis]) ??
+        (mode === "velocity" ? (length ? 1 : 20) : 10);
     return [-most, most];
 }
 
@@ -28,11 +32,20 @@ class AxisControl {
     private readonly modes: HTMLSelectElement;
     private touched = false;
 
-    constructor(private readonly robot: number, private readonly number: number, private readonly axis: number, private readonly joint: JointInfo,
-                private readonly run: RunLink, rows: HTMLElement[]) {
+    constructor(
+        private readonly robot: number,
+        private readonly number: number,
+        private readonly axis: number,
+        private readonly joint: JointInfo,
+        private readonly run: RunLink,
+        rows: HTMLElement[],
+    ) {
         const name = joint.axes > 1 ? `${joint.name} ${axis + 1}` : joint.name;
-        this.modes = h("select", { "aria-label": `Motor mode of ${name}`, onchange: () => this.changeMode() },
-            ...["velocity", "position", "effort", "passive"].map((mode) => h("option", { value: mode }, mode)));
+        this.modes = h(
+            "select",
+            { "aria-label": `Motor mode of ${name}`, onchange: () => this.changeMode() },
+            ...["velocity", "position", "effort", "passive"].map((mode) => h("option", { value: mode }, mode)),
+        );
         this.slider.setAttribute("aria-label", `Target of ${name}`);
         const send = throttled(ORDER_INTERVAL_MS, () => this.order());
         this.slider.addEventListener("input", () => {
@@ -42,10 +55,28 @@ class AxisControl {
         });
         const limited = (joint.lower[axis] ?? null) !== null && (joint.upper[axis] ?? null) !== null;
         if (limited) this.modes.value = "position";
-        this.element = h("div", { class: "joint" },
-            h("div", { class: "joint-head" }, h("span", { class: "joint-name" }, name), h("span", { class: "kind" }, joint.kind), this.motor),
-            limited ? h("div", { class: "limits" }, h("span", {}, fixed(joint.lower[axis], 2)), h("div", { class: "limit-track" }, this.bar), h("span", {}, fixed(joint.upper[axis], 2))) : null,
-            ...rows, h("div", { class: "joint-order" }, this.modes, this.slider, this.target));
+        this.element = h(
+            "div",
+            { class: "joint" },
+            h(
+                "div",
+                { class: "joint-head" },
+                h("span", { class: "joint-name" }, name),
+                h("span", { class: "kind" }, joint.kind),
+                this.motor,
+            ),
+            limited
+                ? h(
+                      "div",
+                      { class: "limits" },
+                      h("span", {}, fixed(joint.lower[axis], 2)),
+                      h("div", { class: "limit-track" }, this.bar),
+                      h("span", {}, fixed(joint.upper[axis], 2)),
+                  )
+                : null,
+            ...rows,
+            h("div", { class: "joint-order" }, this.modes, this.slider, this.target),
+        );
         this.fit();
     }
 
@@ -65,19 +96,42 @@ class AxisControl {
     }
 
     private order(): void {
-        void this.run.order(this.robot, { action: "joint", joint: this.number, axis: this.axis, mode: this.modes.value,
-            target: this.modes.value === "passive" ? 0 : this.slider.valueAsNumber });
+        void this.run.order(this.robot, {
+            action: "joint",
+            joint: this.number,
+            axis: this.axis,
+            mode: this.modes.value,
+            target: this.modes.value === "passive" ? 0 : this.slider.valueAsNumber,
+        });
     }
 
     show(report: RobotReport): void {
-        const told = report.joints[this.number], motor = told?.motors?.[this.axis], position = told?.position[this.axis];
-        const lower = this.joint.lower[this.axis] ?? null, upper = this.joint.upper[this.axis] ?? null;
+        const told = report.joints[this.number],
+            motor = told?.motors?.[this.axis],
+            position = told?.position[this.axis];
+        const lower = this.joint.lower[this.axis] ?? null,
+            upper = this.joint.upper[this.axis] ?? null;
         if (position !== undefined && lower !== null && upper !== null && upper > lower)
             this.bar.style.left = `${100 * Math.max(0, Math.min(1, (position - lower) / (upper - lower)))}%`;
-        const unit = jointUnit(this.joint.kind), units: Record<string, string> = { velocity: `${unit}/s`, position: unit, effort: unit === "m" ? "N" : "N m" };
-        setText(this.motor, motor === undefined ? "no motor" : motor.mode === "passive" ? "passive" : `${motor.mode} → ${fixed(motor.target, 2)} ${units[motor.mode] ?? ""}`);
+        const unit = jointUnit(this.joint.kind),
+            units: Record<string, string> = {
+                velocity: `${unit}/s`,
+                position: unit,
+                effort: unit === "m" ? "N" : "N m",
+            };
+        setText(
+            this.motor,
+            motor === undefined
+                ? "no motor"
+                : motor.mode === "passive"
+                  ? "passive"
+                  : `${motor.mode} → ${fixed(motor.target, 2)} ${units[motor.mode] ?? ""}`,
+        );
         if (!this.touched && motor !== undefined && motor.mode !== "passive") {
-            if (this.modes.value !== motor.mode && [...this.modes.options].some((option) => option.value === motor.mode)) {
+            if (
+                this.modes.value !== motor.mode &&
+                [...this.modes.options].some((option) => option.value === motor.mode)
+            ) {
                 this.modes.value = motor.mode;
                 this.fit();
             }
@@ -95,7 +149,9 @@ export class JointControls {
         type.joints.forEach((joint, number) => {
             for (let axis = 0; axis < joint.axes; ++axis) {
                 const key = `joint.${joint.name}.${axis}.`;
-                const mine = all.filter((reading) => reading.key.startsWith(key)).map((reading) => rows.row(reading, reading.key.slice(key.length)));
+                const mine = all
+                    .filter((reading) => reading.key.startsWith(key))
+                    .map((reading) => rows.row(reading, reading.key.slice(key.length)));
                 const control = new AxisControl(robot, number, axis, joint, run, mine);
                 this.controls.push(control);
                 this.element.append(control.element);

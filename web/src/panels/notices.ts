@@ -7,13 +7,23 @@ const SHOWN_MS = 6000;
 const SHOWN_MAX = 4;
 
 export function banner(state: ViewerState, run: RunLink): HTMLElement {
-    const text = h("span", {}), retry = h("button", { type: "button", onclick: () => run.retryNow() }, "Try now");
-    const element = h("div", { class: "banner", role: "status", hidden: true }, h("span", { class: "spinner", "aria-hidden": "true" }), text, retry);
+    const text = h("span", {}),
+        retry = h("button", { type: "button", onclick: () => run.retryNow() }, "Try now");
+    const element = h(
+        "div",
+        { class: "banner", role: "status", hidden: true },
+        h("span", { class: "spinner", "aria-hidden": "true" }),
+        text,
+        retry,
+    );
     let seen = false;
     state.link.follow(({ state: link, why }) => {
         if (link === "open") seen = true;
         const said = why === "" ? "" : ` (${why})`;
-        text.textContent = !seen ? (link === "gone" ? `No run answers here${said}. Trying again.` : "Connecting to the run…")
+        text.textContent = !seen
+            ? link === "gone"
+                ? `No run answers here${said}. Trying again.`
+                : "Connecting to the run…"
             : `The run is gone${said}: what you see is its last moment. Connecting again…`;
         // An ordinary start connects at once: no banner for that.
         element.hidden = link === "open" || (!seen && link === "connecting" && why === "");
@@ -28,7 +38,12 @@ export function notices(run: RunLink): { element: HTMLElement; say: (text: strin
     const say = (text: string, bad = false) => {
         const last = element.lastElementChild;
         if (last instanceof HTMLElement && last.dataset.text === text) last.remove();
-        const notice = h("div", { class: bad ? "notice bad" : "notice" }, h("span", {}, text), iconButton("close", "Dismiss", () => notice.remove()));
+        const notice = h(
+            "div",
+            { class: bad ? "notice bad" : "notice" },
+            h("span", {}, text),
+            iconButton("close", "Dismiss", () => notice.remove()),
+        );
         notice.dataset.text = text;
         element.append(notice);
         while (element.childElementCount > SHOWN_MAX) element.firstElementChild?.remove();

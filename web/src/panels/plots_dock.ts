@@ -19,15 +19,36 @@ function cssColour(name: string): string {
 }
 
 export function plotAxes(unit: string): uPlot.Axis[] {
-    const axis = { stroke: () => cssColour("--dim"), font: "11px system-ui, sans-serif", ticks: { show: false }, grid: { stroke: () => cssColour("--line"), width: 1 } };
-    return [{ ...axis, space: 60, size: 26, values: (_: uPlot, splits: number[]) => splits.map((value) => `${fixed(value, value % 1 === 0 ? 0 : 1)} s`) },
-        { ...axis, size: 52, space: 26, label: unit === "" ? undefined : unit, labelSize: 14, labelFont: "11px system-ui, sans-serif", labelGap: 0 }];
+    const axis = {
+        stroke: () => cssColour("--dim"),
+        font: "11px system-ui, sans-serif",
+        ticks: { show: false },
+        grid: { stroke: () => cssColour("--line"), width: 1 },
+    };
+    return [
+        {
+            ...axis,
+            space: 60,
+            size: 26,
+            values: (_: uPlot, splits: number[]) => splits.map((value) => `${fixed(value, value % 1 === 0 ? 0 : 1)} s`),
+        },
+        {
+            ...axis,
+            size: 52,
+            space: 26,
+            label: unit === "" ? undefined : unit,
+            labelSize: 14,
+            labelFont: "11px system-ui, sans-serif",
+            labelGap: 0,
+        },
+    ];
 }
 
 /** A constant is a line in the middle, not noise blown up. */
 export function valueRange(_: uPlot, least: number | null, most: number | null): [number, number] {
     if (least === null || most === null) return [0, 1];
-    const middle = (least + most) / 2, half = Math.max((most - least) * 0.55, Math.abs(middle) * 0.02, 0.005);
+    const middle = (least + most) / 2,
+        half = Math.max((most - least) * 0.55, Math.abs(middle) * 0.02, 0.005);
     return [middle - half, middle + half];
 }
 
@@ -35,16 +56,50 @@ class Chart {
     readonly element: HTMLElement;
     private readonly plot: uPlot;
 
-    constructor(unit: string, readonly curves: readonly Curve[], offset: number, plotted: Plotted) {
-        const host = h("div", { class: "chart-canvas" }), legend = h("div", { class: "chart-legend" });
-        curves.forEach((curve, k) => legend.append(h("span", { class: "chart-key" },
-            h("span", { class: "swatch", style: `background:${groupCss(offset + k)}` }), `${curve.robotName} ${curve.label}`,
-            iconButton("close", `Remove ${curve.robotName} ${curve.label}`, () => plotted.toggle(curve.robot, curve.key, curve.label, curve.unit)))));
+    constructor(
+        unit: string,
+        readonly curves: readonly Curve[],
+        offset: number,
+        plotted: Plotted,
+    ) {
+        const host = h("div", { class: "chart-canvas" }),
+            legend = h("div", { class: "chart-legend" });
+        curves.forEach((curve, k) =>
+            legend.append(
+                h(
+                    "span",
+                    { class: "chart-key" },
+                    h("span", { class: "swatch", style: `background:${groupCss(offset + k)}` }),
+                    `${curve.robotName} ${curve.label}`,
+                    iconButton("close", `Remove ${curve.robotName} ${curve.label}`, () =>
+                        plotted.toggle(curve.robot, curve.key, curve.label, curve.unit),
+                    ),
+                ),
+            ),
+        );
         this.element = h("div", { class: "chart" }, legend, host);
-        this.plot = new uPlot({
-            width: 300, height: HEIGHT_PX - 34, legend: { show: false }, cursor: { y: false, points: { size: 6 } }, scales: { x: { time: false }, y: { range: valueRange } },
-            axes: plotAxes(unit), series: [{}, ...curves.map((curve, k) => ({ label: curve.label, stroke: groupCss(offset + k), width: 1.5, spanGaps: true, points: { show: false } }))],
-        }, joined(curves), host);
+        this.plot = new uPlot(
+            {
+                width: 300,
+                height: HEIGHT_PX - 34,
+                legend: { show: false },
+                cursor: { y: false, points: { size: 6 } },
+                scales: { x: { time: false }, y: { range: valueRange } },
+                axes: plotAxes(unit),
+                series: [
+                    {},
+                    ...curves.map((curve, k) => ({
+                        label: curve.label,
+                        stroke: groupCss(offset + k),
+                        width: 1.5,
+                        spanGaps: true,
+                        points: { show: false },
+                    })),
+                ],
+            },
+            joined(curves),
+            host,
+        );
     }
 
     refresh(): void {
@@ -60,16 +115,28 @@ class Chart {
 
 export function plotsDock(state: ViewerState, plotted: Plotted): HTMLElement {
     const charts = h("div", { class: "charts" });
-    const element = h("section", { class: "dock", "aria-label": "Plots", hidden: true },
-        h("div", { class: "panel-head" }, h("h2", {}, "Plots"), h("div", { class: "grow" }), iconButton("close", "Remove all plots", () => plotted.clear())), charts);
+    const element = h(
+        "section",
+        { class: "dock", "aria-label": "Plots", hidden: true },
+        h(
+            "div",
+            { class: "panel-head" },
+            h("h2", {}, "Plots"),
+            h("div", { class: "grow" }),
+            iconButton("close", "Remove all plots", () => plotted.clear()),
+        ),
+        charts,
+    );
     let shown: Chart[] = [];
     const rebuild = () => {
         shown.forEach((chart) => chart.dispose());
-        const curves = plotted.curves.value, units = [...new Set(curves.map((curve) => curve.unit))];
+        const curves = plotted.curves.value,
+            units = [...new Set(curves.map((curve) => curve.unit))];
         let offset = 0;
         element.hidden = curves.length === 0;
         shown = units.map((unit) => {
-            const mine = curves.filter((curve) => curve.unit === unit), chart = new Chart(unit, mine, offset, plotted);
+            const mine = curves.filter((curve) => curve.unit === unit),
+                chart = new Chart(unit, mine, offset, plotted);
             offset += mine.length;
             return chart;
         });

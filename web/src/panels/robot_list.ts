@@ -18,34 +18,60 @@ export class RobotList {
     private readonly closed = new Set<number>();
     private active = 0;
 
-    constructor(private readonly state: ViewerState, private readonly onFocus: (robot: number) => void) {
-        this.search = h("input", { type: "search", placeholder: "Find a robot", "aria-label": "Find a robot", oninput: () => this.rebuild() });
+    constructor(
+        private readonly state: ViewerState,
+        private readonly onFocus: (robot: number) => void,
+    ) {
+        this.search = h("input", {
+            type: "search",
+            placeholder: "Find a robot",
+            "aria-label": "Find a robot",
+            oninput: () => this.rebuild(),
+        });
         this.count = h("span", { class: "count" });
         this.rowsHost = h("div", { class: "rows", role: "presentation" });
-        this.scroller = h("div", { class: "tree", role: "tree", "aria-label": "Robots", tabindex: 0, onscroll: () => this.draw(),
-            onkeydown: (event: KeyboardEvent) => this.key(event) }, this.rowsHost);
-        this.element = h("aside", { class: "panel left", "aria-label": "Robots" },
+        this.scroller = h(
+            "div",
+            {
+                class: "tree",
+                role: "tree",
+                "aria-label": "Robots",
+                tabindex: 0,
+                onscroll: () => this.draw(),
+                onkeydown: (event: KeyboardEvent) => this.key(event),
+            },
+            this.rowsHost,
+        );
+        this.element = h(
+            "aside",
+            { class: "panel left", "aria-label": "Robots" },
             h("div", { class: "panel-head" }, h("h2", {}, "Robots"), this.count),
-            h("div", { class: "search" }, icon("search"), this.search), this.scroller);
+            h("div", { class: "search" }, icon("search"), this.search),
+            this.scroller,
+        );
         state.world.follow(() => this.rebuild());
         state.selected.follow((robot) => this.reveal(robot));
         new ResizeObserver(() => this.draw()).observe(this.scroller);
     }
 
     private rebuild(): void {
-        const world = this.state.world.value, words = this.search.value.trim().toLowerCase();
+        const world = this.state.world.value,
+            words = this.search.value.trim().toLowerCase();
         this.rows = world === null ? [] : this.rowsOf(world, words);
         const shown = this.rows.filter((row) => row.kind === "robot").length;
-        this.count.textContent = world === null ? "" : words === "" ? String(world.fleet.count) : `${shown} of ${world.fleet.count}`;
+        this.count.textContent =
+            world === null ? "" : words === "" ? String(world.fleet.count) : `${shown} of ${world.fleet.count}`;
         this.rowsHost.style.height = `${this.rows.length * ROW_PX}px`;
         this.draw();
     }
 
     private rowsOf(world: World, words: string): Row[] {
-        const fleet = world.fleet, ofType: number[][] = fleet.scene.types.map(() => []);
+        const fleet = world.fleet,
+            ofType: number[][] = fleet.scene.types.map(() => []);
         for (let r = 0; r < fleet.count; ++r)
             if (words === "" || fleet.name(r).toLowerCase().includes(words)) ofType[fleet.typeOf[r]].push(r);
-        const used = ofType.filter((robots) => robots.length > 0).length, rows: Row[] = [];
+        const used = ofType.filter((robots) => robots.length > 0).length,
+            rows: Row[] = [];
         ofType.forEach((robots, type) => {
             if (robots.length === 0) return;
             const open = words !== "" || !this.closed.has(type);
@@ -60,7 +86,10 @@ export class RobotList {
     private draw(): void {
         const world = this.state.world.value;
         const first = Math.max(0, Math.floor(this.scroller.scrollTop / ROW_PX) - SPARE_ROWS);
-        const last = Math.min(this.rows.length, Math.ceil((this.scroller.scrollTop + this.scroller.clientHeight) / ROW_PX) + SPARE_ROWS);
+        const last = Math.min(
+            this.rows.length,
+            Math.ceil((this.scroller.scrollTop + this.scroller.clientHeight) / ROW_PX) + SPARE_ROWS,
+        );
         this.rowsHost.replaceChildren();
         if (world === null) return;
         for (let k = first; k < last; ++k) this.rowsHost.append(this.rowElement(world, k));
@@ -68,16 +97,36 @@ export class RobotList {
     }
 
     private rowElement(world: World, k: number): HTMLElement {
-        const row = this.rows[k], common = { id: `row-${k}`, role: "treeitem", style: `top:${k * ROW_PX}px` };
+        const row = this.rows[k],
+            common = { id: `row-${k}`, role: "treeitem", style: `top:${k * ROW_PX}px` };
         if (row.kind === "type")
-            return h("div", { ...common, class: "row type", "aria-expanded": String(row.open), "aria-level": 1, onclick: () => this.toggle(row.type) },
+            return h(
+                "div",
+                {
+                    ...common,
+                    class: "row type",
+                    "aria-expanded": String(row.open),
+                    "aria-level": 1,
+                    onclick: () => this.toggle(row.type),
+                },
                 h("span", { class: "twist", "aria-hidden": "true" }, row.open ? "▾" : "▸"),
-                h("span", { class: "row-name" }, world.fleet.scene.types[row.type].name), h("span", { class: "count" }, String(row.count)));
+                h("span", { class: "row-name" }, world.fleet.scene.types[row.type].name),
+                h("span", { class: "count" }, String(row.count)),
+            );
         const selected = this.state.selected.value === row.robot;
-        return h("div", { ...common, class: "row robot", "aria-selected": String(selected), "aria-level": 2,
-            onclick: () => this.choose(k), ondblclick: () => this.onFocus(row.robot) },
+        return h(
+            "div",
+            {
+                ...common,
+                class: "row robot",
+                "aria-selected": String(selected),
+                "aria-level": 2,
+                onclick: () => this.choose(k),
+                ondblclick: () => this.onFocus(row.robot),
+            },
             h("span", { class: "swatch", "aria-hidden": "true", style: `background:${swatch(world, row.robot)}` }),
-            h("span", { class: "row-name" }, world.fleet.name(row.robot)));
+            h("span", { class: "row-name" }, world.fleet.name(row.robot)),
+        );
     }
 
     private toggle(type: number): void {
@@ -96,8 +145,10 @@ export class RobotList {
         const k = robot === null ? -1 : this.rows.findIndex((row) => row.kind === "robot" && row.robot === robot);
         if (k >= 0) {
             this.active = k;
-            const top = k * ROW_PX, view = this.scroller;
-            if (top < view.scrollTop || top + ROW_PX > view.scrollTop + view.clientHeight) view.scrollTop = top - view.clientHeight / 2;
+            const top = k * ROW_PX,
+                view = this.scroller;
+            if (top < view.scrollTop || top + ROW_PX > view.scrollTop + view.clientHeight)
+                view.scrollTop = top - view.clientHeight / 2;
         }
         this.draw();
     }
@@ -106,7 +157,10 @@ export class RobotList {
         const move = { ArrowDown: 1, ArrowUp: -1, PageDown: 15, PageUp: -15, Home: -1e9, End: 1e9 }[event.key];
         if (move !== undefined) {
             this.choose(Math.max(0, Math.min(this.rows.length - 1, this.active + move)));
-            this.scroller.scrollTop = Math.min(this.active * ROW_PX, Math.max(this.scroller.scrollTop, (this.active + 1) * ROW_PX - this.scroller.clientHeight));
+            this.scroller.scrollTop = Math.min(
+                this.active * ROW_PX,
+                Math.max(this.scroller.scrollTop, (this.active + 1) * ROW_PX - this.scroller.clientHeight),
+            );
         } else if (event.key === "Enter") {
             const row = this.rows[this.active];
             if (row?.kind === "robot") this.onFocus(row.robot);
@@ -118,6 +172,8 @@ export class RobotList {
 }
 
 function swatch(world: World, robot: number): string {
-    const rgb = world.fleet.type(robot).links.find((link) => link.visuals.length > 0)?.visuals[0].rgb ?? [0.6, 0.6, 0.6];
+    const rgb = world.fleet.type(robot).links.find((link) => link.visuals.length > 0)?.visuals[0].rgb ?? [
+        0.6, 0.6, 0.6,
+    ];
     return `rgb(${rgb.map((part) => Math.round(part * 255)).join(" ")})`;
 }

@@ -27,7 +27,8 @@ function prepared(canvas: HTMLCanvasElement, width: number, height: number): Can
 }
 
 function colours(): { line: string; dim: string; accent: string } {
-    const style = getComputedStyle(document.body), get = (name: string) => style.getPropertyValue(name).trim();
+    const style = getComputedStyle(document.body),
+        get = (name: string) => style.getPropertyValue(name).trim();
     return { line: get("--line"), dim: get("--dim"), accent: get("--accent") };
 }
 
@@ -35,9 +36,14 @@ function colours(): { line: string; dim: string; accent: string } {
 function laserView(sensor: SensorInfo, index: number): View {
     const canvas = h("canvas", { class: "laser-map", role: "img", "aria-label": `Ranges of ${sensor.name}` });
     const show = (report: RobotReport) => {
-        const ranges = report.sensors[index]?.ranges, draw = prepared(canvas, 2 * MAP_PX, MAP_PX + 12);
+        const ranges = report.sensors[index]?.ranges,
+            draw = prepared(canvas, 2 * MAP_PX, MAP_PX + 12);
         if (ranges === undefined || draw === null) return;
-        const most = sensor.range_max ?? 10, scale = (MAP_PX - 6) / most, cx = MAP_PX, cy = MAP_PX + 2, { line, accent } = colours();
+        const most = sensor.range_max ?? 10,
+            scale = (MAP_PX - 6) / most,
+            cx = MAP_PX,
+            cy = MAP_PX + 2,
+            { line, accent } = colours();
         draw.strokeStyle = line;
         for (let ring = 1; ring <= 3; ++ring) {
             draw.beginPath();
@@ -48,7 +54,8 @@ function laserView(sensor: SensorInfo, index: number): View {
         draw.beginPath();
         draw.moveTo(cx, cy);
         for (let k = 0; k < columns; ++k) {
-            const range = Math.min(most, ranges[k] ?? most), angle = beamAngle(sensor, k);
+            const range = Math.min(most, ranges[k] ?? most),
+                angle = beamAngle(sensor, k);
             draw.lineTo(cx - Math.sin(angle) * range * scale, cy - Math.cos(angle) * range * scale);
         }
         draw.closePath();
@@ -65,7 +72,8 @@ function laserView(sensor: SensorInfo, index: number): View {
 function compassView(sensor: SensorInfo, index: number): View {
     const canvas = h("canvas", { class: "dial", role: "img", "aria-label": `Heading of ${sensor.name}` });
     const show = (report: RobotReport) => {
-        const yaw = report.sensors[index]?.yaw, draw = prepared(canvas, 64, 64);
+        const yaw = report.sensors[index]?.yaw,
+            draw = prepared(canvas, 64, 64);
         if (typeof yaw !== "number" || draw === null) return;
         const { dim, accent } = colours();
         draw.strokeStyle = draw.fillStyle = dim;
@@ -75,8 +83,15 @@ function compassView(sensor: SensorInfo, index: number): View {
         draw.font = "9px system-ui, sans-serif";
         draw.textAlign = "center";
         draw.textBaseline = "middle";
-        for (const [text, x, y] of [["N", 32, 9], ["E", 55, 32], ["S", 32, 55], ["W", 9, 32]] as const) draw.fillText(text, x, y);
-        const dx = Math.cos(yaw), dy = -Math.sin(yaw);
+        for (const [text, x, y] of [
+            ["N", 32, 9],
+            ["E", 55, 32],
+            ["S", 32, 55],
+            ["W", 9, 32],
+        ] as const)
+            draw.fillText(text, x, y);
+        const dx = Math.cos(yaw),
+            dy = -Math.sin(yaw);
         draw.strokeStyle = draw.fillStyle = accent;
         draw.lineWidth = 2;
         draw.beginPath();
@@ -97,12 +112,33 @@ export class SensorViews {
 
     constructor(type: TypeInfo, rows: ReadingRows, all: readonly (readonly Reading[])[]) {
         type.sensors.forEach((sensor, index) => {
-            const view = sensor.kind === "laser" ? laserView(sensor, index) : sensor.kind === "compass" ? compassView(sensor, index) : null;
+            const view =
+                sensor.kind === "laser"
+                    ? laserView(sensor, index)
+                    : sensor.kind === "compass"
+                      ? compassView(sensor, index)
+                      : null;
             if (view !== null) this.views.push(view);
             const prefix = `${sensor.name} `;
-            this.element.append(h("div", { class: "sensor" },
-                h("div", { class: "joint-head" }, h("span", { class: "joint-name" }, sensor.name), h("span", { class: "kind" }, sensor.kind)), view?.element ?? null,
-                ...all[index].map((reading) => rows.row(reading, reading.label.startsWith(prefix) ? reading.label.slice(prefix.length) : reading.label))));
+            this.element.append(
+                h(
+                    "div",
+                    { class: "sensor" },
+                    h(
+                        "div",
+                        { class: "joint-head" },
+                        h("span", { class: "joint-name" }, sensor.name),
+                        h("span", { class: "kind" }, sensor.kind),
+                    ),
+                    view?.element ?? null,
+                    ...all[index].map((reading) =>
+                        rows.row(
+                            reading,
+                            reading.label.startsWith(prefix) ? reading.label.slice(prefix.length) : reading.label,
+                        ),
+                    ),
+                ),
+            );
         });
     }
 

@@ -19,17 +19,26 @@ export interface TimeBar {
 
 export function timeBar(state: ViewerState, run: RunLink): TimeBar {
     const paused = () => state.status.value?.paused === true;
-    const playOrPause = () => void run.control(paused() ? "resume" : "pause").then((answer) => {
-        // The button says what was just asked; the next status confirms it.
-        if (answer.done && state.status.value !== null) state.status.set({ ...state.status.value, paused: !paused() });
-    });
+    const playOrPause = () =>
+        void run.control(paused() ? "resume" : "pause").then((answer) => {
+            // The button says what was just asked; the next status confirms it.
+            if (answer.done && state.status.value !== null)
+                state.status.set({ ...state.status.value, paused: !paused() });
+        });
     const step = (ticks: number) => void run.control("step", String(ticks));
     const play = h("button", { type: "button", class: "play", onclick: playOrPause });
-    const ticks = h("select", { "aria-label": "Ticks of a step", title: "Ticks of a step" },
-        ...["1", "10", "100", "1000"].map((n) => h("option", { value: n }, n === "1" ? "1 tick" : `${n} ticks`)));
+    const ticks = h(
+        "select",
+        { "aria-label": "Ticks of a step", title: "Ticks of a step" },
+        ...["1", "10", "100", "1000"].map((n) => h("option", { value: n }, n === "1" ? "1 tick" : `${n} ticks`)),
+    );
     const speed = speedChoice(state, run);
     const clock = h("output", { class: "clock", "aria-label": "Simulated time", title: "Simulated time" });
-    const rtf = h("output", { class: "rtf", "aria-label": "Real-time factor", title: "Real-time factor: simulated seconds a second" });
+    const rtf = h("output", {
+        class: "rtf",
+        "aria-label": "Real-time factor",
+        title: "Real-time factor: simulated seconds a second",
+    });
     const tick = h("output", { class: "tick", "aria-label": "Tick", title: "Tick" });
     state.status.follow((status) => {
         play.replaceChildren(icon(status?.paused === true ? "play" : "pause"));
@@ -40,9 +49,20 @@ export function timeBar(state: ViewerState, run: RunLink): TimeBar {
     });
     const showClock = throttled(33, (time: number) => setText(clock, clockText(time)));
     state.drawnTime.follow(showClock);
-    const element = h("footer", { class: "time", role: "contentinfo", "aria-label": "Time" },
-        h("div", { class: "transport", role: "group", "aria-label": "Play and step" }, play, iconButton("step", "Step", () => step(Number(ticks.value)), "."), ticks),
-        speed, h("div", { class: "clocks" }, clock, rtf, tick), timeline(state, run));
+    const element = h(
+        "footer",
+        { class: "time", role: "contentinfo", "aria-label": "Time" },
+        h(
+            "div",
+            { class: "transport", role: "group", "aria-label": "Play and step" },
+            play,
+            iconButton("step", "Step", () => step(Number(ticks.value)), "."),
+            ticks,
+        ),
+        speed,
+        h("div", { class: "clocks" }, clock, rtf, tick),
+        timeline(state, run),
+    );
     const faster = (by: number) => {
         const now = SPEEDS.indexOf(state.status.value?.speed ?? "1");
         void run.control("speed", SPEEDS[Math.max(0, Math.min(SPEEDS.length - 1, (now < 0 ? 3 : now) + by))]);
@@ -52,7 +72,11 @@ export function timeBar(state: ViewerState, run: RunLink): TimeBar {
 
 function speedChoice(state: ViewerState, run: RunLink): HTMLElement {
     const option = (value: string) => h("option", { value }, value === "max" ? "as fast as it can" : `${value}×`);
-    const select = h("select", { id: "speed", title: "Speed asked for  (+ and -)", onchange: () => void run.control("speed", select.value) }, ...SPEEDS.map(option));
+    const select = h(
+        "select",
+        { id: "speed", title: "Speed asked for  (+ and -)", onchange: () => void run.control("speed", select.value) },
+        ...SPEEDS.map(option),
+    );
     state.status.follow((status) => {
         if (status === null || document.activeElement === select) return;
         if (![...select.options].some((one) => one.value === status.speed)) select.append(option(status.speed));
@@ -62,11 +86,19 @@ function speedChoice(state: ViewerState, run: RunLink): HTMLElement {
 }
 
 function timeline(state: ViewerState, run: RunLink): HTMLElement {
-    const first = h("span", { class: "end" }), last = h("span", { class: "end" });
+    const first = h("span", { class: "end" }),
+        last = h("span", { class: "end" });
     const bubble = h("output", { class: "bubble", "aria-hidden": "true" });
-    const slider = h("input", { type: "range", min: 0, max: 1000, step: "any", "aria-label": "Timeline: go back to an earlier time" });
+    const slider = h("input", {
+        type: "range",
+        min: 0,
+        max: 1000,
+        step: "any",
+        "aria-label": "Timeline: go back to an earlier time",
+    });
     const element = h("div", { class: "timeline" }, first, h("div", { class: "track" }, slider, bubble), last);
-    let held = false, span = timelineOf(null);
+    let held = false,
+        span = timelineOf(null);
     const showBubble = () => {
         const time = sliderTime(span, slider.valueAsNumber / 1000);
         bubble.textContent = clockText(time);

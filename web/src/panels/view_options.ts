@@ -3,13 +3,21 @@ import { type ColourBy, type Overlay, OVERLAYS, type ViewerState } from "../mode
 import { h } from "../ui/dom";
 
 const COLOURS: [ColourBy, string, string][] = [
-    ["model", "Model", "As the world file says"], ["simulator", "Simulator", "Who steps it"],
-    ["island", "Island", "Robots that may touch each other share a colour"], ["speed", "Speed", "Blue at rest, amber at 3 m/s and more"],
+    ["model", "Model", "As the world file says"],
+    ["simulator", "Simulator", "Who steps it"],
+    ["island", "Island", "Robots that may touch each other share a colour"],
+    ["speed", "Speed", "Blue at rest, amber at 3 m/s and more"],
 ];
 const WORDS: Record<Overlay, [string, string]> = {
-    rays: ["Laser rays", "of the selected robot"], tracks: ["Tracks", "where robots drove"], compass: ["Compass", "north and heading of the selected robot"],
-    contacts: ["Contact forces", "arrows, 1 m for 100 N"], bounds: ["Swept boxes", "what the forecast keeps free"], spheres: ["Bounding spheres", "the reach of each robot"],
-    islands: ["Islands", "hulls round robots that may touch"], names: ["Names", "of the robots nearest to the camera"], collisions: ["Collision shapes", "what physics sees"],
+    rays: ["Laser rays", "of the selected robot"],
+    tracks: ["Tracks", "where robots drove"],
+    compass: ["Compass", "north and heading of the selected robot"],
+    contacts: ["Contact forces", "arrows, 1 m for 100 N"],
+    bounds: ["Swept boxes", "what the forecast keeps free"],
+    spheres: ["Bounding spheres", "the reach of each robot"],
+    islands: ["Islands", "hulls round robots that may touch"],
+    names: ["Names", "of the robots nearest to the camera"],
+    collisions: ["Collision shapes", "what physics sees"],
 };
 
 export function viewOptions(state: ViewerState): HTMLElement {
@@ -19,11 +27,24 @@ export function viewOptions(state: ViewerState): HTMLElement {
         return h("label", { class: "option" }, input, h("span", {}, name), h("small", {}, why));
     });
     const boxes = OVERLAYS.map((overlay) => {
-        const input = h("input", { type: "checkbox", name: overlay, onchange: () => state.toggle(overlay, input.checked) });
+        const input = h("input", {
+            type: "checkbox",
+            name: overlay,
+            onchange: () => state.toggle(overlay, input.checked),
+        });
         state.overlays.follow((on) => (input.checked = on.has(overlay)));
-        return h("label", { class: "option" }, input, h("span", {}, WORDS[overlay][0]), h("small", {}, WORDS[overlay][1]));
+        return h(
+            "label",
+            { class: "option" },
+            input,
+            h("span", {}, WORDS[overlay][0]),
+            h("small", {}, WORDS[overlay][1]),
+        );
     });
-    return h("div", { class: "view-options" },
+    return h(
+        "div",
+        { class: "view-options" },
         h("fieldset", {}, h("legend", {}, "Colour robots by"), ...radios),
-        h("fieldset", {}, h("legend", {}, "Show"), ...boxes));
+        h("fieldset", {}, h("legend", {}, "Show"), ...boxes),
+    );
 }

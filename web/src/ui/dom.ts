@@ -5,7 +5,11 @@ import { ICONS, type IconName } from "./icons";
 type Child = Node | string | null;
 type Attributes = Record<string, string | number | boolean | null | ((event: never) => void)>;
 
-export function h<K extends keyof HTMLElementTagNameMap>(tag: K, attributes: Attributes = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
+export function h<K extends keyof HTMLElementTagNameMap>(
+    tag: K,
+    attributes: Attributes = {},
+    ...children: Child[]
+): HTMLElementTagNameMap[K] {
     const element = document.createElement(tag);
     for (const [name, value] of Object.entries(attributes)) {
         if (typeof value === "function") element.addEventListener(name.slice(2), value as EventListener);
@@ -39,8 +43,11 @@ export function iconButton(name: IconName, label: string, onclick: () => void, k
 }
 
 /** One of several buttons that exclude each other. */
-export function choice<T extends string>(label: string, options: readonly { value: T; text: string; icon?: IconName; key?: string }[],
-                                         onchoose: (value: T) => void): { element: HTMLElement; show: (value: T) => void } {
+export function choice<T extends string>(
+    label: string,
+    options: readonly { value: T; text: string; icon?: IconName; key?: string }[],
+    onchoose: (value: T) => void,
+): { element: HTMLElement; show: (value: T) => void } {
     const buttons = new Map<T, HTMLButtonElement>();
     const element = h("div", { class: "choice", role: "group", "aria-label": label });
     for (const option of options) {
@@ -53,7 +60,10 @@ export function choice<T extends string>(label: string, options: readonly { valu
         buttons.set(option.value, button);
         element.append(button);
     }
-    return { element, show: (value) => buttons.forEach((button, of) => button.setAttribute("aria-pressed", String(of === value))) };
+    return {
+        element,
+        show: (value) => buttons.forEach((button, of) => button.setAttribute("aria-pressed", String(of === value))),
+    };
 }
 
 /** Changes a text only where it differs, so that nothing is laid out again for nothing. */

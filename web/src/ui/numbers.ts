@@ -20,8 +20,10 @@ export function percent(value: number | null | undefined): string {
 
 /** Simulated seconds as minutes:seconds.milliseconds, hours where there are any. */
 export function clockText(seconds: number): string {
-    const ms = Math.max(0, Math.round(seconds * 1000)), pad = (n: number, width: number) => String(n).padStart(width, "0");
-    const hours = Math.floor(ms / 3_600_000), minutes = Math.floor(ms / 60_000) % 60;
+    const ms = Math.max(0, Math.round(seconds * 1000)),
+        pad = (n: number, width: number) => String(n).padStart(width, "0");
+    const hours = Math.floor(ms / 3_600_000),
+        minutes = Math.floor(ms / 60_000) % 60;
     const rest = `${pad(Math.floor(ms / 1000) % 60, 2)}.${pad(ms % 1000, 3)}`;
     return hours > 0 ? `${hours}:${pad(minutes, 2)}:${rest}` : `${minutes}:${rest}`;
 }

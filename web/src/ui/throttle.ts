@@ -1,7 +1,9 @@
 // Calls a function at most so often, and always with what was asked last.
 
 export function throttled<A extends unknown[]>(interval_ms: number, call: (...args: A) => void): (...args: A) => void {
-    let last = -Infinity, timer = 0, waiting: A | null = null;
+    let last = -Infinity,
+        timer = 0,
+        waiting: A | null = null;
     const go = () => {
         timer = 0;
         last = performance.now();

@@ -15,7 +15,10 @@ export class Colouring {
     private speeds = new Float32Array(0);
     private stale = true;
 
-    constructor(private readonly stage: Stage, private readonly state: ViewerState) {
+    constructor(
+        private readonly stage: Stage,
+        private readonly state: ViewerState,
+    ) {
         state.colourBy.follow(() => (this.stale = true));
         state.groups.follow(() => (this.stale = true));
         state.world.follow(() => {
@@ -32,7 +35,8 @@ export class Colouring {
     }
 
     private choose(): ((robot: number, out: THREE.Color) => void) | null {
-        const by = this.state.colourBy.value, groups = this.state.groups.value;
+        const by = this.state.colourBy.value,
+            groups = this.state.groups.value;
         if (by === "speed") return (robot, out) => void rampColour((this.speeds[robot] ?? 0) / SPEED_FULL, out);
         if (by === "model" || groups === null) return null;
         const of = by === "simulator" ? groups.simulator : groups.island;
@@ -41,7 +45,8 @@ export class Colouring {
 
     /** Speeds from what is drawn, over a tenth of a second. */
     private measure(world: World): void {
-        const { base, time } = world.history.drawn, passed = time - this.beforeTime;
+        const { base, time } = world.history.drawn,
+            passed = time - this.beforeTime;
         if (this.before === null || this.before.length !== base.length || passed < 0) {
             this.before = base.slice();
             this.beforeTime = time;
@@ -50,7 +55,12 @@ export class Colouring {
         }
         if (passed < SPEED_EVERY_S) return;
         for (let r = 0; r < world.fleet.count; ++r)
-            this.speeds[r] = Math.hypot(base[r * 7] - this.before[r * 7], base[r * 7 + 1] - this.before[r * 7 + 1], base[r * 7 + 2] - this.before[r * 7 + 2]) / passed;
+            this.speeds[r] =
+                Math.hypot(
+                    base[r * 7] - this.before[r * 7],
+                    base[r * 7 + 1] - this.before[r * 7 + 1],
+                    base[r * 7 + 2] - this.before[r * 7 + 2],
+                ) / passed;
         this.before.set(base);
         this.beforeTime = time;
         this.stale = true;

@@ -10,15 +10,29 @@ export class FrameTimes {
 
     take(update_ms: number, draw_ms: number): void {
         ++this.frames;
-        for (const [list, value] of [[this.update, update_ms], [this.draw, draw_ms]] as const) {
+        for (const [list, value] of [
+            [this.update, update_ms],
+            [this.draw, draw_ms],
+        ] as const) {
             list.push(value);
             if (list.length > KEPT) list.shift();
         }
     }
 
-    summary(): { frames: number; update_ms: number; update_p95_ms: number; draw_ms: number; draw_p95_ms: number } {
-        return { frames: this.frames, update_ms: mean(this.update), update_p95_ms: quantile(this.update, 0.95),
-            draw_ms: mean(this.draw), draw_p95_ms: quantile(this.draw, 0.95) };
+    forget(): void {
+        this.frames = this.update.length = this.draw.length = 0;
+    }
+
+    summary(): Record<string, number> {
+        return {
+            frames: this.frames,
+            update_ms: mean(this.update),
+            update_median_ms: quantile(this.update, 0.5),
+            update_p95_ms: quantile(this.update, 0.95),
+            draw_ms: mean(this.draw),
+            draw_median_ms: quantile(this.draw, 0.5),
+            draw_p95_ms: quantile(this.draw, 0.95),
+        };
     }
 }
 

@@ -28,7 +28,9 @@ function ellipsoid(radii: readonly number[]): THREE.BufferGeometry {
 
 /** The shape in its own frame, cylinders and capsules along z. */
 export function shapeGeometry(visual: Visual, meshes: ReadonlyMap<number, MeshData>): THREE.BufferGeometry {
-    const radius = visual.radius ?? 1, length = visual.length ?? 1, size = visual.size ?? [1, 1, 1];
+    const radius = visual.radius ?? 1,
+        length = visual.length ?? 1,
+        size = visual.size ?? [1, 1, 1];
     switch (visual.shape) {
         case "box":
             return new THREE.BoxGeometry(size[0], size[1], size[2]);
@@ -51,7 +53,8 @@ export function poseMatrix(pose: ArrayLike<number>): THREE.Matrix4 {
     return new THREE.Matrix4().compose(
         new THREE.Vector3(pose[0], pose[1], pose[2]),
         new THREE.Quaternion(pose[4], pose[5], pose[6], pose[3]),
-        new THREE.Vector3(1, 1, 1));
+        new THREE.Vector3(1, 1, 1),
+    );
 }
 
 export interface PlacedVisual {
@@ -60,7 +63,8 @@ export interface PlacedVisual {
 }
 
 function paint(geometry: THREE.BufferGeometry, name: string, colour: THREE.Color): void {
-    const count = geometry.getAttribute("position").count, data = new Float32Array(count * 3);
+    const count = geometry.getAttribute("position").count,
+        data = new Float32Array(count * 3);
     for (let k = 0; k < count; ++k) colour.toArray(data, k * 3);
     geometry.setAttribute(name, new THREE.BufferAttribute(data, 3));
 }
@@ -75,7 +79,10 @@ export function lightness(colour: THREE.Color): number {
 }
 
 /** One geometry of several visuals; null where none has a triangle. */
-export function mergedGeometry(parts: readonly PlacedVisual[], meshes: ReadonlyMap<number, MeshData>): THREE.BufferGeometry | null {
+export function mergedGeometry(
+    parts: readonly PlacedVisual[],
+    meshes: ReadonlyMap<number, MeshData>,
+): THREE.BufferGeometry | null {
     const geometries: THREE.BufferGeometry[] = [];
     const lightest = Math.max(0.02, ...parts.map((part) => lightness(visualColour(part.visual))));
     for (const part of parts) {
@@ -84,7 +91,8 @@ export function mergedGeometry(parts: readonly PlacedVisual[], meshes: ReadonlyM
         if (geometry.index !== null) geometry = geometry.toNonIndexed();
         geometry.deleteAttribute("uv");
         geometry.applyMatrix4(poseMatrix(part.pose));
-        const colour = visualColour(part.visual), tint = Math.max(0.12, lightness(colour) / lightest);
+        const colour = visualColour(part.visual),
+            tint = Math.max(0.12, lightness(colour) / lightest);
         paint(geometry, "own", colour);
         paint(geometry, "tint", new THREE.Color(tint, tint, tint));
         geometries.push(geometry);

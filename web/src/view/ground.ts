@@ -53,21 +53,40 @@ export class Ground {
 
     constructor() {
         this.sky = new THREE.ShaderMaterial({
-            vertexShader: SKY_VERTEX, fragmentShader: SKY_FRAGMENT, side: THREE.BackSide, depthWrite: false, depthTest: false,
+            vertexShader: SKY_VERTEX,
+            fragmentShader: SKY_FRAGMENT,
+            side: THREE.BackSide,
+            depthWrite: false,
+            depthTest: false,
             uniforms: { top: { value: new THREE.Color() }, horizon: { value: new THREE.Color() } },
         });
         const dome = new THREE.Mesh(new THREE.SphereGeometry(1, 32, 24), this.sky);
         dome.frustumCulled = false;
         dome.renderOrder = -10;
         this.grid = new THREE.ShaderMaterial({
-            vertexShader: GRID_VERTEX, fragmentShader: GRID_FRAGMENT, transparent: true, depthWrite: false,
-            polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2,
-            uniforms: { colour: { value: new THREE.Color() }, strength: { value: 0.2 }, reach: { value: 100 }, centre: { value: new THREE.Vector2() } },
+            vertexShader: GRID_VERTEX,
+            fragmentShader: GRID_FRAGMENT,
+            transparent: true,
+            depthWrite: false,
+            polygonOffset: true,
+            polygonOffsetFactor: -2,
+            polygonOffsetUnits: -2,
+            uniforms: {
+                colour: { value: new THREE.Color() },
+                strength: { value: 0.2 },
+                reach: { value: 100 },
+                centre: { value: new THREE.Vector2() },
+            },
         });
         this.gridMesh = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), this.grid);
         this.gridMesh.frustumCulled = false;
         this.gridMesh.renderOrder = 1;
-        const material = new THREE.MeshStandardMaterial({ roughness: 1, polygonOffset: true, polygonOffsetFactor: 4, polygonOffsetUnits: 4 });
+        const material = new THREE.MeshStandardMaterial({
+            roughness: 1,
+            polygonOffset: true,
+            polygonOffsetFactor: 4,
+            polygonOffsetUnits: 4,
+        });
         this.floor = new THREE.Mesh(new THREE.CircleGeometry(1, 96), material);
         this.floor.position.z = -0.005;
         this.floor.receiveShadow = true;

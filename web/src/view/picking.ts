@@ -14,7 +14,9 @@ const REACH_MIN_M = 0.05;
 
 export function pick(stage: Stage, world: World, x: number, y: number): Picked | null {
     if (stage.robots === null) return null;
-    const caster = stage.ray(x, y), ray = caster.ray, base = world.history.drawn.base;
+    const caster = stage.ray(x, y),
+        ray = caster.ray,
+        base = world.history.drawn.base;
     const hidden = caster.intersectObjects(stage.statics?.solids ?? [], false)[0]?.distance ?? Infinity;
     const centre = new THREE.Vector3();
     let best: Picked | null = null;

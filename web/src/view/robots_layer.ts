@@ -38,18 +38,33 @@ function looks(type: TypeInfo, kind: "visuals" | "collisions"): BodyLook[] {
     const found = new Map<string, BodyLook>();
     for (const link of type.links)
         for (const visual of link[kind]) {
-            const alpha = kind === "collisions" ? 0.35 : visual.alpha ?? 1, name = `${link.body} ${alpha < 1 ? alpha.toFixed(2) : "solid"}`;
+            const alpha = kind === "collisions" ? 0.35 : (visual.alpha ?? 1),
+                name = `${link.body} ${alpha < 1 ? alpha.toFixed(2) : "solid"}`;
             const look = found.get(name) ?? { body: link.body, parts: [], alpha, key: "", colour: null, shade: 1 };
             look.parts.push({ visual, pose: composed(link.frame, visual.frame) });
             found.set(name, look);
         }
-    const lightest = Math.max(0.02, ...[...found.values()].flatMap((look) => look.parts.map((part) => lightness(visualColour(part.visual)))));
+    const lightest = Math.max(
+        0.02,
+        ...[...found.values()].flatMap((look) => look.parts.map((part) => lightness(visualColour(part.visual)))),
+    );
     for (const look of found.values()) {
         const colours = new Set(look.parts.map((part) => rounded(part.visual.rgb ?? [])));
         if (colours.size === 1) look.colour = visualColour(look.parts[0].visual);
         if (look.colour !== null) look.shade = Math.max(0.22, lightness(look.colour) / lightest);
-        look.key = JSON.stringify(look.parts.map(({ visual, pose }) => [visual.shape, visual.size, visual.radius, visual.length,
-            visual.radii, visual.mesh, rounded(pose), look.colour === null ? visual.rgb : 0, look.alpha]));
+        look.key = JSON.stringify(
+            look.parts.map(({ visual, pose }) => [
+                visual.shape,
+                visual.size,
+                visual.radius,
+                visual.length,
+                visual.radii,
+                visual.mesh,
+                rounded(pose),
+                look.colour === null ? visual.rgb : 0,
+                look.alpha,
+            ]),
+        );
     }
     return [...found.values()];
 }
@@ -63,7 +78,11 @@ export class RobotsLayer {
     private readonly scratch = new Float64Array((BODIES_MAX + 1) * 7);
     private colouring: ((robot: number, out: THREE.Color) => void) | null = null;
 
-    constructor(private readonly fleet: Fleet, meshes: ReadonlyMap<number, MeshData>, kind: "visuals" | "collisions" = "visuals") {
+    constructor(
+        private readonly fleet: Fleet,
+        meshes: ReadonlyMap<number, MeshData>,
+        kind: "visuals" | "collisions" = "visuals",
+    ) {
         const ofType = fleet.scene.types.map((type) => looks(type, kind));
         const batchOf = new Map<string, { look: BodyLook; members: { robot: number; look: BodyLook }[] }>();
         for (let r = 0; r < fleet.count; ++r)
@@ -80,12 +99,22 @@ export class RobotsLayer {
         this.recolour(null);
     }
 
-    private addBatch(look: BodyLook, members: { robot: number; look: BodyLook }[], meshes: ReadonlyMap<number, MeshData>, slotsOf: number[][]): void {
+    private addBatch(
+        look: BodyLook,
+        members: { robot: number; look: BodyLook }[],
+        meshes: ReadonlyMap<number, MeshData>,
+        slotsOf: number[][],
+    ): void {
         const geometry = mergedGeometry(look.parts, meshes);
         if (geometry === null) return;
         if (look.colour !== null) geometry.setAttribute("color", geometry.getAttribute("tint"));
         const material = new THREE.MeshStandardMaterial({
-            vertexColors: true, roughness: 0.62, metalness: 0.02, transparent: look.alpha < 1, opacity: look.alpha, depthWrite: look.alpha >= 1,
+            vertexColors: true,
+            roughness: 0.62,
+            metalness: 0.02,
+            transparent: look.alpha < 1,
+            opacity: look.alpha,
+            depthWrite: look.alpha >= 1,
             shadowSide: THREE.FrontSide,
         });
         const mesh = new THREE.InstancedMesh(geometry, material, members.length);
@@ -94,31 +123,40 @@ export class RobotsLayer {
         mesh.castShadow = look.alpha >= 1;
         mesh.receiveShadow = true;
         this.group.add(mesh);
-        const number = this.batches.push({
-            mesh, robots: members.map((member) => member.robot), own: members.map((member) => member.look.colour ?? WHITE),
-            shade: members.map((member) => member.look.shade),
-        }) - 1;
+        const number =
+            this.batches.push({
+                mesh,
+                robots: members.map((member) => member.robot),
+                own: members.map((member) => member.look.colour ?? WHITE),
+                shade: members.map((member) => member.look.shade),
+            }) - 1;
         members.forEach((member, instance) => slotsOf[member.robot].push(number, instance, bodyAt(member.look.body)));
     }
 
     /** Places the robots that changed. */
     update(history: History): void {
-        const { drawn, changed } = history, { fleet } = this;
+        const { drawn, changed } = history,
+            { fleet } = this;
         let any = false;
         for (let r = 0; r < fleet.count; ++r) {
             if (changed[r] === 0) continue;
             any = true;
             placeBodies(fleet.type(r), drawn.base, r * 7, drawn.joints, fleet.firstCoordinate[r], this.scratch);
             for (let s = this.slotStart[r]; s < this.slotStart[r + 1]; s += 3)
-                writeMatrix(this.batches[this.slots[s]].mesh.instanceMatrix.array as Float32Array, this.slots[s + 1] * 16,
-                    this.scratch, this.slots[s + 2]);
+                writeMatrix(
+                    this.batches[this.slots[s]].mesh.instanceMatrix.array as Float32Array,
+                    this.slots[s + 1] * 16,
+                    this.scratch,
+                    this.slots[s + 2],
+                );
         }
         if (any) for (const batch of this.batches) batch.mesh.instanceMatrix.needsUpdate = true;
     }
 
     /** Colours every robot by `colouring`, or as its model says where it is null. */
     recolour(colouring: ((robot: number, out: THREE.Color) => void) | null): void {
-        const modelNow = colouring === null, modelBefore = this.colouring === null;
+        const modelNow = colouring === null,
+            modelBefore = this.colouring === null;
         this.colouring = colouring;
         const colour = new THREE.Color();
         for (const { mesh, robots, own, shade } of this.batches) {
@@ -141,7 +179,9 @@ export class RobotsLayer {
     /** First body that the ray meets of the robots given: how far away, and where. */
     hit(caster: THREE.Raycaster, robot: number): THREE.Intersection | null {
         let nearest: THREE.Intersection | null = null;
-        const single = new THREE.Mesh(), matrix = new THREE.Matrix4(), found: THREE.Intersection[] = [];
+        const single = new THREE.Mesh(),
+            matrix = new THREE.Matrix4(),
+            found: THREE.Intersection[] = [];
         for (let s = this.slotStart[robot]; s < this.slotStart[robot + 1]; s += 3) {
             const batch = this.batches[this.slots[s]];
             batch.mesh.getMatrixAt(this.slots[s + 1], matrix);

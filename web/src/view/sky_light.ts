@@ -3,7 +3,12 @@
 import * as THREE from "three";
 import type { ScenePalette } from "./palette";
 
-const VERTEX = `varying vec3 direction; void main() { direction = position; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }`;
+const VERTEX = `
+varying vec3 direction;
+void main() {
+    direction = position;
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+}`;
 const FRAGMENT = `
 uniform vec3 sky, horizon, ground;
 varying vec3 direction;
@@ -16,10 +21,19 @@ void main() {
 export function skyLight(renderer: THREE.WebGLRenderer, palette: ScenePalette): THREE.Texture {
     const colour = (hex: number) => ({ value: new THREE.Color().setHex(hex) });
     const material = new THREE.ShaderMaterial({
-        vertexShader: VERTEX, fragmentShader: FRAGMENT, side: THREE.BackSide, depthWrite: false,
-        uniforms: { sky: colour(palette.lightSky), horizon: colour(palette.lightHorizon), ground: colour(palette.lightGround) },
+        vertexShader: VERTEX,
+        fragmentShader: FRAGMENT,
+        side: THREE.BackSide,
+        depthWrite: false,
+        uniforms: {
+            sky: colour(palette.lightSky),
+            horizon: colour(palette.lightHorizon),
+            ground: colour(palette.lightGround),
+        },
     });
-    const scene = new THREE.Scene(), dome = new THREE.Mesh(new THREE.SphereGeometry(10, 24, 16), material), maker = new THREE.PMREMGenerator(renderer);
+    const scene = new THREE.Scene(),
+        dome = new THREE.Mesh(new THREE.SphereGeometry(10, 24, 16), material),
+        maker = new THREE.PMREMGenerator(renderer);
     scene.add(dome);
     const target = maker.fromScene(scene, 0, 0.1, 100, { size: 64 });
     dome.geometry.dispose();

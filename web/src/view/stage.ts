@@ -10,7 +10,7 @@ import { RobotsLayer } from "./robots_layer";
 import { StaticsLayer } from "./statics_layer";
 import { Sunlight } from "./sunlight";
 
-/** auto: as good as the machine draws smoothly. */
+/** auto: as good as the machine draws smoothly. low: for machines that draw in software. */
 export type Quality = "low" | "high" | "auto";
 
 export class Stage {
@@ -26,9 +26,16 @@ export class Stage {
     private readonly ground = new Ground();
     private readonly sunlight: Sunlight;
 
-    constructor(readonly canvas: HTMLCanvasElement, quality: Quality) {
-        this.renderer = new THREE.WebGLRenderer({ canvas, antialias: quality !== "low", powerPreference: "high-performance" });
-        this.renderer.setPixelRatio(quality === "low" ? 1 : Math.min(2, window.devicePixelRatio));
+    constructor(
+        readonly canvas: HTMLCanvasElement,
+        quality: Quality,
+    ) {
+        this.renderer = new THREE.WebGLRenderer({
+            canvas,
+            antialias: quality !== "low",
+            powerPreference: "high-performance",
+        });
+        this.renderer.setPixelRatio(quality === "low" ? 0.5 : Math.min(2, window.devicePixelRatio));
         this.renderer.toneMapping = THREE.NeutralToneMapping;
         this.renderer.toneMappingExposure = 1.0;
         this.renderer.shadowMap.enabled = quality !== "low";

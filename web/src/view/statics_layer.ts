@@ -10,7 +10,9 @@ const EDGE_TRIANGLES_MAX = 50_000;
 
 /** Walls are a little darker towards the ground, as if the sky lit them: cheap ambient occlusion. */
 function shadeTowardsGround(geometry: THREE.BufferGeometry): void {
-    const position = geometry.getAttribute("position"), normal = geometry.getAttribute("normal"), colour = geometry.getAttribute("color");
+    const position = geometry.getAttribute("position"),
+        normal = geometry.getAttribute("normal"),
+        colour = geometry.getAttribute("color");
     for (let k = 0; k < position.count; ++k) {
         if (Math.abs(normal.getZ(k)) > 0.7) continue;
         const shade = 0.8 + 0.2 * Math.min(1, Math.max(0, position.getZ(k) / 2.5));
@@ -32,17 +34,31 @@ export class StaticsLayer {
         this.addMerged(planes, meshes, 1, true);
         this.addMerged(solid, meshes, 1, false);
         for (const alpha of new Set(clear.map((visual) => visual.alpha ?? 1)))
-            this.addMerged(clear.filter((visual) => visual.alpha === alpha), meshes, alpha, false);
+            this.addMerged(
+                clear.filter((visual) => visual.alpha === alpha),
+                meshes,
+                alpha,
+                false,
+            );
         this.addEdges(solid, meshes);
     }
 
     private addMerged(visuals: Visual[], meshes: ReadonlyMap<number, MeshData>, alpha: number, planes: boolean): void {
-        const geometry = mergedGeometry(visuals.map((visual) => ({ visual, pose: visual.frame })), meshes);
+        const geometry = mergedGeometry(
+            visuals.map((visual) => ({ visual, pose: visual.frame })),
+            meshes,
+        );
         if (geometry === null) return;
         if (!planes) shadeTowardsGround(geometry);
         const material = new THREE.MeshStandardMaterial({
-            vertexColors: true, roughness: planes ? 0.95 : 0.85, transparent: alpha < 1, opacity: alpha, depthWrite: alpha >= 1,
-            polygonOffset: planes, polygonOffsetFactor: 2, polygonOffsetUnits: 2,
+            vertexColors: true,
+            roughness: planes ? 0.95 : 0.85,
+            transparent: alpha < 1,
+            opacity: alpha,
+            depthWrite: alpha >= 1,
+            polygonOffset: planes,
+            polygonOffsetFactor: 2,
+            polygonOffsetUnits: 2,
             shadowSide: THREE.FrontSide, // back faces would let light through at the foot of a wall
         });
         const mesh = new THREE.Mesh(geometry, material);
@@ -58,12 +74,15 @@ export class StaticsLayer {
     }
 
     private addEdges(visuals: Visual[], meshes: ReadonlyMap<number, MeshData>): void {
-        const points: number[] = [], point = new THREE.Vector3();
+        const points: number[] = [],
+            point = new THREE.Vector3();
         for (const visual of visuals) {
-            const shape = shapeGeometry(visual, meshes), matrix = poseMatrix(visual.frame);
+            const shape = shapeGeometry(visual, meshes),
+                matrix = poseMatrix(visual.frame);
             if (shape.getAttribute("position").count > 3 * EDGE_TRIANGLES_MAX) continue;
             const edges = new THREE.EdgesGeometry(shape, EDGE_RAD_DEG).getAttribute("position");
-            for (let k = 0; k < edges.count; ++k) point.fromBufferAttribute(edges, k).applyMatrix4(matrix).toArray(points, points.length);
+            for (let k = 0; k < edges.count; ++k)
+                point.fromBufferAttribute(edges, k).applyMatrix4(matrix).toArray(points, points.length);
         }
         if (points.length === 0) return;
         const geometry = new THREE.BufferGeometry();

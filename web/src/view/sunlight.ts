@@ -19,11 +19,15 @@ export class Sunlight {
     }
 
     follow(target: THREE.Vector3, distance: number): void {
-        const half = Math.min(160, Math.max(3, distance * 0.95)), texel = (2 * half) / (this.resolution || 1024);
+        const half = Math.min(160, Math.max(3, distance * 0.95)),
+            texel = (2 * half) / (this.resolution || 1024);
         const camera = this.sun.shadow.camera;
-        const side = new THREE.Vector3(0, 0, 1).cross(TOWARDS_SUN).normalize(), up = TOWARDS_SUN.clone().cross(side);
+        const side = new THREE.Vector3(0, 0, 1).cross(TOWARDS_SUN).normalize(),
+            up = TOWARDS_SUN.clone().cross(side);
         const snap = (axis: THREE.Vector3) => axis.clone().multiplyScalar(Math.round(target.dot(axis) / texel) * texel);
-        const centre = snap(side).add(snap(up)).add(TOWARDS_SUN.clone().multiplyScalar(target.dot(TOWARDS_SUN)));
+        const centre = snap(side)
+            .add(snap(up))
+            .add(TOWARDS_SUN.clone().multiplyScalar(target.dot(TOWARDS_SUN)));
         this.sun.target.position.copy(centre);
         this.sun.position.copy(centre).addScaledVector(TOWARDS_SUN, half * 2 + 20);
         if (Math.abs(camera.right - half) / half > 0.001) {

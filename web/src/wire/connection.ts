@@ -104,7 +104,8 @@ export class Connection {
     }
 
     private lost(reason: string): void {
-        for (const [id, resolve] of [...this.waiting]) resolve({ type: "answer", id, done: false, text: "the connection was lost" });
+        for (const [id, resolve] of [...this.waiting])
+            resolve({ type: "answer", id, done: false, text: "the connection was lost" });
         this.waiting.clear();
         this.listener.state("gone", reason);
         this.retryTimer = window.setTimeout(() => this.open(), this.retryMs);

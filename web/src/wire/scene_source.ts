@@ -15,9 +15,12 @@ async function fetched(path: string): Promise<Response> {
 
 export function readMesh(buffer: ArrayBuffer): MeshData {
     const data = new DataView(buffer);
-    const vertices = data.getUint32(0, true), triangles = data.getUint32(4, true);
+    const vertices = data.getUint32(0, true),
+        triangles = data.getUint32(4, true);
     if (buffer.byteLength !== 8 + 12 * vertices + 12 * triangles)
-        throw new Error(`a mesh of ${vertices} vertices and ${triangles} triangles cannot have ${buffer.byteLength} bytes`);
+        throw new Error(
+            `a mesh of ${vertices} vertices and ${triangles} triangles cannot have ${buffer.byteLength} bytes`,
+        );
     return {
         positions: new Float32Array(buffer, 8, 3 * vertices),
         corners: new Uint32Array(buffer, 8 + 12 * vertices, 3 * triangles),
@@ -40,8 +43,10 @@ export interface LoadedScene {
 export async function loadScene(): Promise<LoadedScene> {
     const scene = (await (await fetched("scene")).json()) as SceneInfo;
     const meshes = new Map<number, MeshData>();
-    await Promise.all([...meshNumbers(scene)].map(async (n) => {
-        meshes.set(n, readMesh(await (await fetched(`mesh/${n}`)).arrayBuffer()));
-    }));
+    await Promise.all(
+        [...meshNumbers(scene)].map(async (n) => {
+            meshes.set(n, readMesh(await (await fetched(`mesh/${n}`)).arrayBuffer()));
+        }),
+    );
     return { scene, meshes };
 }

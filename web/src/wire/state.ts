@@ -1,8 +1,17 @@
 // Reads State, the one binary message: which robots moved, and where they are. Layout and scales: docs/viewer-protocol.md.
 import type { Fleet } from "../model/fleet";
 import {
-    FLAG_REST, FLAG_WHOLE, readStateHeader, STATE_BYTES, STATE_COORDINATE_SCALE, STATE_ENTRY_COORDINATES_AT, STATE_ENTRY_ORIENTATION_AT,
-    STATE_ENTRY_POSITION_AT, STATE_ENTRY_ROBOT_AT, STATE_KIND, STATE_ORIENTATION_SCALE,
+    FLAG_REST,
+    FLAG_WHOLE,
+    readStateHeader,
+    STATE_BYTES,
+    STATE_COORDINATE_SCALE,
+    STATE_ENTRY_COORDINATES_AT,
+    STATE_ENTRY_ORIENTATION_AT,
+    STATE_ENTRY_POSITION_AT,
+    STATE_ENTRY_ROBOT_AT,
+    STATE_KIND,
+    STATE_ORIENTATION_SCALE,
 } from "../protocol";
 import type { Snapshot } from "../model/snapshot";
 
@@ -20,7 +29,8 @@ export interface StateHeader {
 
 export function readHeader(data: DataView): StateHeader {
     if (data.byteLength < STATE_BYTES) throw new Error(`a State of ${data.byteLength} bytes is too short`);
-    if (data.getUint8(0) !== STATE_KIND) throw new Error(`a binary message of kind ${data.getUint8(0)}, which this page does not know`);
+    if (data.getUint8(0) !== STATE_KIND)
+        throw new Error(`a binary message of kind ${data.getUint8(0)}, which this page does not know`);
     const { flags, scene, tick, time, robots } = readStateHeader(data);
     return { whole: (flags & FLAG_WHOLE) !== 0, resting: (flags & FLAG_REST) !== 0, scene, tick, time, robots };
 }
@@ -41,7 +51,8 @@ export function readState(data: DataView, fleet: Fleet, snapshot: Snapshot): Sta
 }
 
 function readRobot(data: DataView, start: number, robot: number, fleet: Fleet, snapshot: Snapshot): number {
-    const base = snapshot.base, b = robot * 7;
+    const base = snapshot.base,
+        b = robot * 7;
     for (let k = 0; k < 3; ++k) base[b + k] = data.getFloat32(start + STATE_ENTRY_POSITION_AT + 4 * k, true);
     let norm = 0;
     for (let k = 0; k < 4; ++k) {
@@ -52,8 +63,10 @@ function readRobot(data: DataView, start: number, robot: number, fleet: Fleet, s
     const scale = norm > 0 ? 1 / Math.sqrt(norm) : 1;
     for (let k = 3; k < 7; ++k) base[b + k] *= scale;
     let at = start + STATE_ENTRY_COORDINATES_AT;
-    const first = fleet.firstCoordinate[robot], ranges = fleet.ranges[fleet.typeOf[robot]];
-    for (let k = 0; k < ranges.length; ++k, at += 2) snapshot.joints[first + k] = data.getInt16(at, true) * COORDINATE_UNIT * ranges[k];
+    const first = fleet.firstCoordinate[robot],
+        ranges = fleet.ranges[fleet.typeOf[robot]];
+    for (let k = 0; k < ranges.length; ++k, at += 2)
+        snapshot.joints[first + k] = data.getInt16(at, true) * COORDINATE_UNIT * ranges[k];
     snapshot.moved[robot] = 1;
     return at;
 }
