@@ -117,6 +117,27 @@ test("a robot is dragged over the ground, and is where it was dropped", limit, a
     });
 });
 
+test("a robot is pushed along the arrow that is drawn", limit, async () => {
+    await choose(page, "car_8");
+    await page.getByRole("button", { name: "Follow", exact: true }).last().click();
+    await page.waitForTimeout(1500);
+    await page.getByRole("button", { name: "Orbit" }).click();
+    await page.getByLabel(/^Motor mode of front_left/).selectOption("passive");
+    for (const wheel of ["front_right", "rear_left", "rear_right"])
+        await page.getByLabel(`Motor mode of ${wheel}`).selectOption("passive");
+    await page.getByLabel("Push a robot").click();
+    const from = await seen(page, 8);
+    await page.mouse.move(from.left, from.top);
+    await page.mouse.down();
+    await page.mouse.move(from.left + 250, from.top, { steps: 8 });
+    await until("the arrow says how hard", async () =>
+        /\d N$/.test((await page.locator(".labels").textContent()) ?? ""),
+    );
+    await until("it gives way to the right", async () => (await seen(page, 8)).left > from.left + 12);
+    await page.mouse.up();
+    await page.getByLabel("Select", { exact: true }).click();
+});
+
 test("a joint's slider orders its motor, and the joint obeys", limit, async () => {
     await choose(page, "car_11");
     const slider = page.getByLabel("Target of front_left"),

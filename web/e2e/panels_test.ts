@@ -140,6 +140,15 @@ test("a picture is saved, and a link brings back camera and selection", limit, a
     await other.page.context().close();
 });
 
+test("a video is recorded and saved", limit, async () => {
+    await page.getByLabel("Record a video").click();
+    await page.waitForTimeout(2500);
+    const [download] = await Promise.all([page.waitForEvent("download"), page.getByLabel("Record a video").click()]);
+    const video = readFileSync(await download.path());
+    assert.match(download.suggestedFilename(), /\.(webm|mp4)$/);
+    assert.ok(video.length > 2000, `${video.length} bytes`);
+});
+
 test("keys do what the card says, and the card opens with ?", limit, async () => {
     await page.locator(".view canvas").focus();
     await page.keyboard.press("?");

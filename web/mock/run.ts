@@ -178,7 +178,7 @@ export class MockRun {
             members: this.members,
             losses: this.losses,
             migrations: this.migrations,
-            messages: Math.round(time * 240),
+            recoveries: this.losses,
             rtf: this.rtf,
             viewers: 1,
             sent_bytes: 0,

@@ -10,6 +10,7 @@ import { groupCss } from "../view/palette";
 import { plotAxes } from "./plots_dock";
 
 const KEPT = 240;
+const LOST_SHOWN_MS = 20_000;
 const PLOT_HEIGHT = 132;
 
 /** Lost and left ones stay listed, but do nothing. */
@@ -51,6 +52,7 @@ export class ClusterPanel {
     private plot: uPlot | null = null;
     private plotted = "";
     private readonly began = performance.now();
+    private readonly lastPresent = new Map<number, number>();
 
     constructor(
         state: ViewerState,
@@ -75,7 +77,7 @@ export class ClusterPanel {
                 fact("Repeated", "Windows stepped again because a forecast was too small"),
                 fact("Migrations", "Robots handed from one Simulator to another"),
                 fact("Losses", "Simulators lost and replaced"),
-                fact("Messages", "Sent over the bus"),
+                fact("Recovered", "Times that lost robots were stepped again from a checkpoint"),
             ),
             h("div", { class: "panel-head sub" }, h("h3", {}, "Members"), h("div", { class: "grow" }), add),
             h(
@@ -124,11 +126,18 @@ export class ClusterPanel {
         say("Repeated", short(status.windows_repeated));
         say("Migrations", short(status.migrations));
         say("Losses", short(status.losses));
-        say("Messages", short(status.messages));
-        const members = status.members ?? [];
+        say("Recovered", short(status.recoveries));
+        const members = this.worthShowing(status.members ?? []);
         this.showMembers(members);
         this.history.take((performance.now() - this.began) / 1000, members);
         this.showPlot();
+    }
+
+    /** A run lists all Simulators that it ever had: here a lost one is seen for a while, one lost before never. */
+    private worthShowing(members: readonly MemberStatus[]): MemberStatus[] {
+        const now = performance.now();
+        for (const member of members) if (present(member)) this.lastPresent.set(member.id, now);
+        return members.filter((member) => now - (this.lastPresent.get(member.id) ?? -Infinity) < LOST_SHOWN_MS);
     }
 
     private showMembers(members: readonly MemberStatus[]): void {

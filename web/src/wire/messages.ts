@@ -120,7 +120,7 @@ export interface Status {
     members?: MemberStatus[];
     losses?: number;
     migrations?: number;
-    messages?: number;
+    recoveries?: number;
     rtf?: number | null;
     viewers?: number;
     sent_bytes?: number;
