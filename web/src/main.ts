@@ -189,25 +189,26 @@ document.body.prepend(
 view.append(labels.element, banner(state, run), said.element);
 document.body.append(list.element, tabs.element, plotsDock(state, plotted), time.element, help);
 if (address.get("hide") === "panels") document.body.classList.add("bare");
-if (address.get("panel") !== null) tabs.open(address.get("panel") as string);
 
 state.theme.follow((theme, before) => {
     document.documentElement.dataset.theme = theme;
     stage.paint(theme);
     if (theme !== before) keepTheme(theme);
 });
+let named: number | null = null;
 state.world.follow((world: World | null) => {
     stage.show(world);
     if (world === null) return;
     document.title = `${world.fleet.scene.world} · RoBOSS`;
-    const wanted = address.get("select");
-    if (wanted !== null && state.selected.value === null) state.selected.set(world.fleet.find(wanted) ?? null);
+    named = address.get("panel") === null ? null : (world.fleet.find(address.get("select") ?? "") ?? null);
+    if (state.selected.value === null) state.selected.set(world.fleet.find(address.get("select") ?? "") ?? null);
     if (state.overlays.value.has("collisions")) stage.showCollisions(world, true);
 });
 state.overlays.follow(
     (on) => state.world.value !== null && stage.showCollisions(state.world.value, on.has("collisions")),
 );
-state.selected.follow((robot) => robot !== null && tabs.open("inspector"));
+// A robot that is chosen is shown; the one that the address names leaves the panel that it names, too.
+state.selected.follow((robot) => robot !== null && robot !== named && tabs.open("inspector"));
 if (address.get("panel") !== null) tabs.open(address.get("panel") as string);
 for (const signal of [
     state.selected,
@@ -227,5 +228,6 @@ applyAddress(address, state);
 
 // For tests and measurements; the page itself never reads it.
 Object.assign(window, { roboss: { state, rig, times, stage, run } });
+window.addEventListener("hashchange", () => location.reload());
 run.open();
 loop.start();

@@ -7,6 +7,8 @@ import type { Stage } from "../view/stage";
 import type { CameraRig } from "./rig";
 
 const OVERVIEW_AZIMUTH = -2.05;
+/** A longer reach hardly ever shows. */
+const REACH_SEEN_M = 3;
 const CLEAR_MIN_M = 0.4;
 /** Larger scenery is not searched each frame. */
 const RAY_VERTICES_MAX = 200_000;
@@ -57,8 +59,13 @@ export class Director {
     overview(world: World, top = false): CameraWords {
         const box = (this.stage.statics?.extent ?? new THREE.Box3()).clone(),
             base = world.history.drawn.base;
-        for (let r = 0; r < world.fleet.count; ++r)
-            box.expandByPoint(new THREE.Vector3(base[r * 7], base[r * 7 + 1], base[r * 7 + 2]));
+        const place = new THREE.Vector3(),
+            around = new THREE.Box3();
+        for (let r = 0; r < world.fleet.count; ++r) {
+            const reach = 2 * Math.min(REACH_SEEN_M, world.fleet.type(r).reach);
+            place.set(base[r * 7], base[r * 7 + 1], base[r * 7 + 2]);
+            box.union(around.setFromCenterAndSize(place, new THREE.Vector3(reach, reach, reach)));
+        }
         const centre = box.isEmpty() ? new THREE.Vector3() : box.getCenter(new THREE.Vector3()),
             size = box.isEmpty() ? new THREE.Vector3(4, 4, 1) : box.getSize(new THREE.Vector3());
         const span = Math.max(1.2, Math.hypot(size.x, size.y)),
@@ -93,7 +100,8 @@ export class Director {
     }
 
     private closeness(world: World, robot: number): number {
-        return Math.max(0.8, world.fleet.type(robot).reach * 11);
+        const reach = world.fleet.type(robot).reach;
+        return Math.max(0.8, Math.min(11 * reach, 1.9 + 3.4 * reach));
     }
 
     private approach(): void {

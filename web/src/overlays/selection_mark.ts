@@ -22,6 +22,9 @@ void main() {
     #include <colorspace_fragment>
 }`;
 const REACH_MIN_M = 0.15;
+/** Robots that reach far get a ring of this part of their distance from the camera. */
+const RING_OF_DISTANCE = 0.15;
+const RING_MIN_M = 0.2;
 
 export class SelectionMark {
     private readonly material = new THREE.ShaderMaterial({
@@ -55,7 +58,8 @@ export class SelectionMark {
             reach = Math.max(REACH_MIN_M, world.fleet.type(robot).reach);
         (this.material.uniforms.colour.value as THREE.Color).setHex(this.stage.palette.accent);
         this.ring.position.set(base[at], base[at + 1], Math.max(0.004, base[at + 2] - reach));
-        this.ring.scale.setScalar(reach * 1.55);
+        const away = this.stage.camera.position.distanceTo(this.ring.position);
+        this.ring.scale.setScalar(Math.min(reach * 1.55, Math.max(RING_MIN_M, away * RING_OF_DISTANCE)));
         this.labels.put(
             "selected",
             new THREE.Vector3(base[at], base[at + 1], base[at + 2] + reach * 1.1),

@@ -66,7 +66,8 @@ export function listen(shortcuts: readonly Shortcut[]): void {
         if (target.matches("input:not([type=checkbox]):not([type=radio]), select, textarea")) return;
         if (event.key === " " && target.matches("button, summary, input, [role=tab]")) return;
         const found = byKey.get(event.key.toLowerCase());
-        if (found === undefined || (target.tagName === "CANVAS" && event.repeat && event.key.length === 1)) return;
+        // A key that is held steps on and on, but toggles nothing twice.
+        if (found === undefined || (event.repeat && event.key !== ".")) return;
         event.preventDefault();
         found.act();
     });

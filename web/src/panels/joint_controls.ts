@@ -5,10 +5,11 @@ import type { RunLink } from "../model/run_link";
 import { h, setText } from "../ui/dom";
 import { fixed } from "../ui/numbers";
 import { throttled } from "../ui/throttle";
-import type { JointInfo, RobotReport, TypeInfo } from "../wire/messages";
+import type { JointInfo, MotorReport, RobotReport, TypeInfo } from "../wire/messages";
 import type { ReadingRows } from "./inspector";
 
-type Mode = "position" | "velocity" | "effort" | "passive";
+const modes = ["velocity", "position", "effort", "passive"] as const;
+type Mode = (typeof modes)[number];
 const ORDER_INTERVAL_MS = 50;
 
 /** From where to where the slider goes in a mode. */
@@ -44,7 +45,7 @@ class AxisControl {
         this.modes = h(
             "select",
             { "aria-label": `Motor mode of ${name}`, onchange: () => this.changeMode() },
-            ...["velocity", "position", "effort", "passive"].map((mode) => h("option", { value: mode }, mode)),
+            ...modes.map((mode) => h("option", { value: mode }, mode)),
         );
         this.slider.setAttribute("aria-label", `Target of ${name}`);
         const send = throttled(ORDER_INTERVAL_MS, () => this.order());
@@ -127,17 +128,19 @@ class AxisControl {
                   ? "passive"
                   : `${motor.mode} → ${fixed(motor.target, 2)} ${units[motor.mode] ?? ""}`,
         );
-        if (!this.touched && motor !== undefined && motor.mode !== "passive") {
-            if (
-                this.modes.value !== motor.mode &&
-                [...this.modes.options].some((option) => option.value === motor.mode)
-            ) {
-                this.modes.value = motor.mode;
-                this.fit();
-            }
-            if (document.activeElement !== this.slider) this.slider.value = String(motor.target);
-            setText(this.target, fixed(motor.target, 2));
+        if (!this.touched) this.copy(motor, position);
+    }
+
+    /** Until a hand takes it, the slider stands where the motor's target is, or the joint itself where no motor acts. */
+    private copy(motor: MotorReport | undefined, position: number | undefined): void {
+        const acts = motor !== undefined && motor.mode !== "passive";
+        if (acts && this.modes.value !== motor.mode && modes.includes(motor.mode as Mode)) {
+            this.modes.value = motor.mode;
+            this.fit();
         }
+        const value = acts ? motor.target : this.modes.value === "position" ? (position ?? 0) : 0;
+        if (document.activeElement !== this.slider) this.slider.value = String(value);
+        setText(this.target, fixed(value, 2));
     }
 }
 

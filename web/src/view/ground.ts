@@ -81,14 +81,10 @@ export class Ground {
         this.gridMesh = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), this.grid);
         this.gridMesh.frustumCulled = false;
         this.gridMesh.renderOrder = 1;
-        const material = new THREE.MeshStandardMaterial({
-            roughness: 1,
-            polygonOffset: true,
-            polygonOffsetFactor: 4,
-            polygonOffsetUnits: 4,
-        });
+        // Drawn first and leaving no depth: scenery that dips below zero shows through it.
+        const material = new THREE.MeshStandardMaterial({ roughness: 1, depthWrite: false });
         this.floor = new THREE.Mesh(new THREE.CircleGeometry(1, 96), material);
-        this.floor.position.z = -0.005;
+        this.floor.renderOrder = -9;
         this.floor.receiveShadow = true;
         this.floor.frustumCulled = false;
         this.group.add(dome, this.floor, this.gridMesh);
