@@ -6,9 +6,9 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 tools/setup.sh build
 # A folder that ./test.sh configured keeps its tests; a fresh one does without them.
 if [[ -f build/release/CMakeCache.txt ]]; then
-    tools/build.sh release roboss roboss-world roboss_city_driver
+    tools/build.sh release roboss roboss-world roboss_city_driver web
 else
-    tools/build.sh release -DROBOSS_TESTS=OFF roboss roboss-world roboss_city_driver
+    tools/build.sh release -DROBOSS_TESTS=OFF roboss roboss-world roboss_city_driver web
 fi
 
 # Ours, unless the same option was given.

@@ -10,10 +10,11 @@ fail() {
     exit 1
 }
 
-# Prints the packages of the groups given, in the order of the list.
+# Prints the packages of the groups given, in the order of the list, but for those that a command makes unneeded.
 wanted_packages() {
-    local group package
-    while read -r group package _; do
+    local group package instead
+    while read -r group package instead _; do
+        [[ $instead == unless=* ]] && command -v "${instead#unless=}" >/dev/null && continue
         [[ " $* " == *" $group "* ]] && printf '%s\n' "$package"
     done < <(grep -v '^#' "$here/packages.txt")
     return 0

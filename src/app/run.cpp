@@ -158,6 +158,7 @@ Result<> Run::start_again(std::shared_ptr<const Model> model, const SavedRun& fr
     busy_until_ = from.logged_until;
     if (!advance_to(from.logged_until))
         return Error{"the run could not be brought there", "see the lines above"};
+    pace_.begin(simulation_->tick());  // no hurry to where the run was before
     return journal_->begin_branch(*simulation_, turn.parent, turn.reason);
 }
 

@@ -1,0 +1,178 @@
+// What the page's tests stand on: a run to look at (the mock gateway, or the real program where ROBOSS_PROGRAM names it),
+// Debian's Chromium drawing in software, and a page whose every console error is kept.
+import { type ChildProcess, spawn } from "node:child_process";
+import { existsSync, mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { type Browser, chromium, type Page } from "playwright-core";
+
+const TESTS = join(dirname(fileURLToPath(import.meta.url)), "..");
+const WEB = process.env.ROBOSS_WEB ?? join(TESTS, "../dist");
+export const PROGRAM = process.env.ROBOSS_PROGRAM ?? "";
+const CHROMIUM =
+    process.env.CHROMIUM ??
+    ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find((path) => existsSync(path));
+export const WAIT_MS = 60_000;
+
+export interface Run {
+    url: string;
+    port: number;
+    stop(): Promise<void>;
+}
+
+function ended(child: ChildProcess): Promise<void> {
+    return new Promise((resolve) =>
+        child.exitCode !== null || child.signalCode !== null ? resolve() : child.once("exit", () => resolve()),
+    );
+}
+
+/** Starts a run and waits until it says where its page is. */
+export async function startRun(options: { cars?: number; port?: number } = {}): Promise<Run> {
+    const folder = mkdtempSync(join(tmpdir(), "roboss-page-")),
+        port = String(options.port ?? 0);
+    const child =
+        PROGRAM === ""
+            ? spawn(process.execPath, [
+                  join(TESTS, "mock/server.mjs"),
+                  "--port",
+                  port,
+                  "--cars",
+                  String(options.cars ?? 50),
+                  "--web",
+                  WEB,
+                  "--simulators",
+                  "3",
+              ])
+            : spawn(
+                  PROGRAM,
+                  [
+                      "run",
+                      process.env.ROBOSS_WORLD ?? "worlds/city.sdf",
+                      "--processes",
+                      "3",
+                      "--journal",
+                      join(folder, "run.journal"),
+                      "--speed",
+                      "1",
+                      "--view",
+                      port === "0" ? "8190" : port,
+                      "--web",
+                      WEB,
+                  ],
+                  { cwd: folder },
+              );
+    let said = "";
+    const url = await new Promise<string>((resolve, reject) => {
+        const hear = (text: Buffer) => {
+            said += text.toString();
+            const found = /https?:\/\/\S+/.exec(said);
+            if (found !== null) resolve(found[0]);
+        };
+        child.stdout?.on("data", hear);
+        child.stderr?.on("data", hear);
+        child.once("exit", () => reject(new Error(`the run ended at once: ${said}`)));
+        setTimeout(() => reject(new Error(`the run names no page: ${said}`)), WAIT_MS).unref();
+    });
+    return {
+        url,
+        port: Number(new URL(url).port),
+        stop: async () => {
+            child.kill("SIGTERM");
+            const hard = setTimeout(() => child.kill("SIGKILL"), 5000);
+            await ended(child);
+            clearTimeout(hard);
+            rmSync(folder, { recursive: true, force: true });
+        },
+    };
+}
+
+export function startBrowser(): Promise<Browser> {
+    if (CHROMIUM === undefined)
+        throw new Error("no Chromium: install Debian's package chromium, or name one with CHROMIUM=/path");
+    return chromium.launch({
+        executablePath: CHROMIUM,
+        args: ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox"],
+    });
+}
+
+export interface Watched {
+    page: Page;
+    errors: string[];
+}
+
+/** Opens the page and waits until the first State is drawn. */
+export async function openPage(browser: Browser, run: Run, query = ""): Promise<Watched> {
+    const context = await browser.newContext({ viewport: { width: 1100, height: 640 }, acceptDownloads: true }),
+        page = await context.newPage(),
+        errors: string[] = [];
+    page.setDefaultTimeout(WAIT_MS);
+    page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
+    page.on("pageerror", (error) => errors.push(error.message));
+    const url = new URL(run.url);
+    for (const [name, value] of new URLSearchParams(`quality=low&${query.replace(/^[?]/, "")}`))
+        url.searchParams.set(name, value);
+    await page.goto(url.toString());
+    await page.waitForSelector("body[data-ready=true]");
+    return { page, errors };
+}
+
+/** Numbers that the page has of a robot, and where it is seen. */
+export interface Seen {
+    x: number;
+    y: number;
+    z: number;
+    left: number;
+    top: number;
+}
+
+export function seen(page: Page, robot: number): Promise<Seen> {
+    return page.evaluate((r) => {
+        const { state, stage } = (
+            window as unknown as {
+                roboss: {
+                    state: import("../src/model/viewer_state").ViewerState;
+                    stage: import("../src/view/stage").Stage;
+                };
+            }
+        ).roboss;
+        const base = state.world.value?.history.drawn.base ?? new Float32Array(7),
+            at = r * 7,
+            box = stage.canvas.getBoundingClientRect();
+        const place = stage.camera.position
+            .clone()
+            .set(base[at], base[at + 1], base[at + 2])
+            .project(stage.camera);
+        return {
+            x: base[at],
+            y: base[at + 1],
+            z: base[at + 2],
+            left: box.left + ((place.x + 1) / 2) * box.width,
+            top: box.top + ((1 - place.y) / 2) * box.height,
+        };
+    }, robot);
+}
+
+/** Waits until `ask` says yes; fails with `what` otherwise. */
+export async function until(what: string, ask: () => Promise<boolean>, wait_ms = 20_000): Promise<void> {
+    const end = Date.now() + wait_ms;
+    while (!(await ask())) {
+        if (Date.now() > end) throw new Error(`in vain: ${what}`);
+        await new Promise((resolve) => setTimeout(resolve, 100));
+    }
+}
+
+export async function time(page: Page): Promise<number> {
+    return page.evaluate(
+        () =>
+            (window as unknown as { roboss: { state: { status: { value: { time_s: number } | null } } } }).roboss.state
+                .status.value?.time_s ?? -1,
+    );
+}
+
+/** Selects a robot by its name, through the list. */
+export async function choose(page: Page, name: string): Promise<void> {
+    await page.getByLabel("Find a robot").fill(name);
+    await page.locator(".row.robot", { hasText: new RegExp(`^${name}$`) }).click();
+    await page.getByLabel("Find a robot").fill("");
+}

@@ -1,0 +1,172 @@
+// The page in a browser, with a run behind it: the picture, time, choosing robots and ordering them about by hand.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import type { Browser, Page } from "playwright-core";
+import { choose, openPage, type Run, seen, startBrowser, startRun, time, until, WAIT_MS } from "./bench";
+
+let browser: Browser, run: Run, page: Page, errors: string[];
+const limit = { timeout: 2 * WAIT_MS };
+
+before(async () => {
+    browser = await startBrowser();
+    run = await startRun();
+    ({ page, errors } = await openPage(browser, run));
+}, limit);
+
+after(async () => {
+    await browser?.close();
+    await run?.stop();
+});
+
+const paused = () => page.getByLabel("Play", { exact: true }).isVisible();
+test("the city appears: all its robots are listed, and the picture is a picture", limit, async () => {
+    const facts = await page.evaluate(() => {
+        const { stage, state } = (
+            window as unknown as {
+                roboss: {
+                    stage: { renderer: { info: { render: { triangles: number } } } };
+                    state: { world: { value: { fleet: { count: number } } } };
+                };
+            }
+        ).roboss;
+        return { triangles: stage.renderer.info.render.triangles, robots: state.world.value.fleet.count };
+    });
+    assert.ok(facts.triangles > 5000, `${facts.triangles} triangles`);
+    assert.equal(await page.locator(".panel.left .count").first().textContent(), String(facts.robots));
+    const colours = await page.evaluate(() => {
+        const { stage } = (window as unknown as { roboss: { stage: import("../src/view/stage").Stage } }).roboss;
+        stage.draw();
+        const small = document.createElement("canvas"),
+            draw = small.getContext("2d");
+        small.width = small.height = 64;
+        draw?.drawImage(stage.canvas, 0, 0, 64, 64);
+        const data = draw?.getImageData(0, 0, 64, 64).data ?? new Uint8ClampedArray();
+        return new Set(
+            Array.from(
+                { length: 4096 },
+                (_, k) => `${data[4 * k] >> 4} ${data[4 * k + 1] >> 4} ${data[4 * k + 2] >> 4}`,
+            ),
+        ).size;
+    });
+    assert.ok(colours > 20, `${colours} colours`);
+});
+
+test("time runs, is paused, steps by what is asked, and goes on", limit, async () => {
+    const began = await time(page);
+    await until("time runs", async () => (await time(page)) > began + 0.5);
+    await page.getByLabel("Pause", { exact: true }).click();
+    await until("paused", paused);
+    await page.waitForTimeout(1200);
+    const stopped = await time(page);
+    await page.waitForTimeout(1200);
+    assert.equal(await time(page), stopped);
+    await page.getByLabel("Ticks of a step").selectOption("100");
+    await page.getByRole("button", { name: "Step", exact: true }).click();
+    await until("a hundred ticks of 2 ms later", async () => Math.abs((await time(page)) - stopped - 0.2) < 1e-6);
+    await page.getByLabel("Play", { exact: true }).click();
+    await until("time runs again", async () => (await time(page)) > stopped + 0.5);
+});
+
+test("the speed asked for is the speed that comes", limit, async () => {
+    const rtf = async () => parseFloat((await page.getByLabel("Real-time factor").textContent()) ?? "");
+    await page.getByLabel("Speed", { exact: true }).selectOption("0.25");
+    await until("a quarter", async () => Math.abs((await rtf()) - 0.25) < 0.08);
+    await page.getByLabel("Speed", { exact: true }).selectOption("1");
+    await until("one", async () => Math.abs((await rtf()) - 1) < 0.25);
+});
+
+test("a robot is found by name and looked at, and a click in the picture selects it", limit, async () => {
+    await choose(page, "car_7");
+    await page.getByLabel("Look at the selected robot").click();
+    await until("its report", async () => page.locator(".reading").first().isVisible());
+    await page.getByLabel("Pause", { exact: true }).click();
+    await until("paused", paused);
+    await page.getByLabel("Look at the selected robot").click();
+    await page.waitForTimeout(1500);
+    await page.keyboard.press("Escape");
+    await until("nothing selected", async () => (await page.locator(".row[aria-selected=true]").count()) === 0);
+    const at = await seen(page, 7);
+    await page.mouse.click(at.left, at.top);
+    await until(
+        "car_7 again",
+        async () => (await page.locator(".robot-head h3", { hasText: /^car_7$/ }).count()) === 1,
+    );
+    await page.getByLabel("Play", { exact: true }).click();
+    await until("runs", async () => !(await paused()));
+});
+
+test("a robot is dragged over the ground, and is where it was dropped", limit, async () => {
+    await choose(page, "car_3");
+    await page.getByRole("button", { name: "Follow", exact: true }).last().click();
+    await page.waitForTimeout(1500);
+    await page.getByRole("button", { name: "Orbit" }).click();
+    await page.getByLabel("Move a robot").click();
+    const from = await seen(page, 3);
+    await page.mouse.move(from.left, from.top);
+    await page.mouse.down();
+    await page.mouse.move(from.left + 60, from.top + 20, { steps: 6 });
+    await page.mouse.move(from.left + 120, from.top + 40, { steps: 6 });
+    await page.mouse.up();
+    await page.getByLabel("Select", { exact: true }).click();
+    await until("it stands elsewhere", async () => {
+        const to = await seen(page, 3);
+        return (
+            Math.hypot(to.x - from.x, to.y - from.y) > 0.3 &&
+            Math.hypot(to.left - from.left - 120, to.top - from.top - 40) < 45
+        );
+    });
+});
+
+test("a robot is pushed along the arrow that is drawn", limit, async () => {
+    await choose(page, "car_8");
+    await page.getByRole("button", { name: "Follow", exact: true }).last().click();
+    await page.waitForTimeout(1500);
+    await page.getByRole("button", { name: "Orbit" }).click();
+    await page.getByLabel(/^Motor mode of front_left/).selectOption("passive");
+    for (const wheel of ["front_right", "rear_left", "rear_right"])
+        await page.getByLabel(`Motor mode of ${wheel}`).selectOption("passive");
+    await page.getByLabel("Push a robot").click();
+    const from = await seen(page, 8);
+    await page.mouse.move(from.left, from.top);
+    await page.mouse.down();
+    await page.mouse.move(from.left + 250, from.top, { steps: 8 });
+    await until("the arrow says how hard", async () =>
+        /\d N$/.test((await page.locator(".labels").textContent()) ?? ""),
+    );
+    await until("it gives way to the right", async () => (await seen(page, 8)).left > from.left + 12);
+    await page.mouse.up();
+    await page.getByLabel("Select", { exact: true }).click();
+});
+
+test("a joint's slider orders its motor, and the joint obeys", limit, async () => {
+    await choose(page, "car_11");
+    const slider = page.getByLabel("Target of front_left"),
+        modes = page.getByLabel("Motor mode of front_left");
+    await modes.selectOption("velocity");
+    await slider.fill("8");
+    const velocity = page
+        .locator(".joint", { has: page.getByText("front_left", { exact: true }) })
+        .locator(".reading", { hasText: "velocity" })
+        .locator(".value");
+    await until("8 rad/s", async () => Math.abs(Number(await velocity.textContent()) - 8) < 0.5);
+    assert.match((await page.locator(".joint .motor").first().textContent()) ?? "", /velocity → 8\.00 rad\/s/);
+});
+
+test("the velocity pad drives a robot while a key is held, and stops it after", limit, async () => {
+    await choose(page, "car_12");
+    const from = await seen(page, 12),
+        pad = page.getByLabel(/^Velocity pad/);
+    await pad.focus();
+    await page.keyboard.down("ArrowUp");
+    await until("it drives", async () => {
+        const to = await seen(page, 12);
+        return Math.hypot(to.x - from.x, to.y - from.y) > 0.3;
+    });
+    await page.keyboard.up("ArrowUp");
+    const speed = page.locator(".reading", { hasText: "speed" }).first().locator(".value");
+    await until("it stands", async () => Number(await speed.textContent()) < 0.1);
+});
+
+test("all this time the console stayed clean", limit, () => {
+    assert.deepEqual(errors, []);
+});

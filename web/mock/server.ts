@@ -1,0 +1,140 @@
+// A gateway without a simulator: serves the page and speaks its protocol over a made-up city. The bench on which the page
+// is built and tested: node .tests/mock/server.mjs --port 8090 --cars 50 --web dist
+import { createServer } from "node:http";
+import { readFile } from "node:fs/promises";
+import { extname, join, normalize } from "node:path";
+import { parseArgs } from "node:util";
+import { type WebSocket, WebSocketServer } from "ws";
+import { MockRun } from "./run";
+import { encodeRobots, encodeState, groupsOf, overlayReport, robotReport } from "./reports";
+
+const { values: options } = parseArgs({
+    options: {
+        port: { type: "string", default: "8090" },
+        cars: { type: "string", default: "50" },
+        web: { type: "string", default: "dist" },
+        simulators: { type: "string", default: "4" },
+        "no-journal": { type: "boolean", default: false },
+        rate: { type: "string", default: "30" },
+    },
+});
+const CONTENT: Record<string, string> = {
+    ".html": "text/html; charset=utf-8",
+    ".js": "text/javascript",
+    ".css": "text/css",
+    ".svg": "image/svg+xml",
+};
+const POLICY =
+    "default-src 'self'; img-src 'self' blob: data:; style-src 'self' 'unsafe-inline'; media-src 'self' blob:";
+const run = new MockRun(Number(options.cars), 1, Number(options.simulators), !options["no-journal"]);
+
+const http = createServer((request, response) => {
+    const path = new URL(request.url ?? "/", "http://mock").pathname;
+    if (path === "/scene") {
+        response.writeHead(200, { "Content-Type": "application/json" }).end(JSON.stringify(run.scene));
+        return;
+    }
+    const name = normalize(path === "/" ? "/index.html" : path);
+    readFile(join(options.web ?? "dist", name)).then(
+        (text) =>
+            response
+                .writeHead(200, {
+                    "Content-Type": CONTENT[extname(name)] ?? "application/octet-stream",
+                    "Content-Security-Policy": POLICY,
+                })
+                .end(text),
+        () => response.writeHead(404).end("not found"),
+    );
+});
+
+class Page {
+    private sent = new Map<number, Uint8Array>();
+    private whole = true;
+    private watch = { robots: [] as number[], overlays: [] as string[] };
+
+    constructor(private readonly socket: WebSocket) {
+        this.tell({
+            type: "hello",
+            version: 1,
+            scene: run.scene.scene,
+            world: run.scene.world,
+            journal: run.journal,
+            rate: 30,
+            program: "mock gateway",
+        });
+        this.tell(run.status());
+        socket.on(
+            "message",
+            (data, binary) => !binary && this.hear(JSON.parse(data.toString()) as Record<string, unknown>),
+        );
+    }
+
+    tell(message: object): void {
+        this.socket.send(JSON.stringify(message));
+    }
+
+    private hear(message: Record<string, unknown>): void {
+        const answer = (found: { done: boolean; text: string }) =>
+            this.tell({ type: "answer", id: message.id, ...found });
+        if (message.type === "control") answer(run.control(message.words as string[]));
+        else if (message.type === "order") answer(run.order(message.robot as number, message as never));
+        else if (message.type === "watch") this.watch = message as never;
+        else if (message.type === "whole") this.whole = true;
+    }
+
+    /** Only what changed since this page's last State, and nothing while it has not taken that one. */
+    state(entries: Map<number, Uint8Array>): void {
+        if (this.socket.bufferedAmount > 1 << 20) return;
+        const changed = [...entries].filter(
+            ([robot, entry]) => this.whole || Buffer.compare(entry, this.sent.get(robot) ?? new Uint8Array()) !== 0,
+        );
+        this.socket.send(
+            encodeState(
+                run.scene.scene,
+                run.traffic.time,
+                run.scene.dt,
+                this.whole,
+                changed.map(([, entry]) => entry),
+                changed.length === 0,
+            ),
+        );
+        this.whole = false;
+        this.sent = entries;
+    }
+
+    reports(): void {
+        for (const robot of this.watch.robots)
+            if (run.scene.robots[robot] !== undefined) this.tell(robotReport(run.traffic, run.scene, robot));
+        if (this.watch.overlays.includes("groups"))
+            this.tell({ type: "groups", scene: run.scene.scene, ...groupsOf(run.traffic, run.scene, run.alive()) });
+        if (this.watch.overlays.some((name) => name !== "groups"))
+            this.tell(overlayReport(run.traffic, run.scene, this.watch.overlays));
+    }
+}
+
+const pages = new Set<Page>();
+new WebSocketServer({ server: http, path: "/ws", handleProtocols: () => "roboss.1" }).on("connection", (socket) => {
+    const page = new Page(socket);
+    pages.add(page);
+    socket.on("close", () => pages.delete(page));
+});
+
+let last = performance.now();
+setInterval(
+    () => {
+        const now = performance.now();
+        run.advance((now - last) / 1000);
+        last = now;
+        const entries = encodeRobots(run.traffic);
+        for (const page of pages) page.state(entries);
+    },
+    1000 / Number(options.rate),
+);
+setInterval(() => pages.forEach((page) => page.reports()), 100);
+setInterval(() => pages.forEach((page) => page.tell(run.status())), 500);
+http.listen(Number(options.port), "127.0.0.1", () => {
+    const address = http.address();
+    console.log(
+        `listening on http://127.0.0.1:${typeof address === "object" && address !== null ? address.port : options.port}/`,
+    );
+});

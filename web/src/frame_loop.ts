@@ -1,0 +1,98 @@
+// One frame: the time to draw, where robots are then, the camera, overlays, the picture. A picture in which nothing
+// changed is not drawn again, so that a paused run leaves the laptop cool.
+import type { Director } from "./camera/director";
+import type { CameraPointer } from "./camera/pointer";
+import type { CameraRig } from "./camera/rig";
+import type { RunLink } from "./model/run_link";
+import type { ViewerState, World } from "./model/viewer_state";
+import type { Effort } from "./view/effort";
+import type { FrameTimes } from "./view/frame_times";
+import type { Stage } from "./view/stage";
+
+export interface FrameParts {
+    stage: Stage;
+    state: ViewerState;
+    run: RunLink;
+    rig: CameraRig;
+    director: Director;
+    pointer: CameraPointer;
+    times: FrameTimes;
+    /** Overlays and colours, in the order in which they are brought up to date. */
+    layers: ((world: World | null, now: number) => void)[];
+    hurried: () => boolean;
+    effort: Effort | null;
+    /** Least time between two frames. */
+    interval_ms: number;
+}
+
+const IDLE_REDRAW_S = 0.5;
+const AWAKE_S = 0.4;
+
+export class FrameLoop {
+    private last = 0;
+    private drawn = 0;
+    private awakeUntil = 0;
+    private lastEye = "";
+    private drewLast = false;
+    private shownWorld: World | null = null;
+
+    constructor(private readonly parts: FrameParts) {}
+
+    start(): void {
+        requestAnimationFrame((now) => this.frame(now));
+    }
+
+    /** Something that shows changed: draw for a while. */
+    wake(): void {
+        this.awakeUntil = performance.now() / 1000 + AWAKE_S;
+    }
+
+    private frame(stamp: number): void {
+        requestAnimationFrame((next) => this.frame(next));
+        if (stamp - this.last < this.parts.interval_ms) return;
+        const began = performance.now(),
+            now = began / 1000,
+            interval = stamp - this.last,
+            seconds = Math.min(0.1, Math.max(0, interval / 1000));
+        this.last = stamp;
+        const { stage, state, run, rig, director, pointer, layers, times } = this.parts,
+            world = state.world.value;
+        let moved = false;
+        if (world !== null && world.history.latest !== null) {
+            state.drawnTime.set(run.clock.read(now));
+            world.history.sample(state.drawnTime.value);
+            stage.place(world);
+            moved = world.history.changed.includes(1);
+            if (this.shownWorld !== world) this.firstSight(world);
+            director.follow(world, seconds);
+        }
+        pointer.advance(seconds, this.parts.hurried());
+        rig.advance(seconds);
+        const eye = `${rig
+            .eye()
+            .map((value) => value.toFixed(4))
+            .join()} ${rig.now.target.map((value) => value.toFixed(4)).join()} ${stage.canvas.width} ${stage.canvas.height}`;
+        const idle = !moved && eye === this.lastEye && now > this.awakeUntil && now - this.drawn < IDLE_REDRAW_S;
+        this.lastEye = eye;
+        if (idle) {
+            this.drewLast = false;
+            return;
+        }
+        if (this.drewLast && document.visibilityState === "visible") this.parts.effort?.take(interval);
+        this.drewLast = true;
+        stage.aim(rig);
+        for (const update of layers) update(world, now);
+        const updated = performance.now();
+        stage.draw();
+        times.take(updated - began, performance.now() - updated);
+        this.drawn = now;
+        if (this.shownWorld !== null) document.body.dataset.ready = "true";
+    }
+
+    private firstSight(world: World): void {
+        const again = this.shownWorld !== null;
+        this.shownWorld = world;
+        if (!again) this.parts.director.start(world);
+        this.wake();
+    }
+}

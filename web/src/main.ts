@@ -1,0 +1,233 @@
+// Puts the page together. Everything hangs on ViewerState; the parts do not know each other.
+import { Capture } from "./capture";
+import { Director } from "./camera/director";
+import { CameraPointer } from "./camera/pointer";
+import { CameraRig } from "./camera/rig";
+import { FrameLoop } from "./frame_loop";
+import { HandMark } from "./hands/hand_mark";
+import { RobotHand } from "./hands/robot_hand";
+import { Address } from "./model/address";
+import { Plotted } from "./model/plotted";
+import { RunLink } from "./model/run_link";
+import type { Signal } from "./model/signal";
+import { applyAddress, keepTheme, startTheme, viewLink } from "./model/view_link";
+import { ViewerState, type World } from "./model/viewer_state";
+import { LabelLayer } from "./overlays/labels";
+import { Names } from "./overlays/names";
+import { RobotOverlays } from "./overlays/robot_overlays";
+import { RunOverlays } from "./overlays/run_overlays";
+import { SelectionMark } from "./overlays/selection_mark";
+import { Tracks } from "./overlays/tracks";
+import { ClusterPanel } from "./panels/cluster_panel";
+import { helpCard, listen, type Shortcut } from "./panels/help";
+import { Inspector } from "./panels/inspector";
+import { banner, notices } from "./panels/notices";
+import { plotsDock } from "./panels/plots_dock";
+import { RobotList } from "./panels/robot_list";
+import { sideTabs } from "./panels/side_tabs";
+import { timeBar } from "./panels/time_bar";
+import { topBar } from "./panels/top_bar";
+import { viewOptions } from "./panels/view_options";
+import { h } from "./ui/dom";
+import { Colouring } from "./view/colouring";
+import { Effort } from "./view/effort";
+import { FrameTimes } from "./view/frame_times";
+import { Stage } from "./view/stage";
+
+const LOW_INTERVAL_MS = 45;
+
+const address = new Address(location.search, location.hash);
+const state = new ViewerState();
+state.theme.set(startTheme(address));
+const run = new RunLink(state);
+const rig = new CameraRig();
+const times = new FrameTimes();
+
+const canvas = h("canvas", {
+    tabindex: 0,
+    role: "application",
+    "aria-label": "The world in three dimensions. Robots can also be chosen in the list.",
+});
+const quality = (["low", "high"] as const).find((word) => word === address.get("quality")) ?? "auto";
+const view = h("main", { class: "view" }, canvas);
+document.body.append(view);
+const stage = new Stage(canvas, quality);
+const labels = new LabelLayer(stage);
+const director = new Director(stage, state, rig, address);
+const said = notices(run);
+const capture = new Capture(
+    stage,
+    () =>
+        `${state.world.value?.fleet.scene.world ?? "roboss"}_${state.drawnTime.value.toFixed(2)}s`.replace(/\s+/g, "_"),
+    said.say,
+);
+const mark = new HandMark(labels);
+const hand = new RobotHand(stage, state, run, mark, (robot) => director.focus(robot));
+let hurried = false;
+window.addEventListener("keydown", (event) => (hurried = event.shiftKey));
+window.addEventListener("keyup", (event) => (hurried = event.shiftKey));
+const pointer = new CameraPointer(
+    canvas,
+    rig,
+    hand,
+    () => state.cameraMode.value,
+    () => {
+        if (state.cameraMode.value === "follow" || state.cameraMode.value === "chase") state.cameraMode.set("orbit");
+    },
+);
+
+const plotted = new Plotted(state);
+const list = new RobotList(state, (robot) => director.focus(robot));
+const time = timeBar(state, run);
+const tabs = sideTabs([
+    {
+        id: "inspector",
+        title: "Robot",
+        content: new Inspector(state, run, plotted, (robot) => {
+            state.selected.set(robot);
+            state.cameraMode.set("follow");
+        }).element,
+    },
+    { id: "cluster", title: "Cluster", content: new ClusterPanel(state, run).element },
+    { id: "view", title: "View", content: viewOptions(state) },
+]);
+
+const selection = new SelectionMark(stage, state, labels),
+    names = new Names(stage, state, labels),
+    colouring = new Colouring(stage, state);
+const sensors = new RobotOverlays(stage, state),
+    told = new RunOverlays(stage, state),
+    tracks = new Tracks(stage, state);
+stage.overlays.add(mark.group);
+const loop = new FrameLoop({
+    stage,
+    state,
+    run,
+    rig,
+    director,
+    pointer,
+    times,
+    hurried: () => hurried,
+    interval_ms: quality === "low" ? LOW_INTERVAL_MS : 0,
+    effort: quality === "auto" ? new Effort((level) => stage.lower(level)) : null,
+    layers: [
+        (world) => world !== null && colouring.update(world),
+        (world) => selection.update(world),
+        (world) => sensors.update(world),
+        (world, now) => told.update(world, now),
+        (world) => tracks.update(world),
+        (world) => names.update(world),
+        () => labels.update(),
+    ],
+});
+
+function focusSelected(): void {
+    if (state.selected.value !== null) director.focus(state.selected.value);
+}
+
+function togglePanel(side: "left" | "right"): void {
+    document.body.classList.toggle(`no-${side}`);
+}
+
+async function copyLink(): Promise<void> {
+    const link = viewLink(state, rig.goal);
+    history.replaceState(null, "", link);
+    try {
+        await navigator.clipboard.writeText(link);
+        said.say("The link to this view is copied.");
+    } catch {
+        said.say("The link to this view stands in the address bar.");
+    }
+}
+
+const shortcuts: Shortcut[] = [
+    { keys: [" "], words: "play or pause", group: "Time", act: time.playOrPause },
+    { keys: ["."], words: "one tick", group: "Time", act: () => time.step(1) },
+    { keys: ["+", "="], words: "faster", group: "Time", act: () => time.faster(1) },
+    { keys: ["-"], words: "slower", group: "Time", act: () => time.faster(-1) },
+    { keys: ["V"], words: "select", group: "Tools", act: () => state.tool.set("select") },
+    { keys: ["M"], words: "move a robot", group: "Tools", act: () => state.tool.set("move") },
+    { keys: ["P"], words: "push a robot", group: "Tools", act: () => state.tool.set("push") },
+    {
+        keys: ["Escape"],
+        words: "let go",
+        group: "Tools",
+        act: () => (state.tool.value !== "select" ? state.tool.set("select") : state.selected.set(null)),
+    },
+    { keys: ["1"], words: "orbit", group: "Camera", act: () => state.cameraMode.set("orbit") },
+    { keys: ["2"], words: "fly", group: "Camera", act: () => state.cameraMode.set("fly") },
+    { keys: ["3"], words: "follow the selected robot", group: "Camera", act: () => state.cameraMode.set("follow") },
+    { keys: ["4"], words: "chase it", group: "Camera", act: () => state.cameraMode.set("chase") },
+    { keys: ["H"], words: "whole world", group: "Camera", act: () => director.home() },
+    { keys: ["F"], words: "look at the selected robot", group: "Camera", act: focusSelected },
+    { keys: ["/"], words: "find a robot", group: "Page", act: () => list.search.focus() },
+    { keys: ["["], words: "robots panel", group: "Page", act: () => togglePanel("left") },
+    { keys: ["]"], words: "side panel", group: "Page", act: () => togglePanel("right") },
+    {
+        keys: ["T"],
+        words: "light or dark",
+        group: "Page",
+        act: () => state.theme.set(state.theme.value === "dark" ? "light" : "dark"),
+    },
+    { keys: ["X"], words: "save a picture", group: "Page", act: () => capture.picture() },
+    { keys: ["R"], words: "record a video", group: "Page", act: () => capture.toggleVideo() },
+    { keys: ["L"], words: "copy a link to this view", group: "Page", act: () => void copyLink() },
+    { keys: ["?"], words: "this card", group: "Page", act: () => help.showModal() },
+];
+const help = helpCard(shortcuts);
+listen(shortcuts);
+
+document.body.prepend(
+    topBar(state, capture, {
+        copyLink: () => void copyLink(),
+        help: () => help.showModal(),
+        home: () => director.home(),
+        focus: focusSelected,
+        togglePanel,
+    }),
+);
+view.append(labels.element, banner(state, run), said.element);
+document.body.append(list.element, tabs.element, plotsDock(state, plotted), time.element, help);
+if (address.get("hide") === "panels") document.body.classList.add("bare");
+
+state.theme.follow((theme, before) => {
+    document.documentElement.dataset.theme = theme;
+    stage.paint(theme);
+    if (theme !== before) keepTheme(theme);
+});
+let named: number | null = null;
+state.world.follow((world: World | null) => {
+    stage.show(world);
+    if (world === null) return;
+    document.title = `${world.fleet.scene.world} · RoBOSS`;
+    named = address.get("panel") === null ? null : (world.fleet.find(address.get("select") ?? "") ?? null);
+    if (state.selected.value === null) state.selected.set(world.fleet.find(address.get("select") ?? "") ?? null);
+    if (state.overlays.value.has("collisions")) stage.showCollisions(world, true);
+});
+state.overlays.follow(
+    (on) => state.world.value !== null && stage.showCollisions(state.world.value, on.has("collisions")),
+);
+// A robot that is chosen is shown; the one that the address names leaves the panel that it names, too.
+state.selected.follow((robot) => robot !== null && robot !== named && tabs.open("inspector"));
+if (address.get("panel") !== null) tabs.open(address.get("panel") as string);
+for (const signal of [
+    state.selected,
+    state.overlays,
+    state.colourBy,
+    state.theme,
+    state.report,
+    state.overlayReport,
+    state.groups,
+    state.world,
+    state.tool,
+])
+    (signal as Signal<unknown>).follow(() => loop.wake());
+for (const name of ["pointerdown", "pointermove", "keydown", "resize"])
+    window.addEventListener(name, () => loop.wake());
+applyAddress(address, state);
+
+// For tests and measurements; the page itself never reads it.
+Object.assign(window, { roboss: { state, rig, times, stage, run } });
+window.addEventListener("hashchange", () => location.reload());
+run.open();
+loop.start();

@@ -1,0 +1,123 @@
+// Every number that a robot's report holds, under a key that stays the same: what the inspector shows and plots draw.
+import { toRollPitchYaw } from "../kinematics/pose";
+import type { RobotReport, SensorReport, TypeInfo } from "../wire/messages";
+
+export interface Reading {
+    key: string;
+    label: string;
+    unit: string;
+    value: number | null;
+}
+
+const AXES = ["x", "y", "z"];
+const DEGREES = 180 / Math.PI;
+
+function baseReadings(report: RobotReport): Reading[] {
+    const angles = toRollPitchYaw(report.pose),
+        found: Reading[] = [];
+    AXES.forEach((axis, k) => found.push({ key: `position.${axis}`, label: axis, unit: "m", value: report.pose[k] }));
+    ["roll", "pitch", "yaw"].forEach((name, k) =>
+        found.push({ key: `angle.${name}`, label: name, unit: "°", value: angles[k] * DEGREES }),
+    );
+    found.push({ key: "speed", label: "speed", unit: "m/s", value: Math.hypot(...report.linear) });
+    AXES.forEach((axis, k) =>
+        found.push({ key: `linear.${axis}`, label: `v ${axis}`, unit: "m/s", value: report.linear[k] }),
+    );
+    AXES.forEach((axis, k) =>
+        found.push({ key: `angular.${axis}`, label: `ω ${axis}`, unit: "rad/s", value: report.angular[k] }),
+    );
+    return found;
+}
+
+/** Length or angle: the unit of an axis of this kind of joint. */
+export function jointUnit(kind: string): string {
+    return kind === "prismatic" ? "m" : "rad";
+}
+
+function jointReadings(type: TypeInfo, report: RobotReport): Reading[] {
+    const found: Reading[] = [];
+    type.joints.forEach((joint, j) => {
+        const told = report.joints[j],
+            unit = jointUnit(joint.kind);
+        for (let axis = 0; axis < joint.axes; ++axis) {
+            const name = joint.axes > 1 ? `${joint.name} ${axis + 1}` : joint.name,
+                key = `joint.${joint.name}.${axis}`;
+            found.push({
+                key: `${key}.position`,
+                label: `${name} position`,
+                unit,
+                value: told?.position[axis] ?? null,
+            });
+            found.push({
+                key: `${key}.velocity`,
+                label: `${name} velocity`,
+                unit: `${unit}/s`,
+                value: told?.velocity[axis] ?? null,
+            });
+            found.push({
+                key: `${key}.effort`,
+                label: `${name} effort`,
+                unit: unit === "m" ? "N" : "N m",
+                value: told?.motors?.[axis]?.effort ?? null,
+            });
+        }
+    });
+    return found;
+}
+
+const SENSOR_UNITS: Record<string, string> = {
+    yaw: "rad",
+    heading: "rad",
+    distance: "m",
+    speed: "m/s",
+    roll: "rad",
+    pitch: "rad",
+};
+const PLACE_NAMES = ["latitude", "longitude", "altitude"];
+const COURSE_NAMES = ["east", "north", "up"];
+
+function sensorReadings(name: string, told: SensorReport): Reading[] {
+    const found: Reading[] = [],
+        add = (field: string, unit: string, value: unknown) =>
+            found.push({
+                key: `sensor.${name}.${field}`,
+                label: `${name} ${field}`,
+                unit,
+                value: typeof value === "number" ? value : null,
+            });
+    if (Array.isArray(told.ranges)) {
+        const met = told.ranges.filter((range): range is number => typeof range === "number" && Number.isFinite(range));
+        add("nearest", "m", met.length > 0 ? Math.min(...met) : null);
+    }
+    if (Array.isArray(told.position)) {
+        const names = told.geodetic === false ? AXES : PLACE_NAMES;
+        told.position.forEach((value, k) =>
+            add(names[k] ?? String(k), k < 2 && names === PLACE_NAMES ? "°" : "m", value),
+        );
+    }
+    if (Array.isArray(told.velocity))
+        told.velocity.forEach((value, k) => add(COURSE_NAMES[k] ?? String(k), "m/s", value));
+    for (const [field, value] of Object.entries(told))
+        if (typeof value === "number") add(field, SENSOR_UNITS[field] ?? "", value);
+    return found;
+}
+
+export function readings(
+    type: TypeInfo,
+    report: RobotReport,
+): { base: Reading[]; joints: Reading[]; sensors: Reading[][] } {
+    return {
+        base: baseReadings(report),
+        joints: jointReadings(type, report),
+        sensors: type.sensors.map((sensor, k) => {
+            const told = report.sensors[k];
+            return told === null || told === undefined ? [] : sensorReadings(sensor.name, told);
+        }),
+    };
+}
+
+/** The value of one key; null where the report has it not. */
+export function readingOf(type: TypeInfo, report: RobotReport, key: string): number | null {
+    const all = readings(type, report);
+    return [...all.base, ...all.joints, ...all.sensors.flat()].find((one) => one.key === key)?.value ?? null;
+}

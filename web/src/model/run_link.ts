@@ -1,0 +1,142 @@
+// Joins the connection to the viewer's state: States into the history, reports into signals, and what the person looks
+// at into the one `watch` message that the gateway keeps.
+import { Connection } from "../wire/connection";
+import { RATE_MAX, WATCHED_ROBOTS_MAX } from "../protocol";
+import type { Answer, Incoming, OrderAction } from "../wire/messages";
+import { loadScene } from "../wire/scene_source";
+import { readHeader, readState } from "../wire/state";
+import { PlayClock } from "./play_clock";
+import { Signal } from "./signal";
+import { type ViewerState, World } from "./viewer_state";
+
+export class RunLink {
+    readonly clock = new PlayClock();
+    readonly notice = new Signal<{ text: string; bad: boolean } | null>(null);
+    private readonly connection: Connection;
+    private loading = -1;
+    private lastWatch = "";
+
+    constructor(private readonly state: ViewerState) {
+        this.connection = new Connection({
+            state: (link, why) => this.onLink(link, why),
+            binary: (data) => this.onState(data),
+            message: (message) => this.onMessage(message),
+        });
+        for (const signal of [state.selected, state.overlays, state.colourBy, state.pinned, state.world])
+            (signal as Signal<unknown>).follow(() => this.sendWatch());
+    }
+
+    open(): void {
+        this.connection.open();
+    }
+
+    retryNow(): void {
+        this.connection.retryNow();
+    }
+
+    /** Control words; a refusal is shown. */
+    async control(...words: string[]): Promise<Answer> {
+        const answer = await this.connection.control(...words);
+        if (!answer.done) this.notice.set({ text: answer.text, bad: true });
+        return answer;
+    }
+
+    async order(robot: number, action: OrderAction): Promise<Answer> {
+        const answer = await this.connection.order(robot, action);
+        if (!answer.done) this.notice.set({ text: answer.text, bad: true });
+        return answer;
+    }
+
+    private onLink(link: "connecting" | "open" | "gone", why: string): void {
+        this.state.link.set({ state: link, why });
+        if (link === "gone") this.state.status.set(null);
+    }
+
+    private onMessage(message: Incoming): void {
+        switch (message.type) {
+            case "hello":
+                this.state.program.set(message.program);
+                void this.load(message.scene);
+                break;
+            case "scene":
+                void this.load(message.scene);
+                break;
+            case "status":
+                this.state.status.set(message);
+                break;
+            case "groups":
+                if (message.scene === this.sceneNumber()) this.state.groups.set(message);
+                break;
+            case "robot":
+                if (message.scene === this.sceneNumber()) this.state.report.set(message);
+                break;
+            case "overlay":
+                if (message.scene === this.sceneNumber()) this.state.overlayReport.set(message);
+                break;
+            case "notice":
+                this.notice.set({ text: message.text, bad: false });
+                break;
+            case "answer":
+                break;
+        }
+    }
+
+    private sceneNumber(): number {
+        return this.state.world.value?.fleet.scene.scene ?? -1;
+    }
+
+    /** Fetches the scene; a newer one may come meanwhile. The robot selected stays so, by its name. */
+    private async load(wanted: number): Promise<void> {
+        this.loading = wanted;
+        try {
+            const loaded = await loadScene();
+            if (this.loading !== wanted) return;
+            const before = this.state.world.value?.fleet,
+                selected = this.state.selected.value;
+            const world = new World(loaded);
+            this.state.groups.set(null);
+            this.state.selected.set(null);
+            this.state.world.set(world);
+            if (before !== undefined && selected !== null)
+                this.state.selected.set(world.fleet.find(before.name(selected)) ?? null);
+            this.connection.askWhole();
+            this.lastWatch = "";
+            this.sendWatch();
+        } catch (error) {
+            this.notice.set({ text: `the scene could not be loaded: ${String(error)}`, bad: true });
+        }
+    }
+
+    private onState(data: ArrayBuffer): void {
+        const world = this.state.world.value;
+        if (world === null) return;
+        const view = new DataView(data);
+        try {
+            const header = readHeader(view);
+            if (header.scene !== this.sceneNumber()) return;
+            if (!header.whole && world.history.latest === null) return;
+            readState(view, world.fleet, world.history.next());
+            world.history.take();
+            this.clock.heard(header.time, performance.now() / 1000);
+        } catch (error) {
+            this.notice.set({ text: String(error), bad: true });
+            this.connection.askWhole();
+        }
+    }
+
+    private sendWatch(): void {
+        if (this.state.world.value === null || this.state.link.value.state !== "open") return;
+        const overlays: string[] = [],
+            on = this.state.overlays.value,
+            colour = this.state.colourBy.value;
+        for (const name of ["contacts", "bounds"] as const) if (on.has(name)) overlays.push(name);
+        if (on.has("islands") || colour === "island" || colour === "simulator") overlays.push("groups");
+        const robots = new Set<number>(this.state.pinned.value);
+        if (this.state.selected.value !== null) robots.add(this.state.selected.value);
+        const watch = { robots: [...robots].slice(0, WATCHED_ROBOTS_MAX), overlays, rate: RATE_MAX };
+        const text = JSON.stringify(watch);
+        if (text === this.lastWatch) return;
+        this.lastWatch = text;
+        this.connection.watch(watch);
+    }
+}

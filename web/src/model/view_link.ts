@@ -1,0 +1,39 @@
+// Choices from the page's address, and the address of the choices: what one copies to show another person the same view.
+import { type Address, type CameraWords, formatCamera } from "./address";
+import { type CameraMode, type ColourBy, type Overlay, OVERLAYS, type Theme, type ViewerState } from "./viewer_state";
+
+const THEME_KEPT = "roboss.theme";
+
+export function startTheme(address: Address): Theme {
+    const asked = address.get("theme") ?? localStorage.getItem(THEME_KEPT);
+    if (asked === "light" || asked === "dark") return asked;
+    return matchMedia("(prefers-color-scheme: light)").matches ? "light" : "dark";
+}
+
+export function keepTheme(theme: Theme): void {
+    localStorage.setItem(THEME_KEPT, theme);
+}
+
+/** Choices that need no scene. */
+export function applyAddress(address: Address, state: ViewerState): void {
+    const colour = address.get("colour");
+    if (colour !== null && ["model", "simulator", "island", "speed"].includes(colour))
+        state.colourBy.set(colour as ColourBy);
+    for (const name of address.list("show"))
+        if ((OVERLAYS as readonly string[]).includes(name)) state.toggle(name as Overlay, true);
+    const mode = address.get("mode");
+    if (mode !== null && ["orbit", "fly", "follow", "chase"].includes(mode)) state.cameraMode.set(mode as CameraMode);
+}
+
+export function viewLink(state: ViewerState, camera: CameraWords): string {
+    const words = new URLSearchParams(),
+        url = new URL(location.href),
+        selected = state.selected.value;
+    words.set("camera", formatCamera(camera));
+    if (selected !== null) words.set("select", state.world.value?.fleet.name(selected) ?? "");
+    if (state.cameraMode.value !== "orbit") words.set("mode", state.cameraMode.value);
+    if (state.colourBy.value !== "model") words.set("colour", state.colourBy.value);
+    if (state.overlays.value.size > 0) words.set("show", [...state.overlays.value].join(","));
+    url.hash = decodeURIComponent(words.toString());
+    return url.toString();
+}

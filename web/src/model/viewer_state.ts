@@ -1,0 +1,63 @@
+// What the page knows and what its person chose, as signals. Every panel and every layer of the picture follows these;
+// none knows another.
+import type { Groups, OverlayReport, RobotReport, Status } from "../wire/messages";
+import type { LinkState } from "../wire/connection";
+import type { LoadedScene } from "../wire/scene_source";
+import { Fleet } from "./fleet";
+import { History } from "./history";
+import { Signal } from "./signal";
+
+export type ColourBy = "model" | "simulator" | "island" | "speed";
+export type Tool = "select" | "move" | "push";
+export type CameraMode = "orbit" | "fly" | "follow" | "chase";
+export type Theme = "light" | "dark";
+export const OVERLAYS = [
+    "rays",
+    "tracks",
+    "compass",
+    "contacts",
+    "bounds",
+    "spheres",
+    "islands",
+    "names",
+    "collisions",
+] as const;
+export type Overlay = (typeof OVERLAYS)[number];
+
+/** A scene with the States that came for it. */
+export class World {
+    readonly fleet: Fleet;
+    readonly history: History;
+
+    constructor(readonly loaded: LoadedScene) {
+        this.fleet = new Fleet(loaded.scene);
+        this.history = new History(this.fleet);
+    }
+}
+
+export class ViewerState {
+    readonly link = new Signal<{ state: LinkState; why: string }>({ state: "connecting", why: "" });
+    readonly program = new Signal("");
+    readonly world = new Signal<World | null>(null);
+    readonly status = new Signal<Status | null>(null);
+    readonly groups = new Signal<Groups | null>(null);
+    readonly overlayReport = new Signal<OverlayReport | null>(null);
+    readonly report = new Signal<RobotReport | null>(null);
+    readonly selected = new Signal<number | null>(null);
+    readonly colourBy = new Signal<ColourBy>("model");
+    readonly tool = new Signal<Tool>("select");
+    readonly cameraMode = new Signal<CameraMode>("orbit");
+    readonly theme = new Signal<Theme>("dark");
+    readonly overlays = new Signal<ReadonlySet<Overlay>>(new Set<Overlay>());
+    /** Robots whose reports are wanted though they are not selected (plotted ones). */
+    readonly pinned = new Signal<readonly number[]>([]);
+    /** Simulated time that is drawn. */
+    readonly drawnTime = new Signal(0);
+
+    toggle(overlay: Overlay, on = !this.overlays.value.has(overlay)): void {
+        const next = new Set(this.overlays.value);
+        if (on) next.add(overlay);
+        else next.delete(overlay);
+        this.overlays.set(next);
+    }
+}

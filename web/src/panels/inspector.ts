@@ -1,0 +1,184 @@
+// The inspector of the selected robot: where it is and how it moves, joints and motors with their controls, sensors and
+// contacts. Rows are made once a robot; each report changes only their numbers.
+import type { Plotted } from "../model/plotted";
+import { type Reading, readings } from "../model/readings";
+import type { RunLink } from "../model/run_link";
+import type { ViewerState, World } from "../model/viewer_state";
+import { h, iconButton, setText } from "../ui/dom";
+import { fixed } from "../ui/numbers";
+import type { RobotReport } from "../wire/messages";
+import { JointControls } from "./joint_controls";
+import { SensorViews } from "./sensor_views";
+import { velocityPad } from "./velocity_pad";
+
+export class ReadingRows {
+    private readonly values = new Map<string, HTMLElement>();
+    private readonly buttons = new Map<string, HTMLButtonElement>();
+
+    constructor(
+        private readonly robot: number,
+        private readonly plotted: Plotted,
+    ) {}
+
+    /** `shown`: what the row says where its place already says the rest. */
+    row(reading: Reading, shown = reading.label): HTMLElement {
+        const value = h("span", { class: "value" }),
+            button = iconButton("plot", `Plot ${reading.label}`, () => {
+                this.plotted.toggle(this.robot, reading.key, reading.label, reading.unit);
+                this.mark();
+            });
+        this.values.set(reading.key, value);
+        this.buttons.set(reading.key, button);
+        this.mark();
+        return h(
+            "div",
+            { class: "reading" },
+            h("span", { class: "label" }, shown),
+            value,
+            h("span", { class: "unit" }, reading.unit),
+            button,
+        );
+    }
+
+    show(list: readonly Reading[]): void {
+        for (const reading of list) {
+            const element = this.values.get(reading.key);
+            if (element !== undefined)
+                setText(
+                    element,
+                    fixed(reading.value, reading.unit !== "°" ? 3 : reading.key.startsWith("angle") ? 1 : 6),
+                );
+        }
+    }
+
+    mark(): void {
+        for (const [key, button] of this.buttons)
+            button.setAttribute("aria-pressed", String(this.plotted.has(this.robot, key)));
+    }
+}
+
+function section(title: string, ...content: (Node | null)[]): HTMLElement {
+    return h("details", { class: "section", open: true }, h("summary", {}, title), ...content);
+}
+
+export class Inspector {
+    readonly element = h("div", { class: "inspector" });
+    private rows: ReadingRows | null = null;
+    private joints: JointControls | null = null;
+    private sensors: SensorViews | null = null;
+    private contacts: HTMLElement | null = null;
+    private built = false;
+
+    constructor(
+        private readonly state: ViewerState,
+        private readonly run: RunLink,
+        private readonly plotted: Plotted,
+        private readonly follow: (robot: number) => void,
+    ) {
+        state.selected.follow(() => this.reset());
+        state.world.follow(() => this.reset());
+        state.report.follow((report) => report !== null && this.show(report));
+        plotted.curves.follow(() => this.rows?.mark());
+    }
+
+    private reset(): void {
+        const world = this.state.world.value,
+            robot = this.state.selected.value;
+        this.built = false;
+        this.rows = this.joints = this.sensors = this.contacts = null;
+        if (world === null || robot === null) {
+            this.element.replaceChildren(
+                h("p", { class: "empty" }, "Select a robot: click it in the picture, or in the list."),
+            );
+            return;
+        }
+        this.element.replaceChildren(this.head(world, robot), h("p", { class: "empty" }, "Waiting for its report…"));
+        const last = this.state.report.value;
+        if (last !== null && last.robot === robot && this.state.link.value.state === "open") this.show(last);
+    }
+
+    private head(world: World, robot: number): HTMLElement {
+        const type = world.fleet.type(robot);
+        return h(
+            "div",
+            { class: "robot-head" },
+            h("h3", {}, world.fleet.name(robot)),
+            h(
+                "span",
+                { class: "facts" },
+                [
+                    type.name === world.fleet.name(robot) ? "" : type.name,
+                    `${fixed(type.mass, 2)} kg`,
+                    type.free_base ? "free base" : "fixed base",
+                ]
+                    .filter((word) => word !== "")
+                    .join("  ·  "),
+            ),
+            h("button", { type: "button", class: "small", onclick: () => this.follow(robot) }, "Follow"),
+        );
+    }
+
+    private build(world: World, robot: number, report: RobotReport): void {
+        const type = world.fleet.type(robot),
+            all = readings(type, report),
+            rows = new ReadingRows(robot, this.plotted);
+        this.rows = rows;
+        this.joints = new JointControls(robot, type, this.run, rows, all.joints);
+        this.sensors = new SensorViews(type, rows, all.sensors);
+        this.contacts = h("div", { class: "contacts" });
+        this.element.replaceChildren(
+            this.head(world, robot),
+            section(
+                "Pose and velocity",
+                h("div", { class: "readings two" }, ...all.base.map((reading) => rows.row(reading))),
+            ),
+            type.free_base
+                ? section("Drive by hand", velocityPad(this.run, this.state, robot))
+                : h("span", { hidden: true }),
+            type.joints.length > 0
+                ? section(`Joints (${type.joints.length})`, this.joints.element)
+                : h("span", { hidden: true }),
+            type.sensors.length > 0
+                ? section(`Sensors (${type.sensors.length})`, this.sensors.element)
+                : h("span", { hidden: true }),
+            section("Contacts", this.contacts),
+        );
+        this.built = true;
+    }
+
+    private show(report: RobotReport): void {
+        const world = this.state.world.value;
+        if (world === null || report.robot !== this.state.selected.value) return;
+        if (!this.built) this.build(world, report.robot, report);
+        const all = readings(world.fleet.type(report.robot), report);
+        this.rows?.show([...all.base, ...all.joints, ...all.sensors.flat()]);
+        this.joints?.show(report);
+        this.sensors?.show(report);
+        this.showContacts(world, report);
+    }
+
+    private showContacts(world: World, report: RobotReport): void {
+        const byOther = new Map<number, { count: number; force: number }>();
+        for (const contact of report.contacts) {
+            const sum = byOther.get(contact.other) ?? { count: 0, force: 0 };
+            sum.count += 1;
+            sum.force += contact.normal_force;
+            byOther.set(contact.other, sum);
+        }
+        const lines = [...byOther]
+            .sort((a, b) => b[1].force - a[1].force)
+            .map(([other, { count, force }]) =>
+                h(
+                    "div",
+                    { class: "reading" },
+                    h("span", { class: "label" }, other < 0 ? "scenery" : world.fleet.name(other)),
+                    h("span", { class: "value" }, fixed(force, 1)),
+                    h("span", { class: "unit" }, "N"),
+                    h("span", { class: "count" }, `${count} ${count === 1 ? "point" : "points"}`),
+                ),
+            );
+        this.contacts?.replaceChildren(
+            ...(lines.length > 0 ? lines : [h("p", { class: "empty" }, "Touches nothing.")]),
+        );
+    }
+}

@@ -1,0 +1,102 @@
+// The bar above: which world runs and how it does, the tools of the hand, the cameras, and what one takes away (picture,
+// video, link).
+import type { Capture } from "../capture";
+import type { ViewerState } from "../model/viewer_state";
+import { choice, h, iconButton, setText } from "../ui/dom";
+import { percent, short } from "../ui/numbers";
+
+export interface TopBarActions {
+    copyLink(): void;
+    help(): void;
+    home(): void;
+    focus(): void;
+    togglePanel(side: "left" | "right"): void;
+}
+
+export function topBar(state: ViewerState, capture: Capture, actions: TopBarActions): HTMLElement {
+    const tools = choice(
+        "Tool",
+        [
+            { value: "select", text: "Select", icon: "cursor", key: "V" },
+            { value: "move", text: "Move a robot", icon: "move", key: "M" },
+            { value: "push", text: "Push a robot", icon: "push", key: "P" },
+        ] as const,
+        (tool) => state.tool.set(tool),
+    );
+    state.tool.follow(tools.show);
+    const cameras = choice(
+        "Camera",
+        [
+            { value: "orbit", text: "Orbit", key: "1" },
+            { value: "fly", text: "Fly", key: "2" },
+            { value: "follow", text: "Follow", key: "3" },
+            { value: "chase", text: "Chase", key: "4" },
+        ] as const,
+        (mode) => state.cameraMode.set(mode),
+    );
+    state.cameraMode.follow(cameras.show);
+    const record = iconButton("record", "Record a video", () => capture.toggleVideo(), "R");
+    capture.recording.follow((on) => {
+        record.classList.toggle("recording", on);
+        record.setAttribute("aria-pressed", String(on));
+    });
+    return h(
+        "header",
+        { class: "top", role: "banner" },
+        iconButton("left", "Robots panel", () => actions.togglePanel("left"), "["),
+        h("h1", { class: "brand" }, "RoBOSS"),
+        worldFacts(state),
+        h("div", { class: "grow" }),
+        tools.element,
+        cameras.element,
+        h(
+            "div",
+            { class: "cluster-of-buttons", role: "group", "aria-label": "View" },
+            iconButton("home", "Whole world", actions.home, "H"),
+            iconButton("focus", "Look at the selected robot", actions.focus, "F"),
+        ),
+        h(
+            "div",
+            { class: "cluster-of-buttons", role: "group", "aria-label": "Take away" },
+            iconButton("camera", "Save a picture", () => capture.picture(), "X"),
+            record,
+            iconButton("link", "Copy a link to this view", actions.copyLink, "L"),
+        ),
+        h(
+            "div",
+            { class: "cluster-of-buttons", role: "group", "aria-label": "Page" },
+            iconButton(
+                "theme",
+                "Light or dark",
+                () => state.theme.set(state.theme.value === "dark" ? "light" : "dark"),
+                "T",
+            ),
+            iconButton("help", "Keys and help", actions.help, "?"),
+            iconButton("right", "Side panel", () => actions.togglePanel("right"), "]"),
+        ),
+    );
+}
+
+function worldFacts(state: ViewerState): HTMLElement {
+    const dot = h("span", { class: "dot", "aria-hidden": "true" }),
+        name = h("span", { class: "world-name" });
+    const facts = h("span", { class: "facts" });
+    const show = () => {
+        const status = state.status.value,
+            world = state.world.value;
+        dot.dataset.state = state.link.value.state !== "open" ? "gone" : status?.paused === true ? "paused" : "running";
+        setText(name, world?.fleet.scene.world ?? "");
+        const parts = world === null ? [] : [`${short(world.fleet.count)} robots`];
+        if (status !== null) {
+            parts.push(`${status.simulators} ${status.simulators === 1 ? "Simulator" : "Simulators"}`);
+            if (status.islands !== undefined) parts.push(`${short(status.islands)} islands`);
+            if (typeof status.efficiency === "number" && status.simulators > 1)
+                parts.push(`efficiency ${percent(status.efficiency)}`);
+        }
+        setText(facts, parts.join("  ·  "));
+    };
+    state.link.follow(show);
+    state.status.follow(show);
+    state.world.follow(show);
+    return h("div", { class: "world" }, dot, name, facts);
+}

@@ -1,0 +1,50 @@
+// What the picture shows beside robots and scenery, and by what robots are coloured.
+import { type ColourBy, type Overlay, OVERLAYS, type ViewerState } from "../model/viewer_state";
+import { h } from "../ui/dom";
+
+const COLOURS: [ColourBy, string, string][] = [
+    ["model", "Model", "As the world file says"],
+    ["simulator", "Simulator", "Who steps it"],
+    ["island", "Island", "Robots that may touch each other share a colour"],
+    ["speed", "Speed", "Blue at rest, amber at 3 m/s and more"],
+];
+const WORDS: Record<Overlay, [string, string]> = {
+    rays: ["Laser rays", "of the selected robot"],
+    tracks: ["Tracks", "where robots drove"],
+    compass: ["Compass", "north and heading of the selected robot"],
+    contacts: ["Contact forces", "arrows, 1 m for 100 N"],
+    bounds: ["Swept boxes", "what the forecast keeps free"],
+    spheres: ["Bounding spheres", "the reach of each robot"],
+    islands: ["Islands", "hulls round robots that may touch"],
+    names: ["Names", "of the robots nearest to the camera"],
+    collisions: ["Collision shapes", "what physics sees"],
+};
+
+export function viewOptions(state: ViewerState): HTMLElement {
+    const radios = COLOURS.map(([value, name, why]) => {
+        const input = h("input", { type: "radio", name: "colour", value, onchange: () => state.colourBy.set(value) });
+        state.colourBy.follow((now) => (input.checked = now === value));
+        return h("label", { class: "option" }, input, h("span", {}, name), h("small", {}, why));
+    });
+    const boxes = OVERLAYS.map((overlay) => {
+        const input = h("input", {
+            type: "checkbox",
+            name: overlay,
+            onchange: () => state.toggle(overlay, input.checked),
+        });
+        state.overlays.follow((on) => (input.checked = on.has(overlay)));
+        return h(
+            "label",
+            { class: "option" },
+            input,
+            h("span", {}, WORDS[overlay][0]),
+            h("small", {}, WORDS[overlay][1]),
+        );
+    });
+    return h(
+        "div",
+        { class: "view-options" },
+        h("fieldset", {}, h("legend", {}, "Colour robots by"), ...radios),
+        h("fieldset", {}, h("legend", {}, "Show"), ...boxes),
+    );
+}

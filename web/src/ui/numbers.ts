@@ -1,0 +1,34 @@
+// Numbers as people read them.
+
+export function fixed(value: number | null | undefined, digits = 3): string {
+    if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+    const text = value.toFixed(digits);
+    return Number(text) === 0 ? text.replace("-", "") : text;
+}
+
+/** 12 345 as "12.3 k". */
+export function short(value: number | null | undefined): string {
+    if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+    if (Math.abs(value) >= 1e6) return `${(value / 1e6).toFixed(1)} M`;
+    if (Math.abs(value) >= 1e4) return `${(value / 1e3).toFixed(1)} k`;
+    return String(Math.round(value));
+}
+
+export function percent(value: number | null | undefined): string {
+    return value === null || value === undefined || !Number.isFinite(value) ? "–" : `${(100 * value).toFixed(0)} %`;
+}
+
+/** Simulated seconds as minutes:seconds.milliseconds, hours where there are any. */
+export function clockText(seconds: number): string {
+    const ms = Math.max(0, Math.round(seconds * 1000)),
+        pad = (n: number, width: number) => String(n).padStart(width, "0");
+    const hours = Math.floor(ms / 3_600_000),
+        minutes = Math.floor(ms / 60_000) % 60;
+    const rest = `${pad(Math.floor(ms / 1000) % 60, 2)}.${pad(ms % 1000, 3)}`;
+    return hours > 0 ? `${hours}:${pad(minutes, 2)}:${rest}` : `${minutes}:${rest}`;
+}
+
+export function factorText(value: number | null | undefined): string {
+    if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+    return value >= 100 ? `${value.toFixed(0)}×` : value >= 10 ? `${value.toFixed(1)}×` : `${value.toFixed(2)}×`;
+}

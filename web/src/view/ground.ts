@@ -1,0 +1,113 @@
+// Sky and ground: a dome whose colour runs from the horizon up, and a grid of metres that fades with the distance, its
+// lines drawn by the fragment shader so that they stay thin and calm at any zoom.
+import * as THREE from "three";
+import type { ScenePalette } from "./palette";
+
+const SKY_VERTEX = `
+varying vec3 direction;
+void main() {
+    direction = position;
+    vec4 place = projectionMatrix * mat4(mat3(modelViewMatrix)) * vec4(position, 1.0);
+    gl_Position = place.xyww;
+}`;
+const SKY_FRAGMENT = `
+uniform vec3 top, horizon;
+varying vec3 direction;
+void main() {
+    float up = clamp(normalize(direction).z, 0.0, 1.0);
+    gl_FragColor = vec4(mix(horizon, top, pow(up, 0.55)), 1.0);
+    #include <colorspace_fragment>
+}`;
+const GRID_VERTEX = `
+varying vec2 place;
+void main() {
+    vec4 world = modelMatrix * vec4(position, 1.0);
+    place = world.xy;
+    gl_Position = projectionMatrix * viewMatrix * world;
+}`;
+const GRID_FRAGMENT = `
+uniform vec3 colour;
+uniform float strength, reach;
+uniform vec2 centre;
+varying vec2 place;
+float lines(float cell, float width) {
+    vec2 at = place / cell, blur = fwidth(at);
+    vec2 away = abs(fract(at - 0.5) - 0.5) / max(blur, vec2(1e-6));
+    vec2 line = 1.0 - smoothstep(vec2(width - 0.5), vec2(width + 0.5), away);
+    vec2 dense = 1.0 - smoothstep(vec2(0.06), vec2(0.3), blur);
+    return max(line.x * dense.x, line.y * dense.y);
+}
+void main() {
+    float fade = 1.0 - smoothstep(0.1, 0.8, length(place - centre) / reach);
+    float shown = max(max(lines(1.0, 0.35) * 0.5, lines(10.0, 0.4)), lines(100.0, 0.5));
+    gl_FragColor = vec4(colour, shown * strength * fade);
+    #include <colorspace_fragment>
+}`;
+
+export class Ground {
+    readonly group = new THREE.Group();
+    private readonly sky: THREE.ShaderMaterial;
+    private readonly grid: THREE.ShaderMaterial;
+    private readonly floor: THREE.Mesh<THREE.CircleGeometry, THREE.MeshStandardMaterial>;
+    private readonly gridMesh: THREE.Mesh;
+
+    constructor() {
+        this.sky = new THREE.ShaderMaterial({
+            vertexShader: SKY_VERTEX,
+            fragmentShader: SKY_FRAGMENT,
+            side: THREE.BackSide,
+            depthWrite: false,
+            depthTest: false,
+            uniforms: { top: { value: new THREE.Color() }, horizon: { value: new THREE.Color() } },
+        });
+        const dome = new THREE.Mesh(new THREE.SphereGeometry(1, 32, 24), this.sky);
+        dome.frustumCulled = false;
+        dome.renderOrder = -10;
+        this.grid = new THREE.ShaderMaterial({
+            vertexShader: GRID_VERTEX,
+            fragmentShader: GRID_FRAGMENT,
+            transparent: true,
+            depthWrite: false,
+            polygonOffset: true,
+            polygonOffsetFactor: -2,
+            polygonOffsetUnits: -2,
+            uniforms: {
+                colour: { value: new THREE.Color() },
+                strength: { value: 0.2 },
+                reach: { value: 100 },
+                centre: { value: new THREE.Vector2() },
+            },
+        });
+        this.gridMesh = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), this.grid);
+        this.gridMesh.frustumCulled = false;
+        this.gridMesh.renderOrder = 1;
+        // Drawn first and leaving no depth: scenery that dips below zero shows through it.
+        const material = new THREE.MeshStandardMaterial({ roughness: 1, depthWrite: false });
+        this.floor = new THREE.Mesh(new THREE.CircleGeometry(1, 96), material);
+        this.floor.renderOrder = -9;
+        this.floor.receiveShadow = true;
+        this.floor.frustumCulled = false;
+        this.group.add(dome, this.floor, this.gridMesh);
+    }
+
+    /** A world with a ground plane of its own needs no floor below it, but for what lies beyond its edge. */
+    follow(camera: THREE.Camera, target: THREE.Vector3): void {
+        const reach = Math.max(40, camera.position.distanceTo(target) * 4, camera.position.z * 6);
+        this.grid.uniforms.reach.value = reach;
+        (this.grid.uniforms.centre.value as THREE.Vector2).set(target.x, target.y);
+        this.gridMesh.scale.setScalar(reach);
+        this.gridMesh.position.set(target.x, target.y, 0.001);
+        this.gridMesh.visible = camera.position.z > 0;
+        this.floor.scale.setScalar(Math.max(2000, reach * 4));
+        this.floor.position.set(target.x, target.y, -0.005);
+        this.floor.visible = camera.position.z > 0;
+    }
+
+    paint(palette: ScenePalette): void {
+        (this.sky.uniforms.top.value as THREE.Color).setHex(palette.skyTop);
+        (this.sky.uniforms.horizon.value as THREE.Color).setHex(palette.skyHorizon);
+        (this.grid.uniforms.colour.value as THREE.Color).setHex(palette.grid);
+        this.grid.uniforms.strength.value = palette.gridStrength;
+        this.floor.material.color.setHex(palette.ground);
+    }
+}

@@ -1,0 +1,204 @@
+// All robots: one InstancedMesh for each different body, whichever types share it. Each frame only robots that moved are
+// placed anew. Bodies that differ in nothing but one colour share a mesh and carry that colour as instances.
+import * as THREE from "three";
+import { bodyAt, placeBodies } from "../kinematics/tree";
+import { composed, writeMatrix } from "../kinematics/pose";
+import type { Fleet } from "../model/fleet";
+import type { History } from "../model/history";
+import type { TypeInfo } from "../wire/messages";
+import type { MeshData } from "../wire/scene_source";
+import { lightness, mergedGeometry, type PlacedVisual, visualColour } from "./geometry";
+
+interface BodyLook {
+    body: number;
+    parts: PlacedVisual[];
+    alpha: number;
+    key: string;
+    colour: THREE.Color | null;
+    /** How light it is beside the lightest body of its type: tyres stay dark whatever the group's colour. */
+    shade: number;
+}
+
+interface Batch {
+    mesh: THREE.InstancedMesh;
+    robots: number[];
+    own: THREE.Color[];
+    shade: number[];
+}
+
+const BODIES_MAX = 4096;
+const WHITE = new THREE.Color(1, 1, 1);
+
+function rounded(values: ArrayLike<number>): string {
+    return Array.from(values, (value) => value.toFixed(5)).join(" ");
+}
+
+/** The visuals (or collision shapes) of a type, by body and whether one sees through them. */
+function looks(type: TypeInfo, kind: "visuals" | "collisions"): BodyLook[] {
+    const found = new Map<string, BodyLook>();
+    for (const link of type.links)
+        for (const visual of link[kind]) {
+            const alpha = kind === "collisions" ? 0.35 : (visual.alpha ?? 1),
+                name = `${link.body} ${alpha < 1 ? alpha.toFixed(2) : "solid"}`;
+            const look = found.get(name) ?? { body: link.body, parts: [], alpha, key: "", colour: null, shade: 1 };
+            look.parts.push({ visual, pose: composed(link.frame, visual.frame) });
+            found.set(name, look);
+        }
+    const lightest = Math.max(
+        0.02,
+        ...[...found.values()].flatMap((look) => look.parts.map((part) => lightness(visualColour(part.visual)))),
+    );
+    for (const look of found.values()) {
+        const colours = new Set(look.parts.map((part) => rounded(part.visual.rgb ?? [])));
+        if (colours.size === 1) look.colour = visualColour(look.parts[0].visual);
+        if (look.colour !== null) look.shade = Math.max(0.22, lightness(look.colour) / lightest);
+        look.key = JSON.stringify(
+            look.parts.map(({ visual, pose }) => [
+                visual.shape,
+                visual.size,
+                visual.radius,
+                visual.length,
+                visual.radii,
+                visual.mesh,
+                rounded(pose),
+                look.colour === null ? visual.rgb : 0,
+                look.alpha,
+            ]),
+        );
+    }
+    return [...found.values()];
+}
+
+export class RobotsLayer {
+    readonly group = new THREE.Group();
+    private readonly batches: Batch[] = [];
+    /** Of each robot: from where in `slots` its (batch, instance, body) triples run. */
+    private readonly slotStart: Uint32Array;
+    private readonly slots: Uint32Array;
+    private readonly scratch = new Float64Array((BODIES_MAX + 1) * 7);
+    private colouring: ((robot: number, out: THREE.Color) => void) | null = null;
+
+    constructor(
+        private readonly fleet: Fleet,
+        meshes: ReadonlyMap<number, MeshData>,
+        kind: "visuals" | "collisions" = "visuals",
+    ) {
+        const ofType = fleet.scene.types.map((type) => looks(type, kind));
+        const batchOf = new Map<string, { look: BodyLook; members: { robot: number; look: BodyLook }[] }>();
+        for (let r = 0; r < fleet.count; ++r)
+            for (const look of ofType[fleet.typeOf[r]]) {
+                const batch = batchOf.get(look.key) ?? { look, members: [] };
+                batch.members.push({ robot: r, look });
+                batchOf.set(look.key, batch);
+            }
+        const slotsOf: number[][] = Array.from({ length: fleet.count }, () => []);
+        for (const { look, members } of batchOf.values()) this.addBatch(look, members, meshes, slotsOf);
+        this.slotStart = new Uint32Array(fleet.count + 1);
+        slotsOf.forEach((list, r) => (this.slotStart[r + 1] = this.slotStart[r] + list.length));
+        this.slots = Uint32Array.from(slotsOf.flat());
+        this.recolour(null);
+    }
+
+    private addBatch(
+        look: BodyLook,
+        members: { robot: number; look: BodyLook }[],
+        meshes: ReadonlyMap<number, MeshData>,
+        slotsOf: number[][],
+    ): void {
+        const geometry = mergedGeometry(look.parts, meshes);
+        if (geometry === null) return;
+        if (look.colour !== null) geometry.setAttribute("color", geometry.getAttribute("tint"));
+        const material = new THREE.MeshStandardMaterial({
+            vertexColors: true,
+            roughness: 0.62,
+            metalness: 0.02,
+            transparent: look.alpha < 1,
+            opacity: look.alpha,
+            depthWrite: look.alpha >= 1,
+            shadowSide: THREE.FrontSide,
+        });
+        const mesh = new THREE.InstancedMesh(geometry, material, members.length);
+        mesh.instanceMatrix.setUsage(THREE.DynamicDrawUsage);
+        mesh.frustumCulled = false;
+        mesh.castShadow = look.alpha >= 1;
+        mesh.receiveShadow = true;
+        this.group.add(mesh);
+        const number =
+            this.batches.push({
+                mesh,
+                robots: members.map((member) => member.robot),
+                own: members.map((member) => member.look.colour ?? WHITE),
+                shade: members.map((member) => member.look.shade),
+            }) - 1;
+        members.forEach((member, instance) => slotsOf[member.robot].push(number, instance, bodyAt(member.look.body)));
+    }
+
+    /** Places the robots that changed. */
+    update(history: History): void {
+        const { drawn, changed } = history,
+            { fleet } = this;
+        let any = false;
+        for (let r = 0; r < fleet.count; ++r) {
+            if (changed[r] === 0) continue;
+            any = true;
+            placeBodies(fleet.type(r), drawn.base, r * 7, drawn.joints, fleet.firstCoordinate[r], this.scratch);
+            for (let s = this.slotStart[r]; s < this.slotStart[r + 1]; s += 3)
+                writeMatrix(
+                    this.batches[this.slots[s]].mesh.instanceMatrix.array as Float32Array,
+                    this.slots[s + 1] * 16,
+                    this.scratch,
+                    this.slots[s + 2],
+                );
+        }
+        if (any) for (const batch of this.batches) batch.mesh.instanceMatrix.needsUpdate = true;
+    }
+
+    /** Colours every robot by `colouring`, or as its model says where it is null. */
+    recolour(colouring: ((robot: number, out: THREE.Color) => void) | null): void {
+        const modelNow = colouring === null,
+            modelBefore = this.colouring === null;
+        this.colouring = colouring;
+        const colour = new THREE.Color();
+        for (const { mesh, robots, own, shade } of this.batches) {
+            if (modelNow !== modelBefore) {
+                const plain = own[0] !== WHITE || !modelNow;
+                mesh.geometry.setAttribute("color", mesh.geometry.getAttribute(plain ? "tint" : "own"));
+            }
+            robots.forEach((robot, instance) => {
+                if (colouring === null) colour.copy(own[instance]);
+                else {
+                    colouring(robot, colour);
+                    colour.multiplyScalar(shade[instance]);
+                }
+                mesh.setColorAt(instance, colour);
+            });
+            if (mesh.instanceColor !== null) mesh.instanceColor.needsUpdate = true;
+        }
+    }
+
+    /** First body that the ray meets of the robots given: how far away, and where. */
+    hit(caster: THREE.Raycaster, robot: number): THREE.Intersection | null {
+        let nearest: THREE.Intersection | null = null;
+        const single = new THREE.Mesh(),
+            matrix = new THREE.Matrix4(),
+            found: THREE.Intersection[] = [];
+        for (let s = this.slotStart[robot]; s < this.slotStart[robot + 1]; s += 3) {
+            const batch = this.batches[this.slots[s]];
+            batch.mesh.getMatrixAt(this.slots[s + 1], matrix);
+            single.geometry = batch.mesh.geometry;
+            single.material = batch.mesh.material;
+            single.matrixWorld.copy(matrix);
+            single.raycast(caster, found);
+        }
+        for (const at of found) if (nearest === null || at.distance < nearest.distance) nearest = at;
+        return nearest;
+    }
+
+    dispose(): void {
+        for (const { mesh } of this.batches) {
+            mesh.geometry.dispose();
+            (mesh.material as THREE.Material).dispose();
+            mesh.dispose();
+        }
+    }
+}

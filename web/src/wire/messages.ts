@@ -1,0 +1,229 @@
+// The JSON that page and gateway exchange, as types (docs/viewer-protocol.md says what each means). SI units and
+// radians; a pose is [x, y, z, qw, qx, qy, qz].
+
+export type PoseArray = [number, number, number, number, number, number, number];
+export type Triple = [number, number, number];
+
+export interface Visual {
+    name: string;
+    shape: "box" | "sphere" | "cylinder" | "capsule" | "ellipsoid" | "plane" | "mesh";
+    frame: PoseArray;
+    rgb?: Triple;
+    alpha?: number;
+    size?: number[];
+    radius?: number;
+    length?: number;
+    radii?: Triple;
+    mesh?: number;
+}
+
+export type JointKind = "free" | "revolute" | "prismatic" | "ball" | "screw";
+
+export interface BodyInfo {
+    parent: number;
+    joint: JointKind;
+    frame: PoseArray;
+    axis: Triple;
+    pitch: number;
+    q: number;
+    width: number;
+}
+
+export interface LinkInfo {
+    name: string;
+    body: number;
+    frame: PoseArray;
+    visuals: Visual[];
+    collisions: Visual[];
+}
+
+export interface JointInfo {
+    name: string;
+    kind: string;
+    body: number;
+    axes: number;
+    q: number;
+    lower: (number | null)[];
+    upper: (number | null)[];
+    max_effort: (number | null)[];
+    max_velocity: (number | null)[];
+}
+
+export interface SensorInfo {
+    name: string;
+    kind: string;
+    link: number;
+    frame: PoseArray;
+    samples?: number;
+    min_angle?: number;
+    max_angle?: number;
+    vertical_samples?: number;
+    vertical_min_angle?: number;
+    vertical_max_angle?: number;
+    range_min?: number;
+    range_max?: number;
+}
+
+export interface TypeInfo {
+    name: string;
+    free_base: boolean;
+    mass: number;
+    reach: number;
+    origin: PoseArray;
+    bodies: BodyInfo[];
+    links: LinkInfo[];
+    joints: JointInfo[];
+    sensors: SensorInfo[];
+    ranges: number[];
+}
+
+export interface SceneInfo {
+    scene: number;
+    world: string;
+    dt: number;
+    gravity: Triple;
+    seed?: number;
+    types: TypeInfo[];
+    robots: { name: string; type: number }[];
+    statics: Visual[];
+    groups_max: number;
+}
+
+export interface MemberStatus {
+    id: number;
+    name: string;
+    threads: number;
+    robots: number;
+    islands: number;
+    load: number;
+    step_us: number;
+    state: string;
+}
+
+export interface Status {
+    type: "status";
+    world: string;
+    time_s: number;
+    tick: number;
+    paused: boolean;
+    speed: string;
+    simulators: number;
+    windows?: number;
+    islands?: number;
+    window_ticks?: number;
+    windows_repeated?: number;
+    efficiency?: number | null;
+    model_hash?: string;
+    state_hash?: string;
+    branch?: number | string;
+    journal?: { first_s: number; last_s: number } | null;
+    members?: MemberStatus[];
+    losses?: number;
+    migrations?: number;
+    recoveries?: number;
+    rtf?: number | null;
+    viewers?: number;
+    sent_bytes?: number;
+}
+
+export interface Groups {
+    type: "groups";
+    scene: number;
+    simulator: number[];
+    island: number[];
+}
+
+export interface MotorReport {
+    mode: string;
+    target: number;
+    effort: number;
+    max_effort?: number | null;
+}
+
+export interface JointReport {
+    position: number[];
+    velocity: number[];
+    motors?: MotorReport[];
+}
+
+export interface SensorReport {
+    ranges?: (number | null)[];
+    position?: number[];
+    velocity?: number[];
+    [field: string]: unknown;
+}
+
+export interface ContactReport {
+    a: number;
+    b: number;
+    point: Triple;
+    normal: Triple;
+    force: Triple;
+}
+
+/** What a robot's own state remembers of a contact; `other` -1 is scenery. */
+export interface RobotContact {
+    other: number;
+    normal_force: number;
+}
+
+export interface RobotReport {
+    type: "robot";
+    scene: number;
+    robot: number;
+    tick: number;
+    time: number;
+    pose: PoseArray;
+    linear: Triple;
+    angular: Triple;
+    joints: JointReport[];
+    sensors: (SensorReport | null)[];
+    contacts: RobotContact[];
+}
+
+export interface OverlayReport {
+    type: "overlay";
+    scene: number;
+    tick: number;
+    contacts?: ContactReport[];
+    bounds?: { robot: number; box: [Triple, Triple] | number[] }[];
+}
+
+export interface Hello {
+    type: "hello";
+    version: number;
+    scene: number;
+    world: string;
+    journal: boolean;
+    rate: number;
+    program: string;
+}
+
+export interface Answer {
+    type: "answer";
+    id: number;
+    done: boolean;
+    text: string;
+}
+
+export type Incoming =
+    | Hello
+    | { type: "scene"; scene: number }
+    | Status
+    | Groups
+    | RobotReport
+    | OverlayReport
+    | Answer
+    | { type: "notice"; text: string };
+
+export type OrderAction =
+    | { action: "pose"; pose: PoseArray }
+    | { action: "velocity"; linear: Triple; angular: Triple }
+    | { action: "wrench"; link: number; force: Triple; torque: Triple; duration: number }
+    | { action: "joint"; joint: number; axis: number; mode: string; target: number; max_effort?: number };
+
+export interface Watch {
+    robots: number[];
+    overlays: string[];
+    rate: number;
+}

@@ -1,0 +1,83 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { append } from "../src/model/plotted";
+import { readings } from "../src/model/readings";
+import { sliderRange } from "../src/panels/joint_controls";
+import { StepTimes } from "../src/panels/cluster_panel";
+import type { JointInfo, RobotReport } from "../src/wire/messages";
+import { IDENTITY, typeOf } from "./support";
+
+const JOINT: JointInfo = {
+    name: "elbow",
+    kind: "revolute",
+    body: 0,
+    axes: 1,
+    q: 0,
+    lower: [-1],
+    upper: [2],
+    max_effort: [5],
+    max_velocity: [null],
+};
+const REPORT: RobotReport = {
+    type: "robot",
+    scene: 1,
+    robot: 0,
+    tick: 1,
+    time: 0.002,
+    pose: [1, 2, 3, Math.SQRT1_2, 0, 0, Math.SQRT1_2],
+    linear: [3, 4, 0],
+    angular: [0, 0, 1],
+    joints: [{ position: [0.5], velocity: [-1], motors: [{ mode: "velocity", target: 1, effort: 0.25 }] }],
+    sensors: [{ ranges: [null, 2.5, 1.25] }, { position: [52, 21, 100], geodetic: true }, null],
+    contacts: [],
+};
+
+test("every number of a report has a key, a unit and its value", () => {
+    const sensors = ["scan", "gps", "odometer"].map((name) => ({ name, kind: name, link: 0, frame: IDENTITY }));
+    const all = readings(typeOf([], [], { joints: [JOINT], sensors }), REPORT),
+        flat = [...all.base, ...all.joints, ...all.sensors.flat()];
+    const value = (key: string) => flat.find((one) => one.key === key)?.value;
+    assert.equal(value("speed"), 5);
+    assert.ok(Math.abs((value("angle.yaw") ?? 0) - 90) < 1e-9);
+    assert.equal(value("joint.elbow.0.effort"), 0.25);
+    assert.equal(value("sensor.scan.nearest"), 1.25);
+    assert.equal(value("sensor.gps.altitude"), 100);
+    assert.equal(all.sensors[2].length, 0);
+    assert.equal(new Set(flat.map((one) => one.key)).size, flat.length);
+});
+
+test("a curve forgets what a rewind undid", () => {
+    const curve = { times: [] as number[], values: [] as (number | null)[] };
+    for (const time of [1, 2, 3, 2.5]) append(curve, time, time * 10);
+    assert.deepEqual(curve, { times: [1, 2, 2.5], values: [10, 20, 25] });
+});
+
+test("a joint's slider spans its limits, or what is usual where it has none", () => {
+    assert.deepEqual(sliderRange(JOINT, 0, "position"), [-1, 2]);
+    assert.deepEqual(sliderRange(JOINT, 0, "effort"), [-5, 5]);
+    assert.deepEqual(sliderRange(JOINT, 0, "velocity"), [-20, 20]);
+});
+
+test("the step times of a Simulator that comes later start where it came, those of a lost one end", () => {
+    const times = new StepTimes(),
+        member = (id: number, step_us: number, state = "at work") => ({
+            id,
+            name: "",
+            threads: 1,
+            robots: 1,
+            islands: 1,
+            load: 1,
+            step_us,
+            state,
+        });
+    times.take(0, [member(1, 10)]);
+    times.take(1, [member(1, 11, "lost"), member(2, 20)]);
+    assert.deepEqual(times.times, [0, 1]);
+    assert.deepEqual(
+        [...times.columns],
+        [
+            [1, [10, null]],
+            [2, [null, 20]],
+        ],
+    );
+});
