@@ -47,7 +47,8 @@ std::string dumped(const Json& json) {
 /// What the run says by robot; nothing where it is of another Model than this scene's.
 Json read_by_robot(const std::string& text, const ShownScene& scene) {
     Json read = Json::parse(text, nullptr, false);
-    const bool fits = read.is_object() && read.value("model_hash", "") == to_hex(scene.model->hash);
+    const bool fits =
+        read.is_object() && read.contains("model_hash") && read["model_hash"] == to_hex(scene.model->hash);
     return fits ? std::move(read) : Json();
 }
 
@@ -213,7 +214,8 @@ void RunWatcher::tell_status(const ControlReply& reply) {
     Json status{{"type", "status"}};
     for (const auto& [name, value] : read.items())
         if (name != "robots" && name != "type") status[name] = value;
-    const double time_s = read.value("time_s", 0.0);
+    const bool has_time = read.contains("time_s") && read["time_s"].is_number();
+    const double time_s = has_time ? read["time_s"].get<double>() : 0.0;
     const double wall_s =
         1e-3 * static_cast<double>(status_at_ms_ - std::exchange(status_was_ms_, status_at_ms_));
     const double way_s = time_s - std::exchange(status_time_s_, time_s);
