@@ -157,6 +157,7 @@ void RunWatcher::finish_fetch(std::int64_t now_ms) {
     outdated_ = false;
     fetch_from_ms_ = now_ms;
     said_ms_.reset();
+    drop_client();
     exchange_->show(scene_);
 }
 
@@ -279,6 +280,13 @@ void RunWatcher::order(Bus& bus, const PageCall& call, const PageOrder& said) {
     client_->say(bus, tick_);
 }
 
+/// It knows a world that is no more; the next order makes another.
+void RunWatcher::drop_client() {
+    for (const OpenOrder& o : std::exchange(orders_, {}))
+        answer(o.page, o.id, false, "the world has changed meanwhile");
+    client_.reset();
+}
+
 void RunWatcher::serve_orders(Bus& bus) {
     if (!client_) return;
     client_->advance(bus);
@@ -293,11 +301,7 @@ void RunWatcher::serve_orders(Bus& bus) {
         end(*found, false, refusal);
         orders_.erase(found);
     }
-    if (client_->outdated() || !client_->over().empty()) {
-        for (const OpenOrder& o : std::exchange(orders_, {}))
-            end(o, false, "the world has changed meanwhile");
-        return client_.reset();
-    }
+    if (client_->outdated() || !client_->over().empty()) return drop_client();
     if (!client_->heard()) return;
     for (const OpenOrder& o : std::exchange(orders_, {})) end(o, true, "the order is given");
 }
