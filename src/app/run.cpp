@@ -42,13 +42,13 @@ int Run::go() {
 bool Run::prepare() {
     if (!o_.replay.empty()) return prepare_replay();
     Diagnostics diagnostics;
-    const std::optional<World> world = load_world(o_.world, {o_.paths, o_.profile}, diagnostics);
+    std::optional<World> world = load_world(o_.world, {o_.paths, o_.profile}, diagnostics);
     if (world && !diagnostics.has_errors()) model_ = compile(*world, compile_options(), diagnostics);
     if (world) world_speed_ = world->real_time_factor;
-    if (world && !o_.viewer.headless) world_ = std::make_shared<const World>(*world);
     if (model_ && !o_.orders.empty()) orders_ = load_orders(o_.orders, *model_, diagnostics);
     print(diagnostics, o_.world);
     if (!model_ || diagnostics.has_errors()) return false;
+    if (is_shown()) world_ = std::make_shared<const World>(std::move(*world));
     Result<std::unique_ptr<RunJournal>> journal = RunJournal::open(o_, *model_);
     if (!journal) return print(journal.error()), false;
     journal_ = std::move(journal).value();
@@ -130,8 +130,8 @@ SimulationOptions Run::simulation_options(const SavedRun* from) const {
     options.controller.window = o_.window == "auto" ? 0 : static_cast<Tick>(std::stod(o_.window));
     options.controller.forecast.merge_all = o_.merge_islands;
     options.controller.log_ticks = journal_->log_ticks();
-    if (!gateway_) return options;
-    options.guest = [gateway = gateway_.get()](Bus& bus) { gateway->advance(bus); };
+    if (gateway_) options.guest = [gateway = gateway_.get()](Bus& bus) { gateway->advance(bus); };
+    if (!is_shown()) return options;
     options.controller.scene = [world = world_, seed = options.controller.seed](const Model& model) {
         return encode(scene_file(make_scene(model, world.get()), model, seed));
     };

@@ -48,6 +48,8 @@ class Run {
     Result<> start_again(std::shared_ptr<const Model> model, const SavedRun& from, const Turn& turn);
     SimulationOptions simulation_options(const SavedRun* from) const;
     bool open_gateway();
+    /// Here, or by `roboss view` elsewhere.
+    bool is_shown() const { return !o_.viewer.headless || o_.is_controller; }
     Summary summary(double wall_s) const;
     int finish(bool fine, double wall_s);
 

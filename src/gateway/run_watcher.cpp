@@ -47,7 +47,8 @@ std::string dumped(const Json& json) {
 /// What the run says by robot; nothing where it is of another Model than this scene's.
 Json read_by_robot(const std::string& text, const ShownScene& scene) {
     Json read = Json::parse(text, nullptr, false);
-    const bool fits = read.is_object() && read.value("model_hash", "") == to_hex(scene.model->hash);
+    const bool fits =
+        read.is_object() && read.contains("model_hash") && read["model_hash"] == to_hex(scene.model->hash);
     return fits ? std::move(read) : Json();
 }
 
@@ -156,6 +157,7 @@ void RunWatcher::finish_fetch(std::int64_t now_ms) {
     outdated_ = false;
     fetch_from_ms_ = now_ms;
     said_ms_.reset();
+    drop_client();
     exchange_->show(scene_);
 }
 
@@ -213,7 +215,8 @@ void RunWatcher::tell_status(const ControlReply& reply) {
     Json status{{"type", "status"}};
     for (const auto& [name, value] : read.items())
         if (name != "robots" && name != "type") status[name] = value;
-    const double time_s = read.value("time_s", 0.0);
+    const bool has_time = read.contains("time_s") && read["time_s"].is_number();
+    const double time_s = has_time ? read["time_s"].get<double>() : 0.0;
     const double wall_s =
         1e-3 * static_cast<double>(status_at_ms_ - std::exchange(status_was_ms_, status_at_ms_));
     const double way_s = time_s - std::exchange(status_time_s_, time_s);
@@ -277,6 +280,13 @@ void RunWatcher::order(Bus& bus, const PageCall& call, const PageOrder& said) {
     client_->say(bus, tick_);
 }
 
+/// It knows a world that is no more; the next order makes another.
+void RunWatcher::drop_client() {
+    for (const OpenOrder& o : std::exchange(orders_, {}))
+        answer(o.page, o.id, false, "the world has changed meanwhile");
+    client_.reset();
+}
+
 void RunWatcher::serve_orders(Bus& bus) {
     if (!client_) return;
     client_->advance(bus);
@@ -291,11 +301,7 @@ void RunWatcher::serve_orders(Bus& bus) {
         end(*found, false, refusal);
         orders_.erase(found);
     }
-    if (client_->outdated() || !client_->over().empty()) {
-        for (const OpenOrder& o : std::exchange(orders_, {}))
-            end(o, false, "the world has changed meanwhile");
-        return client_.reset();
-    }
+    if (client_->outdated() || !client_->over().empty()) return drop_client();
     if (!client_->heard()) return;
     for (const OpenOrder& o : std::exchange(orders_, {})) end(o, true, "the order is given");
 }

@@ -64,6 +64,7 @@ class RunWatcher {
     void serve(Bus& bus, PageCall& call);
     void order(Bus& bus, const PageCall& call, const PageOrder& order);
     void serve_orders(Bus& bus);
+    void drop_client();
     void answer(std::uint64_t page, std::int64_t id, bool done, std::string text);
 
     std::shared_ptr<Exchange> exchange_;

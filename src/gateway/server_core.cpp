@@ -74,7 +74,19 @@ void ServerCore::start() {
     exchange_->set_bell([this] { asio::post(io_, [this] { take_news(); }); });
     accept();
     measure();
-    thread_ = std::thread([this] { io_.run(); });
+    thread_ = std::thread([this] { serve(); });
+}
+
+/// Nothing that a page or a file brings may end the run.
+void ServerCore::serve() {
+    for (;;) {
+        try {
+            io_.run();
+            return;
+        } catch (const std::exception& e) {
+            notice(std::string("viewer: ") + e.what());
+        }
+    }
 }
 
 void ServerCore::stop() {
@@ -151,15 +163,14 @@ void ServerCore::call(PageSession& page, PageRequest&& request) {
 
 void ServerCore::want_scene(std::function<void()> then) {
     if (scene_) return then();  // should it be old, the page hears of the new one over its WebSocket
+    auto waiter = std::make_shared<std::function<void()>>(std::move(then));
     auto timer = std::make_shared<asio::steady_timer>(io_, kSceneWait);
-    auto once = std::make_shared<std::function<void()>>(std::move(then));
-    const auto call_once = [once, timer] {
-        if (const std::function<void()> what = std::exchange(*once, nullptr)) timer->cancel(), what();
-    };
-    scene_waiters_.push_back(call_once);
+    scene_waiters_.push_back(waiter);
     watch_changed();
-    timer->async_wait([this, call_once](boost::system::error_code error) {
-        if (!error) call_once(), watch_changed();
+    timer->async_wait([this, waiter, timer](boost::system::error_code error) {
+        if (error || std::erase(scene_waiters_, waiter) == 0) return;
+        (*waiter)();
+        watch_changed();
     });
 }
 
@@ -189,7 +200,7 @@ void ServerCore::take_news() {
 void ServerCore::tell_scene() {
     book_.begin(scene_);
     inspector_.begin(scene_);
-    for (const auto& waiter : std::exchange(scene_waiters_, {})) waiter();
+    for (const auto& waiter : std::exchange(scene_waiters_, {})) (*waiter)();
     const std::string text = nlohmann::json{{"type", "scene"}, {"scene", scene_->number}}.dump();
     for (const auto& [number, page] : std::map(pages_)) {
         page->begin_scene();

@@ -58,6 +58,7 @@ class ServerCore {
     GatewayLoad load() const;
 
   private:
+    void serve();
     void accept();
     void take_news();
     void tell_scene();
@@ -70,15 +71,15 @@ class ServerCore {
     Access access_;
     PageFiles files_;
     std::shared_ptr<Exchange> exchange_;
+    std::size_t connections_ = 0;  // sessions count themselves off, the last ones when io_ ends
     boost::asio::io_context io_;
     boost::asio::ip::tcp::acceptor acceptor_;
     boost::asio::steady_timer clock_,
         late_;  // CPU time is read now and then; a view's last part may come late
     std::thread thread_;
-    std::size_t connections_ = 0;
     std::map<std::uint64_t, std::shared_ptr<PageSession>> pages_;
     std::uint64_t last_page_ = 0;
-    std::vector<std::function<void()>> scene_waiters_;
+    std::vector<std::shared_ptr<std::function<void()>>> scene_waiters_;
     std::shared_ptr<const ShownScene> scene_;
     StateBook book_;
     Inspector inspector_;

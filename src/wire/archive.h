@@ -117,7 +117,10 @@ inline void compact(Reader& a, std::uint64_t& value) {
         std::uint8_t byte = 0;
         a.scalar(byte);
         value |= static_cast<std::uint64_t>(byte & 0x7F) << shift;
-        if (byte < 0x80) return;
+        if (shift == 63 && byte > 1) break;
+        if (byte >= 0x80) continue;
+        if (byte == 0 && shift > 0) break;  // each number is written in one way
+        return;
     }
     a.fail("a number has too many bytes");
 }

@@ -64,6 +64,7 @@ template <class A> void field(A& a, Of<A, IslandFrame>& m) {
     bool failed = m.failed.valid();
     field(a, failed);
     if (failed) fields(a, m.failed, m.failed_at);
+    if constexpr (A::kReading) if (failed && !m.failed.valid()) a.fail("an island failed by no robot");
 }
 template <class A> void field(A& a, Of<A, Frame>& m) {
     fields(a, m.epoch, m.window, m.attempt, m.simulator, m.robots, m.earlier, m.islands);

@@ -1,0 +1,116 @@
+// What a page reads of a robot is what a Client reads of the same states.
+#include "gateway/inspector.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "sensors/test_model.h"
+#include "wire/state_block.h"
+
+namespace roboss {
+namespace {
+
+using Json = nlohmann::json;
+
+SensorSpec sensor(const std::string& name, SensorKind kind) {
+    SensorSpec spec;
+    spec.name = name;
+    spec.kind = kind;
+    return spec;
+}
+
+class InspectorTest : public testing::Test {
+  protected:
+    InspectorTest() {
+        RobotType type = sensors_test::cart_type();
+        SensorSpec laser = sensor("scan", SensorKind::kLaser);
+        laser.samples = 3;
+        laser.min_angle = -1, laser.max_angle = 1;
+        laser.range_min = 0.1, laser.range_max = 20;
+        laser.noise.stddev = 0.01;
+        sensors_test::add_sensor(type, 1, laser);
+        sensors_test::add_sensor(type, 1, sensor("place", SensorKind::kGps));
+        sensors_test::add_sensor(type, 1, sensor("north", SensorKind::kCompass));
+        SensorSpec odometer = sensor("way", SensorKind::kOdometer);
+        odometer.joints = {"axle"};
+        odometer.wheel_radius = 0.1;
+        sensors_test::add_sensor(type, 0, odometer);
+        const auto made = sensors_test::model_of(type, 2);
+        Transform wall;
+        wall.p = {6, 0, 0};
+        sensors_test::add_static(*made, {ShapeKind::kBox, {0.1, 5, 5}, 0, 0}, wall);
+        model = made;
+        SceneFile file;
+        file.seed = 77;
+        scene = std::make_shared<const ShownScene>(ShownScene{9, model, file, ViewLayout(*model)});
+        states = {sensors_test::cart_at({{0, 0, 1}, from_rpy(0, 0, 0.1)}),
+                  sensors_test::cart_at({{0, 9, 1}, {}})};
+        states[0].q[7] = 0.5;
+        states[0].v = {0, 0, 0.5, 1, 2, 3, 4};
+        states[0].motors[0] = {MotorMode::kVelocity, 10, 0.5, 0.002 * model->dt_s, 0};
+        states[0].contacts.push_back({RobotId::kNone, 0, 0, 0, 3 * model->dt_s, 0, {}});
+        inspector.begin(scene);
+    }
+    StateBlock block(std::vector<std::uint32_t> robots, Tick tick) const {
+        StateBlock block;
+        block.tick = tick;
+        for (const std::uint32_t robot : robots) append(block, RobotId(robot), states[robot]);
+        return block;
+    }
+    std::shared_ptr<const Model> model;
+    std::shared_ptr<const ShownScene> scene;
+    std::vector<RobotState> states;
+    Inspector inspector;
+};
+
+TEST_F(InspectorTest, WaitsForEverybodyWhereALaserLooks) {
+    inspector.take(block({0}, 40));
+    EXPECT_FALSE(inspector.shows(RobotId(0u))) << "the other cart may stand in its beams";
+    inspector.take(block({1}, 40));
+    EXPECT_TRUE(inspector.shows(RobotId(0u)));
+    EXPECT_TRUE(inspector.complete());
+    inspector.take(block({0}, 41));
+    EXPECT_FALSE(inspector.complete());
+    EXPECT_FALSE(inspector.shows(RobotId(99u)));
+}
+
+TEST_F(InspectorTest, TellsOfARobotWhatAClientReads) {
+    inspector.take(block({0, 1}, 40));
+    const Json robot = Json::parse(inspector.robot(RobotId(0u)));
+    EXPECT_EQ(robot["scene"], 9);
+    EXPECT_EQ(robot["tick"], 40);
+    EXPECT_EQ(robot["pose"][2], 1);
+    EXPECT_EQ(robot["linear"], Json({1, 2, 3}));
+    EXPECT_EQ(robot["angular"], Json({0, 0, 0.5}));
+    EXPECT_TRUE(robot["joints"][0]["position"].empty()) << "a fixed joint";
+    EXPECT_EQ(robot["joints"][1]["position"][0], 0.5);
+    EXPECT_EQ(robot["joints"][1]["velocity"][0], 4);
+    EXPECT_EQ(robot["joints"][1]["motors"][0]["mode"], "velocity");
+    EXPECT_NEAR(robot["joints"][1]["motors"][0]["effort"], 0.002, 1e-12);
+    EXPECT_EQ(robot["contacts"][0]["other"], -1);
+    EXPECT_NEAR(robot["contacts"][0]["normal_force"], 3, 1e-12);
+
+    RayScene rays(model);
+    const std::vector<const RobotState*> all = {&states[0], &states[1]};
+    rays.update(all);
+    const LaserReading laser = read_laser(*model, RobotId(0u), 0, states[0], 40, 77, rays);
+    ASSERT_EQ(robot["sensors"][0]["ranges"].size(), 3u);
+    EXPECT_EQ(robot["sensors"][0]["ranges"][1], laser.ranges[1]) << "noise included";
+    EXPECT_NEAR(laser.ranges[1], 5.9, 0.2);
+    EXPECT_TRUE(robot["sensors"][0]["ranges"][0].is_null()) << "nothing there: JSON has no infinity";
+    const GpsReading gps = read_gps(*model, RobotId(0u), 1, states[0], 40, 77);
+    EXPECT_EQ(robot["sensors"][1]["position"][2], gps.p_W.z);
+    EXPECT_EQ(robot["sensors"][1]["geodetic"], false);
+    EXPECT_NEAR(robot["sensors"][2]["yaw"], 0.1, 1e-9);
+    EXPECT_NEAR(robot["sensors"][3]["distance"], 0.025, 1e-12);
+}
+
+TEST_F(InspectorTest, NumbersThatAreNotFiniteAreNull) {
+    states[1].v[3] = std::numeric_limits<double>::quiet_NaN();
+    inspector.take(block({0, 1}, 40));
+    EXPECT_TRUE(Json::parse(inspector.robot(RobotId(1u)))["linear"][0].is_null());
+}
+
+}  // namespace
+}  // namespace roboss
