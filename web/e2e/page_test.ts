@@ -97,6 +97,8 @@ test("a robot is found by name and looked at, and a click in the picture selects
 
 test("a robot is dragged over the ground, and is where it was dropped", limit, async () => {
     await choose(page, "car_3");
+    // Whoever drives it lets go.
+    await page.getByLabel("Motor mode of front_left").selectOption("passive");
     await page.getByRole("button", { name: "Follow", exact: true }).last().click();
     await page.waitForTimeout(1500);
     await page.getByRole("button", { name: "Orbit" }).click();

@@ -70,7 +70,7 @@ class Chart {
                     "span",
                     { class: "chart-key" },
                     h("span", { class: "swatch", style: `background:${groupCss(offset + k)}` }),
-                    `${curve.robotName} ${curve.label}`,
+                    h("span", { class: "chart-words" }, `${curve.robotName} ${curve.label}`),
                     iconButton("close", `Remove ${curve.robotName} ${curve.label}`, () =>
                         plotted.toggle(curve.robot, curve.key, curve.label, curve.unit),
                     ),

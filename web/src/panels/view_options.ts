@@ -5,8 +5,8 @@ import { h } from "../ui/dom";
 const COLOURS: [ColourBy, string, string][] = [
     ["model", "Model", "As the world file says"],
     ["simulator", "Simulator", "Who steps it"],
-    ["island", "Island", "Robots that may touch each other share a colour"],
-    ["speed", "Speed", "Blue at rest, amber at 3 m/s and more"],
+    ["island", "Island", "Robots that may touch share one"],
+    ["speed", "Speed", "Blue at rest, amber from 3 m/s on"],
 ];
 const WORDS: Record<Overlay, [string, string]> = {
     rays: ["Laser rays", "of the selected robot"],
