@@ -1,5 +1,6 @@
 // Numbers of the binary messages between gateway and page (docs/viewer-protocol.md): places of fields in
-// bytes, limits. Made by tools/viewer_protocol from src/gateway/protocol.json: change that and run the tool.
+// bytes, limits. Made by tools/viewer_protocol from src/gateway/protocol.json: change that and run the
+// tool.
 #pragma once
 
 #include <cstddef>

@@ -76,7 +76,7 @@ class Control(unittest.TestCase):
             self.assertIn("no process of this run's own", self.ask(cluster, "simulators", "kill", 0, code=3))
             self.assertIn("there is no Simulator '7'", self.ask(cluster, "simulators", "kill", 7, code=3))
             self.ask(cluster, "window", 3)
-            self.ask(cluster, "speed", 2)
+            self.ask(cluster, "speed", 0.3)  # slow enough for all that follows
             self.ask(cluster, "simulators", "add")
             controller.hears("joined", 3)
             self.ask(cluster, "resume")
