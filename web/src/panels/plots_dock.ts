@@ -2,7 +2,7 @@
 import uPlot from "uplot";
 import type { Curve, Plotted } from "../model/plotted";
 import type { ViewerState } from "../model/viewer_state";
-import { h, iconButton } from "../ui/dom";
+import { h, iconButton, setText } from "../ui/dom";
 import { fixed } from "../ui/numbers";
 import { throttled } from "../ui/throttle";
 import { groupCss } from "../view/palette";
@@ -64,19 +64,21 @@ class Chart {
     ) {
         const host = h("div", { class: "chart-canvas" }),
             legend = h("div", { class: "chart-legend" });
-        curves.forEach((curve, k) =>
+        const alone = plotted.curves.value.every((curve) => curve.robot === curves[0].robot);
+        curves.forEach((curve, k) => {
+            const words = `${curve.robotName} ${curve.label}`;
             legend.append(
                 h(
                     "span",
-                    { class: "chart-key" },
+                    { class: "chart-key", title: words },
                     h("span", { class: "swatch", style: `background:${groupCss(offset + k)}` }),
-                    h("span", { class: "chart-words" }, `${curve.robotName} ${curve.label}`),
-                    iconButton("close", `Remove ${curve.robotName} ${curve.label}`, () =>
+                    h("span", { class: "chart-words" }, alone ? curve.label : words),
+                    iconButton("close", `Remove ${words}`, () =>
                         plotted.toggle(curve.robot, curve.key, curve.label, curve.unit),
                     ),
                 ),
-            ),
-        );
+            );
+        });
         this.element = h("div", { class: "chart" }, legend, host);
         this.plot = new uPlot(
             {
@@ -114,14 +116,15 @@ class Chart {
 }
 
 export function plotsDock(state: ViewerState, plotted: Plotted): HTMLElement {
-    const charts = h("div", { class: "charts" });
+    const charts = h("div", { class: "charts" }),
+        heading = h("h2", {}, "Plots");
     const element = h(
         "section",
         { class: "dock", "aria-label": "Plots", hidden: true },
         h(
             "div",
             { class: "panel-head" },
-            h("h2", {}, "Plots"),
+            heading,
             h("div", { class: "grow" }),
             iconButton("close", "Remove all plots", () => plotted.clear()),
         ),
@@ -134,6 +137,8 @@ export function plotsDock(state: ViewerState, plotted: Plotted): HTMLElement {
             units = [...new Set(curves.map((curve) => curve.unit))];
         let offset = 0;
         element.hidden = curves.length === 0;
+        const robots = new Set(curves.map((curve) => curve.robotName));
+        setText(heading, robots.size === 1 ? `Plots of ${curves[0].robotName}` : "Plots");
         shown = units.map((unit) => {
             const mine = curves.filter((curve) => curve.unit === unit),
                 chart = new Chart(unit, mine, offset, plotted);

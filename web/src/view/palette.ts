@@ -30,7 +30,7 @@ export const PALETTES: Record<Theme, ScenePalette> = {
         lightSky: 0xbccfe8,
         lightHorizon: 0xd9dde4,
         lightGround: 0x8f8a84,
-        skyStrength: 0.62,
+        skyStrength: 0.8,
         accent: 0x5aa9ff,
     },
     light: {
@@ -44,7 +44,7 @@ export const PALETTES: Record<Theme, ScenePalette> = {
         lightSky: 0xd3e2f5,
         lightHorizon: 0xf3f4f6,
         lightGround: 0xb5afa7,
-        skyStrength: 0.72,
+        skyStrength: 0.82,
         accent: 0x0b6bd8,
     },
 };
