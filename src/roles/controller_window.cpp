@@ -13,8 +13,9 @@ namespace {
 constexpr float kNewCostShare = 0.3f;  // of a window's measurement in a robot's running mean cost
 constexpr double kNewRateShare = 0.03;
 constexpr double kNewSpentShare = 0.1;
-constexpr double kMove_ns =
-    100'000;  // what it costs a Simulator to have a robot's state sent: nobody moves for less
+// What it costs a Simulator to have a robot's state sent, and the ticks within which that has to be regained.
+constexpr double kMove_ns = 100'000;
+constexpr Tick kMovePays = 64;
 
 std::vector<double> speeds_of(const Roster& roster, std::span<const std::uint32_t> workers) {
     std::vector<double> speeds;
@@ -33,7 +34,7 @@ std::vector<std::uint32_t> assign_to_seats(const Islands& islands, std::span<con
         if (holder[r] < roster.size()) place[r] = index_of[holder[r]];
     const std::vector<double> speeds = speeds_of(roster, workers);
     std::vector<std::uint32_t> result =
-        assign({islands, cost, place, speeds, kMove_ns / static_cast<double>(ticks)});
+        assign({islands, cost, place, speeds, kMove_ns / static_cast<double>(std::max(ticks, kMovePays))});
     for (std::uint32_t& seat : result) seat = workers[seat];
     return result;
 }
