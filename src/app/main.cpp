@@ -12,6 +12,7 @@
 #include "app/run_command.h"
 #include "app/save_command.h"
 #include "app/simulator_command.h"
+#include "app/snapshot.h"
 #include "app/view_command.h"
 
 int main(int argc, char** argv) {
@@ -25,6 +26,7 @@ int main(int argc, char** argv) {
     int exit_code = 0;
     roboss::add_run_command(app, exit_code);
     roboss::add_check_command(app, exit_code);
+    roboss::add_snapshot_command(app, exit_code);
     roboss::add_controller_command(app, exit_code);
     roboss::add_simulator_command(app, exit_code);
     roboss::add_client_command(app, exit_code);

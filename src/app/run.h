@@ -57,6 +57,7 @@ class Run {
     bool drive();
     bool look(const Schedule& due);
     bool rest();
+    bool take_picture();
     Tick end_of_run() const;
 
     // run_control.cpp: what others ask for

@@ -66,6 +66,15 @@ bool Run::rest() {
     return true;
 }
 
+/// The run waits meanwhile.
+bool Run::take_picture() {
+    if (o_.snapshot.file.empty() || interrupted()) return true;
+    const Result<> taken =
+        take_snapshot(o_.snapshot, gateway_->url(), [this] { return rest() && !interrupted(); });
+    if (!taken) print(taken.error());
+    return taken.ok();
+}
+
 /// What is due at this tick.
 bool Run::look(const Schedule& due) {
     const Tick now = simulation_->tick();
@@ -104,7 +113,7 @@ bool Run::drive() {
         if (now != seen && !look(due)) return false;
         seen = now;
         if (pace_.step_until && now >= *pace_.step_until) pace_.paused = true, pace_.step_until.reset();
-        if (now >= end || interrupted() || pace_.quit) return true;
+        if (now >= end || interrupted() || pace_.quit) return take_picture();
         if (pace_.paused) {
             if (!rest()) return false;
             continue;

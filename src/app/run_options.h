@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/snapshot.h"
 #include "app/viewer.h"
 #include "dds/dds_options.h"
 #include "physics/step.h"
@@ -51,6 +52,7 @@ struct RunOptions {
     std::string replay;         // FILE[#BRANCH][@TIME]: stepped again and checked, instead of a world
     std::string paths_picture;  // SVG of where the robots went
     ViewerOptions viewer;
+    SnapshotOptions snapshot;
     bool quiet = false;
 };
 
