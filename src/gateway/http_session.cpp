@@ -44,7 +44,7 @@ HttpSession::HttpSession(asio::ip::tcp::socket&& socket, ServerCore& core)
     : stream_(std::move(socket)), core_(core), peer_(name_of(stream_.socket())) {}
 
 HttpSession::~HttpSession() {
-    if (counted_) core_.connection_ended();
+    core_.connection_ended();
 }
 
 void HttpSession::read() {

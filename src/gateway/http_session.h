@@ -41,7 +41,6 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     boost::beast::flat_buffer buffer_;
     std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> parser_;
     Request request_;
-    bool counted_ = true;
 };
 
 }  // namespace roboss

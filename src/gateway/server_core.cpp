@@ -18,8 +18,8 @@ namespace asio = boost::asio;
 using tcp = asio::ip::tcp;
 
 constexpr std::size_t kConnectionsMax = 64, kPagesMax = 16;
-constexpr std::size_t kNoticesMax = 100;
-constexpr int kSendBytes = 256 << 10;  // what lies in a socket is old when it is read: not much of it
+constexpr double kNoticesASecond = 20;  // the rest is counted: the log is not theirs to fill
+constexpr int kSendBytes = 256 << 10;   // what lies in a socket is old when it is read: not much of it
 constexpr auto kLatePart = std::chrono::milliseconds(8);
 constexpr auto kSceneWait = std::chrono::seconds(5);
 
@@ -40,7 +40,8 @@ ServerCore::ServerCore(const GatewayOptions& options, const std::string& token,
       io_(1),
       acceptor_(io_),
       clock_(io_),
-      late_(io_) {}
+      late_(io_),
+      notice_rate_(kNoticesASecond) {}
 
 ServerCore::~ServerCore() {
     stop();
@@ -267,14 +268,15 @@ void ServerCore::tell_lines(std::vector<Line>& lines) {
 
 void ServerCore::notice(std::string text) {
     const std::scoped_lock lock(mutex_);
-    if (notices_.size() < kNoticesMax) return notices_.push_back(std::move(text));
+    if (notice_rate_.take(steady_ms())) return notices_.push_back(std::move(text));
     ++notices_left_out_;
 }
 
 std::vector<std::string> ServerCore::take_notices() {
     const std::scoped_lock lock(mutex_);
-    if (const std::size_t n = std::exchange(notices_left_out_, 0); n > 0)
-        notices_.push_back("viewer: " + std::to_string(n) + " more refusals");
+    const bool may_tell = notices_left_out_ > 0 && notice_rate_.take(steady_ms());
+    if (const std::size_t n = may_tell ? std::exchange(notices_left_out_, 0) : 0; n > 0)
+        notices_.push_back("viewer: " + std::to_string(n) + " more lines like these are left out");
     return std::exchange(notices_, {});
 }
 

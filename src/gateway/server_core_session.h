@@ -86,6 +86,7 @@ class ServerCore {
 
     mutable std::mutex mutex_;
     std::vector<std::string> notices_;
+    RateLimit notice_rate_;
     std::size_t notices_left_out_ = 0;
     std::atomic<std::uint64_t> sent_bytes_ = 0, cpu_ns_ = 0, page_count_ = 0;
 };

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <support/bodies.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -306,6 +307,14 @@ TEST_F(Viewed, WhoMisbehavesIsCutOffWithALineAndTheRunGoesOnWithTheSameHash) {
     EXPECT_TRUE(good.until([&] { return good.states() > states; })) << "others are served as before";
     EXPECT_FALSE(good.closed());
     EXPECT_EQ(to_hex(run->hash_at_end()), to_hex(undisturbed(model, 3000)));
+}
+
+TEST_F(Viewed, ThoseWhoAreRefusedCannotFillTheLog) {
+    const auto run = begin();
+    for (int i = 0; i < 300; ++i) EXPECT_EQ(http_get(ViewerUrl(run->url()), "/", "evil.example").status, 403);
+    EXPECT_TRUE(run->says("more lines like these are left out"));
+    const std::string log = run->log();
+    EXPECT_LT(std::count(log.begin(), log.end(), '\n'), 200);
 }
 
 TEST_F(Viewed, CrowdsAreTurnedAway) {
