@@ -105,8 +105,7 @@ Result<std::unique_ptr<HeadlessBrowser>> HeadlessBrowser::start(int width, int h
     if (result->id_ < 0) return Error{"a process could not be started", "see the limits (ulimit -u)"};
     ::signal(SIGPIPE, SIG_IGN);
 
-    Result<Json> target =
-        result->call("Target.createTarget", {{"url", "about:blank"}});
+    Result<Json> target = result->call("Target.createTarget", {{"url", "about:blank"}});
     if (!target) return target.error();
     Result<Json> session =
         result->call("Target.attachToTarget", {{"targetId", target.value()["targetId"]}, {"flatten", true}});

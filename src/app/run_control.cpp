@@ -76,7 +76,8 @@ void Run::serve_calls() {
             notices_.push_back(fmt::format("asked to {}: {}", call.request.words[0], text));
             if (journal_->writes()) journal_->writer().note(tick, text);
         }
-        if (journal_->writes()) (void)journal_->writer().flush();  // what is answered is kept
+        if (journal_->writes() && !only_asks(call.request.words))
+            (void)journal_->writer().flush();  // what is answered is kept
         simulation_->controller().control().answer(simulation_->bus(), call, answer.ok(), text);
     }
 }

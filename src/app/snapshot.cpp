@@ -17,6 +17,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr auto kPatience = std::chrono::seconds(90);
 constexpr auto kLook = std::chrono::milliseconds(100);
+constexpr auto kSettle = std::chrono::milliseconds(1500);
 
 const char* const kFooter =
     R"(Runs the world to that time and takes the picture, with Chromium without a window.
@@ -102,6 +103,10 @@ Result<> take_snapshot(const SnapshotOptions& options, const std::string& url,
         if (!ready) return ready.error();
         if (ready.value() == "true") break;
     }
+    // What is looked at closely (rays, contacts, an open inspector) comes a little after the first State.
+    const Clock::time_point settled = Clock::now() + (options.words.empty() ? Clock::duration() : kSettle);
+    while (Clock::now() < settled)
+        if (!serve()) return Error{"the run has ended before the picture was drawn", "see the lines above"};
     Result<std::string> picture = browser.value()->picture();
     if (!picture) return picture.error();
     return write_file(options.file, picture.value());

@@ -1,0 +1,54 @@
+"""`roboss snapshot`: a picture of the world at a time, drawn by Chromium; it shows something, and what it shows depends on
+where one looks from."""
+import os
+import shutil
+import struct
+import unittest
+import zlib
+from pathlib import Path
+
+from running import FOLDER, ROBOSS, WORLDS, RobossTest, roboss
+
+PAGE = Path(ROBOSS).parent.parent / "share/roboss/web/index.html"
+
+
+def pixels(file):
+    """(width, height, the rows' bytes still filtered) of a PNG file."""
+    data = file.read_bytes()
+    assert data.startswith(b"\x89PNG\r\n\x1a\n"), "no PNG"
+    width, height = struct.unpack(">II", data[16:24])
+    at, packed = 8, b""
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        packed += data[at + 8:at + 8 + size] if kind == b"IDAT" else b""
+        at += 12 + size
+    return width, height, zlib.decompress(packed)
+
+
+class Snapshot(RobossTest):
+    @unittest.skipUnless(shutil.which("chromium") and PAGE.exists(), "there is no chromium, or the page is not built")
+    def test_it_shows_the_world_from_where_one_looks(self):
+        shown = []
+        for camera in ("top", "0,0,0.5,40,20,6"):
+            file = FOLDER / f"heap-{len(shown)}.png"
+            done = roboss("snapshot", WORLDS / "heap.sdf", "--at", 1, "--camera", camera, "--width", 640, "--height", 400, "-o", file)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            width, height, rows = pixels(file)
+            self.assertEqual((width, height), (640, 400))
+            self.assertGreater(len(set(rows)), 60, "a picture of nothing")
+            shown.append(rows)
+        self.assertNotEqual(*shown)
+
+    def test_without_a_browser_it_says_what_to_do(self):
+        before = dict(os.environ)
+        os.environ["ROBOSS_BROWSER"] = "/nowhere/chromium"
+        try:
+            self.refused(["snapshot", WORLDS / "heap.sdf", "-o", FOLDER / "none.png"], 3, "the browser has ended", "remedy")
+        finally:
+            os.environ.clear()
+            os.environ.update(before)
+        self.assertFalse((FOLDER / "none.png").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
