@@ -41,9 +41,9 @@ def main():
                 summary = folder / "summary.json"
                 run(roboss, "run", world, "--orders", orders, "--until", a.seconds, "--processes", row["processes"], "--headless", "--quiet", "--json", summary)
                 told = json.loads(summary.read_text())
-                row["wall_s"].append(told["wall_s"])
+                row["wall_s"].append(told["wall_time_s"])
                 hashes.add(told["state_hash"])
-                print(f"{row['processes']} processes: {told['wall_s']:.2f} s", flush=True)
+                print(f"{row['processes']} processes: {told['wall_time_s']:.2f} s", flush=True)
     if len(hashes) != 1:
         sys.exit(f"wall_clock: the runs ended with different state hashes: {hashes}")
     a.out.write_text(json.dumps({"robots": a.cars, "seconds": a.seconds, "cores": cores, "runs": runs}, indent=1))

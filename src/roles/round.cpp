@@ -63,8 +63,20 @@ void Round::plan(const Islands& part, std::span<const std::uint32_t> place,
         Plan& plan = plan_for(place[i]);
         plan.island_offsets.push_back(static_cast<std::uint32_t>(plan.robots.size()));
     }
+    hand_out_orders(in_part, roster.size());
+}
+
+void Round::hand_out_orders(const std::vector<bool>& in_part, std::size_t seats) {
+    std::vector<std::size_t> count(seats, 0);
     for (const Order& order : orders_)
-        if (in_part[order.robot.index()]) plan_for(seat_[order.robot.index()]).orders.push_back(order);
+        if (in_part[order.robot.index()]) ++count[seat_[order.robot.index()]];
+    std::vector<Plan*> plan_of(seats, nullptr);
+    for (Sent& sent : sent_) {
+        plan_of[sent.place] = &sent.plan;
+        sent.plan.orders.reserve(count[sent.place]);
+    }
+    for (const Order& order : orders_)
+        if (in_part[order.robot.index()]) plan_of[seat_[order.robot.index()]]->orders.push_back(order);
 }
 
 void Round::keep(std::uint32_t place, std::vector<RobotId> robots) {

@@ -61,6 +61,7 @@ class Round {
         int times = 0;  // sent again
     };
     Plan& plan_for(std::uint32_t place);
+    void hand_out_orders(const std::vector<bool>& in_part, std::size_t seats);
 
     RoundSpan span_;
     std::vector<Order> orders_;

@@ -4,6 +4,7 @@
 // that the bytes cannot hold.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <concepts>
@@ -35,14 +36,19 @@ class Writer {
     void count(std::size_t n) { scalar(static_cast<std::uint32_t>(n)); }
     void raw(const void* data, std::size_t n) {
         if (n == 0) return;
-        const std::size_t at = bytes_.size();
-        bytes_.resize(at + n);
-        std::memcpy(bytes_.data() + at, data, n);
+        if (bytes_.size() - used_ < n) bytes_.resize(std::max(2 * bytes_.size(), used_ + n));
+        std::memcpy(bytes_.data() + used_, data, n);
+        used_ += n;
     }
-    std::vector<std::uint8_t> take() { return std::move(bytes_); }
+    std::vector<std::uint8_t> take() {
+        bytes_.resize(used_);
+        used_ = 0;
+        return std::move(bytes_);
+    }
 
   private:
-    std::vector<std::uint8_t> bytes_;
+    std::vector<std::uint8_t> bytes_ = std::vector<std::uint8_t>(256);  // room for what comes
+    std::size_t used_ = 0;
 };
 
 class Reader {
