@@ -89,6 +89,7 @@ Json detach(const Work& work, std::size_t simulators, Tick every, const ClusterS
     cluster.run_until(work.ticks, [&](double time_s) {
         const Tick tick = cluster.controller().tick();
         const double dt = work.model->dt_s;
+        if (bin_tick == 0) bin_began_s = time_s, bin_tick = tick;  // joining is not stepping
         if (static_cast<double>(tick - bin_tick) * dt >= kBin_s) {
             points.push_back({static_cast<double>(tick) * dt,
                               1e6 * (time_s - bin_began_s) / static_cast<double>(tick - bin_tick),
