@@ -226,7 +226,7 @@ TEST(Faults, AClientThatFallsSilentIsGivenUp) {
         } else {
             for (int i = 0; i < 600; ++i) cluster.turn();
             const std::uint64_t before = cluster.controller().counters().checkpoints;
-            ASSERT_TRUE(cluster.run_until(3 * kTicks));
+            ASSERT_TRUE(cluster.run_until(8 * kTicks));
             EXPECT_GT(cluster.controller().counters().checkpoints, before + 2)
                 << "what it never fetched holds checkpoints up";
         }
