@@ -181,7 +181,7 @@ void Controller::serve(Bus& bus, const Address& from, const StateRequest& reques
     bus.send(kControllerAddress, from, std::move(reply));
 }
 
-const Controller::WholeBytes& Controller::whole(Whole what) {
+const WholeBytes& Controller::whole(Whole what) {
     std::optional<WholeBytes>& kept = what == Whole::kModel ? model_bytes_ : scene_bytes_;
     if (!kept) {
         kept.emplace();

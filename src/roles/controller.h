@@ -109,6 +109,12 @@ struct RecoveryCheckpoint {
     UnionFind touched;                                // robots that may have interacted since
 };
 
+/// Model or scene, as they travel.
+struct WholeBytes {
+    std::vector<std::uint8_t> bytes;
+    std::uint64_t hash = 0;
+};
+
 class Controller {
   public:
     Controller(std::shared_ptr<const Model> model, const ControllerOptions& options, StartingPoint start);
@@ -196,10 +202,6 @@ class Controller {
     void serve(Bus& bus, const Address& from, const StateRequest& request) const;
     bool is_earlier_model(std::uint64_t hash) const;
     void serve_model(Bus& bus, const Address& from, const ModelRequest& request);
-    struct WholeBytes {
-        std::vector<std::uint8_t> bytes;
-        std::uint64_t hash = 0;
-    };
     const WholeBytes& whole(Whole what);
     void fail(Error error);
     void notice(std::string text) { notices_.push_back(std::move(text)); }
