@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "core/thread_cpu.h"
 #include "dds/dds_bus.h"
 
 namespace roboss::bench {
@@ -80,7 +81,7 @@ NetworkCosts measure_dds(int rounds) {
     bus->drain(kControllerAddress, inbox);
     for (int i = 0; i < rounds && bus->now_ms() < end_ms; ++i) {
         const double begin_us = wall_us();
-        const std::int64_t begin_ns = thread_cpu_ns();
+        const std::uint64_t begin_ns = thread_cpu_ns();
         bus->send(kControllerAddress, kEcho, letter());
         const double spent_us = 1e-3 * static_cast<double>(thread_cpu_ns() - begin_ns);
         for (bus->drain(kControllerAddress, inbox); inbox.empty() && bus->now_ms() < end_ms;

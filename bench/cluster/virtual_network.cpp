@@ -2,15 +2,18 @@
 #include "cluster/virtual_network.h"
 
 #include <algorithm>
-#include <ctime>
+
+#include "core/thread_cpu.h"
 
 namespace roboss::bench {
 
-std::int64_t thread_cpu_ns() {
-    timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return std::int64_t{1'000'000'000} * t.tv_sec + t.tv_nsec;
+namespace {
+
+std::int64_t cpu_ns() {
+    return static_cast<std::int64_t>(thread_cpu_ns());
 }
+
+}  // namespace
 
 void VirtualNetwork::add(const Address& address) {
     places_[address] = members_.size();
@@ -67,19 +70,19 @@ void VirtualNetwork::begin(std::size_t i, std::int64_t start_ns) {
     at_work_ = i;
     members_[i].clock_ns = start_ns;
     members_[i].toll_ns = 0;
-    began_ns_ = thread_cpu_ns();
+    began_ns_ = cpu_ns();
 }
 
 void VirtualNetwork::end() {
     Member& member = members_[at_work_];
-    const std::int64_t spent = thread_cpu_ns() - began_ns_ + member.toll_ns;
+    const std::int64_t spent = cpu_ns() - began_ns_ + member.toll_ns;
     member.clock_ns += spent;
     member.spent_ns += spent;
 }
 
 std::int64_t VirtualNetwork::now_ns() const {
     const Member& m = members_[at_work_];
-    return m.clock_ns + m.toll_ns + thread_cpu_ns() - began_ns_;
+    return m.clock_ns + m.toll_ns + cpu_ns() - began_ns_;
 }
 
 }  // namespace roboss::bench

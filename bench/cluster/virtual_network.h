@@ -16,9 +16,6 @@
 
 namespace roboss::bench {
 
-/// CPU time of this thread, ns.
-std::int64_t thread_cpu_ns();
-
 /// Of one message between two computers, beside encoding and decoding, which are measured as they happen.
 struct NetworkCosts {
     double send_us = 0;          // CPU time that sending costs the sender

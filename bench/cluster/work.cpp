@@ -7,18 +7,13 @@
 
 #include "app/city_world.h"
 #include "client/plugin.h"
-#include "cluster/virtual_cluster.h"
+#include "core/thread_cpu.h"
 #include "sdf/load_world.h"
 #include "simulation/simulation.h"
+#include "take.h"
 
 namespace roboss::bench {
 namespace {
-
-template <class T>
-T take(Result<T> result) {
-    if (!result) throw std::runtime_error(result.error().text());
-    return std::move(result).value();
-}
 
 /// A log in memory that keeps the orders.
 class OrderRecorder : public RunLog {
@@ -58,7 +53,7 @@ void measure_in_one_process(Work& work, bool one_island, std::size_t lanes) {
     from.logged_until = work.ticks;
     const auto again = take(Simulation::create(work.model, options, {}, &from));
     take(again->run_until(work.settle));
-    const std::int64_t begin_ns = thread_cpu_ns();
+    const std::uint64_t begin_ns = thread_cpu_ns();
     const double begin_s = again->counters().step_cpu_s;
     take(again->run_until(work.ticks));
     work.process_cpu_s = 1e-9 * static_cast<double>(thread_cpu_ns() - begin_ns);

@@ -8,6 +8,7 @@
 #include "peers/contest.h"
 #include "scenes/car_drive.h"
 #include "simulation/simulation.h"
+#include "take.h"
 
 namespace roboss::bench {
 namespace {
@@ -16,12 +17,6 @@ double wall_s() {
     timespec t{};
     clock_gettime(CLOCK_MONOTONIC, &t);
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-template <class T>
-T take(Result<T> result) {
-    if (!result) throw std::runtime_error(result.error().text());
-    return std::move(result).value();
 }
 
 struct Run {

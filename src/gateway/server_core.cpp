@@ -1,11 +1,10 @@
 // The gateway's thread: news come from the run's side, pages are told.
-#include <time.h>
-
 #include <boost/asio/post.hpp>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/thread_cpu.h"
 #include "gateway/http_session.h"
 #include "gateway/page_session.h"
 #include "gateway/server_core_session.h"
@@ -282,11 +281,7 @@ std::vector<std::string> ServerCore::take_notices() {
 
 /// CPU time of this thread, for those who ask from another.
 void ServerCore::measure() {
-    timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    if (thread_.joinable())
-        cpu_ns_ =
-            static_cast<std::uint64_t>(t.tv_sec) * 1'000'000'000u + static_cast<std::uint64_t>(t.tv_nsec);
+    if (thread_.joinable()) cpu_ns_ = thread_cpu_ns();
     clock_.expires_after(std::chrono::milliseconds(100));
     clock_.async_wait([this](boost::system::error_code error) {
         if (!error) measure();

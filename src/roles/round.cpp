@@ -10,10 +10,16 @@ namespace {
 constexpr int kPatienceMost =
     4;  // doublings of the time until a plan is sent again: most are not lost, but long
 
-void give(std::vector<HandOver>& gives, const Address& to, RobotId robot) {
-    auto here = std::find_if(gives.begin(), gives.end(), [&](const HandOver& g) { return g.to == to; });
-    if (here == gives.end()) here = gives.insert(gives.end(), HandOver{to, {}});
-    here->robots.push_back(robot);
+/// The robots of the entry for this address, which is made if there is none.
+template <class Entry>
+std::vector<RobotId>& robots_of(std::vector<Entry>& entries, Address Entry::*who, const Address& address) {
+    auto here =
+        std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.*who == address; });
+    if (here == entries.end()) {
+        here = entries.insert(entries.end(), Entry{});
+        (*here).*who = address;
+    }
+    return here->robots;
 }
 
 }  // namespace
@@ -45,22 +51,19 @@ void Round::plan(const Islands& part, std::span<const std::uint32_t> place,
                                     source.end());  // `source` may be seats(), which change below
     std::vector<bool> in_part(seat_.size(), false);
     for (std::size_t i = 0; i < part.count(); ++i) {
+        Plan& plan = plan_for(place[i]);
         for (const RobotId robot : part.of(i)) {
-            Plan& plan = plan_for(place[i]);
             plan.robots.push_back(robot);
             seat_[robot.index()] = place[i];
             in_part[robot.index()] = true;
-            if (from[robot.index()] == place[i]) continue;
-            const Address address = roster.address_of(from[robot.index()]);
-            if (from[robot.index()] < roster.size())
-                give(plan_for(from[robot.index()]).gives, roster.address_of(place[i]), robot);
-            auto& holdings = plan_for(place[i]).hand_offs;  // `plan` may have moved
-            auto holding = std::find_if(holdings.begin(), holdings.end(),
-                                        [&](const Holding& h) { return h.source == address; });
-            if (holding == holdings.end()) holding = holdings.insert(holdings.end(), Holding{address, {}});
-            holding->robots.push_back(robot);
+            const std::uint32_t source_place = from[robot.index()];
+            if (source_place == place[i]) continue;
+            const Address source_address = roster.address_of(source_place);
+            robots_of(plan.hand_offs, &Holding::source, source_address).push_back(robot);
+            if (source_place < roster.size())
+                robots_of(plan_for(source_place).gives, &HandOver::to, roster.address_of(place[i]))
+                    .push_back(robot);
         }
-        Plan& plan = plan_for(place[i]);
         plan.island_offsets.push_back(static_cast<std::uint32_t>(plan.robots.size()));
     }
     hand_out_orders(in_part, roster.size());
@@ -96,7 +99,7 @@ void Round::send_dearest_first(std::span<const float> cost) {
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < sent_.size(); ++i) order.emplace_back(-work(sent_[i]), i);
     std::sort(order.begin(), order.end());
-    std::vector<Sent> sorted;
+    std::deque<Sent> sorted;
     for (const auto& [work_before, i] : order) sorted.push_back(std::move(sent_[i]));
     sent_ = std::move(sorted);
 }

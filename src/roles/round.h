@@ -3,6 +3,7 @@
 // nothing.
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <optional>
 #include <span>
@@ -67,7 +68,7 @@ class Round {
     std::vector<Order> orders_;
     std::uint32_t attempt_ = 0;
     bool planned_ = false;
-    std::vector<Sent> sent_;
+    std::deque<Sent> sent_;  // so that a plan stays where it is while others are added
     std::vector<std::uint32_t> seat_;
 };
 

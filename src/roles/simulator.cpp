@@ -125,12 +125,7 @@ void Simulator::attend(Bus& bus) {
 }
 
 void Simulator::give(Bus& bus, const Plan& plan) const {
-    for (const HandOver& hand_over : plan.gives) {
-        StateReply states;
-        states.states.tick = plan.from;
-        for (const RobotId robot : hand_over.robots) store_.copy_to(states.states, robot, plan.from);
-        if (!states.states.robots.empty()) bus.send(self_, hand_over.to, std::move(states));
-    }
+    for (const HandOver& hand_over : plan.gives) serve(bus, hand_over.to, {plan.from, hand_over.robots});
 }
 
 void Simulator::adopt(Bus& bus, Plan& plan) {

@@ -1,10 +1,10 @@
 // The stepping of a window: batches of islands, tick by tick, with their actual bounds.
 #include "roles/window_stepper.h"
 
-#include <ctime>
-
 #include <algorithm>
 #include <numeric>
+
+#include "core/thread_cpu.h"
 
 namespace roboss {
 
@@ -28,12 +28,6 @@ bool teleports(const Order& order) {
 }
 
 }  // namespace
-
-std::uint64_t thread_cpu_ns() {
-    timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return static_cast<std::uint64_t>(t.tv_sec) * 1'000'000'000u + static_cast<std::uint64_t>(t.tv_nsec);
-}
 
 struct WindowStepper::Job {
     const Plan& plan;

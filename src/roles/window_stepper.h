@@ -63,7 +63,4 @@ class WindowStepper {
     std::vector<Convoy> convoys_;                   // one a thread
 };
 
-/// CPU time of the calling thread.
-std::uint64_t thread_cpu_ns();
-
 }  // namespace roboss
