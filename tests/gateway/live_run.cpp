@@ -7,8 +7,8 @@
 
 #include "core/check.h"
 #include "core/hash.h"
+#include "core/thread_cpu.h"
 #include "model/edit.h"
-#include "roles/window_stepper.h"
 #include "scene/scene_file.h"
 
 namespace roboss::test {
