@@ -20,6 +20,7 @@ namespace rtps = eprosima::fastrtps::rtps;
 
 namespace {
 
+constexpr const char* kLoopback = "127.0.0.1";
 constexpr std::uint32_t kSocketBuffer = 4u << 20;
 constexpr std::uint32_t kLeaseByServer_ms = 10'000;
 constexpr std::uint32_t kSignsPerLease = 3;
@@ -55,6 +56,10 @@ std::shared_ptr<eprosima::fastdds::rtps::UDPv4TransportDescriptor> transport(con
                                                                              const std::string& address) {
     auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
     udp->interfaceWhiteList = {address};
+    // Fast DDS speaks to who is on the same computer by loopback, and so does a discovery server that knows
+    // nothing of our interface.
+    if (!options.discovery_server.empty() && address != kLoopback)
+        udp->interfaceWhiteList.emplace_back(kLoopback);
     const std::uint32_t possible = socket_buffer_max();
     udp->receiveBufferSize = possible > 0 ? std::min(kSocketBuffer, possible) : kSocketBuffer;
     udp->sendBufferSize = udp->receiveBufferSize;

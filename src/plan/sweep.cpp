@@ -52,19 +52,20 @@ void Sweep::fill(std::span<const OwnedBox> boxes, const Strips& strips) {
     for (std::uint32_t i = 0; i < boxes.size(); ++i)
         for (std::uint32_t s = strips.of(boxes[i].box.min[1]), last = strips.of(boxes[i].box.max[1]);
              s <= last; ++s)
-            entries_[next[s]++] = i;
+            entries_[next[s]++] = {boxes[i].box.min[0], i};
 }
 
-std::size_t Sweep::sweep(std::span<const OwnedBox> boxes, std::span<std::uint32_t> strip, UnionFind& sets) {
-    std::sort(strip.begin(), strip.end(), [&](std::uint32_t a, std::uint32_t b) {
-        const float xa = boxes[a].box.min[0], xb = boxes[b].box.min[0];
-        return xa != xb ? xa < xb : a < b;
+std::size_t Sweep::sweep(std::span<const OwnedBox> boxes, std::span<Entry> strip, UnionFind& sets) {
+    std::sort(strip.begin(), strip.end(), [](const Entry& a, const Entry& b) {
+        return a.left != b.left ? a.left < b.left : a.box < b.box;
     });
+    sorted_.clear();
+    for (const Entry& entry : strip) sorted_.push_back(boxes[entry.box]);
     std::size_t unions = 0;
-    for (std::size_t i = 0; i < strip.size(); ++i) {
-        const OwnedBox& a = boxes[strip[i]];
-        for (std::size_t j = i + 1; j < strip.size() && boxes[strip[j]].box.min[0] <= a.box.max[0]; ++j) {
-            const OwnedBox& b = boxes[strip[j]];
+    for (std::size_t i = 0; i < sorted_.size(); ++i) {
+        const OwnedBox& a = sorted_[i];
+        for (std::size_t j = i + 1; j < sorted_.size() && sorted_[j].box.min[0] <= a.box.max[0]; ++j) {
+            const OwnedBox& b = sorted_[j];
             if (a.owner != b.owner && overlaps(a.box, b.box) && sets.unite(a.owner, b.owner)) ++unions;
         }
     }

@@ -30,10 +30,16 @@ class Sweep {
     };
     static Strips cut(std::span<const OwnedBox> boxes);
     void fill(std::span<const OwnedBox> boxes, const Strips& strips);
-    static std::size_t sweep(std::span<const OwnedBox> boxes, std::span<std::uint32_t> strip,
-                             UnionFind& sets);
+    /// A box in a strip.
+    struct Entry {
+        float left = 0;
+        std::uint32_t box = 0;
+    };
+    std::size_t sweep(std::span<const OwnedBox> boxes, std::span<Entry> strip, UnionFind& sets);
 
-    std::vector<std::uint32_t> offsets_, entries_;  // strip -> numbers of its boxes
+    std::vector<std::uint32_t> offsets_;  // strip -> its entries_
+    std::vector<Entry> entries_;
+    std::vector<OwnedBox> sorted_;  // boxes of a strip, one behind the other
 };
 
 }  // namespace roboss

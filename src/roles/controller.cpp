@@ -56,7 +56,7 @@ void Controller::advance(Bus& bus) {
     if (round_ && round_->all_answered()) finish_round();
     if (!round_) serve_views(bus);
     if (!round_) at_boundary(bus);
-    if (round_) round_->send(bus, roster_, options_.resend_ms);
+    if (round_) send_plans(bus);
     acknowledge(bus);
     send_observations(bus, std::exchange(tell_again_, false));
     say_alive(bus);

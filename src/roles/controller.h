@@ -20,6 +20,7 @@
 #include "roles/client_desk.h"
 #include "roles/control_desk.h"
 #include "roles/order_book.h"
+#include "roles/order_feed.h"
 #include "roles/roster.h"
 #include "roles/round.h"
 #include "roles/view_desk.h"
@@ -35,8 +36,10 @@ struct ControllerOptions {
     std::vector<std::string> clients;  // and for these; their ids are their places here
     std::uint64_t seed = 1;            // told to Clients
     std::int64_t resend_ms = 100;
-    std::int64_t alive_ms = 250;      // a sign of life to everybody
-    std::int64_t loss_ms = 0;         // a Simulator silent for so long is given up; 0: never
+    std::size_t ahead_least =
+        500;                      // orders of the next window, for these to be told while this one is stepped
+    std::int64_t alive_ms = 250;  // a sign of life to everybody
+    std::int64_t loss_ms = 0;     // a Simulator silent for so long is given up; 0: never
     std::int64_t client_loss_ms = 0;  // so is a Client that does not answer an observation; 0: never
     std::int64_t client_gone_ms = 0;  // and one that the Bus says has vanished and that stays away; 0: never
     Tick checkpoint_ticks = 0;        // recovery checkpoints at most so far apart; 0: none by ticks
@@ -80,6 +83,7 @@ struct Counters {
     double step_cpu_s = 0;                            // all stepping, repeats included
     double critical_cpu_s = 0;  // of the busiest Simulator of each attempt: what many machines would wait for
     std::uint64_t losses = 0, recoveries = 0, migrations = 0, checkpoints = 0, orders_refused = 0;
+    std::uint64_t orders_ahead = 0;  // told before the plan of their window
     std::size_t simulators = 0, islands_now = 0;
 };
 
@@ -230,6 +234,7 @@ class Controller {
     bool may_plan() const;
     void plan_window();
     void keep_wanted(Round& round) const;
+    void send_plans(Bus& bus);
     void take_frame(const Frame& frame);
     void finish_round();
     bool merge_touching();
@@ -273,6 +278,7 @@ class Controller {
     Roster roster_;
     ClientDesk desk_;
     OrderBook book_;
+    OrderFeed feed_;
 
     Tick tick_ = 0, target_ = 0;
     Tick logged_until_ = 0;

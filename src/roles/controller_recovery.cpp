@@ -175,7 +175,7 @@ void Controller::begin_leg(Tick from) {
     Islands islands;
     collect_islands(base_.touched, recovering_, islands);
     const bool first = from == base_.tick;
-    Round round(RoundSpan{epoch_, ++window_, from, until, true}, book_.between(from, until), holder_.size());
+    Round round(RoundSpan{epoch_, ++window_, from, until, true}, holder_.size());
     std::vector<std::uint32_t> place;
     if (first) {
         const std::vector<std::uint32_t> workers = roster_.workers();
@@ -190,6 +190,7 @@ void Controller::begin_leg(Tick from) {
             place.push_back(source[islands.of(i).front().index()]);
     }
     round.plan(islands, place, source, roster_);
+    give_all(book_, round);
     if (!first) {
         std::vector<std::vector<RobotId>> robots(roster_.size());
         for (const RobotId robot : recovering_) robots[source[robot.index()]].push_back(robot);

@@ -65,12 +65,13 @@ bool Controller::may_plan() const {
 void Controller::plan_window() {
     const Tick length = std::min(length_.ticks(), views_.window_max().value_or(length_.ticks()));
     const Tick until = std::min({tick_ + length, target_, desk_.limit(tick_), next_log_tick()});
-    round_.emplace(RoundSpan{epoch_, ++window_, tick_, until, false}, book_.between(tick_, until),
-                   model_->robots.size());
-    forecast_.islands(motions_, round_->orders(), until - tick_, options_.forecast, round_->islands);
+    round_.emplace(RoundSpan{epoch_, ++window_, tick_, until, false}, model_->robots.size());
+    forecast_.islands(motions_, feed_.leaps(book_, tick_, until), until - tick_, options_.forecast,
+                      round_->islands);
     const std::vector<std::uint32_t> place =
         assign_to_seats(round_->islands, cost_, roster_, holder_, until - tick_);
     round_->plan(round_->islands, place, holder_, roster_);
+    feed_.give_rest(book_, *round_);
     round_->send_dearest_first(cost_);
     for (std::size_t r = 0; r < holder_.size(); ++r)
         if (holder_[r] != kAtController && holder_[r] != round_->seat_of(RobotId(r))) ++counters_.migrations;
@@ -87,6 +88,15 @@ void Controller::keep_wanted(Round& round) const {
             if (!robots[place].empty()) round.keep(place, std::move(robots[place]));
     }
     round.release_before(wants_.empty() ? round.span().from : wants_.front().tick);
+}
+
+/// While they are worked on there is time to tell the orders of the next window.
+void Controller::send_plans(Bus& bus) {
+    round_->send(bus, roster_, options_.resend_ms, [this](Plan& plan) { give_all(book_, plan); });
+    const RoundSpan& span = round_->span();
+    if (span.recovery || feed_.sent_in(span.window)) return;
+    counters_.orders_ahead +=
+        feed_.send_ahead(bus, book_, *round_, roster_, span.until + length_.ticks(), options_.ahead_least);
 }
 
 void Controller::take_frame(const Frame& frame) {
@@ -154,6 +164,7 @@ bool Controller::merge_touching() {
     const std::vector<std::uint32_t> place =
         assign_to_seats(again, cost_, roster_, round_->seats(), round_->span().until - round_->span().from);
     round_->plan(again, place, round_->seats(), roster_);
+    give_all(book_, *round_);
     return true;
 }
 

@@ -10,6 +10,7 @@ bool OrderBook::add(const Order& order, Tick said) {
     if (!order.client.valid() && !given_.insert({order.apply_at, order.client, order.sequence}).second)
         return false;
     fresh_.push_back({order, said});
+    if (late_from_ <= order.apply_at && order.apply_at < late_until_) late_.push_back(order);
     return true;
 }
 
@@ -24,15 +25,15 @@ void OrderBook::settle() {
     fresh_.clear();
 }
 
-std::vector<Order> OrderBook::between(Tick from, Tick until) {
-    settle();
-    const auto earlier = [](const SaidOrder& e, Tick tick) { return e.order.apply_at < tick; };
-    const auto first = std::lower_bound(begin(), entries_.end(), from, earlier);
-    const auto last = std::lower_bound(first, entries_.end(), until, earlier);
-    std::vector<Order> orders;
-    orders.reserve(static_cast<std::size_t>(last - first));
-    for (auto it = first; it != last; ++it) orders.push_back(it->order);
-    return orders;
+std::vector<SaidOrder>::iterator OrderBook::first_at(Tick tick) {
+    const auto earlier = [](const SaidOrder& e, Tick t) { return e.order.apply_at < t; };
+    return std::lower_bound(begin(), entries_.end(), tick, earlier);
+}
+
+void OrderBook::watch(Tick from, Tick until) {
+    late_from_ = from;
+    late_until_ = until;
+    late_.clear();
 }
 
 std::vector<SaidOrder> OrderBook::pending(Tick tick) {
@@ -45,9 +46,7 @@ std::vector<SaidOrder> OrderBook::pending(Tick tick) {
 
 void OrderBook::trim(Tick tick) {
     settle();
-    const auto earlier = [](const SaidOrder& e, Tick t) { return e.order.apply_at < t; };
-    first_ =
-        static_cast<std::size_t>(std::lower_bound(begin(), entries_.end(), tick, earlier) - entries_.begin());
+    first_ = static_cast<std::size_t>(first_at(tick) - entries_.begin());
     if (2 * first_ > entries_.size()) {  // so that each is moved but a few times
         entries_.erase(entries_.begin(), begin());
         first_ = 0;

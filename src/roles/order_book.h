@@ -16,8 +16,15 @@ class OrderBook {
     /// order without Client (from a file, say) may come twice. False: one with this (apply_at, client,
     /// sequence) is here already, and nothing changes.
     bool add(const Order& order, Tick said);
-    /// Those with from <= apply_at < until, canonical order.
-    std::vector<Order> between(Tick from, Tick until);
+    /// Calls visit(order) for those with from <= apply_at < until, canonical order.
+    template <class Visit>
+    void visit(Tick from, Tick until, Visit&& visit) {
+        settle();
+        for (auto e = first_at(from); e != entries_.end() && e->order.apply_at < until; ++e) visit(e->order);
+    }
+    /// From now on those that are added with from <= apply_at < until are also among late(), as they come.
+    void watch(Tick from, Tick until);
+    const std::vector<Order>& late() const { return late_; }
     /// What a run saved at `tick` must take along: orders still to come that do not answer an observation of
     /// `tick` or later (the restored run observes those ticks itself).
     std::vector<SaidOrder> pending(Tick tick);
@@ -27,6 +34,8 @@ class OrderBook {
 
   private:
     void settle();
+    /// The first with apply_at >= tick.
+    std::vector<SaidOrder>::iterator first_at(Tick tick);
     std::vector<SaidOrder>::iterator begin() {
         return entries_.begin() + static_cast<std::ptrdiff_t>(first_);
     }
@@ -34,6 +43,8 @@ class OrderBook {
     std::vector<SaidOrder> entries_;  // canonical order
     std::size_t first_ = 0;           // of them; those before are forgotten
     std::vector<SaidOrder> fresh_;    // not sorted in yet
+    Tick late_from_ = 0, late_until_ = 0;
+    std::vector<Order> late_;
     std::set<std::tuple<Tick, ClientId, std::uint64_t>> given_;
 };
 

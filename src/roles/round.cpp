@@ -24,8 +24,8 @@ std::vector<RobotId>& robots_of(std::vector<Entry>& entries, Address Entry::*who
 
 }  // namespace
 
-Round::Round(const RoundSpan& span, std::vector<Order> orders, std::size_t robots)
-    : outcome(robots), span_(span), orders_(std::move(orders)), seat_(robots, kLost) {}
+Round::Round(const RoundSpan& span, std::size_t robots)
+    : outcome(robots), span_(span), seat_(robots, kLost) {}
 
 Plan& Round::plan_for(std::uint32_t place) {
     const auto here =
@@ -49,13 +49,13 @@ void Round::plan(const Islands& part, std::span<const std::uint32_t> place,
     planned_ = true;
     std::vector<std::uint32_t> from(source.begin(),
                                     source.end());  // `source` may be seats(), which change below
-    std::vector<bool> in_part(seat_.size(), false);
+    in_attempt_.assign(seat_.size(), false);
     for (std::size_t i = 0; i < part.count(); ++i) {
         Plan& plan = plan_for(place[i]);
         for (const RobotId robot : part.of(i)) {
             plan.robots.push_back(robot);
             seat_[robot.index()] = place[i];
-            in_part[robot.index()] = true;
+            in_attempt_[robot.index()] = true;
             const std::uint32_t source_place = from[robot.index()];
             if (source_place == place[i]) continue;
             const Address source_address = roster.address_of(source_place);
@@ -66,20 +66,19 @@ void Round::plan(const Islands& part, std::span<const std::uint32_t> place,
         }
         plan.island_offsets.push_back(static_cast<std::uint32_t>(plan.robots.size()));
     }
-    hand_out_orders(in_part, roster.size());
+    plan_of_seat_.assign(roster.size(), nullptr);
+    for (Sent& sent : sent_) plan_of_seat_[sent.place] = &sent.plan;
 }
 
-void Round::hand_out_orders(const std::vector<bool>& in_part, std::size_t seats) {
-    std::vector<std::size_t> count(seats, 0);
-    for (const Order& order : orders_)
-        if (in_part[order.robot.index()]) ++count[seat_[order.robot.index()]];
-    std::vector<Plan*> plan_of(seats, nullptr);
+void Round::give(const Order& order) {
+    if (in_attempt_[order.robot.index()]) plan_of_seat_[seat_of(order.robot)]->orders.push_back(order);
+}
+
+void Round::give_ahead(std::uint64_t window, const std::vector<bool>& told) {
     for (Sent& sent : sent_) {
-        plan_of[sent.place] = &sent.plan;
-        sent.plan.orders.reserve(count[sent.place]);
+        std::sort(sent.plan.orders.begin(), sent.plan.orders.end(), comes_before);
+        if (sent.place < told.size() && told[sent.place]) sent.plan.ahead = window;
     }
-    for (const Order& order : orders_)
-        if (in_part[order.robot.index()]) plan_of[seat_[order.robot.index()]]->orders.push_back(order);
 }
 
 void Round::keep(std::uint32_t place, std::vector<RobotId> robots) {
@@ -104,12 +103,13 @@ void Round::send_dearest_first(std::span<const float> cost) {
     sent_ = std::move(sorted);
 }
 
-void Round::send(Bus& bus, const Roster& roster, std::int64_t resend_ms) {
+void Round::send(Bus& bus, const Roster& roster, std::int64_t resend_ms,
+                 const std::function<void(Plan&)>& complete) {
     const std::int64_t now = bus.now_ms();
     for (Sent& sent : sent_) {
         if (sent.sent_ms && now - *sent.sent_ms < (resend_ms << std::min(sent.times, kPatienceMost)))
             continue;
-        sent.times += sent.sent_ms ? 1 : 0;
+        if (sent.sent_ms) ++sent.times, complete(sent.plan);
         sent.sent_ms = now;
         bus.send(kControllerAddress, roster.address_of(sent.place), sent.plan);
     }

@@ -22,6 +22,12 @@ bool is_newer(const A& a, const B& b) {
     return std::tie(a.epoch, a.window, a.attempt) > std::tie(b.epoch, b.window, b.attempt);
 }
 
+bool good_orders(const Model& model, const std::vector<Order>& orders) {
+    return std::is_sorted(orders.begin(), orders.end(), comes_before) &&
+           std::all_of(orders.begin(), orders.end(),
+                       [&](const Order& o) { return check_order(model, o).ok(); });
+}
+
 /// Whether the plan makes sense for this Model: robots that exist, none twice, ascending in their islands;
 /// good orders.
 bool plausible(const Model& model, const Plan& plan) {
@@ -35,9 +41,7 @@ bool plausible(const Model& model, const Plan& plan) {
             seen[robot.index()] = true;
         }
     return std::all_of(plan.keep.begin(), plan.keep.end(), [&](RobotId r) { return r.index() < n; }) &&
-           std::is_sorted(plan.orders.begin(), plan.orders.end(), comes_before) &&
-           std::all_of(plan.orders.begin(), plan.orders.end(),
-                       [&](const Order& o) { return check_order(model, o).ok(); });
+           good_orders(model, plan.orders);
 }
 
 }  // namespace
@@ -66,6 +70,8 @@ void Simulator::advance(Bus& bus) {
 void Simulator::handle(Bus& bus, Envelope& envelope) {
     if (auto* plan = std::get_if<Plan>(&envelope.message)) {
         take_plan(bus, *plan);
+    } else if (auto* ahead = std::get_if<OrdersAhead>(&envelope.message)) {
+        take_ahead(bus, *ahead);
     } else if (const auto* request = std::get_if<StateRequest>(&envelope.message)) {
         serve(bus, envelope.from, *request);
     } else if (const auto* due = std::get_if<ViewDue>(&envelope.message)) {
@@ -97,7 +103,33 @@ void Simulator::take_plan(Bus& bus, Plan& plan) {
     if (plan.simulator != id_) return;
     if (answer_ && same_attempt(plan, *answer_)) return bus.send(self_, kControllerAddress, *answer_);
     if ((answer_ && !is_newer(plan, *answer_)) || (plan_ && !is_newer(plan, *plan_))) return;
-    if (plausible(*model_, plan)) adopt(bus, plan);
+    if (unfed_ && is_newer(*unfed_, plan)) return;
+    unfed_.reset();
+    if (!plausible(*model_, plan)) return;
+    if (plan.ahead != 0) {
+        if (!ahead_ || ahead_->window != plan.ahead) return void(unfed_ = std::move(plan));
+        add_ahead(plan);
+    }
+    adopt(bus, plan);
+}
+
+void Simulator::take_ahead(Bus& bus, OrdersAhead& ahead) {
+    if (ahead.simulator != id_ || (ahead_ && ahead.window <= ahead_->window)) return;
+    if (!good_orders(*model_, ahead.orders)) return;
+    ahead_ = std::move(ahead);
+    if (std::optional<Plan> plan = std::exchange(unfed_, std::nullopt)) take_plan(bus, *plan);
+}
+
+/// Robots that are no longer here, and ticks after the window, do not matter.
+void Simulator::add_ahead(Plan& plan) const {
+    const auto earlier = [](const Order& order, Tick tick) { return order.apply_at < tick; };
+    const auto first = std::lower_bound(ahead_->orders.begin(), ahead_->orders.end(), plan.from, earlier);
+    const auto last = std::lower_bound(first, ahead_->orders.end(), plan.until, earlier);
+    std::vector<Order> all;
+    all.reserve(plan.orders.size() + static_cast<std::size_t>(last - first));
+    std::merge(first, last, plan.orders.begin(), plan.orders.end(), std::back_inserter(all), comes_before);
+    plan.orders = std::move(all);
+    plan.ahead = 0;
 }
 
 void Simulator::take_states(StateReply& reply) {
@@ -182,6 +214,8 @@ void Simulator::say_alive(Bus& bus) {
 void Simulator::start_over() {
     id_ = SimulatorId{};
     plan_.reset();
+    unfed_.reset();
+    ahead_.reset();
     answer_.reset();
     pull_.cancel();
     early_.clear();

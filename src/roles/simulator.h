@@ -52,6 +52,8 @@ class Simulator {
     void take_plan(Bus& bus, Plan& plan);
     void adopt(Bus& bus, Plan& plan);
     void give(Bus& bus, const Plan& plan) const;
+    void take_ahead(Bus& bus, OrdersAhead& ahead);
+    void add_ahead(Plan& plan) const;
     void take_states(StateReply& reply);
     void attend(Bus& bus);
     void serve(Bus& bus, const Address& from, const StateRequest& request) const;
@@ -70,7 +72,9 @@ class Simulator {
     std::int64_t asked_ms_ = kLongAgo, alive_ms_ = kLongAgo;
 
     StateStore store_;
-    std::optional<Plan> plan_;       // being worked on
+    std::optional<Plan> plan_;   // being worked on
+    std::optional<Plan> unfed_;  // waits for the orders that were told ahead of it
+    std::optional<OrdersAhead> ahead_;
     StatePull pull_;                 // of its hand-offs
     std::vector<StateReply> early_;  // that came before the plan that speaks of them
     std::vector<Envelope> later_;    // came while it was stepping

@@ -52,9 +52,10 @@ template <class A> void field(A& a, Of<A, Alive>& m) { fields(a, m.simulator); }
 template <class A> void field(A& a, Of<A, LeaveRequest>& m) { fields(a, m.simulator); }
 template <class A> void field(A& a, Of<A, Goodbye>& m) { fields(a, m.simulator); }
 template <class A> void field(A& a, Of<A, Plan>& m) {
-    fields(a, m.epoch, m.window, m.attempt, m.simulator, m.from, m.until, m.island_offsets, m.robots, m.hand_offs, m.gives, m.orders, m.keep,
-           m.release_before);
+    fields(a, m.epoch, m.window, m.attempt, m.simulator, m.from, m.until, m.island_offsets, m.robots, m.hand_offs, m.gives, m.orders, m.ahead,
+           m.keep, m.release_before);
 }
+template <class A> void field(A& a, Of<A, OrdersAhead>& m) { fields(a, m.window, m.simulator, m.orders); }
 template <class A> void field(A& a, Of<A, RobotFrame>& m) { fields(a, m.robot, m.swept, m.place, m.velocity, m.hash); }
 template <class A> void field(A& a, Of<A, EarlierBox>& m) { fields(a, m.robot, m.swept); }
 template <class A> void field(A& a, Of<A, IslandFrame>& m) {
@@ -207,7 +208,7 @@ const char* message_name(const Message& message) {
         "Goodbye",       "Plan",        "Frame",         "StateRequest",   "StateReply",   "ClientHello",
         "ClientWelcome", "Observation", "ClientWord",    "WordAck",        "ClientBye",    "RunOver",
         "ModelRequest",  "ModelPart",   "ClientUnknown", "ControlRequest", "ControlReply", "ModelChanged",
-        "ViewRequest",   "ViewDue",     "ViewStates"};
+        "ViewRequest",   "ViewDue",     "ViewStates",    "OrdersAhead"};
     static_assert(std::size(kNames) == std::variant_size_v<Message>);
     return kNames[message.index()];
 }

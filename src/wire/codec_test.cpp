@@ -30,6 +30,7 @@ std::vector<Message> one_of_each() {
               {{{Role::kSimulator, 5}, {kOther}}},
               {{{Role::kSimulator, 6}, {kRobot}}},
               some_orders(),
+              16,
               {kRobot},
               8};
     Frame frame{2,
@@ -68,7 +69,8 @@ std::vector<Message> one_of_each() {
             ModelChanged{99},
             ViewRequest{5, 33, 100, false, {kRobot}},
             ViewDue{2, 77, 1000, {Role::kClient, 4}, {kRobot, kOther}, {kOther}},
-            ViewStates{5, 2, 77, 1000, {1, 2, 3, 4}}};
+            ViewStates{5, 2, 77, 1000, {1, 2, 3, 4}},
+            OrdersAhead{16, SimulatorId(3u), some_orders()}};
 }
 
 Envelope envelope_of(Message message) {

@@ -99,10 +99,19 @@ struct Plan {
         hand_offs;  // robots whose states at `from` come from elsewhere; the others are here already
     std::vector<HandOver>
         gives;                  // robots that others get: their states at `from` are sent before any stepping
-    std::vector<Order> orders;  // for these robots, from <= apply_at < until, canonical order
+    std::vector<Order> orders;  // for these robots, from <= apply_at < until, canonical order; besides:
+    std::uint64_t ahead = 0;    // those of the OrdersAhead of this window; 0: none
     std::vector<RobotId> keep;  // robots of this Simulator whose states at `from` somebody still wants
     Tick release_before = 0;    // states kept for earlier ticks may go
     friend bool operator==(const Plan&, const Plan&);
+};
+
+/// Controller -> Simulator while it steps a window: orders for the ticks after it, of the robots that it has
+/// there. The next plan says only what else there is, or all, if this gets lost.
+struct OrdersAhead {
+    std::uint64_t window = 0;  // that is being stepped
+    SimulatorId simulator;
+    std::vector<Order> orders;  // canonical order
 };
 
 /// Interaction bounds from before a teleport within the window.
@@ -265,10 +274,11 @@ struct ModelChanged {
     std::uint64_t model_hash = 0;
 };
 
-using Message = std::variant<Hello, Welcome, Refused, Expelled, Alive, LeaveRequest, Goodbye, Plan, Frame,
-                             StateRequest, StateReply, ClientHello, ClientWelcome, Observation, ClientWord,
-                             WordAck, ClientBye, RunOver, ModelRequest, ModelPart, ClientUnknown,
-                             ControlRequest, ControlReply, ModelChanged, ViewRequest, ViewDue, ViewStates>;
+using Message =
+    std::variant<Hello, Welcome, Refused, Expelled, Alive, LeaveRequest, Goodbye, Plan, Frame, StateRequest,
+                 StateReply, ClientHello, ClientWelcome, Observation, ClientWord, WordAck, ClientBye, RunOver,
+                 ModelRequest, ModelPart, ClientUnknown, ControlRequest, ControlReply, ModelChanged,
+                 ViewRequest, ViewDue, ViewStates, OrdersAhead>;
 
 struct Envelope {
     Address from, to;

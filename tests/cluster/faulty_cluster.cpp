@@ -10,6 +10,7 @@ FaultyCluster::FaultyCluster(std::shared_ptr<const Model> model, ControllerOptio
     : model_(std::move(model)), options_(std::move(options)), trouble_(trouble), bus_(faults) {
     options_.simulators = simulators;
     options_.resend_ms = 20;
+    options_.ahead_least = 1;
     options_.loss_ms = 250;
     for (std::size_t i = 0; i < simulators; ++i) add_simulator();
 }

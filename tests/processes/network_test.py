@@ -1,6 +1,7 @@
 """A run over hosts of their own (network namespaces) and a network that loses one packet in a hundred and takes five
 milliseconds: the same state hash as in one process, with multicast and with named peers; `roboss cluster` starts, shows and
-ends such a run; and members of one host find each other by a discovery server."""
+ends such a run; and members find each other by a discovery server, on one host and over several."""
+import contextlib
 import json
 import os
 import shutil
@@ -22,6 +23,22 @@ class HostMember(Member):
     def __init__(self, hosts, host, *arguments):
         self.log = tempfile.TemporaryFile(mode="w+", dir=FOLDER)
         self.process = subprocess.Popen([*hosts.inside(host), ROBOSS, *map(str, arguments)], stdout=self.log, stderr=subprocess.STDOUT)
+
+
+NO_SERVER = None if shutil.which("fast-discovery-server") else "there is no fast-discovery-server (fastdds-tools)"
+
+
+@contextlib.contextmanager
+def discovery_server(address, port, before=()):
+    """A server at this address; `before`: what comes before its command."""
+    command = [*before, "fast-discovery-server", "-i", "0", "-l", address, "-p", str(port)]
+    server = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    time.sleep(0.5)
+    try:
+        yield ["--discovery-server", f"{address}:{port}"]
+    finally:
+        server.kill()
+        server.wait()
 
 
 @unittest.skipIf(bad_cable.missing(), bad_cable.missing())
@@ -57,6 +74,13 @@ class Network(unittest.TestCase):
                 peers = [word for i in range(3) for word in ("--peer", hosts.address(i))]
                 self.assertEqual(self.city(lambda _: ["--no-multicast", *peers], hosts)["state_hash"], expected)
             self.assertGreater(hosts.lost, 20, "the network lost nothing")
+
+    @unittest.skipIf(NO_SERVER, NO_SERVER)
+    def test_a_discovery_server_brings_hosts_together(self):
+        expected = embedded(*CITY, "--client", DRIVER)["state_hash"]
+        with bad_cable.Hosts(3) as hosts:  # the Controller is on the server's own host
+            with discovery_server(hosts.address(0), 11811, hosts.inside(0)) as finding:
+                self.assertEqual(self.city(lambda _: finding, hosts)["state_hash"], expected)
 
     def test_a_simulator_cut_off_by_its_host_is_done_without(self):
         expected = embedded(*HEAP)["state_hash"]
@@ -124,23 +148,19 @@ threads = 2
             self.assertIn("nothing was started by", self.cluster(["down"], file, 1))
 
 
-@unittest.skipUnless(shutil.which("fast-discovery-server"), "there is no fast-discovery-server (fastdds-tools)")
+@unittest.skipIf(NO_SERVER, NO_SERVER)
 class DiscoveryServer(unittest.TestCase):
-    def test_members_find_each_other_by_it(self):
-        port = 20_000 + os.getpid() % 10_000
-        server = subprocess.Popen(["fast-discovery-server", "-i", "0", "-l", "127.0.0.1", "-p", str(port)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    def test_members_of_one_host_find_each_other_by_it(self):
         summary = FOLDER / "server.json"
-        place = ["--simulation", f"server-{os.getpid()}", "--discovery-server", f"127.0.0.1:{port}"]
-        time.sleep(0.5)
-        members = [Member("controller", *HEAP, "--simulators", 2, "--json", summary, *place), Member("simulator", *place), Member("simulator", *place)]
-        try:
-            self.assertEqual(members[0].end(60), 0, members[0].said())
-            self.assertEqual(json.loads(summary.read_text())["state_hash"], embedded(*HEAP)["state_hash"])
-        finally:
-            for member in members:
-                member.kill()
-            server.kill()
-            server.wait()
+        with discovery_server("127.0.0.1", 20_000 + os.getpid() % 10_000) as finding:
+            place = ["--simulation", f"server-{os.getpid()}", *finding]
+            members = [Member("controller", *HEAP, "--simulators", 2, "--json", summary, *place), Member("simulator", *place), Member("simulator", *place)]
+            try:
+                self.assertEqual(members[0].end(60), 0, members[0].said())
+                self.assertEqual(json.loads(summary.read_text())["state_hash"], embedded(*HEAP)["state_hash"])
+            finally:
+                for member in members:
+                    member.kill()
 
 
 class ClusterFile(unittest.TestCase):
