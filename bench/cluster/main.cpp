@@ -71,7 +71,8 @@ void measure_cities(const Wishes& w, Json& rows) {
         const Work work = record("city", city_file(cars), w.driver, kSettle,
                                  kSettle + static_cast<Tick>(seconds / kDt_s), w.settings.lanes);
         tell_work(work);
-        for (const std::size_t n : simulators_for(cars, w)) rows.push_back(tell(measure(work, n, w.settings)));
+        for (const std::size_t n : simulators_for(cars, w))
+            rows.push_back(tell(measure(work, n, w.settings)));
         if (cars != w.cars.front()) continue;
         const Work together = as_one_island(work, w.settings.lanes);
         for (const std::size_t n : {w.simulators.front(), w.simulators.back()})

@@ -108,7 +108,7 @@ Result<> RunJournal::open_journal(const Model& model) {
 Result<SavedRun> RunJournal::last_run(const Journal& journal, const Branch& branch, const Model& model) {
     const std::vector<CheckpointPlace> places = journal.checkpoints(branch);
     for (std::size_t i = places.size(); i-- > 0;) {
-        Result<SavedRun> run = journal.run_from(branch, places[i], model, branch.end);
+        Result<SavedRun> run = journal.resume_from(branch, places[i], model);
         if (!run || i == 0) return run;
         const auto silent = [&](const std::string& name) {
             return run.value().answered[name] < 0 &&

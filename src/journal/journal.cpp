@@ -285,9 +285,19 @@ Result<SavedRun> Journal::run_at(const Branch& branch, const Model& model, Tick 
 
 Result<SavedRun> Journal::run_from(const Branch& branch, const CheckpointPlace& place, const Model& model,
                                    Tick until) const {
+    return run_with(branch, place, model, until, until);
+}
+
+Result<SavedRun> Journal::resume_from(const Branch& branch, const CheckpointPlace& place,
+                                      const Model& model) const {
+    return run_with(branch, place, model, branch.end, std::numeric_limits<Tick>::max());
+}
+
+Result<SavedRun> Journal::run_with(const Branch& branch, const CheckpointPlace& place, const Model& model,
+                                   Tick until, Tick said_until) const {
     Result<StoredCheckpoint> stored = checkpoint(place, model);
     if (!stored) return stored.error();
-    Result<LogBatch> entries = log(branch, place.tick, until);
+    Result<LogBatch> entries = log(branch, place.tick, said_until);
     if (!entries) return entries.error();
     SavedRun run;
     run.world_file = branch.world_file;

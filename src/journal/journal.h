@@ -68,6 +68,11 @@ class Journal {
     /// run_at() from a given checkpoint.
     Result<SavedRun> run_from(const Branch& branch, const CheckpointPlace& place, const Model& model,
                               Tick until) const;
+    /// To go on with the branch from a checkpoint, after a crash: besides the log up to its end, what Clients
+    /// said after that. Their words were acknowledged, so they do not say them again, and the ticks that they
+    /// have seen come again as they were.
+    Result<SavedRun> resume_from(const Branch& branch, const CheckpointPlace& place,
+                                 const Model& model) const;
 
     /// The last number of its log, and the hash that ties the next entry to it; for the writer.
     struct Tail {
@@ -79,6 +84,8 @@ class Journal {
     Result<> inspect() const;
 
   private:
+    Result<SavedRun> run_with(const Branch& branch, const CheckpointPlace& place, const Model& model,
+                              Tick until, Tick said_until) const;
     Error damaged(const std::string& what) const;
     Result<> read_meta();
     Result<> read_branches();

@@ -95,6 +95,32 @@ TEST_F(Journals, GiveBackWhatWasSaid) {
     EXPECT_NE(late.error().message.find("0 to 40"), std::string::npos) << late.error().message;
 }
 
+/// A Controller commits, tells its Clients, takes a word, and is killed before the log has the commit.
+TEST_F(Journals, KeepWhatWasSaidAfterTheirEndForWhoGoesOn) {
+    {
+        auto writer = open();
+        begin(*writer);
+        writer->joined(ClientId(0u), "driver");
+        writer->committed(20, 77);
+        writer->order(order(35, 1), 25);
+        writer->word(ClientId(0u), 25);
+        ASSERT_TRUE(writer->close().ok());
+    }
+    const Result<Journal> journal = Journal::open(file(), true);
+    ASSERT_TRUE(journal.ok()) << journal.error().text();
+    const Branch branch = journal.value().branch().value();
+    ASSERT_EQ(branch.end, 20);
+    const CheckpointPlace first = journal.value().checkpoints(branch).front();
+    const Result<SavedRun> goes_on = journal.value().resume_from(branch, first, *model_);
+    ASSERT_TRUE(goes_on.ok()) << goes_on.error().text();
+    EXPECT_EQ(goes_on.value().logged_until, 20);
+    EXPECT_EQ(goes_on.value().orders.size(), 1u);
+    EXPECT_EQ(goes_on.value().answered.at("driver"), 25);
+    const Result<SavedRun> leaves = journal.value().run_at(branch, *model_, 20);
+    ASSERT_TRUE(leaves.ok()) << leaves.error().text();
+    EXPECT_TRUE(leaves.value().orders.empty()) << "a branch of its own has Clients of its own";
+}
+
 TEST_F(Journals, AreContinuedAndBranch) {
     {
         auto writer = open();

@@ -22,7 +22,7 @@ struct SavedRun {
     /// The run goes by `orders` alone up to here, and Clients' words that are in them already are not asked
     /// again. Equal to `tick`: nothing of the kind.
     Tick logged_until = 0;
-    /// The last observation before logged_until that each Client has answered, by its name.
+    /// The last observation that each Client has answered in them, by its name.
     std::map<std::string, Tick> answered;
     std::vector<std::string> clients;  // names by ClientId, as far as they are known
     std::vector<std::string> left;     // of these, who took leave

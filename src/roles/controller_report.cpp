@@ -23,6 +23,10 @@ std::vector<MemberReport> Controller::members() const {
     for (std::size_t i = 0; i < islands_.count(); ++i)
         if (const std::uint32_t place = holder_[islands_.of(i).front().index()]; place < members.size())
             ++members[place].islands;
+    // seats of the run before a rewind say nothing
+    std::erase_if(members, [this](const MemberReport& member) {
+        return roster_.seat(member.id.value).address.role != Role::kSimulator;
+    });
     return members;
 }
 
