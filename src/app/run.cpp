@@ -42,7 +42,7 @@ int Run::go() {
 bool Run::prepare() {
     if (!o_.replay.empty()) return prepare_replay();
     Diagnostics diagnostics;
-    std::optional<World> world = load_world(o_.world, {o_.paths, o_.profile}, diagnostics);
+    std::optional<World> world = load_world(o_.world, {o_.paths, o_.profile, is_shown()}, diagnostics);
     if (world && !diagnostics.has_errors()) model_ = compile(*world, compile_options(), diagnostics);
     if (world) world_speed_ = world->real_time_factor;
     if (model_ && !o_.orders.empty()) orders_ = load_orders(o_.orders, *model_, diagnostics);

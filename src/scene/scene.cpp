@@ -47,6 +47,7 @@ class SceneMaker {
         if (world_ != nullptr) add_world_statics();
         add_other_statics();
         scene_.meshes = shapes_.take_meshes();
+        scene_.textures = shapes_.take_textures();
         return std::move(scene_);
     }
 
@@ -95,9 +96,11 @@ class SceneMaker {
                 link.visuals = link.collisions;
                 continue;
             }
-            for (const VisualSpec& visual :
-                 link_of(world_->prototypes[prototype], type.links[l].name)->visuals)
+            const LinkSpec& spec = *link_of(world_->prototypes[prototype], type.links[l].name);
+            for (const VisualSpec& visual : spec.visuals)
                 add_visual(visual, Pose{}, visual.name, link.visuals);
+            const bool unreadable = link.visuals.empty() && !spec.visuals.empty();
+            if (unreadable) link.visuals = link.collisions;
         }
         scene_.types.push_back(std::move(result));
     }
@@ -110,6 +113,7 @@ class SceneMaker {
         shape->frame = X_FL * visual.X_LV;
         shape->rgb = visual.rgb;
         shape->alpha = visual.alpha;
+        shape->finish = shapes_.finish_of(visual.finish);
         shapes.push_back(std::move(*shape));
     }
 

@@ -142,6 +142,19 @@ class Viewer(unittest.TestCase):
             summary = cluster.summary(controller)
         self.assertEqual(summary["state_hash"], embedded(WORLDS / "city.sdf", "--until", 4, "--headless")["state_hash"])
 
+    def test_pictures_of_a_world_reach_a_viewer_beside_the_cluster(self):
+        with Cluster() as cluster:
+            cluster.controller(WORLDS / "yard.sdf", "--simulators", 1, "--speed", 1, "--headless")
+            viewer = cluster.start("view", "--view", 0, "--patience", 30)
+            cluster.simulator()
+            url = url_of(viewer)
+            with Browser(url) as page:
+                page.hears(lambda _: page.states > 0)
+                scene = json.loads(get(url, "/scene"))
+                ground = next(visual for visual in scene["statics"] if visual["shape"] == "plane")
+                picture = get(url, "/texture/" + ground["finish"]["colour"])
+                self.assertEqual(picture, (WORLDS / "models/yard/paving.png").read_bytes())
+
     def test_a_run_that_a_page_gave_orders_is_resumed_without_the_page(self):
         journal = FOLDER / "viewed.journal"
         with Cluster() as cluster:

@@ -4,8 +4,17 @@ import { type ChildProcess, spawn } from "node:child_process";
 import { existsSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { type Browser, chromium, type Page } from "playwright-core";
+import type { Hooks } from "../src/main";
+
+declare global {
+    interface Window {
+        roboss: Hooks;
+    }
+}
 
 const TESTS = join(dirname(fileURLToPath(import.meta.url)), "..");
 const WEB = process.env.ROBOSS_WEB ?? join(TESTS, "../dist");
@@ -14,6 +23,7 @@ const CHROMIUM =
     process.env.CHROMIUM ??
     ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find((path) => existsSync(path));
 export const WAIT_MS = 60_000;
+const LIMIT = { timeout: 2 * WAIT_MS };
 
 export interface Run {
     url: string;
@@ -27,10 +37,19 @@ function ended(child: ChildProcess): Promise<void> {
     );
 }
 
+export interface RunOptions {
+    cars?: number;
+    port?: number;
+    /** Of the program: a file beside the world that ROBOSS_WORLD names. */
+    world?: string;
+}
+
 /** Starts a run and waits until it says where its page is. */
-export async function startRun(options: { cars?: number; port?: number } = {}): Promise<Run> {
+export async function startRun(options: RunOptions = {}): Promise<Run> {
     const folder = mkdtempSync(join(tmpdir(), "roboss-page-")),
         port = String(options.port ?? 0);
+    const city = process.env.ROBOSS_WORLD ?? "worlds/city.sdf",
+        world = options.world === undefined ? city : join(dirname(city), options.world);
     const child =
         PROGRAM === ""
             ? spawn(process.execPath, [
@@ -48,7 +67,7 @@ export async function startRun(options: { cars?: number; port?: number } = {}): 
                   PROGRAM,
                   [
                       "run",
-                      process.env.ROBOSS_WORLD ?? "worlds/city.sdf",
+                      world,
                       "--processes",
                       "3",
                       "--journal",
@@ -128,14 +147,7 @@ export interface Seen {
 
 export function seen(page: Page, robot: number): Promise<Seen> {
     return page.evaluate((r) => {
-        const { state, stage } = (
-            window as unknown as {
-                roboss: {
-                    state: import("../src/model/viewer_state").ViewerState;
-                    stage: import("../src/view/stage").Stage;
-                };
-            }
-        ).roboss;
+        const { state, stage } = window.roboss;
         const base = state.world.value?.history.drawn.base ?? new Float32Array(7),
             at = r * 7,
             box = stage.canvas.getBoundingClientRect();
@@ -163,11 +175,7 @@ export async function until(what: string, ask: () => Promise<boolean>, wait_ms =
 }
 
 export async function time(page: Page): Promise<number> {
-    return page.evaluate(
-        () =>
-            (window as unknown as { roboss: { state: { status: { value: { time_s: number } | null } } } }).roboss.state
-                .status.value?.time_s ?? -1,
-    );
+    return page.evaluate(() => window.roboss.state.status.value?.time_s ?? -1);
 }
 
 /** Selects a robot by its name, through the list. */
@@ -175,4 +183,39 @@ export async function choose(page: Page, name: string): Promise<void> {
     await page.getByLabel("Find a robot").fill(name);
     await page.locator(".row.robot", { hasText: new RegExp(`^${name}$`) }).click();
     await page.getByLabel("Find a robot").fill("");
+}
+
+/** A run with a browser that shows its page, for all tests of a file. */
+export class Bench {
+    browser!: Browser;
+    run!: Run;
+    page!: Page;
+    errors: string[] = [];
+
+    constructor(
+        private readonly options: RunOptions & { query?: string } = {},
+        private readonly skip: string | false = false,
+    ) {
+        if (skip !== false) return;
+        before(() => this.open(), LIMIT);
+        after(async () => {
+            await this.browser?.close();
+            await this.run?.stop();
+        });
+    }
+
+    /** `skip`: why it is left out here. */
+    test(name: string, work: (page: Page) => Promise<unknown>, skip: string | false = this.skip): void {
+        test(name, { ...LIMIT, skip }, () => work(this.page));
+    }
+
+    endsWithCleanConsole(): void {
+        this.test("all this time the console stayed clean", async () => assert.deepEqual(this.errors, []));
+    }
+
+    private async open(): Promise<void> {
+        this.browser = await startBrowser();
+        this.run = await startRun(this.options);
+        ({ page: this.page, errors: this.errors } = await openPage(this.browser, this.run, this.options.query));
+    }
 }

@@ -4,6 +4,16 @@
 export type PoseArray = [number, number, number, number, number, number, number];
 export type Triple = [number, number, number];
 
+/** What lies over a colour: pictures by their hash, and numbers from 0 to 1. */
+export interface Finish {
+    colour?: string;
+    normal?: string;
+    roughness_map?: string;
+    metalness_map?: string;
+    roughness?: number;
+    metalness?: number;
+}
+
 export interface Visual {
     name: string;
     shape: "box" | "sphere" | "cylinder" | "capsule" | "ellipsoid" | "plane" | "mesh";
@@ -15,6 +25,7 @@ export interface Visual {
     length?: number;
     radii?: Triple;
     mesh?: number;
+    finish?: Finish;
 }
 
 export type JointKind = "free" | "revolute" | "prismatic" | "ball" | "screw";
