@@ -8,6 +8,7 @@
 
 #include "app/company.h"
 #include "app/contacts_file.h"
+#include "app/looks.h"
 #include "app/path_picture.h"
 #include "app/progress.h"
 #include "app/run_journal.h"
@@ -90,9 +91,9 @@ class Run {
     const RunOptions& o_;
     Progress progress_;
     std::shared_ptr<const Model> model_;
-    std::shared_ptr<const World> world_;  // for the viewer; none: of a replay
-    std::unique_ptr<Gateway> gateway_;    // none: headless
-    std::vector<Order> orders_;           // of the orders file
+    Looks looks_;                       // for the viewer; none: of a replay
+    std::unique_ptr<Gateway> gateway_;  // none: headless
+    std::vector<Order> orders_;         // of the orders file
     std::unique_ptr<RunJournal> journal_;
     std::unique_ptr<Company> company_;
     std::unique_ptr<Simulation> simulation_;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -65,8 +66,10 @@ struct Scene {
     std::vector<SceneTexture> textures;
 };
 
-/// `world`: nullptr if there is none. It need not be the very world that the Model was compiled from: robots
-/// that were added or taken away since are found by name.
+/// The worlds need not be the very ones that the Model was compiled from: robots are found in them by name,
+/// in the last first. None: only collision shapes are drawn.
+Scene make_scene(const Model& model, std::span<const World* const> worlds);
+/// nullptr: none.
 Scene make_scene(const Model& model, const World* world);
 
 }  // namespace roboss
