@@ -106,6 +106,25 @@ TEST_F(InspectorTest, TellsOfARobotWhatAClientReads) {
     EXPECT_NEAR(robot["sensors"][3]["distance"], 0.025, 1e-12);
 }
 
+TEST_F(InspectorTest, SensorsWithARateAreReadNoOftenerAndShowWhatTheyHold) {
+    auto slow = std::make_shared<Model>(*model);
+    slow->types[0].sensors[1].spec.update_rate_hz = 1 / (10 * model->dt_s);  // the GPS: each tenth tick
+    scene = std::make_shared<const ShownScene>(ShownScene{10, slow, scene->file, ViewLayout(*slow)});
+    inspector.begin(scene);
+    const auto look = [&](Tick tick) {
+        states[0].q[4] = static_cast<double>(tick);  // x
+        inspector.take(block({0, 1}, tick));
+        return Json::parse(inspector.robot(RobotId(0u)))["sensors"];
+    };
+    const Json first = look(40), held = look(49), next = look(53), back = look(41);
+    EXPECT_EQ(held[1], first[1]);
+    EXPECT_NEAR(first[1]["taken"], 40 * model->dt_s, 1e-12);
+    EXPECT_NE(held[2]["taken"], first[2]["taken"]) << "the compass has no rate";
+    EXPECT_NEAR(next[1]["taken"], 53 * model->dt_s, 1e-12);
+    EXPECT_NE(next[1]["world"], first[1]["world"]);
+    EXPECT_NEAR(back[1]["taken"], 41 * model->dt_s, 1e-12) << "a rewind";
+}
+
 TEST_F(InspectorTest, NumbersThatAreNotFiniteAreNull) {
     states[1].v[3] = std::numeric_limits<double>::quiet_NaN();
     inspector.take(block({0, 1}, 40));

@@ -97,7 +97,7 @@ const selection = new SelectionMark(stage, state, labels),
     colouring = new Colouring(stage, state);
 const sensors = new RobotOverlays(stage, state),
     told = new RunOverlays(stage, state),
-    tracks = new Tracks(stage, state);
+    tracks = new Tracks(stage, state, labels);
 stage.overlays.add(mark.group);
 const loop = new FrameLoop({
     stage,

@@ -161,6 +161,12 @@ export interface SensorReport {
     ranges?: (number | null)[];
     position?: number[];
     velocity?: number[];
+    /** GPS: where it says that it is, in the world. */
+    world?: number[];
+    /** Compass: the sensor's frame in the world, w x y z. */
+    orientation?: number[];
+    /** When it was measured, s. */
+    taken?: number;
     [field: string]: unknown;
 }
 
