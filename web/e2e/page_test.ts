@@ -1,7 +1,7 @@
 // The page in a browser, with a run behind it: the picture, time, choosing robots and ordering them about by hand.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
-import { Bench, choose, seen, time, until } from "./bench";
+import { Bench, choose, drag, seen, time, until } from "./bench";
 
 const bench = new Bench();
 const paused = (page: Page) => page.getByLabel("Play", { exact: true }).isVisible();
@@ -78,17 +78,7 @@ bench.test("a robot is dragged over the ground, and is where it was dropped", as
     await choose(page, "car_3");
     // Whoever drives it lets go.
     await page.getByLabel("Motor mode of front_left").selectOption("passive");
-    await page.getByRole("button", { name: "Follow", exact: true }).last().click();
-    await page.waitForTimeout(1500);
-    await page.getByRole("button", { name: "Orbit" }).click();
-    await page.getByLabel("Move a robot").click();
-    const from = await seen(page, 3);
-    await page.mouse.move(from.left, from.top);
-    await page.mouse.down();
-    await page.mouse.move(from.left + 60, from.top + 20, { steps: 6 });
-    await page.mouse.move(from.left + 120, from.top + 40, { steps: 6 });
-    await page.mouse.up();
-    await page.getByLabel("Select", { exact: true }).click();
+    const from = await drag(page, 3, 120, 40);
     await until("it stands elsewhere", async () => {
         const to = await seen(page, 3);
         return (
@@ -146,6 +136,27 @@ bench.test("the velocity pad drives a robot while a key is held, and stops it af
     await page.keyboard.up("ArrowUp");
     const speed = page.locator(".reading", { hasText: "speed" }).first().locator(".value");
     await until("it stands", async () => Number(await speed.textContent()) < 0.1);
+});
+
+bench.test("the track of a car is what its GPS and its odometer say", async (page) => {
+    await page.getByRole("button", { name: "Follow", exact: true }).last().click();
+    await page.evaluate(() => window.roboss.state.toggle("tracks", true));
+    const pad = page.getByLabel(/^Velocity pad/),
+        labels = page.locator(".tag.way");
+    await pad.focus();
+    await page.keyboard.down("ArrowUp");
+    await until("both have a line", async () => (await labels.count()) === 2);
+    await page.waitForTimeout(2000);
+    await page.keyboard.up("ArrowUp");
+    assert.deepEqual((await labels.allTextContents()).sort(), ["gps", "odometer"]);
+    await until("the GPS line ends at the car", async () => {
+        const [car, box] = [await seen(page, 12), await page.locator(".tag.way.gps").boundingBox()];
+        return box !== null && Math.hypot(box.x + box.width / 2 - car.left, box.y + 20 - car.top) < 60;
+    });
+    await choose(page, "car_11");
+    await until("another car's lines", async () => (await labels.count()) !== 1);
+    await page.evaluate(() => window.roboss.state.toggle("tracks", false));
+    await until("no lines", async () => (await labels.count()) === 0);
 });
 
 bench.endsWithCleanConsole();
