@@ -15,6 +15,7 @@
 #include "app/run_options.h"
 #include "app/summary.h"
 #include "app/trace_file.h"
+#include "app/traffic_meter.h"
 #include "app/viewer.h"
 #include "model/edit.h"
 #include "simulation/simulation.h"
@@ -111,6 +112,7 @@ class Run {
         Clock::time_point since;
         void begin(Tick tick) { from = tick, since = Clock::now(); }
     } pace_;
+    TrafficMeter traffic_;
     std::vector<ControlCall> calls_;  // requests to be served
     std::vector<std::string> notices_;
     Tick busy_until_ = 0;     // to which requests wait: the run is being brought to its start

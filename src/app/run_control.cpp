@@ -66,6 +66,8 @@ std::string first_error(const Diagnostics& found) {
 }  // namespace
 
 void Run::serve_calls() {
+    if (const std::int64_t now = simulation_->bus().now_ms(); traffic_.due(now))
+        traffic_.take(simulation_->bus().flows(), now);
     for (ControlCall& call : simulation_->controller().control().take_calls())
         calls_.push_back(std::move(call));
     for (const ControlCall& call : std::exchange(calls_, {})) {

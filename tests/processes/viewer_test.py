@@ -143,6 +143,10 @@ class Viewer(unittest.TestCase):
                 page.hears(lambda _: page.states > 5)
                 status = page.hears(lambda said: said is not None and said["type"] == "status")
                 self.assertEqual(status["simulators"], 2)
+                counted = page.hears(lambda said: said is not None and said["type"] == "status" and said["messages"]["in"] > 0)
+                for way in ("in", "out", "bytes_in", "bytes_out"):
+                    self.assertTrue(all(member["messages"][way] > 0 for member in counted["members"]), counted)
+                    self.assertGreaterEqual(counted["messages"][way], sum(member["messages"][way] for member in counted["members"]) - 2)
                 page.hears(lambda _: page.tick == round(4 / scene["dt"]) or page.tick > 1500)
             summary = cluster.summary(controller)
         self.assertEqual(summary["state_hash"], embedded(WORLDS / "city.sdf", "--until", 4, "--headless")["state_hash"])

@@ -55,6 +55,9 @@ bench.test(
         const rows = page.locator(".members tbody tr"),
             fact = (name: string) => page.locator(".fact", { hasText: name }).locator(".fact-value").textContent();
         await until("three Simulators", async () => (await fact("Simulators")) === "3");
+        await until("messages", async () => /^[1-9][\d.]* k? ?\/s$/.test((await fact("Messages")) ?? ""));
+        assert.match((await fact("Traffic")) ?? "", /^[1-9][\d.]* k?M?B\/s$/);
+        assert.match((await rows.first().getAttribute("title")) ?? "", /messages\/s .* to the Controller/);
         const losses = Number(await fact("Losses"));
         await rows.nth(1).getByRole("button", { name: /Kill/ }).click();
         await until(

@@ -100,6 +100,14 @@ export interface SceneInfo {
     groups_max: number;
 }
 
+/** A second, to (in) and from (out) the Controller. */
+export interface MessageRate {
+    in: number;
+    out: number;
+    bytes_in: number;
+    bytes_out: number;
+}
+
 export interface MemberStatus {
     id: number;
     name: string;
@@ -109,6 +117,7 @@ export interface MemberStatus {
     load: number;
     step_us: number;
     state: string;
+    messages?: MessageRate;
 }
 
 export interface Status {
@@ -131,6 +140,7 @@ export interface Status {
     members?: MemberStatus[];
     losses?: number;
     migrations?: number;
+    messages?: MessageRate;
     recoveries?: number;
     rtf?: number | null;
     viewers?: number;
