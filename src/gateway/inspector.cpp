@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <span>
 
 #include "physics/kinematics.h"
 #include "wire/state_block.h"
@@ -104,15 +105,20 @@ bool has_laser(const RobotType& type) {
                        [](const SensorInfo& s) { return s.spec.kind == SensorKind::kLaser; });
 }
 
-/// From what the robot's own state remembers of its contacts: against whom, and how hard along the normal.
-/// The lower RobotId of a pair remembers it.
-Json contacts_json(const RobotState& state, double dt_s) {
+/// From what states remember: against whom, and how hard along the normal. The lower RobotId of a pair
+/// remembers it, so of a lower robot only what is known is told.
+Json contacts_json(RobotId robot, std::span<const std::optional<RobotState>> states, double dt_s) {
     Json list = Json::array();
-    for (const ContactMemory& contact : state.contacts)
-        list.push_back(
-            {{"other",
-              contact.other_robot == RobotId::kNone ? -1 : static_cast<std::int64_t>(contact.other_robot)},
-             {"normal_force", json_of(contact.impulse / dt_s)}});
+    const auto add = [&](std::int64_t other, const ContactMemory& contact) {
+        list.push_back({{"other", other}, {"normal_force", json_of(contact.impulse / dt_s)}});
+    };
+    for (std::uint32_t lower = 0; lower < robot.value; ++lower)
+        if (states[lower])
+            for (const ContactMemory& contact : states[lower]->contacts)
+                if (contact.other_robot == robot.value) add(lower, contact);
+    for (const ContactMemory& contact : states[robot.index()]->contacts)
+        add(contact.other_robot == RobotId::kNone ? -1 : static_cast<std::int64_t>(contact.other_robot),
+            contact);
     return list;
 }
 
@@ -150,7 +156,7 @@ void Inspector::take(const StateBlock& block) {
 
 bool Inspector::shows(RobotId robot) const {
     if (robot.index() >= states_.size() || !states_[robot.index()]) return false;
-    return complete() || !has_laser(scene_->model->type_of(robot));
+    return complete() || !(is_small(*scene_->model) || has_laser(scene_->model->type_of(robot)));
 }
 
 RayScene* Inspector::rays() {
@@ -221,7 +227,8 @@ std::string Inspector::robot(RobotId robot) {
                 {"angular", json_of(Vec3{v(0), v(1), v(2)})},
                 {"joints", std::move(joints)},
                 {"sensors", std::move(sensors)},
-                {"contacts", contacts_json(state, model.dt_s)}}
+                {"contacts", contacts_json(robot, states_, model.dt_s)},
+                {"all_contacts", complete()}}
         .dump();
 }
 

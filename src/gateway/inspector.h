@@ -19,7 +19,7 @@ class Inspector {
   public:
     void begin(std::shared_ptr<const ShownScene> scene);
     void take(const StateBlock& block);
-    /// Its state at tick() is here, and all that its sensors see.
+    /// Its state at tick() is here, and all that its sensors see; in a small world everybody's.
     bool shows(RobotId robot) const;
     Tick tick() const { return tick_; }
     /// All states of tick() are here: lasers and contacts can be had.

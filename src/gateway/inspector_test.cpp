@@ -90,6 +90,7 @@ TEST_F(InspectorTest, TellsOfARobotWhatAClientReads) {
     EXPECT_NEAR(robot["joints"][1]["motors"][0]["effort"], 0.002, 1e-12);
     EXPECT_EQ(robot["contacts"][0]["other"], -1);
     EXPECT_NEAR(robot["contacts"][0]["normal_force"], 3, 1e-12);
+    EXPECT_EQ(robot["all_contacts"], true);
 
     RayScene rays(model);
     const std::vector<const RobotState*> all = {&states[0], &states[1]};
@@ -123,6 +124,15 @@ TEST_F(InspectorTest, SensorsWithARateAreReadNoOftenerAndShowWhatTheyHold) {
     EXPECT_NEAR(next[1]["taken"], 53 * model->dt_s, 1e-12);
     EXPECT_NE(next[1]["world"], first[1]["world"]);
     EXPECT_NEAR(back[1]["taken"], 41 * model->dt_s, 1e-12) << "a rewind";
+}
+
+TEST_F(InspectorTest, ContactsThatTheOtherRobotRemembersAreToldWhereItIsKnown) {
+    states[0].contacts.push_back({1, 0, 0, 0, 2 * model->dt_s, 0, {}});
+    inspector.take(block({0, 1}, 40));
+    const Json upper = Json::parse(inspector.robot(RobotId(1u)));
+    ASSERT_EQ(upper["contacts"].size(), 1u);
+    EXPECT_EQ(upper["contacts"][0]["other"], 0);
+    EXPECT_NEAR(upper["contacts"][0]["normal_force"], 2, 1e-12);
 }
 
 TEST_F(InspectorTest, NumbersThatAreNotFiniteAreNull) {

@@ -151,7 +151,7 @@ bench.test("the track of a car is what its GPS and its odometer say", async (pag
     assert.deepEqual((await labels.allTextContents()).sort(), ["gps", "odometer"]);
     await until("the GPS line ends at the car", async () => {
         const [car, box] = [await seen(page, 12), await page.locator(".tag.way.gps").boundingBox()];
-        return box !== null && Math.hypot(box.x + box.width / 2 - car.left, box.y + 20 - car.top) < 60;
+        return box !== null && Math.hypot(box.x + box.width / 2 - car.left, box.y - car.top) < 70;
     });
     await choose(page, "car_11");
     await until("another car's lines", async () => (await labels.count()) !== 1);

@@ -19,9 +19,9 @@ function present(member: MemberStatus): boolean {
 }
 
 /** Both ways; none within a process, where nothing is encoded. */
-function bytesOf(rate: MessageRate | undefined): string {
+function bytesOf(rate: MessageRate | undefined, write: (bytes: number) => string): string {
     const bytes = rate === undefined ? 0 : rate.bytes_in + rate.bytes_out;
-    return bytes > 0 ? byteRate(bytes) : "–";
+    return bytes > 0 ? write(bytes) : "–";
 }
 
 function told(rate: MessageRate | undefined): string {
@@ -106,7 +106,7 @@ export class ClusterPanel {
                         h(
                             "tr",
                             {},
-                            ...["Member", "Robots", "Islands", "Load", "µs", "Traffic", ""].map((name) =>
+                            ...["Member", "Robots", "Islands", "Load", "µs", "kB/s", ""].map((name) =>
                                 name === "" ? h("td", {}) : h("th", { scope: "col" }, name),
                             ),
                         ),
@@ -143,7 +143,7 @@ export class ClusterPanel {
         say("Recovered", short(status.recoveries));
         const { messages } = status;
         say("Messages", messages === undefined ? "–" : `${short(messages.in + messages.out)} /s`);
-        say("Traffic", bytesOf(messages));
+        say("Traffic", bytesOf(messages, byteRate));
         for (const name of ["Messages", "Traffic"])
             (this.facts.get(name)?.parentElement as HTMLElement).title = told(messages) || "To and from the Controller";
         const members = this.worthShowing(status.members ?? []);
@@ -173,7 +173,7 @@ export class ClusterPanel {
                 short(member.islands),
                 percent(member.load),
                 member.step_us > 0 ? fixed(member.step_us, 0) : "–",
-                bytesOf(member.messages),
+                bytesOf(member.messages, (bytes) => fixed(bytes / 1e3, bytes < 1e4 ? 1 : 0)),
             ];
             texts.forEach((text, k) => setText(shown.cells[k], text));
             shown.bar.style.width = `${100 * Math.max(0, Math.min(1, member.load))}%`;

@@ -19,6 +19,23 @@ export function byFinish<T>(items: readonly T[], visualOf: (item: T) => Visual):
     return [...groups.values()];
 }
 
+const means = new WeakMap<HTMLImageElement, [number, number, number]>();
+
+/** The mean colour of a picture, 0 to 1. */
+export function meanColour(image: HTMLImageElement): [number, number, number] {
+    const known = means.get(image);
+    if (known !== undefined) return known;
+    const canvas = document.createElement("canvas"),
+        draw = canvas.getContext("2d");
+    canvas.width = canvas.height = 8;
+    draw?.drawImage(image, 0, 0, 8, 8);
+    const data = draw?.getImageData(0, 0, 8, 8).data ?? new Uint8ClampedArray(256).fill(255),
+        part = (k: number) => data.filter((_, i) => i % 4 === k).reduce((sum, value) => sum + value, 0) / 64 / 255,
+        mean: [number, number, number] = [part(0), part(1), part(2)];
+    means.set(image, mean);
+    return mean;
+}
+
 export class Finishes {
     private readonly textures = new Map<string, THREE.Texture>();
 

@@ -206,6 +206,8 @@ export interface RobotReport {
     joints: JointReport[];
     sensors: (SensorReport | null)[];
     contacts: RobotContact[];
+    /** False: of those with robots before it in the list, only those with watched ones are known. */
+    all_contacts?: boolean;
 }
 
 export interface OverlayReport {
