@@ -42,13 +42,13 @@ int Run::go() {
 bool Run::prepare() {
     if (!o_.replay.empty()) return prepare_replay();
     Diagnostics diagnostics;
-    std::optional<World> world = load_world(o_.world, {o_.paths, o_.profile}, diagnostics);
+    std::optional<World> world = load_world(o_.world, {o_.paths, o_.profile, is_shown()}, diagnostics);
     if (world && !diagnostics.has_errors()) model_ = compile(*world, compile_options(), diagnostics);
     if (world) world_speed_ = world->real_time_factor;
     if (model_ && !o_.orders.empty()) orders_ = load_orders(o_.orders, *model_, diagnostics);
     print(diagnostics, o_.world);
     if (!model_ || diagnostics.has_errors()) return false;
-    if (is_shown()) world_ = std::make_shared<const World>(std::move(*world));
+    if (is_shown()) looks_.begin(*model_, std::move(*world));
     Result<std::unique_ptr<RunJournal>> journal = RunJournal::open(o_, *model_);
     if (!journal) return print(journal.error()), false;
     journal_ = std::move(journal).value();
@@ -132,8 +132,8 @@ SimulationOptions Run::simulation_options(const SavedRun* from) const {
     options.controller.log_ticks = journal_->log_ticks();
     if (gateway_) options.guest = [gateway = gateway_.get()](Bus& bus) { gateway->advance(bus); };
     if (!is_shown()) return options;
-    options.controller.scene = [world = world_, seed = options.controller.seed](const Model& model) {
-        return encode(scene_file(make_scene(model, world.get()), model, seed));
+    options.controller.scene = [this, seed = options.controller.seed](const Model& model) {
+        return encode(scene_file(make_scene(model, looks_.of(model)), model, seed));
     };
     return options;
 }

@@ -8,12 +8,14 @@
 
 #include "app/company.h"
 #include "app/contacts_file.h"
+#include "app/looks.h"
 #include "app/path_picture.h"
 #include "app/progress.h"
 #include "app/run_journal.h"
 #include "app/run_options.h"
 #include "app/summary.h"
 #include "app/trace_file.h"
+#include "app/traffic_meter.h"
 #include "app/viewer.h"
 #include "model/edit.h"
 #include "simulation/simulation.h"
@@ -90,9 +92,9 @@ class Run {
     const RunOptions& o_;
     Progress progress_;
     std::shared_ptr<const Model> model_;
-    std::shared_ptr<const World> world_;  // for the viewer; none: of a replay
-    std::unique_ptr<Gateway> gateway_;    // none: headless
-    std::vector<Order> orders_;           // of the orders file
+    Looks looks_;                       // for the viewer; none: of a replay
+    std::unique_ptr<Gateway> gateway_;  // none: headless
+    std::vector<Order> orders_;         // of the orders file
     std::unique_ptr<RunJournal> journal_;
     std::unique_ptr<Company> company_;
     std::unique_ptr<Simulation> simulation_;
@@ -110,6 +112,7 @@ class Run {
         Clock::time_point since;
         void begin(Tick tick) { from = tick, since = Clock::now(); }
     } pace_;
+    TrafficMeter traffic_;
     std::vector<ControlCall> calls_;  // requests to be served
     std::vector<std::string> notices_;
     Tick busy_until_ = 0;     // to which requests wait: the run is being brought to its start

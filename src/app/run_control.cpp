@@ -66,6 +66,8 @@ std::string first_error(const Diagnostics& found) {
 }  // namespace
 
 void Run::serve_calls() {
+    if (const std::int64_t now = simulation_->bus().now_ms(); traffic_.due(now))
+        traffic_.take(simulation_->bus().flows(), now);
     for (ControlCall& call : simulation_->controller().control().take_calls())
         calls_.push_back(std::move(call));
     for (const ControlCall& call : std::exchange(calls_, {})) {
@@ -201,6 +203,7 @@ Answer Run::change_model(const ModelEdit& edit, const std::string& what) {
     SavedRun run = simulation_->saved_run();
     run.states = carry_over(edit, run.states);
     std::erase_if(run.orders, [&](SaidOrder& o) { return !carry_over(edit, o.order); });
+    looks_.change(*model_, *edit.model);
     if (edit.model->robots.size() < model_->robots.size())  // what sensors hold goes by RobotId
         for (auto& [client, memory] : run.memory) memory = without_samples(memory);
     const std::string text = fmt::format("{} at {:.6f} s (tick {})", what, simulation_->time_s(), run.tick);
@@ -239,14 +242,17 @@ Answer Run::add_models(const Words& words) {
     if (!(std::ofstream(file) << words[2]))
         return Error{file.string() + " cannot be written", "make room there"};
     Diagnostics found;
-    const std::optional<World> world = load_world(file.string(), {o_.paths, {}}, found);
+    std::optional<World> world = load_world(file.string(), {o_.paths, {}, is_shown()}, found);
     CompileOptions options;
     options.dt_s = model_->dt_s;
     const auto addition = world && !found.has_errors() ? compile(*world, options, found) : nullptr;
     fs::remove_all(folder, error);
     if (!addition) return Error{first_error(found), "mend the file"};
+    for (const Diagnostic& d : found.items())
+        if (d.severity == Severity::kWarning) notices_.push_back(to_text(d));
     Result<ModelEdit> edit = with_models(*model_, *addition, *X_WA, words[4]);
     if (!edit) return edit.error();
+    if (is_shown()) looks_.add({*model_, *edit.value().model, *addition}, std::move(*world), *X_WA, words[4]);
     return change_model(edit.value(),
                         fmt::format("{} robots of {} added", addition->robots.size(), words[1]));
 }

@@ -2,6 +2,7 @@
 // pictures.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/run.h"
@@ -21,10 +22,17 @@ const char* standing(const MemberReport& member) {
     return member.leaving ? "left" : "lost";
 }
 
-Json member_json(const MemberReport& member) {
+Json json_of(const TrafficRate& rate) {
+    return {{"in", std::round(rate.messages_in)},
+            {"out", std::round(rate.messages_out)},
+            {"bytes_in", std::round(rate.bytes_in)},
+            {"bytes_out", std::round(rate.bytes_out)}};
+}
+
+Json member_json(const MemberReport& member, const TrafficRate& rate) {
     return {{"id", member.id.value},     {"name", member.name},     {"state", standing(member)},
             {"threads", member.threads}, {"robots", member.robots}, {"islands", member.islands},
-            {"step_us", member.step_us}, {"load", member.load}};
+            {"step_us", member.step_us}, {"load", member.load},     {"messages", json_of(rate)}};
 }
 
 }  // namespace
@@ -47,6 +55,7 @@ std::string Run::status() const {
            {"losses", c.losses},
            {"recoveries", c.recoveries},
            {"migrations", c.migrations},
+           {"messages", json_of(traffic_.total())},
            {"model_hash", to_hex(model_->hash)},
            {"state_hash", to_hex(simulation_->hash())}};
     if (journal_->writes()) {
@@ -55,7 +64,8 @@ std::string Run::status() const {
                         {"last_s", simulation_->time_s()}};
     }
     o["members"] = Json::array();
-    for (const MemberReport& member : controller.members()) o["members"].push_back(member_json(member));
+    for (const MemberReport& member : controller.members())
+        o["members"].push_back(member_json(member, traffic_.of(member.address)));
     o["robots"] = Json::array();
     for (const Robot& robot : model_->robots) o["robots"].push_back(robot.name);
     return text_of(o, 2);

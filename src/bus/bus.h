@@ -12,6 +12,12 @@ namespace roboss {
 
 inline constexpr Address kControllerAddress{Role::kController, 0};
 
+/// What went from one address to another since the start.
+struct Flow {
+    Address from, to;
+    std::uint64_t messages = 0, bytes = 0;
+};
+
 class Bus {
   public:
     virtual ~Bus() = default;
@@ -28,6 +34,9 @@ class Bus {
     /// Between two turns of the roles: returns when something may have come for an address of this process,
     /// at the latest after `ms_max`. A Bus whose messages need no time returns at once.
     virtual void wait(std::int64_t) {}
+    /// For people: what addresses of this process have sent and received. Bytes are those encoded, so 0
+    /// within a process. A Bus that does not count says nothing.
+    virtual std::vector<Flow> flows() const { return {}; }
 };
 
 /// Milliseconds of the machine's monotonic clock.

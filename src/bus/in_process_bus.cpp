@@ -11,6 +11,7 @@ std::int64_t monotonic_ms() {
 }
 
 void InProcessBus::send(const Address& from, const Address& to, Message message) {
+    count_.add(from, to, 0);
     queues_[to].push_back({from, to, std::move(message)});
 }
 

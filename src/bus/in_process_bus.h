@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "bus/bus.h"
+#include "bus/flow_count.h"
 
 namespace roboss {
 
@@ -13,11 +13,13 @@ class InProcessBus : public Bus {
     void send(const Address& from, const Address& to, Message message) override;
     void drain(const Address& self, std::vector<Envelope>& inbox) override;
     std::int64_t now_ms() override { return monotonic_ms(); }
+    std::vector<Flow> flows() const override { return count_.all(); }
     /// No message is under way.
     bool quiet() const;
 
   private:
     std::map<Address, std::vector<Envelope>> queues_;
+    FlowCount count_;
 };
 
 }  // namespace roboss

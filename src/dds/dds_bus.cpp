@@ -8,6 +8,7 @@
 #include <deque>
 #include <random>
 
+#include "bus/flow_count.h"
 #include "core/hash.h"
 #include "dds/endpoints.h"
 #include "wire/codec.h"
@@ -182,6 +183,7 @@ struct DdsBus::Network {
             if (!belongs_here(its_run, envelope.value().from)) return;
             if (envelope.value().to != self) return relay(self, envelope.value().to, bytes);
             heard_ms[envelope.value().from] = monotonic_ms();
+            count.add(envelope.value().from, self, bytes.size());
             if (&from == home.words.get()) home.writers[writer] = envelope.value().from;
             inbox.push_back(std::move(envelope).value());
         });
@@ -195,6 +197,7 @@ struct DdsBus::Network {
     std::map<Address, Home> homes;
     std::map<std::pair<Address, Channel>, std::unique_ptr<Outbox>> outboxes;
     std::map<Address, std::int64_t> heard_ms;
+    FlowCount count;
 };
 
 Result<std::unique_ptr<DdsBus>> DdsBus::create(const DdsOptions& options) {
@@ -212,12 +215,14 @@ DdsBus::~DdsBus() = default;
 
 void DdsBus::send(const Address& from, const Address& to, Message message) {
     if (const auto home = network_->homes.find(to); home != network_->homes.end()) {
+        network_->count.add(from, to, 0);
         home->second.local.push_back({from, to, std::move(message)});
         return;
     }
     const Channel channel = channel_of(message);
     const std::vector<std::uint8_t> bytes =
         with_run(network_->run, encode(Envelope{from, to, std::move(message)}));
+    network_->count.add(from, to, bytes.size());
     if (!network_->way_to(from, to, channel).send(bytes, now_ms()))
         network_->complaints->add("a message of " + std::to_string(bytes.size()) +
                                   " bytes is too long to be sent");
@@ -250,6 +255,10 @@ void DdsBus::wait(std::int64_t ms_max) {
     if (local) return;
     const bool done = network_->pump();
     network_->bell.wait(done ? ms_max : std::min<std::int64_t>(ms_max, 1));
+}
+
+std::vector<Flow> DdsBus::flows() const {
+    return network_->count.all();
 }
 
 bool DdsBus::present(const Address& address) {

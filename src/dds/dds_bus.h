@@ -28,6 +28,7 @@ class DdsBus : public Bus {
     std::int64_t now_ms() override { return monotonic_ms(); }
     std::vector<Address> take_vanished(const Address& self) override;
     void wait(std::int64_t ms_max) override;
+    std::vector<Flow> flows() const override;
 
     /// Whether a process that owns this address is connected now. Asking makes the connection.
     bool present(const Address& address);

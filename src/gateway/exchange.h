@@ -28,6 +28,12 @@ struct Wish {
     friend bool operator==(const Wish&, const Wish&) = default;
 };
 
+/// So small that everybody's exact state is had whenever one robot is looked at closely.
+inline bool is_small(const Model& model) {
+    constexpr std::size_t kSmallWorld = 100;  // robots
+    return model.robots.size() <= kSmallWorld;
+}
+
 /// Words or an order of a page.
 struct PageCall {
     std::uint64_t page = 0;

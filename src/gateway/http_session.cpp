@@ -5,6 +5,7 @@
 #include <boost/beast/websocket.hpp>
 #include <charconv>
 
+#include "core/hash.h"
 #include "gateway/page_session.h"
 #include "gateway/server_core_session.h"
 
@@ -116,9 +117,20 @@ HttpSession::Answer HttpSession::mesh(std::string_view number) const {
     return {http::status::ok, "application/octet-stream", std::string(bytes.begin(), bytes.end()), false};
 }
 
+/// Only pictures that the scene has, by the hash of their bytes: no name of a file comes from outside.
+HttpSession::Answer HttpSession::texture(std::string_view hash) const {
+    if (const auto& scene = core_.scene())
+        for (const TextureFile& t : scene->file.textures)
+            if (to_hex(t.hash) == hash)
+                return {http::status::ok, mime_type(t.kind), std::string(t.bytes.begin(), t.bytes.end()),
+                        false, true};
+    return {http::status::not_found, "text/plain; charset=utf-8", "there is no such picture\n"};
+}
+
 HttpSession::Answer HttpSession::answer_for(std::string_view path) const {
-    constexpr std::string_view kMesh = "/mesh/";
+    constexpr std::string_view kMesh = "/mesh/", kTexture = "/texture/";
     if (path.starts_with(kMesh)) return mesh(path.substr(kMesh.size()));
+    if (path.starts_with(kTexture)) return texture(path.substr(kTexture.size()));
     std::optional<PageFile> file = core_.files().find(path);
     if (!file)
         return {http::status::not_found, "text/plain; charset=utf-8", "there is no such file\n", false};
@@ -135,7 +147,8 @@ void HttpSession::send(Answer answer) {
     auto response = std::make_shared<http::response<http::string_body>>(answer.status, request_.version());
     response->set(http::field::server, "roboss");
     response->set(http::field::content_type, answer.type);
-    response->set(http::field::cache_control, "no-cache");
+    response->set(http::field::cache_control,
+                  answer.never_changes ? "private, max-age=86400, immutable" : "no-cache");
     response->set("Content-Security-Policy", kContentSecurityPolicy);
     response->set("X-Content-Type-Options", "nosniff");
     response->set("Referrer-Policy", "no-referrer");

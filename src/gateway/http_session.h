@@ -1,4 +1,4 @@
-// HttpSession: one connection before it is a WebSocket: the page's files, the scene and its meshes.
+// HttpSession: one connection before it is a WebSocket: the page's files, the scene, its meshes and pictures.
 #pragma once
 
 #include <boost/beast/core.hpp>
@@ -24,6 +24,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
         std::string type = "text/plain; charset=utf-8";
         std::string body;
         bool keeps_token = false;
+        bool never_changes = false;  // what is at this address
     };
 
     void read();
@@ -32,6 +33,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     void serve_scene();
     Answer answer_for(std::string_view path) const;
     Answer mesh(std::string_view number) const;
+    Answer texture(std::string_view hash) const;
     void send(Answer answer);
     void refuse(boost::beast::http::status status, const std::string& why);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <span>
 
 #include "physics/kinematics.h"
 #include "wire/state_block.h"
@@ -63,8 +64,12 @@ Json json_of(const LaserReading& reading) {
 Json json_of(const GpsReading& reading) {
     constexpr double kDegrees = 180 / std::numbers::pi;
     if (!reading.geodetic)
-        return {{"position", json_of(reading.p_W)}, {"geodetic", false}, {"velocity", json_of(reading.v_W)}};
-    return {{"position",
+        return {{"position", json_of(reading.p_W)},
+                {"world", json_of(reading.p_W)},
+                {"geodetic", false},
+                {"velocity", json_of(reading.v_W)}};
+    return {{"world", json_of(reading.p_W)},
+            {"position",
              {json_of(reading.latitude_rad * kDegrees), json_of(reading.longitude_rad * kDegrees),
               json_of(reading.altitude_m)}},
             {"geodetic", true},
@@ -87,47 +92,33 @@ Json json_of(const OdometerReading& reading) {
             {"joints", json_of(reading.joint_positions)}};
 }
 
+/// nullptr: a sensor of a kind that nothing reads.
+Json json_of(const Sample* sample, double dt_s) {
+    if (sample == nullptr) return Json::object();
+    Json json = std::visit([](const auto& reading) { return json_of(reading); }, *sample);
+    json["taken"] = static_cast<double>(taken_at(*sample)) * dt_s;
+    return json;
+}
+
 bool has_laser(const RobotType& type) {
     return std::any_of(type.sensors.begin(), type.sensors.end(),
                        [](const SensorInfo& s) { return s.spec.kind == SensorKind::kLaser; });
 }
 
-struct SensorQuestion {
-    const Model& model;
-    RobotId robot;
-    const RobotState& state;
-    Tick tick;
-    std::uint64_t seed;
-    RayScene* rays;  // nullptr: not all states are here, lasers see nothing
-};
-
-Json sensor_json(const SensorQuestion& ask, std::size_t sensor) {
-    switch (ask.model.type_of(ask.robot).sensors[sensor].spec.kind) {
-        case SensorKind::kLaser:
-            if (ask.rays == nullptr) return Json::object();
-            return json_of(
-                read_laser(ask.model, ask.robot, sensor, ask.state, ask.tick, ask.seed, *ask.rays));
-        case SensorKind::kGps:
-            return json_of(read_gps(ask.model, ask.robot, sensor, ask.state, ask.tick, ask.seed));
-        case SensorKind::kCompass:
-            return json_of(read_compass(ask.model, ask.robot, sensor, ask.state, ask.tick, ask.seed));
-        case SensorKind::kOdometer:
-            return json_of(read_odometer(ask.model, ask.robot, sensor, ask.state, ask.tick, ask.seed));
-        case SensorKind::kUnsupported:
-            break;
-    }
-    return Json::object();
-}
-
-/// From what the robot's own state remembers of its contacts: against whom, and how hard along the normal.
-/// The lower RobotId of a pair remembers it.
-Json contacts_json(const RobotState& state, double dt_s) {
+/// From what states remember: against whom, and how hard along the normal. The lower RobotId of a pair
+/// remembers it, so of a lower robot only what is known is told.
+Json contacts_json(RobotId robot, std::span<const std::optional<RobotState>> states, double dt_s) {
     Json list = Json::array();
-    for (const ContactMemory& contact : state.contacts)
-        list.push_back(
-            {{"other",
-              contact.other_robot == RobotId::kNone ? -1 : static_cast<std::int64_t>(contact.other_robot)},
-             {"normal_force", json_of(contact.impulse / dt_s)}});
+    const auto add = [&](std::int64_t other, const ContactMemory& contact) {
+        list.push_back({{"other", other}, {"normal_force", json_of(contact.impulse / dt_s)}});
+    };
+    for (std::uint32_t lower = 0; lower < robot.value; ++lower)
+        if (states[lower])
+            for (const ContactMemory& contact : states[lower]->contacts)
+                if (contact.other_robot == robot.value) add(lower, contact);
+    for (const ContactMemory& contact : states[robot.index()]->contacts)
+        add(contact.other_robot == RobotId::kNone ? -1 : static_cast<std::int64_t>(contact.other_robot),
+            contact);
     return list;
 }
 
@@ -136,6 +127,7 @@ Json contacts_json(const RobotState& state, double dt_s) {
 void Inspector::begin(std::shared_ptr<const ShownScene> scene) {
     rays_.reset();
     probe_.reset();
+    samples_.all().clear();
     scene_ = std::move(scene);
     tick_ = rays_tick_ = -1;
     states_.assign(scene_->model->robots.size(), std::nullopt);
@@ -164,7 +156,7 @@ void Inspector::take(const StateBlock& block) {
 
 bool Inspector::shows(RobotId robot) const {
     if (robot.index() >= states_.size() || !states_[robot.index()]) return false;
-    return complete() || !has_laser(scene_->model->type_of(robot));
+    return complete() || !(is_small(*scene_->model) || has_laser(scene_->model->type_of(robot)));
 }
 
 RayScene* Inspector::rays() {
@@ -179,16 +171,50 @@ RayScene* Inspector::rays() {
     return rays_.get();
 }
 
+/// Also after a rewind to before its last sample.
+bool Inspector::is_due(RobotId robot, std::size_t sensor) const {
+    const Sample* held = samples_.find({robot.value, static_cast<std::uint32_t>(sensor)});
+    if (held == nullptr || taken_at(*held) > tick_) return true;
+    const Model& model = *scene_->model;
+    const double rate = model.type_of(robot).sensors[sensor].spec.update_rate_hz;
+    return rate == 0 ||
+           samples_begun(rate, model.dt_s, tick_) != samples_begun(rate, model.dt_s, taken_at(*held));
+}
+
+Sample Inspector::measured(RobotId robot, std::size_t sensor) {
+    const Model& model = *scene_->model;
+    const RobotState& state = *states_[robot.index()];
+    const std::uint64_t seed = scene_->file.seed;
+    switch (model.type_of(robot).sensors[sensor].spec.kind) {
+        case SensorKind::kGps:
+            return read_gps(model, robot, sensor, state, tick_, seed);
+        case SensorKind::kCompass:
+            return read_compass(model, robot, sensor, state, tick_, seed);
+        case SensorKind::kOdometer:
+            return read_odometer(model, robot, sensor, state, tick_, seed);
+        case SensorKind::kLaser:
+        case SensorKind::kUnsupported:
+            break;
+    }
+    return read_laser(model, robot, sensor, state, tick_, seed, *rays());
+}
+
+const Sample* Inspector::sample(RobotId robot, std::size_t sensor) {
+    if (scene_->model->type_of(robot).sensors[sensor].spec.kind == SensorKind::kUnsupported) return nullptr;
+    const HeldSamples::Key key(robot.value, static_cast<std::uint32_t>(sensor));
+    if (is_due(robot, sensor)) samples_.put(key, measured(robot, sensor));
+    return samples_.find(key);
+}
+
 std::string Inspector::robot(RobotId robot) {
     const Model& model = *scene_->model;
     const RobotType& type = model.type_of(robot);
     const RobotState& state = *states_[robot.index()];
-    const SensorQuestion ask{
-        model, robot, state, tick_, scene_->file.seed, has_laser(type) ? rays() : nullptr};
     Json joints = Json::array(), sensors = Json::array();
     for (std::size_t j = 0; j < type.joints.size(); ++j)
         joints.push_back(joint_json(type, state, JointId(j), model.dt_s));
-    for (std::size_t s = 0; s < type.sensors.size(); ++s) sensors.push_back(sensor_json(ask, s));
+    for (std::size_t s = 0; s < type.sensors.size(); ++s)
+        sensors.push_back(json_of(sample(robot, s), model.dt_s));
     const auto v = [&](std::size_t k) { return type.free_base ? state.v[k] : 0.0; };
     const Pose X_WR = to_pose(to_transform(base_pose(state)) * inverse(type.X_RB));
     return Json{{"type", "robot"},
@@ -201,7 +227,8 @@ std::string Inspector::robot(RobotId robot) {
                 {"angular", json_of(Vec3{v(0), v(1), v(2)})},
                 {"joints", std::move(joints)},
                 {"sensors", std::move(sensors)},
-                {"contacts", contacts_json(state, model.dt_s)}}
+                {"contacts", contacts_json(robot, states_, model.dt_s)},
+                {"all_contacts", complete()}}
         .dump();
 }
 

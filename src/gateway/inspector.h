@@ -1,6 +1,6 @@
 // Inspector: what pages look at closely. From exact states, in the gateway's thread, it computes what a
 // Client would: poses, motors and sensors of watched robots, contacts of the world. Pure functions of (Model,
-// states), so that looking changes nothing.
+// states), so that looking changes nothing. A sensor with an <update_rate> is read no oftener than that.
 #pragma once
 
 #include <memory>
@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "client/held_samples.h"
 #include "gateway/exchange.h"
 #include "physics/probe.h"
 #include "sensors/readings.h"
@@ -18,7 +19,7 @@ class Inspector {
   public:
     void begin(std::shared_ptr<const ShownScene> scene);
     void take(const StateBlock& block);
-    /// Its state at tick() is here, and all that its sensors see.
+    /// Its state at tick() is here, and all that its sensors see; in a small world everybody's.
     bool shows(RobotId robot) const;
     Tick tick() const { return tick_; }
     /// All states of tick() are here: lasers and contacts can be had.
@@ -31,6 +32,10 @@ class Inspector {
 
   private:
     RayScene* rays();
+    bool is_due(RobotId robot, std::size_t sensor) const;
+    /// What it measured last, now if it is due; nullptr: nothing reads it.
+    const Sample* sample(RobotId robot, std::size_t sensor);
+    Sample measured(RobotId robot, std::size_t sensor);
 
     std::shared_ptr<const ShownScene> scene_;
     Tick tick_ = -1;
@@ -38,6 +43,7 @@ class Inspector {
     std::size_t known_ = 0;
     std::unique_ptr<RayScene> rays_;
     Tick rays_tick_ = -1;
+    HeldSamples samples_;
     std::unique_ptr<StepProbe> probe_;
 };
 

@@ -90,6 +90,7 @@ TEST_F(InspectorTest, TellsOfARobotWhatAClientReads) {
     EXPECT_NEAR(robot["joints"][1]["motors"][0]["effort"], 0.002, 1e-12);
     EXPECT_EQ(robot["contacts"][0]["other"], -1);
     EXPECT_NEAR(robot["contacts"][0]["normal_force"], 3, 1e-12);
+    EXPECT_EQ(robot["all_contacts"], true);
 
     RayScene rays(model);
     const std::vector<const RobotState*> all = {&states[0], &states[1]};
@@ -104,6 +105,34 @@ TEST_F(InspectorTest, TellsOfARobotWhatAClientReads) {
     EXPECT_EQ(robot["sensors"][1]["geodetic"], false);
     EXPECT_NEAR(robot["sensors"][2]["yaw"], 0.1, 1e-9);
     EXPECT_NEAR(robot["sensors"][3]["distance"], 0.025, 1e-12);
+}
+
+TEST_F(InspectorTest, SensorsWithARateAreReadNoOftenerAndShowWhatTheyHold) {
+    auto slow = std::make_shared<Model>(*model);
+    slow->types[0].sensors[1].spec.update_rate_hz = 1 / (10 * model->dt_s);  // the GPS: each tenth tick
+    scene = std::make_shared<const ShownScene>(ShownScene{10, slow, scene->file, ViewLayout(*slow)});
+    inspector.begin(scene);
+    const auto look = [&](Tick tick) {
+        states[0].q[4] = static_cast<double>(tick);  // x
+        inspector.take(block({0, 1}, tick));
+        return Json::parse(inspector.robot(RobotId(0u)))["sensors"];
+    };
+    const Json first = look(40), held = look(49), next = look(53), back = look(41);
+    EXPECT_EQ(held[1], first[1]);
+    EXPECT_NEAR(first[1]["taken"], 40 * model->dt_s, 1e-12);
+    EXPECT_NE(held[2]["taken"], first[2]["taken"]) << "the compass has no rate";
+    EXPECT_NEAR(next[1]["taken"], 53 * model->dt_s, 1e-12);
+    EXPECT_NE(next[1]["world"], first[1]["world"]);
+    EXPECT_NEAR(back[1]["taken"], 41 * model->dt_s, 1e-12) << "a rewind";
+}
+
+TEST_F(InspectorTest, ContactsThatTheOtherRobotRemembersAreToldWhereItIsKnown) {
+    states[0].contacts.push_back({1, 0, 0, 0, 2 * model->dt_s, 0, {}});
+    inspector.take(block({0, 1}, 40));
+    const Json upper = Json::parse(inspector.robot(RobotId(1u)));
+    ASSERT_EQ(upper["contacts"].size(), 1u);
+    EXPECT_EQ(upper["contacts"][0]["other"], 0);
+    EXPECT_NEAR(upper["contacts"][0]["normal_force"], 2, 1e-12);
 }
 
 TEST_F(InspectorTest, NumbersThatAreNotFiniteAreNull) {

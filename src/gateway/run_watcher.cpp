@@ -27,9 +27,10 @@ bool has_laser(const RobotType& type) {
                        [](const SensorInfo& s) { return s.spec.kind == SensorKind::kLaser; });
 }
 
-/// Lasers and contacts need everybody's state.
+/// Lasers and contacts need everybody's state; in a small world it costs little to have it anyhow.
 ViewRequest request_of(const Wish& wish, const Model& model) {
-    ViewRequest request{model.hash, wish.interval_ms, 0, wish.contacts, {}};
+    const bool all = wish.contacts || (!wish.robots.empty() && is_small(model));
+    ViewRequest request{model.hash, wish.interval_ms, 0, all, {}};
     for (const RobotId robot : wish.robots) {
         if (robot.index() >= model.robots.size()) continue;
         request.exact.push_back(robot);

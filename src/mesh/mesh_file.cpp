@@ -28,20 +28,34 @@ std::string extension_of(const std::string& path) {
     return extension;
 }
 
+struct Corner {
+    Vec3 p;
+    std::array<float, 2> uv{};
+};
+
+/// All triangles wanted of a file; corners by threes.
+struct Triangles {
+    std::vector<Corner> corners;
+    std::vector<unsigned> materials;  // by triangle
+    bool have_uv = false;
+};
+
 class Gatherer {
   public:
     explicit Gatherer(const MeshRequest& request) : request_(request) {}
 
-    Result<MeshFile> gather(const aiScene& scene) {
+    Result<Triangles> gather(const aiScene& scene) {
         if (scene.mRootNode != nullptr) visit(scene, *scene.mRootNode, aiMatrix4x4());
         if (!request_.submesh.empty() && !found_)
             return Error{"has no part named '" + request_.submesh + "'; its parts are: " + names_,
                          "Correct <submesh><name>."};
-        if (corners_.empty()) return Error{"holds no triangles", "Export the mesh anew, with faces."};
-        if (corners_.size() > 3 * kTrianglesMax)
+        std::vector<Corner>& corners = out_.corners;
+        if (corners.empty()) return Error{"holds no triangles", "Export the mesh anew, with faces."};
+        if (corners.size() > 3 * kTrianglesMax)
             return Error{"has more than two million triangles", "Give a coarser mesh for the collision."};
         if (request_.centre_submesh) centre();
-        for (Vec3& p : corners_) {
+        for (Corner& corner : corners) {
+            Vec3& p = corner.p;
             p = {p.x * request_.scale.x, p.y * request_.scale.y, p.z * request_.scale.z};
             if (!is_finite(p))
                 return Error{"has a coordinate that is not a finite number", "Export it anew."};
@@ -49,7 +63,7 @@ class Gatherer {
                 return Error{"reaches beyond 1000 km",
                              "Correct its unit with <scale> (0.001 for millimetres)."};
         }
-        return join();
+        return std::move(out_);
     }
 
   private:
@@ -70,80 +84,150 @@ class Gatherer {
     }
 
     void add(const aiMesh& mesh, const aiMatrix4x4& X) {
+        const aiVector3D* uv = mesh.mTextureCoords[0];
+        out_.have_uv = out_.have_uv || uv != nullptr;
         for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
             const aiFace& face = mesh.mFaces[f];
             if (face.mNumIndices != 3) continue;  // points and lines
+            out_.materials.push_back(mesh.mMaterialIndex);
             for (unsigned k = 0; k < 3; ++k) {
-                const aiVector3D p = X * mesh.mVertices[face.mIndices[k]];
-                corners_.push_back(
-                    {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
+                const unsigned i = face.mIndices[k];
+                const aiVector3D p = X * mesh.mVertices[i];
+                out_.corners.push_back(
+                    {{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)}, {}});
+                if (uv != nullptr && std::isfinite(uv[i].x) && std::isfinite(uv[i].y))
+                    out_.corners.back().uv = {uv[i].x, uv[i].y};
             }
         }
     }
 
     void centre() {
         Aabb box;
-        for (const Vec3& p : corners_) box.include(p);
-        for (Vec3& p : corners_) p -= box.centre();
-    }
-
-    Result<MeshFile> join() {
-        MeshFile out;
-        out.mesh.source = request_.path;
-        const auto before = [](const Vec3& a, const Vec3& b) {
-            return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-        };
-        std::map<Vec3, std::uint32_t, decltype(before)> numbers(before);
-        // A mirroring scale turns triangles inside out.
-        const Vec3& s = request_.scale;
-        const bool mirrored = s.x * s.y * s.z < 0;
-        for (std::size_t i = 0; i + 2 < corners_.size(); i += 3) {
-            std::array<std::uint32_t, 3> t{};
-            for (std::size_t k = 0; k < 3; ++k) {
-                const Vec3 p = corners_[i + k] + Vec3{};  // -0 becomes 0
-                t[k] = numbers.emplace(p, static_cast<std::uint32_t>(numbers.size())).first->second;
-                if (t[k] == out.mesh.vertices.size()) out.mesh.vertices.push_back(p);
-            }
-            if (mirrored) std::swap(t[1], t[2]);
-            const Vec3 &a = out.mesh.vertices[t[0]], &b = out.mesh.vertices[t[1]],
-                       &c = out.mesh.vertices[t[2]];
-            const double longest = std::max({norm_squared(b - a), norm_squared(c - b), norm_squared(a - c)});
-            if (norm(cross(b - a, c - a)) > 1e-7 * longest)
-                out.mesh.triangles.push_back(t);
-            else
-                ++out.dropped;
-        }
-        if (out.mesh.triangles.empty())
-            return Error{"holds only triangles without area", "Export it anew, and check <scale>."};
-        return out;
+        for (const Corner& corner : out_.corners) box.include(corner.p);
+        for (Corner& corner : out_.corners) corner.p -= box.centre();
     }
 
     const MeshRequest& request_;
     bool found_ = false;
     std::string names_;
-    std::vector<Vec3> corners_;
+    Triangles out_;
 };
+
+/// One material's triangles with their uv, or all without.
+MeshFile join(const Triangles& all, const MeshRequest& request, std::optional<unsigned> material) {
+    MeshFile out;
+    MeshSpec& mesh = out.mesh;
+    mesh.source = request.path;
+    const bool with_uv = material && all.have_uv;
+    const auto before = [](const Corner& a, const Corner& b) {
+        return std::tie(a.p.x, a.p.y, a.p.z, a.uv) < std::tie(b.p.x, b.p.y, b.p.z, b.uv);
+    };
+    std::map<Corner, std::uint32_t, decltype(before)> numbers(before);
+    // A mirroring scale turns triangles inside out.
+    const Vec3& s = request.scale;
+    const bool mirrored = s.x * s.y * s.z < 0;
+    for (std::size_t i = 0; i + 2 < all.corners.size(); i += 3) {
+        if (material && all.materials[i / 3] != *material) continue;
+        std::array<std::uint32_t, 3> t{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            Corner corner = all.corners[i + k];
+            corner.p = corner.p + Vec3{};  // -0 becomes 0
+            if (!with_uv) corner.uv = {};
+            t[k] = numbers.emplace(corner, static_cast<std::uint32_t>(numbers.size())).first->second;
+            if (t[k] < mesh.vertices.size()) continue;
+            mesh.vertices.push_back(corner.p);
+            if (with_uv) mesh.uv.push_back(corner.uv);
+        }
+        if (mirrored) std::swap(t[1], t[2]);
+        const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+        const double longest = std::max({norm_squared(b - a), norm_squared(c - b), norm_squared(a - c)});
+        if (norm(cross(b - a, c - a)) > 1e-7 * longest)
+            mesh.triangles.push_back(t);
+        else
+            ++out.dropped;
+    }
+    return out;
+}
+
+Error no_area() {
+    return {"holds only triangles without area", "Export it anew, and check <scale>."};
+}
+
+std::string picture_of(const aiMaterial& material, aiTextureType type) {
+    aiString path;
+    if (material.GetTexture(type, 0, &path) != aiReturn_SUCCESS) return {};
+    std::string name = path.C_Str();
+    if (name.starts_with('*')) return {};  // inside the file: no kind that is read here has that
+    std::replace(name.begin(), name.end(), '\\', '/');
+    return name;
+}
+
+/// Where a picture gives the colour, COLLADA says none beside it (assimp makes up a grey), and some exporters
+/// of OBJ say black.
+void describe(const aiMaterial& material, bool collada, MeshPart& part) {
+    aiString name;
+    aiColor3D diffuse;
+    float opacity = 1;
+    part.colour = picture_of(material, aiTextureType_DIFFUSE);
+    part.normal = picture_of(material, aiTextureType_NORMALS);
+    if (material.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS &&
+        std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME)
+        return;
+    if (material.Get(AI_MATKEY_COLOR_DIFFUSE, diffuse) == aiReturn_SUCCESS)
+        part.rgb = Vec3{static_cast<double>(diffuse.r), static_cast<double>(diffuse.g),
+                        static_cast<double>(diffuse.b)};
+    if (!part.colour.empty() && (collada || !part.rgb || norm(*part.rgb) < 1e-6)) part.rgb = Vec3{1, 1, 1};
+    if (material.Get(AI_MATKEY_OPACITY, opacity) == aiReturn_SUCCESS && opacity > 0 && opacity <= 1)
+        part.alpha = static_cast<double>(opacity);
+}
+
+Result<const aiScene*> open_scene(Assimp::Importer& importer, const std::string& path) {
+    std::error_code error;
+    const auto bytes = std::filesystem::file_size(path, error);
+    if (error) return Error{"cannot be read: " + error.message(), "Check that it is a file and may be read."};
+    if (bytes == 0) return Error{"is empty", "Export the mesh anew."};
+    if (bytes > kBytesMax) return Error{"is larger than 512 MiB", "Give a coarser mesh for the collision."};
+    const std::string extension = extension_of(path);
+    if (extension != ".stl" && extension != ".obj" && extension != ".dae")
+        return Error{"is of a kind ('" + extension + "') that is not read",
+                     "Convert it to STL, OBJ or DAE (COLLADA)."};
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
+    const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
+    if (scene == nullptr)
+        return Error{"is no mesh that can be read: " + std::string(importer.GetErrorString()),
+                     "Export it anew."};
+    return scene;
+}
 
 }  // namespace
 
 Result<MeshFile> read_mesh(const MeshRequest& request) {
-    std::error_code error;
-    const auto bytes = std::filesystem::file_size(request.path, error);
-    if (error) return Error{"cannot be read: " + error.message(), "Check that it is a file and may be read."};
-    if (bytes == 0) return Error{"is empty", "Export the mesh anew."};
-    if (bytes > kBytesMax) return Error{"is larger than 512 MiB", "Give a coarser mesh for the collision."};
-    const std::string extension = extension_of(request.path);
-    if (extension != ".stl" && extension != ".obj" && extension != ".dae")
-        return Error{"is of a kind ('" + extension + "') that is not read",
-                     "Convert it to STL, OBJ or DAE (COLLADA)."};
     Assimp::Importer importer;
-    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
-    const aiScene* scene = importer.ReadFile(request.path, aiProcess_Triangulate);
-    if (scene == nullptr)
-        return Error{"is no mesh that can be read: " + std::string(importer.GetErrorString()),
-                     "Export it anew."};
-    return Gatherer(request).gather(*scene);
+    const Result<const aiScene*> scene = open_scene(importer, request.path);
+    if (!scene) return scene.error();
+    const Result<Triangles> triangles = Gatherer(request).gather(*scene.value());
+    if (!triangles) return triangles.error();
+    MeshFile file = join(triangles.value(), request, std::nullopt);
+    if (file.mesh.triangles.empty()) return no_area();
+    return file;
+}
+
+Result<std::vector<MeshPart>> read_mesh_parts(const MeshRequest& request) {
+    Assimp::Importer importer;
+    const Result<const aiScene*> scene = open_scene(importer, request.path);
+    if (!scene) return scene.error();
+    const Result<Triangles> triangles = Gatherer(request).gather(*scene.value());
+    if (!triangles) return triangles.error();
+    std::vector<MeshPart> parts;
+    for (unsigned m = 0; m < scene.value()->mNumMaterials; ++m) {
+        MeshPart part{join(triangles.value(), request, m).mesh, {}, 1, {}, {}};
+        if (part.mesh.triangles.empty()) continue;
+        describe(*scene.value()->mMaterials[m], extension_of(request.path) == ".dae", part);
+        parts.push_back(std::move(part));
+    }
+    if (parts.empty()) return no_area();
+    return parts;
 }
 
 }  // namespace roboss

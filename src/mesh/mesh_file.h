@@ -1,7 +1,9 @@
 // Mesh files (STL, OBJ, DAE) to plain triangles. The only place that knows assimp.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "core/result.h"
 #include "world/world.h"
@@ -25,5 +27,16 @@ struct MeshFile {
 /// no such file, not a mesh, no triangles, a coordinate that is not finite or beyond 1e6 m, more than two
 /// million triangles, no such part.
 Result<MeshFile> read_mesh(const MeshRequest& request);
+
+/// What the triangles of one material look like.
+struct MeshPart {
+    MeshSpec mesh;            // with uv where the file has them
+    std::optional<Vec3> rgb;  // none: the file says nothing
+    double alpha = 1;
+    std::string colour, normal;  // pictures as the file names them; empty: none
+};
+
+/// The same triangles to be drawn, by material; the same Errors.
+Result<std::vector<MeshPart>> read_mesh_parts(const MeshRequest& request);
 
 }  // namespace roboss

@@ -30,16 +30,16 @@ TypeId place_of_type(Model& model, const RobotType& type) {
     return TypeId(model.types.size() - 1);
 }
 
-std::string renamed(const Model& addition, const std::string& old, const std::string& name) {
-    if (name.empty()) return old;
-    return addition.robots.size() == 1 && addition.robots.front().name == old ? name : name + "::" + old;
-}
-
 Error taken(const std::string& name) {
     return {"there is a robot '" + name + "' already", "give another name with --name"};
 }
 
 }  // namespace
+
+std::string name_in_model(const Model& addition, const std::string& old, const std::string& name) {
+    if (name.empty()) return old;
+    return addition.robots.size() == 1 && addition.robots.front().name == old ? name : name + "::" + old;
+}
 
 Result<ModelEdit> with_accuracy(const Model& model, const AccuracySpec& spec) {
     auto changed = std::make_shared<Model>(model);
@@ -63,7 +63,7 @@ Result<ModelEdit> with_models(const Model& model, const Model& addition, const P
     const std::size_t first = model.robots.size();
     for (const Robot& robot : addition.robots) {
         Robot added = robot;
-        added.name = renamed(addition, robot.name, name);
+        added.name = name_in_model(addition, robot.name, name);
         if (model.find_robot(added.name)) return taken(added.name);
         added.type = place_of_type(*changed, addition.types[robot.type.index()]);
         added.X_WR = X_WA * robot.X_WR;

@@ -23,6 +23,9 @@ struct ModelEdit {
 /// The accuracy set anew, after the world's own and in this order of settings and numbers.
 Result<ModelEdit> with_accuracy(const Model& model, const AccuracySpec& spec);
 
+/// What a model of `addition` is called where that is added under `name`; empty: as it is called there.
+std::string name_in_model(const Model& addition, const std::string& old, const std::string& name);
+
 /// All that `addition` holds, robots and scenery, put at X_WA. `name`: of its only model, instead of its own;
 /// empty: its own. Refuses names that are taken and another step.
 Result<ModelEdit> with_models(const Model& model, const Model& addition, const Pose& X_WA,

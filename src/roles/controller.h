@@ -96,6 +96,7 @@ struct MemberReport {
     std::size_t robots = 0, islands = 0;  // that it has now
     double step_us = 0;                   // CPU time of its stepping a tick and thread
     double load = 0;                      // the same, relative to the busiest
+    Address address;
 };
 
 /// A committed tick that somebody still wants to fetch.

@@ -13,7 +13,8 @@ std::vector<MemberReport> Controller::members() const {
     for (std::uint32_t place = 0; place < roster_.size(); ++place) {
         const SimulatorSeat& seat = roster_.seat(place);
         MemberReport& member = members[place];
-        member = {SimulatorId(place), seat.name, seat.threads, seat.alive, seat.leaving, 0, 0, 0, 0};
+        member = {SimulatorId(place), seat.name, seat.threads, seat.alive, seat.leaving, 0, 0, 0, 0,
+                  seat.address};
         if (!seat.alive) continue;
         member.step_us = 1e-3 * seat.spent_ns;
         member.load = busiest_ns > 0 ? seat.spent_ns / busiest_ns : 0;

@@ -31,42 +31,42 @@ bool has_visuals(const ModelSpec& spec) {
 
 class SceneMaker {
   public:
-    SceneMaker(const Model& model, const World* world) : model_(model), world_(world) {
-        if (world == nullptr) return;
-        for (const ModelInstance& instance : world->instances) instances_[instance.name] = &instance;
+    SceneMaker(const Model& model, std::span<const World* const> worlds) : model_(model), worlds_(worlds) {
+        for (const World* world : worlds)
+            for (const ModelInstance& instance : world->instances)
+                specs_[instance.name] = &world->prototypes[instance.prototype];
     }
 
     Scene make() {
-        std::map<std::pair<TypeId, std::size_t>, std::size_t> known;
+        std::map<std::pair<TypeId, const ModelSpec*>, std::size_t> known;
         for (const Robot& robot : model_.robots) {
-            const std::pair key(robot.type, prototype_of(robot));
+            const std::pair key(robot.type, spec_of(robot));
             const auto [entry, is_new] = known.try_emplace(key, scene_.types.size());
             if (is_new) add_type(robot.type, key.second);
             scene_.robots.push_back(entry->second);
         }
-        if (world_ != nullptr) add_world_statics();
+        for (const World* world : worlds_) add_world_statics(*world);
         add_other_statics();
         scene_.meshes = shapes_.take_meshes();
+        scene_.textures = shapes_.take_textures();
         return std::move(scene_);
     }
 
   private:
-    static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-
-    /// The World's prototype of a robot; a robot of several is called MODEL::LINK.
-    std::size_t prototype_of(const Robot& robot) const {
+    /// What a World says of a robot; a robot of several is called MODEL::LINK. nullptr: nothing.
+    const ModelSpec* spec_of(const Robot& robot) const {
         const RobotType& type = model_.types[robot.type.index()];
         for (std::size_t end = robot.name.size(); end != std::string::npos && end > 0;
              end = robot.name.rfind("::", end - 1)) {
-            const auto found = instances_.find(robot.name.substr(0, end));
-            if (found == instances_.end()) continue;
-            const ModelSpec& spec = world_->prototypes[found->second->prototype];
+            const auto found = specs_.find(robot.name.substr(0, end));
+            if (found == specs_.end()) continue;
+            const ModelSpec& spec = *found->second;
             const bool fits = std::all_of(type.links.begin(), type.links.end(), [&](const Link& link) {
                 return link_of(spec, link.name) != nullptr;
             });
-            if (fits && spec.is_static == type.is_static) return found->second->prototype;
+            if (fits && spec.is_static == type.is_static) return &spec;
         }
-        return kNone;
+        return nullptr;
     }
 
     static const LinkSpec* link_of(const ModelSpec& spec, const std::string& name) {
@@ -75,7 +75,7 @@ class SceneMaker {
         return found == spec.links.end() ? nullptr : &*found;
     }
 
-    void add_type(TypeId id, std::size_t prototype) {
+    void add_type(TypeId id, const ModelSpec* spec) {
         const RobotType& type = model_.types[id.index()];
         SceneType result{id, std::vector<SceneLink>(type.links.size())};
         const Vec3 rgb = colour_of(type.name);
@@ -87,7 +87,7 @@ class SceneMaker {
             shape.name = link.name;
             result.links[from.link.index()].collisions.push_back(std::move(shape));
         }
-        const bool drawn = prototype != kNone && has_visuals(world_->prototypes[prototype]);
+        const bool drawn = spec != nullptr && has_visuals(*spec);
         for (std::size_t l = 0; l < type.links.size(); ++l) {
             SceneLink& link = result.links[l];
             if (type.is_static) continue;  // its visuals are scenery
@@ -95,9 +95,10 @@ class SceneMaker {
                 link.visuals = link.collisions;
                 continue;
             }
-            for (const VisualSpec& visual :
-                 link_of(world_->prototypes[prototype], type.links[l].name)->visuals)
-                add_visual(visual, Pose{}, visual.name, link.visuals);
+            const std::vector<VisualSpec>& visuals = link_of(*spec, type.links[l].name)->visuals;
+            for (const VisualSpec& visual : visuals) add_visual(visual, Pose{}, visual.name, link.visuals);
+            const bool unreadable = link.visuals.empty() && !visuals.empty();
+            if (unreadable) link.visuals = link.collisions;
         }
         scene_.types.push_back(std::move(result));
     }
@@ -110,13 +111,14 @@ class SceneMaker {
         shape->frame = X_FL * visual.X_LV;
         shape->rgb = visual.rgb;
         shape->alpha = visual.alpha;
+        shape->finish = shapes_.finish_of(visual.finish);
         shapes.push_back(std::move(*shape));
     }
 
     /// Static models with visuals; those without are left to add_other_statics().
-    void add_world_statics() {
-        for (const ModelInstance& instance : world_->instances) {
-            const ModelSpec& spec = world_->prototypes[instance.prototype];
+    void add_world_statics(const World& world) {
+        for (const ModelInstance& instance : world.instances) {
+            const ModelSpec& spec = world.prototypes[instance.prototype];
             if (!spec.is_static || !has_visuals(spec)) continue;
             for (const LinkSpec& link : spec.links) {
                 for (const VisualSpec& visual : link.visuals)
@@ -140,17 +142,21 @@ class SceneMaker {
     }
 
     const Model& model_;
-    const World* world_;
-    std::map<std::string, const ModelInstance*> instances_;
-    std::set<std::string> drawn_;  // scenery whose visuals are there
+    std::span<const World* const> worlds_;
+    std::map<std::string, const ModelSpec*> specs_;  // by the names of their instances
+    std::set<std::string> drawn_;                    // scenery whose visuals are there
     ShapeBook shapes_;
     Scene scene_;
 };
 
 }  // namespace
 
+Scene make_scene(const Model& model, std::span<const World* const> worlds) {
+    return SceneMaker(model, worlds).make();
+}
+
 Scene make_scene(const Model& model, const World* world) {
-    return SceneMaker(model, world).make();
+    return make_scene(model, std::span(&world, world != nullptr ? 1 : 0));
 }
 
 }  // namespace roboss

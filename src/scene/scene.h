@@ -5,6 +5,9 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,6 +18,12 @@ namespace roboss {
 
 enum class SceneShapeKind { kPlane, kBox, kSphere, kCylinder, kCapsule, kEllipsoid, kMesh };
 
+/// What lies over a colour: places in Scene::textures, and numbers from 0 to 1; none: the viewer's own.
+struct SceneFinish {
+    std::optional<std::size_t> colour, normal, roughness_map, metalness_map;
+    std::optional<double> roughness, metalness;
+};
+
 struct SceneShape {
     std::string name;
     SceneShapeKind kind = SceneShapeKind::kBox;
@@ -24,11 +33,19 @@ struct SceneShape {
     Pose frame;            // in the link, or in the world
     Vec3 rgb{0.7, 0.7, 0.7};
     double alpha = 1;
+    SceneFinish finish;
 };
 
 struct SceneMesh {
     std::vector<Vec3> vertices;  // m
     std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::vector<std::array<float, 2>> uv{};  // by vertex, or none
+};
+
+/// A picture, once for all files with the same content.
+struct SceneTexture {
+    std::uint64_t hash = 0;  // of its bytes
+    std::shared_ptr<const PictureSpec> picture;
 };
 
 struct SceneLink {
@@ -46,10 +63,13 @@ struct Scene {
     std::vector<std::size_t> robots;  // by RobotId: place in `types`
     std::vector<SceneShape> statics;
     std::vector<SceneMesh> meshes;
+    std::vector<SceneTexture> textures;
 };
 
-/// `world`: nullptr if there is none. It need not be the very world that the Model was compiled from: robots
-/// that were added or taken away since are found by name.
+/// The worlds need not be the very ones that the Model was compiled from: robots are found in them by name,
+/// in the last first. None: only collision shapes are drawn.
+Scene make_scene(const Model& model, std::span<const World* const> worlds);
+/// nullptr: none.
 Scene make_scene(const Model& model, const World* world);
 
 }  // namespace roboss

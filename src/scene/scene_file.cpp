@@ -5,6 +5,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "core/hash.h"
 #include "wire/archive.h"
 #include "wire/view_state.h"
 
@@ -58,7 +59,22 @@ const char* name_of(SensorKind kind) {
     return kNames[static_cast<std::size_t>(kind)];
 }
 
-Json json_of(const SceneShape& shape) {
+/// Pictures by their hash; null: nothing lies over the colour.
+Json json_of(const SceneFinish& finish, const Scene& scene) {
+    Json o;
+    const auto picture = [&](const char* name, const std::optional<std::size_t>& texture) {
+        if (texture) o[name] = to_hex(scene.textures[*texture].hash);
+    };
+    picture("colour", finish.colour);
+    picture("normal", finish.normal);
+    picture("roughness_map", finish.roughness_map);
+    picture("metalness_map", finish.metalness_map);
+    if (finish.roughness) o["roughness"] = tidy(*finish.roughness);
+    if (finish.metalness) o["metalness"] = tidy(*finish.metalness);
+    return o;
+}
+
+Json json_of(const SceneShape& shape, const Scene& scene) {
     Json o{{"name", shape.name}, {"shape", name_of(shape.kind)}};
     switch (shape.kind) {
         case SceneShapeKind::kBox:
@@ -83,12 +99,13 @@ Json json_of(const SceneShape& shape) {
     o["frame"] = json_of(shape.frame);
     o["rgb"] = json_of(shape.rgb);
     o["alpha"] = tidy(shape.alpha);
+    if (Json finish = json_of(shape.finish, scene); !finish.is_null()) o["finish"] = std::move(finish);
     return o;
 }
 
-Json json_of(const std::vector<SceneShape>& shapes) {
+Json json_of(const std::vector<SceneShape>& shapes, const Scene& scene) {
     Json list = Json::array();
-    for (const SceneShape& shape : shapes) list.push_back(json_of(shape));
+    for (const SceneShape& shape : shapes) list.push_back(json_of(shape, scene));
     return list;
 }
 
@@ -141,7 +158,7 @@ Json json_of(const SensorInfo& sensor) {
     return o;
 }
 
-Json json_of(const SceneType& scene_type, const Model& model) {
+Json json_of(const SceneType& scene_type, const Scene& scene, const Model& model) {
     const RobotType& type = model.types[scene_type.type.index()];
     Json bodies = Json::array(), links = Json::array(), joints = Json::array(), sensors = Json::array();
     for (const Body& body : type.bodies) bodies.push_back(json_of(body));
@@ -150,8 +167,8 @@ Json json_of(const SceneType& scene_type, const Model& model) {
         links.push_back({{"name", link.name},
                          {"body", link.body},
                          {"frame", json_of(link.X_BL)},
-                         {"visuals", json_of(scene_type.links[l].visuals)},
-                         {"collisions", json_of(scene_type.links[l].collisions)}});
+                         {"visuals", json_of(scene_type.links[l].visuals, scene)},
+                         {"collisions", json_of(scene_type.links[l].collisions, scene)}});
     }
     for (const Joint& joint : type.joints) joints.push_back(json_of(type, joint));
     for (const SensorInfo& sensor : type.sensors) sensors.push_back(json_of(sensor));
@@ -181,15 +198,21 @@ std::vector<std::uint8_t> bytes_of(const SceneMesh& mesh) {
         put(xyz, sizeof(xyz));
     }
     for (const auto& triangle : mesh.triangles) put(triangle.data(), sizeof(triangle));
+    for (const auto& uv : mesh.uv) put(uv.data(), sizeof(uv));
     return bytes;
 }
 
 }  // namespace
 
+const char* mime_type(PictureKind kind) {
+    static constexpr const char* kTypes[] = {"image/png", "image/jpeg", "image/webp"};
+    return kTypes[static_cast<std::size_t>(kind)];
+}
+
 SceneFile scene_file(const Scene& scene, const Model& model, std::uint64_t seed) {
     constexpr std::size_t kGroupsMax = 12;
     Json types = Json::array(), robots = Json::array();
-    for (const SceneType& type : scene.types) types.push_back(json_of(type, model));
+    for (const SceneType& type : scene.types) types.push_back(json_of(type, scene, model));
     for (std::size_t r = 0; r < model.robots.size(); ++r)
         robots.push_back({{"name", model.robots[r].name}, {"type", scene.robots[r]}});
     const Json o{{"world", model.name},
@@ -198,10 +221,12 @@ SceneFile scene_file(const Scene& scene, const Model& model, std::uint64_t seed)
                  {"seed", seed},
                  {"types", std::move(types)},
                  {"robots", std::move(robots)},
-                 {"statics", json_of(scene.statics)},
+                 {"statics", json_of(scene.statics, scene)},
                  {"groups_max", kGroupsMax}};
-    SceneFile file{model.hash, seed, o.dump(-1, ' ', false, Json::error_handler_t::replace), {}};
+    SceneFile file{model.hash, seed, o.dump(-1, ' ', false, Json::error_handler_t::replace), {}, {}};
     for (const SceneMesh& mesh : scene.meshes) file.meshes.push_back(bytes_of(mesh));
+    for (const SceneTexture& texture : scene.textures)
+        file.textures.push_back({texture.hash, texture.picture->kind, texture.picture->bytes});
     return file;
 }
 
@@ -219,6 +244,13 @@ std::vector<std::uint8_t> encode(const SceneFile& file) {
         a.count(mesh.size());
         a.raw(mesh.data(), mesh.size());
     }
+    a.count(file.textures.size());
+    for (const TextureFile& texture : file.textures) {
+        a.scalar(texture.hash);
+        a.scalar(texture.kind);
+        a.count(texture.bytes.size());
+        a.raw(texture.bytes.data(), texture.bytes.size());
+    }
     return a.take();
 }
 
@@ -232,6 +264,15 @@ Result<SceneFile> decode_scene_file(std::span<const std::uint8_t> bytes) {
     for (auto& mesh : file.meshes) {
         mesh.resize(a.count(1));
         a.raw(mesh.data(), mesh.size());
+    }
+    file.textures.resize(a.count(sizeof(std::uint64_t)));
+    for (TextureFile& texture : file.textures) {
+        a.scalar(texture.hash);
+        a.scalar(texture.kind);
+        if (texture.kind < PictureKind::kPng || texture.kind > PictureKind::kWebp)
+            a.fail("a picture is of no known kind");
+        texture.bytes.resize(a.count(1));
+        a.raw(texture.bytes.data(), texture.bytes.size());
     }
     if (a.left() > 0) a.fail("bytes are left over behind it");
     if (!a.failed() && (file.json.size() < 2 || file.json.front() != '{')) a.fail("it holds no object");

@@ -9,11 +9,22 @@
 
 namespace roboss {
 
+/// A picture as it goes to a browser.
+struct TextureFile {
+    std::uint64_t hash = 0;
+    PictureKind kind = PictureKind::kPng;
+    std::vector<std::uint8_t> bytes;
+};
+
+/// As it stands in an HTTP answer.
+const char* mime_type(PictureKind kind);
+
 struct SceneFile {
     std::uint64_t model_hash = 0;  // of the Model whose scene it is
     std::uint64_t seed = 0;        // of the run
     std::string json;              // an object, without the number of the scene
     std::vector<std::vector<std::uint8_t>> meshes;
+    std::vector<TextureFile> textures;
 };
 
 SceneFile scene_file(const Scene& scene, const Model& model, std::uint64_t seed);

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "core/hash.h"
 #include "scene/scene_file.h"
 #include "wire/view_state.h"
 
@@ -109,6 +110,46 @@ TEST(Scene, MeshesAreKeptOnceAndHaveTheirTriangles) {
     EXPECT_EQ(counts[0], 4u);
     EXPECT_EQ(counts[1], 4u);
     EXPECT_EQ(file.meshes[0].size(), 8u + 4 * 12 + 4 * 12);
+}
+
+std::shared_ptr<const PictureSpec> picture(std::vector<std::uint8_t> bytes) {
+    return std::make_shared<const PictureSpec>(PictureSpec{"a", PictureKind::kPng, 4, 4, std::move(bytes)});
+}
+
+TEST(Scene, PicturesAreListedOnceByTheirContentAndMeshesKeepTheirPlacesInThem) {
+    World world = small_world();
+    VisualSpec& red = world.prototypes[1].links[0].visuals[0];
+    VisualSpec& blue = world.prototypes[2].links[0].visuals[0];
+    red.finish = {picture({1, 2, 3}), picture({4}), nullptr, nullptr, 0.25, std::nullopt};
+    blue.finish.colour = picture({1, 2, 3});  // another file with the same content
+    MeshSpec sheet{"s", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {{0, 0}, {1, 0}, {0, 1}}};
+    red.geometry.kind = GeometryKind::kMesh;
+    red.geometry.mesh = std::make_shared<const MeshSpec>(std::move(sheet));
+    const auto model = test::compiled(world);
+    const Scene scene = make_scene(*model, &world);
+    ASSERT_EQ(scene.textures.size(), 2u);
+    const SceneFile file = scene_file(scene, *model, 1);
+    const Json json = Json::parse(numbered(file, 1));
+    const auto finish = [&](const char* robot) {
+        const std::size_t type = json["robots"][model->find_robot(robot)->index()]["type"];
+        return json["types"][type]["links"][0]["visuals"][0].value("finish", Json());
+    };
+    EXPECT_EQ(finish("red")["colour"], finish("blue")["colour"]);
+    EXPECT_EQ(finish("red")["roughness"], 0.25);
+    EXPECT_FALSE(finish("red").contains("metalness"));
+    EXPECT_TRUE(finish("plain").is_null());
+    EXPECT_EQ(finish("red")["colour"], to_hex(file.textures[0].hash));
+    EXPECT_EQ(file.textures[0].bytes, (std::vector<std::uint8_t>{1, 2, 3}));
+    EXPECT_EQ(file.meshes[0].size(), 8u + 3 * 12 + 12 + 3 * 8);
+    const Result<SceneFile> back = decode_scene_file(encode(file));
+    ASSERT_TRUE(back.ok()) << back.error().text();
+    ASSERT_EQ(back.value().textures.size(), 2u);
+    EXPECT_EQ(back.value().textures[1].bytes, file.textures[1].bytes);
+    std::vector<std::uint8_t> odd = encode(file);
+    odd[odd.size() - 4 - 1 - 1] = 9;  // the kind of the last picture
+    EXPECT_FALSE(decode_scene_file(odd).ok());
+    for (std::size_t n = 0; n < odd.size(); n += 5)
+        EXPECT_FALSE(decode_scene_file(std::span(odd).first(n)).ok());
 }
 
 /// The rotation or way of a body's joint, from the values of the State message.

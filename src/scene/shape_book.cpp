@@ -1,6 +1,9 @@
 // Meshes of hulls, surfaces, height grids and outlines.
 #include "scene/shape_book.h"
 
+#include <algorithm>
+
+#include "core/hash.h"
 #include "geometry/polygon_pieces.h"
 
 namespace roboss {
@@ -41,7 +44,7 @@ SceneMesh mesh_of_heights(std::size_t columns, std::size_t rows, const std::vect
 
 SceneMesh mesh_of_surface(const TriangleSurface& surface) {
     const SurfaceSource source = surface.source();
-    if (const auto* mesh = std::get_if<MeshSource>(&source)) return {mesh->vertices, mesh->triangles};
+    if (const auto* mesh = std::get_if<MeshSource>(&source)) return {mesh->vertices, mesh->triangles, {}};
     const auto& grid = std::get<HeightSource>(source);
     return mesh_of_heights(grid.columns, grid.rows, grid.heights, {grid.size_x, grid.size_y, 0}, {});
 }
@@ -119,16 +122,42 @@ std::size_t ShapeBook::keep(const void* source, SceneMesh mesh) {
     return number;
 }
 
+std::optional<std::size_t> ShapeBook::texture_of(const std::shared_ptr<const PictureSpec>& picture) {
+    if (!picture) return std::nullopt;
+    const auto [entry, is_new] = known_textures_.try_emplace(picture.get(), textures_.size());
+    if (!is_new) return entry->second;
+    Hash hash;
+    hash.add(std::string_view(reinterpret_cast<const char*>(picture->bytes.data()), picture->bytes.size()));
+    const auto same = std::find_if(textures_.begin(), textures_.end(),
+                                   [&](const SceneTexture& t) { return t.hash == hash.value(); });
+    if (same != textures_.end()) return entry->second = static_cast<std::size_t>(same - textures_.begin());
+    textures_.push_back({hash.value(), picture});
+    return entry->second;
+}
+
+SceneFinish ShapeBook::finish_of(const FinishSpec& finish) {
+    return {texture_of(finish.colour),        texture_of(finish.normal), texture_of(finish.roughness_map),
+            texture_of(finish.metalness_map), finish.roughness,          finish.metalness};
+}
+
 std::optional<SceneMesh> ShapeBook::mesh_of(const GeometrySpec& geometry) const {
     if (geometry.kind == GeometryKind::kMesh) {
         if (!geometry.mesh) return std::nullopt;
-        return SceneMesh{geometry.mesh->vertices, geometry.mesh->triangles};
+        return SceneMesh{geometry.mesh->vertices, geometry.mesh->triangles, geometry.mesh->uv};
     }
     if (geometry.kind == GeometryKind::kHeightmap) {
         if (!geometry.heights) return std::nullopt;
         const HeightGridSpec& grid = *geometry.heights;
-        return mesh_of_heights(grid.columns, grid.rows, grid.heights, {grid.size_x, grid.size_y, 0},
-                               grid.centre);
+        SceneMesh mesh = mesh_of_heights(grid.columns, grid.rows, grid.heights, {grid.size_x, grid.size_y, 0},
+                                         grid.centre);
+        const double size = geometry.texture_size;
+        for (const Vec3& p : mesh.vertices) {
+            const double x = p.x - grid.centre.x + 0.5 * grid.size_x;
+            const double y = p.y - grid.centre.y + 0.5 * grid.size_y;
+            mesh.uv.push_back({static_cast<float>(x / (size > 0 ? size : grid.size_x)),
+                               static_cast<float>(y / (size > 0 ? size : grid.size_y))});
+        }
+        return mesh;
     }
     const auto pieces = convex_pieces(geometry.outline);
     if (!pieces) return std::nullopt;
@@ -145,6 +174,7 @@ std::optional<SceneShape> ShapeBook::shape_of(const GeometrySpec& geometry) {
     const void* source = geometry.kind == GeometryKind::kMesh
                              ? static_cast<const void*>(geometry.mesh.get())
                              : static_cast<const void*>(geometry.heights.get());
+    if (geometry.texture_size > 0) source = nullptr;  // its uv are its own
     if (const auto known = known_.find(source); source != nullptr && known != known_.end()) {
         shape.mesh = known->second;
         return shape;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sdf/element_reader.h"
+#include "sdf/look_files.h"
 #include "sdf/resource_paths.h"
 #include "sdf/shape_files.h"
 #include "world/world.h"
@@ -17,6 +18,7 @@ struct Import {
     const ResourcePaths& paths;
     ElementReader reader;
     ShapeFiles& files;
+    LookFiles& looks;
     double dt_s = 0.001;    // the world's step, which some numbers for ODE depend on
     int max_contacts = -1;  // of the world's physics, for collisions that do not say; negative: all
     Diagnostics& diagnostics() const { return reader.diagnostics(); }
@@ -28,9 +30,6 @@ void convert_inertial(const Element& link, const Import& import, LinkSpec& spec)
 /// <enable_wind> and <roboss:drag> of a link; `wind`: what the model says of <enable_wind>.
 void convert_drag(const Element& link, bool wind, const Import& import, LinkSpec& spec);
 
-/// What a geometry is for: to collide, its files are read and must be there; to be seen, they are only named.
-enum class GeometryUse { kCollide, kSee };
-
 /// nullopt for <empty> or a shape that is not known. `X` is the pose of the element that holds the geometry;
 /// a plane's normal is folded into it.
 std::optional<GeometrySpec> convert_geometry(const Element& geometry, GeometryUse use, const Import& import,
@@ -39,7 +38,8 @@ std::optional<GeometrySpec> convert_geometry(const Element& geometry, GeometryUs
 SurfaceSpec convert_surface(const Element& collision, const Import& import);
 std::optional<CollisionSpec> convert_collision(const Element& collision, const Pose& X_LS,
                                                const Import& import);
-VisualSpec convert_visual(const Element& visual, const Pose& X_LV, const Import& import);
+/// A visual; of a mesh, one for each of its materials.
+std::vector<VisualSpec> convert_visual(const Element& visual, const Pose& X_LV, const Import& import);
 
 /// A <sensor> or <roboss:sensor>; `scope` is the prefix of the names in a nested model ("inner::" or "").
 SensorSpec convert_sensor(const Element& sensor, const Pose& X_LS, const std::string& scope,

@@ -32,7 +32,8 @@ class WorldLoader {
   public:
     WorldLoader(const LoadOptions& options, Diagnostics& diagnostics)
         : paths_(options.search_paths),
-          import_{paths_, ElementReader(diagnostics), files_, 0.001, -1},
+          looks_(paths_, options.looks),
+          import_{paths_, ElementReader(diagnostics), files_, looks_, 0.001, -1},
           includes_(paths_, diagnostics),
           libsdformat_(includes_, diagnostics),
           diagnostics_(diagnostics),
@@ -125,6 +126,7 @@ class WorldLoader {
 
     ResourcePaths paths_;
     ShapeFiles files_;
+    LookFiles looks_;
     Import import_;
     IncludeStore includes_;
     LibsdformatReader libsdformat_;

@@ -18,6 +18,9 @@ struct LoadOptions {
     std::vector<std::string> search_paths;
     /// Name of the <physics> profile to use; empty: the one with default="true", else the first.
     std::string profile{};
+    /// Reads also what is only drawn: meshes and pictures of visuals. Without, such files are looked for, not
+    /// opened.
+    bool looks = true;
 };
 
 /// The world of `file` (its first one; a file with a model only becomes a world with that model), checked

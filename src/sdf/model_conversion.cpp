@@ -104,8 +104,9 @@ class ModelConverter {
                 spec.collisions.push_back(std::move(*collision));
             }
         } else if (std::strcmp(tag, "visual") == 0) {
-            spec.visuals.push_back(
-                convert_visual(part, pose_of(part, link.VisualByName(part.name()), link), import_));
+            for (VisualSpec& visual :
+                 convert_visual(part, pose_of(part, link.VisualByName(part.name()), link), import_))
+                spec.visuals.push_back(std::move(visual));
         } else if (std::strcmp(tag, "sensor") == 0 || std::strcmp(tag, "roboss:sensor") == 0) {
             const Pose X_LS = pose_of(part, link.SensorByName(part.name()), link);
             spec.sensors.push_back(convert_sensor(part, X_LS, scope.prefix, import_));

@@ -1,4 +1,4 @@
-// Geometry, collisions and visuals.
+// Geometry and collisions.
 #include <cstring>
 
 #include "sdf/conversion.h"
@@ -71,8 +71,8 @@ bool read_shape(const Element& shape, GeometryUse use, const Import& import, Geo
     } else if (kind == "heightmap") {
         spec.kind = GeometryKind::kHeightmap;
         spec.size = reader.vector(shape, "size", {1, 1, 1});
-        if (find_file(shape, use, import, spec) && use == GeometryUse::kCollide)
-            import.files.read_heightmap(shape, reader, spec);
+        if (find_file(shape, use, import, spec) && (use == GeometryUse::kCollide || import.looks.opens()))
+            import.files.read_heightmap(shape, reader, use, spec);
     } else if (kind == "polyline") {
         spec.kind = GeometryKind::kPolyline;
         spec.length = reader.number(shape, "height", 1);
@@ -129,25 +129,6 @@ std::optional<CollisionSpec> convert_collision(const Element& collision, const P
     }
     spec.geometry = *known;
     spec.surface = convert_surface(collision, import);
-    return spec;
-}
-
-VisualSpec convert_visual(const Element& visual, const Pose& X_LV, const Import& import) {
-    VisualSpec spec;
-    spec.name = visual.name();
-    spec.X_LV = X_LV;
-    if (const auto known = convert_geometry(visual.child("geometry"), GeometryUse::kSee, import, spec.X_LV))
-        spec.geometry = *known;
-    const Element material = visual.child("material");
-    for (const char* colour : {"diffuse", "ambient"}) {
-        const auto words = words_of(material.node.child(colour).text().get());
-        if (words.size() < 3) continue;
-        spec.rgb = {parse_number(words[0]).value_or(spec.rgb.x), parse_number(words[1]).value_or(spec.rgb.y),
-                    parse_number(words[2]).value_or(spec.rgb.z)};
-        if (words.size() > 3) spec.alpha = parse_number(words[3]).value_or(1.0);
-        break;
-    }
-    spec.alpha *= 1.0 - import.reader.number(visual, "transparency", 0.0);
     return spec;
 }
 

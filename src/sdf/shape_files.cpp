@@ -48,6 +48,17 @@ HeightGridSpec grid_of(const GreyImage& image, int sampling, const Vec3& size) {
 
 }  // namespace
 
+MeshRequest mesh_request(const Element& mesh, const GeometrySpec& spec) {
+    const Element submesh = mesh.child("submesh");
+    return {spec.uri, spec.scale, submesh ? submesh.text("name") : "",
+            submesh && submesh.node.child("center").text().as_bool()};
+}
+
+std::string key_of(const MeshRequest& request) {
+    return request.path + "|" + request.submesh + (request.centre_submesh ? "|centred" : "|") +
+           key_of({request.scale.x, request.scale.y, request.scale.z});
+}
+
 void ShapeFiles::read_mesh(const Element& mesh, Diagnostics& diagnostics, GeometrySpec& spec) {
     const std::string optimization = mesh.node.attribute("optimization").as_string();
     spec.as_hull = optimization == "convex_hull" || optimization == "convex_decomposition";
@@ -57,13 +68,8 @@ void ShapeFiles::read_mesh(const Element& mesh, Diagnostics& diagnostics, Geomet
                          "If hollows matter, give several convex meshes, or make the model static.");
         spec.as_hull = true;
     }
-    const Element submesh = mesh.child("submesh");
-    const MeshRequest request{spec.uri, spec.scale, submesh ? submesh.text("name") : "",
-                              submesh && submesh.node.child("center").text().as_bool()};
-    const std::string key = request.path + "|" + request.submesh +
-                            (request.centre_submesh ? "|centred" : "|") +
-                            key_of({spec.scale.x, spec.scale.y, spec.scale.z});
-    const auto [entry, is_new] = meshes_.try_emplace(key);
+    const MeshRequest request = mesh_request(mesh, spec);
+    const auto [entry, is_new] = meshes_.try_emplace(key_of(request));
     if (is_new) {
         auto file = roboss::read_mesh(request);
         if (!file) {
@@ -81,27 +87,29 @@ void ShapeFiles::read_mesh(const Element& mesh, Diagnostics& diagnostics, Geomet
     spec.mesh = entry->second;
 }
 
-void ShapeFiles::read_heightmap(const Element& heightmap, const ElementReader& reader, GeometrySpec& spec) {
+void ShapeFiles::read_heightmap(const Element& heightmap, const ElementReader& reader, GeometryUse use,
+                                GeometrySpec& spec) {
     const Vec3 centre = reader.vector(heightmap, "pos", {});
     const int sampling = std::clamp(reader.integer(heightmap, "sampling", 1), 1, 8);
-    Diagnostics& diagnostics = reader.diagnostics();
+    const Severity severity = use == GeometryUse::kCollide ? Severity::kError : Severity::kWarning;
+    const auto report = [&](const char* code, const std::string& message, const std::string& remedy) {
+        reader.diagnostics().add({severity, heightmap.where(), code, message, remedy});
+    };
     const Vec3& size = spec.size;
     if (!(size.x > 0 && size.y > 0 && size.z >= 0 && is_finite(size))) {
-        diagnostics.error(
-            heightmap.where(), "bad-size",
-            "the <size> of a heightmap must be greater than 0 along x and y, and not below 0 along z",
-            "Correct it.");
+        report("bad-size",
+               "the <size> of a heightmap must be greater than 0 along x and y, and not below 0 along z",
+               "Correct it.");
         return;
     }
-    const std::string key =
-        spec.uri + key_of({size.x, size.y, size.z, centre.x, centre.y, centre.z, 1.0 * sampling});
+    const std::string key = (use == GeometryUse::kCollide ? "" : "seen|") + spec.uri +
+                            key_of({size.x, size.y, size.z, centre.x, centre.y, centre.z, 1.0 * sampling});
     const auto [entry, is_new] = heights_.try_emplace(key);
     if (is_new) {
         const auto image = read_png(spec.uri);
         if (!image) {
-            diagnostics.error(heightmap.where(), "bad-heightmap",
-                              "the heightmap '" + spec.uri + "' " + image.error().message,
-                              image.error().remedy);
+            report("bad-heightmap", "the heightmap '" + spec.uri + "' " + image.error().message,
+                   image.error().remedy);
         } else {
             HeightGridSpec grid = grid_of(image.value(), sampling, size);
             grid.source = spec.uri;

@@ -6,17 +6,27 @@
 #include <memory>
 #include <string>
 
+#include "mesh/mesh_file.h"
 #include "sdf/element_reader.h"
 #include "world/world.h"
 
 namespace roboss::sdf_import {
+
+/// What a geometry is for: to collide, its files must be there; to be seen, what is missing is a warning.
+enum class GeometryUse { kCollide, kSee };
+
+/// What a <mesh> asks of the file spec.uri.
+MeshRequest mesh_request(const Element& mesh, const GeometrySpec& spec);
+/// Names all that the triangles depend on.
+std::string key_of(const MeshRequest& request);
 
 class ShapeFiles {
   public:
     /// Fills spec.mesh from spec.uri and spec.scale, and spec.as_hull, for a <mesh>.
     void read_mesh(const Element& mesh, Diagnostics& diagnostics, GeometrySpec& spec);
     /// Fills spec.heights for a <heightmap>.
-    void read_heightmap(const Element& heightmap, const ElementReader& reader, GeometrySpec& spec);
+    void read_heightmap(const Element& heightmap, const ElementReader& reader, GeometryUse use,
+                        GeometrySpec& spec);
 
   private:
     std::map<std::string, std::shared_ptr<const MeshSpec>> meshes_;

@@ -33,6 +33,8 @@ struct MeshSpec {
     std::string source;  // file, for messages
     std::vector<Vec3> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;
+    /// By vertex: where a picture lies on it, from its lower left corner; empty: nowhere. Of visuals only.
+    std::vector<std::array<float, 2>> uv{};
 };
 
 /// Heights (m) on a regular grid over size_x by size_y metres about `centre`; row by row, x growing within a
@@ -54,6 +56,7 @@ struct GeometrySpec {
     double length = 0;  // cylinder; capsule: of the straight part
     std::string uri;    // mesh, heightmap: the resolved file
     Vec3 scale{1, 1, 1};
+    double texture_size = 0;                        // m of a heightmap that one picture covers; 0: all of it
     std::shared_ptr<const MeshSpec> mesh;           // mesh; none: the file could not be read
     std::shared_ptr<const HeightGridSpec> heights;  // heightmap; none: the file could not be read
     std::vector<Vec3> outline;                      // polyline: corners (z = 0), extruded from 0 to `length`
@@ -87,12 +90,30 @@ struct CollisionSpec {
     SourceLocation where;
 };
 
+enum class PictureKind { kPng, kJpeg, kWebp };
+
+/// A picture as its file has it, never decoded here. Shared by all visuals that show it.
+struct PictureSpec {
+    std::string source;  // file, for messages
+    PictureKind kind = PictureKind::kPng;
+    std::uint32_t width = 0, height = 0;  // pixels
+    std::vector<std::uint8_t> bytes;
+};
+
+/// What lies over a visual's colour (SDF <pbr>, or what a mesh file says); nullptr: no such picture.
+struct FinishSpec {
+    std::shared_ptr<const PictureSpec> colour, normal, roughness_map, metalness_map;
+    std::optional<double> roughness, metalness;  // 0..1; none: the viewer's own
+};
+
+/// A mesh of several materials is one visual for each.
 struct VisualSpec {
     std::string name;
     GeometrySpec geometry;
     Pose X_LV;
     Vec3 rgb{0.7, 0.7, 0.7};
     double alpha = 1.0;
+    FinishSpec finish{};
 };
 
 /// Gaussian noise as in SDF <noise type="gaussian">; all zero: none.

@@ -96,6 +96,26 @@ TEST_F(Viewed, BrowsersSeeEveryRobotWhereItIsAndTheHashStaysTheSame) {
     EXPECT_FALSE(first.last("status")->contains("robots")) << "names are in the scene";
 }
 
+TEST_F(Viewed, PicturesOfTheSceneAreServedByTheirHashAndNothingElseIs) {
+    LiveRunOptions options;
+    options.textures = {{0xABCDEF, PictureKind::kPng, {1, 2, 3}}, {7, PictureKind::kJpeg, {9}}};
+    const auto run = begin(options);
+    const ViewerUrl url(run->url());
+    ASSERT_EQ(http_get(url, "/scene").status, 200);
+    const HttpAnswer png = http_get(url, "/texture/0000000000abcdef");
+    EXPECT_EQ(png.status, 200);
+    EXPECT_EQ(png.headers.at("Content-Type"), "image/png");
+    EXPECT_EQ(png.headers.at("X-Content-Type-Options"), "nosniff");
+    EXPECT_NE(png.headers.at("Cache-Control").find("immutable"), std::string::npos);
+    EXPECT_EQ(png.body, "\1\2\3");
+    EXPECT_EQ(http_get(url, "/texture/0000000000000007").headers.at("Content-Type"), "image/jpeg");
+    for (const char* path :
+         {"/texture/", "/texture/0000000000000008", "/texture/0000000000ABCDEF", "/texture/abcdef",
+          "/texture/../scene", "/texture//etc/passwd", "/texture/0000000000abcdef/.."})
+        EXPECT_EQ(http_get(url, path).status, 404) << path;
+    EXPECT_EQ(http_get(url, "/texture/0000000000abcdef", "evil.example:80").status, 403);
+}
+
 TEST_F(Viewed, OrdersOfAPageAreObeyedAlsoInAPausedWorldAndAnswered) {
     const auto run = begin();
     Browser page{ViewerUrl(run->url())};

@@ -9,7 +9,6 @@
 #include "core/hash.h"
 #include "core/thread_cpu.h"
 #include "model/edit.h"
-#include "scene/scene_file.h"
 
 namespace roboss::test {
 namespace {
@@ -49,8 +48,10 @@ SimulationOptions LiveRun::simulation_options() const {
     options.simulators = options_.simulators;
     if (!gateway_) return options;
     options.guest = [this](Bus& bus) { gateway_->advance(bus); };
-    options.controller.scene = [](const Model& model) {
-        return encode(scene_file(make_scene(model, nullptr), model, 0));
+    options.controller.scene = [textures = options_.textures](const Model& model) {
+        SceneFile file = scene_file(make_scene(model, nullptr), model, 0);
+        file.textures = textures;
+        return encode(file);
     };
     return options;
 }

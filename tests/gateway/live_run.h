@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gateway/gateway.h"
+#include "scene/scene_file.h"
 #include "simulation/simulation.h"
 
 namespace roboss::test {
@@ -22,7 +23,8 @@ struct LiveRunOptions {
     Tick end = 0;      // rests there; 0: goes on
     double speed = 1;  // simulated seconds a second; 0: as fast as it can
     bool paused = false;
-    std::vector<Order> orders;  // as of a file
+    std::vector<Order> orders;          // as of a file
+    std::vector<TextureFile> textures;  // that the scene has
 };
 
 class LiveRun {

@@ -13,6 +13,11 @@ import urllib.request
 
 from members import DRIVER, FOLDER, WORLDS, Cluster, embedded
 
+GUEST = """<sdf version="1.9"><model name="ball"><link name="body">
+<inertial><mass>1</mass><inertia><ixx>.01</ixx><iyy>.01</iyy><izz>.01</izz></inertia></inertial>
+<collision name="c"><geometry><sphere><radius>.2</radius></sphere></geometry></collision>
+<visual name="v"><geometry><cylinder><radius>.2</radius><length>.4</length></cylinder></geometry>
+<material><diffuse>0 .5 0 1</diffuse></material></visual></link></model></sdf>"""
 CITY = [WORLDS / "city.sdf", "--client", DRIVER]
 
 
@@ -138,9 +143,55 @@ class Viewer(unittest.TestCase):
                 page.hears(lambda _: page.states > 5)
                 status = page.hears(lambda said: said is not None and said["type"] == "status")
                 self.assertEqual(status["simulators"], 2)
+                counted = page.hears(lambda said: said is not None and said["type"] == "status" and said["messages"]["in"] > 0)
+                for way in ("in", "out", "bytes_in", "bytes_out"):
+                    self.assertTrue(all(member["messages"][way] > 0 for member in counted["members"]), counted)
+                    self.assertGreaterEqual(counted["messages"][way], sum(member["messages"][way] for member in counted["members"]) - 2)
                 page.hears(lambda _: page.tick == round(4 / scene["dt"]) or page.tick > 1500)
             summary = cluster.summary(controller)
         self.assertEqual(summary["state_hash"], embedded(WORLDS / "city.sdf", "--until", 4, "--headless")["state_hash"])
+
+    def test_pictures_of_a_world_reach_a_viewer_beside_the_cluster(self):
+        with Cluster() as cluster:
+            cluster.controller(WORLDS / "yard.sdf", "--simulators", 1, "--speed", 1, "--headless")
+            viewer = cluster.start("view", "--view", 0, "--patience", 30)
+            cluster.simulator()
+            url = url_of(viewer)
+            with Browser(url) as page:
+                page.hears(lambda _: page.states > 0)
+                scene = json.loads(get(url, "/scene"))
+                ground = next(visual for visual in scene["statics"] if visual["shape"] == "plane")
+                picture = get(url, "/texture/" + ground["finish"]["colour"])
+                self.assertEqual(picture, (WORLDS / "models/yard/paving.png").read_bytes())
+
+    def added_robots_look_as_their_file_says(self, url):
+        with Browser(url) as page:
+            page.hears(lambda _: page.states > 0)
+            before = json.loads(get(url, "/scene"))
+            words = ["add", "guest.sdf", GUEST, "0 0 2 0 0 0", "guest"]
+            done, text = page.asks({"type": "control", "id": 1, "words": words})
+            self.assertTrue(done, text)
+            number = page.hears(lambda said: said is not None and said["type"] == "scene")["scene"]
+            after = json.loads(get(url, "/scene"))
+        self.assertEqual(after["scene"], number)
+        link = after["types"][next(robot for robot in after["robots"] if robot["name"] == "guest")["type"]]["links"][0]
+        self.assertEqual([shape["shape"] for shape in link["collisions"]], ["sphere"])
+        self.assertEqual([(shape["shape"], shape["rgb"]) for shape in link["visuals"]], [("cylinder", [0, 0.5, 0])])
+        self.assertEqual(after["robots"][:-1], before["robots"])
+        self.assertEqual(after["types"][:len(before["types"])], before["types"])
+
+    def test_robots_added_at_run_time_look_as_their_file_says(self):
+        with Cluster() as cluster:
+            self.added_robots_look_as_their_file_says(
+                url_of(cluster.start_plain("run", WORLDS / "heap.sdf", "--speed", 1, "--view", 0)))
+
+    def test_robots_added_to_a_cluster_look_as_their_file_says(self):
+        with Cluster() as cluster:
+            cluster.controller(WORLDS / "heap.sdf", "--simulators", 2, "--speed", 1, "--headless")
+            viewer = cluster.start("view", "--view", 0, "--patience", 30)
+            for _ in range(2):
+                cluster.simulator()
+            self.added_robots_look_as_their_file_says(url_of(viewer))
 
     def test_a_run_that_a_page_gave_orders_is_resumed_without_the_page(self):
         journal = FOLDER / "viewed.journal"

@@ -4,8 +4,17 @@ import { type ChildProcess, spawn } from "node:child_process";
 import { existsSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { type Browser, chromium, type Page } from "playwright-core";
+import type { Hooks } from "../src/main";
+
+declare global {
+    interface Window {
+        roboss: Hooks;
+    }
+}
 
 const TESTS = join(dirname(fileURLToPath(import.meta.url)), "..");
 const WEB = process.env.ROBOSS_WEB ?? join(TESTS, "../dist");
@@ -14,10 +23,13 @@ const CHROMIUM =
     process.env.CHROMIUM ??
     ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find((path) => existsSync(path));
 export const WAIT_MS = 60_000;
+const LIMIT = { timeout: 2 * WAIT_MS };
 
 export interface Run {
     url: string;
     port: number;
+    /** Options that lead a member to a run of RunOptions::cluster. */
+    network: string[];
     stop(): Promise<void>;
 }
 
@@ -27,41 +39,64 @@ function ended(child: ChildProcess): Promise<void> {
     );
 }
 
+export interface RunOptions {
+    cars?: number;
+    port?: number;
+    /** Of the program: a file beside the world that ROBOSS_WORLD names. */
+    world?: string;
+    /** A Controller and two Simulators in processes of their own, which others may join. */
+    cluster?: boolean;
+}
+
+function mockArguments(options: RunOptions): string[] {
+    const { port = 0, cars = 50 } = options;
+    return [
+        join(TESTS, "mock/server.mjs"),
+        "--port",
+        `${port}`,
+        "--cars",
+        `${cars}`,
+        "--web",
+        WEB,
+        "--simulators",
+        "3",
+    ];
+}
+
+function programArguments(options: RunOptions, folder: string, network: string[]): string[] {
+    const city = process.env.ROBOSS_WORLD ?? "worlds/city.sdf",
+        world = options.world === undefined ? city : join(dirname(city), options.world),
+        kind = options.cluster
+            ? ["controller", world, "--simulators", "2", ...network]
+            : ["run", world, "--processes", "3"],
+        journal = join(folder, "run.journal");
+    return [...kind, "--journal", journal, "--speed", "1", "--view", `${options.port ?? 8190}`, "--web", WEB];
+}
+
+let clusters = 0;
+function clusterNetwork(): string[] {
+    const name = `page-${process.pid}-${++clusters}`;
+    return ["--simulation", name, "--domain", "92", "--no-multicast", "--peer", "127.0.0.1"];
+}
+
+async function end(child: ChildProcess): Promise<void> {
+    child.kill("SIGTERM");
+    const hard = setTimeout(() => child.kill("SIGKILL"), 5000);
+    await ended(child);
+    clearTimeout(hard);
+}
+
 /** Starts a run and waits until it says where its page is. */
-export async function startRun(options: { cars?: number; port?: number } = {}): Promise<Run> {
+export async function startRun(options: RunOptions = {}): Promise<Run> {
     const folder = mkdtempSync(join(tmpdir(), "roboss-page-")),
-        port = String(options.port ?? 0);
-    const child =
-        PROGRAM === ""
-            ? spawn(process.execPath, [
-                  join(TESTS, "mock/server.mjs"),
-                  "--port",
-                  port,
-                  "--cars",
-                  String(options.cars ?? 50),
-                  "--web",
-                  WEB,
-                  "--simulators",
-                  "3",
-              ])
-            : spawn(
-                  PROGRAM,
-                  [
-                      "run",
-                      process.env.ROBOSS_WORLD ?? "worlds/city.sdf",
-                      "--processes",
-                      "3",
-                      "--journal",
-                      join(folder, "run.journal"),
-                      "--speed",
-                      "1",
-                      "--view",
-                      port === "0" ? "8190" : port,
-                      "--web",
-                      WEB,
-                  ],
-                  { cwd: folder },
-              );
+        network = options.cluster ? clusterNetwork() : [],
+        child =
+            PROGRAM === ""
+                ? spawn(process.execPath, mockArguments(options))
+                : spawn(PROGRAM, programArguments(options, folder, network), { cwd: folder }),
+        simulators = options.cluster
+            ? [1, 2].map(() => spawn(PROGRAM, ["simulator", "--quiet", ...network], { stdio: "ignore" }))
+            : [];
     let said = "";
     const url = await new Promise<string>((resolve, reject) => {
         const hear = (text: Buffer) => {
@@ -77,14 +112,54 @@ export async function startRun(options: { cars?: number; port?: number } = {}): 
     return {
         url,
         port: Number(new URL(url).port),
+        network,
         stop: async () => {
-            child.kill("SIGTERM");
-            const hard = setTimeout(() => child.kill("SIGKILL"), 5000);
-            await ended(child);
-            clearTimeout(hard);
+            await Promise.all([child, ...simulators].map(end));
             rmSync(folder, { recursive: true, force: true });
         },
     };
+}
+
+/** What a Client in C++ (examples/watch_robot) says of a robot. */
+export interface Told {
+    time: number;
+    robot: string;
+    position: [number, number, number];
+    velocity: [number, number, number];
+    joints: Record<string, { position: number; velocity: number; mode: string; target: number }[]>;
+}
+
+/** A Client in C++ that joined the run: what it said last of each robot. */
+export class CppClient {
+    readonly told = new Map<string, Told>();
+    private said = "";
+    private readonly child: ChildProcess;
+
+    constructor(run: Run, robots: string[]) {
+        const library = process.env.ROBOSS_WATCH_ROBOT ?? "",
+            env = { ...process.env, ROBOSS_WATCH: robots.join(",") };
+        this.child = spawn(PROGRAM, ["client", library, "--quiet", ...run.network], { env });
+        this.child.stdout?.on("data", (text: Buffer) => this.hear(text.toString()));
+    }
+
+    private hear(text: string): void {
+        const lines = (this.said + text).split("\n");
+        this.said = lines.pop() ?? "";
+        for (const line of lines.filter((one) => one.startsWith("{"))) {
+            const told = JSON.parse(line) as Told;
+            this.told.set(told.robot, told);
+        }
+    }
+
+    of(robot: string): Told {
+        const told = this.told.get(robot);
+        if (told === undefined) throw new Error(`the Client says nothing of ${robot}`);
+        return told;
+    }
+
+    stop(): Promise<void> {
+        return end(this.child);
+    }
 }
 
 export function startBrowser(): Promise<Browser> {
@@ -128,14 +203,7 @@ export interface Seen {
 
 export function seen(page: Page, robot: number): Promise<Seen> {
     return page.evaluate((r) => {
-        const { state, stage } = (
-            window as unknown as {
-                roboss: {
-                    state: import("../src/model/viewer_state").ViewerState;
-                    stage: import("../src/view/stage").Stage;
-                };
-            }
-        ).roboss;
+        const { state, stage } = window.roboss;
         const base = state.world.value?.history.drawn.base ?? new Float32Array(7),
             at = r * 7,
             box = stage.canvas.getBoundingClientRect();
@@ -163,11 +231,7 @@ export async function until(what: string, ask: () => Promise<boolean>, wait_ms =
 }
 
 export async function time(page: Page): Promise<number> {
-    return page.evaluate(
-        () =>
-            (window as unknown as { roboss: { state: { status: { value: { time_s: number } | null } } } }).roboss.state
-                .status.value?.time_s ?? -1,
-    );
+    return page.evaluate(() => window.roboss.state.status.value?.time_s ?? -1);
 }
 
 /** Selects a robot by its name, through the list. */
@@ -175,4 +239,58 @@ export async function choose(page: Page, name: string): Promise<void> {
     await page.getByLabel("Find a robot").fill(name);
     await page.locator(".row.robot", { hasText: new RegExp(`^${name}$`) }).click();
     await page.getByLabel("Find a robot").fill("");
+}
+
+/** Takes a robot with the hand and drops it some pixels away; where it was before. */
+export async function drag(page: Page, robot: number, right: number, down: number): Promise<Seen> {
+    await page.getByRole("button", { name: "Follow", exact: true }).last().click();
+    await page.waitForTimeout(1500);
+    await page.getByRole("button", { name: "Orbit" }).click();
+    await page.getByLabel("Move a robot").click();
+    const from = await seen(page, robot);
+    await page.mouse.move(from.left, from.top);
+    await page.mouse.down();
+    await page.mouse.move(from.left + right / 2, from.top + down / 2, { steps: 6 });
+    await page.mouse.move(from.left + right, from.top + down, { steps: 6 });
+    await page.mouse.up();
+    await page.getByLabel("Select", { exact: true }).click();
+    return from;
+}
+
+/** A run with a browser that shows its page, for all tests of a file. `told`: robots that a Client tells of. */
+export class Bench {
+    browser!: Browser;
+    run!: Run;
+    page!: Page;
+    client: CppClient | null = null;
+    errors: string[] = [];
+
+    constructor(
+        private readonly options: RunOptions & { query?: string; told?: string[] } = {},
+        private readonly skip: string | false = false,
+    ) {
+        if (skip !== false) return;
+        before(() => this.open(), LIMIT);
+        after(async () => {
+            await this.browser?.close();
+            await this.client?.stop();
+            await this.run?.stop();
+        });
+    }
+
+    /** `skip`: why it is left out here. */
+    test(name: string, work: (page: Page) => Promise<unknown>, skip: string | false = this.skip): void {
+        test(name, { ...LIMIT, skip }, () => work(this.page));
+    }
+
+    endsWithCleanConsole(): void {
+        this.test("all this time the console stayed clean", async () => assert.deepEqual(this.errors, []));
+    }
+
+    private async open(): Promise<void> {
+        this.browser = await startBrowser();
+        this.run = await startRun(this.options);
+        if (this.options.told !== undefined) this.client = new CppClient(this.run, this.options.told);
+        ({ page: this.page, errors: this.errors } = await openPage(this.browser, this.run, this.options.query));
+    }
 }

@@ -1,40 +1,19 @@
 // The page in a browser, with a run behind it: the picture, time, choosing robots and ordering them about by hand.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import type { Browser, Page } from "playwright-core";
-import { choose, openPage, type Run, seen, startBrowser, startRun, time, until, WAIT_MS } from "./bench";
+import type { Page } from "playwright-core";
+import { Bench, choose, drag, seen, time, until } from "./bench";
 
-let browser: Browser, run: Run, page: Page, errors: string[];
-const limit = { timeout: 2 * WAIT_MS };
-
-before(async () => {
-    browser = await startBrowser();
-    run = await startRun();
-    ({ page, errors } = await openPage(browser, run));
-}, limit);
-
-after(async () => {
-    await browser?.close();
-    await run?.stop();
-});
-
-const paused = () => page.getByLabel("Play", { exact: true }).isVisible();
-test("the city appears: all its robots are listed, and the picture is a picture", limit, async () => {
+const bench = new Bench();
+const paused = (page: Page) => page.getByLabel("Play", { exact: true }).isVisible();
+bench.test("the city appears: all its robots are listed, and the picture is a picture", async (page) => {
     const facts = await page.evaluate(() => {
-        const { stage, state } = (
-            window as unknown as {
-                roboss: {
-                    stage: { renderer: { info: { render: { triangles: number } } } };
-                    state: { world: { value: { fleet: { count: number } } } };
-                };
-            }
-        ).roboss;
-        return { triangles: stage.renderer.info.render.triangles, robots: state.world.value.fleet.count };
+        const { stage, state } = window.roboss;
+        return { triangles: stage.renderer.info.render.triangles, robots: state.world.value?.fleet.count };
     });
     assert.ok(facts.triangles > 5000, `${facts.triangles} triangles`);
     assert.equal(await page.locator(".panel.left .count").first().textContent(), String(facts.robots));
     const colours = await page.evaluate(() => {
-        const { stage } = (window as unknown as { roboss: { stage: import("../src/view/stage").Stage } }).roboss;
+        const { stage } = window.roboss;
         stage.draw();
         const small = document.createElement("canvas"),
             draw = small.getContext("2d");
@@ -51,11 +30,11 @@ test("the city appears: all its robots are listed, and the picture is a picture"
     assert.ok(colours > 20, `${colours} colours`);
 });
 
-test("time runs, is paused, steps by what is asked, and goes on", limit, async () => {
+bench.test("time runs, is paused, steps by what is asked, and goes on", async (page) => {
     const began = await time(page);
     await until("time runs", async () => (await time(page)) > began + 0.5);
     await page.getByLabel("Pause", { exact: true }).click();
-    await until("paused", paused);
+    await until("paused", () => paused(page));
     await page.waitForTimeout(1200);
     const stopped = await time(page);
     await page.waitForTimeout(1200);
@@ -67,7 +46,7 @@ test("time runs, is paused, steps by what is asked, and goes on", limit, async (
     await until("time runs again", async () => (await time(page)) > stopped + 0.5);
 });
 
-test("the speed asked for is the speed that comes", limit, async () => {
+bench.test("the speed asked for is the speed that comes", async (page) => {
     const rtf = async () => parseFloat((await page.getByLabel("Real-time factor").textContent()) ?? "");
     await page.getByLabel("Speed", { exact: true }).selectOption("0.25");
     await until("a quarter", async () => Math.abs((await rtf()) - 0.25) < 0.08);
@@ -75,12 +54,12 @@ test("the speed asked for is the speed that comes", limit, async () => {
     await until("one", async () => Math.abs((await rtf()) - 1) < 0.25);
 });
 
-test("a robot is found by name and looked at, and a click in the picture selects it", limit, async () => {
+bench.test("a robot is found by name and looked at, and a click in the picture selects it", async (page) => {
     await choose(page, "car_7");
     await page.getByLabel("Look at the selected robot").click();
     await until("its report", async () => page.locator(".reading").first().isVisible());
     await page.getByLabel("Pause", { exact: true }).click();
-    await until("paused", paused);
+    await until("paused", () => paused(page));
     await page.getByLabel("Look at the selected robot").click();
     await page.waitForTimeout(1500);
     await page.keyboard.press("Escape");
@@ -92,24 +71,14 @@ test("a robot is found by name and looked at, and a click in the picture selects
         async () => (await page.locator(".robot-head h3", { hasText: /^car_7$/ }).count()) === 1,
     );
     await page.getByLabel("Play", { exact: true }).click();
-    await until("runs", async () => !(await paused()));
+    await until("runs", async () => !(await paused(page)));
 });
 
-test("a robot is dragged over the ground, and is where it was dropped", limit, async () => {
+bench.test("a robot is dragged over the ground, and is where it was dropped", async (page) => {
     await choose(page, "car_3");
     // Whoever drives it lets go.
     await page.getByLabel("Motor mode of front_left").selectOption("passive");
-    await page.getByRole("button", { name: "Follow", exact: true }).last().click();
-    await page.waitForTimeout(1500);
-    await page.getByRole("button", { name: "Orbit" }).click();
-    await page.getByLabel("Move a robot").click();
-    const from = await seen(page, 3);
-    await page.mouse.move(from.left, from.top);
-    await page.mouse.down();
-    await page.mouse.move(from.left + 60, from.top + 20, { steps: 6 });
-    await page.mouse.move(from.left + 120, from.top + 40, { steps: 6 });
-    await page.mouse.up();
-    await page.getByLabel("Select", { exact: true }).click();
+    const from = await drag(page, 3, 120, 40);
     await until("it stands elsewhere", async () => {
         const to = await seen(page, 3);
         return (
@@ -119,7 +88,7 @@ test("a robot is dragged over the ground, and is where it was dropped", limit, a
     });
 });
 
-test("a robot is pushed along the arrow that is drawn", limit, async () => {
+bench.test("a robot is pushed along the arrow that is drawn", async (page) => {
     await choose(page, "car_8");
     await page.getByRole("button", { name: "Follow", exact: true }).last().click();
     await page.waitForTimeout(1500);
@@ -140,7 +109,7 @@ test("a robot is pushed along the arrow that is drawn", limit, async () => {
     await page.getByLabel("Select", { exact: true }).click();
 });
 
-test("a joint's slider orders its motor, and the joint obeys", limit, async () => {
+bench.test("a joint's slider orders its motor, and the joint obeys", async (page) => {
     await choose(page, "car_11");
     const slider = page.getByLabel("Target of front_left"),
         modes = page.getByLabel("Motor mode of front_left");
@@ -154,7 +123,7 @@ test("a joint's slider orders its motor, and the joint obeys", limit, async () =
     assert.match((await page.locator(".joint .motor").first().textContent()) ?? "", /velocity → 8\.00 rad\/s/);
 });
 
-test("the velocity pad drives a robot while a key is held, and stops it after", limit, async () => {
+bench.test("the velocity pad drives a robot while a key is held, and stops it after", async (page) => {
     await choose(page, "car_12");
     const from = await seen(page, 12),
         pad = page.getByLabel(/^Velocity pad/);
@@ -169,6 +138,25 @@ test("the velocity pad drives a robot while a key is held, and stops it after", 
     await until("it stands", async () => Number(await speed.textContent()) < 0.1);
 });
 
-test("all this time the console stayed clean", limit, () => {
-    assert.deepEqual(errors, []);
+bench.test("the track of a car is what its GPS and its odometer say", async (page) => {
+    await page.getByRole("button", { name: "Follow", exact: true }).last().click();
+    await page.evaluate(() => window.roboss.state.toggle("tracks", true));
+    const pad = page.getByLabel(/^Velocity pad/),
+        labels = page.locator(".tag.way");
+    await pad.focus();
+    await page.keyboard.down("ArrowUp");
+    await until("both have a line", async () => (await labels.count()) === 2);
+    await page.waitForTimeout(2000);
+    await page.keyboard.up("ArrowUp");
+    assert.deepEqual((await labels.allTextContents()).sort(), ["gps", "odometer"]);
+    await until("the GPS line ends at the car", async () => {
+        const [car, box] = [await seen(page, 12), await page.locator(".tag.way.gps").boundingBox()];
+        return box !== null && Math.hypot(box.x + box.width / 2 - car.left, box.y - car.top) < 70;
+    });
+    await choose(page, "car_11");
+    await until("another car's lines", async () => (await labels.count()) !== 1);
+    await page.evaluate(() => window.roboss.state.toggle("tracks", false));
+    await until("no lines", async () => (await labels.count()) === 0);
 });
+
+bench.endsWithCleanConsole();

@@ -3,25 +3,20 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { after, before, test } from "node:test";
-import type { Browser, Page } from "playwright-core";
-import { choose, openPage, PROGRAM, type Run, startBrowser, startRun, time, until, WAIT_MS } from "./bench";
+import { Bench, choose, openPage, PROGRAM, startRun, time, until, WAIT_MS } from "./bench";
 
-let browser: Browser, run: Run, page: Page, errors: string[];
-const limit = { timeout: 2 * WAIT_MS };
+declare global {
+    interface Window {
+        axe: {
+            run(): Promise<{
+                violations: { id: string; impact: string; nodes: { html: string; failureSummary: string }[] }[];
+            }>;
+        };
+    }
+}
 
-before(async () => {
-    browser = await startBrowser();
-    run = await startRun();
-    ({ page, errors } = await openPage(browser, run));
-}, limit);
-
-after(async () => {
-    await browser?.close();
-    await run?.stop();
-});
-
-test("variables are plotted, and the plots go away", limit, async () => {
+const bench = new Bench();
+bench.test("variables are plotted, and the plots go away", async (page) => {
     await choose(page, "car_5");
     await page.getByLabel("Plot speed", { exact: true }).click();
     await page.getByLabel("Plot x", { exact: true }).click();
@@ -33,18 +28,14 @@ test("variables are plotted, and the plots go away", limit, async () => {
     await until("no dock", async () => !(await page.locator(".dock").isVisible()));
 });
 
-test("a refusal is shown in the program's words", limit, async () => {
-    await page.evaluate(() =>
-        (
-            window as unknown as { roboss: { run: { control(...words: string[]): Promise<unknown> } } }
-        ).roboss.run.control("nonsense"),
-    );
+bench.test("a refusal is shown in the program's words", async (page) => {
+    await page.evaluate(() => window.roboss.run.control("nonsense"));
     await until("the refusal", async () =>
         ((await page.locator(".notice.bad").last().textContent()) ?? "").includes("nonsense"),
     );
 });
 
-test("the timeline goes back to an earlier time", limit, async () => {
+bench.test("the timeline goes back to an earlier time", async (page) => {
     await until("some seconds to go back over", async () => (await time(page)) > 4, WAIT_MS);
     const slider = page.getByLabel(/^Timeline/),
         now = await time(page);
@@ -57,51 +48,44 @@ test("the timeline goes back to an earlier time", limit, async () => {
     await until("and on from there", async () => (await time(page)) > after + 0.3);
 });
 
-test("a Simulator is killed: the panel tells of the loss, the others carry on, another is added", limit, async () => {
-    await page.getByRole("tab", { name: "Cluster" }).click();
-    const rows = page.locator(".members tbody tr"),
-        fact = (name: string) => page.locator(".fact", { hasText: name }).locator(".fact-value").textContent();
-    await until("three Simulators", async () => (await fact("Simulators")) === "3");
-    const losses = Number(await fact("Losses"));
-    await rows.nth(1).getByRole("button", { name: /Kill/ }).click();
-    await until(
-        "the loss",
-        async () => Number(await fact("Losses")) === losses + 1 && (await fact("Simulators")) === "2",
-        WAIT_MS,
-    );
-    const then = await time(page);
-    await until("time runs on", async () => (await time(page)) > then + 0.5, WAIT_MS);
-    const robots = await page.evaluate(() =>
-        (
-            window as unknown as {
-                roboss: {
-                    state: {
-                        status: { value: { members: { robots: number; state: string }[] } };
-                        world: { value: { fleet: { count: number } } };
-                    };
-                };
-            }
-        ).roboss.state.status.value.members
-            .filter((member) => member.state === "at work")
-            .reduce((sum, member) => sum + member.robots, 0),
-    );
-    assert.equal(
-        robots,
-        await page.evaluate(
-            () =>
-                (window as unknown as { roboss: { state: { world: { value: { fleet: { count: number } } } } } }).roboss
-                    .state.world.value.fleet.count,
-        ),
-    );
-    await page.getByRole("button", { name: "Add a Simulator" }).click();
-    await until("three again", async () => (await fact("Simulators")) === "3", WAIT_MS);
-});
+bench.test(
+    "a Simulator is killed: the panel tells of the loss, the others carry on, another is added",
+    async (page) => {
+        await page.getByRole("tab", { name: "Cluster" }).click();
+        const rows = page.locator(".members tbody tr"),
+            fact = (name: string) => page.locator(".fact", { hasText: name }).locator(".fact-value").textContent();
+        await until("three Simulators", async () => (await fact("Simulators")) === "3");
+        await until("messages", async () => /^[1-9][\d.]* k? ?\/s$/.test((await fact("Messages")) ?? ""));
+        assert.match((await fact("Traffic")) ?? "", /^[1-9][\d.]* k?M?B\/s$/);
+        assert.match((await rows.first().getAttribute("title")) ?? "", /messages\/s .* to the Controller/);
+        const losses = Number(await fact("Losses"));
+        await rows.nth(1).getByRole("button", { name: /Kill/ }).click();
+        await until(
+            "the loss",
+            async () => Number(await fact("Losses")) === losses + 1 && (await fact("Simulators")) === "2",
+            WAIT_MS,
+        );
+        const then = await time(page);
+        await until("time runs on", async () => (await time(page)) > then + 0.5, WAIT_MS);
+        const { held, all } = await page.evaluate(() => {
+            const { status, world } = window.roboss.state,
+                working = status.value?.members?.filter((member) => member.state === "at work") ?? [];
+            return {
+                held: working.reduce((sum, member) => sum + member.robots, 0),
+                all: world.value?.fleet.count,
+            };
+        });
+        assert.equal(held, all);
+        await page.getByRole("button", { name: "Add a Simulator" }).click();
+        await until("three again", async () => (await fact("Simulators")) === "3", WAIT_MS);
+    },
+);
 
-test("robots are coloured by Simulator and by island", limit, async () => {
+bench.test("robots are coloured by Simulator and by island", async (page) => {
     await page.getByRole("tab", { name: "View" }).click();
     const colours = () =>
         page.evaluate(() => {
-            const { stage } = (window as unknown as { roboss: { stage: import("../src/view/stage").Stage } }).roboss,
+            const { stage } = window.roboss,
                 found = new Set<string>();
             stage.robots?.group.traverse((object) => {
                 const data = (object as import("three").InstancedMesh).instanceColor?.array;
@@ -117,7 +101,7 @@ test("robots are coloured by Simulator and by island", limit, async () => {
     await page.getByRole("radio", { name: /^Model/ }).check();
 });
 
-test("a picture is saved, and a link brings back camera and selection", limit, async () => {
+bench.test("a picture is saved, and a link brings back camera and selection", async (page) => {
     const [download] = await Promise.all([page.waitForEvent("download"), page.getByLabel("Save a picture").click()]);
     const picture = readFileSync(await download.path());
     assert.equal(picture.subarray(1, 4).toString(), "PNG");
@@ -127,20 +111,16 @@ test("a picture is saved, and a link brings back camera and selection", limit, a
     await page.waitForTimeout(1000);
     await page.getByLabel("Copy a link to this view").click();
     const link = page.url(),
-        camera = await page.evaluate(
-            () => (window as unknown as { roboss: { rig: { goal: { distance: number } } } }).roboss.rig.goal.distance,
-        );
-    const other = await openPage(browser, { ...run, url: link });
+        camera = await page.evaluate(() => window.roboss.rig.goal.distance);
+    const other = await openPage(bench.browser, { ...bench.run, url: link });
     await until("the same robot", async () => (await other.page.locator(".robot-head h3").textContent()) === "car_9");
-    const found = await other.page.evaluate(
-        () => (window as unknown as { roboss: { rig: { goal: { distance: number } } } }).roboss.rig.goal.distance,
-    );
+    const found = await other.page.evaluate(() => window.roboss.rig.goal.distance);
     assert.ok(Math.abs(found - camera) < 0.02, `${found} is not ${camera}`);
     assert.deepEqual(other.errors, []);
     await other.page.context().close();
 });
 
-test("a video is recorded and saved", limit, async () => {
+bench.test("a video is recorded and saved", async (page) => {
     await page.getByLabel("Record a video").click();
     await page.waitForTimeout(2500);
     const [download] = await Promise.all([page.waitForEvent("download"), page.getByLabel("Record a video").click()]);
@@ -149,7 +129,7 @@ test("a video is recorded and saved", limit, async () => {
     assert.ok(video.length > 2000, `${video.length} bytes`);
 });
 
-test("keys do what the card says, and the card opens with ?", limit, async () => {
+bench.test("keys do what the card says, and the card opens with ?", async (page) => {
     await page.locator(".view canvas").focus();
     await page.keyboard.press("?");
     assert.ok(await page.getByRole("dialog").isVisible());
@@ -159,35 +139,17 @@ test("keys do what the card says, and the card opens with ?", limit, async () =>
     await page.keyboard.press("v");
 });
 
-test("axe finds nothing serious, dark or light, with help or without", limit, async () => {
+bench.test("axe finds nothing serious, dark or light, with help or without", async (page) => {
     const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
     await page.evaluate(axe);
     await choose(page, "car_5");
-    for (const theme of ["dark", "light"]) {
-        await page.evaluate(
-            (name) =>
-                (
-                    window as unknown as { roboss: { state: { theme: { set(name: string): void } } } }
-                ).roboss.state.theme.set(name),
-            theme,
-        );
+    for (const theme of ["dark", "light"] as const) {
+        await page.evaluate((name) => window.roboss.state.theme.set(name), theme);
         for (const tab of ["Robot", "Cluster", "View"]) {
             await page.getByRole("tab", { name: tab }).click();
             await page.waitForTimeout(300);
             const found = await page.evaluate(async () => {
-                const results = await (
-                    window as unknown as {
-                        axe: {
-                            run(): Promise<{
-                                violations: {
-                                    id: string;
-                                    impact: string;
-                                    nodes: { html: string; failureSummary: string }[];
-                                }[];
-                            }>;
-                        };
-                    }
-                ).axe.run();
+                const results = await window.axe.run();
                 return results.violations
                     .filter((one) => one.impact === "serious" || one.impact === "critical")
                     .map((one) => `${one.id}: ${one.nodes[0].html} ${one.nodes[0].failureSummary}`);
@@ -197,23 +159,21 @@ test("axe finds nothing serious, dark or light, with help or without", limit, as
     }
 });
 
-test(
+bench.test(
     "a run that is gone shows a banner, and one that comes back is found",
-    { ...limit, skip: PROGRAM === "" ? false : "the port of a run is its own choice" },
-    async () => {
-        const port = run.port;
-        await run.stop();
+    async (page) => {
+        const { port } = bench.run;
+        await bench.run.stop();
         await until("the banner", async () => page.locator(".banner").isVisible());
         assert.match((await page.locator(".banner").textContent()) ?? "", /gone/);
-        run = await startRun({ port });
+        bench.run = await startRun({ port });
         await until("it is back", async () => !(await page.locator(".banner").isVisible()), WAIT_MS);
         const then = await time(page);
         await until("and time runs", async () => (await time(page)) > then);
         // That the socket could not be opened meanwhile is the one thing that a browser must say.
-        errors = errors.filter((text) => !/WebSocket connection|ERR_CONNECTION_REFUSED/.test(text));
+        bench.errors = bench.errors.filter((text) => !/WebSocket connection|ERR_CONNECTION_REFUSED/.test(text));
     },
+    PROGRAM === "" ? false : "the port of a run is its own choice",
 );
 
-test("all this time the console stayed clean", limit, () => {
-    assert.deepEqual(errors, []);
-});
+bench.endsWithCleanConsole();

@@ -144,9 +144,14 @@ export function robotReport(traffic: Traffic, scene: SceneInfo, robot: number): 
         })),
         sensors: [
             { ranges },
-            { position: [52.2197 + car.y / 111320, 21.0121 + car.x / 68200, 113], velocity: [car.vx, car.vy, 0] },
-            { yaw: wrapped(car.yaw) },
-            { distance: Math.abs(car.loop.at), speed: Math.hypot(car.vx, car.vy) },
+            {
+                position: [52.2197 + car.y / 111320, 21.0121 + car.x / 68200, 113],
+                world: [car.x, car.y, 0.2],
+                velocity: [car.vx, car.vy, 0],
+                taken: traffic.time,
+            },
+            { yaw: wrapped(car.yaw), orientation: carPose(car).slice(3), taken: traffic.time },
+            { distance: Math.abs(car.loop.at), speed: Math.hypot(car.vx, car.vy), taken: traffic.time },
         ],
         contacts: [0, 1, 2, 3].map(() => ({ other: -1, normal_force: 15.2 })),
     };

@@ -84,6 +84,8 @@ export class MockRun {
             member.load = this.paused
                 ? 0
                 : Math.min(1, 0.72 + 0.12 * Math.sin(t / 3 + k * 1.7) + 0.06 * Math.sin(t * 1.3 + k));
+            const windows = this.paused ? 0 : 30 + 5 * Math.sin(t + k);
+            member.messages = { in: windows, out: windows, bytes_in: windows * 60 * member.robots, bytes_out: 9000 };
             member.step_us = this.paused ? 0 : member.robots * 14 * (1 + 0.15 * Math.sin(t / 2 + k));
         });
     }
@@ -176,6 +178,15 @@ export class MockRun {
             branch: this.branch,
             journal: this.journal ? { first_s: this.kept[0].time, last_s: time } : null,
             members: this.members,
+            messages: this.members.reduce(
+                (sum, { messages }) => ({
+                    in: sum.in + (messages?.in ?? 0),
+                    out: sum.out + (messages?.out ?? 0),
+                    bytes_in: sum.bytes_in + (messages?.bytes_in ?? 0),
+                    bytes_out: sum.bytes_out + (messages?.bytes_out ?? 0),
+                }),
+                { in: 0, out: 0, bytes_in: 0, bytes_out: 0 },
+            ),
             losses: this.losses,
             migrations: this.migrations,
             recoveries: this.losses,

@@ -97,7 +97,7 @@ const selection = new SelectionMark(stage, state, labels),
     colouring = new Colouring(stage, state);
 const sensors = new RobotOverlays(stage, state),
     told = new RunOverlays(stage, state),
-    tracks = new Tracks(stage, state);
+    tracks = new Tracks(stage, state, labels);
 stage.overlays.add(mark.group);
 const loop = new FrameLoop({
     stage,
@@ -227,7 +227,10 @@ for (const name of ["pointerdown", "pointermove", "keydown", "resize"])
 applyAddress(address, state);
 
 // For tests and measurements; the page itself never reads it.
-Object.assign(window, { roboss: { state, rig, times, stage, run } });
+const hooks = { state, rig, times, stage, run };
+/** What the console and the tests take hold of, as `window.roboss`. */
+export type Hooks = typeof hooks;
+Object.assign(window, { roboss: hooks });
 window.addEventListener("hashchange", () => location.reload());
 run.open();
 loop.start();

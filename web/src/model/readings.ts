@@ -98,7 +98,7 @@ function sensorReadings(name: string, told: SensorReport): Reading[] {
     if (Array.isArray(told.velocity))
         told.velocity.forEach((value, k) => add(COURSE_NAMES[k] ?? String(k), "m/s", value));
     for (const [field, value] of Object.entries(told))
-        if (typeof value === "number") add(field, SENSOR_UNITS[field] ?? "", value);
+        if (typeof value === "number" && field !== "taken") add(field, SENSOR_UNITS[field] ?? "", value);
     return found;
 }
 

@@ -94,6 +94,8 @@ export class RunLink {
             const before = this.state.world.value?.fleet,
                 selected = this.state.selected.value;
             const world = new World(loaded);
+            if (loaded.unreadable > 0)
+                this.notice.set({ text: `${loaded.unreadable} pictures cannot be shown: plain colours`, bad: true });
             this.state.groups.set(null);
             this.state.selected.set(null);
             this.state.world.set(world);

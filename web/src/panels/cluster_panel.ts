@@ -4,8 +4,8 @@ import uPlot from "uplot";
 import type { RunLink } from "../model/run_link";
 import type { ViewerState } from "../model/viewer_state";
 import { h, setText } from "../ui/dom";
-import { fixed, percent, short } from "../ui/numbers";
-import type { MemberStatus, Status } from "../wire/messages";
+import { byteRate, fixed, percent, short } from "../ui/numbers";
+import type { MemberStatus, MessageRate, Status } from "../wire/messages";
 import { groupCss } from "../view/palette";
 import { plotAxes } from "./plots_dock";
 
@@ -16,6 +16,18 @@ const PLOT_HEIGHT = 132;
 /** Lost and left ones stay listed, but do nothing. */
 function present(member: MemberStatus): boolean {
     return member.state !== "lost" && member.state !== "left";
+}
+
+/** Both ways; none within a process, where nothing is encoded. */
+function bytesOf(rate: MessageRate | undefined, write: (bytes: number) => string): string {
+    const bytes = rate === undefined ? 0 : rate.bytes_in + rate.bytes_out;
+    return bytes > 0 ? write(bytes) : "–";
+}
+
+function told(rate: MessageRate | undefined): string {
+    if (rate === undefined) return "";
+    const way = (count: number, bytes: number) => `${short(count)} messages/s (${byteRate(bytes)})`;
+    return `${way(rate.in, rate.bytes_in)} to the Controller, ${way(rate.out, rate.bytes_out)} from it`;
 }
 
 /** Step time of each member over wall time, as one aligned table; members come and go. */
@@ -58,10 +70,10 @@ export class ClusterPanel {
         state: ViewerState,
         private readonly run: RunLink,
     ) {
-        const fact = (name: string, title: string) => {
+        const fact = (name: string, title: string, kind = "fact") => {
             const value = h("span", { class: "fact-value" }, "–");
             this.facts.set(name, value);
-            return h("div", { class: "fact", title }, h("span", { class: "fact-name" }, name), value);
+            return h("div", { class: kind, title }, h("span", { class: "fact-name" }, name), value);
         };
         const add = h("button", { type: "button", class: "small", onclick: () => void this.add() }, "Add a Simulator");
         this.element = h(
@@ -78,6 +90,8 @@ export class ClusterPanel {
                 fact("Migrations", "Robots handed from one Simulator to another"),
                 fact("Losses", "Simulators lost and replaced"),
                 fact("Recovered", "Times that lost robots were stepped again from a checkpoint"),
+                fact("Messages", "A second, to and from the Controller", "fact wide"),
+                fact("Traffic", "To and from the Controller; nothing is encoded within a process", "fact wide"),
             ),
             h("div", { class: "panel-head sub" }, h("h3", {}, "Members"), h("div", { class: "grow" }), add),
             h(
@@ -92,7 +106,7 @@ export class ClusterPanel {
                         h(
                             "tr",
                             {},
-                            ...["Member", "Robots", "Islands", "Load", "µs", ""].map((name) =>
+                            ...["Member", "Robots", "Islands", "Load", "µs", "kB/s", ""].map((name) =>
                                 name === "" ? h("td", {}) : h("th", { scope: "col" }, name),
                             ),
                         ),
@@ -127,6 +141,11 @@ export class ClusterPanel {
         say("Migrations", short(status.migrations));
         say("Losses", short(status.losses));
         say("Recovered", short(status.recoveries));
+        const { messages } = status;
+        say("Messages", messages === undefined ? "–" : `${short(messages.in + messages.out)} /s`);
+        say("Traffic", bytesOf(messages, byteRate));
+        for (const name of ["Messages", "Traffic"])
+            (this.facts.get(name)?.parentElement as HTMLElement).title = told(messages) || "To and from the Controller";
         const members = this.worthShowing(status.members ?? []);
         this.showMembers(members);
         this.history.take((performance.now() - this.began) / 1000, members);
@@ -154,12 +173,14 @@ export class ClusterPanel {
                 short(member.islands),
                 percent(member.load),
                 member.step_us > 0 ? fixed(member.step_us, 0) : "–",
+                bytesOf(member.messages, (bytes) => fixed(bytes / 1e3, bytes < 1e4 ? 1 : 0)),
             ];
             texts.forEach((text, k) => setText(shown.cells[k], text));
             shown.bar.style.width = `${100 * Math.max(0, Math.min(1, member.load))}%`;
             shown.row.dataset.state = member.state;
             shown.kill.disabled = !present(member);
-            shown.row.title = `${member.name}: ${member.state}, ${member.threads} ${member.threads === 1 ? "thread" : "threads"}`;
+            const threads = `${member.threads} ${member.threads === 1 ? "thread" : "threads"}`;
+            shown.row.title = `${member.name}: ${member.state}, ${threads}\n${told(member.messages)}`;
         }
     }
 
@@ -169,7 +190,7 @@ export class ClusterPanel {
         bar: HTMLElement;
         kill: HTMLButtonElement;
     } {
-        const cells = Array.from({ length: 5 }, () => h("span", {})),
+        const cells = Array.from({ length: 6 }, () => h("span", {})),
             bar = h("div", { class: "load-fill" });
         const kill = h(
             "button",
@@ -190,6 +211,7 @@ export class ClusterPanel {
             h("td", {}, cells[2]),
             h("td", { class: "load" }, h("div", { class: "load-bar", "aria-hidden": "true" }, bar), cells[3]),
             h("td", {}, cells[4]),
+            h("td", {}, cells[5]),
             h("td", {}, kill),
         );
         const made = { row, cells, bar, kill };

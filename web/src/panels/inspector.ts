@@ -177,8 +177,10 @@ export class Inspector {
                     h("span", { class: "count" }, `${count} ${count === 1 ? "point" : "points"}`),
                 ),
             );
-        this.contacts?.replaceChildren(
-            ...(lines.length > 0 ? lines : [h("p", { class: "empty" }, "Touches nothing.")]),
-        );
+        const nothing =
+            report.all_contacts === false
+                ? "Touches no scenery and no robot listed after it. Contact forces (View) show all."
+                : "Touches nothing.";
+        this.contacts?.replaceChildren(...(lines.length > 0 ? lines : [h("p", { class: "empty" }, nothing)]));
     }
 }

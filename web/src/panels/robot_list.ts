@@ -2,6 +2,7 @@
 // robots cost no more than twenty.
 import type { ViewerState, World } from "../model/viewer_state";
 import { h, icon } from "../ui/dom";
+import { meanColour } from "../view/finishes";
 
 const ROW_PX = 26;
 const SPARE_ROWS = 6;
@@ -172,8 +173,9 @@ export class RobotList {
 }
 
 function swatch(world: World, robot: number): string {
-    const rgb = world.fleet.type(robot).links.find((link) => link.visuals.length > 0)?.visuals[0].rgb ?? [
-        0.6, 0.6, 0.6,
-    ];
-    return `rgb(${rgb.map((part) => Math.round(part * 255)).join(" ")})`;
+    const visual = world.fleet.type(robot).links.find((link) => link.visuals.length > 0)?.visuals[0],
+        rgb = visual?.rgb ?? [0.6, 0.6, 0.6],
+        picture = world.loaded.pictures.get(visual?.finish?.colour ?? ""),
+        over = picture === undefined ? [1, 1, 1] : meanColour(picture);
+    return `rgb(${rgb.map((part, k) => Math.round(part * over[k] * 255)).join(" ")})`;
 }

@@ -10,7 +10,7 @@ const COLOURS: [ColourBy, string, string][] = [
 ];
 const WORDS: Record<Overlay, [string, string]> = {
     rays: ["Laser rays", "of the selected robot"],
-    tracks: ["Tracks", "where robots drove"],
+    tracks: ["Tracks", "where robots drove; the selected one: GPS, odometer"],
     compass: ["Compass", "north and heading of the selected robot"],
     contacts: ["Contact forces", "arrows, 1 m for 100 N"],
     bounds: ["Swept boxes", "what the forecast keeps free"],

@@ -14,6 +14,13 @@ export function short(value: number | null | undefined): string {
     return String(Math.round(value));
 }
 
+/** Bytes a second. */
+export function byteRate(value: number | null | undefined): string {
+    if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+    if (value >= 1e6) return `${(value / 1e6).toFixed(1)} MB/s`;
+    return value >= 1e3 ? `${(value / 1e3).toFixed(value >= 1e4 ? 0 : 1)} kB/s` : `${Math.round(value)} B/s`;
+}
+
 export function percent(value: number | null | undefined): string {
     return value === null || value === undefined || !Number.isFinite(value) ? "–" : `${(100 * value).toFixed(0)} %`;
 }

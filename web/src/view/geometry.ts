@@ -16,6 +16,7 @@ function segments(radius: number): number {
 function meshGeometry(data: MeshData | undefined): THREE.BufferGeometry {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(data?.positions ?? new Float32Array(0), 3));
+    if (data?.uv !== undefined) geometry.setAttribute("uv", new THREE.BufferAttribute(data.uv, 2));
     geometry.setIndex(new THREE.BufferAttribute(data?.corners ?? new Uint32Array(0), 1));
     if ((data?.corners.length ?? 0) / 3 < SMOOTH_TRIANGLES_MAX) return toCreasedNormals(geometry, CREASE_RAD);
     geometry.computeVertexNormals();
@@ -84,12 +85,18 @@ export function mergedGeometry(
     meshes: ReadonlyMap<number, MeshData>,
 ): THREE.BufferGeometry | null {
     const geometries: THREE.BufferGeometry[] = [];
+    const pictured = parts.some((part) => part.visual.finish !== undefined);
     const lightest = Math.max(0.02, ...parts.map((part) => lightness(visualColour(part.visual))));
     for (const part of parts) {
         let geometry = shapeGeometry(part.visual, meshes);
         if (geometry.getAttribute("position").count === 0) continue;
         if (geometry.index !== null) geometry = geometry.toNonIndexed();
-        geometry.deleteAttribute("uv");
+        if (!pictured) geometry.deleteAttribute("uv");
+        else if (!geometry.hasAttribute("uv"))
+            geometry.setAttribute(
+                "uv",
+                new THREE.Float32BufferAttribute(geometry.getAttribute("position").count * 2, 2),
+            );
         geometry.applyMatrix4(poseMatrix(part.pose));
         const colour = visualColour(part.visual),
             tint = Math.max(0.12, lightness(colour) / lightest);

@@ -7,6 +7,7 @@ import type { Fleet } from "../model/fleet";
 import type { History } from "../model/history";
 import type { TypeInfo } from "../wire/messages";
 import type { MeshData } from "../wire/scene_source";
+import { finishKey, type Finishes } from "./finishes";
 import { lightness, mergedGeometry, type PlacedVisual, visualColour } from "./geometry";
 
 interface BodyLook {
@@ -33,13 +34,13 @@ function rounded(values: ArrayLike<number>): string {
     return Array.from(values, (value) => value.toFixed(5)).join(" ");
 }
 
-/** The visuals (or collision shapes) of a type, by body and whether one sees through them. */
+/** The visuals (or collision shapes) of a type, by body, what lies over them and whether one sees through them. */
 function looks(type: TypeInfo, kind: "visuals" | "collisions"): BodyLook[] {
     const found = new Map<string, BodyLook>();
     for (const link of type.links)
         for (const visual of link[kind]) {
             const alpha = kind === "collisions" ? 0.35 : (visual.alpha ?? 1),
-                name = `${link.body} ${alpha < 1 ? alpha.toFixed(2) : "solid"}`;
+                name = `${link.body} ${alpha < 1 ? alpha.toFixed(2) : "solid"} ${finishKey(visual)}`;
             const look = found.get(name) ?? { body: link.body, parts: [], alpha, key: "", colour: null, shade: 1 };
             look.parts.push({ visual, pose: composed(link.frame, visual.frame) });
             found.set(name, look);
@@ -63,6 +64,7 @@ function looks(type: TypeInfo, kind: "visuals" | "collisions"): BodyLook[] {
                 rounded(pose),
                 look.colour === null ? visual.rgb : 0,
                 look.alpha,
+                finishKey(visual),
             ]),
         );
     }
@@ -81,6 +83,7 @@ export class RobotsLayer {
     constructor(
         private readonly fleet: Fleet,
         meshes: ReadonlyMap<number, MeshData>,
+        private readonly finishes: Finishes,
         kind: "visuals" | "collisions" = "visuals",
     ) {
         const ofType = fleet.scene.types.map((type) => looks(type, kind));
@@ -108,7 +111,7 @@ export class RobotsLayer {
         const geometry = mergedGeometry(look.parts, meshes);
         if (geometry === null) return;
         if (look.colour !== null) geometry.setAttribute("color", geometry.getAttribute("tint"));
-        const material = new THREE.MeshStandardMaterial({
+        const material = this.finishes.material(look.parts[0].visual.finish, {
             vertexColors: true,
             roughness: 0.62,
             metalness: 0.02,

@@ -3,6 +3,7 @@
 import * as THREE from "three";
 import type { CameraRig } from "../camera/rig";
 import type { Theme, World } from "../model/viewer_state";
+import { Finishes } from "./finishes";
 import { Ground } from "./ground";
 import { PALETTES, type ScenePalette } from "./palette";
 import { skyLight } from "./sky_light";
@@ -22,6 +23,7 @@ export class Stage {
     robots: RobotsLayer | null = null;
     collisions: RobotsLayer | null = null;
     statics: StaticsLayer | null = null;
+    private finishes = new Finishes(new Map());
     palette: ScenePalette = PALETTES.dark;
     private readonly ground = new Ground();
     private readonly sunlight: Sunlight;
@@ -69,17 +71,20 @@ export class Stage {
             this.scene.remove(layer.group);
             layer.dispose();
         }
+        this.finishes.dispose();
         this.robots = this.statics = this.collisions = null;
         if (world === null) return;
-        this.statics = new StaticsLayer(world.loaded.scene, world.loaded.meshes);
-        this.robots = new RobotsLayer(world.fleet, world.loaded.meshes);
+        const { scene, meshes, pictures } = world.loaded;
+        this.finishes = new Finishes(pictures);
+        this.statics = new StaticsLayer(scene, meshes, this.finishes);
+        this.robots = new RobotsLayer(world.fleet, meshes, this.finishes);
         this.scene.add(this.statics.group, this.robots.group);
     }
 
     /** Collision shapes instead of what robots look like, made when first asked for. */
     showCollisions(world: World, on: boolean): void {
         if (on && this.collisions === null) {
-            this.collisions = new RobotsLayer(world.fleet, world.loaded.meshes, "collisions");
+            this.collisions = new RobotsLayer(world.fleet, world.loaded.meshes, this.finishes, "collisions");
             this.scene.add(this.collisions.group);
             world.history.changed.fill(1);
             this.collisions.update(world.history);

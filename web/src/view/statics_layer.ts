@@ -1,8 +1,9 @@
-// The scenery: everything that never moves, merged into one geometry (one more for what one sees through), with thin
+// The scenery: everything that never moves, merged into one geometry for each finish (and each transparency), with thin
 // edges that keep pale blocks readable on a projector.
 import * as THREE from "three";
 import type { SceneInfo, Visual } from "../wire/messages";
 import type { MeshData } from "../wire/scene_source";
+import { byFinish, type Finishes } from "./finishes";
 import { mergedGeometry, poseMatrix, shapeGeometry } from "./geometry";
 
 const EDGE_RAD_DEG = 30;
@@ -27,30 +28,36 @@ export class StaticsLayer {
     readonly extent = new THREE.Box3();
     private readonly edgeMaterial = new THREE.LineBasicMaterial({ color: 0x000000, transparent: true, opacity: 0.22 });
 
-    constructor(scene: SceneInfo, meshes: ReadonlyMap<number, MeshData>) {
-        const planes = scene.statics.filter((visual) => visual.shape === "plane");
-        const solid = scene.statics.filter((visual) => visual.shape !== "plane" && (visual.alpha ?? 1) >= 1);
-        const clear = scene.statics.filter((visual) => visual.shape !== "plane" && (visual.alpha ?? 1) < 1);
-        this.addMerged(planes, meshes, 1, true);
-        this.addMerged(solid, meshes, 1, false);
-        for (const alpha of new Set(clear.map((visual) => visual.alpha ?? 1)))
-            this.addMerged(
-                clear.filter((visual) => visual.alpha === alpha),
-                meshes,
-                alpha,
-                false,
-            );
-        this.addEdges(solid, meshes);
+    constructor(
+        scene: SceneInfo,
+        meshes: ReadonlyMap<number, MeshData>,
+        private readonly finishes: Finishes,
+    ) {
+        const alphaOf = (visual: Visual) => visual.alpha ?? 1,
+            planes = scene.statics.filter((visual) => visual.shape === "plane"),
+            others = scene.statics.filter((visual) => visual.shape !== "plane");
+        for (const alike of byFinish(planes, (visual) => visual)) this.addMerged(alike, meshes, 1, true);
+        for (const alpha of new Set(others.map(alphaOf)))
+            for (const alike of byFinish(
+                others.filter((visual) => alphaOf(visual) === alpha),
+                (visual) => visual,
+            ))
+                this.addMerged(alike, meshes, alpha, false);
+        this.addEdges(
+            others.filter((visual) => alphaOf(visual) >= 1 && visual.finish === undefined),
+            meshes,
+        );
     }
 
     private addMerged(visuals: Visual[], meshes: ReadonlyMap<number, MeshData>, alpha: number, planes: boolean): void {
         const geometry = mergedGeometry(
-            visuals.map((visual) => ({ visual, pose: visual.frame })),
-            meshes,
-        );
+                visuals.map((visual) => ({ visual, pose: visual.frame })),
+                meshes,
+            ),
+            finish = visuals[0].finish;
         if (geometry === null) return;
-        if (!planes) shadeTowardsGround(geometry);
-        const material = new THREE.MeshStandardMaterial({
+        if (!planes && finish === undefined) shadeTowardsGround(geometry);
+        const material = this.finishes.material(finish, {
             vertexColors: true,
             roughness: planes ? 0.95 : 0.85,
             transparent: alpha < 1,

@@ -4,6 +4,16 @@
 export type PoseArray = [number, number, number, number, number, number, number];
 export type Triple = [number, number, number];
 
+/** What lies over a colour: pictures by their hash, and numbers from 0 to 1. */
+export interface Finish {
+    colour?: string;
+    normal?: string;
+    roughness_map?: string;
+    metalness_map?: string;
+    roughness?: number;
+    metalness?: number;
+}
+
 export interface Visual {
     name: string;
     shape: "box" | "sphere" | "cylinder" | "capsule" | "ellipsoid" | "plane" | "mesh";
@@ -15,6 +25,7 @@ export interface Visual {
     length?: number;
     radii?: Triple;
     mesh?: number;
+    finish?: Finish;
 }
 
 export type JointKind = "free" | "revolute" | "prismatic" | "ball" | "screw";
@@ -89,6 +100,14 @@ export interface SceneInfo {
     groups_max: number;
 }
 
+/** A second, to (in) and from (out) the Controller. */
+export interface MessageRate {
+    in: number;
+    out: number;
+    bytes_in: number;
+    bytes_out: number;
+}
+
 export interface MemberStatus {
     id: number;
     name: string;
@@ -98,6 +117,7 @@ export interface MemberStatus {
     load: number;
     step_us: number;
     state: string;
+    messages?: MessageRate;
 }
 
 export interface Status {
@@ -120,6 +140,7 @@ export interface Status {
     members?: MemberStatus[];
     losses?: number;
     migrations?: number;
+    messages?: MessageRate;
     recoveries?: number;
     rtf?: number | null;
     viewers?: number;
@@ -150,6 +171,12 @@ export interface SensorReport {
     ranges?: (number | null)[];
     position?: number[];
     velocity?: number[];
+    /** GPS: where it says that it is, in the world. */
+    world?: number[];
+    /** Compass: the sensor's frame in the world, w x y z. */
+    orientation?: number[];
+    /** When it was measured, s. */
+    taken?: number;
     [field: string]: unknown;
 }
 
@@ -179,6 +206,8 @@ export interface RobotReport {
     joints: JointReport[];
     sensors: (SensorReport | null)[];
     contacts: RobotContact[];
+    /** False: of those with robots before it in the list, only those with watched ones are known. */
+    all_contacts?: boolean;
 }
 
 export interface OverlayReport {

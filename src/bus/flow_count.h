@@ -1,0 +1,30 @@
+// FlowCount: how many messages and bytes went each way between two addresses. For people only.
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "bus/bus.h"
+
+namespace roboss {
+
+class FlowCount {
+  public:
+    void add(const Address& from, const Address& to, std::size_t bytes) {
+        Flow& flow = flows_[{from, to}];
+        ++flow.messages;
+        flow.bytes += bytes;
+    }
+    std::vector<Flow> all() const {
+        std::vector<Flow> flows;
+        for (const auto& [ends, flow] : flows_)
+            flows.push_back({ends.first, ends.second, flow.messages, flow.bytes});
+        return flows;
+    }
+
+  private:
+    std::map<std::pair<Address, Address>, Flow> flows_;
+};
+
+}  // namespace roboss
