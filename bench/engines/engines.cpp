@@ -25,8 +25,10 @@ std::span<const EngineKind> engines() {
 std::span<const EngineKind> contestants() {
     static const std::vector<EngineKind> kinds = [] {
         std::vector<EngineKind> all(engines().begin(), engines().end());
-        all.insert(all.begin() + 1,
-                   {{"RoBOSS-4", make_roboss_in_4_lanes}, {"RoBOSS-1", make_roboss_in_1_lane}});
+        all.insert(all.begin() + 1, {{"RoBOSS-4", make_roboss_in_4_lanes},
+                                     {"RoBOSS-1", make_roboss_in_1_lane},
+                                     {"RoBOSS-float", make_roboss_in_floats},
+                                     {"RoBOSS-float-8", make_roboss_in_8_floats}});
         return all;
     }();
     return kinds;
