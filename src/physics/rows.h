@@ -11,11 +11,16 @@
 
 namespace roboss {
 
-/// Compliances of hard rows and of contacts that bear a load, relative to the mobility they act on. Newton's
-/// matrix holds their reciprocals beside the masses: floats have no room for the hardest.
+/// Compliances of hard joint rows, of contacts that are new and of those that bear a load, relative to the
+/// mobility they act on. Newton's matrix holds their reciprocals beside the masses: floats have no room for
+/// the hardest, least of all where rows share their columns, as contacts do.
 template <class T>
 double hard_compliance(const Accuracy& accuracy) {
     return kIsFloat<T> ? std::max(accuracy.compliance, 1e-6) : accuracy.compliance;
+}
+template <class T>
+double new_compliance(const Accuracy& accuracy) {
+    return kIsFloat<T> ? std::max(accuracy.compliance, 1e-4) : accuracy.compliance;
 }
 template <class T>
 double loaded_compliance(const Accuracy& accuracy) {
