@@ -166,22 +166,25 @@ class LaneStep final : public LaneStepper {
     static Vec3T<T> kernel(const Vec3T<Wide>& x) { return {kernel(x.x), kernel(x.y), kernel(x.z)}; }
     static SpatialT<T> kernel(const SpatialT<Wide>& x) { return {kernel(x.angular), kernel(x.linear)}; }
 
-    /// What the last tick remembers of the contacts; both sorted.
+    /// What the last tick remembers of the contacts; both sorted, and mostly the same.
     void recall(std::size_t i, const RobotState& state) {
-        const auto key = [](std::uint32_t shape, std::uint32_t other, std::uint32_t feature) {
-            return std::array{shape, other, feature};
+        const auto is_of = [](const ContactMemory& m, const ContactT<T>& c) {
+            return m.other_robot == RobotId::kNone && m.shape == c.shape_a && m.other_shape == c.shape_b &&
+                   m.feature == c.feature;
         };
-        auto m = state.contacts.begin();
-        const auto is_before = [&](const ContactT<T>& c) {
-            return m->other_robot != RobotId::kNone ||
-                   key(m->shape, m->other_shape, m->feature) < key(c.shape_a, c.shape_b, c.feature);
+        const auto is_before = [](const ContactMemory& m, const ContactT<T>& c) {
+            return m.other_robot != RobotId::kNone || std::array{m.shape, m.other_shape, m.feature} <
+                                                          std::array{c.shape_a, c.shape_b, c.feature};
         };
+        const ContactMemory *m = state.contacts.data(), *end = m + state.contacts.size();
         for (ContactT<T>& c : contacts_) {
-            while (m != state.contacts.end() && is_before(c)) ++m;
-            if (m == state.contacts.end()) return;
-            if (key(m->shape, m->other_shape, m->feature) != key(c.shape_a, c.shape_b, c.feature)) continue;
+            if (m != end && !is_of(*m, c))
+                while (m != end && is_before(*m, c)) ++m;
+            if (m == end) return;
+            if (!is_of(*m, c)) continue;
             set_lane(c.impulse, i, m->impulse), set_lane(c.load, i, m->load);
             set_lanes(c.friction, i, m->friction);
+            ++m;
         }
     }
 
@@ -365,14 +368,17 @@ class LaneStep final : public LaneStepper {
     }
 
     void remember_on_plane(std::size_t i, const LaneRobot& robot, StepReport& report) {
-        found_.clear_memory();
+        ContactMemory* const first = LaneContacts::memory_for(contacts_.size(), *robot.state);
+        ContactMemory* m = first;
         for (const ContactT<T>& c : contacts_) {
             const double impulse = lane(c.impulse, i);
             if (impulse <= 0) continue;
-            found_.add_memory({RobotId::kNone, c.shape_a, c.shape_b, c.feature, impulse, lane(c.load, i),
-                               vector_of(c.friction, i)});
+            *m++ = {RobotId::kNone, c.shape_a, c.shape_b, c.feature, impulse, lane(c.load, i),
+                    vector_of(c.friction, i)};
         }
-        report.contacts += found_.remember(*robot.state);
+        const auto count = static_cast<std::size_t>(m - first);
+        if (count < contacts_.size()) LaneContacts::memory_for(count, *robot.state);
+        report.contacts += static_cast<int>(count);
     }
 
     Mechanics<T> work_;
