@@ -30,10 +30,8 @@ class RobossEngine final : public Engine {
     }
 
     std::string name() const override {
-        if (model_.precision == Precision::kFloat)
-            return "RoBOSS float" + (lanes_ == 0 ? std::string() : "-" + std::to_string(lanes_) + " lanes");
-        return lanes_ == 0 ? "RoBOSS"
-                           : "RoBOSS-" + std::to_string(lanes_) + (lanes_ == 1 ? " lane" : " lanes");
+        const std::string ours = model_.precision == Precision::kFloat ? "RoBOSS-float" : "RoBOSS";
+        return lanes_ == 0 ? ours : ours + "-" + std::to_string(lanes_) + (lanes_ == 1 ? " lane" : " lanes");
     }
     std::string settings() const override {
         const bool in_floats = model_.precision == Precision::kFloat;

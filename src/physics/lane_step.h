@@ -373,7 +373,7 @@ class LaneStep final : public LaneStepper {
         for (const ContactT<T>& c : contacts_) {
             const double impulse = lane(c.impulse, i);
             if (impulse <= 0) continue;
-            *m++ = {RobotId::kNone, c.shape_a, c.shape_b, c.feature, impulse, lane(c.load, i),
+            *m++ = {RobotId::kNone,          c.shape_a, c.shape_b, c.feature, impulse, lane(c.load, i),
                     vector_of(c.friction, i)};
         }
         const auto count = static_cast<std::size_t>(m - first);
