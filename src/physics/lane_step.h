@@ -1,5 +1,6 @@
 // The step of a few robots of one type in lanes; see lane_stepper.h. Included only by the translation units
-// of the instruction sets.
+// of the instruction sets, and by that of one robot in floats. Where T is floats, what has a place in the
+// world is found in doubles (Wide) all the same: decision 0014.
 #pragma once
 
 #include <bit>
@@ -94,7 +95,12 @@ class LaneStep final : public LaneStepper {
         else
             return work_;
     }
-    const Mechanics<Wide>& placed() const { return const_cast<LaneStep*>(this)->placed(); }
+    const Mechanics<Wide>& placed() const {
+        if constexpr (kIsFloat<T>)
+            return placed_;
+        else
+            return work_;
+    }
 
     /// Whether everything that contacts are found from is a number.
     static MaskOf<Wide> is_finite(const Mechanics<Wide>& work) {

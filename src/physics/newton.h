@@ -169,6 +169,9 @@ class Newton {
     static T tolerance(const SolveProblem<T>& p) {
         return larger(T(p.accuracy.tolerance), T(newton::kFinest<T>));
     }
+    static T friction_tolerance(const SolveProblem<T>& p) {
+        return larger(T(p.accuracy.friction_tolerance), T(newton::kFinest<T>));
+    }
     void start_as_expected(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v,
                            SolveReportT<T>& report);
     bool solve_coupled(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v,
@@ -435,8 +438,8 @@ MaskOf<T> Newton<T, Matrix>::solve(const SolveProblem<T>& p, Lockstep<T>& togeth
             }
             if (!settled) {
                 const T change = friction::update_bounds(p.rows);
-                settled = together(change <= T(p.accuracy.friction_tolerance)) ||
-                          ++bound_updates >= p.accuracy.friction_max;
+                settled =
+                    together(change <= friction_tolerance(p)) || ++bound_updates >= p.accuracy.friction_max;
                 report.residual = balance(p);
             }
             const bool stalls_now = settled && together((report.residual <= T(newton::kRounding<T>)) &
