@@ -24,7 +24,7 @@ double new_compliance(const Accuracy& accuracy) {
 }
 template <class T>
 double loaded_compliance(const Accuracy& accuracy) {
-    return kIsFloat<T> ? std::max(accuracy.contact_compliance, 1e-4) : accuracy.contact_compliance;
+    return kIsFloat<T> ? std::max(accuracy.contact_compliance, 1e-3) : accuracy.contact_compliance;
 }
 
 /// One direction with a bounded impulse: clamp((target - u) / compliance, low, high).
