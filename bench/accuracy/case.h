@@ -45,11 +45,12 @@ struct Case {
     std::string oracle;  // what the truth is and where it comes from
     std::vector<Quantity> quantities;
     std::function<Outcome(const Contender&)> run;
-    bool from_issue = true;    // false: beyond the list of must-haves
-    bool ours_only = false;    // asks for what no peer has
-    bool also_coarse = false;  // in the second table, at 2 ms
-    bool slow = false;         // some ten seconds: not for every test run
-    std::string remark = {};   // what a reader should know about the figures
+    bool from_issue = true;      // false: beyond the list of must-haves
+    bool ours_only = false;      // asks for what no peer has
+    bool of_the_kernel = false;  // asks the double kernel itself, not an engine
+    bool also_coarse = false;    // in the second table, at 2 ms
+    bool slow = false;           // some ten seconds: not for every test run
+    std::string remark = {};     // what a reader should know about the figures
     double dt_s = 1e-3;
 };
 

@@ -41,6 +41,7 @@ void add_options(CLI::App& app, Options& o) {
     std::vector<std::string> names, kinds;
     for (const Case& c : all_cases()) names.push_back(c.name);
     for (const EngineKind& k : engines()) kinds.push_back(k.name);
+    kinds.push_back(kFloats);
     app.add_option("--case", o.cases, "run this case only (may be given again)")->check(CLI::IsMember(names));
     app.add_option("--engine", o.engines, "run on this engine only (may be given again)")
         ->check(CLI::IsMember(kinds));
@@ -63,7 +64,7 @@ void print_list() {
     for (const Case& c : all_cases()) fmt::print("{:18} {}\n", c.name, c.title);
     fmt::print("\nengines:");
     for (const EngineKind& k : engines()) fmt::print(" {}", k.name);
-    fmt::print("\n");
+    fmt::print(" {}\n", kFloats);
 }
 
 bool chosen(const std::vector<std::string>& wanted, const std::string& name) {
@@ -79,7 +80,7 @@ std::string processor() {
 
 Results describe() {
     const char* commit = std::getenv("ROBOSS_COMMIT");  // set by bench.sh
-    return {all_cases(), {}, {}, commit != nullptr ? commit : "unknown", ROBOSS_COMPILER, processor()};
+    return {all_cases(), {}, {}, {}, commit != nullptr ? commit : "unknown", ROBOSS_COMPILER, processor()};
 }
 
 EngineNote describe(const EngineKind& kind) {
@@ -105,7 +106,7 @@ Outcome run_case(const Case& c, const Contender& contender) {
 void measure(Results& all, std::size_t which, const EngineKind& kind, bool coarse, double patience_s) {
     const Case& c = all.cases[which];
     Contender contender{&kind, coarse ? 2e-3 : c.dt_s};
-    const bool ours = kind.name == kOurs;
+    const bool ours = kind.name == kOurs || kind.name == kFloats;
     if (!ours) contender.patience_s = c.slow ? 4 * patience_s : patience_s;
     fmt::print(stderr, "{:18} {:8} dt {:g} ms ... ", c.name, kind.name, contender.dt_s * 1e3);
     std::fflush(stderr);
@@ -119,6 +120,8 @@ void measure(Results& all, std::size_t which, const EngineKind& kind, bool coars
 void measure_all(Results& all, const Options& options) {
     for (const EngineKind& kind : engines())
         if (chosen(options.engines, kind.name)) all.engines.push_back(describe(kind));
+    const bool in_floats = chosen(options.engines, kFloats);
+    if (in_floats) all.floats = describe(floats());
     for (std::size_t which = 0; which < all.cases.size(); ++which) {
         const Case& c = all.cases[which];
         if (!chosen(options.cases, c.name)) continue;
@@ -129,6 +132,8 @@ void measure_all(Results& all, const Options& options) {
                 if (c.ours_only && kind.name != kOurs) continue;
                 measure(all, which, kind, coarse, options.patience_s);
             }
+            if (in_floats && !coarse && !c.of_the_kernel)
+                measure(all, which, floats(), coarse, options.patience_s);
         }
     }
 }

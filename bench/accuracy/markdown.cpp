@@ -12,6 +12,13 @@ namespace {
 
 using Text = fmt::memory_buffer;
 
+const char* const kOfFloats = R"(## In floats, dt 1 ms
+
+The cases again with `--precision float`, their bounds as they are. *The same*: no robot of the case goes through floats (lone bodies, what moves
+freely, loops, robots that touch each other: docs/physics.md, Precision), or none shows it in these figures.
+
+)";
+
 template <class... Args>
 void add(Text& text, fmt::format_string<Args...> format, Args&&... args) {
     fmt::format_to(std::back_inserter(text), format, std::forward<Args>(args)...);
@@ -102,6 +109,27 @@ void write_table(Text& text, const Results& all, bool coarse, Wanted wanted) {
     notes.write(text);
 }
 
+/// The table of floats: beside doubles, and how far each is from its bound.
+void write_floats(Text& text, const Results& all) {
+    add(text, "{}", kOfFloats);
+    add(text, "| case | figure | must | in floats | doubles | floats |\n|---|---|---|---|---:|---:|\n");
+    Footnotes notes;
+    for (std::size_t which = 0; which < all.cases.size(); ++which) {
+        const Case& c = all.cases[which];
+        const Result *doubles = find(all, which, kOurs, false), *floats = find(all, which, kFloats, false);
+        if (floats == nullptr) continue;
+        const bool same = doubles != nullptr && doubles->outcome.figures == floats->outcome.figures;
+        for (std::size_t i = 0; i < c.quantities.size(); ++i) {
+            const Quantity& q = c.quantities[i];
+            add(text, "| {} | {} | {} | {} | {} | {} |\n", i == 0 ? c.title : "",
+                q.unit.empty() ? q.name : q.name + ", " + q.unit, must(q), verdict(floats, q, i),
+                cell(doubles, q, i, notes), same ? "the same" : cell(floats, q, i, notes));
+        }
+    }
+    add(text, "\n");
+    notes.write(text);
+}
+
 /// What of ours misses its bound, how far, and why.
 void write_misses(Text& text, const Results& all) {
     Text list;
@@ -147,8 +175,13 @@ std::string to_markdown(const Results& all, const std::string& picture) {
     write_misses(text, all);
     add(text, "## The same at dt 2 ms\n\nThe bounds are those of 1 ms, for comparison only.\n\n");
     write_table(text, all, true, [](const Case&) { return true; });
+    if (all.floats) write_floats(text, all);
     add(text, "## The engines\n\n");
-    for (const EngineNote& e : all.engines) add(text, "- **{}** ({}): {}.\n", e.name, e.version, e.settings);
+    const auto describe = [&](const EngineNote& e) {
+        add(text, "- **{}** ({}): {}.\n", e.name, e.version, e.settings);
+    };
+    std::for_each(all.engines.begin(), all.engines.end(), describe);
+    if (all.floats) describe(*all.floats);
     add(text, "\nMeasured at commit {}, {}, {}.\n", all.commit, all.compiler, all.processor);
     return fmt::to_string(text);
 }

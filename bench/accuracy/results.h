@@ -1,6 +1,7 @@
 // What was measured, and what writes it down: as a page for people, as JSON for programs, as a picture.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 namespace roboss::bench {
 
 inline constexpr const char* kOurs = "RoBOSS";
+inline constexpr const char* kFloats = "RoBOSS-float";  // ours, in a table of its own
 
 /// One case on one engine.
 struct Result {
@@ -26,7 +28,8 @@ struct EngineNote {
 
 struct Results {
     std::vector<Case> cases;
-    std::vector<EngineNote> engines;
+    std::vector<EngineNote> engines;   // those of the tables side by side
+    std::optional<EngineNote> floats;  // of the table of floats, if it was measured
     std::vector<Result> results;
     std::string commit, compiler, processor;
 };

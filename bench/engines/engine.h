@@ -77,9 +77,12 @@ struct EngineKind {
     EngineMaker make = nullptr;
 };
 
-/// RoBOSS first, then the peers that were built in.
+/// RoBOSS in doubles first, then the peers that were built in.
 std::span<const EngineKind> engines();
-/// The same with RoBOSS also in fewer lanes, and in none: for speed, as no bit depends on it.
+/// The same with RoBOSS also in fewer lanes, and in none: for speed, as no bit depends on it. And in floats,
+/// in all lanes and in eight.
 std::span<const EngineKind> contestants();
+/// RoBOSS in floats.
+const EngineKind& floats();
 
 }  // namespace roboss::bench

@@ -22,11 +22,18 @@ std::span<const EngineKind> engines() {
     return kinds;
 }
 
+const EngineKind& floats() {
+    static const EngineKind kind{"RoBOSS-float", make_roboss_in_floats};
+    return kind;
+}
+
 std::span<const EngineKind> contestants() {
     static const std::vector<EngineKind> kinds = [] {
         std::vector<EngineKind> all(engines().begin(), engines().end());
-        all.insert(all.begin() + 1,
-                   {{"RoBOSS-4", make_roboss_in_4_lanes}, {"RoBOSS-1", make_roboss_in_1_lane}});
+        all.insert(all.begin() + 1, {{"RoBOSS-4", make_roboss_in_4_lanes},
+                                     {"RoBOSS-1", make_roboss_in_1_lane},
+                                     floats(),
+                                     {"RoBOSS-float-8", make_roboss_in_8_floats}});
         return all;
     }();
     return kinds;

@@ -30,13 +30,16 @@ class RobossEngine final : public Engine {
     }
 
     std::string name() const override {
-        return lanes_ == 0 ? "RoBOSS"
-                           : "RoBOSS-" + std::to_string(lanes_) + (lanes_ == 1 ? " lane" : " lanes");
+        const std::string ours = model_.precision == Precision::kFloat ? "RoBOSS-float" : "RoBOSS";
+        return lanes_ == 0 ? ours : ours + "-" + std::to_string(lanes_) + (lanes_ == 1 ? " lane" : " lanes");
     }
     std::string settings() const override {
-        return "double, Newton to the tolerance" +
+        const bool in_floats = model_.precision == Precision::kFloat;
+        return (in_floats ? "floats for robots that meet no other, Newton to the tolerance"
+                          : "double, Newton to the tolerance") +
                (accuracy_ == 1 ? std::string() : ", tolerances / " + std::to_string(accuracy_)) +
-               "; all robots in one call of step_island; lanes: " + std::to_string(scratch_.lanes());
+               "; all robots in one call of step_island; lanes: " +
+               std::to_string(scratch_.lanes(model_.precision));
     }
 
     void step(int ticks) override {
@@ -145,8 +148,10 @@ class RobossEngine final : public Engine {
     Tick tick_ = 0;
 };
 
-std::unique_ptr<Engine> make(const World& world, const EngineOptions& options, std::size_t lanes) {
+std::unique_ptr<Engine> make(const World& world, const EngineOptions& options, std::size_t lanes,
+                             Precision precision = Precision::kDouble) {
     CompileOptions compiling;
+    compiling.precision = precision;
     compiling.dt_s = options.dt_s;
     compiling.accuracy.setting = options.accuracy > 1 ? "high" : options.accuracy < 1 ? "fast" : "";
     Diagnostics diagnostics;
@@ -167,6 +172,14 @@ std::unique_ptr<Engine> make_roboss_in_4_lanes(const World& world, const EngineO
 
 std::unique_ptr<Engine> make_roboss_in_1_lane(const World& world, const EngineOptions& options) {
     return make(world, options, 1);
+}
+
+std::unique_ptr<Engine> make_roboss_in_floats(const World& world, const EngineOptions& options) {
+    return make(world, options, 0, Precision::kFloat);
+}
+
+std::unique_ptr<Engine> make_roboss_in_8_floats(const World& world, const EngineOptions& options) {
+    return make(world, options, 8, Precision::kFloat);
 }
 
 }  // namespace roboss::bench

@@ -74,6 +74,7 @@ CompileOptions Run::compile_options() const {
     options.dt_s = o_.dt_s;
     options.accuracy = o_.accuracy;
     if (o_.no_sleep) options.sleep = false;
+    options.precision = o_.precision;
     return options;
 }
 

@@ -114,7 +114,8 @@ void add_pace_options(CLI::App& command, RunOptions& o) {
         ->capture_default_str();
     command
         .add_option("--lanes", o.lanes,
-                    "robots of a type stepped at once, at most: 1, 4 (AVX2) or 8 (AVX-512); the same result")
+                    "robots of a type stepped at once, at most: 1, 4 (AVX2) or 8 (AVX-512), with floats 1, 8 "
+                    "or 16; the same result")
         ->check(CLI::Range(std::size_t{1}, kMostLanes))
         ->capture_default_str();
     command.add_option("--window", o.window, "ticks between two talks with the Controller, or auto")
@@ -173,6 +174,16 @@ void add_common_options(CLI::App& command, RunOptions& o) {
         "name of the world's <physics> to use (default: the one with default=\"true\", else the "
         "first)");
     add_accuracy_options(command, o.accuracy);
+    command
+        .add_option_function<std::string>(
+            "--precision",
+            [&o](const std::string& text) {
+                o.precision = text == "float" ? Precision::kFloat : Precision::kDouble;
+            },
+            "numbers that robots which meet no other are stepped with: double, or float, which is faster "
+            "(part of the Model and its hash; docs/physics.md says for whom and how exact; default: the "
+            "world's <roboss:precision>, else double)")
+        ->check(CLI::IsMember({"double", "float"}));
     command.add_flag(
         "--no-sleep", o.no_sleep,
         "step robots at rest too (default: they sleep until something touches or orders them, unless "

@@ -22,6 +22,7 @@ struct RunOptions {
     std::optional<double> dt_s;
     std::string profile;  // of <physics>
     bool no_sleep = false;
+    std::optional<Precision> precision;
     AccuracySpec accuracy;        // --accuracy and each number by itself
     std::string speed = "max";    // "max", "world" or a factor of real time
     bool paused = false;          // at the start

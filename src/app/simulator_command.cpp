@@ -96,7 +96,8 @@ void add_simulator_command(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command
         ->add_option("--lanes", options->lanes,
-                     "robots of a type stepped at once, at most: 1, 4 (AVX2) or 8 (AVX-512); the same result")
+                     "robots of a type stepped at once, at most: 1, 4 (AVX2) or 8 (AVX-512), with floats 1, "
+                     "8 or 16; the same result")
         ->check(CLI::Range(std::size_t{1}, kMostLanes))
         ->capture_default_str();
     command->add_flag("--stay", options->stay, "wait for the next run when one is over");

@@ -37,6 +37,7 @@ template <class Number, int kLanes, class Isa>
 struct Lanes {
     using Vector [[gnu::vector_size(kLanes * sizeof(Number))]] = Number;
     using Mask = LaneMask<Number, kLanes, Isa>;
+    using Set = Isa;
     static constexpr std::size_t kCount = kLanes;
     Vector x{};
 
@@ -150,6 +151,9 @@ auto either(const Mask& m, Yes&& yes, No&& no) {
 template <class T>
 class Lockstep {
   public:
+    Lockstep() = default;
+    /// Bit i: lane i is there.
+    explicit Lockstep(unsigned present) : present_(present) {}
     bool operator()(const MaskOf<T>& condition) { return vote(condition, present_); }
     /// The vote of those who are not `done`; these stay, whatever comes of it.
     bool without(const MaskOf<T>& done, const MaskOf<T>& condition) {
@@ -178,10 +182,13 @@ class Lockstep {
 template <>
 class Lockstep<double> {
   public:
+    Lockstep() = default;
+    explicit Lockstep(unsigned) {}
     bool operator()(bool condition) { return condition; }
     bool without(bool done, bool condition) { return !done && condition; }
     bool all(bool condition) const { return condition; }
     bool any() const { return true; }
+    unsigned present() const { return 1; }
 };
 
 }  // namespace roboss

@@ -205,6 +205,7 @@ std::string broken_part(const Model& model) {
     if (!(model.dt_s > 0 && model.dt_s <= 1)) return "its step is not in (0, 1] s";
     if (!is_finite(model.gravity) || !is_finite(model.wind)) return "its gravity or wind is not finite";
     if (!accuracy_fits(model.accuracy)) return "its accuracy is out of range";
+    if (model.precision > Precision::kFloat) return "its precision is unknown";
     for (const RobotType& type : model.types)
         if (const std::string broken = TypeCheck(type).broken(); !broken.empty())
             return "robot type '" + type.name + "': " + broken;

@@ -84,6 +84,7 @@ std::shared_ptr<const Model> compile(const World& world, const CompileOptions& o
     model->sleep = options.sleep.value_or(world.sleep);
     for (const AccuracySpec& spec : world.accuracy) apply(spec, model->accuracy, diagnostics);
     apply(options.accuracy, model->accuracy, diagnostics);
+    model->precision = options.precision.value_or(world.precision);
     if (!(model->dt_s > 0 && model->dt_s <= 1.0))
         diagnostics.error({world.file, 0}, "bad-step",
                           "the step of " + std::to_string(model->dt_s) + " s is not in (0, 1] s",

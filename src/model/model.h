@@ -239,6 +239,7 @@ struct Model {
     double air_density = 0.0;  // kg/m^3
     std::optional<SphericalCoordinates> spherical;
     Accuracy accuracy;
+    Precision precision = Precision::kDouble;
     bool sleep = false;  // robots at rest sleep (physics/sleep.h)
     std::vector<RobotType> types;
     std::vector<Robot> robots;
@@ -254,9 +255,10 @@ struct Model {
 };
 
 struct CompileOptions {
-    std::optional<double> dt_s{};  // overrides the world's step
-    std::optional<bool> sleep{};   // overrides the world's
-    AccuracySpec accuracy{};       // after the world's own
+    std::optional<double> dt_s{};          // overrides the world's step
+    std::optional<bool> sleep{};           // overrides the world's
+    AccuracySpec accuracy{};               // after the world's own
+    std::optional<Precision> precision{};  // overrides the world's
 };
 
 /// World to Model. Findings go to `diagnostics`; nullptr if any of them is an error.

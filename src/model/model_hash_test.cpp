@@ -76,6 +76,7 @@ TEST(ModelHash, ChangesWithTheWorld) {
              w.wind = {1, 0, 0};
          }},
         {"sleep", [](World& w) { w.sleep = true; }},
+        {"precision", [](World& w) { w.precision = Precision::kFloat; }},
         {"air", [](World& w) { w.air_density = 1; }},
         {"magnetic field", [](World& w) { w.magnetic_field_T.y = 0; }},
         {"spherical coordinates",

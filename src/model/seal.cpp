@@ -25,6 +25,7 @@ std::uint64_t model_hash(const Model& model) {
     if (const auto& s = model.spherical)
         for (double x : {s->latitude_rad, s->longitude_rad, s->elevation_m, s->heading_rad}) hash.add(x);
     for (const AccuracyNumber& number : accuracy_numbers()) hash.add(number.get(model.accuracy));
+    if (model.precision == Precision::kFloat) hash.add(std::string_view("float"));
     for (const RobotType& type : model.types) hash.add(type.hash);
     for (const Robot& robot : model.robots) {
         hash.add(robot.name);

@@ -87,7 +87,9 @@ BoundedRowT<T> effort_motor(const AxisStateT<T>& s) {
 template <class T>
 BoundedRowT<T> velocity_motor(const AxisStateT<T>& s, const T& impulse_max) {
     BoundedRowT<T> row;
-    row.target = clamped(s.motor.target, T(-s.dof.max_velocity), T(s.dof.max_velocity));
+    row.target = kIsFloat<T>
+                     ? s.motor.target  // in bounds, and relative to the present velocity (lane_state.h)
+                     : clamped(s.motor.target, T(-s.dof.max_velocity), T(s.dof.max_velocity));
     row.compliance = s.dof.velocity_gain > 0 ? 1.0 / (s.dt * s.dof.velocity_gain) : s.compliance;
     row.low = -impulse_max, row.high = impulse_max;
     return row;

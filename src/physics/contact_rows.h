@@ -239,9 +239,9 @@ MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const Contac
     row.last = rows.columns.size();
     const MaskOf<T> loaded = c.load > T(0);
     const T compliance =
-        ease * select(loaded, T(model.accuracy.contact_compliance), T(model.accuracy.compliance));
+        ease * select(loaded, T(loaded_compliance<T>(model.accuracy)), T(new_compliance<T>(model.accuracy)));
     row.normal.high = std::numeric_limits<double>::infinity();
-    row.soft = contact::set_softness(c, dt, ease, ease * model.accuracy.compliance, row.normal);
+    row.soft = contact::set_softness(c, dt, ease, ease * new_compliance<T>(model.accuracy), row.normal);
     MaskOf<T> split = false;
     if (!row.soft) split = contact::set_normal(c, approach, gravity_n, dt, compliance, row.normal);
     row.slip.coefficient = c.mu;

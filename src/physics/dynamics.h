@@ -167,6 +167,19 @@ void sum_impulses(double dt, double momentum_weight, std::span<const T> q, std::
     add_joint_impulses(type, dt, momentum_weight, q, v, work);
 }
 
+/// What implicit damping and springs in the mass matrix make of the velocities before, off the impulse:
+/// where only what the tick changes is solved for.
+template <class T>
+void take_off_damping(double dt, std::span<const T> v, Mechanics<T>& work) {
+    const RobotType& type = *work.type;
+    for (std::size_t d = 0; d < type.dofs.size(); ++d) {
+        const Dof& dof = type.dofs[d];
+        const double damping = dt * dof.damping + dt * dt * dof.spring_stiffness;
+        const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
+        if (damping != 0) work.impulse[i] -= damping * v[i];
+    }
+}
+
 template <class T>
 void compute_mass_matrix(const RobotType& type, double dt, Mechanics<T>& work) {
     work.mass_matrix.resize(type.paths.entries());

@@ -79,7 +79,7 @@ MaskOf<T> couple_bounds(IslandRowsT<T>& rows) {
         const MaskOf<T> pressed = (!equal(row.normal.d, T(0))) & (disc.bound > T(0));
         if (!any(pressed)) continue;
         const T speed = sqrt(disc.u_1 * disc.u_1 + disc.u_2 * disc.u_2);
-        const MaskOf<T> here = pressed & (speed > disc.bound * disc.compliance);
+        const MaskOf<T> here = pressed & is_sliding(disc, speed);
         if (!any(here)) continue;
         const T share = -disc.coefficient * row.normal.d / speed;
         disc.d_1n = select(here, share * disc.u_1, disc.d_1n);

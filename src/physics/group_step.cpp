@@ -244,20 +244,26 @@ struct IslandStepper {
         settle_island(model, robots, members, s.island_contacts);
     }
 
-    /// A robot that touches nobody may wait until there are enough of its type.
-    void step_or_wait(std::span<const std::uint32_t> members) const {
+    /// A robot that touches nobody may wait until there are enough of its type. In floats it must: whether it
+    /// is stepped so hangs on nothing but itself and on who touches it.
+    bool goes_in_lanes(std::span<const std::uint32_t> members) const {
         const RobotWork& work = robots[members[0]];
-        const bool waits = s.lanes != nullptr && robots.size() > 1 && members.size() == 1 &&
-                           !work.touches_robot && !s.keep_loads && fits_lanes(*work.type, *work.state) &&
-                           touches_one_thing(contacts_of(members[0], s.contacts));
-        if (!waits) return step(members);
-        s.queue.add(model.robots[work.id.index()].type.index(), members[0], s.lanes->width(),
+        if (!s.lanes || s.tried_alone || s.keep_loads || members.size() > 1 || work.touches_robot)
+            return false;
+        if (!fits_lanes(*work.type, *work.state)) return false;
+        return s.lanes.in_floats() ||
+               (robots.size() > 1 && touches_one_thing(contacts_of(members[0], s.contacts)));
+    }
+
+    void step_or_wait(std::span<const std::uint32_t> members) const {
+        if (!goes_in_lanes(members)) return step(members);
+        s.queue.add(model.robots[robots[members[0]].id.index()].type.index(), members[0], s.lanes.width(),
                     [&](auto& batch) { return step_in_lanes(batch); });
     }
 
     bool step_in_lanes(std::vector<std::uint32_t>& batch) const {
         return step_batch(
-            *s.lanes, model, batch, report,
+            s.lanes, model, batch, report,
             [&](std::uint32_t i) {
                 return LaneRobot{robots[i].id, robots[i].state, nullptr, true, contacts_of(i, s.contacts)};
             },

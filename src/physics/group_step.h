@@ -19,7 +19,8 @@ namespace roboss {
 struct GroupScratch {
     bool keep_loads = false;  // then robots with loops do not move freely, for then nothing knows their loads
     std::vector<LoopLoad> loads;
-    LaneStepper* lanes = nullptr;  // for robots that touch nobody; may be none
+    LaneSteppers lanes;        // for robots that touch nobody
+    bool tried_alone = false;  // the group is one robot that lanes and floats did not step
     LaneQueue queue;
     ContactFinder finder;
     std::vector<Contact> contacts;

@@ -32,7 +32,7 @@ AxisStateT<T> tree_axis(const Model& model, const RobotType& type, const JointSt
             has_position ? state.q[static_cast<std::size_t>(body.q_index)] : T(0),
             state.v[d + static_cast<std::size_t>(type.base_nv())],
             model.dt_s,
-            model.accuracy.compliance * dof.inverse_inertia,
+            hard_compliance<T>(model.accuracy) * dof.inverse_inertia,
             has_position};
 }
 
@@ -50,6 +50,8 @@ MaskOf<T> add_tree_rows(const Model& model, const RobotType& type, const JointSt
             static_cast<BoundedRowT<T>&>(row) = buffer[r];
             row.dof = offset + type.base_nv() + static_cast<int>(d);
             if (r == 0 && has_hard_motor(axis)) row.motor = &state.motors[d];
+            if (kIsFloat<T> && !(r == 0 && axis.motor.mode == MotorMode::kVelocity))
+                row.target -= axis.v, row.position_target -= axis.v;  // relative, as a velocity motor's is
         }
     }
     return mends;

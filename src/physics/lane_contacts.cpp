@@ -63,17 +63,9 @@ std::optional<Contact> LaneContacts::plain_surface(const Model& model, const Bod
     return contact;
 }
 
-void LaneContacts::clear_memory() {
-    memory_.clear();
-}
-
-void LaneContacts::add_memory(const ContactMemory& memory) {
-    memory_.push_back(memory);
-}
-
-int LaneContacts::remember(RobotState& state) const {
-    state.contacts.assign(memory_.begin(), memory_.end());
-    return static_cast<int>(memory_.size());
+ContactMemory* LaneContacts::memory_for(std::size_t count, RobotState& state) {
+    state.contacts.resize(count);
+    return state.contacts.data();
 }
 
 unsigned LaneContacts::alike(unsigned present) const {

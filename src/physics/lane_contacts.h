@@ -25,10 +25,8 @@ class LaneContacts {
     std::optional<std::uint32_t> only_plane(const Model& model, const Aabb& box);
     /// What the materials make of a shape on scenery `i`; nothing if that is more than lanes know.
     static std::optional<Contact> plain_surface(const Model& model, const BodyShape& shape, std::uint32_t i);
-    /// Collects what a robot's state is to remember; returns how many contacts that are.
-    void clear_memory();
-    void add_memory(const ContactMemory& memory);
-    int remember(RobotState& state) const;
+    /// Room for so many contacts in what a state remembers; the first of them.
+    static ContactMemory* memory_for(std::size_t count, RobotState& state);
 
     /// Contacts found elsewhere.
     void take(std::size_t lane, std::span<Contact> contacts) { spans_[lane] = contacts; }
@@ -47,7 +45,6 @@ class LaneContacts {
     std::vector<std::span<Contact>> spans_;  // the same, or those found elsewhere
     ContactFinder finder_;
     std::vector<std::uint32_t> scenery_;
-    std::vector<ContactMemory> memory_;
 };
 
 }  // namespace roboss

@@ -1,16 +1,17 @@
 // The step of a few robots of one type in lanes; see lane_stepper.h. Included only by the translation units
-// of the instruction sets.
+// of the instruction sets, and by that of one robot in floats. Where T is floats, what has a place in the
+// world is found in doubles (Wide) all the same: decision 0014.
 #pragma once
 
 #include <bit>
 #include <vector>
 
 #include "geometry/plane_contacts.h"
-#include "model/coordinates.h"
 #include "physics/contact_rows.h"
 #include "physics/dynamics.h"
 #include "physics/joint_rows.h"
 #include "physics/lane_contacts.h"
+#include "physics/lane_state.h"
 #include "physics/loads.h"
 #include "physics/newton.h"
 #include "physics/sleep.h"
@@ -27,15 +28,16 @@ class LaneStep final : public LaneStepper {
 
     unsigned step(const Model& model, std::span<const LaneRobot> robots, StepReport& report) override {
         Lockstep<T> together;
-        gather(model, robots, together);
+        work_.type = &model.type_of(robots[0].id);
+        state_.gather(*work_.type, robots, together);
         place(model, robots, together);
         if (!together.any()) return 0;
         take_contacts(together);
         add_rows(model, together);
         solve(model, together);
         leave_the_free(together);
-        advance_coordinates<T>(*work_.type, way_, model.dt_s, q_);
-        leave_where(!finite(), together);
+        state_.advance(*work_.type, model.dt_s, way_, solution_);
+        leave(state_.not_finite(), together);
         for (std::size_t i = 0; i < robots.size(); ++i)
             if (is_in(together, i)) scatter(model, i, robots[i], report);
         return together.present();
@@ -43,6 +45,7 @@ class LaneStep final : public LaneStepper {
 
   private:
     using Mask = MaskOf<T>;
+    using Wide = WideOf<T>;
 
     static bool is_in(const Lockstep<T>& together, std::size_t lane) {
         return (together.present() >> lane & 1u) != 0;
@@ -54,42 +57,23 @@ class LaneStep final : public LaneStepper {
             if ((bits >> lane & 1u) != 0) together.leave(lane);
     }
     static void leave_where(const Mask& m, Lockstep<T>& together) { leave(LaneTraits<T>::bits(m), together); }
-
-    /// Coordinates, velocities and motors. Lanes without a robot, or with a motor in another mode than the
-    /// first robot's, leave, but compute along with the first robot's values.
-    void gather(const Model& model, std::span<const LaneRobot> robots, Lockstep<T>& together) {
-        const RobotType& type = model.type_of(robots[0].id);
-        const RobotState& first = *robots[0].state;
-        work_.type = &type;
-        q_.resize(first.q.size()), v_.resize(first.v.size()), motors_.resize(first.motors.size());
-        for (std::size_t m = 0; m < motors_.size(); ++m) motors_[m].mode = first.motors[m].mode;
-        for (std::size_t lane = 0; lane < kLanesOf<T>; ++lane) {
-            const RobotState& state = lane < robots.size() ? *robots[lane].state : first;
-            if (lane >= robots.size()) together.leave(lane);
-            for (std::size_t i = 0; i < q_.size(); ++i) set_lane(q_[i], lane, state.q[i]);
-            for (std::size_t i = 0; i < v_.size(); ++i) set_lane(v_[i], lane, state.v[i]);
-            for (std::size_t m = 0; m < motors_.size(); ++m) {
-                const MotorSetpoint& motor = state.motors[m];
-                if (motor.mode != motors_[m].mode) together.leave(lane);
-                set_lane(motors_[m].target, lane, motor.target);
-                set_lane(motors_[m].max_effort, lane, motor.max_effort);
-                set_lane(motors_[m].impulse, lane, motor.impulse);
-                set_lane(motors_[m].load, lane, motor.load);
-            }
-        }
+    template <class Other>
+    static void leave_where(const Other& m, Lockstep<T>& together) {
+        leave(LaneTraits<Wide>::bits(m), together);
     }
 
     /// Bodies and shapes in lanes, contacts lane by lane. Who might fall asleep or turns far leaves. All
     /// robots come with contacts, or none.
     void place(const Model& model, std::span<const LaneRobot> robots, Lockstep<T>& together) {
         const RobotType& type = *work_.type;
-        place_bodies<T>(type, q_, work_);
-        move_bodies<T>(type, v_, work_);
-        leave_where(turns_far(work_, model.dt_s), together);
+        placed().type = &type;
+        place_bodies<Wide>(type, state_.q(), placed());
+        move_bodies<Wide>(type, state_.v(), placed());
+        leave_where(turns_far(placed(), model.dt_s), together);
         const bool has_contacts = robots[0].has_contacts;
-        if (model.sleep || !has_contacts) place_shapes<T>(type, model.dt_s, q_, work_);
-        if (model.sleep) leave_where(work_.speed <= T(kRestSpeed), together);
-        if (!has_contacts) leave_where(!is_finite(work_), together);
+        if (model.sleep || !has_contacts) place_shapes<Wide>(type, model.dt_s, state_.q(), placed());
+        if (model.sleep) leave_where(placed().speed <= Wide(kRestSpeed), together);
+        if (!has_contacts) leave_where(!is_finite(placed()), together);
         on_plane_ = !has_contacts && find_on_plane(model, robots, together);
         if (on_plane_) return;
         for (std::size_t lane = 0; lane < robots.size(); ++lane) {
@@ -104,12 +88,26 @@ class LaneStep final : public LaneStepper {
         leave(~found_.alike(together.present()), together);
     }
 
+    /// Poses and velocities, in doubles.
+    Mechanics<Wide>& placed() {
+        if constexpr (kIsFloat<T>)
+            return placed_;
+        else
+            return work_;
+    }
+    const Mechanics<Wide>& placed() const {
+        if constexpr (kIsFloat<T>)
+            return placed_;
+        else
+            return work_;
+    }
+
     /// Whether everything that contacts are found from is a number.
-    static Mask is_finite(const Mechanics<T>& work) {
-        T sum =
+    static MaskOf<Wide> is_finite(const Mechanics<Wide>& work) {
+        Wide sum =
             work.origin.x - work.origin.x + (work.origin.y - work.origin.y) + (work.origin.z - work.origin.z);
-        for (const ShapeWorkT<T>& shape : work.shapes) sum += shape.margin - shape.margin;
-        return equal(sum, T(0));
+        for (const ShapeWorkT<Wide>& shape : work.shapes) sum += shape.margin - shape.margin;
+        return equal(sum, Wide(0));
     }
 
     /// Where one plane is all that is near, the narrow phase itself goes in lanes. False if it cannot.
@@ -122,59 +120,88 @@ class LaneStep final : public LaneStepper {
             plane = found;
         }
         if (!plane) return false;
-        contacts_.clear();
-        for (std::size_t s = 0; s < work_.shapes.size(); ++s)
-            if (work_.type->shapes[s].body >= 0 && !add_on_plane(model, s, *plane, together)) return false;
+        contacts_.clear(), velocities_.clear();
+        Lockstep<Wide> finders(together.present());
+        for (std::size_t s = 0; s < placed().shapes.size(); ++s)
+            if (work_.type->shapes[s].body >= 0 && !add_on_plane(model, s, *plane, finders)) return false;
+        leave(~finders.present(), together);
         for (std::size_t i = 0; i < robots.size(); ++i)
             if (is_in(together, i)) recall(i, *robots[i].state);
         return true;
     }
 
-    bool add_on_plane(const Model& model, std::size_t s, std::uint32_t plane, Lockstep<T>& together) {
+    bool add_on_plane(const Model& model, std::size_t s, std::uint32_t plane, Lockstep<Wide>& finders) {
         const BodyShape& shape = work_.type->shapes[s];
         const StaticShape& scenery = model.statics[plane];
         if (!may_collide(shape.material, scenery.material)) return true;
         const Vec3 n = scenery.X_WS.R.col(2);
-        PlaneContacts<T> points(scenery.X_WS.p, n, work_.shapes[s].margin, together);
+        PlaneContacts<Wide> points(scenery.X_WS.p, n, placed().shapes[s].margin, finders);
         const std::optional<Contact> surface = found_.plain_surface(model, shape, plane);
-        if (!surface || !points.add(shape.shape, work_.shapes[s].X_WS)) return false;
+        if (!surface || !points.add(shape.shape, placed().shapes[s].X_WS)) return false;
         for (std::size_t i = 0; i < points.count(); ++i) {
             if (i > 0 && points[i].feature < points[i - 1].feature) return false;  // they would be sorted
             ContactT<T>& c = contacts_.emplace_back();
             c.shape_a = static_cast<std::uint32_t>(s), c.shape_b = plane, c.feature = points[i].feature;
             c.body_a = shape.body;
             set_surface(*surface, c);
-            c.p_W = points[i].p_W, c.gap = points[i].gap, c.normal = broadcast<T>(n);
+            c.gap = kernel(points[i].gap), c.normal = broadcast<T>(n);
+            put_point(points[i].p_W, c);
         }
         return true;
     }
 
-    /// What the last tick remembers of the contacts; both sorted.
-    void recall(std::size_t i, const RobotState& state) {
-        const auto key = [](std::uint32_t shape, std::uint32_t other, std::uint32_t feature) {
-            return std::array{shape, other, feature};
-        };
-        auto m = state.contacts.begin();
-        const auto is_before = [&](const ContactT<T>& c) {
-            return m->other_robot != RobotId::kNone ||
-                   key(m->shape, m->other_shape, m->feature) < key(c.shape_a, c.shape_b, c.feature);
-        };
-        for (ContactT<T>& c : contacts_) {
-            while (m != state.contacts.end() && is_before(c)) ++m;
-            if (m == state.contacts.end()) return;
-            if (key(m->shape, m->other_shape, m->feature) != key(c.shape_a, c.shape_b, c.feature)) continue;
-            set_lane(c.impulse, i, m->impulse), set_lane(c.load, i, m->load);
-            set_lanes(c.friction, i, m->friction);
+    /// Where the contact is; floats count from the base, and want to know how fast the point is.
+    void put_point(const Vec3T<Wide>& p_W, ContactT<T>& c) {
+        if constexpr (kIsFloat<T>) {
+            const Vec3T<Wide> p = p_W - placed_.origin;
+            const SpatialT<Wide>& v = placed_.bodies[static_cast<std::size_t>(c.body_a)].velocity;
+            c.p_W = kernel(p);
+            velocities_.push_back(kernel(v.linear + cross(v.angular, p)));
+        } else {
+            c.p_W = p_W;
         }
     }
 
-    static Vec3 vector_of(const Vec3T<T>& x, std::size_t i) {
+    /// As a number of the kernel's.
+    static T kernel(const Wide& x) {
+        if constexpr (kIsFloat<T>)
+            return narrow<T>(x);
+        else
+            return x;
+    }
+    static Vec3T<T> kernel(const Vec3T<Wide>& x) { return {kernel(x.x), kernel(x.y), kernel(x.z)}; }
+    static SpatialT<T> kernel(const SpatialT<Wide>& x) { return {kernel(x.angular), kernel(x.linear)}; }
+
+    /// What the last tick remembers of the contacts; both sorted, and mostly the same.
+    void recall(std::size_t i, const RobotState& state) {
+        const auto is_of = [](const ContactMemory& m, const ContactT<T>& c) {
+            return m.other_robot == RobotId::kNone && m.shape == c.shape_a && m.other_shape == c.shape_b &&
+                   m.feature == c.feature;
+        };
+        const auto is_before = [](const ContactMemory& m, const ContactT<T>& c) {
+            return m.other_robot != RobotId::kNone || std::array{m.shape, m.other_shape, m.feature} <
+                                                          std::array{c.shape_a, c.shape_b, c.feature};
+        };
+        const ContactMemory *m = state.contacts.data(), *end = m + state.contacts.size();
+        for (ContactT<T>& c : contacts_) {
+            if (m != end && !is_of(*m, c))
+                while (m != end && is_before(*m, c)) ++m;
+            if (m == end) return;
+            if (!is_of(*m, c)) continue;
+            set_lane(c.impulse, i, m->impulse), set_lane(c.load, i, m->load);
+            set_lanes(c.friction, i, m->friction);
+            ++m;
+        }
+    }
+
+    template <class Number>
+    static Vec3 vector_of(const Vec3T<Number>& x, std::size_t i) {
         return {lane(x.x, i), lane(x.y, i), lane(x.z, i)};
     }
-    static Aabb box_of(const AabbT<T>& box, std::size_t i) {
+    static Aabb box_of(const AabbT<Wide>& box, std::size_t i) {
         return {vector_of(box.min, i), vector_of(box.max, i)};
     }
-    Aabb box_of(std::size_t i) const { return box_of(work_.box, i); }
+    Aabb box_of(std::size_t i) const { return box_of(placed().box, i); }
 
     static void set_surface(const Contact& from, ContactT<T>& to) {
         to.mu = from.mu, to.restitution = from.restitution, to.bounce_threshold = from.bounce_threshold;
@@ -183,9 +210,9 @@ class LaneStep final : public LaneStepper {
     }
 
     void put_shapes(std::size_t i, ShapeWork* shapes) const {
-        for (const ShapeWorkT<T>& from : work_.shapes) {
+        for (const ShapeWorkT<Wide>& from : placed().shapes) {
             ShapeWork& to = *shapes++;
-            const Mat3T<T>& R = from.X_WS.R;
+            const Mat3T<Wide>& R = from.X_WS.R;
             to.X_WS = {{vector_of(R.r0, i), vector_of(R.r1, i), vector_of(R.r2, i)},
                        vector_of(from.X_WS.p, i)};
             to.box = box_of(from.box, i);
@@ -197,40 +224,74 @@ class LaneStep final : public LaneStepper {
     void take_contacts(const Lockstep<T>& together) {
         if (on_plane_) return;
         const auto first = static_cast<std::size_t>(std::countr_zero(together.present()));
-        contacts_.resize(found_.count(first));
+        contacts_.resize(found_.count(first)), velocities_.clear();
         for (std::size_t c = 0; c < contacts_.size(); ++c) {
             const Contact& all = found_.contact(first, c);
-            ContactT<T>& to = contacts_[c];
-            to.body_a = all.body_a;
-            set_surface(all, to);
+            contacts_[c].body_a = all.body_a;
+            set_surface(all, contacts_[c]);
             for (std::size_t i = 0; i < kLanesOf<T>; ++i) {
                 const Contact& from = found_.contact(is_in(together, i) ? i : first, c);
-                set_lanes(to.p_W, i, from.p_W), set_lanes(to.normal, i, from.normal);
-                set_lanes(to.friction, i, from.friction);
-                set_lane(to.gap, i, from.gap);
-                set_lane(to.impulse, i, from.impulse), set_lane(to.load, i, from.load);
+                set_lanes(point_, i, from.p_W);
+                take_contact(i, from, contacts_[c]);
             }
+            put_point(point_, contacts_[c]);
         }
     }
 
-    static void set_lanes(Vec3T<T>& to, std::size_t i, const Vec3& from) {
+    /// All but the point.
+    static void take_contact(std::size_t i, const Contact& from, ContactT<T>& to) {
+        set_lanes(to.normal, i, from.normal), set_lanes(to.friction, i, from.friction);
+        set_lane(to.gap, i, from.gap);
+        set_lane(to.impulse, i, from.impulse), set_lane(to.load, i, from.load);
+    }
+
+    template <class Number>
+    static void set_lanes(Vec3T<Number>& to, std::size_t i, const Vec3& from) {
         set_lane(to.x, i, from.x), set_lane(to.y, i, from.y), set_lane(to.z, i, from.z);
     }
 
     void add_rows(const Model& model, Lockstep<T>& together) {
         const RobotType& type = *work_.type;
-        const JointStates<T> joints{q_, v_, motors_};
+        const JointStates<T> joints = state_.joints();
+        if constexpr (kIsFloat<T>) take_placed();
+        constexpr double kMomentum = kIsFloat<T> ? 0.0 : 1.0;  // of floats, only what the tick changes
         rows_.clear();
-        set_body_impulses(model, model.dt_s, 1.0, work_);
-        sum_impulses<T>(model.dt_s, 1.0, q_, v_, work_);
+        set_body_impulses(model, model.dt_s, kMomentum, work_);
+        sum_impulses<T>(model.dt_s, kMomentum, joints.q, joints.v, work_);
+        if constexpr (kIsFloat<T>) take_off_damping<T>(model.dt_s, joints.v, work_);
         compute_mass_matrix(type, model.dt_s, work_);
         split_ = add_tree_rows(model, type, joints, 0, together, buffer_, rows_);
-        for (const ContactT<T>& c : contacts_)
-            split_ = split_ | add_contact_row<T>(model, c, {&work_, c.body_a, 0}, nullptr, rows_);
+        for (std::size_t c = 0; c < contacts_.size(); ++c) {
+            const ContactT<T>& contact = contacts_[c];
+            split_ = split_ | add_contact_row<T>(model, contact, {&work_, contact.body_a, 0}, nullptr, rows_);
+            if constexpr (kIsFloat<T>) count_from(velocities_[c], frame_of(contact), rows_.contacts.back());
+        }
         free_ = true;
         for (std::size_t d = 0; d < type.dofs.size(); ++d)
             free_ = free_ & Mask(!is_stiff(type.dofs[d], model.dt_s)) &
                     is_left_alone(tree_axis(model, type, joints, d));
+    }
+
+    /// Floats: what the solver needs of the poses and velocities.
+    void take_placed() {
+        work_.origin = {};
+        work_.bodies.resize(placed_.bodies.size()), work_.axes.resize(placed_.axes.size());
+        for (std::size_t b = 0; b < placed_.bodies.size(); ++b) {
+            const BodyWorkT<Wide>& from = placed_.bodies[b];
+            BodyWorkT<T>& to = work_.bodies[b];
+            const Mat3T<Wide>& R = from.X_WB.R;
+            to.X_WB = {{kernel(R.r0), kernel(R.r1), kernel(R.r2)}, kernel(from.X_WB.p - placed_.origin)};
+            to.centre = kernel(from.centre);
+            to.velocity = kernel(from.velocity), to.bias = kernel(from.bias);
+        }
+        for (std::size_t k = 0; k < placed_.axes.size(); ++k) work_.axes[k] = kernel(placed_.axes[k]);
+    }
+
+    /// Floats: targets of a contact relative to the velocity of its point before the tick.
+    static void count_from(const Vec3T<T>& velocity, const ContactFrameT<T>& frame, ContactRowT<T>& row) {
+        const T normal = dot(frame.n, velocity);
+        row.normal.target -= normal, row.normal.position_target -= normal;
+        row.slip.target_1 -= dot(frame.t1, velocity), row.slip.target_2 -= dot(frame.t2, velocity);
     }
 
     /// Velocities and way of the tick, and what motors and contacts gave.
@@ -238,7 +299,7 @@ class LaneStep final : public LaneStepper {
         const Mechanics<T>* robot = &work_;
         const int offset = 0;
         SolveProblem<T> problem{model.accuracy, {&robot, 1}, {&offset, 1}, rows_};
-        solution_ = v_;
+        start_from_before(solution_);
         solved_ = {};
         newton_.start(problem, solution_);
         leave_where(!newton_.solve(problem, together, solution_, solved_), together);
@@ -246,6 +307,14 @@ class LaneStep final : public LaneStepper {
         take_impulses();
         way_ = solution_;
         if (together.any() && together(split_)) solve_way(problem, together);
+    }
+
+    /// The velocities before the tick, or of floats that nothing changes.
+    void start_from_before(std::vector<T>& v) const {
+        if constexpr (kIsFloat<T>)
+            v.assign(state_.v().size(), T(0));
+        else
+            v = state_.v();
     }
 
     void take_impulses() {
@@ -260,39 +329,36 @@ class LaneStep final : public LaneStepper {
     void solve_way(SolveProblem<T> problem, Lockstep<T>& together) {
         problem.position = true;
         for (ContactRowT<T>& row : rows_.contacts) row.slip.bound = row.slip.coefficient * row.normal.impulse;
-        way_ = v_;
+        start_from_before(way_);
         SolveReportT<T> report;
         newton_.start(problem, way_);
         leave_where(!newton_.solve(problem, together, way_, report), together);
         solved_.iterations += report.iterations;
         for (const ContactRowT<T>& row : rows_.contacts) pushed_ = pushed_ | (row.normal.impulse > T(0));
-        leave_where(share_of_mending<T>(v_, solution_, way_) < T(1), together);
+        leave_where(mends_too_fast(), together);
+    }
+
+    Mask mends_too_fast() {
+        const std::span<const T> before = state_.joints().v;
+        if constexpr (!kIsFloat<T>) return share_of_mending<T>(before, solution_, way_) < T(1);
+        whole_solution_ = solution_, whole_way_ = way_;
+        for (std::size_t i = 0; i < way_.size(); ++i)
+            whole_solution_[i] += before[i], whole_way_[i] += before[i];
+        return share_of_mending<T>(before, whole_solution_, whole_way_) < T(1);
     }
 
     /// What nothing holds moves by the method for free motion.
     void leave_the_free(Lockstep<T>& together) { leave_where(free_ & !pushed_, together); }
 
-    Mask finite() const {
-        T sum = 0;
-        for (const T& x : q_) sum += x - x;
-        for (const T& x : solution_) sum += x - x;
-        return equal(sum, T(0));
-    }
-
     void scatter(const Model& model, std::size_t i, const LaneRobot& robot, StepReport& report) {
         RobotState& state = *robot.state;
-        for (std::size_t k = 0; k < q_.size(); ++k) state.q[k] = lane(q_[k], i);
-        for (std::size_t k = 0; k < v_.size(); ++k) state.v[k] = lane(solution_[k], i);
-        for (std::size_t m = 0; m < motors_.size(); ++m) {
-            state.motors[m].impulse = lane(motors_[m].impulse, i);
-            state.motors[m].load = lane(motors_[m].load, i);
-        }
+        state_.scatter(i, state);
         if (model.sleep) state.rest.still_ticks = 0;
         if (on_plane_)
             remember_on_plane(i, robot, report);
         else
             scatter_contacts(i);
-        if (!robot.has_contacts) *robot.bound = box_of(i);
+        if (robot.bound != nullptr) *robot.bound = box_of(i);
         if (!robot.has_contacts && !on_plane_) found_.remember(model, i, report);
         report.iterations += static_cast<int>(lane(solved_.iterations, i));
         if (lane(solved_.residual, i) > report.residual) report.residual = lane(solved_.residual, i);
@@ -308,19 +374,24 @@ class LaneStep final : public LaneStepper {
     }
 
     void remember_on_plane(std::size_t i, const LaneRobot& robot, StepReport& report) {
-        found_.clear_memory();
+        ContactMemory* const first = LaneContacts::memory_for(contacts_.size(), *robot.state);
+        ContactMemory* m = first;
         for (const ContactT<T>& c : contacts_) {
             const double impulse = lane(c.impulse, i);
             if (impulse <= 0) continue;
-            found_.add_memory({RobotId::kNone, c.shape_a, c.shape_b, c.feature, impulse, lane(c.load, i),
-                               vector_of(c.friction, i)});
+            *m++ = {RobotId::kNone,          c.shape_a, c.shape_b, c.feature, impulse, lane(c.load, i),
+                    vector_of(c.friction, i)};
         }
-        report.contacts += found_.remember(*robot.state);
+        const auto count = static_cast<std::size_t>(m - first);
+        if (count < contacts_.size()) LaneContacts::memory_for(count, *robot.state);
+        report.contacts += static_cast<int>(count);
     }
 
     Mechanics<T> work_;
-    std::vector<T> q_, v_, solution_, way_;
-    std::vector<MotorSetpointT<T>> motors_;
+    Mechanics<Wide> placed_;  // floats: poses and velocities
+    LaneState<T> state_;
+    std::vector<T> solution_, way_;              // of floats, what is added to the velocities before
+    std::vector<T> whole_solution_, whole_way_;  // of floats, in all
     std::vector<ContactT<T>> contacts_;
     std::vector<BoundedRowT<T>> buffer_;
     IslandRowsT<T> rows_;
@@ -328,7 +399,9 @@ class LaneStep final : public LaneStepper {
     SolveReportT<T> solved_;
     Mask split_{false}, free_{false}, pushed_{false};
     LaneContacts found_{kLanesOf<T>};
-    bool on_plane_ = false;  // contacts_ are not from found_
+    bool on_plane_ = false;             // contacts_ are not from found_
+    Vec3T<Wide> point_;                 // of one contact
+    std::vector<Vec3T<T>> velocities_;  // floats: of the contact points, before the tick
 };
 
 }  // namespace roboss

@@ -23,4 +23,16 @@ std::unique_ptr<LaneStepper> make_lane_stepper(std::size_t most) {
     return nullptr;
 }
 
+std::unique_ptr<LaneStepper> make_float_stepper(std::size_t most) {
+#if defined(__x86_64__)
+    if (most >= 16 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"))
+        if (auto stepper = make_avx512_float_stepper()) return stepper;
+    if (most >= 8 && __builtin_cpu_supports("avx2"))
+        if (auto stepper = make_avx2_float_stepper()) return stepper;
+#else
+    static_cast<void>(most);
+#endif
+    return make_single_stepper();
+}
+
 }  // namespace roboss

@@ -60,15 +60,29 @@ class LaneQueue {
     std::vector<std::vector<std::uint32_t>> waiting_;
 };
 
+/// What robots that meet nobody are stepped with; `lanes` may be none. `single`, where robots are stepped in
+/// floats: who did not get through in lanes has another try by itself, so that no bit depends on who shared
+/// them.
+struct LaneSteppers {
+    LaneStepper* lanes = nullptr;
+    LaneStepper* single = nullptr;
+
+    explicit operator bool() const { return lanes != nullptr; }
+    std::size_t width() const { return lanes->width(); }
+    bool in_floats() const { return single != nullptr; }
+};
+
 /// Steps a batch in lanes, each robot as lane_of(i) says; then visit(i, whether it was stepped) for each of
 /// them until one is false. The batch is empty afterwards.
 template <class LaneOf, class Visit>
-bool step_batch(LaneStepper& lanes, const Model& model, std::vector<std::uint32_t>& batch, StepReport& report,
-                LaneOf&& lane_of, Visit&& visit) {
+bool step_batch(const LaneSteppers& steppers, const Model& model, std::vector<std::uint32_t>& batch,
+                StepReport& report, LaneOf&& lane_of, Visit&& visit) {
     std::array<LaneRobot, kMostLanes> robots;
     std::ranges::transform(batch, robots.begin(), lane_of);
-    const unsigned stepped =
-        batch.size() > 1 ? lanes.step(model, std::span(robots).first(batch.size()), report) : 0;
+    unsigned stepped =
+        batch.size() > 1 ? steppers.lanes->step(model, std::span(robots).first(batch.size()), report) : 0;
+    for (std::size_t k = 0; steppers.in_floats() && k < batch.size(); ++k)
+        if ((stepped >> k & 1u) == 0) stepped |= steppers.single->step(model, {&robots[k], 1}, report) << k;
     bool good = true;
     for (std::size_t k = 0; k < batch.size() && good; ++k) good = visit(batch[k], (stepped >> k & 1u) != 0);
     batch.clear();
@@ -81,9 +95,15 @@ bool fits_lanes(const RobotType& type, const RobotState& state);
 
 /// The widest stepper of at most `most` lanes that this processor can run; nullptr if there is none.
 std::unique_ptr<LaneStepper> make_lane_stepper(std::size_t most);
+/// The same in floats; with one lane if the processor has no more.
+std::unique_ptr<LaneStepper> make_float_stepper(std::size_t most);
+/// One robot at a time, in floats.
+std::unique_ptr<LaneStepper> make_single_stepper();
 
 // One translation unit for each instruction set (lanes_*.cpp); nullptr if it was built without.
 std::unique_ptr<LaneStepper> make_avx2_stepper();
 std::unique_ptr<LaneStepper> make_avx512_stepper();
+std::unique_ptr<LaneStepper> make_avx2_float_stepper();
+std::unique_ptr<LaneStepper> make_avx512_float_stepper();
 
 }  // namespace roboss

@@ -1,5 +1,5 @@
-// Lanes of AVX-512: eight doubles. Built for that instruction set alone (floor.cmake): nothing in here may
-// run before the processor has been asked (make_lane_stepper).
+// Lanes of AVX-512: eight doubles or sixteen floats. Built for that instruction set alone (floor.cmake):
+// nothing in here may run before the processor has been asked (make_lane_stepper).
 #include "core/lanes_x86.h"
 #include "physics/lane_step.h"
 
@@ -8,6 +8,14 @@ namespace roboss {
 std::unique_ptr<LaneStepper> make_avx512_stepper() {
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
     return std::make_unique<LaneStep<DoublesAvx512>>();
+#else
+    return nullptr;
+#endif
+}
+
+std::unique_ptr<LaneStepper> make_avx512_float_stepper() {
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+    return std::make_unique<LaneStep<FloatsAvx512>>();
 #else
     return nullptr;
 #endif

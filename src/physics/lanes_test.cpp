@@ -15,10 +15,12 @@ namespace roboss::test {
 namespace {
 
 constexpr std::size_t kWidths[] = {4, 8};
+constexpr std::size_t kFloatWidths[] = {8, 16};
 
 /// Skips what this processor cannot do; the rest of the test then compares scalar with scalar.
-bool has_lanes(std::size_t width) {
-    const auto stepper = make_lane_stepper(width);
+bool has_lanes(Precision precision, std::size_t width) {
+    const auto stepper =
+        precision == Precision::kFloat ? make_float_stepper(width) : make_lane_stepper(width);
     return stepper != nullptr && stepper->width() == width;
 }
 
@@ -34,25 +36,31 @@ void expect_same_states(const Simulation& a, const Simulation& b, const std::str
 using Drive = std::function<void(Simulation&)>;
 
 /// Runs the world with and without lanes, and compares every tick.
-void compare(const World& world, const Drive& drive, int ticks) {
-    for (const std::size_t width : kWidths) {
-        if (!has_lanes(width)) continue;
-        Simulation alone(world), in_lanes(world);
-        alone.scratch.use_lanes(1);
-        in_lanes.scratch.use_lanes(width);
-        ASSERT_EQ(alone.scratch.lanes(), 1u);
-        ASSERT_EQ(in_lanes.scratch.lanes(), width);
-        for (int i = 0; i < ticks; ++i) {
-            drive(alone), drive(in_lanes);
-            const StepReport a = alone.step(), b = in_lanes.step();
-            expect_same_states(alone, in_lanes, std::to_string(width) + " lanes");
-            ASSERT_EQ(alone.bounds, in_lanes.bounds);
-            ASSERT_EQ(a.contacts, b.contacts);
-            ASSERT_EQ(a.static_contacts, b.static_contacts);
-            ASSERT_EQ(a.iterations, b.iterations);
-            ASSERT_EQ(a.residual, b.residual);
-            if (::testing::Test::HasFatalFailure()) return;
-        }
+void compare(const World& world, const Drive& drive, int ticks, std::size_t width) {
+    Simulation alone(world), in_lanes(world);
+    alone.scratch.use_lanes(1);
+    in_lanes.scratch.use_lanes(width);
+    ASSERT_EQ(alone.scratch.lanes(world.precision), 1u);
+    ASSERT_EQ(in_lanes.scratch.lanes(world.precision), width);
+    for (int i = 0; i < ticks; ++i) {
+        drive(alone), drive(in_lanes);
+        const StepReport a = alone.step(), b = in_lanes.step();
+        expect_same_states(alone, in_lanes, std::to_string(width) + " lanes");
+        ASSERT_EQ(alone.bounds, in_lanes.bounds);
+        ASSERT_EQ(a.contacts, b.contacts);
+        ASSERT_EQ(a.static_contacts, b.static_contacts);
+        ASSERT_EQ(a.iterations, b.iterations);
+        ASSERT_EQ(a.residual, b.residual);
+        if (::testing::Test::HasFatalFailure()) return;
+    }
+}
+
+/// In doubles and in floats, in all lanes that there are.
+void compare(World world, const Drive& drive, int ticks) {
+    for (const Precision precision : {Precision::kDouble, Precision::kFloat}) {
+        world.precision = precision;
+        for (const std::size_t width : precision == Precision::kFloat ? kFloatWidths : kWidths)
+            if (has_lanes(precision, width)) compare(world, drive, ticks, width);
     }
 }
 
@@ -165,25 +173,39 @@ TEST(Lanes, CrowdsAlike) {
             60);
 }
 
+/// Of the steps of driving cars, the share that are taken in lanes.
+double share_in_lanes(Precision precision, std::size_t width) {
+    World world = scattered(car(), static_cast<int>(width), 0.001);
+    world.precision = precision;
+    Simulation sim(world);
+    for (std::size_t r = 0; r < sim.states.size(); ++r)
+        for (std::size_t d = 0; d < sim.states[r].motors.size(); ++d)
+            sim.set_motor(r, d, MotorMode::kVelocity, 10);
+    sim.run(0.5);
+    const auto stepper =
+        precision == Precision::kFloat ? make_float_stepper(width) : make_lane_stepper(width);
+    std::vector<LaneRobot> robots;
+    for (std::size_t r = 0; r < sim.states.size(); ++r)
+        robots.push_back({sim.ids[r], &sim.states[r], &sim.bounds[r], false, {}});
+    StepReport report;
+    int stepped = 0;
+    for (int i = 0; i < 20; ++i) stepped += std::popcount(stepper->step(*sim.model, robots, report));
+    EXPECT_GE(report.contacts, stepped * 4);
+    return stepped / (20.0 * static_cast<double>(width));
+}
+
 /// They are of use at all: most of the cars' steps are taken in lanes.
 TEST(Lanes, DrivingCarsStayInTheirLanes) {
-    for (const std::size_t width : kWidths) {
-        const auto stepper = make_lane_stepper(width);
-        if (!stepper || stepper->width() != width) continue;
-        Simulation sim(scattered(car(), static_cast<int>(width), 0.001));
-        for (std::size_t r = 0; r < sim.states.size(); ++r)
-            for (std::size_t d = 0; d < sim.states[r].motors.size(); ++d)
-                sim.set_motor(r, d, MotorMode::kVelocity, 10);
-        sim.run(0.5);
-        std::vector<LaneRobot> robots;
-        for (std::size_t r = 0; r < sim.states.size(); ++r)
-            robots.push_back({sim.ids[r], &sim.states[r], &sim.bounds[r]});
-        StepReport report;
-        int stepped = 0;
-        for (int i = 0; i < 20; ++i) stepped += std::popcount(stepper->step(*sim.model, robots, report));
-        EXPECT_GT(stepped, static_cast<int>(10 * width)) << "of " << 20 * width;
-        EXPECT_GE(report.contacts, stepped * 4);
-    }
+    const auto expect_most = [](Precision precision, std::span<const std::size_t> widths) {
+        for (const std::size_t width : widths) {
+            if (!has_lanes(precision, width)) continue;
+            const double share = share_in_lanes(precision, width);
+            tell("share of steps in " + std::to_string(width) + " lanes", share);
+            EXPECT_GT(share, 0.5);
+        }
+    };
+    expect_most(Precision::kDouble, kWidths);
+    expect_most(Precision::kFloat, kFloatWidths);
 }
 
 }  // namespace

@@ -1,6 +1,10 @@
 // Newton's method for a contact island. Every sum runs in a fixed order, so the bits depend on the island
 // alone. Over T: one island (double), or a few robots of one type in lanes, which take their decisions
 // together (Lockstep) and leave where that does not fit.
+//
+// Floats have no digits to spare: with them, solved is the change of the velocity in the tick, all targets
+// come relative to the velocities before it, and rows measure their velocities from their targets, so that
+// every number is as small as what it tells.
 #pragma once
 
 #include <cmath>
@@ -8,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "core/wide.h"
 #include "physics/friction_bounds.h"
 #include "physics/tree_factor.h"
 
@@ -34,6 +39,13 @@ namespace newton {
 
 inline constexpr double kRoughly =
     1e-4;  // friction bounds are updated once the momentum balance is this good
+/// The finest tolerance that makes sense, and below what a residual that no longer falls is taken for
+/// rounding. Floats: of the impulses of one tick, of which 1e-5 is 1e-7 of a robot's momentum at walking
+/// speed.
+template <class T>
+inline constexpr double kFinest = kIsFloat<T> ? 1e-5 : 0.0;
+template <class T>
+inline constexpr double kRounding = kIsFloat<T> ? 1e-4 : 1e-8;
 
 /// Velocities along the rows := what set_steps has left.
 template <class T>
@@ -68,7 +80,7 @@ DiscCurvature<T> curvature_of(const FrictionDiscT<T>& disc) {
     using std::sqrt;
     const T speed = sqrt(disc.u_1 * disc.u_1 + disc.u_2 * disc.u_2);
     return either(
-        speed > disc.bound * disc.compliance,
+        is_sliding(disc, speed),
         [&] {  // sliding: only turning the direction changes the impulse
             const T s = disc.bound / speed, e1 = disc.u_1 / speed, e2 = disc.u_2 / speed;
             return DiscCurvature<T>{s * (T(1) - e1 * e1), -s * e1 * e2, s * (T(1) - e2 * e2)};
@@ -81,10 +93,8 @@ DiscCurvature<T> curvature_of(const FrictionDiscT<T>& disc) {
 /// The rows' share of the Hessian at the present velocities.
 template <class T>
 void set_curvatures(IslandRowsT<T>& rows) {
-    for_each_bounded(rows, [](BoundedRowT<T>& row) {
-        const T raw = (row.target - row.u) * row.stiffness;
-        row.d = select((raw > row.low) & (raw < row.high), row.stiffness, T(0));
-    });
+    for_each_bounded(
+        rows, [](BoundedRowT<T>& row) { row.d = select(is_between_bounds(row), row.stiffness, T(0)); });
     for_each_disc(rows, [](FrictionDiscT<T>& disc) {
         disc.d_1n = disc.d_2n = 0;
         const DiscCurvature<T> d = either(
@@ -153,7 +163,15 @@ class Newton {
     T slope() const;
     T take_step(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v);
     T line_search(const SolveProblem<T>& p, Lockstep<T>& together, const T& at_start, const T& at_end);
+    void measure_from_targets(const SolveProblem<T>& p);
+    void keep_start(const SolveProblem<T>& p, const std::vector<T>& v);
     void return_to_start(const SolveProblem<T>& p, std::vector<T>& v);
+    static T tolerance(const SolveProblem<T>& p) {
+        return larger(T(p.accuracy.tolerance), T(newton::kFinest<T>));
+    }
+    static T friction_tolerance(const SolveProblem<T>& p) {
+        return larger(T(p.accuracy.friction_tolerance), T(newton::kFinest<T>));
+    }
     void start_as_expected(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v,
                            SolveReportT<T>& report);
     bool solve_coupled(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v,
@@ -166,6 +184,7 @@ class Newton {
     std::vector<T> applied_;  // impulses of all rows on each degree of freedom
     std::vector<T> step_, m_step_;
     std::vector<T> v_start_, mv_start_;  // where an attempt began
+    std::vector<T> u_start_;             // floats: velocities along all rows there
 };
 
 template <class T, class Matrix>
@@ -188,8 +207,14 @@ void Newton<T, Matrix>::start(const SolveProblem<T>& p, const std::vector<T>& v)
     for_each_bounded(p.rows, [](BoundedRowT<T>& row) { row.stiffness = T(1) / row.compliance; });
     for_each_disc(p.rows, [](FrictionDiscT<T>& disc) { disc.stiffness = T(1) / disc.compliance; });
     newton::take_velocities(p.rows);
-    if (!p.position) return;
-    for_each_bounded(p.rows, [](BoundedRowT<T>& row) { row.target = row.position_target; });
+    if (p.position) for_each_bounded(p.rows, [](BoundedRowT<T>& row) { row.target = row.position_target; });
+    if constexpr (kIsFloat<T>) measure_from_targets(p);
+}
+
+/// Velocities along bounded rows from their targets, as those of friction are anyhow.
+template <class T, class Matrix>
+void Newton<T, Matrix>::measure_from_targets(const SolveProblem<T>& p) {
+    for_each_bounded(p.rows, [](BoundedRowT<T>& row) { row.u -= row.target, row.target = 0; });
 }
 
 /// Impulses at the present velocities and g = M v - p - J^T impulses; returns its size relative to the
@@ -327,12 +352,12 @@ bool Newton<T, Matrix>::solve_coupled(const SolveProblem<T>& p, Lockstep<T>& tog
                                       SolveReportT<T>& report) {
     constexpr int kStepsMax = 8;
     constexpr double kProgress = 0.5;  // of the residual in a step, at least
-    v_start_ = v, mv_start_ = mv_;
+    keep_start(p, v);
     T best = std::numeric_limits<double>::infinity();
     for (int i = 0;; ++i) {
         friction::tie_bounds(p.rows);
         report.residual = balance(p);
-        const Mask there = report.residual <= T(p.accuracy.tolerance);
+        const Mask there = report.residual <= tolerance(p);
         if (together.all(there)) return true;
         if (i == kStepsMax || !together(there | (report.residual <= kProgress * best))) break;
         best = report.residual;
@@ -348,10 +373,28 @@ bool Newton<T, Matrix>::solve_coupled(const SolveProblem<T>& p, Lockstep<T>& tog
 }
 
 template <class T, class Matrix>
+void Newton<T, Matrix>::keep_start(const SolveProblem<T>& p, const std::vector<T>& v) {
+    v_start_ = v, mv_start_ = mv_;
+    if constexpr (kIsFloat<T>) {
+        u_start_.clear();
+        for_each_bounded(p.rows, [&](BoundedRowT<T>& row) { u_start_.push_back(row.u); });
+        for_each_disc(p.rows, [&](FrictionDiscT<T>& disc) {
+            u_start_.push_back(disc.u_1), u_start_.push_back(disc.u_2);
+        });
+    }
+}
+
+template <class T, class Matrix>
 void Newton<T, Matrix>::return_to_start(const SolveProblem<T>& p, std::vector<T>& v) {
     v = v_start_, mv_ = mv_start_;
-    set_steps(p.rows, v);
-    newton::take_velocities(p.rows);
+    if constexpr (kIsFloat<T>) {
+        const T* u = u_start_.data();
+        for_each_bounded(p.rows, [&](BoundedRowT<T>& row) { row.u = *u++; });
+        for_each_disc(p.rows, [&](FrictionDiscT<T>& disc) { disc.u_1 = *u++, disc.u_2 = *u++; });
+    } else {
+        set_steps(p.rows, v);
+        newton::take_velocities(p.rows);
+    }
 }
 
 /// A first step to where the island would be if every contact did what it did in the last tick: mostly the
@@ -363,7 +406,7 @@ void Newton<T, Matrix>::start_as_expected(const SolveProblem<T>& p, Lockstep<T>&
     if (together(report.residual <= T(newton::kRoughly))) return;
     newton::set_curvatures(p.rows);
     if (!together(newton::expect_sticking(p.rows))) return;
-    v_start_ = v, mv_start_ = mv_;
+    keep_start(p, v);
     gradient(p);
     find_step(p, false);
     move(p, 1.0, v);
@@ -381,7 +424,6 @@ MaskOf<T> Newton<T, Matrix>::solve(const SolveProblem<T>& p, Lockstep<T>& togeth
     constexpr double kFar =
         1e-2;  // a residual that shows that the set of sliding and open contacts is not found yet
     constexpr int kFarMax = 16;
-    constexpr double kRounding = 1e-8;  // below, a residual that no longer falls is taken for rounding
     constexpr int kCoupledTries = 3;
     int far = 0, bound_updates = 0, stalls = 0, coupled_tries = 0;
     bool settled = p.position;  // the friction bounds
@@ -396,15 +438,15 @@ MaskOf<T> Newton<T, Matrix>::solve(const SolveProblem<T>& p, Lockstep<T>& togeth
             }
             if (!settled) {
                 const T change = friction::update_bounds(p.rows);
-                settled = together(change <= T(p.accuracy.friction_tolerance)) ||
-                          ++bound_updates >= p.accuracy.friction_max;
+                settled =
+                    together(change <= friction_tolerance(p)) || ++bound_updates >= p.accuracy.friction_max;
                 report.residual = balance(p);
             }
-            const bool stalls_now =
-                settled && together((report.residual <= T(kRounding)) & (report.residual > 0.9 * best));
+            const bool stalls_now = settled && together((report.residual <= T(newton::kRounding<T>)) &
+                                                        (report.residual > 0.9 * best));
             stalls = stalls_now ? stalls + 1 : 0;
             best = settled ? smaller(best, report.residual) : T(1);
-            if (settled && (together(report.residual <= T(p.accuracy.tolerance)) || stalls >= 3)) return true;
+            if (settled && (together(report.residual <= tolerance(p)) || stalls >= 3)) return true;
         }
         if (together(report.residual > T(kFar))) ++far;
         if (far > kFarMax || i == p.accuracy.newton_max) return report.residual <= T(newton::kRoughly);

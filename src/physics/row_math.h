@@ -41,6 +41,26 @@ template <class T>
         });
 }
 
+/// A row that just reaches its bound counts, in floats, as one that has not: what a float cannot tell apart
+/// would else swing to and fro from step to step.
+template <class T>
+T beyond(const T& bound) {
+    if constexpr (kIsFloat<T>)
+        return bound * T(1.0001);
+    else
+        return bound;
+}
+template <class T>
+MaskOf<T> is_between_bounds(const BoundedRowT<T>& row) {
+    const T raw = (row.target - row.u) * row.stiffness;
+    return (raw > beyond(row.low)) & (raw < beyond(row.high));
+}
+/// `speed`: of its velocity minus target.
+template <class T>
+MaskOf<T> is_sliding(const FrictionDiscT<T>& disc, const T& speed) {
+    return speed > beyond(disc.bound * disc.compliance);
+}
+
 /// All bounded rows, in their canonical order.
 template <class T, class Function>
 void for_each_bounded(IslandRowsT<T>& rows, Function&& f) {

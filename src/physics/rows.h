@@ -6,9 +6,26 @@
 #include <span>
 #include <vector>
 
+#include "core/wide.h"
 #include "physics/contact.h"
 
 namespace roboss {
+
+/// Compliances of hard joint rows, of contacts that are new and of those that bear a load, relative to the
+/// mobility they act on. Newton's matrix holds their reciprocals beside the masses: floats have no room for
+/// the hardest, least of all where rows share their columns, as contacts do.
+template <class T>
+double hard_compliance(const Accuracy& accuracy) {
+    return kIsFloat<T> ? std::max(accuracy.compliance, 1e-6) : accuracy.compliance;
+}
+template <class T>
+double new_compliance(const Accuracy& accuracy) {
+    return kIsFloat<T> ? std::max(accuracy.compliance, 1e-4) : accuracy.compliance;
+}
+template <class T>
+double loaded_compliance(const Accuracy& accuracy) {
+    return kIsFloat<T> ? std::max(accuracy.contact_compliance, 1e-3) : accuracy.contact_compliance;
+}
 
 /// One direction with a bounded impulse: clamp((target - u) / compliance, low, high).
 template <class T>

@@ -24,7 +24,14 @@ struct StepScratch::Impl {
     std::vector<float> efforts;
     std::vector<ContactReport> contacts;
     std::unique_ptr<LaneStepper> lanes = make_lane_stepper(kMostLanes);
+    std::unique_ptr<LaneStepper> float_lanes = make_float_stepper(kMostLanes), single = make_single_stepper();
     LaneQueue queue;
+
+    /// The steppers for a model.
+    LaneSteppers steppers(const Model& model) const {
+        if (model.precision == Precision::kFloat) return {float_lanes.get(), single.get()};
+        return {lanes.get(), nullptr};
+    }
 };
 
 StepScratch::StepScratch() : impl_(std::make_unique<Impl>()) {}
@@ -167,6 +174,7 @@ struct Call {
               StepReport& report) const {
         if (!place_all(chosen, works, s, report)) return false;
         const int before = report.iterations;
+        s.group.tried_alone = works.data() == s.alone.data();
         step_group(model, works, s.group, report);
         share_effort(chosen, report.iterations - before, s.efforts);
         for (std::size_t k = 0; k < chosen.size(); ++k) {
@@ -184,9 +192,9 @@ struct Call {
     /// Steps a robot that meets nobody, or lets it wait until there are enough of its type.
     bool step_alone(std::uint32_t i, Impl& s, StepReport& report) const {
         const std::size_t type = model.robots[robots[i].index()].type.index();
-        if (!s.lanes || s.group.keep_loads || !fits_lanes(model.types[type], *states[i]))
+        if (!s.group.lanes || s.group.keep_loads || !fits_lanes(model.types[type], *states[i]))
             return step({&i, 1}, s.alone, s, report);
-        return s.queue.add(type, i, s.lanes->width(),
+        return s.queue.add(type, i, s.group.lanes.width(),
                            [&](auto& batch) { return step_in_lanes(batch, s, report); });
     }
 
@@ -194,7 +202,7 @@ struct Call {
         const int before = report.iterations;
         s.batch = batch;
         const bool fine = step_batch(
-            *s.lanes, model, batch, report,
+            s.group.lanes, model, batch, report,
             [&](std::uint32_t i) {
                 return LaneRobot{robots[i], states[i], &bounds[i], false, {}};
             },
@@ -231,7 +239,7 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
     Impl& s = scratch.impl();
     StepReport report;
     s.contacts.clear(), s.group.loads.clear();
-    s.group.lanes = s.lanes.get();
+    s.group.lanes = s.steppers(model);
     s.moved_freely.assign(robots.size(), 0);
     s.efforts.assign(robots.size(), 0);
     apply_orders(model, robots, states, orders, s.ordered);
@@ -250,9 +258,11 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
 
 void StepScratch::use_lanes(std::size_t most) {
     impl_->lanes = make_lane_stepper(std::min(most, kMostLanes));
+    impl_->float_lanes = make_float_stepper(std::min(most, kMostLanes));
 }
 
-std::size_t StepScratch::lanes() const {
+std::size_t StepScratch::lanes(Precision precision) const {
+    if (precision == Precision::kFloat) return impl_->float_lanes->width();
     return impl_->lanes ? impl_->lanes->width() : 1;
 }
 

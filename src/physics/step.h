@@ -47,7 +47,7 @@ class StepScratch {
     /// this processor can; 1: none. At first as many as it can. No bit depends on it.
     void use_lanes(std::size_t most);
     /// How many are.
-    std::size_t lanes() const;
+    std::size_t lanes(Precision precision = Precision::kDouble) const;
     struct Impl;
     Impl& impl() { return *impl_; }
 

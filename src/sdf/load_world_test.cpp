@@ -380,6 +380,25 @@ TEST(LoadWorld, ReadsWhoMaySleep) {
     EXPECT_TRUE(off.diagnostics.items().empty()) << off.text();
 }
 
+TEST(LoadWorld, ReadsThePrecisionOfTheWorldAndOfItsProfile) {
+    const std::string in_floats = "<roboss:precision>float</roboss:precision>";
+    const std::string model = "<model name='n'>" + link("a") + "</model>";
+    const Loaded usual = load_elements(model), world = load_elements(in_floats + model);
+    ASSERT_TRUE(usual.world && world.world) << usual.text() << world.text();
+    EXPECT_EQ(usual.world->precision, Precision::kDouble);
+    EXPECT_EQ(world.world->precision, Precision::kFloat);
+    EXPECT_TRUE(world.diagnostics.items().empty()) << world.text();
+    const Loaded profile =
+        load_elements(in_floats +
+                      "<physics name='p' type='ode'><roboss:precision>double</roboss:precision>"
+                      "</physics>" +
+                      model);
+    ASSERT_TRUE(profile.world) << profile.text();
+    EXPECT_EQ(profile.world->precision, Precision::kDouble);
+    const Loaded wrong = load_elements("<roboss:precision>half</roboss:precision>" + model);
+    ASSERT_TRUE(wrong.find("bad-value")) << wrong.text();
+}
+
 TEST(LoadWorld, ReadsWindAirAndDrag) {
     const Loaded loaded = load_elements(
         "<wind><linear_velocity>3 0 0</linear_velocity></wind><atmosphere type='adiabatic'><temperature>300"

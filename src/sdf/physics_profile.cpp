@@ -64,6 +64,19 @@ AccuracySpec read_accuracy(const Element& element, const Import& import) {
     return spec;
 }
 
+void read_precision(const Element& parent, const Import& import, World& out) {
+    const Element element = parent.child("roboss:precision");
+    if (!element) return;
+    const std::string text = parent.text("roboss:precision");
+    if (text != "float" && text != "double") {
+        import.diagnostics().error(element.where(), "bad-value",
+                                   "<roboss:precision> is '" + text + "'; it must be float or double",
+                                   "Write float, double, or leave it out.");
+        return;
+    }
+    out.precision = text == "float" ? Precision::kFloat : Precision::kDouble;
+}
+
 void read_physics(const Element& world, const std::string& wanted, Import& import, World& out) {
     std::vector<Element> profiles;
     for (const auto node : world.node.children("physics")) profiles.push_back({world.source, node});
@@ -81,6 +94,7 @@ void read_physics(const Element& world, const std::string& wanted, Import& impor
         import.max_contacts = import.reader.integer(physics, "max_contacts", -1);
         for (const auto node : physics.node.children("roboss:accuracy"))
             out.accuracy.push_back(read_accuracy({world.source, node}, import));
+        read_precision(physics, import, out);
         report_engines(physics, import);
     }
     out.gravity = import.reader.vector(world, "gravity", out.gravity);

@@ -11,6 +11,9 @@ void read_physics(const Element& world, const std::string& wanted, Import& impor
 /// <roboss:accuracy setting="high"><tolerance>1e-10</tolerance>...; the names are judged when compiling.
 AccuracySpec read_accuracy(const Element& element, const Import& import);
 
+/// <roboss:precision> in <world> or <physics>: float or double.
+void read_precision(const Element& parent, const Import& import, World& out);
+
 /// The number of a child, which must be greater than 0.
 double positive_number(const Element& parent, const char* child, double usual, const Import& import);
 

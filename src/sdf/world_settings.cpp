@@ -11,11 +11,15 @@ namespace roboss::sdf_import {
 namespace {
 
 /// Drawing, sound and bookkeeping: nothing that moves a robot.
-constexpr const char* kSilent[] = {
-    "light",       "gui",     "scene",      "audio",          "atmosphere",
-    "physics",     "gravity", "wind",       "magnetic_field", "spherical_coordinates",
-    "model",       "include", "population", "frame",          "roboss:accuracy",
-    "roboss:sleep"};
+constexpr const char* kSilent[] = {"light",           "gui",
+                                   "scene",           "audio",
+                                   "atmosphere",      "physics",
+                                   "gravity",         "wind",
+                                   "magnetic_field",  "spherical_coordinates",
+                                   "model",           "include",
+                                   "population",      "frame",
+                                   "roboss:accuracy", "roboss:sleep",
+                                   "roboss:precision"};
 
 void read_spherical(const Element& spherical, const Import& import, World& out) {
     if (!spherical) return;
@@ -99,6 +103,7 @@ void read_world_settings(const Element& world, const std::string& profile, Impor
     for (const auto node : world.node.children("roboss:accuracy"))
         out.accuracy.push_back(read_accuracy({world.source, node}, import));
     out.sleep = import.reader.boolean(world, "roboss:sleep", true);
+    read_precision(world, import, out);
     read_physics(world, profile, import, out);
     out.magnetic_field_T = import.reader.vector(world, "magnetic_field", out.magnetic_field_T);
     out.wind = import.reader.vector(world.child("wind"), "linear_velocity", {});

@@ -13,7 +13,7 @@ namespace roboss {
 namespace wire {
 namespace {
 
-constexpr std::uint32_t kModelVersion = 1;
+constexpr std::uint32_t kModelVersion = 2;
 
 /// A Writer and a Reader that know the shared hulls and surfaces, to which shapes point.
 struct ModelWriter : Writer {
@@ -119,7 +119,7 @@ template <class A> void field(A& a, Of<A, MeshSource>& m) { fields(a, m.vertices
 template <class A> void field(A& a, Of<A, HeightSource>& m) { fields(a, m.columns, m.rows, m.heights, m.size_x, m.size_y); }
 /// Everything behind the hulls and surfaces.
 template <class A> void field(A& a, Of<A, Model>& m) {
-    fields(a, m.name, m.dt_s, m.gravity, m.magnetic_field_T, m.wind, m.air_density, m.accuracy, m.sleep, m.types, m.robots, m.statics);
+    fields(a, m.name, m.dt_s, m.gravity, m.magnetic_field_T, m.wind, m.air_density, m.accuracy, m.precision, m.sleep, m.types, m.robots, m.statics);
 }
 
 /// Does nothing but name every field: a new one breaks the build here, so that it is not forgotten above. (What seal()
@@ -140,7 +140,7 @@ template <class A> void field(A& a, Of<A, Model>& m) {
 [[maybe_unused]] void know_fields(const Robot& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3] = m; }
 [[maybe_unused]] void know_fields(const StaticShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const Accuracy& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
-[[maybe_unused]] void know_fields(const Model& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15] = m; }
+[[maybe_unused]] void know_fields(const Model& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16] = m; }
 // clang-format on
 
 template <class A, class... Fields>

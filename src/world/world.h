@@ -259,6 +259,10 @@ struct AccuracySpec {
     SourceLocation where;
 };
 
+/// Numbers that robots are stepped with where floats will do (docs/physics.md, Precision). The state is
+/// always kept in doubles.
+enum class Precision : std::uint8_t { kDouble, kFloat };
+
 struct World {
     std::string name;
     std::string file;
@@ -270,6 +274,7 @@ struct World {
     double real_time_factor = 1.0;  // 0: as fast as possible
     bool sleep = false;             // robots at rest sleep; the SDF importer switches it on, as in SDFormat
     std::string profile;            // name of the <physics> that was chosen
+    Precision precision = Precision::kDouble;
     std::vector<AccuracySpec> accuracy;  // of the world, then of its profile: a later one wins
     std::optional<SphericalCoordinates> spherical;
     std::vector<ModelSpec> prototypes;

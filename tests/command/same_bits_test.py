@@ -1,6 +1,6 @@
 """One world, one hash: for any threads, lanes, Simulators, windows, grouping, after save and load, run after run; and another
 hash as soon as one bit of the input is another. Six worlds with collisions: one with a control program in the loop, two of
-closed linkages, screws, gearboxes and mimic joints, one of meshes and other shapes."""
+closed linkages, screws, gearboxes and mimic joints, one of meshes and other shapes; two of them also in floats."""
 import unittest
 
 from running import DRIVER, FOLDER, WORLDS, roboss, summary
@@ -12,10 +12,13 @@ RUNS = {
     "four_bar": ([WORLDS / "four_bar.sdf", "--orders", WORLDS / "four_bar.jsonl"], 2.0),
     "parallel": ([WORLDS / "parallel.sdf", "--orders", WORLDS / "parallel.jsonl"], 2.0),
     "shapes": ([WORLDS / "shapes.sdf"], 0.8),
+    "city in floats": ([WORLDS / "city.sdf", "--client", DRIVER, "--precision", "float"], 2.0),
+    "crossroads in floats": ([WORLDS / "crossroads.sdf", "--orders", WORLDS / "crossroads.jsonl", "--precision", "float"], 2.3),
 }
 WAYS = [
     ["--lanes", "1"],
     ["--lanes", "4", "--merge-islands"],
+    ["--lanes", "8"],
     ["--threads", "2"],
     ["--simulators", "2"],
     ["--simulators", "5", "--threads", "2"],
@@ -45,7 +48,7 @@ class SameBits(unittest.TestCase):
         for name, (world, duration) in RUNS.items():
             with self.subTest(world=name):
                 whole = summary(*world, "--duration", duration)
-                half = FOLDER / f"{name}.roboss"
+                half = FOLDER / f"{name.replace(' ', '_')}.roboss"
                 summary(*world, "--duration", duration / 2, "--save", half, "--simulators", "2")
                 rest = summary(*world, "--duration", duration / 2, "--from", half, "--window", "16")
                 self.assertEqual(rest["sim_time_s"], whole["sim_time_s"])
@@ -65,6 +68,8 @@ class SameBits(unittest.TestCase):
         self.assertNotEqual(summary(changed, "--duration", 0.5)["state_hash"],
                             summary(WORLDS / "heap.sdf", "--duration", 0.5)["state_hash"])
         world, _ = RUNS["city"]
+        self.assertNotEqual(summary(*world, "--duration", 1)["state_hash"],
+                            summary(*world, "--duration", 1, "--precision", "float")["state_hash"], "floats")
         self.assertNotEqual(summary(*world, "--duration", 1, "--seed", 1)["state_hash"],
                             summary(*world, "--duration", 1, "--seed", 2)["state_hash"], "the seed of the noise")
 
