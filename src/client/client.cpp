@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "client/measure.h"
 #include "core/check.h"
 
 namespace roboss {
@@ -45,21 +46,8 @@ Result<> Client::set_joint(RobotId robot, JointId joint, MotorMode mode, double 
 Sample Client::measure(RobotId robot, std::size_t sensor) {
     const RobotType& type = model().type_of(robot);
     ROBOSS_CHECK(sensor < type.sensors.size(), type.name + " has no sensor number " + std::to_string(sensor));
-    const RobotState& now = state(robot);
-    switch (type.sensors[sensor].spec.kind) {
-        case SensorKind::kLaser:
-            return read_laser(model(), robot, sensor, now, tick(), seed(), ray_scene());
-        case SensorKind::kGps:
-            return read_gps(model(), robot, sensor, now, tick(), seed());
-        case SensorKind::kCompass:
-            return read_compass(model(), robot, sensor, now, tick(), seed());
-        case SensorKind::kOdometer:
-            return read_odometer(model(), robot, sensor, now, tick(), seed());
-        case SensorKind::kUnsupported:
-            break;
-    }
-    ROBOSS_CHECK(false, type.sensors[sensor].spec.name + " measures nothing");
-    return {};
+    return roboss::measure({model(), robot, sensor, state(robot), tick(), seed()},
+                           [this]() -> RayScene& { return ray_scene(); });
 }
 
 /// The sample that the sensor holds, or a new one where it has no rate or holds none yet.
@@ -83,9 +71,7 @@ void Client::renew_samples() {
     for (auto& [key, held] : samples_.all()) {
         const RobotId robot(key.first);
         const double rate = model().type_of(robot).sensors[key.second].spec.update_rate_hz;
-        if (samples_begun(rate, model().dt_s, tick()) ==
-            samples_begun(rate, model().dt_s, taken_at(held.sample)))
-            continue;
+        if (!sample_is_due(rate, model().dt_s, taken_at(held.sample), tick())) continue;
         held.before = std::move(held.sample);
         held.sample = measure(robot, key.second);
     }

@@ -82,6 +82,10 @@ std::int64_t samples_begun(double rate_hz, double dt_s, Tick tick) {
     return static_cast<std::int64_t>(std::floor(a_tick * static_cast<double>(tick) + kRounding));
 }
 
+bool sample_is_due(double rate_hz, double dt_s, Tick taken, Tick now) {
+    return samples_begun(rate_hz, dt_s, now) != samples_begun(rate_hz, dt_s, taken);
+}
+
 const Sample* HeldSamples::find(const Key& key) const {
     const auto found = held_.find(key);
     return found == held_.end() ? nullptr : &found->second.sample;

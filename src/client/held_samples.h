@@ -23,6 +23,8 @@ Tick taken_at(const Sample& sample);
 /// before k / rate, whether or not the rate divides the ticks of a second; so in the long run the rate is
 /// exact. Above one sample a tick there is a new one in every tick.
 std::int64_t samples_begun(double rate_hz, double dt_s, Tick tick);
+/// Whether it has begun another by `now` than the one taken at `taken`.
+bool sample_is_due(double rate_hz, double dt_s, Tick taken, Tick now);
 
 class HeldSamples {
   public:

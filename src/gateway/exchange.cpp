@@ -1,9 +1,18 @@
 // Everything under one mutex, held for moves only.
 #include "gateway/exchange.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace roboss {
+
+bool needs_everybody(const Model& model, RobotId robot) {
+    constexpr std::size_t kSmallWorld = 100;  // robots
+    const std::vector<SensorInfo>& sensors = model.type_of(robot).sensors;
+    return model.robots.size() <= kSmallWorld ||
+           std::any_of(sensors.begin(), sensors.end(),
+                       [](const SensorInfo& s) { return s.spec.kind == SensorKind::kLaser; });
+}
 namespace {
 
 constexpr std::size_t kCallsMax = 2'000, kLinesMax = 10'000;

@@ -28,11 +28,9 @@ struct Wish {
     friend bool operator==(const Wish&, const Wish&) = default;
 };
 
-/// So small that everybody's exact state is had whenever one robot is looked at closely.
-inline bool is_small(const Model& model) {
-    constexpr std::size_t kSmallWorld = 100;  // robots
-    return model.robots.size() <= kSmallWorld;
-}
+/// Whether everybody's exact state is had when this robot is looked at closely: its lasers see all, and in a
+/// small world it costs little.
+bool needs_everybody(const Model& model, RobotId robot);
 
 /// Words or an order of a page.
 struct PageCall {

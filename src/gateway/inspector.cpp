@@ -7,6 +7,7 @@
 #include <numbers>
 #include <span>
 
+#include "client/measure.h"
 #include "physics/kinematics.h"
 #include "wire/state_block.h"
 
@@ -100,11 +101,6 @@ Json json_of(const Sample* sample, double dt_s) {
     return json;
 }
 
-bool has_laser(const RobotType& type) {
-    return std::any_of(type.sensors.begin(), type.sensors.end(),
-                       [](const SensorInfo& s) { return s.spec.kind == SensorKind::kLaser; });
-}
-
 /// From what states remember: against whom, and how hard along the normal. The lower RobotId of a pair
 /// remembers it, so of a lower robot only what is known is told.
 Json contacts_json(RobotId robot, std::span<const std::optional<RobotState>> states, double dt_s) {
@@ -156,7 +152,7 @@ void Inspector::take(const StateBlock& block) {
 
 bool Inspector::shows(RobotId robot) const {
     if (robot.index() >= states_.size() || !states_[robot.index()]) return false;
-    return complete() || !(is_small(*scene_->model) || has_laser(scene_->model->type_of(robot)));
+    return complete() || !needs_everybody(*scene_->model, robot);
 }
 
 RayScene* Inspector::rays() {
@@ -177,32 +173,16 @@ bool Inspector::is_due(RobotId robot, std::size_t sensor) const {
     if (held == nullptr || taken_at(*held) > tick_) return true;
     const Model& model = *scene_->model;
     const double rate = model.type_of(robot).sensors[sensor].spec.update_rate_hz;
-    return rate == 0 ||
-           samples_begun(rate, model.dt_s, tick_) != samples_begun(rate, model.dt_s, taken_at(*held));
-}
-
-Sample Inspector::measured(RobotId robot, std::size_t sensor) {
-    const Model& model = *scene_->model;
-    const RobotState& state = *states_[robot.index()];
-    const std::uint64_t seed = scene_->file.seed;
-    switch (model.type_of(robot).sensors[sensor].spec.kind) {
-        case SensorKind::kGps:
-            return read_gps(model, robot, sensor, state, tick_, seed);
-        case SensorKind::kCompass:
-            return read_compass(model, robot, sensor, state, tick_, seed);
-        case SensorKind::kOdometer:
-            return read_odometer(model, robot, sensor, state, tick_, seed);
-        case SensorKind::kLaser:
-        case SensorKind::kUnsupported:
-            break;
-    }
-    return read_laser(model, robot, sensor, state, tick_, seed, *rays());
+    return rate == 0 || sample_is_due(rate, model.dt_s, taken_at(*held), tick_);
 }
 
 const Sample* Inspector::sample(RobotId robot, std::size_t sensor) {
     if (scene_->model->type_of(robot).sensors[sensor].spec.kind == SensorKind::kUnsupported) return nullptr;
     const HeldSamples::Key key(robot.value, static_cast<std::uint32_t>(sensor));
-    if (is_due(robot, sensor)) samples_.put(key, measured(robot, sensor));
+    if (is_due(robot, sensor))
+        samples_.put(
+            key, measure({*scene_->model, robot, sensor, *states_[robot.index()], tick_, scene_->file.seed},
+                         [this]() -> RayScene& { return *rays(); }));
     return samples_.find(key);
 }
 

@@ -35,7 +35,6 @@ class Inspector {
     bool is_due(RobotId robot, std::size_t sensor) const;
     /// What it measured last, now if it is due; nullptr: nothing reads it.
     const Sample* sample(RobotId robot, std::size_t sensor);
-    Sample measured(RobotId robot, std::size_t sensor);
 
     std::shared_ptr<const ShownScene> scene_;
     Tick tick_ = -1;

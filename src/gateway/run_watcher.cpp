@@ -22,19 +22,13 @@ constexpr std::uint32_t kExactEvery_ms = 100;
 constexpr std::size_t kQuestionsMax = 200;
 constexpr Tick kNoPeriod = Tick{1} << 49;  // the orders' Client observes nothing, and so holds up no window
 
-bool has_laser(const RobotType& type) {
-    return std::any_of(type.sensors.begin(), type.sensors.end(),
-                       [](const SensorInfo& s) { return s.spec.kind == SensorKind::kLaser; });
-}
-
-/// Lasers and contacts need everybody's state; in a small world it costs little to have it anyhow.
+/// Contacts need everybody's state too.
 ViewRequest request_of(const Wish& wish, const Model& model) {
-    const bool all = wish.contacts || (!wish.robots.empty() && is_small(model));
-    ViewRequest request{model.hash, wish.interval_ms, 0, all, {}};
+    ViewRequest request{model.hash, wish.interval_ms, 0, wish.contacts, {}};
     for (const RobotId robot : wish.robots) {
         if (robot.index() >= model.robots.size()) continue;
         request.exact.push_back(robot);
-        request.exact_all = request.exact_all || has_laser(model.type_of(robot));
+        request.exact_all = request.exact_all || needs_everybody(model, robot);
     }
     if (request.exact_all) request.exact.clear();
     if (request.exact_all || !request.exact.empty()) request.exact_interval_ms = kExactEvery_ms;

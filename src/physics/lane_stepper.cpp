@@ -11,28 +11,18 @@ bool fits_lanes(const RobotType& type, const RobotState& state) {
            type.self_pairs.empty() && state.wrenches.empty();
 }
 
-std::unique_ptr<LaneStepper> make_lane_stepper(std::size_t most) {
+std::unique_ptr<LaneStepper> make_lane_stepper(Precision precision, std::size_t most) {
+    const bool floats = precision == Precision::kFloat;
 #if defined(__x86_64__)
+    if (floats) most /= 2;  // twice as many fill a register
     if (most >= 8 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"))
-        if (auto stepper = make_avx512_stepper()) return stepper;
+        if (auto stepper = make_avx512_stepper(precision)) return stepper;
     if (most >= 4 && __builtin_cpu_supports("avx2"))
-        if (auto stepper = make_avx2_stepper()) return stepper;
+        if (auto stepper = make_avx2_stepper(precision)) return stepper;
 #else
     static_cast<void>(most);
 #endif
-    return nullptr;
-}
-
-std::unique_ptr<LaneStepper> make_float_stepper(std::size_t most) {
-#if defined(__x86_64__)
-    if (most >= 16 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"))
-        if (auto stepper = make_avx512_float_stepper()) return stepper;
-    if (most >= 8 && __builtin_cpu_supports("avx2"))
-        if (auto stepper = make_avx2_float_stepper()) return stepper;
-#else
-    static_cast<void>(most);
-#endif
-    return make_single_stepper();
+    return floats ? make_single_stepper() : nullptr;
 }
 
 }  // namespace roboss

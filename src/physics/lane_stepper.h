@@ -93,17 +93,14 @@ bool step_batch(const LaneSteppers& steppers, const Model& model, std::vector<st
 /// wrench; and no lone body (what slides without turning is stepped apart, see group_step.cpp).
 bool fits_lanes(const RobotType& type, const RobotState& state);
 
-/// The widest stepper of at most `most` lanes that this processor can run; nullptr if there is none.
-std::unique_ptr<LaneStepper> make_lane_stepper(std::size_t most);
-/// The same in floats; with one lane if the processor has no more.
-std::unique_ptr<LaneStepper> make_float_stepper(std::size_t most);
+/// The widest stepper of at most `most` lanes that this processor can run. If there is none: nullptr for
+/// doubles, make_single_stepper() for floats.
+std::unique_ptr<LaneStepper> make_lane_stepper(Precision precision, std::size_t most);
 /// One robot at a time, in floats.
 std::unique_ptr<LaneStepper> make_single_stepper();
 
 // One translation unit for each instruction set (lanes_*.cpp); nullptr if it was built without.
-std::unique_ptr<LaneStepper> make_avx2_stepper();
-std::unique_ptr<LaneStepper> make_avx512_stepper();
-std::unique_ptr<LaneStepper> make_avx2_float_stepper();
-std::unique_ptr<LaneStepper> make_avx512_float_stepper();
+std::unique_ptr<LaneStepper> make_avx2_stepper(Precision precision);
+std::unique_ptr<LaneStepper> make_avx512_stepper(Precision precision);
 
 }  // namespace roboss

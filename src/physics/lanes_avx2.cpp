@@ -5,18 +5,12 @@
 
 namespace roboss {
 
-std::unique_ptr<LaneStepper> make_avx2_stepper() {
+std::unique_ptr<LaneStepper> make_avx2_stepper(Precision precision) {
 #if defined(__AVX2__)
+    if (precision == Precision::kFloat) return std::make_unique<LaneStep<FloatsAvx2>>();
     return std::make_unique<LaneStep<DoublesAvx2>>();
 #else
-    return nullptr;
-#endif
-}
-
-std::unique_ptr<LaneStepper> make_avx2_float_stepper() {
-#if defined(__AVX2__)
-    return std::make_unique<LaneStep<FloatsAvx2>>();
-#else
+    static_cast<void>(precision);
     return nullptr;
 #endif
 }

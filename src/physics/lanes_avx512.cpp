@@ -5,18 +5,12 @@
 
 namespace roboss {
 
-std::unique_ptr<LaneStepper> make_avx512_stepper() {
+std::unique_ptr<LaneStepper> make_avx512_stepper(Precision precision) {
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
+    if (precision == Precision::kFloat) return std::make_unique<LaneStep<FloatsAvx512>>();
     return std::make_unique<LaneStep<DoublesAvx512>>();
 #else
-    return nullptr;
-#endif
-}
-
-std::unique_ptr<LaneStepper> make_avx512_float_stepper() {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-    return std::make_unique<LaneStep<FloatsAvx512>>();
-#else
+    static_cast<void>(precision);
     return nullptr;
 #endif
 }

@@ -19,8 +19,7 @@ constexpr std::size_t kFloatWidths[] = {8, 16};
 
 /// Skips what this processor cannot do; the rest of the test then compares scalar with scalar.
 bool has_lanes(Precision precision, std::size_t width) {
-    const auto stepper =
-        precision == Precision::kFloat ? make_float_stepper(width) : make_lane_stepper(width);
+    const auto stepper = make_lane_stepper(precision, width);
     return stepper != nullptr && stepper->width() == width;
 }
 
@@ -182,8 +181,7 @@ double share_in_lanes(Precision precision, std::size_t width) {
         for (std::size_t d = 0; d < sim.states[r].motors.size(); ++d)
             sim.set_motor(r, d, MotorMode::kVelocity, 10);
     sim.run(0.5);
-    const auto stepper =
-        precision == Precision::kFloat ? make_float_stepper(width) : make_lane_stepper(width);
+    const auto stepper = make_lane_stepper(precision, width);
     std::vector<LaneRobot> robots;
     for (std::size_t r = 0; r < sim.states.size(); ++r)
         robots.push_back({sim.ids[r], &sim.states[r], &sim.bounds[r], false, {}});

@@ -23,8 +23,9 @@ struct StepScratch::Impl {
     std::vector<char> is_near, ordered, moved_freely;
     std::vector<float> efforts;
     std::vector<ContactReport> contacts;
-    std::unique_ptr<LaneStepper> lanes = make_lane_stepper(kMostLanes);
-    std::unique_ptr<LaneStepper> float_lanes = make_float_stepper(kMostLanes), single = make_single_stepper();
+    std::unique_ptr<LaneStepper> lanes = make_lane_stepper(Precision::kDouble, kMostLanes);
+    std::unique_ptr<LaneStepper> float_lanes = make_lane_stepper(Precision::kFloat, kMostLanes);
+    std::unique_ptr<LaneStepper> single = make_single_stepper();
     LaneQueue queue;
 
     /// The steppers for a model.
@@ -257,8 +258,9 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
 }
 
 void StepScratch::use_lanes(std::size_t most) {
-    impl_->lanes = make_lane_stepper(std::min(most, kMostLanes));
-    impl_->float_lanes = make_float_stepper(std::min(most, kMostLanes));
+    most = std::min(most, kMostLanes);
+    impl_->lanes = make_lane_stepper(Precision::kDouble, most);
+    impl_->float_lanes = make_lane_stepper(Precision::kFloat, most);
 }
 
 std::size_t StepScratch::lanes(Precision precision) const {

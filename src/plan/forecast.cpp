@@ -31,6 +31,10 @@ RobotMotion motion_of(const Model& model, RobotId robot, const RobotState& state
     return motion;
 }
 
+bool leaps(const Order& order) {
+    return std::holds_alternative<SetPose>(order.action) || std::holds_alternative<SetVelocity>(order.action);
+}
+
 void Forecast::predict(std::span<const RobotMotion> motions, double span_s, double reach_scale) {
     for (std::uint32_t robot = 0; robot < motions.size(); ++robot) {
         const RobotMotion& m = motions[robot];

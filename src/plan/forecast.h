@@ -24,6 +24,9 @@ struct RobotMotion {
 /// Motion as of a state, for the first window.
 RobotMotion motion_of(const Model& model, RobotId robot, const RobotState& state);
 
+/// Whether a forecast asks for this order: it may carry its robot elsewhere at once.
+bool leaps(const Order& order);
+
 struct ForecastOptions {
     bool merge_all = false;  // one island of all robots
     double reach_scale = 1;  // of the way expected in the window; 0 is a fault for tests

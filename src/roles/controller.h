@@ -36,10 +36,9 @@ struct ControllerOptions {
     std::vector<std::string> clients;  // and for these; their ids are their places here
     std::uint64_t seed = 1;            // told to Clients
     std::int64_t resend_ms = 100;
-    std::size_t ahead_least =
-        500;                      // orders of the next window, for these to be told while this one is stepped
-    std::int64_t alive_ms = 250;  // a sign of life to everybody
-    std::int64_t loss_ms = 0;     // a Simulator silent for so long is given up; 0: never
+    std::size_t ahead_least = 500;    // orders of the next window that are worth telling before it
+    std::int64_t alive_ms = 250;      // a sign of life to everybody
+    std::int64_t loss_ms = 0;         // a Simulator silent for so long is given up; 0: never
     std::int64_t client_loss_ms = 0;  // so is a Client that does not answer an observation; 0: never
     std::int64_t client_gone_ms = 0;  // and one that the Bus says has vanished and that stays away; 0: never
     Tick checkpoint_ticks = 0;        // recovery checkpoints at most so far apart; 0: none by ticks

@@ -6,14 +6,6 @@
 
 namespace roboss {
 
-namespace {
-
-bool leaps_now(const Order& order) {
-    return std::holds_alternative<SetPose>(order.action) || std::holds_alternative<SetVelocity>(order.action);
-}
-
-}  // namespace
-
 std::size_t OrderFeed::send_ahead(Bus& bus, OrderBook& book, const Round& round, const Roster& roster,
                                   Tick until, std::size_t least) {
     window_ = round.span().window;
@@ -27,7 +19,7 @@ std::size_t OrderFeed::send_ahead(Bus& bus, OrderBook& book, const Round& round,
     std::vector<OrdersAhead> messages(roster.size());
     for (const Order& order : orders_) {
         messages[seat_[order.robot.index()]].orders.push_back(order);
-        if (leaps_now(order)) leaps_.push_back(order);
+        if (roboss::leaps(order)) leaps_.push_back(order);
     }
     told_.assign(roster.size(), false);
     for (std::uint32_t place = 0; place < messages.size(); ++place) {
@@ -68,7 +60,7 @@ void OrderFeed::give_rest(OrderBook& book, Round& round) const {
 std::vector<Order> OrderFeed::leaps(OrderBook& book, Tick from, Tick until) const {
     std::vector<Order> leaps;
     const auto take = [&](const Order& order) {
-        if (leaps_now(order) && order.apply_at < until) leaps.push_back(order);
+        if (roboss::leaps(order) && order.apply_at < until) leaps.push_back(order);
     };
     if (!covers(from)) {
         book.visit(from, until, take);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bus/bus.h"
+#include "plan/forecast.h"
 #include "roles/order_book.h"
 #include "roles/roster.h"
 #include "roles/round.h"
@@ -20,7 +21,7 @@ class OrderFeed {
     bool sent_in(std::uint64_t window) const { return window_ == window; }
     /// Gives the plans of a window's first attempt what their Simulators were not told.
     void give_rest(OrderBook& book, Round& round) const;
-    /// Orders of these ticks that may carry a robot elsewhere at once: all that a forecast asks for.
+    /// Orders of these ticks that a forecast asks for.
     std::vector<Order> leaps(OrderBook& book, Tick from, Tick until) const;
 
   private:

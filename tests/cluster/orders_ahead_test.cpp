@@ -50,11 +50,8 @@ TEST(OrdersAhead, LostDoubledAndOvertakenMessagesAndLateOrdersChangeNothing) {
     std::uint64_t ahead = 0, losses = 0;
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
-        FaultOptions faults;
-        faults.seed = seed;
-        faults.drop = 0.03 * static_cast<double>(seed % 4);
-        faults.duplicate = 0.03 * static_cast<double>(seed % 3);
-        faults.delay_ms_max = static_cast<std::int64_t>(seed % 8);
+        const FaultOptions faults{seed, 0.03 * static_cast<double>(seed % 4),
+                                  0.03 * static_cast<double>(seed % 3), static_cast<std::int64_t>(seed % 8)};
         ControllerOptions options;
         options.window = 1 + static_cast<Tick>(seed % 6);
         options.checkpoint_ticks = 30;

@@ -1,0 +1,23 @@
+// What a sensor reads now, whatever its kind: for those who look at all sensors alike.
+#pragma once
+
+#include <functional>
+
+#include "client/held_samples.h"
+
+namespace roboss {
+
+/// Sensor number `sensor` of a robot in `state`; see sensors/readings.h.
+struct SensorMoment {
+    const Model& model;
+    RobotId robot;
+    std::size_t sensor = 0;
+    const RobotState& state;
+    Tick tick = 0;
+    std::uint64_t seed = 0;
+};
+
+/// `rays`: asked for by lasers only. The sensor must be of a kind that measures.
+Sample measure(const SensorMoment& at, const std::function<RayScene&()>& rays);
+
+}  // namespace roboss
