@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <random>
+
 #include "app/exit_codes.h"
 #include "app/interrupt.h"
 #include "app/orders_file.h"
@@ -20,6 +22,13 @@ void print(const Diagnostics& diagnostics, const std::string& world) {
         if (d.severity != Severity::kNote) fmt::print(stderr, "{}\n", to_text(d));
     if (const std::size_t notes = diagnostics.count(Severity::kNote); notes > 0)
         fmt::print(stderr, "{} notes about this world: `roboss check {}` shows them\n", notes, world);
+}
+
+/// Where the Controller of this run was killed before, Simulators may still live by the ids it gave them.
+std::uint32_t first_simulator_id() {
+    constexpr int kSeatBits = 12;
+    std::random_device device;
+    return (device() >> 1) & ~((1u << kSeatBits) - 1);
 }
 
 }  // namespace
@@ -102,6 +111,7 @@ bool Run::create() {
     const SavedRun* from = journal_->from();
     SimulationOptions options = simulation_options(from);
     options.controller.log = journal_->resumed();
+    options.controller.before.first_id = first_simulator_id();
     company_->brief(options);
     options.clients_awaited.insert(options.clients_awaited.end(), others.value().begin(),
                                    others.value().end());

@@ -161,7 +161,7 @@ Answer Run::change_simulators(const Words& words) {
 /// A process of this run's own, without a word to it: to see the run recover.
 Answer Run::kill_simulator(const Words& words) {
     for (const MemberReport& member : simulation_->controller().members()) {
-        if (std::to_string(member.id.value) != words[2] || !member.alive) continue;
+        if (std::to_string(member.number) != words[2] || !member.alive) continue;
         if (Result<> killed = company_->kill(member.name); !killed) return killed.error();
         return fmt::format("Simulator {} ({}) is killed", words[2], member.name);
     }

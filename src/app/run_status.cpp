@@ -30,7 +30,7 @@ Json json_of(const TrafficRate& rate) {
 }
 
 Json member_json(const MemberReport& member, const TrafficRate& rate) {
-    return {{"id", member.id.value},     {"name", member.name},     {"state", standing(member)},
+    return {{"id", member.number},       {"name", member.name},     {"state", standing(member)},
             {"threads", member.threads}, {"robots", member.robots}, {"islands", member.islands},
             {"step_us", member.step_us}, {"load", member.load},     {"messages", json_of(rate)}};
 }

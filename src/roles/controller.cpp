@@ -21,7 +21,7 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
     : model_(std::move(model)),
       options_(options),
       control_(options.before.control),
-      roster_(options.before.seats),
+      roster_(options.before.seats, options.before.first_id),
       desk_(options.clients),
       tick_(start.tick),
       target_(start.tick),
@@ -68,7 +68,7 @@ void Controller::say_alive(Bus& bus) {
     alive_said_ms_ = now;
     for (std::uint32_t place = 0; place < roster_.size(); ++place)
         if (roster_.alive(place))
-            bus.send(kControllerAddress, roster_.address_of(place), Alive{SimulatorId(place)});
+            bus.send(kControllerAddress, roster_.address_of(place), Alive{roster_.id_of(place)});
     for (const ClientSeat& seat : desk_.seats())
         if (seat.serves()) bus.send(kControllerAddress, seat.address, Alive{});
 }
@@ -113,13 +113,13 @@ void Controller::take_hello(Bus& bus, const Address& from, const Hello& hello) {
                         Refused{"its world (model hash " + to_hex(hello.model_hash) +
                                 ") is not this run's (" + to_hex(model_->hash) + ")"});
     bool is_new = false;
-    const SimulatorId id = roster_.seat_for(from, hello, bus.now_ms(), is_new);
-    if (!id.valid()) return;
+    const auto place = roster_.seat_for(from, hello, bus.now_ms(), is_new);
+    if (!place) return;
     if (is_new)
-        notice("simulator " + std::to_string(id.value) + (hello.name.empty() ? "" : " (" + hello.name + ")") +
+        notice("simulator " + std::to_string(*place) + (hello.name.empty() ? "" : " (" + hello.name + ")") +
                " joined at tick " + std::to_string(tick_));
     counters_.simulators = roster_.alive_count();
-    bus.send(kControllerAddress, from, Welcome{id});
+    bus.send(kControllerAddress, from, Welcome{roster_.id_of(*place)});
 }
 
 bool Controller::is_earlier_model(std::uint64_t hash) const {
@@ -150,11 +150,12 @@ bool Controller::send_one_home() {
 
 bool Controller::heard_from(Bus& bus, const Address& from, SimulatorId id) {
     // Seats of an earlier Controller's run: who held one is to join afresh.
-    if (!roster_.known(id) || roster_.seat(id.value).address != from) {
+    const auto place = roster_.place_of(id);
+    if (!place || roster_.seat(*place).address != from) {
         bus.send(kControllerAddress, from, Expelled{id});
         return false;
     }
-    SimulatorSeat& seat = roster_.seat(id.value);
+    SimulatorSeat& seat = roster_.seat(*place);
     if (seat.alive) {
         seat.heard_ms = bus.now_ms();
     } else if (seat.leaving) {
@@ -167,8 +168,9 @@ bool Controller::heard_from(Bus& bus, const Address& from, SimulatorId id) {
 
 void Controller::take_leave(Bus& bus, const Address& from, const LeaveRequest& request) {
     if (!heard_from(bus, from, request.simulator)) return;
-    SimulatorSeat& seat = roster_.seat(request.simulator.value);
-    if (!seat.leaving) notice("simulator " + std::to_string(request.simulator.value) + " wants to leave");
+    const std::uint32_t place = *roster_.place_of(request.simulator);
+    SimulatorSeat& seat = roster_.seat(place);
+    if (!seat.leaving) notice("simulator " + std::to_string(place) + " wants to leave");
     seat.leaving = true;
 }
 

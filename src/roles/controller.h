@@ -47,6 +47,8 @@ struct ControllerOptions {
     /// Of the Controller that this one takes over from on the same Bus (after a rewind, say).
     struct Before {
         std::size_t seats = 0;  // never given again
+        std::uint32_t first_id =
+            0;  // of the first Simulator; a process of its own takes one that no other had
         std::uint32_t epoch = 0;
         std::uint64_t window = 0;
         std::vector<std::uint64_t> models;  // hashes of earlier Models of the run
@@ -88,7 +90,7 @@ struct Counters {
 
 /// A Simulator as people want to see it. Loads and times are running means over windows.
 struct MemberReport {
-    SimulatorId id;
+    std::uint32_t number = 0;  // in the order of joining
     std::string name;
     std::uint32_t threads = 1;
     bool alive = false, leaving = false;  // neither: it was lost; leaving and not alive: it has left

@@ -79,7 +79,7 @@ bool Controller::let_leavers_go(Bus& bus) {
             for (std::uint32_t& holder : want.holder)
                 if (holder == place) holder = kAtController;
         seat.alive = false;
-        bus.send(kControllerAddress, seat.address, Goodbye{SimulatorId(place)});
+        bus.send(kControllerAddress, seat.address, Goodbye{roster_.id_of(place)});
         notice("simulator " + std::to_string(place) + " left at tick " + std::to_string(tick_));
     }
     counters_.simulators = roster_.alive_count();

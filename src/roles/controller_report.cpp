@@ -13,8 +13,7 @@ std::vector<MemberReport> Controller::members() const {
     for (std::uint32_t place = 0; place < roster_.size(); ++place) {
         const SimulatorSeat& seat = roster_.seat(place);
         MemberReport& member = members[place];
-        member = {SimulatorId(place), seat.name, seat.threads, seat.alive, seat.leaving, 0, 0, 0, 0,
-                  seat.address};
+        member = {place, seat.name, seat.threads, seat.alive, seat.leaving, 0, 0, 0, 0, seat.address};
         if (!seat.alive) continue;
         member.step_us = 1e-3 * seat.spent_ns;
         member.load = busiest_ns > 0 ? seat.spent_ns / busiest_ns : 0;
@@ -26,7 +25,7 @@ std::vector<MemberReport> Controller::members() const {
             ++members[place].islands;
     // seats of the run before a rewind say nothing
     std::erase_if(members, [this](const MemberReport& member) {
-        return roster_.seat(member.id.value).address.role != Role::kSimulator;
+        return roster_.seat(member.number).address.role != Role::kSimulator;
     });
     return members;
 }

@@ -27,7 +27,7 @@ std::size_t OrderFeed::send_ahead(Bus& bus, OrderBook& book, const Round& round,
         if (message.orders.empty()) continue;
         told_[place] = true;
         message.window = window_;
-        message.simulator = SimulatorId(place);
+        message.simulator = roster.id_of(place);
         bus.send(kControllerAddress, roster.address_of(place), std::move(message));
     }
     sort_by_robot(seat_.size());

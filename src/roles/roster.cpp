@@ -7,22 +7,28 @@
 
 namespace roboss {
 
-SimulatorId Roster::seat_for(const Address& address, const Hello& hello, std::int64_t now_ms, bool& is_new) {
+std::optional<std::uint32_t> Roster::seat_for(const Address& address, const Hello& hello, std::int64_t now_ms,
+                                              bool& is_new) {
     const auto here = std::find_if(seats_.begin(), seats_.end(),
                                    [&](const SimulatorSeat& s) { return s.alive && s.address == address; });
     is_new = here == seats_.end();
-    if (!is_new) return SimulatorId(static_cast<std::size_t>(here - seats_.begin()));
+    if (!is_new) return static_cast<std::uint32_t>(here - seats_.begin());
     const bool has_left = std::any_of(seats_.begin(), seats_.end(), [&](const SimulatorSeat& s) {
         return !s.alive && s.leaving && s.address == address;
     });
-    if (has_left) return is_new = false, SimulatorId();
+    if (has_left) return is_new = false, std::nullopt;
     SimulatorSeat seat;
     seat.address = address;
     seat.name = hello.name;
     seat.threads = std::max(hello.threads, 1u);
     seat.heard_ms = now_ms;
     seats_.push_back(seat);
-    return SimulatorId(seats_.size() - 1);
+    return static_cast<std::uint32_t>(seats_.size() - 1);
+}
+
+std::optional<std::uint32_t> Roster::place_of(SimulatorId id) const {
+    if (!id.valid() || id.value < first_id_ || id.value - first_id_ >= seats_.size()) return std::nullopt;
+    return id.value - first_id_;
 }
 
 std::size_t Roster::alive_count() const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,14 +29,17 @@ struct SimulatorSeat {
 
 class Roster {
   public:
-    /// `taken`: seats that were given before; these are lost ones.
-    explicit Roster(std::size_t taken = 0) : seats_(taken) {
+    /// `taken`: seats that were given before; these are lost ones. `first_id`: of seat 0.
+    explicit Roster(std::size_t taken = 0, std::uint32_t first_id = 0) : seats_(taken), first_id_(first_id) {
         for (SimulatorSeat& seat : seats_) seat.alive = false;
     }
-    /// The seat of the living Simulator at this address; a new one if there is none. Invalid if it has left
-    /// in good order: then the hello is a late copy.
-    SimulatorId seat_for(const Address& address, const Hello& hello, std::int64_t now_ms, bool& is_new);
-    bool known(SimulatorId id) const { return id.index() < seats_.size(); }
+    /// The place of the living Simulator at this address; a new one if there is none. None if it has left in
+    /// good order: then the hello is a late copy.
+    std::optional<std::uint32_t> seat_for(const Address& address, const Hello& hello, std::int64_t now_ms,
+                                          bool& is_new);
+    SimulatorId id_of(std::uint32_t place) const { return SimulatorId(first_id_ + place); }
+    /// None: the id is of another Controller's run.
+    std::optional<std::uint32_t> place_of(SimulatorId id) const;
     bool alive(std::uint32_t place) const { return place < seats_.size() && seats_[place].alive; }
     SimulatorSeat& seat(std::uint32_t place) { return seats_[place]; }
     const SimulatorSeat& seat(std::uint32_t place) const { return seats_[place]; }
@@ -49,6 +53,7 @@ class Roster {
 
   private:
     std::vector<SimulatorSeat> seats_;
+    std::uint32_t first_id_;
 };
 
 }  // namespace roboss

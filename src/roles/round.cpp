@@ -36,7 +36,6 @@ Plan& Round::plan_for(std::uint32_t place) {
     sent.plan.epoch = span_.epoch;
     sent.plan.window = span_.window;
     sent.plan.attempt = attempt_;
-    sent.plan.simulator = SimulatorId(place);
     sent.plan.from = span_.from;
     sent.plan.until = span_.until;
     sent.plan.island_offsets.push_back(0);
@@ -111,6 +110,7 @@ void Round::send(Bus& bus, const Roster& roster, std::int64_t resend_ms,
             continue;
         if (sent.sent_ms) ++sent.times, complete(sent.plan);
         sent.sent_ms = now;
+        sent.plan.simulator = roster.id_of(sent.place);
         bus.send(kControllerAddress, roster.address_of(sent.place), sent.plan);
     }
 }

@@ -79,9 +79,7 @@ void Simulator::handle(Bus& bus, Envelope& envelope) {
     } else if (auto* reply = std::get_if<StateReply>(&envelope.message)) {
         take_states(*reply);
     } else if (const auto* welcome = std::get_if<Welcome>(&envelope.message)) {
-        if (id_.valid() && welcome->simulator <= id_) return;  // an old one
-        start_over();
-        id_ = welcome->simulator;
+        if (!id_.valid()) id_ = welcome->simulator;  // if it is an old one, it will be expelled
     } else if (const auto* expelled = std::get_if<Expelled>(&envelope.message)) {
         if (expelled->simulator == id_) start_over();
     } else if (const auto* goodbye = std::get_if<Goodbye>(&envelope.message)) {

@@ -77,9 +77,8 @@ void FaultyCluster::turn() {
 }
 
 void FaultyCluster::restart_controller(StartingPoint start) {
-    options_.before.seats = controller_->hand_over().seats;
-    options_.before.epoch = controller_->hand_over().epoch;
-    options_.before.window = controller_->hand_over().window;
+    options_.before = {};
+    options_.before.first_id = static_cast<std::uint32_t>(bus_.random(1u << 20)) << 10;
     controller_ = std::make_unique<Controller>(model_, options_, std::move(start));
 }
 

@@ -35,8 +35,7 @@ class FaultyCluster {
     bool run_until(Tick target, int turns_max = 400'000);
     void turn();
 
-    /// The Controller is killed and started again from here. Like a real one it knows nothing of the old one
-    /// but the numbers that must not come twice.
+    /// The Controller is killed and started again from here. Like a real one it knows nothing of the old one.
     void restart_controller(StartingPoint start);
 
     Controller& controller() { return *controller_; }

@@ -101,6 +101,8 @@ int run_with_crashes(const std::shared_ptr<const Model>& model, std::uint64_t se
     FaultOptions faults;
     faults.seed = seed;
     faults.drop = 0.02 * static_cast<double>(seed % 5);
+    faults.duplicate = seed % 7 == 0 ? 0.3 : 0.05;
+    faults.delay_ms_max = seed % 4 == 0 ? 60 : 5;
     FaultyCluster cluster(model, options, faults, {seed % 2 == 0 ? 50u : 0u, 0, 0, 100, 2000}, 2);
     cluster.add_program("often", often());
     cluster.add_program("seldom", seldom());
