@@ -22,3 +22,12 @@ def svg_head(width, height):
             "<style>text{fill:#222}.grid{stroke:#8885}.bg{fill:#fff}.dim{opacity:.45}"
             "@media(prefers-color-scheme:dark){text{fill:#ddd}.bg{fill:#15181c}}</style>",
             f'<rect class="bg" width="{width}" height="{height}"/>']
+
+
+def legend_places(names, left, sign, letter=6.9, gap=14):
+    """x of each entry of a legend in one row: a sign so wide, 5 apart from its name, of letters so wide."""
+    places = []
+    for name in names:
+        places.append(round(left))
+        left += sign + 5 + letter * len(name) + gap
+    return places
