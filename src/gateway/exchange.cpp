@@ -13,6 +13,7 @@ bool needs_everybody(const Model& model, RobotId robot) {
            std::any_of(sensors.begin(), sensors.end(),
                        [](const SensorInfo& s) { return s.spec.kind == SensorKind::kLaser; });
 }
+
 namespace {
 
 constexpr std::size_t kCallsMax = 2'000, kLinesMax = 10'000;

@@ -148,12 +148,12 @@ bool Controller::send_one_home() {
     return true;
 }
 
-bool Controller::heard_from(Bus& bus, const Address& from, SimulatorId id) {
+std::optional<std::uint32_t> Controller::heard_from(Bus& bus, const Address& from, SimulatorId id) {
     // Seats of an earlier Controller's run: who held one is to join afresh.
     const auto place = roster_.place_of(id);
     if (!place || roster_.seat(*place).address != from) {
         bus.send(kControllerAddress, from, Expelled{id});
-        return false;
+        return std::nullopt;
     }
     SimulatorSeat& seat = roster_.seat(*place);
     if (seat.alive) {
@@ -163,14 +163,14 @@ bool Controller::heard_from(Bus& bus, const Address& from, SimulatorId id) {
     } else {
         bus.send(kControllerAddress, from, Expelled{id});
     }
-    return seat.alive;
+    return seat.alive ? place : std::nullopt;
 }
 
 void Controller::take_leave(Bus& bus, const Address& from, const LeaveRequest& request) {
-    if (!heard_from(bus, from, request.simulator)) return;
-    const std::uint32_t place = *roster_.place_of(request.simulator);
-    SimulatorSeat& seat = roster_.seat(place);
-    if (!seat.leaving) notice("simulator " + std::to_string(place) + " wants to leave");
+    const auto place = heard_from(bus, from, request.simulator);
+    if (!place) return;
+    SimulatorSeat& seat = roster_.seat(*place);
+    if (!seat.leaving) notice("simulator " + std::to_string(*place) + " wants to leave");
     seat.leaving = true;
 }
 

@@ -47,8 +47,8 @@ struct ControllerOptions {
     /// Of the Controller that this one takes over from on the same Bus (after a rewind, say).
     struct Before {
         std::size_t seats = 0;  // never given again
-        std::uint32_t first_id =
-            0;  // of the first Simulator; a process of its own takes one that no other had
+        /// Of the first Simulator; a process of its own takes one that no other had.
+        std::uint32_t first_id = 0;
         std::uint32_t epoch = 0;
         std::uint64_t window = 0;
         std::vector<std::uint64_t> models;  // hashes of earlier Models of the run
@@ -204,7 +204,8 @@ class Controller {
     void handle(Bus& bus, Envelope& envelope);
     void take_hello(Bus& bus, const Address& from, const Hello& hello);
     void take_leave(Bus& bus, const Address& from, const LeaveRequest& request);
-    bool heard_from(Bus& bus, const Address& from, SimulatorId id);
+    /// The place of who lives by this id; who does not is told.
+    std::optional<std::uint32_t> heard_from(Bus& bus, const Address& from, SimulatorId id);
     void serve(Bus& bus, const Address& from, const StateRequest& request) const;
     bool is_earlier_model(std::uint64_t hash) const;
     void serve_model(Bus& bus, const Address& from, const ModelRequest& request);

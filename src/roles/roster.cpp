@@ -27,8 +27,8 @@ std::optional<std::uint32_t> Roster::seat_for(const Address& address, const Hell
 }
 
 std::optional<std::uint32_t> Roster::place_of(SimulatorId id) const {
-    if (!id.valid() || id.value < first_id_ || id.value - first_id_ >= seats_.size()) return std::nullopt;
-    return id.value - first_id_;
+    const std::uint32_t place = id.value - first_id_;  // of an id from before it: far too large
+    return place < seats_.size() ? std::optional(place) : std::nullopt;
 }
 
 std::size_t Roster::alive_count() const {
