@@ -1,6 +1,6 @@
-// Typed ids and the tick. An id is an index into the Model's arrays (or the order of joining, for Simulators
-// and Clients); two kinds of id never convert into each other, so a robot cannot be taken for a link by
-// mistake.
+// Typed ids and the tick. An id is an index into the Model's arrays (for Clients the order of joining, for
+// Simulators too, counted from a number taken by chance); two kinds of id never convert into each other, so a
+// robot cannot be taken for a link by mistake.
 #pragma once
 
 #include <compare>

@@ -90,7 +90,7 @@ struct Counters {
 
 /// A Simulator as people want to see it. Loads and times are running means over windows.
 struct MemberReport {
-    std::uint32_t number = 0;  // in the order of joining
+    std::uint32_t number = 0;  // in the order of joining, from 0
     std::string name;
     std::uint32_t threads = 1;
     bool alive = false, leaving = false;  // neither: it was lost; leaving and not alive: it has left
