@@ -140,7 +140,7 @@ void write_features(const Posed& a, const Posed& b, const ConvexSum& sum, const 
 void convex_convex(const Posed& a, const Posed& b, double margin, Manifold& out) {
     const ConvexSum sum(a, b);
     const double balls = ball(a) + ball(b), enough = margin + balls;
-    Separation best = sum.best_natural();
+    Separation best = sum.best_natural(enough);
     if (best.s > enough) return;
     const FaceChoice choice = face_along(a, b, best.n);
     if (choice.cosine > 1.0 - 1e-12) {

@@ -84,34 +84,37 @@ double ConvexSum::rounding() const {
     return 2e-15 * (std::fabs(centre_.x) + std::fabs(centre_.y) + std::fabs(centre_.z) + inradius_);
 }
 
-Separation ConvexSum::best_natural() const {
+Separation ConvexSum::best_natural(double enough) const {
     Separation best;
-    const auto consider = [&](const Vec3& direction) {
+    const auto is_enough = [&](const Vec3& direction) {
         const double length = norm(direction);
-        if (length < 1e-3) return;
+        if (length < 1e-3) return false;
         const Vec3 n = direction * (dot(direction, centre_) < 0.0 ? -1.0 / length : 1.0 / length);
         const Separation found = separation(n);
         if (found.s > best.s) best = found;
+        return best.s > enough;
     };
-    for (std::size_t i = 0; i < segment_count_; ++i) consider(direction_[i]);
-    for (std::size_t i = 0; i < first_segments_; ++i) {
+    for (std::size_t i = 0; i < segment_count_; ++i)
+        if (is_enough(direction_[i])) return best;
+    for (std::size_t i = 0; i < first_segments_; ++i)
         for (std::size_t j = first_segments_; j < segment_count_; ++j)
-            consider(cross(direction_[i], direction_[j]));
-    }
-    const auto consider_near = [&](const Vec3& towards) {
+            if (is_enough(cross(direction_[i], direction_[j]))) return best;
+    const auto is_enough_near = [&](const Vec3& towards) {
         const double distance = norm(towards);
-        if (distance < 1e-12 * inradius_) return;
+        if (distance < 1e-12 * inradius_) return false;
         const Vec3 d = towards / distance;
-        consider(d);
-        for (std::size_t i = 0; i < segment_count_; ++i) consider(radial_part(d, direction_[i]));
+        if (is_enough(d)) return true;
+        for (std::size_t i = 0; i < segment_count_; ++i)
+            if (is_enough(radial_part(d, direction_[i]))) return true;
+        return false;
     };
-    consider_near(centre_);
+    if (is_enough_near(centre_)) return best;
     if (first_segments_ == 3) {  // from the point of the box that is closest to the other centre
         Vec3 closest;
         for (std::size_t i = 0; i < 3; ++i) {
             closest += direction_[i] * std::clamp(dot(centre_, direction_[i]), -half_[i], half_[i]);
         }
-        consider_near(centre_ - closest);
+        is_enough_near(centre_ - closest);
     }
     return best;
 }

@@ -34,7 +34,7 @@ class ConvexSum {
     Separation separation(const Vec3& n) const { return {n, dot(n, centre_) - reach(n)}; }
 
     /// The best of the directions in which flat facets of the sum can look (and some round ones).
-    Separation best_natural() const;
+    Separation best_natural(double enough) const;
 
     /// Improves a nearby maximum to rounding: all combinations of features close to start.n, each by Newton's
     /// method on the sphere. Between equals the flatter one wins. The result is below start by rounding at

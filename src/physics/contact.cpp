@@ -69,6 +69,7 @@ void add_points(std::vector<SurfaceContact>& points, const Pair& pair, const Pla
         Contact& contact = add_contact(pair, point.n_W, contacts);
         contact.p_W = point.p_W, contact.gap = point.gap, contact.feature = point.feature;
         combine(pa.material, pa.R_WS, pb.material, pb.R_WS, contact);
+        contact.torsional = torsional_lever(pa.material, pb.material, -contact.gap);
     }
 }
 
@@ -77,12 +78,18 @@ void add_points(const Manifold& manifold, const Pair& pair, const Placed& pa, co
     if (manifold.count == 0) return;
     const std::uint32_t kept =
         points_to_keep(manifold, std::min(pa.material.contacts_max, pb.material.contacts_max));
+    const std::size_t first = contacts.size();
     for (int i = 0; i < manifold.count; ++i) {
         if ((kept >> i & 1) == 0) continue;
         const ContactPoint& point = manifold.points[static_cast<std::size_t>(i)];
-        Contact& contact = add_contact(pair, manifold.n_W, contacts);
+        if (contacts.size() == first) {
+            combine(pa.material, pa.R_WS, pb.material, pb.R_WS, add_contact(pair, manifold.n_W, contacts));
+        } else {
+            contacts.push_back(Contact(contacts[first]));
+        }
+        Contact& contact = contacts.back();
         contact.p_W = point.p_W, contact.gap = point.gap, contact.feature = point.feature;
-        combine(pa.material, pa.R_WS, pb.material, pb.R_WS, contact);
+        contact.torsional = torsional_lever(pa.material, pb.material, -contact.gap);
     }
 }
 
@@ -116,7 +123,6 @@ void combine(const Material& a, const Mat3& R_WA, const Material& b, const Mat3&
     contact.has_friction_axis = !(friction.axis == Vec3{}), contact.friction_axis = friction.axis;
     contact.restitution = std::max(a.restitution, b.restitution);
     contact.bounce_threshold = std::max(a.bounce_threshold, b.bounce_threshold);
-    contact.torsional = torsional_lever(a, b, -contact.gap);
     contact.rolling = std::max(a.rolling, b.rolling);
     const Softness soft = softness_of(a, b);
     contact.stiffness = soft.stiffness, contact.damping = soft.damping;

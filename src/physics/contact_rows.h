@@ -82,7 +82,10 @@ PathColumns<T> add_path(const ContactSide<T>& side, ContactColumnsT<T>& columns)
     const int* path = paths.path(last);
     const std::size_t begin = columns.size(), length = paths.length(last);
     columns.extend(length);
-    for (std::size_t k = 0; k < length; ++k) columns.dof[begin + k] = side.offset + path[k];
+    for (std::size_t k = 0; k < length; ++k) {
+        columns.dof[begin + k] = side.offset + path[k];
+        columns.base[begin + k] = k == 0 && side.robot->type->free_base;
+    }
     return {path, length, columns.n.data() + begin, columns.t1.data() + begin, columns.t2.data() + begin};
 }
 

@@ -8,12 +8,25 @@
 #include <cstdint>
 #include <iterator>
 
+#include "core/pair.h"
+
 namespace roboss {
 
-void FrontFactor::analyse(std::span<const int> group_first, std::span<const int> unknowns,
-                          std::span<const Clique> cliques) {
+namespace {
+
+/// row -= f * pivot, from `from` or one before it.
+void subtract(double* row, const double* pivot, double f, std::size_t from, std::size_t stride) {
+    for (std::size_t j = from & ~std::size_t{1}; j < stride; j += 2)
+        pair_at(row + j) -= both(f) * pair_at(pivot + j);
+}
+
+}  // namespace
+
+void FrontFactor::analyse(std::span<const int> group_first, std::span<const int> heads,
+                          std::span<const int> unknowns, std::span<const Clique> cliques) {
     groups_ = group_first.size() - 1;
     group_first_.assign(group_first.begin(), group_first.end());
+    heads_.assign(heads.begin(), heads.end());
     const auto n = static_cast<std::size_t>(group_first.back());
     group_of_.resize(n);
     for (std::size_t g = 0; g < groups_; ++g)
@@ -106,14 +119,22 @@ void FrontFactor::take_group(std::size_t group) {
     order_.push_back(static_cast<int>(group));
 }
 
-/// Inside a group the last unknown goes first: a tree's leaves before its root, so that zeros stay zeros.
+/// Inside a group the last unknown goes first: a tree's leaves before its root, so that zeros stay zeros. Its
+/// head, which has no zeros, comes last, in its own order.
+std::size_t FrontFactor::own_place(std::size_t group, int unknown) const {
+    const int i = unknown - group_first_[group], head = heads_[group];
+    const int count = group_first_[group + 1] - group_first_[group];
+    return static_cast<std::size_t>(i < head ? count - head + i : count - 1 - i);
+}
+
 void FrontFactor::rank_unknowns() {
     rank_.resize(group_of_.size());
-    int next = 0;
+    std::size_t next = 0;
     for (int g : order_) {
         const auto group = static_cast<std::size_t>(g);
-        for (int i = group_first_[group + 1]; i-- > group_first_[group];)
-            rank_[static_cast<std::size_t>(i)] = next++;
+        for (int i = group_first_[group]; i < group_first_[group + 1]; ++i)
+            rank_[static_cast<std::size_t>(i)] = static_cast<int>(next + own_place(group, i));
+        next += static_cast<std::size_t>(group_first_[group + 1] - group_first_[group]);
     }
 }
 
@@ -147,11 +168,12 @@ void FrontFactor::gather_front(std::size_t group, std::span<const int> unknowns,
     Front& front = fronts_[group];
     front.index_at = index_.size();
     const int stamp = static_cast<int>(group);
-    for (int i = group_first_[group + 1]; i-- > group_first_[group];) {
-        index_.push_back(i);
+    front.own = static_cast<std::size_t>(group_first_[group + 1] - group_first_[group]);
+    index_.resize(front.index_at + front.own);
+    for (int i = group_first_[group]; i < group_first_[group + 1]; ++i) {
+        index_[front.index_at + own_place(group, i)] = i;
         mark_[static_cast<std::size_t>(i)] = stamp;
     }
-    front.own = index_.size() - front.index_at;
     const auto add = [&](int i) {
         if (mark_[static_cast<std::size_t>(i)] == stamp) return;
         mark_[static_cast<std::size_t>(i)] = stamp;
@@ -180,13 +202,15 @@ void FrontFactor::gather_front(std::size_t group, std::span<const int> unknowns,
 
 void FrontFactor::map_to_parents() {
     to_parent_.clear();
-    std::size_t size = 0;
+    std::size_t size = 0, largest = 0;
     for (int g : order_) {
         Front& front = fronts_[static_cast<std::size_t>(g)];
+        front.stride = (front.size + 2) / 2 * 2;
         front.matrix_at = size;
-        size += front.size * front.size;
+        size += front.size * front.stride;
+        largest = std::max(largest, front.size);
     }
-    a_.resize(size);
+    a_.resize(size), x_.resize(largest);
     for (int g : order_) {  // g as a parent: where its unknowns stand, told to its children
         const Front& parent = fronts_[static_cast<std::size_t>(g)];
         if (parent.first_child < 0) continue;
@@ -202,7 +226,7 @@ void FrontFactor::map_to_parents() {
     }
 }
 
-/// Positions of all cliques' unknowns in their fronts.
+/// Positions of all cliques' unknowns in their fronts, one by one and in runs.
 void FrontFactor::localise(std::span<const int> unknowns, std::span<const Clique> cliques) {
     local_.resize(unknowns.size());
     for (std::size_t g = 0; g < groups_; ++g) {
@@ -217,28 +241,65 @@ void FrontFactor::localise(std::span<const int> unknowns, std::span<const Clique
         }
     }
     clique_first_.resize(cliques.size());
-    for (std::size_t c = 0; c < cliques.size(); ++c) clique_first_[c] = cliques[c].first;
+    runs_.clear(), run_first_.clear();
+    for (std::size_t c = 0; c < cliques.size(); ++c) {
+        clique_first_[c] = cliques[c].first;
+        run_first_.push_back(runs_.size());
+        find_runs(cliques[c]);
+    }
+    run_first_.push_back(runs_.size());
+}
+
+void FrontFactor::find_runs(const Clique& clique) {
+    const std::size_t begin = runs_.size();
+    for (std::size_t i = clique.first; i < clique.last; ++i) {
+        const auto place = static_cast<std::size_t>(local_[i]);
+        if (i > clique.first && place == runs_.back().place + runs_.back().count)
+            ++runs_.back().count;
+        else
+            runs_.push_back({i - clique.first, place, 1});
+    }
+    for (std::size_t k = begin + 1; k < runs_.size(); ++k)  // there are few
+        for (std::size_t m = k; m > begin && runs_[m].place < runs_[m - 1].place; --m)
+            std::swap(runs_[m], runs_[m - 1]);
 }
 
 void FrontFactor::clear() {
     kept_.assign(a_.size(), 0.0);
 }
 
-FrontFactor::Place FrontFactor::place(std::size_t clique) {
+FrontFactor::Place FrontFactor::place_in(std::vector<double>& matrices, std::size_t clique) const {
     const Front& front = fronts_[static_cast<std::size_t>(clique_front_[clique])];
-    return {kept_.data() + front.matrix_at, front.size, local_.data() + clique_first_[clique]};
+    return {matrices.data() + front.matrix_at, front.stride, local_.data() + clique_first_[clique],
+            std::span(runs_).subspan(run_first_[clique], run_first_[clique + 1] - run_first_[clique])};
+}
+
+FrontFactor::Place FrontFactor::place(std::size_t clique) {
+    return place_in(kept_, clique);
 }
 
 FrontFactor::Place FrontFactor::unsymmetric_place(std::size_t clique) {
-    const Front& front = fronts_[static_cast<std::size_t>(clique_front_[clique])];
-    return {a_.data() + front.matrix_at, front.size, local_.data() + clique_first_[clique]};
+    return place_in(a_, clique);
 }
 
-void FrontFactor::add(std::size_t group, int i, int j, double value) {
-    const Front& front = fronts_[group];
-    const int last = group_first_[group + 1] - 1;
-    const auto a = static_cast<std::size_t>(last - i), b = static_cast<std::size_t>(last - j);  // a <= b
-    kept_[front.matrix_at + a * front.size + b] += value;
+void FrontFactor::add(std::size_t group, int unknown, double value) {
+    const std::size_t i = own_place(group, unknown);
+    kept_[fronts_[group].matrix_at + i * fronts_[group].stride + i] += value;
+}
+
+void FrontFactor::add(std::size_t group, const DofPaths& paths, std::span<const double> matrix) {
+    const std::size_t stride = fronts_[group].stride;
+    double* to = kept_.data() + fronts_[group].matrix_at;
+    for (std::size_t i = 0; i < paths.size(); ++i)
+        where_[i] = static_cast<int>(own_place(group, group_first_[group] + static_cast<int>(i)));
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        const int* path = paths.path(i);
+        const double* row = matrix.data() + paths.row(i);
+        for (std::size_t k = 0; k < paths.length(i); ++k) {
+            const auto [a, b] = std::minmax(where_[i], where_[static_cast<std::size_t>(path[k])]);
+            to[static_cast<std::size_t>(a) * stride + static_cast<std::size_t>(b)] += row[k];
+        }
+    }
 }
 
 void FrontFactor::begin_factor(bool symmetric) {
@@ -248,94 +309,91 @@ void FrontFactor::begin_factor(bool symmetric) {
     for (const Front& front : fronts_) {
         double* a = a_.data() + front.matrix_at;
         for (std::size_t r = 1; r < front.size; ++r)
-            for (std::size_t c = 0; c < r; ++c) a[r * front.size + c] = a[c * front.size + r];
+            for (std::size_t c = 0; c < r; ++c) a[r * front.stride + c] = a[c * front.stride + r];
     }
 }
 
-/// The first `own` rows of the factor U, its diagonal kept as reciprocals; what remains is the Schur
-/// complement of the others.
-bool FrontFactor::eliminate(double* a, std::size_t own, std::size_t size) {
-    for (std::size_t c = 0; c < own; ++c) {
-        double* pivot = a + c * size;
-        const double inverse = 1.0 / std::sqrt(pivot[c]);
+/// Own rows become those of D L^T, the reciprocals of D on the diagonal; what remains is the Schur complement
+/// of the others.
+void FrontFactor::eliminate(const Front& front) {
+    double* a = a_.data() + front.matrix_at;
+    const std::size_t stride = front.stride;
+    for (std::size_t c = 0; c < front.own; ++c) {
+        double* pivot = a + c * stride;
+        const double inverse = 1.0 / pivot[c];
         pivot[c] = inverse;
-        for (std::size_t j = c + 1; j < size; ++j) pivot[j] *= inverse;
-        for (std::size_t r = c + 1; r < size; ++r) {
-            const double f = pivot[r];
-            if (f == 0) continue;
-            double* row = a + r * size;
-            for (std::size_t j = r; j < size; ++j) row[j] -= f * pivot[j];
+        for (std::size_t r = c + 1; r < front.size; ++r) {
+            const double f = pivot[r] * inverse;
+            if (f != 0) subtract(a + r * stride, pivot, f, r, stride);
         }
     }
-    return true;
 }
 
-/// The same for L U: L has a unit diagonal and stands below.
-bool FrontFactor::eliminate_general(double* a, std::size_t own, std::size_t size) {
-    for (std::size_t c = 0; c < own; ++c) {
-        double* pivot = a + c * size;
+/// The same for the rows of U in L U.
+bool FrontFactor::eliminate_general(const Front& front) {
+    double* a = a_.data() + front.matrix_at;
+    const std::size_t stride = front.stride;
+    for (std::size_t c = 0; c < front.own; ++c) {
+        double* pivot = a + c * stride;
         if (!(pivot[c] > 0)) return false;
         const double inverse = 1.0 / pivot[c];
         pivot[c] = inverse;
-        for (std::size_t r = c + 1; r < size; ++r) {
-            double* row = a + r * size;
-            if (row[c] == 0) continue;
-            const double l = row[c] * inverse;
-            row[c] = l;
-            for (std::size_t j = c + 1; j < size; ++j) row[j] -= l * pivot[j];
+        for (std::size_t r = c + 1; r < front.size; ++r) {
+            double* row = a + r * stride;
+            const double f = row[c] * inverse;
+            if (f != 0) subtract(row, pivot, f, c + 1, stride);
         }
     }
     return true;
 }
 
+/// What is left of the matrix and of the right hand side.
 void FrontFactor::add_to_parent(const Front& front) {
     const Front& parent = fronts_[static_cast<std::size_t>(front.parent)];
     const double* a = a_.data() + front.matrix_at;
     double* to = a_.data() + parent.matrix_at;
     const int* map = to_parent_.data() + front.update_at;
     for (std::size_t i = front.own; i < front.size; ++i) {
-        double* row = to + static_cast<std::size_t>(map[i - front.own]) * parent.size;
+        double* row = to + static_cast<std::size_t>(map[i - front.own]) * parent.stride;
+        const double* from = a + i * front.stride;
         for (std::size_t j = symmetric_ ? i : front.own; j < front.size; ++j)
-            row[map[j - front.own]] += a[i * front.size + j];
+            row[map[j - front.own]] += from[j];
+        row[parent.size] += from[front.size];
     }
 }
 
-bool FrontFactor::factor() {
+void FrontFactor::solve_back(const Front& front, std::span<double> x) {
+    const double* a = a_.data() + front.matrix_at;
+    const int* index = index_.data() + front.index_at;
+    const auto at = [&](std::size_t i) -> double& { return x[static_cast<std::size_t>(index[i])]; };
+    for (std::size_t i = front.own; i < front.size; ++i) x_[i] = at(i);
+    for (std::size_t c = front.own; c-- > 0;) {
+        const double* row = a + c * front.stride;
+        double value = row[front.size];
+        // The youngest unknown comes last: what it does not reach can be summed before it is known.
+        for (std::size_t j = front.size; j-- > c + 1;) value -= row[j] * x_[j];
+        x_[c] = at(c) = value * row[c];
+    }
+}
+
+bool FrontFactor::solve(std::span<double> x) {
+    for (std::size_t g = 0; g < groups_; ++g) {
+        const Front& front = fronts_[g];
+        double* side = a_.data() + front.matrix_at + front.size;
+        const int* index = index_.data() + front.index_at;
+        for (std::size_t i = 0; i < front.own; ++i)
+            side[i * front.stride] = x[static_cast<std::size_t>(index[i])];
+    }
     for (int g : order_) {
         const Front& front = fronts_[static_cast<std::size_t>(g)];
-        double* a = a_.data() + front.matrix_at;
-        if (!(symmetric_ ? eliminate(a, front.own, front.size) : eliminate_general(a, front.own, front.size)))
+        if (symmetric_)
+            eliminate(front);
+        else if (!eliminate_general(front))
             return false;
         if (front.parent >= 0) add_to_parent(front);
     }
+    for (std::size_t k = order_.size(); k-- > 0;) solve_back(fronts_[static_cast<std::size_t>(order_[k])], x);
     return true;
-}
-
-void FrontFactor::solve(std::span<double> x) {
-    const auto at = [&](int i) -> double& { return x[static_cast<std::size_t>(i)]; };
-    for (int g : order_) {
-        const Front& front = fronts_[static_cast<std::size_t>(g)];
-        const double* a = a_.data() + front.matrix_at;
-        const int* index = index_.data() + front.index_at;
-        for (std::size_t c = 0; c < front.own; ++c) {
-            if (symmetric_) at(index[c]) *= a[c * front.size + c];
-            const double value = at(index[c]);
-            if (value == 0) continue;
-            for (std::size_t j = c + 1; j < front.size; ++j)
-                at(index[j]) -= (symmetric_ ? a[c * front.size + j] : a[j * front.size + c]) * value;
-        }
-    }
-    for (std::size_t k = order_.size(); k-- > 0;) {
-        const Front& front = fronts_[static_cast<std::size_t>(order_[k])];
-        const double* a = a_.data() + front.matrix_at;
-        const int* index = index_.data() + front.index_at;
-        for (std::size_t c = front.own; c-- > 0;) {
-            const double* row = a + c * front.size;
-            double value = at(index[c]);
-            for (std::size_t j = c + 1; j < front.size; ++j) value -= row[j] * at(index[j]);
-            at(index[c]) = value * row[c];
-        }
-    }
 }
 
 }  // namespace roboss

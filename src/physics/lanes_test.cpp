@@ -180,16 +180,17 @@ double share_in_lanes(Precision precision, std::size_t width) {
     for (std::size_t r = 0; r < sim.states.size(); ++r)
         for (std::size_t d = 0; d < sim.states[r].motors.size(); ++d)
             sim.set_motor(r, d, MotorMode::kVelocity, 10);
-    sim.run(0.5);
+    sim.run(2);
     const auto stepper = make_lane_stepper(precision, width);
     std::vector<LaneRobot> robots;
     for (std::size_t r = 0; r < sim.states.size(); ++r)
         robots.push_back({sim.ids[r], &sim.states[r], &sim.bounds[r], false, {}});
     StepReport report;
     int stepped = 0;
-    for (int i = 0; i < 20; ++i) stepped += std::popcount(stepper->step(*sim.model, robots, report));
+    constexpr int kTicks = 250;
+    for (int i = 0; i < kTicks; ++i) stepped += std::popcount(stepper->step(*sim.model, robots, report));
     EXPECT_GE(report.contacts, stepped * 4);
-    return stepped / (20.0 * static_cast<double>(width));
+    return stepped / (static_cast<double>(kTicks) * static_cast<double>(width));
 }
 
 /// They are of use at all: most of the cars' steps are taken in lanes.

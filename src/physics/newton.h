@@ -13,7 +13,9 @@
 #include <vector>
 
 #include "core/wide.h"
+#include "physics/bends.h"
 #include "physics/friction_bounds.h"
+#include "physics/newton_rows.h"
 #include "physics/tree_factor.h"
 
 namespace roboss {
@@ -47,97 +49,11 @@ inline constexpr double kFinest = kIsFloat<T> ? 1e-5 : 0.0;
 template <class T>
 inline constexpr double kRounding = kIsFloat<T> ? 1e-4 : 1e-8;
 
-/// Velocities along the rows := what set_steps has left.
+/// What the matrix may lack of a friction row's curvature, relative to it, so far from the balance: it costs
+/// no steps as long as it shrinks with the residual.
 template <class T>
-void take_velocities(IslandRowsT<T>& rows) {
-    for_each_bounded(rows, [](BoundedRowT<T>& row) { row.u = row.du; });
-    for_each_disc(rows, [](FrictionDiscT<T>& disc) {
-        disc.u_1 = disc.du_1 - disc.target_1, disc.u_2 = disc.du_2 - disc.target_2;
-    });
-}
-
-/// Impulses of all rows at the present velocities.
-template <class T>
-void update_impulses(IslandRowsT<T>& rows) {
-    for_each_bounded(rows, [](BoundedRowT<T>& row) { row.impulse = impulse_at(row, row.u); });
-    for_each_disc(rows, [](FrictionDiscT<T>& disc) {
-        if (disc.coefficient == 0) return;
-        const TangentialT<T> t = impulse_at(disc, disc.u_1, disc.u_2, disc.bound);
-        disc.impulse_1 = t.t1, disc.impulse_2 = t.t2;
-    });
-}
-
-template <class T>
-struct DiscCurvature {
-    T d_11{}, d_12{}, d_22{};
-    friend DiscCurvature select(const MaskOf<T>& m, const DiscCurvature& a, const DiscCurvature& b) {
-        return {select(m, a.d_11, b.d_11), select(m, a.d_12, b.d_12), select(m, a.d_22, b.d_22)};
-    }
-};
-
-template <class T>
-DiscCurvature<T> curvature_of(const FrictionDiscT<T>& disc) {
-    using std::sqrt;
-    const T speed = sqrt(disc.u_1 * disc.u_1 + disc.u_2 * disc.u_2);
-    return either(
-        is_sliding(disc, speed),
-        [&] {  // sliding: only turning the direction changes the impulse
-            const T s = disc.bound / speed, e1 = disc.u_1 / speed, e2 = disc.u_2 / speed;
-            return DiscCurvature<T>{s * (T(1) - e1 * e1), -s * e1 * e2, s * (T(1) - e2 * e2)};
-        },
-        [&] {
-            return DiscCurvature<T>{disc.stiffness, T(0), disc.stiffness};
-        });
-}
-
-/// The rows' share of the Hessian at the present velocities.
-template <class T>
-void set_curvatures(IslandRowsT<T>& rows) {
-    for_each_bounded(
-        rows, [](BoundedRowT<T>& row) { row.d = select(is_between_bounds(row), row.stiffness, T(0)); });
-    for_each_disc(rows, [](FrictionDiscT<T>& disc) {
-        disc.d_1n = disc.d_2n = 0;
-        const DiscCurvature<T> d = either(
-            disc.bound > T(0), [&] { return curvature_of(disc); }, [] { return DiscCurvature<T>{}; });
-        disc.d_11 = d.d_11, disc.d_12 = d.d_12, disc.d_22 = d.d_22;
-    });
-}
-
-/// Curvatures and impulses as if what stuck in the last tick stuck again. The velocities of the last tick are
-/// a bad witness of that, for a hard row takes the least of them for sliding. True where anything stuck.
-template <class T>
-MaskOf<T> expect_sticking(IslandRowsT<T>& rows) {
-    MaskOf<T> some = false;
-    for (ContactRowT<T>& row : rows.contacts) {
-        const MaskOf<T>& sticks = row.sticks;
-        if (!any(sticks)) continue;
-        BoundedRowT<T>& normal = row.normal;
-        normal.d = select(sticks, normal.stiffness, normal.d);
-        normal.impulse = select(sticks, (normal.target - normal.u) * normal.stiffness, normal.impulse);
-        FrictionDiscT<T>& slip = row.slip;
-        slip.d_11 = select(sticks, slip.stiffness, slip.d_11);
-        slip.d_22 = select(sticks, slip.stiffness, slip.d_22);
-        slip.d_12 = select(sticks, T(0), slip.d_12);
-        slip.impulse_1 = select(sticks, -slip.u_1 * slip.stiffness, slip.impulse_1);
-        slip.impulse_2 = select(sticks, -slip.u_2 * slip.stiffness, slip.impulse_2);
-        some = some | sticks;
-    }
-    return some;
-}
-
-/// Minus the derivative of the rows' potentials along the step, at `alpha` of it.
-template <class T>
-T row_slope(IslandRowsT<T>& rows, const T& alpha) {
-    T s = 0;
-    for_each_bounded(rows,
-                     [&](BoundedRowT<T>& row) { s += impulse_at(row, row.u + alpha * row.du) * row.du; });
-    for_each_disc(rows, [&](FrictionDiscT<T>& disc) {
-        if (disc.coefficient == 0) return;
-        const TangentialT<T> t =
-            impulse_at(disc, disc.u_1 + alpha * disc.du_1, disc.u_2 + alpha * disc.du_2, disc.bound);
-        s += t.t1 * disc.du_1 + t.t2 * disc.du_2;
-    });
-    return s;
+T may_lack(const T& residual) {
+    return smaller(T(0.3), T(30) * residual);
 }
 
 }  // namespace newton
@@ -155,13 +71,14 @@ class Newton {
 
   protected:
     void times_mass(const SolveProblem<T>& p, const std::vector<T>& x, std::vector<T>& y) const;
-    Mask find_step(const SolveProblem<T>& p, bool coupled);
+    Mask find_step(const SolveProblem<T>& p, bool coupled, const T& lack = 0);
     void move(const SolveProblem<T>& p, const T& alpha, std::vector<T>& v);
     void move_some(const SolveProblem<T>& p, const Mask& some, std::vector<T>& v);
     T balance(const SolveProblem<T>& p);
     T gradient(const SolveProblem<T>& p);
     T slope() const;
     T take_step(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v);
+    T slope_beyond(const SolveProblem<T>& p, const T& way);
     T line_search(const SolveProblem<T>& p, Lockstep<T>& together, const T& at_start, const T& at_end);
     void measure_from_targets(const SolveProblem<T>& p);
     void keep_start(const SolveProblem<T>& p, const std::vector<T>& v);
@@ -183,8 +100,10 @@ class Newton {
     std::vector<T> g_;        // gradient
     std::vector<T> applied_;  // impulses of all rows on each degree of freedom
     std::vector<T> step_, m_step_;
+    std::vector<T> lightness_;           // 1 / M's diagonal
     std::vector<T> v_start_, mv_start_;  // where an attempt began
-    std::vector<T> u_start_;             // floats: velocities along all rows there
+    Bends<T> bends_;
+    std::vector<T> u_start_;  // floats: velocities along all rows there
 };
 
 template <class T, class Matrix>
@@ -201,6 +120,10 @@ template <class T, class Matrix>
 void Newton<T, Matrix>::start(const SolveProblem<T>& p, const std::vector<T>& v) {
     n_ = v.size();
     for (auto* buffer : {&mv_, &g_, &applied_, &step_, &m_step_}) buffer->resize(n_);
+    lightness_.clear();
+    for (const Mechanics<T>* robot : p.robots)
+        for (std::size_t k = 0; k < robot->type->paths.size(); ++k)
+            lightness_.push_back(T(1) / robot->mass_matrix[robot->type->paths.diagonal(k)]);
     hessian_.start(p.robots, p.offsets, p.rows, n_);
     times_mass(p, v, mv_);
     set_steps(p.rows, v);
@@ -239,9 +162,8 @@ T Newton<T, Matrix>::gradient(const SolveProblem<T>& p) {
             const std::size_t i = static_cast<std::size_t>(p.offsets[r]) + k;
             const T& free = robot.impulse[k];
             g_[i] = mv_[i] - free - applied_[i];
-            const T& m = robot.mass_matrix[robot.type->paths.diagonal(k)];
-            error += g_[i] * g_[i] / m;
-            scale += (mv_[i] * mv_[i] + free * free + applied_[i] * applied_[i]) / m;
+            error += g_[i] * g_[i] * lightness_[i];
+            scale += (mv_[i] * mv_[i] + free * free + applied_[i] * applied_[i]) * lightness_[i];
         }
     }
     const Mask finite = equal(error - error, T(0));
@@ -260,7 +182,7 @@ T Newton<T, Matrix>::slope() const {
 /// there.
 template <class T, class Matrix>
 T Newton<T, Matrix>::take_step(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v) {
-    constexpr double kGoodEnough = 0.1;  // of the slope at the start may be left
+    constexpr double kGoodEnough = 0.3;  // of the slope at the start may be left
     const T at_start = slope();
     move(p, 1.0, v);
     const T residual = balance(p);
@@ -270,31 +192,36 @@ T Newton<T, Matrix>::take_step(const SolveProblem<T>& p, Lockstep<T>& together, 
     return balance(p);
 }
 
-/// Exact minimum along the step, as its distance from the step's end, where we are: the root of the
+/// The potential's derivative along the step, `way` steps beyond its end.
+template <class T, class Matrix>
+T Newton<T, Matrix>::slope_beyond(const SolveProblem<T>& p, const T& way) {
+    T s = 0;
+    for (std::size_t r = 0; r < p.robots.size(); ++r) {
+        for (std::size_t k = 0; k < static_cast<std::size_t>(p.robots[r]->type->nv); ++k) {
+            const std::size_t i = static_cast<std::size_t>(p.offsets[r]) + k;
+            s += step_[i] * (mv_[i] + way * m_step_[i] - p.robots[r]->impulse[k]);
+        }
+    }
+    return s - newton::row_slope(p.rows, way);
+}
+
+/// Minimum along the step, as its distance from the step's end, where we are: the root of the
 /// derivative, which is monotone.
 template <class T, class Matrix>
 T Newton<T, Matrix>::line_search(const SolveProblem<T>& p, Lockstep<T>& together, const T& at_start,
                                  const T& at_end) {
-    T slope0 = 0, quadratic = 0;  // of the smooth part
-    for (std::size_t r = 0; r < p.robots.size(); ++r) {
-        for (std::size_t k = 0; k < static_cast<std::size_t>(p.robots[r]->type->nv); ++k) {
-            const std::size_t i = static_cast<std::size_t>(p.offsets[r]) + k;
-            slope0 += step_[i] * (mv_[i] - p.robots[r]->impulse[k]);
-            quadratic += step_[i] * m_step_[i];
-        }
-    }
-    const auto slope_at = [&](const T& way) {
-        return slope0 + way * quadratic - newton::row_slope(p.rows, way);
-    };
     T low = -1, high = 0, s_low = at_start, s_high = at_end;
-    for (int i = 0; i < 20 && together(s_high < T(0)); ++i)
-        low = high, s_low = s_high, high = T(2) * high + T(1), s_high = slope_at(high);
+    for (int i = 0; i < 20 && together(s_high < T(0)); ++i) {
+        low = high, s_low = s_high, high = T(2) * high + T(1);
+        s_high = slope_beyond(p, high);
+    }
+    bends_.find(p.rows, low, high, s_low, s_high);
     int side = 0;  // of the last point: -1 below the root
     for (int i = 0; i < 60;
          ++i) {  // regula falsi with the Illinois rule; each third time a bisection, for the kinks are sharp
         const T share = i % 3 == 2 ? T(0.5) : s_low / (s_low - s_high);
         const T way = low + (high - low) * share;
-        const T s = slope_at(way);
+        const T s = bends_.slope(way);
         if (together(magnitude(s) <= -0.05 * at_start)) return way;
         if (together(s < T(0))) {
             low = way, s_low = s;
@@ -331,10 +258,10 @@ void Newton<T, Matrix>::move_some(const SolveProblem<T>& p, const Mask& some, st
     for_each_disc(p.rows, [&](FrictionDiscT<T>& disc) { go(disc.u_1, disc.du_1), go(disc.u_2, disc.du_2); });
 }
 
-/// step = -H^-1 g with the rows' present curvatures, and what follows from it.
+/// step = -H^-1 g with the rows' present curvatures (`lack`: may_lack), and what follows from it.
 template <class T, class Matrix>
-MaskOf<T> Newton<T, Matrix>::find_step(const SolveProblem<T>& p, bool coupled) {
-    hessian_.assemble(p.rows, coupled);
+MaskOf<T> Newton<T, Matrix>::find_step(const SolveProblem<T>& p, bool coupled, const T& lack) {
+    hessian_.assemble(p.rows, coupled, lack);
     for (std::size_t i = 0; i < n_; ++i) step_[i] = -g_[i];
     const Mask good = hessian_.solve(step_);
     if (!any(good)) return good;
@@ -364,7 +291,7 @@ bool Newton<T, Matrix>::solve_coupled(const SolveProblem<T>& p, Lockstep<T>& tog
         newton::set_curvatures(p.rows);
         const Mask slides = friction::couple_bounds(p.rows);
         const bool coupled = together.without(there, slides);
-        if (!together(there | find_step(p, coupled))) break;
+        if (!together(there | find_step(p, coupled, newton::may_lack(report.residual)))) break;
         move_some(p, !there, v);
         report.iterations += select(there, T(0), T(1));
     }
@@ -454,7 +381,7 @@ MaskOf<T> Newton<T, Matrix>::solve(const SolveProblem<T>& p, Lockstep<T>& togeth
         if (together(report.residual > T(kFar))) ++far;
         if (far > far_max || i == p.accuracy.newton_max) return report.residual <= T(newton::kRoughly);
         newton::set_curvatures(p.rows);
-        find_step(p, false);
+        find_step(p, false, newton::may_lack(report.residual));
         report.residual = take_step(p, together, v);
         report.iterations += T(1);
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "core/pair.h"
 #include "physics/rows.h"
 
 namespace roboss {
@@ -84,23 +85,76 @@ struct Along {
     T n{}, t1{}, t2{};
 };
 
+/// y += columns * a, of `count` columns with dofs one by one.
 template <class T>
-Along<T> along(const ContactColumnsT<T>& columns, std::size_t first, std::size_t last,
-               const std::vector<T>& x) {
-    Along<T> sum;
-    for (std::size_t c = first; c < last; ++c) {
-        const T& xi = x[static_cast<std::size_t>(columns.dof[c])];
-        sum.n += columns.n[c] * xi, sum.t1 += columns.t1[c] * xi, sum.t2 += columns.t2[c] * xi;
+[[gnu::always_inline]] inline void add_run(const T* n, const T* t1, const T* t2, const Along<T>& a,
+                                           std::size_t count, T* y) {
+    for (std::size_t k = 0; k < count; ++k) y[k] += n[k] * a.n + t1[k] * a.t1 + t2[k] * a.t2;
+}
+[[gnu::always_inline]] inline void add_run(const double* n, const double* t1, const double* t2,
+                                           const Along<double>& a, std::size_t count, double* y) {
+    const auto sum = [&](std::size_t k) {
+        return pair_at(n + k) * both(a.n) + pair_at(t1 + k) * both(a.t1) + pair_at(t2 + k) * both(a.t2);
+    };
+    if (count == 6) {  // a free base, mostly
+        pair_at(y) += sum(0), pair_at(y + 2) += sum(2), pair_at(y + 4) += sum(4);
+        return;
     }
-    return sum;
+    for (std::size_t k = 0; k + 1 < count; k += 2) pair_at(y + k) += sum(k);
+    const std::size_t k = count - 1;
+    if (count % 2 != 0) y[k] += n[k] * a.n + t1[k] * a.t1 + t2[k] * a.t2;
+}
+
+inline void add_run(const double* n, double a, std::size_t count, double* y) {
+    for (std::size_t k = 0; k + 1 < count; k += 2) pair_at(y + k) += pair_at(n + k) * both(a);
+    if (count % 2 != 0) y[count - 1] += n[count - 1] * a;
+}
+
+/// Sums of even columns and of odd ones, which do not wait for each other. Lanes hold both twice.
+template <class T>
+struct Halves {
+    T even{}, odd{};
+    void add(const T* row, const T* x, std::size_t k) { even += row[k] * x[k], odd += row[k + 1] * x[k + 1]; }
+    void add_one(const T& part) { even += part; }
+    T sum() const { return even + odd; }
+};
+template <>
+struct Halves<double> {
+    Pair halves{};
+    void add(const double* row, const double* x, std::size_t k) {
+        halves += pair_at(row + k) * pair_at(x + k);
+    }
+    void add_one(double part) { halves[0] += part; }
+    double sum() const { return halves[0] + halves[1]; }
+};
+
+template <class T>
+[[gnu::always_inline]] inline Along<T> along(const ContactColumnsT<T>& columns, std::size_t first,
+                                             std::size_t last, const std::vector<T>& x) {
+    Halves<T> n, t1, t2;
+    for (std::size_t c = first; c < last;) {
+        const T* xs = x.data() + columns.dof[c];
+        const T *cn = columns.n.data() + c, *c1 = columns.t1.data() + c, *c2 = columns.t2.data() + c;
+        if (columns.base[c]) {
+            for (std::size_t k = 0; k < 6; k += 2) n.add(cn, xs, k), t1.add(c1, xs, k), t2.add(c2, xs, k);
+            c += 6;
+        } else {
+            n.add_one(*cn * *xs), t1.add_one(*c1 * *xs), t2.add_one(*c2 * *xs);
+            ++c;
+        }
+    }
+    return {n.sum(), t1.sum(), t2.sum()};
 }
 
 template <class T>
-void add(const ContactColumnsT<T>& columns, std::size_t first, std::size_t last, const Along<T>& impulse,
-         std::vector<T>& y) {
-    for (std::size_t c = first; c < last; ++c)
-        y[static_cast<std::size_t>(columns.dof[c])] +=
-            columns.n[c] * impulse.n + columns.t1[c] * impulse.t1 + columns.t2[c] * impulse.t2;
+[[gnu::always_inline]] inline void add(const ContactColumnsT<T>& columns, std::size_t first, std::size_t last,
+                                       const Along<T>& impulse, std::vector<T>& y) {
+    for (std::size_t c = first; c < last;) {
+        const std::size_t count = columns.base[c] ? 6 : 1;
+        add_run(columns.n.data() + c, columns.t1.data() + c, columns.t2.data() + c, impulse, count,
+                y.data() + columns.dof[c]);
+        c += count;
+    }
 }
 
 }  // namespace jacobian

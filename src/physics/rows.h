@@ -91,7 +91,8 @@ using CouplingRow = CouplingRowT<double>;
 /// ascend along A's path, then along B's.
 template <class T>
 struct ContactColumnsT {
-    std::vector<int> dof;  // in the contact island
+    std::vector<int> dof;    // in the contact island
+    std::vector<char> base;  // whether it and the next five are those of a free base, with dofs one by one
     std::vector<T> n, t1, t2;
 
     std::size_t size() const { return count_; }
@@ -100,7 +101,7 @@ struct ContactColumnsT {
         count_ += more;
         if (count_ <= dof.size()) return;
         const std::size_t room = 2 * count_;
-        dof.resize(room), n.resize(room), t1.resize(room), t2.resize(room);
+        dof.resize(room), base.resize(room), n.resize(room), t1.resize(room), t2.resize(room);
     }
     void clear() { count_ = 0; }
     /// Columns from `middle` on into those of [first, middle), ascending, one a degree of freedom: a robot in
@@ -167,7 +168,7 @@ void add_angular_row(const Model& model, const Contact& contact, std::span<const
 
 template <class T>
 void ContactColumnsT<T>::merge(std::size_t first, std::size_t middle) {
-    const auto for_each = [&](auto&& f) { f(dof), f(n), f(t1), f(t2); };
+    const auto for_each = [&](auto&& f) { f(dof), f(base), f(n), f(t1), f(t2); };
     const auto place = [](auto& x, std::size_t at) { return x.begin() + static_cast<std::ptrdiff_t>(at); };
     for (std::size_t c = middle; c < size();) {
         const auto found = std::lower_bound(place(dof, first), place(dof, middle), dof[c]);

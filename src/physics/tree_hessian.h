@@ -51,8 +51,9 @@ class TreeHessian {
     }
 
     /// Takes the rows' curvatures, as far as they changed; with `coupled` also those of friction bounds that
-    /// move with the normal impulse, which make the matrix unsymmetric.
-    void assemble(IslandRowsT<T>& rows, bool coupled) {
+    /// move with the normal impulse, which make the matrix unsymmetric. Nothing is left out: here it would
+    /// spare little.
+    void assemble(IslandRowsT<T>& rows, bool coupled, const T& /*lack*/) {
         coupled_ = coupled;
         for (JointRowT<T>& row : rows.joints) {
             const T change = row.d - row.d_held;
