@@ -68,15 +68,17 @@ class Reader {
         std::uint32_t n = 0;
         scalar(n);
         if (n > (bytes_.size() - at_) / bytes_each) fail("a count is larger than the bytes that follow");
-        return failure_.empty() ? n : 0;
+        return failed() ? 0 : n;
     }
     void raw(void* data, std::size_t n) {
         if (take(n) && n > 0) std::memcpy(data, bytes_.data() + at_ - n, n);
     }
     void fail(const char* what) {
-        if (failure_.empty()) failure_ = what;
+        if (failed_) return;
+        failed_ = true;
+        failure_ = what;
     }
-    bool failed() const { return !failure_.empty(); }
+    bool failed() const { return failed_; }
     const std::string& failure() const { return failure_; }
     std::size_t left() const { return bytes_.size() - at_; }
 
@@ -90,6 +92,7 @@ class Reader {
 
     std::span<const std::uint8_t> bytes_;
     std::size_t at_ = 0;
+    bool failed_ = false;  // asked at every field
     std::string failure_;
 };
 

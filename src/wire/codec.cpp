@@ -13,8 +13,18 @@ namespace {
 /// Types whose memory is their encoding, so that a vector of them is copied at once.
 template <class T>
 constexpr bool kPlain =
-    std::is_same_v<T, std::uint8_t> || std::is_same_v<T, std::uint32_t> || std::is_same_v<T, RobotId>;
-static_assert(sizeof(RobotId) == 4);
+    std::is_same_v<T, std::uint8_t> || std::is_same_v<T, std::uint32_t> || std::is_same_v<T, RobotId> ||
+    std::is_same_v<T, RobotFrame> || std::is_same_v<T, EarlierBox>;
+static_assert(sizeof(RobotId) == 4 && sizeof(RobotFrame) == 48 && sizeof(EarlierBox) == 28);
+static_assert(std::is_trivially_copyable_v<RobotFrame> && std::is_trivially_copyable_v<EarlierBox>);
+
+/// What an item takes at least, so that room is made for many of them at once.
+template <class T>
+constexpr std::size_t kLeastBytes = 1;
+template <>
+constexpr std::size_t kLeastBytes<Order> = 25;
+template <>
+constexpr std::size_t kLeastBytes<IslandFrame> = 4;
 
 template <class A, class... Fields>
 void fields(A& a, Fields&... values);
@@ -31,7 +41,6 @@ void field(Reader& a, std::variant<T...>& value);
 // clang-format off
 template <class A> void field(A& a, Of<A, Vec3>& m) { fields(a, m.x, m.y, m.z); }
 template <class A> void field(A& a, Of<A, Quat>& m) { fields(a, m.w, m.x, m.y, m.z); }
-template <class A> void field(A& a, Of<A, Box32>& m) { fields(a, m.min, m.max); }
 template <class A> void field(A& a, Of<A, Address>& m) { fields(a, m.role, m.instance); }
 template <class A> void field(A& a, Of<A, StateBlock>& m) { fields(a, m.tick, m.robots, m.sizes, m.bytes); }
 template <class A> void field(A& a, Of<A, Holding>& m) { fields(a, m.source, m.robots); }
@@ -56,8 +65,6 @@ template <class A> void field(A& a, Of<A, Plan>& m) {
            m.keep, m.release_before);
 }
 template <class A> void field(A& a, Of<A, OrdersAhead>& m) { fields(a, m.window, m.simulator, m.orders); }
-template <class A> void field(A& a, Of<A, RobotFrame>& m) { fields(a, m.robot, m.swept, m.place, m.velocity, m.hash); }
-template <class A> void field(A& a, Of<A, EarlierBox>& m) { fields(a, m.robot, m.swept); }
 template <class A> void field(A& a, Of<A, IslandFrame>& m) {
     compact(a, m.cost_ns);
     compact(a, m.contacts);
@@ -118,7 +125,8 @@ void field(Reader& a, std::vector<T>& values) {
         values.resize(a.count(sizeof(T)));
         a.raw(values.data(), values.size() * sizeof(T));
     } else {
-        const std::size_t n = a.count(1);
+        const std::size_t n = a.count(kLeastBytes<T>);
+        if (kLeastBytes < T >> 1) values.reserve(n);
         for (std::size_t i = 0; i < n && !a.failed(); ++i) field(a, values.emplace_back());
     }
 }
