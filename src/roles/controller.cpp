@@ -52,11 +52,11 @@ void Controller::advance(Bus& bus) {
     for (Envelope& envelope : inbox_) handle(bus, envelope);
     notice_losses(bus);
     notice_client_losses(bus);
-    pull_.advance(bus, kControllerAddress, options_.resend_ms);
     if (round_ && round_->all_answered()) finish_round();
     if (!round_) serve_views(bus);
     if (!round_) at_boundary(bus);
     if (round_) send_plans(bus);
+    tend_checkpoint(bus);
     acknowledge(bus);
     send_observations(bus, std::exchange(tell_again_, false));
     say_alive(bus);

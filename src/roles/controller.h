@@ -258,6 +258,7 @@ class Controller {
     void say_alive(Bus& bus);
     void give_up(std::uint32_t place, const std::string& why);
     void begin_checkpoint();
+    void tend_checkpoint(Bus& bus);
     void finish_checkpoint();
     bool checkpoint_due() const;
 

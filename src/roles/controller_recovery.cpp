@@ -32,17 +32,27 @@ bool Controller::checkpoint_due() const {
     return by_ticks || (options_.checkpoint_work_s > 0 && work_since_s_ >= options_.checkpoint_work_s);
 }
 
+/// Only says which states are wanted, for plans wait for it; tend_checkpoint() fetches them.
 void Controller::begin_checkpoint() {
     if (next_base_) return;
     states_wanted_ = false;
     if (base_.tick == tick_ || anything_lost()) return;
     next_base_.emplace();
     next_base_->tick = tick_;
-    next_base_->states = std::make_shared<std::vector<RobotState>>(model_->robots.size());
-    next_base_->touched.reset(model_->robots.size());
     want_at_this_tick().checkpoint = true;
-    pull_.begin(*model_, tick_, holdings_of(holder_, roster_));
     work_since_s_ = 0;
+}
+
+/// What nobody waits for, in the time in which Simulators step. A recovery steps from the checkpoint that it
+/// began with.
+void Controller::tend_checkpoint(Bus& bus) {
+    if (next_base_ && !next_base_->states) {  // begun in this turn: holder_ is still that of its tick
+        next_base_->states = std::make_shared<std::vector<RobotState>>(model_->robots.size());
+        next_base_->touched.reset(model_->robots.size());
+        pull_.begin(*model_, next_base_->tick, holdings_of(holder_, roster_));
+    }
+    pull_.advance(bus, kControllerAddress, options_.resend_ms);
+    if (pull_.complete() && round_ && !round_->span().recovery) finish_checkpoint();
 }
 
 void Controller::finish_checkpoint() {

@@ -56,7 +56,6 @@ Simulator::Simulator(std::shared_ptr<const Model> model, const Address& self, co
 
 void Simulator::advance(Bus& bus) {
     if (gone_) return;
-    for (Envelope& envelope : std::exchange(later_, {})) handle(bus, envelope);
     bus.drain(self_, inbox_);
     for (Envelope& envelope : inbox_) handle(bus, envelope);
     keep_in_touch(bus);
@@ -65,6 +64,19 @@ void Simulator::advance(Bus& bus) {
     answer_ = stepper_.step(*plan_, store_, [&] { attend(bus); });
     plan_.reset();
     bus.send(self_, kControllerAddress, *answer_);
+    catch_up(bus);
+}
+
+/// What could wait until the frame was on its way, for which everybody waits.
+void Simulator::catch_up(Bus& bus) {
+    keep_wanted();
+    for (Envelope& envelope : std::exchange(later_, {})) handle(bus, envelope);
+}
+
+/// The slots still have these states: no other plan was adopted since.
+void Simulator::keep_wanted() {
+    store_.keep(to_keep_.robots, to_keep_.tick);
+    to_keep_.robots.clear();
 }
 
 void Simulator::handle(Bus& bus, Envelope& envelope) {
@@ -160,7 +172,8 @@ void Simulator::give(Bus& bus, const Plan& plan) const {
 
 void Simulator::adopt(Bus& bus, Plan& plan) {
     give(bus, plan);
-    store_.keep(plan.keep, plan.from);
+    keep_wanted();
+    to_keep_ = {plan.from, std::move(plan.keep)};
     store_.release_before(plan.release_before);
     std::vector<bool> comes(model_->robots.size(), false);
     for (const Holding& holding : plan.hand_offs)
@@ -217,6 +230,7 @@ void Simulator::start_over() {
     answer_.reset();
     pull_.cancel();
     early_.clear();
+    to_keep_.robots.clear();
     store_.clear();
     asked_ms_ = kLongAgo;
 }

@@ -58,6 +58,8 @@ class Simulator {
     void attend(Bus& bus);
     void serve(Bus& bus, const Address& from, const StateRequest& request) const;
     void show(Bus& bus, const ViewDue& due);
+    void catch_up(Bus& bus);
+    void keep_wanted();
     void keep_in_touch(Bus& bus);
     void say_alive(Bus& bus);
     void start_over();
@@ -75,6 +77,7 @@ class Simulator {
     std::optional<Plan> plan_;   // being worked on
     std::optional<Plan> unfed_;  // waits for the orders that were told ahead of it
     std::optional<OrdersAhead> ahead_;
+    StateRequest to_keep_;           // of the plan: copied when there is time, before another is adopted
     StatePull pull_;                 // of its hand-offs
     std::vector<StateReply> early_;  // that came before the plan that speaks of them
     std::vector<Envelope> later_;    // came while it was stepping
