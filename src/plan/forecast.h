@@ -9,6 +9,7 @@
 
 #include "model/order.h"
 #include "physics/step.h"
+#include "plan/box_grid.h"
 #include "plan/sweep.h"
 
 namespace roboss {
@@ -41,14 +42,26 @@ class Forecast {
     void islands(std::span<const RobotMotion> motions, std::span<const Order> orders, Tick ticks,
                  const ForecastOptions& options, Islands& out);
 
+    /// Ahead of islands(), which then has less to do: motions will come one by one, for a window that will
+    /// probably have so many ticks. What came before is forgotten.
+    void expect(std::size_t robots, Tick ticks, const ForecastOptions& options);
+    void add(RobotId robot, const RobotMotion& motion);
+    void forget() { expected_ticks_ = 0; }
+
   private:
     void predict(std::span<const RobotMotion> motions, double span_s, double reach_scale);
     void predict_orders(std::span<const Order> orders, double span_s);
+    bool was_ahead(std::span<const Order> orders, Tick ticks);
 
     std::shared_ptr<const Model> model_;
     std::vector<OwnedBox> boxes_;
     UnionFind sets_;
     Sweep sweep_;
+    // ahead of islands()
+    BoxGrid grid_;
+    Tick expected_ticks_ = 0;  // 0: none
+    std::size_t missing_ = 0;  // robots
+    double reach_scale_ = 1;
 };
 
 }  // namespace roboss

@@ -5,7 +5,9 @@
 #include <random>
 
 #include "plan/assign.h"
+#include "plan/box_grid.h"
 #include "plan/sweep.h"
+#include "plan/touch_watch.h"
 #include "plan/window_length.h"
 
 namespace roboss {
@@ -43,7 +45,47 @@ TEST(Sweep, FindsExactlyTheSetsOfOverlappingBoxes) {
             Sweep().unite_overlapping(boxes, found);
             for (std::uint32_t i = 0; i < n; ++i)
                 ASSERT_EQ(found.find(i), expected.find(i)) << n << " boxes, robot " << i;
+
+            BoxGrid grid;
+            grid.reset(boxes);
+            found.reset(n);
+            for (const OwnedBox& box : boxes) grid.add(box, found);
+            EXPECT_EQ(grid.overwhelmed(), n == 0) << n << " boxes of size " << size;
+            for (std::uint32_t i = 0; i < n && !grid.overwhelmed(); ++i)
+                ASSERT_EQ(found.find(i), expected.find(i)) << n << " boxes in a grid, robot " << i;
         }
+}
+
+TEST(BoxGrid, SaysSoWhenAllLieOnEachOther) {
+    std::mt19937_64 random(5);
+    const std::vector<OwnedBox> boxes = random_boxes(random, 1000, 1, 8);
+    BoxGrid grid;
+    UnionFind sets;
+    sets.reset(1000);
+    grid.reset(boxes);
+    for (const OwnedBox& box : boxes) grid.add(box, sets);
+    EXPECT_TRUE(grid.overwhelmed());
+}
+
+TEST(TouchWatch, KnowsThatAllKeptApartOnceAllHaveCome) {
+    const auto box = [](float x) { return Box32{{x, 0, 0}, {x + 1, 1, 1}}; };
+    const Islands islands{{0, 2, 3}, {RobotId(0u), RobotId(2u), RobotId(1u)}};
+    TouchWatch watch;
+    const auto all_apart = [&](float second) {
+        watch.begin(islands);
+        watch.add({box(0), 0}, true);
+        watch.add({box(0.5f), 2}, true);
+        watch.add({box(90), 1}, false);  // before it was put elsewhere
+        EXPECT_FALSE(watch.all_apart()) << "one is missing";
+        watch.add({box(second), 1}, true);
+        return watch.all_apart();
+    };
+    EXPECT_FALSE(all_apart(5)) << "how large boxes are is not known yet";
+    EXPECT_TRUE(all_apart(5));
+    EXPECT_FALSE(all_apart(0.5f));
+    EXPECT_TRUE(all_apart(5));
+    watch.stop();
+    EXPECT_FALSE(watch.all_apart());
 }
 
 TEST(Sweep, CountsTouchingAsOverlapping) {

@@ -45,15 +45,16 @@ bool ClientDesk::all_joined() const {
     return std::all_of(seats_.begin(), seats_.end(), [](const ClientSeat& s) { return s.joined; });
 }
 
-Tick ClientDesk::limit(Tick tick) const {
+Tick ClientDesk::limit(Tick tick, bool all_answered) const {
     Tick limit = std::numeric_limits<Tick>::max();
     for (const ClientSeat& seat : seats_) {
         if (!seat.serves()) continue;
-        if (seat.synchronous && seat.last_word < seat.word_awaited) return tick;
+        if (!all_answered && seat.synchronous && seat.last_word < seat.word_awaited) return tick;
         const Tick next = std::max(next_multiple(tick + 1, seat.period), seat.first);
         if (next > tick) limit = std::min(limit, next);
         if (!seat.synchronous) continue;
-        const Tick open = seat.unanswered.empty() ? next : seat.unanswered.front();
+        Tick open = seat.unanswered.empty() ? next : seat.unanswered.front();
+        if (all_answered) open = observes(seat, tick) ? tick : next;
         limit = std::min(limit, open + seat.latency);
     }
     return limit;

@@ -51,8 +51,8 @@ class ClientDesk {
     }
     /// The furthest tick to which the world may be planned from `tick`: not beyond the next observation, nor
     /// beyond what a synchronous Client that has not answered yet may still order. May be `tick` itself:
-    /// wait.
-    Tick limit(Tick tick) const;
+    /// wait. `all_answered`: what it will be once every observation before `tick` is answered.
+    Tick limit(Tick tick, bool all_answered = false) const;
 
   private:
     std::vector<ClientSeat> seats_;

@@ -16,6 +16,7 @@
 #include "bus/state_pull.h"
 #include "journal/run_log.h"
 #include "plan/forecast.h"
+#include "plan/touch_watch.h"
 #include "plan/window_length.h"
 #include "roles/client_desk.h"
 #include "roles/control_desk.h"
@@ -237,6 +238,9 @@ class Controller {
     bool may_plan() const;
     void plan_window();
     void keep_wanted(Round& round) const;
+    Tick window_end(Tick from, Tick length, bool all_answered = false) const;
+    void look_ahead();
+    double largest_share() const;
     void send_plans(Bus& bus);
     void take_frame(const Frame& frame);
     void finish_round();
@@ -264,7 +268,7 @@ class Controller {
 
     // controller_log.cpp
     void begin_log_checkpoint();
-    Tick next_log_tick() const;
+    Tick next_log_tick(Tick from) const;
     void log_window(Tick until);
     void log_commit();
     bool let_leavers_go(Bus& bus);
@@ -298,6 +302,7 @@ class Controller {
     std::vector<float> cost_;                          // by RobotId: ns a tick on the mean Simulator
     bool costs_known_ = false;                         // measured, not guessed
     Forecast forecast_;
+    TouchWatch watch_;
     WindowLength length_;
     Islands islands_;  // of the last window committed
 

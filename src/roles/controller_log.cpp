@@ -36,9 +36,9 @@ bool Controller::waits_for_log() const {
 }
 
 /// Windows end at the multiples, so that every run of a world has its checkpoints at the same ticks.
-Tick Controller::next_log_tick() const {
+Tick Controller::next_log_tick(Tick from) const {
     if (options_.log == nullptr || options_.log_ticks <= 0) return std::numeric_limits<Tick>::max();
-    return (tick_ / options_.log_ticks + 1) * options_.log_ticks;
+    return (from / options_.log_ticks + 1) * options_.log_ticks;
 }
 
 /// A checkpoint for the log at a multiple of log_ticks. One for which the log has no room yet is left out.

@@ -62,9 +62,13 @@ bool Controller::may_plan() const {
     return tick_ < target_ && !roster_.workers().empty() && desk_.limit(tick_) > tick_;
 }
 
+Tick Controller::window_end(Tick from, Tick length, bool all_answered) const {
+    length = std::min(length, views_.window_max().value_or(length));
+    return std::min({from + length, target_, desk_.limit(from, all_answered), next_log_tick(from)});
+}
+
 void Controller::plan_window() {
-    const Tick length = std::min(length_.ticks(), views_.window_max().value_or(length_.ticks()));
-    const Tick until = std::min({tick_ + length, target_, desk_.limit(tick_), next_log_tick()});
+    const Tick until = window_end(tick_, length_.ticks());
     round_.emplace(RoundSpan{epoch_, ++window_, tick_, until, false}, model_->robots.size());
     forecast_.islands(motions_, feed_.leaps(book_, tick_, until), until - tick_, options_.forecast,
                       round_->islands);
@@ -95,22 +99,46 @@ void Controller::send_plans(Bus& bus) {
     round_->send(bus, roster_, options_.resend_ms, [this](Plan& plan) { give_all(book_, plan); });
     const RoundSpan& span = round_->span();
     if (span.recovery || feed_.sent_in(span.window)) return;
+    look_ahead();
     counters_.orders_ahead +=
         feed_.send_ahead(bus, book_, *round_, roster_, span.until + length_.ticks(), options_.ahead_least);
+}
+
+/// Where frames come from now on, they are compared with each other, and the window after theirs is forecast,
+/// for the length that it will have if nothing is to be repeated and Clients have answered.
+void Controller::look_ahead() {
+    const RoundSpan& span = round_->span();
+    WindowLength next = length_;
+    next.committed(span.until - span.from, false, largest_share());
+    watch_.begin(round_->islands);
+    const Tick until = window_end(span.until, next.ticks(), true);
+    forecast_.expect(model_->robots.size(), std::max<Tick>(until - span.until, 0), options_.forecast);
+}
+
+/// Of the world, as a share of what one worker should have.
+double Controller::largest_share() const {
+    return static_cast<double>(round_->islands.largest()) * roster_.threads() /
+           static_cast<double>(std::max<std::size_t>(model_->robots.size(), 1));
 }
 
 void Controller::take_frame(const Frame& frame) {
     if (!round_) return;
     const std::optional<Plan> plan = round_->answered_by(frame);
     if (!plan) return;
-    const bool plan_is_recovery = round_->span().recovery;
+    const bool plan_is_recovery = round_->span().recovery,
+               first = !plan_is_recovery && round_->attempt() == 0;
     const auto span_s = static_cast<float>(static_cast<double>(plan->until - plan->from) * model_->dt_s);
     for (const RobotFrame& f : frame.robots) {
-        if (!plan_is_recovery)
-            motions_[f.robot.index()] = {f.swept, unpack_place(f.place, f.swept), unpack_velocity(f.velocity),
-                                         span_s};
         next_hashes_[f.robot.index()] = f.hash;
+        if (plan_is_recovery) continue;
+        RobotMotion& motion = motions_[f.robot.index()];
+        motion = {f.swept, unpack_place(f.place, f.swept), unpack_velocity(f.velocity), span_s};
+        if (!first) continue;
+        watch_.add({f.swept, f.robot.value}, true);
+        forecast_.add(f.robot, motion);
     }
+    if (first)
+        for (const EarlierBox& e : frame.earlier) watch_.add({e.swept, e.robot.value}, false);
     std::uint64_t cost_ns = 0;
     for (std::size_t i = 0; i < frame.islands.size(); ++i) {
         round_->outcome[plan->robots[plan->island_offsets[i]].index()] = frame.islands[i];
@@ -134,6 +162,8 @@ void Controller::finish_round() {
 }
 
 bool Controller::merge_touching() {
+    if (watch_.all_apart()) return false;
+    watch_.stop();
     const std::size_t n = model_->robots.size();
     const Islands& before = round_->islands;
     std::vector<std::size_t> size_before(n, 0);  // by root
@@ -148,6 +178,7 @@ bool Controller::merge_touching() {
     for (const EarlierBox& e : round_->earlier) boxes_.push_back({e.swept, e.robot.value});
     if (sweep_.unite_overlapping(boxes_, sets_) == 0) return false;
 
+    forecast_.forget();
     Islands all, again;
     collect_islands(sets_, all);
     std::vector<bool> stepped_again(n, false);
@@ -198,9 +229,7 @@ void Controller::commit() {
         counters_.contacts += round.outcome[robots.front().index()].contacts;
         counters_.static_contacts += round.outcome[robots.front().index()].static_contacts;
     }
-    const double share = static_cast<double>(round.islands.largest()) * roster_.threads() /
-                         static_cast<double>(std::max<std::size_t>(model_->robots.size(), 1));
-    length_.committed(ticks, round.attempt() > 0, share);
+    length_.committed(ticks, round.attempt() > 0, largest_share());
     ++counters_.windows;
     counters_.windows_repeated += round.attempt() > 0 ? 1 : 0;
     counters_.islands += round.islands.count();

@@ -19,6 +19,7 @@ class OrderBook {
     /// Calls visit(order) for those with from <= apply_at < until, canonical order.
     template <class Visit>
     void visit(Tick from, Tick until, Visit&& visit) {
+        if (from >= until) return;
         settle();
         for (auto e = first_at(from); e != entries_.end() && e->order.apply_at < until; ++e) visit(e->order);
     }

@@ -28,10 +28,10 @@ Round::Round(const RoundSpan& span, std::size_t robots)
     : outcome(robots), span_(span), seat_(robots, kLost) {}
 
 Plan& Round::plan_for(std::uint32_t place) {
-    const auto here =
-        std::find_if(sent_.begin(), sent_.end(), [place](const Sent& s) { return s.place == place; });
-    if (here != sent_.end()) return here->plan;
+    if (plan_of_seat_.size() <= place) plan_of_seat_.resize(place + std::size_t{1}, nullptr);
+    if (plan_of_seat_[place] != nullptr) return *plan_of_seat_[place];
     Sent& sent = sent_.emplace_back();
+    plan_of_seat_[place] = &sent.plan;
     sent.place = place;
     sent.plan.epoch = span_.epoch;
     sent.plan.window = span_.window;
@@ -49,6 +49,15 @@ void Round::plan(const Islands& part, std::span<const std::uint32_t> place,
     std::vector<std::uint32_t> from(source.begin(),
                                     source.end());  // `source` may be seats(), which change below
     in_attempt_.assign(seat_.size(), false);
+    plan_of_seat_.assign(roster.size(), nullptr);
+    std::vector<std::size_t> robots(roster.size(), 0);
+    for (std::size_t i = 0; i < part.count(); ++i) robots[place[i]] += part.size_of(i);
+    for (std::uint32_t seat = 0; seat < robots.size(); ++seat) {
+        if (robots[seat] == 0) continue;
+        Plan& plan = plan_for(seat);
+        plan.robots.reserve(robots[seat]);
+        plan.island_offsets.reserve(robots[seat] + 1);
+    }
     for (std::size_t i = 0; i < part.count(); ++i) {
         Plan& plan = plan_for(place[i]);
         for (const RobotId robot : part.of(i)) {
@@ -65,8 +74,6 @@ void Round::plan(const Islands& part, std::span<const std::uint32_t> place,
         }
         plan.island_offsets.push_back(static_cast<std::uint32_t>(plan.robots.size()));
     }
-    plan_of_seat_.assign(roster.size(), nullptr);
-    for (Sent& sent : sent_) plan_of_seat_[sent.place] = &sent.plan;
 }
 
 void Round::give(const Order& order) {
@@ -100,6 +107,7 @@ void Round::send_dearest_first(std::span<const float> cost) {
     std::deque<Sent> sorted;
     for (const auto& [work_before, i] : order) sorted.push_back(std::move(sent_[i]));
     sent_ = std::move(sorted);
+    for (Sent& sent : sent_) plan_of_seat_[sent.place] = &sent.plan;
 }
 
 void Round::send(Bus& bus, const Roster& roster, std::int64_t resend_ms,

@@ -74,7 +74,7 @@ class Round {
     std::deque<Sent> sent_;            // so that a plan stays where it is while others are added
     std::vector<std::uint32_t> seat_;  // by RobotId
     std::vector<bool> in_attempt_;     // by RobotId
-    std::vector<Plan*> plan_of_seat_;  // of this attempt
+    std::vector<Plan*> plan_of_seat_;  // of this attempt; null: has none
 };
 
 }  // namespace roboss
