@@ -70,6 +70,7 @@ void Simulator::advance(Bus& bus) {
 /// What could wait until the frame was on its way, for which everybody waits.
 void Simulator::catch_up(Bus& bus) {
     keep_wanted();
+    for (const RobotFrame& robot : answer_->robots) store_.copy_ahead(robot.robot);
     for (Envelope& envelope : std::exchange(later_, {})) handle(bus, envelope);
 }
 

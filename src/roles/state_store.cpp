@@ -10,7 +10,7 @@ void StateStore::put(RobotId robot, Tick tick, RobotState&& state) {
     Slot& slot = slots_[robot.index()];
     slot.start = std::move(state);
     slot.start_tick = tick;
-    slot.end_tick = kNone;
+    slot.end_tick = slot.ahead_tick = kNone;
 }
 
 bool StateStore::start(RobotId robot, Tick tick) {
@@ -25,9 +25,19 @@ bool StateStore::start(RobotId robot, Tick tick) {
 
 RobotState& StateStore::begin_window(RobotId robot, Tick until) {
     Slot& slot = slots_[robot.index()];
-    slot.end = slot.start;
+    if (slot.ahead_tick == slot.start_tick)
+        std::swap(slot.end, slot.ahead);
+    else
+        slot.end = slot.start;
+    slot.ahead_tick = kNone;
     slot.end_tick = until;
     return slot.end;
+}
+
+void StateStore::copy_ahead(RobotId robot) {
+    Slot& slot = slots_[robot.index()];
+    slot.ahead = slot.end;
+    slot.ahead_tick = slot.end_tick;
 }
 
 const RobotState* StateStore::find(RobotId robot, Tick tick) const {

@@ -1,6 +1,7 @@
-// A Simulator's states: of each robot that at the window's start and that at its end, and copies that were
-// kept because somebody still wants an earlier tick. A state is found by (robot, tick), never by "the current
-// one", so late and doubled requests get the right bits or nothing.
+// A Simulator's states: of each robot that at the window's start and that at its end (and a second copy of
+// it, to be stepped on in the next), and copies that were kept because somebody still wants an earlier tick.
+// A state is found by (robot, tick), never by "the current one", so late and doubled requests get the right
+// bits or nothing.
 #pragma once
 
 #include <memory>
@@ -24,6 +25,8 @@ class StateStore {
     /// The state to step on: a copy of the start, which becomes the state at `until`.
     RobotState& begin_window(RobotId robot, Tick until);
     const RobotState& end_of(RobotId robot) const { return slots_[robot.index()].end; }
+    /// begin_window()'s copy for the next window, made while there is time.
+    void copy_ahead(RobotId robot);
 
     /// Copies these robots' states at `tick`, to be found after the slots have moved on.
     void keep(std::span<const RobotId> robots, Tick tick);
@@ -37,8 +40,8 @@ class StateStore {
   private:
     static constexpr Tick kNone = -1;
     struct Slot {
-        Tick start_tick = kNone, end_tick = kNone;
-        RobotState start, end;
+        Tick start_tick = kNone, end_tick = kNone, ahead_tick = kNone;
+        RobotState start, end, ahead;
     };
 
     std::vector<Slot> slots_;
