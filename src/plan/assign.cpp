@@ -29,8 +29,11 @@ std::uint32_t home_of(const AssignRequest& r, std::size_t island, std::vector<do
 /// When each Simulator would be done with what it was given so far.
 class Clocks {
   public:
-    explicit Clocks(std::span<const double> speed) : done_(speed.size(), 0.0) {
-        for (const double s : speed) per_cost_.push_back(1 / s);
+    explicit Clocks(const AssignRequest& r) {
+        for (const double speed : r.speed) {
+            done_.push_back(r.told_apart * static_cast<double>(per_cost_.size()));
+            per_cost_.push_back(1 / speed);
+        }
     }
     double with(std::uint32_t at, double cost) const { return done_[at] + cost * per_cost_[at]; }
     void give(std::uint32_t at, double cost) { done_[at] = with(at, cost); }
@@ -70,7 +73,7 @@ std::vector<std::uint32_t> dearest_first(std::span<const float> cost) {
 /// When all could be done if moving were free.
 double done_if_free(const AssignRequest& r, std::span<const float> cost,
                     std::span<const std::uint32_t> order) {
-    Clocks clocks(r.speed);
+    Clocks clocks(r);
     for (const std::uint32_t island : order) {
         const auto c = static_cast<double>(cost[island]);
         clocks.give(clocks.soonest(c), c);
@@ -97,9 +100,9 @@ std::vector<std::uint32_t> assign(const AssignRequest& r) {
 
     // Nobody moves as long as staying is not much worse than moving, measurements being what they are: an
     // island stays at home while home would be done with it in time, else it goes where it is soonest done.
-    constexpr double kLittle = 0.01;
+    constexpr double kLittle = 0.003;
     const double in_time = (1 + kLittle) * done_if_free(r, cost, order) + r.patience;
-    Clocks clocks(r.speed);
+    Clocks clocks(r);
     for (const std::uint32_t island : order) {
         const auto c = static_cast<double>(cost[island]);
         std::uint32_t& at = place[island];

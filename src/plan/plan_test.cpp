@@ -136,6 +136,19 @@ TEST(Assign, BalancesByCostAndSpeed) {
     EXPECT_NEAR(load[2], 45, 5);
 }
 
+TEST(Assign, GivesMostToWhoIsToldFirst) {
+    Islands islands{{0}, {}};
+    for (std::uint32_t i = 0; i < 30; ++i) {
+        islands.robots.emplace_back(i);
+        islands.offsets.push_back(i + 1);
+    }
+    const std::vector<float> cost(30, 1.0f);
+    const std::vector<std::uint32_t> nowhere(30, kNowhere);
+    const auto place = assign({islands, cost, nowhere, std::vector<double>{1, 1, 1}, 0, 5});
+    for (const std::uint32_t s : {0u, 1u, 2u})
+        EXPECT_EQ(std::count(place.begin(), place.end(), s), 15 - 5 * s);
+}
+
 TEST(Assign, MovesNobodyWhileStayingIsNearlyAsGood) {
     const Islands islands = single_islands(40);
     std::vector<std::uint32_t> here(40);

@@ -9,6 +9,10 @@
 
 namespace roboss {
 
+namespace {
+constexpr float kGuessed_ns = 400;  // of a tick, for a degree of freedom, until it is measured
+}
+
 StartingPoint beginning_of(const Model& model) {
     StartingPoint start;
     for (std::size_t i = 0; i < model.robots.size(); ++i)
@@ -37,7 +41,7 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
     for (std::size_t i = 0; i < n; ++i) {
         hashes_.push_back(state_hash(RobotId(i), tick_, start.states[i]));
         motions_.push_back(motion_of(*model_, RobotId(i), start.states[i]));
-        cost_.push_back(static_cast<float>(4 + model_->type_of(RobotId(i)).nv));
+        cost_.push_back(kGuessed_ns * static_cast<float>(4 + model_->type_of(RobotId(i)).nv));
     }
     next_hashes_ = hashes_;
     holder_.assign(n, kAtController);

@@ -14,8 +14,9 @@ constexpr float kNewCostShare = 0.3f;  // of a window's measurement in a robot's
 constexpr double kNewRateShare = 0.03;
 constexpr double kNewSpentShare = 0.1;
 // What it costs a Simulator to have a robot's state sent, and the ticks within which that has to be regained.
-constexpr double kMove_ns = 100'000;
+constexpr double kMove_ns = 50'000;
 constexpr Tick kMovePays = 64;
+constexpr double kTell_ns = 30'000;  // what it takes the Controller to send one plan
 
 std::vector<double> speeds_of(const Roster& roster, std::span<const std::uint32_t> workers) {
     std::vector<double> speeds;
@@ -34,7 +35,8 @@ std::vector<std::uint32_t> assign_to_seats(const Islands& islands, std::span<con
         if (holder[r] < roster.size()) place[r] = index_of[holder[r]];
     const std::vector<double> speeds = speeds_of(roster, workers);
     std::vector<std::uint32_t> result =
-        assign({islands, cost, place, speeds, kMove_ns / static_cast<double>(std::max(ticks, kMovePays))});
+        assign({islands, cost, place, speeds, kMove_ns / static_cast<double>(std::max(ticks, kMovePays)),
+                kTell_ns / static_cast<double>(ticks)});
     for (std::uint32_t& seat : result) seat = workers[seat];
     return result;
 }
