@@ -6,6 +6,7 @@
 
 #include "plan/assign.h"
 #include "plan/box_grid.h"
+#include "plan/forecast.h"
 #include "plan/sweep.h"
 #include "plan/touch_watch.h"
 #include "plan/window_length.h"
@@ -86,6 +87,30 @@ TEST(TouchWatch, KnowsThatAllKeptApartOnceAllHaveCome) {
     EXPECT_TRUE(all_apart(5));
     watch.stop();
     EXPECT_FALSE(watch.all_apart());
+}
+
+TEST(Forecast, FindsTheSameIslandsAheadAndAfterwards) {
+    std::mt19937_64 random(6);
+    const auto model = std::make_shared<const Model>();
+    Forecast ahead(model), afterwards(model);
+    std::uniform_real_distribution<float> velocity(-3, 3);
+    for (int window = 0; window < 20; ++window) {
+        std::vector<RobotMotion> motions;
+        for (const OwnedBox& b : random_boxes(random, 500, 30, 1)) {
+            motions.push_back({b.box, b.box.min, {velocity(random), velocity(random), 0}, 0.064f});
+        }
+        Islands found, expected;
+        ahead.expect(motions.size(), 64, {});
+        for (std::size_t i = motions.size(); i-- > 0;)
+            if (window != 3 || i != 7) ahead.add(RobotId(i), motions[i]);  // one was lost
+        const Tick ticks = window == 5 ? 32 : 64;                          // another window than expected
+        ahead.islands(motions, {}, ticks, {}, found);
+        afterwards.islands(motions, {}, ticks, {}, expected);
+        EXPECT_EQ(found.offsets, expected.offsets) << "window " << window;
+        EXPECT_EQ(found.robots, expected.robots) << "window " << window;
+        EXPECT_GT(found.count(), 10u);
+        EXPECT_LT(found.count(), 500u);
+    }
 }
 
 TEST(Sweep, CountsTouchingAsOverlapping) {
