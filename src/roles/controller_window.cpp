@@ -14,7 +14,7 @@ constexpr float kNewCostShare = 0.3f;  // of a window's measurement in a robot's
 constexpr double kNewRateShare = 0.03;
 constexpr double kNewSpentShare = 0.1;
 // What it costs a Simulator to have a robot's state sent, and the ticks within which that has to be regained.
-constexpr double kMove_ns = 50'000;
+constexpr double kMove_ns = 100'000;
 constexpr Tick kMovePays = 64;
 constexpr double kTell_ns = 30'000;  // what it takes the Controller to send one plan
 
