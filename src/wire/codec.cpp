@@ -125,8 +125,9 @@ void field(Reader& a, std::vector<T>& values) {
         values.resize(a.count(sizeof(T)));
         a.raw(values.data(), values.size() * sizeof(T));
     } else {
-        const std::size_t n = a.count(kLeastBytes<T>);
-        if (kLeastBytes < T >> 1) values.reserve(n);
+        constexpr std::size_t least = kLeastBytes<T>;
+        const std::size_t n = a.count(least);
+        if (least > 1) values.reserve(n);
         for (std::size_t i = 0; i < n && !a.failed(); ++i) field(a, values.emplace_back());
     }
 }
