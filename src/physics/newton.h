@@ -353,7 +353,7 @@ MaskOf<T> Newton<T, Matrix>::solve(const SolveProblem<T>& p, Lockstep<T>& togeth
     // Each such step turns an edge or two of the potential. A few robots with motors and limits get there in
     // the end; in a heap of bodies there is always another edge (decision 0003).
     constexpr std::size_t kFew = 8;
-    const int far_max = p.robots.size() <= kFew && !p.rows.joints.empty() ? 40 : 16;
+    const int far_max = p.robots.size() <= kFew && !p.rows.joints.empty() ? 60 : 16;
     constexpr int kCoupledTries = 3;
     int far = 0, bound_updates = 0, stalls = 0, coupled_tries = 0;
     bool settled = p.position;  // the friction bounds
