@@ -69,6 +69,7 @@ Json measure(const Work& work, std::size_t simulators, const ClusterSettings& se
             {"ceiling", one_island ? 1 / n : packing_ceiling(work.model->robots.size(), simulators)},
             {"stepping", share(work.step_cpu_s, n * since(&Counters::critical_cpu_s))},
             {"everything", share(work.step_cpu_s, n * time_s)},
+            {"dearer", share(since(&Counters::step_cpu_s), work.step_cpu_s)},
             {"speedup", share(work.process_cpu_s, time_s)},
             {"step_us", 1e6 * time_s / ticks},
             {"window_ticks", share(ticks, windows)},
@@ -105,17 +106,17 @@ Json detach(const Work& work, std::size_t simulators, Tick every, const ClusterS
 }
 
 std::string line_of(const Json& row) {
-    char text[400];
+    char text[500];
     const auto number = [&](const char* name) { return row[name].get<double>(); };
     std::snprintf(text, sizeof text,
                   "%-18s %5.0f robots, %2.0f Simulators: efficiency ceiling %.3f, stepping %.3f, everything "
-                  "%.3f; speed-up %.2f; %.1f us a step; "
+                  "%.3f, a step %.3f times as dear as in one process; speed-up %.2f; %.1f us a step; "
                   "windows of %.1f ticks, %.3f repeated; Controller %.0f us a window, %.1f bytes a robot to "
                   "it; %.1f moves",
                   row["world"].get<std::string>().c_str(), number("robots"), number("simulators"),
-                  number("ceiling"), number("stepping"), number("everything"), number("speedup"),
-                  number("step_us"), number("window_ticks"), number("repeated"), number("controller_us"),
-                  number("frame_bytes"), number("migrations"));
+                  number("ceiling"), number("stepping"), number("everything"), number("dearer"),
+                  number("speedup"), number("step_us"), number("window_ticks"), number("repeated"),
+                  number("controller_us"), number("frame_bytes"), number("migrations"));
     return text;
 }
 
