@@ -2,18 +2,20 @@
 // compilers leave one by one. Each of the two gets the bits that it would get alone.
 #pragma once
 
-#include <cstddef>
+#include <cstring>
 
 namespace roboss {
 
-/// At any address of doubles.
-using Pair [[gnu::vector_size(16), gnu::aligned(8), gnu::may_alias]] = double;
+using Pair [[gnu::vector_size(16)]] = double;
 
-inline Pair& pair_at(double* x) {
-    return *reinterpret_cast<Pair*>(x);
+/// At any address of doubles.
+inline Pair pair_at(const double* x) {
+    Pair pair;
+    std::memcpy(&pair, x, sizeof pair);
+    return pair;
 }
-inline const Pair& pair_at(const double* x) {
-    return *reinterpret_cast<const Pair*>(x);
+inline void put(double* x, const Pair& pair) {
+    std::memcpy(x, &pair, sizeof pair);
 }
 inline Pair both(double x) {
     return Pair{x, x};

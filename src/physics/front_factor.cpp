@@ -11,7 +11,7 @@ namespace {
 /// row -= f * pivot, from `from` or one before it.
 void subtract(double* row, const double* pivot, double f, std::size_t from, std::size_t stride) {
     for (std::size_t j = from & ~std::size_t{1}; j < stride; j += 2)
-        pair_at(row + j) -= both(f) * pair_at(pivot + j);
+        put(row + j, pair_at(row + j) - both(f) * pair_at(pivot + j));
 }
 
 }  // namespace

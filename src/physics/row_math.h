@@ -97,16 +97,16 @@ template <class T>
         return pair_at(n + k) * both(a.n) + pair_at(t1 + k) * both(a.t1) + pair_at(t2 + k) * both(a.t2);
     };
     if (count == 6) {  // a free base, mostly
-        pair_at(y) += sum(0), pair_at(y + 2) += sum(2), pair_at(y + 4) += sum(4);
+        for (std::size_t k = 0; k < 6; k += 2) put(y + k, pair_at(y + k) + sum(k));
         return;
     }
-    for (std::size_t k = 0; k + 1 < count; k += 2) pair_at(y + k) += sum(k);
+    for (std::size_t k = 0; k + 1 < count; k += 2) put(y + k, pair_at(y + k) + sum(k));
     const std::size_t k = count - 1;
     if (count % 2 != 0) y[k] += n[k] * a.n + t1[k] * a.t1 + t2[k] * a.t2;
 }
 
 inline void add_run(const double* n, double a, std::size_t count, double* y) {
-    for (std::size_t k = 0; k + 1 < count; k += 2) pair_at(y + k) += pair_at(n + k) * both(a);
+    for (std::size_t k = 0; k + 1 < count; k += 2) put(y + k, pair_at(y + k) + pair_at(n + k) * both(a));
     if (count % 2 != 0) y[count - 1] += n[count - 1] * a;
 }
 
