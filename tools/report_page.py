@@ -24,8 +24,9 @@ def svg_head(width, height):
             f'<rect class="bg" width="{width}" height="{height}"/>']
 
 
-def legend_places(names, left, sign, letter=6.9, gap=14):
-    """x of each entry of a legend in one row: a sign so wide, 5 apart from its name, of letters so wide."""
+def legend_places(names, left, sign):
+    """x of each entry of a legend in one row: a sign so wide, 5 apart from its name."""
+    letter, gap = 6.9, 14
     places = []
     for name in names:
         places.append(round(left))

@@ -33,7 +33,8 @@ class ConvexSum {
     ConvexSum moved(const Vec3& by) const;           // the first shape moved
     Separation separation(const Vec3& n) const { return {n, dot(n, centre_) - reach(n)}; }
 
-    /// The best of the directions in which flat facets of the sum can look (and some round ones).
+    /// The best of the directions in which flat facets of the sum can look (and some round ones), or the
+    /// first that separates by more than `enough`.
     Separation best_natural(double enough) const;
 
     /// Improves a nearby maximum to rounding: all combinations of features close to start.n, each by Newton's

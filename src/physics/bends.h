@@ -29,14 +29,6 @@ class Bends {
     using Bounded = BoundedRowT<T>;
     using Disc = FrictionDiscT<T>;
 
-    static T force(const Bounded& row, const T& way) {
-        return impulse_at(row, row.u + way * row.du) * row.du;
-    }
-    static TangentialT<T> impulse(const Disc& disc, const T& way) {
-        return impulse_at(disc, disc.u_1 + way * disc.du_1, disc.u_2 + way * disc.du_2, disc.bound);
-    }
-    static T force(const Disc& disc, const TangentialT<T>& t) { return t.t1 * disc.du_1 + t.t2 * disc.du_2; }
-    static T force(const Disc& disc, const T& way) { return force(disc, impulse(disc, way)); }
     static Mask bends(const Bounded& row, const T& low, const T& high);
     static Mask bends(const Disc& disc, const TangentialT<T>& low, const TangentialT<T>& high);
 
@@ -77,15 +69,15 @@ void Bends<T>::find(IslandRowsT<T>& rows, const T& low, const T& high, const T& 
         const Mask here = bends(row, low, high);
         if (!any(here)) return;
         bounded_.push_back({&row, here});
-        take_out(here, force(row, low), force(row, high));
+        take_out(here, force_along(row, low), force_along(row, high));
     });
     for_each_disc(rows, [&](Disc& disc) {
         if (disc.coefficient == 0) return;
-        const TangentialT<T> t_low = impulse(disc, low), t_high = impulse(disc, high);
+        const TangentialT<T> t_low = impulse_along(disc, low), t_high = impulse_along(disc, high);
         const Mask here = bends(disc, t_low, t_high);
         if (!any(here)) return;
         discs_.push_back({&disc, here});
-        take_out(here, force(disc, t_low), force(disc, t_high));
+        take_out(here, force_of(disc, t_low), force_of(disc, t_high));
     });
     low_ = low, at_low_ = at_low, rise_ = (at_high - at_low) / (high - low);
 }
@@ -93,8 +85,8 @@ void Bends<T>::find(IslandRowsT<T>& rows, const T& low, const T& high, const T& 
 template <class T>
 T Bends<T>::slope(const T& way) const {
     T sum = at_low_ + (way - low_) * rise_;
-    for (const Bent<Bounded>& bent : bounded_) sum -= select(bent.here, force(*bent.row, way), T(0));
-    for (const Bent<Disc>& bent : discs_) sum -= select(bent.here, force(*bent.row, way), T(0));
+    for (const Bent<Bounded>& bent : bounded_) sum -= select(bent.here, force_along(*bent.row, way), T(0));
+    for (const Bent<Disc>& bent : discs_) sum -= select(bent.here, force_along(*bent.row, way), T(0));
     return sum;
 }
 

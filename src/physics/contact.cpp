@@ -56,6 +56,12 @@ Contact& add_contact(const Pair& pair, const Vec3& normal, std::vector<Contact>&
     return contact;
 }
 
+/// What is the point's own: where it is, how deep, and what hangs on that.
+void set_place(const auto& point, const Material& a, const Material& b, Contact& contact) {
+    contact.p_W = point.p_W, contact.gap = point.gap, contact.feature = point.feature;
+    contact.torsional = torsional_lever(a, b, -contact.gap);
+}
+
 /// Points of a triangle surface, each with a normal of its own; all but the deepest are dropped.
 void add_points(std::vector<SurfaceContact>& points, const Pair& pair, const Placed& pa, const Placed& pb,
                 std::vector<Contact>& contacts) {
@@ -67,9 +73,8 @@ void add_points(std::vector<SurfaceContact>& points, const Pair& pair, const Pla
     }
     for (const SurfaceContact& point : points) {
         Contact& contact = add_contact(pair, point.n_W, contacts);
-        contact.p_W = point.p_W, contact.gap = point.gap, contact.feature = point.feature;
         combine(pa.material, pa.R_WS, pb.material, pb.R_WS, contact);
-        contact.torsional = torsional_lever(pa.material, pb.material, -contact.gap);
+        set_place(point, pa.material, pb.material, contact);
     }
 }
 
@@ -87,9 +92,7 @@ void add_points(const Manifold& manifold, const Pair& pair, const Placed& pa, co
         } else {
             contacts.push_back(Contact(contacts[first]));
         }
-        Contact& contact = contacts.back();
-        contact.p_W = point.p_W, contact.gap = point.gap, contact.feature = point.feature;
-        contact.torsional = torsional_lever(pa.material, pb.material, -contact.gap);
+        set_place(point, pa.material, pb.material, contacts.back());
     }
 }
 

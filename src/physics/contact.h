@@ -34,7 +34,8 @@ struct ContactT {
 };
 using Contact = ContactT<double>;
 
-/// What the materials of two shapes make of all contacts along contact.normal.
+/// What the materials of two shapes make of all contacts along contact.normal. Torsional friction hangs on
+/// the depth too, and is left out.
 void combine(const Material& a, const Mat3& R_WA, const Material& b, const Mat3& R_WB, Contact& contact);
 
 /// Finds all contacts of the island. `robots` ascending by id. Result sorted by (robot_a, other id, shapes,

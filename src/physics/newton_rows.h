@@ -92,13 +92,9 @@ MaskOf<T> expect_sticking(IslandRowsT<T>& rows) {
 template <class T>
 T row_slope(IslandRowsT<T>& rows, const T& alpha) {
     T s = 0;
-    for_each_bounded(rows,
-                     [&](BoundedRowT<T>& row) { s += impulse_at(row, row.u + alpha * row.du) * row.du; });
+    for_each_bounded(rows, [&](BoundedRowT<T>& row) { s += force_along(row, alpha); });
     for_each_disc(rows, [&](FrictionDiscT<T>& disc) {
-        if (disc.coefficient == 0) return;
-        const TangentialT<T> t =
-            impulse_at(disc, disc.u_1 + alpha * disc.du_1, disc.u_2 + alpha * disc.du_2, disc.bound);
-        s += t.t1 * disc.du_1 + t.t2 * disc.du_2;
+        if (disc.coefficient != 0) s += force_along(disc, alpha);
     });
     return s;
 }
