@@ -39,7 +39,8 @@ void add_options(CLI::App& app, Wishes& w) {
         ->capture_default_str();
     app.add_option("--detach", w.detach_s, "simulated seconds until a Simulator leaves; 0: none does")
         ->capture_default_str();
-    app.add_option("--window-max", w.settings.window_max, "ticks")->capture_default_str();
+    app.add_option("--window-max", w.settings.window_max, "ticks (0: by the number of robots)")
+        ->capture_default_str();
     app.add_option("--lanes", w.settings.lanes, "robots stepped at once")->capture_default_str();
     app.add_option("--send-us", w.send_us, "CPU time of sending a message (default: measured over Fast DDS)");
     app.add_option("--way-us", w.way_us, "its time on the way (default: measured)");
@@ -50,13 +51,6 @@ Json tell(Json row) {
     std::printf("%s\n", line_of(row).c_str());
     std::fflush(stdout);
     return row;
-}
-
-void tell_work(const Work& work) {
-    const auto ticks = static_cast<double>(work.ticks - work.settle);
-    std::printf("%s, %zu robots, %.1f s: in one process %.1f us a step, of it stepping %.1f\n",
-                work.name.c_str(), work.model->robots.size(), ticks * work.model->dt_s,
-                1e6 * work.process_cpu_s / ticks, 1e6 * work.step_cpu_s / ticks);
 }
 
 /// So many cars take minutes on each number of Simulators: the least, a middle one and the most must do.
@@ -70,20 +64,17 @@ void measure_cities(const Wishes& w, Json& rows) {
         const double seconds = std::max(1.0, w.seconds * 50 / static_cast<double>(cars));
         const Work work = record("city", city_file(cars), w.driver, kSettle,
                                  kSettle + static_cast<Tick>(seconds / kDt_s), w.settings.lanes);
-        tell_work(work);
         for (const std::size_t n : simulators_for(cars, w))
             rows.push_back(tell(measure(work, n, w.settings)));
         if (cars != w.cars.front()) continue;
-        const Work together = as_one_island(work, w.settings.lanes);
         for (const std::size_t n : {w.simulators.front(), w.simulators.back()})
-            rows.push_back(tell(measure(together, n, w.settings, true)));
+            rows.push_back(tell(measure(work, n, w.settings, true)));
     }
 }
 
 void measure_heap(const Wishes& w, Json& rows) {
     if (w.heap.empty()) return;
     const Work work = record("heap", w.heap, "", kSettle, 2 * kSettle, w.settings.lanes);
-    tell_work(work);
     for (const std::size_t n : {w.simulators.front(), w.simulators.back()})
         rows.push_back(tell(measure(work, n, w.settings)));
 }

@@ -12,7 +12,7 @@ using Json = nlohmann::ordered_json;
 
 struct ClusterSettings {
     NetworkCosts network;
-    Tick window_max = 64;
+    Tick window_max = 0;  // 0: by the number of robots
     std::size_t lanes = 1;
 };
 

@@ -1,4 +1,4 @@
-// Recording a run, and running it again in one process for its cost.
+// Recording a run, and running it again in one process.
 #include "cluster/work.h"
 
 #include <filesystem>
@@ -9,7 +9,6 @@
 #include "client/plugin.h"
 #include "core/thread_cpu.h"
 #include "sdf/load_world.h"
-#include "simulation/simulation.h"
 #include "take.h"
 
 namespace roboss::bench {
@@ -41,27 +40,6 @@ std::shared_ptr<const Model> load(const std::string& file) {
     return model;
 }
 
-/// Steps the work again without Clients, for its cost.
-void measure_in_one_process(Work& work, bool one_island, std::size_t lanes) {
-    SimulationOptions options;
-    options.lanes = lanes;
-    options.controller.seed = 7;
-    options.controller.forecast.merge_all = one_island;
-    SavedRun from;
-    from.states = beginning_of(*work.model).states;
-    from.orders = work.orders;
-    from.logged_until = work.ticks;
-    const auto again = take(Simulation::create(work.model, options, {}, &from));
-    take(again->run_until(work.settle));
-    const std::uint64_t begin_ns = thread_cpu_ns();
-    const double begin_s = again->counters().step_cpu_s;
-    take(again->run_until(work.ticks));
-    work.process_cpu_s = 1e-9 * static_cast<double>(thread_cpu_ns() - begin_ns);
-    work.step_cpu_s = again->counters().step_cpu_s - begin_s;
-    if (again->hash() != work.hash)
-        throw std::runtime_error(work.name + ": the recorded orders do not give the recorded run");
-}
-
 }  // namespace
 
 StartingPoint Work::start() const {
@@ -83,7 +61,7 @@ std::string city_file(std::size_t cars) {
 
 Work record(const std::string& name, const std::string& file, const std::string& driver, Tick settle,
             Tick ticks, std::size_t lanes) {
-    Work work{name, load(file), {}, settle, ticks, 0, 0, 0};
+    Work work{name, load(file), {}, settle, ticks, {}, 0};
     OrderRecorder recorder;
     SimulationOptions options;
     options.lanes = lanes;
@@ -92,18 +70,32 @@ Work record(const std::string& name, const std::string& file, const std::string&
     std::vector<NamedProgram> programs;
     if (!driver.empty()) programs.push_back({"driver", take(load_control_program(driver))});
     const auto recording = take(Simulation::create(work.model, options, std::move(programs)));
+    take(recording->run_until(settle));
+    work.settled = recording->states();
     take(recording->run_until(ticks));
     work.hash = recording->hash();
     work.orders = std::move(recorder.orders);
-
-    measure_in_one_process(work, false, lanes);
     return work;
 }
 
-Work as_one_island(Work work, std::size_t lanes) {
-    work.name += ", one island";
-    measure_in_one_process(work, true, lanes);
-    return work;
+OneProcess::OneProcess(const Work& work, std::size_t lanes, bool one_island) {
+    SimulationOptions options;
+    options.lanes = lanes;
+    options.controller.seed = 7;
+    options.controller.window = longest_window(work.model->robots.size(), 1);
+    options.controller.forecast.merge_all = one_island;
+    SavedRun from;
+    from.tick = work.settle;
+    from.states = work.settled;
+    from.orders = work.orders;
+    from.logged_until = work.ticks;
+    simulation_ = take(Simulation::create(work.model, options, {}, &from));
+}
+
+void OneProcess::run_until(Tick tick) {
+    const std::uint64_t begin_ns = thread_cpu_ns();
+    take(simulation_->run_until(tick));
+    cpu_s_ += 1e-9 * static_cast<double>(thread_cpu_ns() - begin_ns);
 }
 
 }  // namespace roboss::bench

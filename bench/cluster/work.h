@@ -1,6 +1,6 @@
 // The work of the cluster measurements: a world driven by the orders that its control program gave in a run
-// recorded before (Clients take no part in what is measured), with what that run cost in one process and
-// where it ended.
+// recorded before (Clients take no part in what is measured), with where that run ended; and the same in one
+// process, for its cost.
 #pragma once
 
 #include <memory>
@@ -10,6 +10,7 @@
 #include "journal/log_entries.h"
 #include "model/model.h"
 #include "roles/controller.h"
+#include "simulation/simulation.h"
 
 namespace roboss::bench {
 
@@ -17,10 +18,9 @@ struct Work {
     std::string name;
     std::shared_ptr<const Model> model;
     std::vector<SaidOrder> orders;
-    Tick settle = 0, ticks = 0;  // measured are the ticks between
-    std::uint64_t hash = 0;      // of the world after so many ticks
-    double step_cpu_s = 0;       // of the stepping alone
-    double process_cpu_s = 0;    // of the Controller and the Simulator in one process, without Clients
+    Tick settle = 0, ticks = 0;       // measured are the ticks between
+    std::vector<RobotState> settled;  // at `settle`
+    std::uint64_t hash = 0;           // of the world after so many ticks
 
     StartingPoint start() const;
 };
@@ -32,7 +32,22 @@ std::string city_file(std::size_t cars);
 /// program, or empty. Throws std::runtime_error.
 Work record(const std::string& name, const std::string& file, const std::string& driver, Tick settle,
             Tick ticks, std::size_t lanes);
-/// The same work with all robots in one island: other costs, the same result.
-Work as_one_island(Work work, std::size_t lanes);
+
+/// Work stepped in one process from `settle` on, without Clients. Its turns come between those of the cluster
+/// that it is compared with, for a machine is not equally fast all the time.
+class OneProcess {
+  public:
+    /// `one_island`: of all robots; the result is the same.
+    OneProcess(const Work& work, std::size_t lanes, bool one_island);
+
+    void run_until(Tick tick);
+    double step_cpu_s() const { return simulation_->counters().step_cpu_s; }  // of the stepping alone
+    double cpu_s() const { return cpu_s_; }  // of the Controller and the Simulator
+    std::uint64_t hash() const { return simulation_->hash(); }
+
+  private:
+    std::unique_ptr<Simulation> simulation_;
+    double cpu_s_ = 0;
+};
 
 }  // namespace roboss::bench

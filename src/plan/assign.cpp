@@ -26,6 +26,8 @@ std::uint32_t home_of(const AssignRequest& r, std::size_t island, std::vector<do
     return home;
 }
 
+constexpr double kLittle = 0.003;  // later is as good, measurements being what they are
+
 /// When each Simulator would be done with what it was given so far.
 class Clocks {
   public:
@@ -70,15 +72,25 @@ std::vector<std::uint32_t> dearest_first(std::span<const float> cost) {
     return order;
 }
 
-/// When all could be done if moving were free.
-double done_if_free(const AssignRequest& r, std::span<const float> cost,
-                    std::span<const std::uint32_t> order) {
+struct Attempt {
+    std::vector<std::uint32_t> place;  // by island
+    double done = 0;                   // by everybody, moves counted
+};
+
+/// An island stays at home while home would be done with it in time, else it goes where it is soonest done.
+Attempt attempt(const AssignRequest& r, std::span<const float> cost, std::span<const std::uint32_t> home,
+                std::span<const std::uint32_t> order, double in_time) {
+    Attempt result{{home.begin(), home.end()}, 0};
     Clocks clocks(r);
     for (const std::uint32_t island : order) {
-        const auto c = static_cast<double>(cost[island]);
-        clocks.give(clocks.soonest(c), c);
+        auto c = static_cast<double>(cost[island]);
+        std::uint32_t& at = result.place[island];
+        if (at == kNowhere || clocks.with(at, c) > in_time) at = clocks.soonest(c);
+        if (home[island] != kNowhere && at != home[island]) c += r.move;
+        clocks.give(at, c);
     }
-    return clocks.last();
+    result.done = clocks.last();
+    return result;
 }
 
 }  // namespace
@@ -89,27 +101,26 @@ std::vector<std::uint32_t> assign(const AssignRequest& r) {
     if (r.speed.size() == 1) return std::vector<std::uint32_t>(count, 0);
     std::vector<double> weight(r.speed.size(), 0.0);
     std::vector<float> cost(count);
-    std::vector<std::uint32_t> place(count);
+    std::vector<std::uint32_t> home(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         double sum = 0;
         for (const RobotId robot : r.islands.of(i)) sum += static_cast<double>(r.robot_cost[robot.index()]);
         cost[i] = static_cast<float>(sum);
-        place[i] = home_of(r, i, weight);
+        home[i] = home_of(r, i, weight);
     }
     const std::vector<std::uint32_t> order = dearest_first(cost);
 
-    // Nobody moves as long as staying is not much worse than moving, measurements being what they are: an
-    // island stays at home while home would be done with it in time, else it goes where it is soonest done.
-    constexpr double kLittle = 0.003;
-    const double in_time = (1 + kLittle) * done_if_free(r, cost, order) + r.patience;
-    Clocks clocks(r);
-    for (const std::uint32_t island : order) {
-        const auto c = static_cast<double>(cost[island]);
-        std::uint32_t& at = place[island];
-        if (at == kNowhere || clocks.with(at, c) > in_time) at = clocks.soonest(c);
-        clocks.give(at, c);
+    AssignRequest free = r;
+    free.move = 0;
+    constexpr double kNobodyStays = 0;
+    const double soonest = attempt(free, cost, home, order, kNobodyStays).done;
+    // The more patience, the fewer moves.
+    Attempt best;
+    for (const double moves : {1.0, 0.5, 0.25, 0.0}) {
+        Attempt next = attempt(r, cost, home, order, (1 + kLittle) * soonest + moves * r.move);
+        if (best.place.empty() || next.done < best.done) best = std::move(next);
     }
-    return place;
+    return std::move(best.place);
 }
 
 }  // namespace roboss

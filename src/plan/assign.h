@@ -1,7 +1,8 @@
 // Assignment of islands to Simulators: the dearest island first, each to the Simulator that would be done
 // with it first (longest processing time, Graham 1969), by measured cost and measured speed; but an island
 // stays where most of it is as long as that Simulator's share allows, because moving a robot costs a
-// hand-off. Simulators are told one after the other; who is told first can be given most.
+// hand-off: of several allowances the one is taken with which all are done first. Simulators are told one
+// after the other; who is told first can be given most.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,7 @@ struct AssignRequest {
     std::span<const std::uint32_t>
         robot_place;                // by RobotId: index of the Simulator that has it, or kNowhere
     std::span<const double> speed;  // by Simulator index: work a second, relative; > 0
-    double patience = 0;            // how much later all may be done than they could be, to avoid moves
+    double move = 0;                // work that it costs a Simulator to be sent an island
     double told_apart = 0;          // how much later a Simulator can begin than the one before it
 };
 

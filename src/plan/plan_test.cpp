@@ -187,37 +187,59 @@ TEST(Assign, MovesOnlyWhatIsTooMuch) {
     const Islands islands = single_islands(40);
     const std::vector<std::uint32_t> here(40, 0);
     const std::vector<float> cost(40, 1.0f);
-    const auto place = assign({islands, cost, here, std::vector<double>{1, 1}, 2});
+    const auto place = assign({islands, cost, here, std::vector<double>{1, 1}, 0.1});
     const auto moved = std::count(place.begin(), place.end(), 1u);
     EXPECT_GE(moved, 18);
     EXPECT_LE(moved, 20);
 }
 
+TEST(Assign, MovesWhatIsWorthIt) {
+    const Islands islands = single_islands(4);
+    const std::vector<std::uint32_t> here{0, 0, 0, 1};
+    const std::vector<float> cost{3.0f, 2.0f, 1.0f, 3.0f};
+    const auto with_price = [&](double move) {
+        return assign({islands, cost, here, std::vector<double>{1, 1}, move});
+    };
+    EXPECT_EQ(with_price(0.5), (std::vector<std::uint32_t>{0, 0, 1, 1})) << "5 is sooner than 6";
+    EXPECT_EQ(with_price(3), here) << "7 is later";
+}
+
 TEST(WindowLength, IsLongForAHeapThatShortWindowsDoNotPartAndLooksNowAndThen) {
-    WindowLength length(0, 64);
+    WindowLength length(0);
     int shortest = 0;
     for (int i = 0; i < 400; ++i) {
         if (i >= 100) shortest += length.ticks() == 4 ? 1 : 0;
-        length.committed(length.ticks(), false, 12);
+        length.committed(length.ticks(), false, 12, 64);
     }
-    EXPECT_EQ(length.ticks(), 64);
+    EXPECT_EQ(length.ticks(), 128) << "nothing parts it";
     EXPECT_GE(shortest, 5);
     EXPECT_LE(shortest, 12);
     for (int i = 0; i < 64; ++i)  // from now on short windows show it parted, long ones do not
-        length.committed(length.ticks(), false, length.ticks() > 8 ? 12 : 0.5);
+        length.committed(length.ticks(), false, length.ticks() > 8 ? 12 : 0.5, 64);
     EXPECT_LE(length.ticks(), 16);
 }
 
+TEST(WindowLength, IsLongerForFewRobotsAWorker) {
+    EXPECT_EQ(longest_window(50, 1), 256);
+    EXPECT_EQ(longest_window(50, 2), 128) << "forecasts over more make islands too large for a half";
+    EXPECT_EQ(longest_window(2000, 1), 64);
+    EXPECT_EQ(longest_window(2000, 6), 96);
+    EXPECT_EQ(longest_window(2000, 12), 128);
+    EXPECT_EQ(longest_window(0, 0), 256);
+}
+
 TEST(WindowLength, GrowsWhenCalmAndShrinksWhenRepeated) {
-    WindowLength length(0, 64);
-    for (int i = 0; i < 100; ++i) length.committed(length.ticks(), false, 0.1);
-    EXPECT_EQ(length.ticks(), 64);
-    length.committed(64, true, 0.1);
+    WindowLength length(0);
+    for (int i = 0; i < 3; ++i) length.committed(length.ticks(), false, 0.1, 64);
+    EXPECT_EQ(length.ticks(), 64) << "in haste at the beginning";
+    length.committed(64, true, 0.1, 64);
     EXPECT_EQ(length.ticks(), 32);
-    for (int i = 0; i < 20; ++i) length.committed(length.ticks(), true, 0.1);
+    for (int i = 0; i < 4; ++i) length.committed(length.ticks(), false, 0.1, 64);
+    EXPECT_EQ(length.ticks(), 40) << "with care after a repeat";
+    for (int i = 0; i < 20; ++i) length.committed(length.ticks(), true, 0.1, 64);
     EXPECT_EQ(length.ticks(), 1);
-    WindowLength fixed(16, 64);
-    fixed.committed(16, true, 5);
+    WindowLength fixed(16);
+    fixed.committed(16, true, 5, 64);
     EXPECT_EQ(fixed.ticks(), 16);
 }
 

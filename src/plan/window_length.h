@@ -11,11 +11,19 @@
 
 namespace roboss {
 
+/// What few robots do in a window is soon done, and then a plan and its frame would weigh most: 64 ticks for
+/// many robots, up to 128 for few, and 256 where there is one worker, so that no island can be too large.
+/// `workers`: threads that step, of all Simulators.
+inline Tick longest_window(std::size_t robots, std::size_t workers) {
+    const std::size_t robots_each = robots / std::max<std::size_t>(workers, 1);
+    const Tick wanted = 32'000 / static_cast<Tick>(std::max<std::size_t>(robots_each, 1));
+    return std::clamp<Tick>(wanted, 64, workers > 1 ? 128 : 256);
+}
+
 class WindowLength {
   public:
-    /// `fixed` 0: adapt within 1 .. `longest`.
-    WindowLength(Tick fixed, Tick longest)
-        : fixed_(fixed), longest_(longest), ticks_(std::min<Tick>(8, longest)) {}
+    /// `fixed` 0: adapt.
+    explicit WindowLength(Tick fixed) : fixed_(fixed) {}
 
     Tick ticks() const {
         if (fixed_ > 0) return fixed_;
@@ -23,8 +31,9 @@ class WindowLength {
     }
 
     /// A window of `ticks` was committed: whether islands had to be merged and repeated, and how much of the
-    /// world the largest island was, as a share of what one worker should have (1: just even).
-    void committed(Tick ticks, bool repeated, double largest_share) {
+    /// world the largest island was, as a share of what one worker should have (1: just even). The next ones
+    /// have at most `longest` ticks, twice as many for a heap that nothing parts.
+    void committed(Tick ticks, bool repeated, double largest_share, Tick longest) {
         const bool probed = std::exchange(probing_, false);
         if (largest_share <= 1) {
             if (probed) ticks_ = kShort;  // it does fall apart
@@ -32,15 +41,15 @@ class WindowLength {
         }
         if (repeated) {
             ticks_ = std::max<Tick>(1, std::min(ticks_, ticks) / 2);
-            calm_ = 0;
+            calm_ = 0, in_haste_ = false;
         } else if (largest_share <= 1 || one_heap_) {
-            grow_when_calm();
+            grow_when_calm(one_heap_ ? 2 * longest : longest);
             probing_ = one_heap_ && ++since_probe_ % kProbeEvery == 0;
         } else if (ticks_ > kShort) {
             ticks_ = std::max(kShort, ticks_ - ticks_ / 4);  // it may fall apart when looked at for less long
             calm_ = 0;
         } else {
-            one_heap_ = ++short_windows_ >= kTries;
+            one_heap_ = in_haste_ = ++short_windows_ >= kTries;
         }
     }
 
@@ -50,15 +59,16 @@ class WindowLength {
     static constexpr int kTries = 8;        // short windows with one large island before it is believed
     static constexpr int kProbeEvery = 32;  // windows; then one short one shows whether it still is one
 
-    void grow_when_calm() {
-        if (++calm_ < kCalm) return;
-        ticks_ = std::min(longest_, ticks_ + std::max<Tick>(1, ticks_ / 4));
+    void grow_when_calm(Tick longest) {
+        if (++calm_ < kCalm && !in_haste_) return;
+        ticks_ = std::min(longest, ticks_ + (in_haste_ ? ticks_ : std::max<Tick>(1, ticks_ / 4)));
         calm_ = 0;
     }
 
-    Tick fixed_, longest_, ticks_;
+    Tick fixed_, ticks_ = 8;
     int calm_ = 0, short_windows_ = 0, since_probe_ = 0;
     bool one_heap_ = false, probing_ = false;  // a large island that short windows do not part
+    bool in_haste_ = true;                     // to double with every window until one is repeated
 };
 
 }  // namespace roboss

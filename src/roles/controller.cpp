@@ -32,7 +32,7 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
       logged_until_(std::max(start.tick, start.logged_until)),
       answered_(std::move(start.answered)),
       forecast_(model_),
-      length_(options.window, options.window_max) {
+      length_(options.window) {
     epoch_ = options_.before.epoch;
     window_ = options_.before.window;
     const std::size_t n = model_->robots.size();
@@ -142,7 +142,7 @@ ControllerOptions::Before Controller::hand_over() {
 }
 
 void Controller::set_window(Tick ticks) {
-    length_ = WindowLength(ticks, options_.window_max);
+    length_ = WindowLength(ticks);
 }
 
 bool Controller::send_one_home() {

@@ -30,8 +30,8 @@
 namespace roboss {
 
 struct ControllerOptions {
-    Tick window = 0;       // ticks; 0: adaptive
-    Tick window_max = 64;  // of the adaptive one
+    Tick window = 0;      // ticks; 0: adaptive
+    Tick window_max = 0;  // of the adaptive one; 0: by how many robots a worker has (longest_window)
     ForecastOptions forecast;
     std::size_t simulators = 1;        // the first window waits for so many
     std::vector<std::string> clients;  // and for these; their ids are their places here
@@ -239,6 +239,7 @@ class Controller {
     void plan_window();
     void keep_wanted(Round& round) const;
     Tick window_end(Tick from, Tick length, bool all_answered = false) const;
+    Tick window_max() const;
     void look_ahead();
     double largest_share() const;
     void send_plans(Bus& bus);

@@ -10,7 +10,7 @@ namespace roboss {
 
 namespace {
 
-constexpr float kNewCostShare = 0.3f;  // of a window's measurement in a robot's running mean cost
+constexpr double kCostTicks = 55;  // in which a robot's running mean cost forgets half
 constexpr double kNewRateShare = 0.03;
 constexpr double kNewSpentShare = 0.1;
 // What it costs a Simulator to have a robot's state sent, and the ticks within which that has to be regained.
@@ -69,6 +69,11 @@ Tick Controller::window_end(Tick from, Tick length, bool all_answered) const {
     return std::min({from + length, target_, desk_.limit(from, all_answered), next_log_tick(from)});
 }
 
+Tick Controller::window_max() const {
+    return options_.window_max > 0 ? options_.window_max
+                                   : longest_window(model_->robots.size(), roster_.threads());
+}
+
 void Controller::plan_window() {
     const Tick until = window_end(tick_, length_.ticks());
     round_.emplace(RoundSpan{epoch_, ++window_, tick_, until, false}, model_->robots.size());
@@ -111,7 +116,7 @@ void Controller::send_plans(Bus& bus) {
 void Controller::look_ahead() {
     const RoundSpan& span = round_->span();
     WindowLength next = length_;
-    next.committed(span.until - span.from, false, largest_share());
+    next.committed(span.until - span.from, false, largest_share(), window_max());
     watch_.begin(round_->islands);
     const Tick until = window_end(span.until, next.ticks(), true);
     forecast_.expect(model_->robots.size(), std::max<Tick>(until - span.until, 0), options_.forecast);
@@ -231,7 +236,7 @@ void Controller::commit() {
         counters_.contacts += round.outcome[robots.front().index()].contacts;
         counters_.static_contacts += round.outcome[robots.front().index()].static_contacts;
     }
-    length_.committed(ticks, round.attempt() > 0, largest_share());
+    length_.committed(ticks, round.attempt() > 0, largest_share(), window_max());
     ++counters_.windows;
     counters_.windows_repeated += round.attempt() > 0 ? 1 : 0;
     counters_.islands += round.islands.count();
@@ -254,6 +259,7 @@ void Controller::commit() {
 void Controller::learn_costs() {
     const Round& round = *round_;
     const auto ticks = static_cast<double>(round.span().until - round.span().from);
+    const auto share = static_cast<float>(costs_known_ ? ticks / (ticks + kCostTicks) : 1.0);
     std::vector<double> expected_ns(roster_.size(), 0.0), spent_ns(roster_.size(), 0.0);
     for (std::size_t i = 0; i < round.islands.count(); ++i) {
         const auto robots = round.islands.of(i);
@@ -266,7 +272,7 @@ void Controller::learn_costs() {
         const double each = roster_.seat(place).rate * cost_ns / (ticks * static_cast<double>(robots.size()));
         for (const RobotId robot : robots) {
             float& cost = cost_[robot.index()];
-            cost += (costs_known_ ? kNewCostShare : 1.0f) * (static_cast<float>(std::max(each, 1e-3)) - cost);
+            cost += share * (static_cast<float>(std::max(each, 1e-3)) - cost);
         }
     }
     if (std::exchange(costs_known_, true)) learn_rates(expected_ns, spent_ns);
