@@ -10,33 +10,16 @@
 namespace roboss {
 namespace {
 
-int root_of(std::vector<int>& group, int i) {
-    while (group[static_cast<std::size_t>(i)] != i) {
-        int& parent = group[static_cast<std::size_t>(i)];
-        parent = group[static_cast<std::size_t>(parent)];
-        i = parent;
-    }
-    return i;
-}
-
-/// Joins robots in contact; afterwards group[i] is the lowest robot of i's contact island, and `members` are
-/// the robots that are awake, island by island.
+/// Joins robots in contact; `members` are the robots that are awake, contact island by contact island.
 void build_contact_islands(GroupScratch& s, std::span<const RobotWork> robots) {
-    const std::size_t count = robots.size();
-    s.group.resize(count);
-    for (std::size_t i = 0; i < count; ++i) s.group[i] = static_cast<int>(i);
-    for (const Contact& c : s.contacts) {
-        if (c.robot_b < 0 || c.robot_b == c.robot_a) continue;
-        const int a = root_of(s.group, c.robot_a), b = root_of(s.group, c.robot_b);
-        s.group[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-    }
-    for (std::size_t i = 0; i < count; ++i) s.group[i] = root_of(s.group, static_cast<int>(i));
+    s.islands.reset(robots.size());
+    for (const Contact& c : s.contacts)
+        if (c.robot_b >= 0)
+            s.islands.unite(static_cast<std::uint32_t>(c.robot_a), static_cast<std::uint32_t>(c.robot_b));
     s.members.clear();
-    for (std::size_t i = 0; i < count; ++i)
-        if (!robots[i].asleep) s.members.push_back(static_cast<std::uint32_t>(i));
-    std::sort(s.members.begin(), s.members.end(), [&](std::uint32_t i, std::uint32_t j) {
-        return s.group[i] != s.group[j] ? s.group[i] < s.group[j] : i < j;
-    });
+    for (std::uint32_t i = 0; i < robots.size(); ++i)
+        if (!robots[i].asleep) s.members.push_back(i);
+    s.islands.sort_by_set(s.members);
 }
 
 /// Marks the robots that a contact pushes, in their velocity or on their way.
@@ -287,12 +270,8 @@ void step_group(const Model& model, std::span<RobotWork> robots, GroupScratch& s
     s.queue.start(model.types.size());
     report.asleep += static_cast<int>(robots.size() - s.members.size());
     const IslandStepper islands{model, robots, s, report};
-    for (std::size_t first = 0; first < s.members.size();) {
-        std::size_t last = first + 1;
-        while (last < s.members.size() && s.group[s.members[last]] == s.group[s.members[first]]) ++last;
-        islands.step_or_wait(std::span<const std::uint32_t>(s.members).subspan(first, last - first));
-        first = last;
-    }
+    s.islands.for_each_set(s.members,
+                           [&](std::span<const std::uint32_t> members) { islands.step_or_wait(members); });
     s.queue.finish([&](auto& batch) { return islands.step_in_lanes(batch); });
     remember_impulses(robots, s.contacts);
     count_contacts(model, s.contacts, report);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/union_find.h"
 #include "physics/contact_rows.h"
 #include "physics/integrate.h"
 #include "physics/joint_rows.h"
@@ -24,7 +25,7 @@ struct GroupScratch {
     LaneQueue queue;
     ContactFinder finder;
     std::vector<Contact> contacts;
-    std::vector<int> group;  // union-find over the robots: contact islands
+    UnionFind islands;  // of robots in contact
     std::vector<std::uint32_t> members;
     std::vector<Contact*> island_contacts;
     std::vector<const Mechanics<double>*> island_robots;

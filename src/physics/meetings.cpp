@@ -6,18 +6,17 @@
 
 namespace roboss {
 
-void Meetings::mark(std::span<const Aabb> boxes, std::span<const std::uint32_t> wanted,
-                    std::span<char> meets) {
+void Meetings::join(std::span<const Aabb> boxes, std::span<const std::uint32_t> wanted, UnionFind& sets) {
     constexpr std::size_t kFew = 12;  // each against all is quicker than sorting
-    if (wanted.size() > kFew) return mark_by_strips(boxes, meets);
+    if (wanted.size() > kFew) return join_by_strips(boxes, sets);
     for (const std::uint32_t i : wanted)
-        for (std::size_t j = 0; j < boxes.size(); ++j)
-            if (j != i && overlaps(boxes[i], boxes[j])) meets[i] = meets[j] = 1;
+        for (std::uint32_t j = 0; j < boxes.size(); ++j)
+            if (j != i && overlaps(boxes[i], boxes[j])) sets.unite(i, j);
 }
 
 /// Boxes sorted by strips along y, and by x within a strip: a box can meet those of its own strip and of the
 /// next ones. A box far wider than the others makes one strip of all, which is a plain sweep along x.
-void Meetings::mark_by_strips(std::span<const Aabb> boxes, std::span<char> meets) {
+void Meetings::join_by_strips(std::span<const Aabb> boxes, UnionFind& sets) {
     double wide_x = 0, wide_y = 1e-6, largest = 0;
     for (const Aabb& box : boxes) {
         wide_x = std::max(wide_x, box.max.x - box.min.x), wide_y = std::max(wide_y, box.max.y - box.min.y);
@@ -37,7 +36,7 @@ void Meetings::mark_by_strips(std::span<const Aabb> boxes, std::span<char> meets
         const Aabb& box = boxes[entry.box];
         const auto meet = [&](std::size_t j) {
             const std::uint32_t b = entries_[j].box;
-            if (overlaps(box, boxes[b])) meets[entry.box] = meets[b] = 1;
+            if (overlaps(box, boxes[b])) sets.unite(entry.box, b);
         };
         for (std::size_t j = i + 1;
              j < entries_.size() && entries_[j].strip == entry.strip && entries_[j].min_x <= box.max.x; ++j)

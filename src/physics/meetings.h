@@ -1,22 +1,23 @@
-// Which boxes meet another one: the first sieve of the broad phase.
+// Which boxes meet: the first sieve of the broad phase.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/union_find.h"
 #include "math/aabb.h"
 
 namespace roboss {
 
 class Meetings {
   public:
-    /// Sets meets[i] to 1 for each of `wanted` whose box overlaps any other, and for that other; the rest of
-    /// `meets` stays. Boxes must be finite numbers.
-    void mark(std::span<const Aabb> boxes, std::span<const std::uint32_t> wanted, std::span<char> meets);
+    /// Joins each of `wanted` whose box overlaps any other with that other, and perhaps more that overlap.
+    /// Boxes must be finite numbers.
+    void join(std::span<const Aabb> boxes, std::span<const std::uint32_t> wanted, UnionFind& sets);
 
   private:
-    void mark_by_strips(std::span<const Aabb> boxes, std::span<char> meets);
+    void join_by_strips(std::span<const Aabb> boxes, UnionFind& sets);
 
     struct Entry {
         std::int64_t strip = 0;  // along y, as wide as the widest box

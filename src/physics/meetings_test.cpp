@@ -21,19 +21,20 @@ TEST(Meetings, AreThoseOfEveryPair) {
             box.include(Vec3{room * (number() - 0.5), room * (number() - 0.5), 0.1 * number()});
             boxes.push_back(box.inflated(half));
         }
-        std::vector<char> expected(count, 0);
-        for (std::size_t i = 0; i < count; ++i)
-            for (std::size_t j = 0; j < count; ++j)
-                if (i != j && overlaps(boxes[i], boxes[j])) expected[i] = 1;
+        UnionFind expected, found, few;
+        expected.reset(count), found.reset(count), few.reset(count);
         std::vector<std::uint32_t> all;
         for (std::uint32_t i = 0; i < count; ++i) all.push_back(i);
+        for (std::uint32_t i = 0; i < count; ++i)
+            for (std::uint32_t j = 0; j < i; ++j)
+                if (overlaps(boxes[i], boxes[j])) expected.unite(i, j);
         Meetings meetings;
-        std::vector<char> meets(count, 0);
-        meetings.mark(boxes, all, meets);
-        EXPECT_EQ(meets, expected) << "seed " << seed;
-        std::vector<char> few(count, 0);
-        meetings.mark(boxes, std::span(all).first(1), few);
-        EXPECT_EQ(few[0], expected[0]) << "seed " << seed;
+        meetings.join(boxes, all, found);
+        meetings.join(boxes, std::span(all).first(1), few);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            EXPECT_EQ(found.find(i), expected.find(i)) << "seed " << seed;
+            EXPECT_TRUE(!overlaps(boxes[0], boxes[i]) || few.find(i) == 0) << "seed " << seed;
+        }
     }
 }
 

@@ -1,11 +1,12 @@
-// step_island: orders, then the robots that may meet others as one group, then each of the rest by itself, or
-// a few of one type in lanes, so that a robot alone needs no memory between ticks but its state.
+// step_island: orders, then the robots that may meet others, some groups at a time, then each of the rest by
+// itself, or a few of one type in lanes; so that a robot needs no memory between ticks but its state.
 #include "physics/step.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/float_env.h"
+#include "core/union_find.h"
 #include "physics/coarse_bound.h"
 #include "physics/group_step.h"
 #include "physics/lane_stepper.h"
@@ -15,11 +16,12 @@ namespace roboss {
 
 struct StepScratch::Impl {
     GroupScratch group;
-    std::vector<RobotWork> works;     // of the robots that may meet others; only the first are in use
+    std::vector<RobotWork> works;     // of some robots that may meet; only the first are in use
     std::vector<RobotWork> alone{1};  // the others, one after the other
     std::vector<Aabb> coarse;
     Meetings meetings;
-    std::vector<std::uint32_t> awake, near, batch;
+    UnionFind joined;                               // of robots: who may meet, directly or by way of others
+    std::vector<std::uint32_t> awake, near, batch;  // `near`: who may meet others, or sleeps, set by set
     std::vector<char> is_near, ordered, moved_freely;
     std::vector<float> efforts;
     std::vector<ContactReport> contacts;
@@ -98,29 +100,44 @@ void share_effort(std::span<const std::uint32_t> robots, int iterations, std::ve
 constexpr double kFar = 1e300;
 constexpr Aabb kEverywhere{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
 
-/// Parts the robots into those that may meet others, or sleep, and those alone. The exact boxes lie inside
-/// the coarse ones, so that the parting changes no bit.
+/// Joins the sleeper with those on whom its sleep hangs.
+void join_neighbours(std::span<const RobotId> robots, std::uint32_t sleeper, const RobotState& state,
+                     UnionFind& joined) {
+    for (const std::uint32_t id : state.rest.neighbours) {
+        const auto found = std::lower_bound(robots.begin(), robots.end(), RobotId(id));
+        if (found != robots.end() && found->value == id)
+            joined.unite(sleeper, static_cast<std::uint32_t>(found - robots.begin()));
+    }
+}
+
+/// Parts the robots into sets that may meet, or sleep, and those alone. The exact boxes lie inside the coarse
+/// ones, so that the parting changes no bit.
 void find_near(const Model& model, std::span<const RobotId> robots, std::span<RobotState* const> states,
                Impl& s) {
     const std::size_t count = robots.size();
     s.is_near.assign(count, 0), s.near.clear(), s.awake.clear();
-    if (count > 1) {
-        s.coarse.resize(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            const RobotState& state = *states[i];
-            s.coarse[i] = state.rest.asleep ? state.rest.bound
-                                            : coarse_bound(model.type_of(robots[i]), state, model.dt_s);
-            if (!state.rest.asleep) s.awake.push_back(static_cast<std::uint32_t>(i));
-            const Vec3 size = s.coarse[i].max - s.coarse[i].min;
-            if (state.rest.asleep || !is_finite(size)) s.is_near[i] = 1;
-            if (!is_finite(size)) s.coarse[i] = kEverywhere;
+    s.joined.reset(count), s.coarse.resize(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const RobotState& state = *states[i];
+        if (state.rest.asleep) {
+            s.is_near[i] = 1;
+            s.coarse[i] = state.rest.bound;
+            join_neighbours(robots, i, state, s.joined);
+        } else if (count > 1) {
+            s.coarse[i] = coarse_bound(model.type_of(robots[i]), state, model.dt_s);
+            s.awake.push_back(i);
         }
-        s.meetings.mark(s.coarse, s.awake, s.is_near);
-    } else if (count == 1 && states[0]->rest.asleep) {
-        s.is_near[0] = 1;
+        if (count > 1 && !is_finite(s.coarse[i].max - s.coarse[i].min)) {
+            s.is_near[i] = 1;
+            s.coarse[i] = kEverywhere;
+        }
     }
-    for (std::size_t i = 0; i < count; ++i)
-        if (s.is_near[i]) s.near.push_back(static_cast<std::uint32_t>(i));
+    if (count > 1) s.meetings.join(s.coarse, s.awake, s.joined);
+    for (std::uint32_t i = 0; i < count; ++i)
+        if (const std::uint32_t root = s.joined.find(i); root != i) s.is_near[i] = s.is_near[root] = 1;
+    for (std::uint32_t i = 0; i < count; ++i)
+        if (s.is_near[i]) s.near.push_back(i);
+    s.joined.sort_by_set(s.near);
 }
 
 /// Who touched whom, for read_contacts.
@@ -215,6 +232,26 @@ struct Call {
         return fine;
     }
 
+    /// Steps those who may meet, some sets at a time: so few that what is computed of them stays in the
+    /// cache, so many that lanes are filled.
+    bool step_near(Impl& s, StepReport& report) const {
+        constexpr std::size_t kTogether = 64;
+        std::size_t first = 0, last = 0;
+        const auto step_some = [&] {
+            const std::span<std::uint32_t> some = std::span(s.near).subspan(first, last - first);
+            std::sort(some.begin(), some.end());
+            if (s.works.size() < some.size()) s.works.resize(some.size());
+            first = last;
+            return some.empty() || step(some, std::span(s.works).first(some.size()), s, report);
+        };
+        bool fine = true;
+        s.joined.for_each_set(s.near, [&](std::span<const std::uint32_t> set) {
+            last += set.size();
+            if (fine && last - first >= kTogether) fine = step_some();
+        });
+        return fine && step_some();
+    }
+
     bool step_all_alone(Impl& s, StepReport& report) const {
         s.queue.start(model.types.size());
         for (std::uint32_t i = 0; i < robots.size(); ++i)
@@ -245,11 +282,8 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
     s.efforts.assign(robots.size(), 0);
     apply_orders(model, robots, states, orders, s.ordered);
     find_near(model, robots, states, s);
-    if (s.works.size() < s.near.size()) s.works.resize(s.near.size());
     const Call call{model, tick, robots, states, bounds};
-    if (!s.near.empty() && !call.step(s.near, std::span(s.works).first(s.near.size()), s, report))
-        return report;
-    if (!call.step_all_alone(s, report)) return report;
+    if (!call.step_near(s, report) || !call.step_all_alone(s, report)) return report;
     if (s.group.keep_loads)
         std::stable_sort(
             s.contacts.begin(), s.contacts.end(),

@@ -6,11 +6,6 @@
 
 namespace roboss {
 
-void UnionFind::reset(std::size_t n) {
-    parent_.resize(n);
-    std::iota(parent_.begin(), parent_.end(), 0u);
-}
-
 std::size_t Islands::largest() const {
     std::size_t largest = 0;
     for (std::size_t i = 0; i < count(); ++i) largest = std::max(largest, size_of(i));

@@ -7,29 +7,9 @@
 #include <vector>
 
 #include "core/types.h"
+#include "core/union_find.h"
 
 namespace roboss {
-
-/// Disjoint sets of 0 .. n-1 with the lowest member as root (path halving, Tarjan and van Leeuwen 1984).
-class UnionFind {
-  public:
-    void reset(std::size_t n);
-    std::size_t size() const { return parent_.size(); }
-    std::uint32_t find(std::uint32_t x) {
-        while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
-        return x;
-    }
-    /// Whether they were apart.
-    bool unite(std::uint32_t a, std::uint32_t b) {
-        a = find(a), b = find(b);
-        if (a == b) return false;
-        parent_[a < b ? b : a] = a < b ? a : b;
-        return true;
-    }
-
-  private:
-    std::vector<std::uint32_t> parent_;
-};
 
 /// Island i is robots[offsets[i] .. offsets[i + 1]).
 struct Islands {

@@ -13,7 +13,7 @@ PAGE = "before\n<!-- table1: begin (tools/table1_report) -->\nold\n<!-- table1: 
 
 
 def row(world, robots, simulators, everything):
-    return {"world": world, "robots": robots, "simulators": simulators, "ceiling": 1.0, "stepping": 0.97, "everything": everything, "speedup": 1.5,
+    return {"world": world, "robots": robots, "simulators": simulators, "ceiling": 1.0, "stepping": 0.97, "everything": everything, "dearer": 1.01, "speedup": 1.5,
             "step_us": 40.0, "window_ticks": 60.0, "repeated": 0.0, "islands": 50, "migrations": 0.1, "controller_us": 300.0, "frame_bytes": 60.0}
 
 
@@ -26,7 +26,8 @@ class Table1Report(unittest.TestCase):
     def report(self, rows, page=PAGE):
         data = {"send_us": 20, "way_us": 30, "lanes": 1, "rows": rows, "crowd": [{"robots": 1000, "simulators": 12, "window_us": 200, "bytes": 54}],
                 "detach_s": 20, "detach": [[1, 40, 2], [2, 80, 1]]}
-        wall = {"robots": 2000, "seconds": 2, "cores": 2, "runs": [{"processes": 1, "wall_s": [10, 11, 9]}, {"processes": 2, "wall_s": [5, 6, 5]}]}
+        wall = {"robots": 2000, "seconds": 2, "cores": 2, "runs": [{"processes": 1, "wall_s": [10, 11, 9], "step_cpu_s": [9, 10, 8]},
+                                                                       {"processes": 2, "wall_s": [5, 6, 5], "step_cpu_s": [9, 9, 9]}]}
         for name, content in {"rows.json": json.dumps(data), "wall.json": json.dumps(wall), "page.md": page}.items():
             (self.folder / name).write_text(content)
         return subprocess.run([sys.executable, "-B", TOOL, self.folder / "rows.json", "--wall", self.folder / "wall.json", "--page",
@@ -38,9 +39,9 @@ class Table1Report(unittest.TestCase):
         page = (self.folder / "page.md").read_text()
         self.assertTrue(page.startswith("before\n") and page.endswith("after\n"))
         self.assertNotIn("old", page)
-        self.assertIn("| 12 | 0.65 | 1.000 | 0.970 | **0.660** |", page)
+        self.assertIn("| 12 | 0.65 | 1.000 | 0.970 | **0.660** | 1.010 |", page)
         self.assertIn("| city, one island | 50 | 12 | 1.500 |", page)
-        self.assertIn("| 2 | 5.00 (5.00 to 6.00) | 2.00 |", page)
+        self.assertIn("| 2 | 5.00 (5.00 to 6.00) | 2.00 | 9.00 |", page)
 
     def test_the_plot_is_well_formed_and_shows_every_size(self):
         self.report([row("city", 50, 1, 1), row("city", 50, 2, 0.9), row("city", 500, 1, 1), row("city", 500, 2, 0.95)])
