@@ -14,6 +14,8 @@
 namespace roboss::bench {
 namespace {
 
+constexpr Tick kWarmUp = 200;
+
 /// A log in memory that keeps the orders.
 class OrderRecorder : public RunLog {
   public:
@@ -61,7 +63,7 @@ std::string city_file(std::size_t cars) {
 
 Work record(const std::string& name, const std::string& file, const std::string& driver, Tick settle,
             Tick ticks, std::size_t lanes) {
-    Work work{name, load(file), {}, settle, ticks, {}, 0};
+    Work work{name, load(file), {}, settle, ticks, std::max<Tick>(0, settle - kWarmUp), {}, 0};
     OrderRecorder recorder;
     SimulationOptions options;
     options.lanes = lanes;
@@ -70,8 +72,8 @@ Work record(const std::string& name, const std::string& file, const std::string&
     std::vector<NamedProgram> programs;
     if (!driver.empty()) programs.push_back({"driver", take(load_control_program(driver))});
     const auto recording = take(Simulation::create(work.model, options, std::move(programs)));
-    take(recording->run_until(settle));
-    work.settled = recording->states();
+    take(recording->run_until(work.before));
+    work.states = recording->states();
     take(recording->run_until(ticks));
     work.hash = recording->hash();
     work.orders = std::move(recorder.orders);
@@ -82,14 +84,15 @@ OneProcess::OneProcess(const Work& work, std::size_t lanes, bool one_island) {
     SimulationOptions options;
     options.lanes = lanes;
     options.controller.seed = 7;
-    options.controller.window = longest_window(work.model->robots.size(), 1);
     options.controller.forecast.merge_all = one_island;
     SavedRun from;
-    from.tick = work.settle;
-    from.states = work.settled;
+    from.tick = work.before;
+    from.states = work.states;
     from.orders = work.orders;
     from.logged_until = work.ticks;
     simulation_ = take(Simulation::create(work.model, options, {}, &from));
+    take(simulation_->run_until(work.settle));
+    warm_s_ = simulation_->counters().step_cpu_s;
 }
 
 void OneProcess::run_until(Tick tick) {

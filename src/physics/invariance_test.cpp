@@ -91,6 +91,33 @@ TEST(Invariance, FarAwayRobotsChangeNoBit) {
     }
 }
 
+TEST(Invariance, ManySmallCrowdsEachByItselfAndAllInOneCallGiveTheSameBits) {
+    // Two hundred robots, in crowds of five: more than are stepped as one group.
+    constexpr int kCrowds = 40;
+    World world = random_crowd(11, 5);
+    const std::vector<ModelInstance> crowd = world.instances;
+    for (int c = 1; c < kCrowds; ++c)
+        for (ModelInstance instance : crowd) {
+            if (!instance.name.starts_with("robot_")) continue;
+            instance.name += "_" + std::to_string(c), instance.X_WM.p.x += 20.0 * c;
+            world.instances.push_back(instance);
+        }
+    Simulation together(world), apart(world);
+    stir(together, 3);
+    stir(apart, 3);
+    StepScratch scratch;
+    for (int i = 0; i < 200; ++i) {
+        together.step();
+        for (int c = 0; c < kCrowds; ++c) {
+            std::vector<std::size_t> members;
+            for (std::size_t r = 0; r < 5; ++r) members.push_back(static_cast<std::size_t>(c) * 5 + r);
+            step_members(apart, members, scratch);
+        }
+        ++apart.tick;
+        ASSERT_EQ(together.hash(), apart.hash()) << "tick " << i;
+    }
+}
+
 TEST(Invariance, ScratchRemembersNothing) {
     const World world = random_crowd(7, 10);
     Simulation fresh(world), used(world);

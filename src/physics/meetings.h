@@ -12,8 +12,8 @@ namespace roboss {
 
 class Meetings {
   public:
-    /// Joins each of `wanted` whose box overlaps any other with that other, and perhaps more that overlap.
-    /// Boxes must be finite numbers.
+    /// Joins each of `wanted` with all whose boxes overlap its own, these with all that overlap theirs, and
+    /// so on; perhaps others that overlap, too. Boxes must be finite numbers.
     void join(std::span<const Aabb> boxes, std::span<const std::uint32_t> wanted, UnionFind& sets);
 
   private:
@@ -25,6 +25,8 @@ class Meetings {
         std::uint32_t box = 0;
     };
     std::vector<Entry> entries_;
+    std::vector<std::uint32_t> reached_;
+    std::vector<char> is_reached_;
 };
 
 }  // namespace roboss

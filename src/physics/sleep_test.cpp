@@ -124,6 +124,38 @@ TEST(Sleep, TakingTheLowestAwayWakesTheRestAlsoWhenItIsSteppedElsewhere) {
     }
 }
 
+/// Boxes side by side, so near that one that wakes wakes the next, too far to have touched.
+World sleepy_row(int boxes, int falling_far_away) {
+    World world = sleepy_world();
+    const std::size_t box = world.prototypes.size();
+    world.prototypes.push_back(solid_box(1.0, {kEdge, kEdge, kEdge}, surface(0.6)));
+    for (int i = 0; i < boxes; ++i)
+        world.instances.push_back(
+            {"box_" + std::to_string(i), box, {{(kEdge + 1.5e-3) * i, 0, 0.5 * kEdge}, {}}, {}});
+    for (int i = 0; i < falling_far_away; ++i)
+        world.instances.push_back({"far_" + std::to_string(i), box, {{10.0 * i, 1000, 1e4}, {}}, {}});
+    return world;
+}
+
+TEST(Sleep, AWholeRowWakesInOneTickWhoeverElseIsThere) {
+    constexpr std::size_t kBoxes = 150;
+    Simulation alone(sleepy_row(kBoxes, 0)), in_company(sleepy_row(kBoxes, 20));
+    for (Simulation* sim : {&alone, &in_company}) {
+        while (sim->time() < 5 && count_asleep(*sim) < kBoxes) sim->step();
+        ASSERT_EQ(count_asleep(*sim), kBoxes);
+        const Order push[] = {order_for(*sim, 0, SetVelocity{{0.5, 0, 0}, {}})};
+        sim->step(push);
+        EXPECT_EQ(count_asleep(*sim), 0u);
+        for (int i = 0; i < 20; ++i) sim->step();
+    }
+    ASSERT_EQ(alone.tick, in_company.tick);
+    for (std::size_t i = 0; i < kBoxes; ++i) {
+        std::vector<std::uint8_t> a, b;
+        encode(alone.states[i], a), encode(in_company.states[i], b);
+        EXPECT_EQ(a, b) << "box " << i;
+    }
+}
+
 TEST(Sleep, AHitWakesAndMomentumIsHandedOn) {
     World world = sleepy_world(1e-3);
     place(world, solid_box(1.0, {kEdge, kEdge, kEdge}, surface(0)), "box", {{0, 0, 0.5 * kEdge}, {}});

@@ -20,8 +20,9 @@ struct StepScratch::Impl {
     std::vector<RobotWork> alone{1};  // the others, one after the other
     std::vector<Aabb> coarse;
     Meetings meetings;
-    UnionFind joined;                               // of robots: who may meet, directly or by way of others
-    std::vector<std::uint32_t> awake, near, batch;  // `near`: who may meet others, or sleeps, set by set
+    UnionFind joined;                        // of robots: who may meet, directly or by way of others
+    std::vector<std::uint32_t> stirring;     // awake, or about to wake
+    std::vector<std::uint32_t> near, batch;  // `near`: who may meet others, or sleeps, set by set
     std::vector<char> is_near, ordered, moved_freely;
     std::vector<float> efforts;
     std::vector<ContactReport> contacts;
@@ -82,6 +83,11 @@ void expire_wrenches(Tick tick, RobotState& state) {
     std::erase_if(state.wrenches, [&](const TimedWrench& w) { return w.until <= tick + 1; });
 }
 
+/// The lowest robot that failed is told.
+void note_failure(RobotId robot, StepReport& report) {
+    if (!report.not_finite.valid() || robot < report.not_finite) report.not_finite = robot;
+}
+
 /// A robot so fast that its way in one tick is no number: it would meet everybody, and spoil them.
 bool is_beyond_numbers(const RobotWork& work) {
     for (const ShapeWork& shape : work.shapes)
@@ -100,14 +106,21 @@ void share_effort(std::span<const std::uint32_t> robots, int iterations, std::ve
 constexpr double kFar = 1e300;
 constexpr Aabb kEverywhere{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
 
-/// Joins the sleeper with those on whom its sleep hangs.
-void join_neighbours(std::span<const RobotId> robots, std::uint32_t sleeper, const RobotState& state,
-                     UnionFind& joined) {
-    for (const std::uint32_t id : state.rest.neighbours) {
+/// Joins the sleeper with those on whom its sleep hangs. Whether it will wake: one of them is gone or awake.
+bool join_neighbours(const Model& model, std::span<const RobotId> robots, std::span<RobotState* const> states,
+                     std::uint32_t sleeper, Impl& s) {
+    bool wakes = false;
+    for (const std::uint32_t id : states[sleeper]->rest.neighbours) {
         const auto found = std::lower_bound(robots.begin(), robots.end(), RobotId(id));
-        if (found != robots.end() && found->value == id)
-            joined.unite(sleeper, static_cast<std::uint32_t>(found - robots.begin()));
+        if (found == robots.end() || found->value != id) {
+            wakes = true;
+            continue;
+        }
+        const auto i = static_cast<std::uint32_t>(found - robots.begin());
+        s.joined.unite(sleeper, i);
+        wakes |= model.type_of(*found).nv == 0 ? s.ordered[i] != 0 : !states[i]->rest.asleep;
     }
+    return wakes;
 }
 
 /// Parts the robots into sets that may meet, or sleep, and those alone. The exact boxes lie inside the coarse
@@ -115,24 +128,24 @@ void join_neighbours(std::span<const RobotId> robots, std::uint32_t sleeper, con
 void find_near(const Model& model, std::span<const RobotId> robots, std::span<RobotState* const> states,
                Impl& s) {
     const std::size_t count = robots.size();
-    s.is_near.assign(count, 0), s.near.clear(), s.awake.clear();
+    s.is_near.assign(count, 0), s.near.clear(), s.stirring.clear();
     s.joined.reset(count), s.coarse.resize(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         const RobotState& state = *states[i];
         if (state.rest.asleep) {
             s.is_near[i] = 1;
             s.coarse[i] = state.rest.bound;
-            join_neighbours(robots, i, state, s.joined);
+            if (join_neighbours(model, robots, states, i, s)) s.stirring.push_back(i);
         } else if (count > 1) {
             s.coarse[i] = coarse_bound(model.type_of(robots[i]), state, model.dt_s);
-            s.awake.push_back(i);
+            s.stirring.push_back(i);
         }
         if (count > 1 && !is_finite(s.coarse[i].max - s.coarse[i].min)) {
             s.is_near[i] = 1;
             s.coarse[i] = kEverywhere;
         }
     }
-    if (count > 1) s.meetings.join(s.coarse, s.awake, s.joined);
+    if (count > 1) s.meetings.join(s.coarse, s.stirring, s.joined);
     for (std::uint32_t i = 0; i < count; ++i)
         if (const std::uint32_t root = s.joined.find(i); root != i) s.is_near[i] = s.is_near[root] = 1;
     for (std::uint32_t i = 0; i < count; ++i)
@@ -181,7 +194,7 @@ struct Call {
         }
         for (const RobotWork& work : works) {
             if (work.asleep || !is_beyond_numbers(work)) continue;
-            report.not_finite = work.id;
+            note_failure(work.id, report);
             return false;
         }
         return true;
@@ -201,7 +214,7 @@ struct Call {
             if (works[k].asleep) continue;
             RobotState& state = *states[chosen[k]];
             expire_wrenches(tick, state);
-            if (!report.not_finite.valid() && !is_finite(state)) report.not_finite = works[k].id;
+            if (!is_finite(state)) note_failure(works[k].id, report);
         }
         if (s.group.keep_loads) keep_contacts(works, s.group.contacts, s.contacts);
         return true;

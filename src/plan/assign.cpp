@@ -38,7 +38,7 @@ class Clocks {
         }
     }
     double with(std::uint32_t at, double cost) const { return done_[at] + cost * per_cost_[at]; }
-    void give(std::uint32_t at, double cost) { done_[at] = with(at, cost); }
+    void give(std::uint32_t at, double cost, double later) { done_[at] = with(at, cost) + later; }
     std::uint32_t soonest(double cost) const {
         std::uint32_t best = 0;
         double best_done = with(0, cost);
@@ -83,11 +83,10 @@ Attempt attempt(const AssignRequest& r, std::span<const float> cost, std::span<c
     Attempt result{{home.begin(), home.end()}, 0};
     Clocks clocks(r);
     for (const std::uint32_t island : order) {
-        auto c = static_cast<double>(cost[island]);
+        const auto c = static_cast<double>(cost[island]);
         std::uint32_t& at = result.place[island];
         if (at == kNowhere || clocks.with(at, c) > in_time) at = clocks.soonest(c);
-        if (home[island] != kNowhere && at != home[island]) c += r.move;
-        clocks.give(at, c);
+        clocks.give(at, c, home[island] != kNowhere && at != home[island] ? r.move : 0);
     }
     result.done = clocks.last();
     return result;
@@ -118,7 +117,7 @@ std::vector<std::uint32_t> assign(const AssignRequest& r) {
     Attempt best;
     for (const double moves : {1.0, 0.5, 0.25, 0.0}) {
         Attempt next = attempt(r, cost, home, order, (1 + kLittle) * soonest + moves * r.move);
-        if (best.place.empty() || next.done < best.done) best = std::move(next);
+        if (best.place.empty() || next.done < (1 - kLittle) * best.done) best = std::move(next);
     }
     return std::move(best.place);
 }

@@ -21,7 +21,7 @@ struct AssignRequest {
     std::span<const std::uint32_t>
         robot_place;                // by RobotId: index of the Simulator that has it, or kNowhere
     std::span<const double> speed;  // by Simulator index: work a second, relative; > 0
-    double move = 0;                // work that it costs a Simulator to be sent an island
+    double move = 0;                // how much later a Simulator is done that is sent an island
     double told_apart = 0;          // how much later a Simulator can begin than the one before it
 };
 

@@ -47,7 +47,7 @@ class WindowLength {
             probing_ = one_heap_ && ++since_probe_ % kProbeEvery == 0;
         } else if (ticks_ > kShort) {
             ticks_ = std::max(kShort, ticks_ - ticks_ / 4);  // it may fall apart when looked at for less long
-            calm_ = 0;
+            calm_ = 0, in_haste_ = false;
         } else {
             one_heap_ = in_haste_ = ++short_windows_ >= kTries;
         }
@@ -68,7 +68,7 @@ class WindowLength {
     Tick fixed_, ticks_ = 8;
     int calm_ = 0, short_windows_ = 0, since_probe_ = 0;
     bool one_heap_ = false, probing_ = false;  // a large island that short windows do not part
-    bool in_haste_ = true;                     // to double with every window until one is repeated
+    bool in_haste_ = true;                     // to double with every window, until one went too far
 };
 
 }  // namespace roboss

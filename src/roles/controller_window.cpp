@@ -1,6 +1,7 @@
 // The life of a window: forecast, assign, publish; then frames, validation, repeats where islands touched,
 // commit.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "plan/assign.h"
@@ -10,10 +11,11 @@ namespace roboss {
 
 namespace {
 
-constexpr double kCostTicks = 55;  // in which a robot's running mean cost forgets half
+constexpr double kCostTicks = 64;  // in which a robot's running mean cost forgets half
 constexpr double kNewRateShare = 0.03;
 constexpr double kNewSpentShare = 0.1;
-// What it costs a Simulator to have a robot's state sent, and the ticks within which that has to be regained.
+// What it costs a Simulator to have an island's states sent, and the ticks within which that has to be
+// regained.
 constexpr double kMove_ns = 100'000;
 constexpr Tick kMovePays = 64;
 constexpr double kTell_ns = 30'000;  // what it takes the Controller to send one plan
@@ -66,6 +68,7 @@ bool Controller::may_plan() const {
 
 Tick Controller::window_end(Tick from, Tick length, bool all_answered) const {
     length = std::min(length, views_.window_max().value_or(length));
+    if (options_.window_max > 0) length = std::min(length, options_.window_max);
     return std::min({from + length, target_, desk_.limit(from, all_answered), next_log_tick(from)});
 }
 
@@ -259,7 +262,7 @@ void Controller::commit() {
 void Controller::learn_costs() {
     const Round& round = *round_;
     const auto ticks = static_cast<double>(round.span().until - round.span().from);
-    const auto share = static_cast<float>(costs_known_ ? ticks / (ticks + kCostTicks) : 1.0);
+    const auto share = static_cast<float>(costs_known_ ? 1 - std::exp2(-ticks / kCostTicks) : 1.0);
     std::vector<double> expected_ns(roster_.size(), 0.0), spent_ns(roster_.size(), 0.0);
     for (std::size_t i = 0; i < round.islands.count(); ++i) {
         const auto robots = round.islands.of(i);

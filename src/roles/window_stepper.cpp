@@ -31,6 +31,7 @@ bool teleports(const Order& order) {
 
 struct WindowStepper::Job {
     const Plan& plan;
+    StateStore& store;
     const std::function<void()>& between;
     Frame frame;
 
@@ -106,7 +107,7 @@ Frame WindowStepper::step(const Plan& plan, StateStore& store, const std::functi
     efforts_.assign(plan.island_offsets.size() - 1, 0.0);
     for (std::size_t k = 0; k < n; ++k) states_[k] = &store.begin_window(plan.robots[k], plan.until);
 
-    Job job{plan, between, Frame{plan.epoch, plan.window, plan.attempt, plan.simulator, {}, {}, {}}};
+    Job job{plan, store, between, Frame{plan.epoch, plan.window, plan.attempt, plan.simulator, {}, {}, {}}};
     job.frame.robots.resize(n);
     job.frame.islands.resize(plan.island_offsets.size() - 1);
     pool_.run(
@@ -223,13 +224,23 @@ void WindowStepper::step_convoy_through(Job& job, std::span<const std::uint32_t>
         IslandFrame& outcome = job.frame.islands[c.islands[0]];
         outcome.contacts += static_cast<std::uint64_t>(report.contacts);
         outcome.static_contacts += static_cast<std::uint64_t>(report.static_contacts);
-        if (!report.not_finite.valid()) continue;
-        for (const std::uint32_t i : c.islands)
-            if (job.robots(i)[0] == report.not_finite) give_up(job, i, report.not_finite, tick);
-        break;
+        if (report.not_finite.valid()) return step_apart(job, c.islands, worker);
     }
-    for (const std::uint32_t i : c.islands)
-        if (!job.frame.islands[i].failed.valid()) report_robots(job, i);
+    for (const std::uint32_t i : c.islands) report_robots(job, i);
+}
+
+/// One of them failed at a tick, and nobody knows which of the others were stepped in it: all once more from
+/// the window's start, each by itself.
+void WindowStepper::step_apart(Job& job, std::span<const std::uint32_t> islands, std::size_t worker) {
+    for (const std::uint32_t i : islands) {
+        job.frame.islands[i] = {};
+        earlier_[i].clear();
+        for (std::size_t k = job.plan.island_offsets[i]; k < job.plan.island_offsets[i + 1]; ++k) {
+            swept_[k] = Aabb{};
+            states_[k] = &job.store.begin_window(job.plan.robots[k], job.plan.until);
+        }
+        step_island_through(job, i, worker);
+    }
 }
 
 void WindowStepper::report_robots(Job& job, std::size_t island) {

@@ -39,6 +39,7 @@ class WindowStepper {
     bool step_tick(Job& job, std::size_t island, Tick tick, std::span<const Order> orders,
                    std::size_t worker);
     void step_convoy_through(Job& job, std::span<const std::uint32_t> islands, std::size_t worker);
+    void step_apart(Job& job, std::span<const std::uint32_t> islands, std::size_t worker);
     void sweep(const Job& job, std::size_t island, std::span<const Order> orders);
     void give_up(Job& job, std::size_t island, RobotId failed, Tick tick);
     void report_robots(Job& job, std::size_t island);
