@@ -55,7 +55,7 @@ def main():
                 print(f"{row['processes']} processes: {wall_s:.2f} s, stepping {step_cpu_s:.2f} s of CPU", flush=True)
     if len(hashes) != 1:
         sys.exit(f"wall_clock: the runs ended with different state hashes: {hashes}")
-    a.out.write_text(json.dumps({"robots": a.cars, "seconds": a.seconds, "cores": cores, "runs": runs}, indent=1))
+    a.out.write_text(json.dumps({"robots": a.cars, "settle": a.settle, "seconds": a.seconds, "cores": cores, "runs": runs}, indent=1))
 
 
 if __name__ == "__main__":

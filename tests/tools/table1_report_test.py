@@ -26,7 +26,7 @@ class Table1Report(unittest.TestCase):
     def report(self, rows, page=PAGE):
         data = {"send_us": 20, "way_us": 30, "lanes": 1, "rows": rows, "crowd": [{"robots": 1000, "simulators": 12, "window_us": 200, "bytes": 54}],
                 "detach_s": 20, "detach": [[1, 40, 2], [2, 80, 1]]}
-        wall = {"robots": 2000, "seconds": 2, "cores": 2, "runs": [{"processes": 1, "wall_s": [10, 11, 9], "step_cpu_s": [9, 10, 8]},
+        wall = {"robots": 2000, "settle": 1, "seconds": 2, "cores": 2, "runs": [{"processes": 1, "wall_s": [10, 11, 9], "step_cpu_s": [9, 10, 8]},
                                                                        {"processes": 2, "wall_s": [5, 6, 5], "step_cpu_s": [9, 9, 9]}]}
         for name, content in {"rows.json": json.dumps(data), "wall.json": json.dumps(wall), "page.md": page}.items():
             (self.folder / name).write_text(content)
