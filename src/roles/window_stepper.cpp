@@ -11,7 +11,7 @@ namespace roboss {
 namespace {
 
 constexpr std::size_t kRobotsPerBatch = 8;  // a look at the clock costs about a tenth of a robot's step
-constexpr std::size_t kLargeIsland = 64;    // robots; such islands show signs of life every tick
+constexpr std::size_t kSignOfLife = 512;    // robots times ticks, after which there is a sign of life
 
 constexpr double kCounted_ns = 10'000;  // for an effort (step.h), where no time is measured
 
@@ -21,6 +21,11 @@ const Aabb kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfini
 /// A bound that makes no sense counts as everywhere: such a robot is stepped with all others.
 bool sensible(const Aabb& b) {
     return b.min.x <= b.max.x && b.min.y <= b.max.y && b.min.z <= b.max.z;
+}
+
+/// Whether, of so many robots stepped together, a sign of life is due after so many ticks.
+bool shows_life(std::size_t robots, Tick ticks) {
+    return ticks % static_cast<Tick>(std::max<std::size_t>(kSignOfLife / robots, 1)) == 0;
 }
 
 bool teleports(const Order& order) {
@@ -146,7 +151,7 @@ void WindowStepper::step_island_through(Job& job, std::size_t island, std::size_
         const std::size_t first = next;
         while (next < end && orders_[next].apply_at == tick) ++next;
         if (!step_tick(job, island, tick, std::span(orders_).subspan(first, next - first), worker)) return;
-        if (worker == 0 && job.robots(island).size() >= kLargeIsland) job.between();
+        if (worker == 0 && shows_life(job.robots(island).size(), tick + 1 - job.plan.from)) job.between();
     }
     report_robots(job, island);
 }
@@ -225,6 +230,7 @@ void WindowStepper::step_convoy_through(Job& job, std::span<const std::uint32_t>
         outcome.contacts += static_cast<std::uint64_t>(report.contacts);
         outcome.static_contacts += static_cast<std::uint64_t>(report.static_contacts);
         if (report.not_finite.valid()) return step_apart(job, c.islands, worker);
+        if (worker == 0 && shows_life(c.islands.size(), tick + 1 - job.plan.from)) job.between();
     }
     for (const std::uint32_t i : c.islands) report_robots(job, i);
 }
