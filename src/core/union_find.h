@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace roboss {
@@ -29,13 +30,18 @@ class UnionFind {
         return true;
     }
 
-    /// Set by set, the sets by their roots; within a set things stay in their order.
+    /// Set by set, as the first of each comes; within a set things stay in their order. O(n), by counting.
     void sort_by_set(std::vector<std::uint32_t>& things) {
-        place_.assign(parent_.size() + 1, 0);
-        for (const std::uint32_t x : things) ++place_[find(x) + 1];
-        std::partial_sum(place_.begin(), place_.end(), place_.begin());
+        if (things.size() < 2) return;
+        places_.assign(parent_.size(), {});
+        for (const std::uint32_t x : things) ++places_[find(x)].count;
         sorted_.resize(things.size());
-        for (const std::uint32_t x : things) sorted_[place_[find(x)]++] = x;
+        std::uint32_t free = 0;
+        for (const std::uint32_t x : things) {
+            Places& set = places_[find(x)];
+            if (set.count > 0) set.next = std::exchange(free, free + std::exchange(set.count, 0));
+            sorted_[set.next++] = x;
+        }
         things.swap(sorted_);
     }
     /// act(set) for each set of things sorted so.
@@ -50,8 +56,13 @@ class UnionFind {
     }
 
   private:
+    struct Places {
+        std::uint32_t count = 0, next = 0;  // that the set needs, until it has them; the next of them
+    };
+
     std::vector<std::uint32_t> parent_;
-    std::vector<std::uint32_t> place_, sorted_;  // buffers
+    std::vector<Places> places_;  // by root; buffers
+    std::vector<std::uint32_t> sorted_;
 };
 
 }  // namespace roboss

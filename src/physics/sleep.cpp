@@ -42,14 +42,14 @@ void wake_from(const Model& model, std::span<RobotWork> robots, std::uint32_t fi
     }
 }
 
-/// A robot it touched is gone, or awake. One that is fixed to the world never sleeps; it counts when ordered.
+/// A robot it touched is gone, or awake.
 bool lost_a_neighbour(std::span<const RobotWork> robots, const RobotWork& sleeper,
                       const WakeBuffers& buffers) {
     return std::any_of(sleeper.state->rest.neighbours.begin(), sleeper.state->rest.neighbours.end(),
                        [&](std::uint32_t id) {
                            const std::uint32_t i = index_of(robots, buffers, id);
                            if (i == RobotId::kNone) return true;
-                           return robots[i].type->nv == 0 ? robots[i].ordered : !robots[i].asleep;
+                           return wakes_neighbours(*robots[i].type, robots[i].asleep, robots[i].ordered);
                        });
 }
 

@@ -23,6 +23,12 @@ namespace roboss {
 
 inline constexpr double kRestSpeed = 1e-3;  // m/s: no point of a robot at rest is faster
 
+/// Whether a robot so wakes sleepers that it touched. One that is fixed to the world never sleeps; it counts
+/// when ordered.
+inline bool wakes_neighbours(const RobotType& type, bool asleep, bool ordered) {
+    return type.nv == 0 ? ordered : !asleep;
+}
+
 /// Buffers of the search for sleepers to wake.
 struct WakeBuffers {
     std::vector<std::uint32_t> place_of;  // by RobotId: index in the call, if that robot is there

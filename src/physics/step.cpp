@@ -11,6 +11,7 @@
 #include "physics/group_step.h"
 #include "physics/lane_stepper.h"
 #include "physics/meetings.h"
+#include "physics/sleep.h"
 
 namespace roboss {
 
@@ -118,7 +119,7 @@ bool join_neighbours(const Model& model, std::span<const RobotId> robots, std::s
         }
         const auto i = static_cast<std::uint32_t>(found - robots.begin());
         s.joined.unite(sleeper, i);
-        wakes |= model.type_of(*found).nv == 0 ? s.ordered[i] != 0 : !states[i]->rest.asleep;
+        wakes |= wakes_neighbours(model.type_of(*found), states[i]->rest.asleep, s.ordered[i] != 0);
     }
     return wakes;
 }

@@ -1,8 +1,7 @@
-// Sets to islands by counting: O(n), no sorting.
+// Sets to islands.
 #include "plan/islands.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace roboss {
 
@@ -13,21 +12,16 @@ std::size_t Islands::largest() const {
 }
 
 void collect_islands(UnionFind& sets, std::span<const RobotId> only, Islands& out) {
-    // Robots come in ascending order, so the first of a set to come opens its island and islands ascend by
-    // root.
-    std::vector<std::uint32_t> island_of(sets.size(), RobotId::kNone), number(only.size());
-    std::uint32_t count = 0;
-    for (std::size_t i = 0; i < only.size(); ++i) {
-        std::uint32_t& island = island_of[sets.find(only[i].value)];
-        if (island == RobotId::kNone) island = count++;
-        number[i] = island;
-    }
-    out.offsets.assign(count + 1, 0);
-    for (const std::uint32_t n : number) ++out.offsets[n + 1];
-    std::partial_sum(out.offsets.begin(), out.offsets.end(), out.offsets.begin());
-    std::vector<std::uint32_t> next(out.offsets.begin(), out.offsets.end() - 1);
-    out.robots.resize(only.size());
-    for (std::size_t i = 0; i < only.size(); ++i) out.robots[next[number[i]]++] = only[i];
+    // Robots come in ascending order, so the first of a set to come is the island's lowest.
+    std::vector<std::uint32_t> robots;
+    robots.reserve(only.size());
+    for (const RobotId robot : only) robots.push_back(robot.value);
+    sets.sort_by_set(robots);
+    out.offsets.assign(1, 0), out.robots.clear();
+    sets.for_each_set(robots, [&](std::span<const std::uint32_t> island) {
+        for (const std::uint32_t robot : island) out.robots.emplace_back(robot);
+        out.offsets.push_back(static_cast<std::uint32_t>(out.robots.size()));
+    });
 }
 
 void collect_islands(UnionFind& sets, Islands& out) {
