@@ -184,6 +184,11 @@ bool Run::submit(const std::vector<Order>& orders) {
 }
 
 bool Run::open_files() {
+    if (!o_.log.empty()) {
+        Result<EventLog> log = EventLog::open(o_.log, o_.log_every_s);
+        if (!log) return print(log.error()), false;
+        log_ = std::move(log.value());
+    }
     if (!o_.contacts.empty()) {
         Result<ContactsFile> contacts = ContactsFile::create(o_.contacts);
         if (!contacts) return print(contacts.error()), false;
@@ -248,6 +253,10 @@ int Run::finish(bool fine, double wall_s) {
         const std::string subtitle = fmt::format("{} robots, {:.1f} s simulated, state hash {}", s.robots,
                                                  static_cast<double>(s.ticks) * s.dt_s, to_hex(s.state_hash));
         check(write_path_picture(o_.paths_picture, *model_, paths_, {model_->name, subtitle}));
+    }
+    if (log_) {
+        log_->tell(*simulation_);
+        log_->event(simulation_->tick(), fine ? "the run has ended" : "the run has failed");
     }
     simulation_->controller().dismiss(simulation_->bus(), fine ? "the run has ended" : "the run has failed");
     company_->see_off();

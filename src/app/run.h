@@ -8,6 +8,7 @@
 
 #include "app/company.h"
 #include "app/contacts_file.h"
+#include "app/event_log.h"
 #include "app/looks.h"
 #include "app/path_picture.h"
 #include "app/progress.h"
@@ -85,6 +86,7 @@ class Run {
 
     bool advance_to(Tick target);
     void tell_notices();
+    void show_progress();
     bool write_trace();
     bool write_contacts();
     void collect_paths();
@@ -100,6 +102,7 @@ class Run {
     std::unique_ptr<Simulation> simulation_;
     std::optional<TraceFile> trace_;
     std::optional<ContactsFile> contacts_;
+    std::optional<EventLog> log_;
     std::vector<RobotPath> paths_;
     double world_speed_ = 0;  // simulated seconds a real second; 0: as fast as possible
     Tick start_ = 0;

@@ -43,8 +43,7 @@ struct Run::Schedule {
 bool Run::advance_to(Tick target) {
     Result<> looked_after = Ok{};
     const Result<> stepped = simulation_->run_until(target, [&] {
-        progress_.show(*simulation_);
-        tell_notices();
+        show_progress();
         looked_after = company_->look_after();
         for (ControlCall& call : simulation_->controller().control().take_calls())
             calls_.push_back(std::move(call));
@@ -59,8 +58,7 @@ bool Run::advance_to(Tick target) {
 bool Run::rest() {
     simulation_->serve();
     if (!company_->reaches_others()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    progress_.show(*simulation_);
-    tell_notices();
+    show_progress();
     const Result<> looked_after = company_->look_after();
     if (!looked_after) return abandoned_ = true, print(looked_after.error()), false;
     return true;
@@ -132,8 +130,16 @@ void Run::tell_notices() {
     for (const auto& notices :
          {simulation_->take_notices(), company_->take_notices(), journal_->take_notices(),
           std::exchange(notices_, {}), gateway_ ? gateway_->take_notices() : std::vector<std::string>()})
-        for (const std::string& notice : notices)
-            if (!o_.quiet) progress_.clear(), fmt::print(stderr, "roboss: {}\n", notice);
+        for (const std::string& notice : notices) {
+            if (log_) log_->event(simulation_->tick(), notice);
+            if (!o_.quiet && o_.log != "-") progress_.clear(), fmt::print(stderr, "roboss: {}\n", notice);
+        }
+}
+
+void Run::show_progress() {
+    progress_.show(*simulation_);
+    tell_notices();
+    if (log_) log_->tell_if_due(*simulation_);
 }
 
 bool Run::write_trace() {

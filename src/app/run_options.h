@@ -44,6 +44,8 @@ struct RunOptions {
     double contacts_every_s = 0;
     double hash_every_s = 0;
     std::string json;
+    std::string log;  // a file, or - for standard error
+    double log_every_s = 10;
     std::optional<std::uint64_t> seed;  // none: that of the saved run, else 0
     std::string save;
     std::string from;     // FILE[#BRANCH][@TIME]

@@ -105,10 +105,27 @@ class TypeCheck {
 
     bool on_body(int body) const { return within(body, t_.bodies.size(), t_.free_base ? 0 : -1); }
 
+    /// A link of the body, or the world, which is the fixed base's.
+    bool on_link(int link, int body) const {
+        return within(link, t_.links.size(), -1) &&
+               (link < 0 ? body < 0 : t_.links[static_cast<std::size_t>(link)].body == body);
+    }
+
     bool links_fit() const {
         return !t_.links.empty() && std::all_of(t_.links.begin(), t_.links.end(), [&](const Link& link) {
-            return on_body(link.body) && finite(link.X_BL) && is_finite(link.p_BC);
+            return on_body(link.body) && finite(link.X_BL) && is_finite(link.p_BC) &&
+                   within(link.carrier, t_.joints.size(), -1) && hangs_on_a_root(link);
         });
+    }
+
+    /// Its way to the root has an end.
+    bool hangs_on_a_root(const Link& link) const {
+        int parent = link.parent;
+        for (std::size_t steps = 0; parent != -1; ++steps) {
+            if (!within(parent, t_.links.size()) || steps == t_.links.size()) return false;
+            parent = t_.links[static_cast<std::size_t>(parent)].parent;
+        }
+        return true;
     }
 
     bool loops_fit() const {
@@ -118,6 +135,7 @@ class TypeCheck {
             if (loop.kind > JointSpecKind::kGearbox || loop.joint.index() >= t_.joints.size()) return false;
             if (t_.joints[loop.joint.index()].loop != static_cast<int>(i)) return false;
             if (!on_body(loop.body_a) || !on_body(loop.body_b) || loop.body_a == loop.body_b) return false;
+            if (!on_link(loop.link_a, loop.body_a) || !on_link(loop.link_b, loop.body_b)) return false;
             if (!finite(loop.X_AJ) || !finite(loop.X_BJ)) return false;
             if (loop.dofs.size() != static_cast<std::size_t>(axes_of(loop.kind))) return false;
             if (loop.motor_index < 0 || static_cast<std::size_t>(loop.motor_index) != motors) return false;
@@ -131,7 +149,8 @@ class TypeCheck {
     bool joints_fit() const {
         for (std::size_t i = 0; i < t_.joints.size(); ++i) {
             const Joint& joint = t_.joints[i];
-            if (joint.kind > JointSpecKind::kGearbox || !within(joint.body, t_.bodies.size(), -1))
+            if (joint.kind > JointSpecKind::kGearbox || !within(joint.body, t_.bodies.size(), -1) ||
+                !is_finite(joint.p_BJ))
                 return false;
             if (joint.loop != -1) {
                 if (!within(joint.loop, t_.loops.size())) return false;
@@ -165,7 +184,7 @@ class TypeCheck {
                 !sensible(s.shape, false))
                 return false;
         for (const LinkDrag& drag : t_.drags)
-            if (!within(drag.body, t_.bodies.size())) return false;
+            if (!within(drag.body, t_.bodies.size()) || drag.link.index() >= t_.links.size()) return false;
         for (const auto& [a, b] : t_.self_pairs)
             if (!within(a, t_.shapes.size()) || !within(b, t_.shapes.size()) || a == b) return false;
         return true;

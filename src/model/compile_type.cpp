@@ -13,6 +13,18 @@
 namespace roboss {
 namespace {
 
+/// Yet without what it hangs on.
+Link to_link(const LinkSpec& spec, int body, const Transform& X_BL) {
+    Link link;
+    link.name = spec.name;
+    link.body = body;
+    link.X_BL = X_BL;
+    link.p_BC = X_BL * spec.p_LC;
+    link.mass = spec.mass, link.gravity = spec.gravity;
+    link.inertia_C = X_BL.R * spec.inertia_C * transpose(X_BL.R);
+    return link;
+}
+
 /// Builds one RobotType by walking the joint graph from its root.
 class PartBuilder {
   public:
@@ -28,6 +40,7 @@ class PartBuilder {
         type.self_collide = spec_.self_collide;
         type.may_sleep = spec_.may_sleep;
         body_of_link_.assign(spec_.links.size() + 1, kUnplaced);
+        hangs_on_.assign(spec_.links.size() + 1, {});
         X_MB_.clear();
         joint_done_.assign(spec_.joints.size(), 0);
         const std::size_t root = fixed_base ? graph_.world : pick_root();
@@ -79,12 +92,19 @@ class PartBuilder {
             if (joint_done_[edge.joint]) continue;
             if (node == graph_.world && !in_part(edge.to)) continue;
             joint_done_[edge.joint] = 1;
+            hangs_on_[edge.to] = {static_cast<int>(part_.type.joints.size()), id_in_part(node)};
             body_of_link_[edge.to] = add_joint(edge, body_of_link_[node]);
             walk(edge.to);
         }
     }
 
     bool in_part(std::size_t link) const { return std::binary_search(links_->begin(), links_->end(), link); }
+
+    /// Of a link of the file, in RobotType::links; -1: the world.
+    int id_in_part(std::size_t node) const {
+        if (node == graph_.world) return -1;
+        return static_cast<int>(std::lower_bound(links_->begin(), links_->end(), node) - links_->begin());
+    }
 
     /// Where a body's frame stands in the model frame at the zero configuration.
     Transform placed(int body) const {
@@ -108,6 +128,7 @@ class PartBuilder {
         LoopJoint loop = to_loop_joint(spec, placed(body_a), placed(body_b));
         loop.joint = JointId(type.joints.size());
         loop.body_a = body_a, loop.body_b = body_b;
+        loop.link_a = id_in_part(parent), loop.link_b = id_in_part(child);
         loop.motor_index = static_cast<int>(type.motor_count());
         for (Dof& dof : loop.dofs) dof.body = body_b, dof.joint = loop.joint;
         joint.nv = static_cast<int>(loop.dofs.size());
@@ -145,6 +166,7 @@ class PartBuilder {
             }
         }
         joint.body = body == parent_body ? -1 : body;
+        if (joint.body < 0) joint.p_BJ = inverse(placed(body)) * spec.X_MJ.p;
         part_.type.joints.push_back(joint);
         return body;
     }
@@ -191,18 +213,17 @@ class PartBuilder {
         for (std::size_t l : *links_) {
             const LinkSpec& spec = spec_.links[l];
             const int body = body_of_link_[l];
-            Link link;
-            link.name = spec.name;
-            link.body = body;
-            link.X_BL = body < 0 ? to_transform(spec.X_ML)
-                                 : inverse(X_MB_[static_cast<std::size_t>(body)]) * to_transform(spec.X_ML);
-            link.p_BC = link.X_BL * spec.p_LC;
+            Link link =
+                to_link(spec, body,
+                        body < 0 ? to_transform(spec.X_ML)
+                                 : inverse(X_MB_[static_cast<std::size_t>(body)]) * to_transform(spec.X_ML));
+            link.carrier = hangs_on_[l].joint, link.parent = hangs_on_[l].parent;
             const LinkId id(part_.type.links.size());
             if (body >= 0) add_mass(part_.type.bodies[static_cast<std::size_t>(body)], spec, link.X_BL);
             add_shapes(spec, link, id);
             if (spec.drag.acts && body >= 0)
                 part_.type.drags.push_back(
-                    {body, link.p_BC, link.X_BL.R, drag_area(spec), spec.drag.linear, spec.drag.wind});
+                    {body, id, link.p_BC, link.X_BL.R, drag_area(spec), spec.drag.linear, spec.drag.wind});
             for (const SensorSpec& sensor : spec.sensors) part_.type.sensors.push_back({sensor, id});
             part_.type.links.push_back(link);
         }
@@ -241,7 +262,11 @@ class PartBuilder {
     CompiledPart part_;
     const std::vector<std::size_t>* links_ = nullptr;
     std::vector<int> body_of_link_;  // last: the world
-    std::vector<Transform> X_MB_;    // body frames in the model frame at the zero configuration
+    struct Hold {
+        int joint = -1, parent = -1;
+    };
+    std::vector<Hold> hangs_on_;   // Link::carrier and parent
+    std::vector<Transform> X_MB_;  // body frames in the model frame at the zero configuration
     std::vector<char> joint_done_;
 };
 
@@ -255,7 +280,7 @@ RobotType sensor_stand(const ModelSpec& spec) {
     for (const LinkSpec& link : spec.links) {
         const LinkId id(type.links.size());
         const Transform X_BL = to_transform(link.X_ML);
-        type.links.push_back({link.name, -1, X_BL, X_BL * link.p_LC});
+        type.links.push_back(to_link(link, -1, X_BL));
         for (const SensorSpec& sensor : link.sensors) type.sensors.push_back({sensor, id});
     }
     type.hash = type_hash(type);

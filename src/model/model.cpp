@@ -43,6 +43,12 @@ void add_body(Hash& hash, const Body& body) {
     if (body.reversed_ball) add(hash, 1);
 }
 
+void add_link(Hash& hash, const Link& link) {
+    hash.add(std::string_view(link.name)), add(hash, link.body), add(hash, link.X_BL), add(hash, link.p_BC);
+    hash.add(link.mass), add(hash, link.inertia_C);
+    for (int x : {link.gravity ? 1 : 0, link.carrier, link.parent}) add(hash, x);
+}
+
 void add_dof(Hash& hash, const Dof& dof) {
     add(hash, dof.body);
     for (double x : {dof.lower, dof.upper, dof.max_effort, dof.max_velocity, dof.damping, dof.friction,
@@ -53,7 +59,8 @@ void add_dof(Hash& hash, const Dof& dof) {
 }
 
 void add_loop(Hash& hash, const LoopJoint& loop) {
-    for (int x : {static_cast<int>(loop.joint.value), static_cast<int>(loop.kind), loop.body_a, loop.body_b})
+    for (int x : {static_cast<int>(loop.joint.value), static_cast<int>(loop.kind), loop.body_a, loop.body_b,
+                  loop.link_a, loop.link_b})
         add(hash, x);
     add(hash, loop.X_AJ), add(hash, loop.X_BJ), add(hash, loop.axis_J), add(hash, loop.axis2_J);
     for (double x : {loop.pitch, loop.inverse_mass, loop.inverse_inertia}) hash.add(x);
@@ -103,11 +110,10 @@ std::uint64_t type_hash(const RobotType& type) {
     for (const BodyShape& shape : type.shapes) add_shape(hash, shape);
     for (const LinkDrag& drag : type.drags) add_drag(hash, drag);
     for (const SensorInfo& sensor : type.sensors) add_sensor(hash, sensor);
-    for (const Link& link : type.links)
-        hash.add(std::string_view(link.name)), add(hash, link.body), add(hash, link.X_BL),
-            add(hash, link.p_BC);
+    for (const Link& link : type.links) add_link(hash, link);
     for (const Joint& joint : type.joints)
-        hash.add(std::string_view(joint.name)), add(hash, joint.v_index), add(hash, joint.reversed ? 1 : 0);
+        hash.add(std::string_view(joint.name)), add(hash, joint.v_index), add(hash, joint.reversed ? 1 : 0),
+            add(hash, joint.p_BJ);
     hash.add(std::span<const double>(type.initial_q));
     for (const LoopJoint& loop : type.loops) add_loop(hash, loop);
     for (const CoordinateCoupling& coupling : type.couplings) add_coupling(hash, coupling);

@@ -71,6 +71,12 @@ struct Link {
     int body = -1;  // -1: welded to the fixed base
     Transform X_BL;
     Vec3 p_BC;  // the link's own centre of mass, in its body
+    // What it adds to its body, and what it hangs on: for the loads of joints, welds among them.
+    double mass = 0;
+    Mat3 inertia_C{};  // about its own centre of mass, axes of its body
+    bool gravity = true;
+    int carrier = -1;  // the tree's joint between it and `parent`, in RobotType::joints; -1: a free base
+    int parent = -1;   // in RobotType::links; -1: the world
 };
 
 struct Joint {
@@ -83,6 +89,7 @@ struct Joint {
     bool reversed =
         false;      // the tree walks it from child to parent: of two axes, the second comes first in q and v
     int loop = -1;  // in RobotType::loops if it closes one: then it has no place in q and v
+    Vec3 p_BJ{};    // fixed: its origin in the body that its two links are of
 
     /// Where axis `axis` of the file stands behind q_index and v_index (joints of one or two axes).
     int axis_offset(int axis) const {
@@ -95,6 +102,7 @@ struct LoopJoint {
     JointId joint;
     JointSpecKind kind = JointSpecKind::kFixed;
     int body_a = -1, body_b = -1;  // of the file's parent and child; -1: the fixed base
+    int link_a = -1, link_b = -1;  // the file's parent and child; -1: the world
     Transform X_AJ, X_BJ;          // the joint's frame in both; they coincide when the joint is at zero
     Vec3 axis_J{0, 0, 1}, axis2_J{0, 1, 0};
     double pitch = 0;       // of a screw, m per radian
@@ -139,6 +147,7 @@ struct BodyShape {
 /// as an ellipsoid's.
 struct LinkDrag {
     int body = 0;
+    LinkId link;
     Vec3 p_BC;  // the link's centre of mass
     Mat3 R_BL = Mat3::identity();
     Vec3 area;          // m^2

@@ -40,6 +40,11 @@ void add_drag(const Model& model, double dt, bool implicit, RobotWork& work) {
     }
 }
 
+Spatial drag_force(const Model& model, const RobotWork& work, const LinkDrag& drag) {
+    const LinkAir air = air_of(model, work, drag);
+    return Spatial{cross(air.arm, air.relative), air.relative} * -air.factor;
+}
+
 bool drag_is_stiff(const Model& model, const RobotWork& work) {
     constexpr double kRateMax = 0.25;  // a tick times the rate at which drag alone would stop the body
     for (const LinkDrag& drag : work.type->drags) {

@@ -11,6 +11,9 @@ namespace roboss {
 /// use inside compute_impulse, after the bodies' inertias and impulses are set.
 void add_drag(const Model& model, double dt, bool implicit, RobotWork& work);
 
+/// What the air does to the drag's link at the velocities of `work`: N m about O, N.
+Spatial drag_force(const Model& model, const RobotWork& work, const LinkDrag& drag);
+
 /// Drag so large that the explicit Runge-Kutta step would not follow it.
 bool drag_is_stiff(const Model& model, const RobotWork& work);
 

@@ -3,6 +3,7 @@
 #include "physics/probe.h"
 
 #include "core/float_env.h"
+#include "physics/drag.h"
 #include "physics/integrate.h"
 #include "physics/robot_work.h"
 
@@ -26,27 +27,89 @@ std::vector<Spatial> accelerations(const RobotWork& work, std::span<const double
     return found;
 }
 
-/// Adds `scale` times a contact's impulses on the link.
+/// A place in a body, or in the fixed base, from the robot's origin.
+Vec3 arm_to(const RobotWork& work, int body, const Vec3& p_BX) {
+    if (body >= 0) return work.bodies[static_cast<std::size_t>(body)].X_WB * p_BX - work.origin;
+    const std::vector<double>& q = work.state->q;
+    return rotate(Quat{q[3], q[4], q[5], q[6]}, p_BX);
+}
+
+/// What a link's motion takes beyond what gravity gives it.
+Spatial demand_of(const Model& model, const RobotWork& work, const Link& link,
+                  std::span<const Spatial> acceleration) {
+    const Vec3 centre = arm_to(work, link.body, link.p_BC);
+    const Vec3 weight = link.gravity ? model.gravity * link.mass : Vec3{};
+    Spatial taken = Spatial{cross(centre, weight), weight} * -1.0;
+    if (link.body < 0) return taken;
+    const BodyWork& body = work.bodies[static_cast<std::size_t>(link.body)];
+    const SpatialInertia inertia = spatial_inertia(link.mass, centre, rotated(body.X_WB.R, link.inertia_C));
+    taken += inertia * (acceleration[static_cast<std::size_t>(link.body)] + body.bias);
+    taken += cross_force(body.velocity, inertia * body.velocity);
+    return taken;
+}
+
+/// What each link takes from the joints that hold it: its motion's demand less what Clients and the air give.
+std::vector<Spatial> demands(const Model& model, const RobotWork& work, std::span<const double> rate) {
+    const RobotType& type = *work.type;
+    const std::vector<Spatial> acceleration = accelerations(work, rate);
+    std::vector<Spatial> taken;
+    for (const Link& link : type.links) taken.push_back(demand_of(model, work, link, acceleration));
+    for (const TimedWrench& w : work.state->wrenches) {
+        const Link& link = type.links[w.link.index()];
+        const Vec3 moment = w.torque + cross(arm_to(work, link.body, link.p_BC), w.force);
+        taken[w.link.index()] += Spatial{moment, w.force} * -1.0;
+    }
+    for (const LinkDrag& drag : type.drags) taken[drag.link.index()] += drag_force(model, work, drag) * -1.0;
+    return taken;
+}
+
+/// Adds `scale` times a contact's impulses to what its link takes.
 void take_contact(const ContactReport& c, LinkId link, double scale, const RobotWork& work,
                   std::span<Spatial> taken) {
-    const int body = work.type->links[link.index()].body;
-    if (body < 0) return;
     const Vec3 impulse = c.normal * c.impulse + c.friction;
-    taken[static_cast<std::size_t>(body)] +=
-        Spatial{c.moment + cross(c.p_W - work.origin, impulse), impulse} * scale;
+    taken[link.index()] += Spatial{c.moment + cross(c.p_W - work.origin, impulse), impulse} * scale;
 }
 
 void take_loop(const LoopJoint& loop, const Spatial& force, std::span<Spatial> taken) {
-    if (loop.body_b >= 0) taken[static_cast<std::size_t>(loop.body_b)] += force * -1.0;
-    if (loop.body_a >= 0) taken[static_cast<std::size_t>(loop.body_a)] += force;
+    if (loop.link_b >= 0) taken[static_cast<std::size_t>(loop.link_b)] += force * -1.0;
+    if (loop.link_a >= 0) taken[static_cast<std::size_t>(loop.link_a)] += force;
 }
 
-/// Where the joint is, in its child, from the robot's origin.
-Vec3 origin_of(const LoopJoint& loop, const RobotWork& work) {
-    if (loop.body_b >= 0)
-        return work.bodies[static_cast<std::size_t>(loop.body_b)].X_WB * loop.X_BJ.p - work.origin;
-    const std::vector<double>& q = work.state->q;
-    return rotate(Quat{q[3], q[4], q[5], q[6]}, loop.X_BJ.p);
+/// What each joint of the tree passes on to the links that hang on it, however far.
+std::vector<Spatial> passed_on(const RobotType& type, std::span<const Spatial> taken) {
+    std::vector<Spatial> passed(type.joints.size());
+    for (std::size_t l = 0; l < type.links.size(); ++l)
+        for (int k = static_cast<int>(l); k >= 0; k = type.links[static_cast<std::size_t>(k)].parent) {
+            const int carrier = type.links[static_cast<std::size_t>(k)].carrier;
+            if (carrier >= 0) passed[static_cast<std::size_t>(carrier)] += taken[l];
+        }
+    return passed;
+}
+
+/// About each joint's own origin, on its child of the file. Welds that only repeat others bear nothing.
+std::vector<JointReaction> read_reactions(const RobotWork& work, std::span<const Spatial> passed,
+                                          std::span<const Spatial> loops) {
+    const RobotType& type = *work.type;
+    std::vector<int> carried(type.joints.size(), -1);
+    for (std::size_t l = 0; l < type.links.size(); ++l)
+        if (type.links[l].carrier >= 0)
+            carried[static_cast<std::size_t>(type.links[l].carrier)] = static_cast<int>(l);
+    std::vector<JointReaction> reactions;
+    const auto add = [&](std::size_t joint, const Spatial& force, const Vec3& arm) {
+        reactions.push_back({JointId(joint), force.linear, force.angular - cross(arm, force.linear)});
+    };
+    for (std::size_t j = 0; j < type.joints.size(); ++j) {
+        const Joint& joint = type.joints[j];
+        if (joint.loop >= 0) {
+            const LoopJoint& loop = type.loops[static_cast<std::size_t>(joint.loop)];
+            add(j, loops[static_cast<std::size_t>(joint.loop)], arm_to(work, loop.body_b, loop.X_BJ.p));
+        } else if (carried[j] >= 0) {
+            const Link& link = type.links[static_cast<std::size_t>(carried[j])];
+            const int body = joint.body >= 0 ? joint.body : link.body;
+            add(j, passed[j] * (joint.reversed ? -1.0 : 1.0), arm_to(work, body, joint.p_BJ));
+        }
+    }
+    return reactions;
 }
 
 }  // namespace
@@ -76,7 +139,6 @@ void StepProbe::step(Tick tick, std::span<const RobotState* const> states) {
 std::vector<JointReaction> StepProbe::joint_reactions(RobotId robot) const {
     const ExactFloatScope exact;
     const RobotType& type = model_.type_of(robot);
-    std::vector<JointReaction> reactions;
     RobotState state = before_[robot.index()];
     const std::vector<double>& v_after = after_[robot.index()].v;
     std::vector<double> rate(state.v.size());
@@ -89,11 +151,8 @@ std::vector<JointReaction> StepProbe::joint_reactions(RobotId robot) const {
     if (free_[robot.index()]) advance_coordinates<double>(type, state.v, 0.5 * model_.dt_s, state.q);
     RobotWork work;
     place_robot(model_, robot, state, work);
-    const std::vector<Spatial> acceleration = accelerations(work, rate);
-    compute_impulse(model_, 1.0, 0.0, state.q, state.v,
-                    work);  // outer and centrifugal forces of the subtrees
-    std::vector<Spatial> taken(type.bodies.size());
-    for (std::size_t b = 0; b < taken.size(); ++b) taken[b] = work.bodies[b].inertia * acceleration[b];
+    // Velocities' part of the accelerations stands in the bodies' bias.
+    std::vector<Spatial> taken = demands(model_, work, rate);
     for (const ContactReport& c : contacts_) {
         const double per_s = 1.0 / model_.dt_s;
         if (c.robot_a == robot) take_contact(c, c.link_a, -per_s, work, taken);
@@ -101,29 +160,7 @@ std::vector<JointReaction> StepProbe::joint_reactions(RobotId robot) const {
     }
     const std::vector<Spatial> loops = forces_of_loops(robot, type);
     for (std::size_t l = 0; l < loops.size(); ++l) take_loop(type.loops[l], loops[l], taken);
-    for (std::size_t b = taken.size(); b-- > 0;)
-        if (type.bodies[b].parent >= 0) {
-            const auto parent = static_cast<std::size_t>(type.bodies[b].parent);
-            taken[parent] += taken[b];
-        }
-    for (std::size_t j = 0; j < type.joints.size(); ++j) {
-        const Joint& joint = type.joints[j];
-        Spatial passed;
-        Vec3 arm;  // of the joint's origin
-        if (joint.body >= 0) {
-            const auto b = static_cast<std::size_t>(joint.body);
-            passed = (taken[b] - work.bodies[b].impulse) * (joint.reversed ? -1.0 : 1.0);
-            arm = work.bodies[b].X_WB.p - work.origin;
-        } else if (joint.loop >= 0) {
-            const auto l = static_cast<std::size_t>(joint.loop);
-            passed = loops[l];
-            arm = origin_of(type.loops[l], work);
-        } else {
-            continue;
-        }
-        reactions.push_back({JointId(j), passed.linear, passed.angular - cross(arm, passed.linear)});
-    }
-    return reactions;
+    return read_reactions(work, passed_on(type, taken), loops);
 }
 
 /// On their bodies B, about the robot's origin.

@@ -28,11 +28,13 @@ class StepProbe {
 
     /// By (robot_a, robot_b, shapes).
     std::span<const ContactReport> contacts() const { return contacts_; }
-    /// Of all joints that move a body or close a loop (other fixed joints weld links together), in the order
-    /// of RobotType::joints. Gearboxes and mimic joints push at their hinges as motors do. A mechanism with
-    /// more conditions than it needs, as a planar linkage in space, can share its load in many ways: the
-    /// joints that close its loops then take the least, which is what equal softness gives. Where nothing but
-    /// its own loops acts on a robot, its reactions are of first order in the step.
+    /// Of all joints, in the order of RobotType::joints: those that move a body, those that close a loop, and
+    /// the fixed ones between two links of a body or of the world, as a force and torque sensor has it. (A
+    /// fixed joint that only repeats what others weld bears nothing and is left out.) Gearboxes and mimic
+    /// joints push at their hinges as motors do. A mechanism with more conditions than it needs, as a planar
+    /// linkage in space, can share its load in many ways: the joints that close its loops then take the
+    /// least, which is what equal softness gives. Where nothing but its own loops acts on a robot, its
+    /// reactions are of first order in the step.
     std::vector<JointReaction> joint_reactions(RobotId robot) const;
 
   private:

@@ -83,6 +83,15 @@ TEST(ContactReports, AreTheImpulsesOfTheVeryNextTick) {
     }
 }
 
+const JointReaction& of(const Simulation& sim, const std::vector<JointReaction>& reactions,
+                        const char* name) {
+    const JointId id = *sim.type(0).find_joint(name);
+    for (const JointReaction& r : reactions)
+        if (r.joint == id) return r;
+    ADD_FAILURE() << "no reaction of " << name;
+    return reactions.front();
+}
+
 /// A rod of 2 kg and 1 m on a hinge about y at the origin, hanging along x at angle 0.
 World pendulum(double dt_s) {
     World world = empty_world(dt_s);
@@ -126,15 +135,6 @@ TEST(JointReactions, OfAStandingCarsAxlesBearTheChassis) {
     double sum = 0;
     for (const JointReaction& r : reactions) sum += r.force.z;
     EXPECT_NEAR(sum / (-5 * kG), 1, 1e-4) << "the chassis weighs down on the wheels";
-}
-
-const JointReaction& of(const Simulation& sim, const std::vector<JointReaction>& reactions,
-                        const char* name) {
-    const JointId id = *sim.type(0).find_joint(name);
-    for (const JointReaction& r : reactions)
-        if (r.joint == id) return r;
-    ADD_FAILURE() << "no reaction of " << name;
-    return reactions.front();
 }
 
 /// A beam of 2 kg on two hanging rods; one of its four hinges closes the loop.
@@ -182,6 +182,85 @@ TEST(JointReactions, OfADrivenLoopMoveItsCouplerAsNewtonSays) {
         EXPECT_LT(norm(force - expected), 2e-3 * norm(expected)) << "tick " << sim.tick;
         sim.run(20 * kDt);
     }
+}
+
+/// The rod of `pendulum`, with a head of 0.5 kg welded to its end, 0.2 m beyond it.
+World hammer(double dt_s, bool head_is_child) {
+    World world = pendulum(dt_s);
+    ModelSpec& arm = world.prototypes[0];
+    arm.links.push_back(link("head", 0.5, box_inertia(0.5, {0.1, 0.2, 0.05}), {{1.2, 0.1, 0}, {}}));
+    const char* parent = head_is_child ? "rod" : "head";
+    const char* child = head_is_child ? "head" : "rod";
+    arm.joints.push_back(joint(JointSpecKind::kFixed, "weld", parent, child, {{1, 0, 0}, {}}));
+    return world;
+}
+
+TEST(JointReactions, OfAWeldAreWhatTheLinkBehindItWeighs) {
+    for (const bool head_is_child : {true, false}) {
+        const double side = head_is_child ? 1 : -1;
+        Simulation sim(hammer(1e-3, head_is_child));
+        ASSERT_EQ(sim.type(0).bodies.size(), 1u) << "one body of two links";
+        sim.set_motor(0, 0, MotorMode::kPosition, 0);
+        sim.run(0.5);
+        const std::vector<JointReaction> reactions = probe_of(sim).joint_reactions(RobotId(0u));
+        ASSERT_EQ(reactions.size(), 2u);
+        const JointReaction& weld = of(sim, reactions, "weld");
+        const double weight = 0.5 * kG;
+        EXPECT_NEAR(norm(weld.force * side - Vec3{0, 0, weight}), 0, 1e-4);
+        EXPECT_NEAR(norm(weld.torque * side - Vec3{0.1 * weight, -0.2 * weight, 0}), 0, 1e-4);
+        EXPECT_NEAR(of(sim, reactions, "hinge").force.z, 2.5 * kG, 1e-4) << "which bears both";
+    }
+}
+
+TEST(JointReactions, OfAWeldThatSwingsMoveTheLinkBehindItAsNewtonAndEulerSay) {
+    constexpr double kDt = 1e-4;
+    Simulation sim(hammer(kDt, true));
+    const LinkId head = *sim.type(0).find_link("head");
+    const Mat3 own = sim.world.prototypes[0].links[head.index()].inertia_C;
+    struct Momentum {
+        Vec3 linear, angular;  // the latter about the head's centre
+    };
+    const auto momentum = [&] {
+        const Twist twist = link_twist(sim.type(0), sim.states[0], head);
+        const Mat3 R = link_pose(sim.type(0), sim.states[0], head).R;
+        return Momentum{twist.linear * 0.5, R * own * transpose(R) * twist.angular};
+    };
+    for (int i = 0; i < 20; ++i) {
+        sim.run(200 * kDt);
+        const Vec3 centre = link_pose(sim.type(0), sim.states[0], head).p;
+        const Vec3 at = link_pose(sim.type(0), sim.states[0], *sim.type(0).find_link("rod")).p * 2.0;
+        const JointReaction weld = of(sim, probe_of(sim).joint_reactions(RobotId(0u)), "weld");
+        const Momentum before = momentum();
+        sim.run(kDt);
+        const Momentum after = momentum();
+        const Vec3 force = (after.linear - before.linear) / kDt + Vec3{0, 0, 0.5 * kG};
+        const Vec3 torque = (after.angular - before.angular) / kDt + cross(centre - at, force);
+        EXPECT_LT(norm(weld.force - force), 1e-3 * norm(force)) << "tick " << sim.tick;
+        EXPECT_LT(norm(weld.torque - torque), 1e-3 * norm(torque)) << "tick " << sim.tick;
+    }
+}
+
+/// A stand welded to the world, a plate welded upon it, a box lying on the plate, a hand pushing the plate.
+TEST(JointReactions, OfWeldsToTheWorldBearAllThatStandsOnThem) {
+    World world = empty_world(1e-3);
+    ModelSpec stand = one_link(link("post", 4.0, box_inertia(4.0, {0.1, 0.1, 1}), {{0, 0, 0.5}, {}}));
+    stand.links.push_back(link("plate", 1.0, box_inertia(1.0, {0.4, 0.4, 0.1}), {{0, 0, 1.05}, {}}));
+    stand.links.back().collisions.push_back(box_shape({0.4, 0.4, 0.1}, surface(0.5)));
+    stand.joints.push_back(joint(JointSpecKind::kFixed, "bolts", "world", "post", {}));
+    stand.joints.push_back(joint(JointSpecKind::kFixed, "weld", "post", "plate", {{0, 0, 1}, {}}));
+    place(world, stand, "stand");
+    place(world, solid_box(3.0, {0.2, 0.2, 0.2}, surface(0.5)), "box", {{0.05, 0, 1.2}, {}});
+    Simulation sim(world);
+    sim.run(1);
+    const std::vector<JointReaction> calm = probe_of(sim).joint_reactions(RobotId(0u));
+    ASSERT_EQ(calm.size(), 2u);
+    EXPECT_NEAR(norm(of(sim, calm, "weld").force - Vec3{0, 0, 4 * kG}), 0, 1e-3);
+    EXPECT_NEAR(norm(of(sim, calm, "weld").torque - Vec3{0, -0.05 * 3 * kG, 0}), 0, 1e-3);
+    EXPECT_NEAR(norm(of(sim, calm, "bolts").force - Vec3{0, 0, 8 * kG}), 0, 1e-3);
+    sim.states[0].wrenches.push_back({*sim.type(0).find_link("plate"), {7, 0, 0}, {}, 100000});
+    const std::vector<JointReaction> pushed = probe_of(sim).joint_reactions(RobotId(0u));
+    EXPECT_NEAR(of(sim, pushed, "weld").force.x, -7, 1e-3);
+    EXPECT_NEAR(of(sim, pushed, "bolts").torque.y - of(sim, calm, "bolts").torque.y, -7 * 1.05, 1e-3);
 }
 
 }  // namespace

@@ -28,15 +28,23 @@ void subtract(const T* row, const int* path, std::size_t count, const T& s, T* x
 
 }  // namespace path
 
-/// y = A x for a symmetric matrix.
+/// y = A x for a symmetric matrix; x and y do not overlap.
 template <class T>
-void tree_times(const DofPaths& paths, const T* a, const T* x, T* y) {
+void tree_times(const DofPaths& paths, const T* a, const T* __restrict x, T* __restrict y) {
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const T* row = a + paths.row(i);
         const int* path = paths.path(i);
         const std::size_t above = paths.length(i) - 1;
-        for (std::size_t k = 0; k < above; ++k) y[path[k]] += row[k] * x[i];
-        y[i] = row[above] * x[i] + path::dot(row, path, above, x);  // later rows add their share above
+        const T x_i = x[i];
+        T even = 0, odd = 0;  // as path::dot
+        const auto take = [&](std::size_t k, T& sum) {
+            y[path[k]] += row[k] * x_i;
+            sum += row[k] * x[path[k]];
+        };
+        std::size_t k = 0;
+        for (; k + 1 < above; k += 2) take(k, even), take(k + 1, odd);
+        if (k < above) take(k, even);
+        y[i] = row[above] * x_i + (even + odd);  // later rows add their share
     }
 }
 

@@ -87,6 +87,7 @@ class Simulation {
     /// What happened since the last call, one line each: for the log.
     std::vector<std::string> take_notices();
     Controller& controller() { return controller_; }
+    const Controller& controller() const { return controller_; }
     Bus& bus() { return *bus_; }
 
   private:

@@ -13,7 +13,7 @@ namespace roboss {
 namespace wire {
 namespace {
 
-constexpr std::uint32_t kModelVersion = 2;
+constexpr std::uint32_t kModelVersion = 3;
 
 /// A Writer and a Reader that know the shared hulls and surfaces, to which shapes point.
 struct ModelWriter : Writer {
@@ -68,12 +68,12 @@ template <class A> void field(A& a, Of<A, Dof>& m) {
     fields(a, m.body, m.joint, m.lower, m.upper, m.max_effort, m.max_velocity, m.damping, m.friction, m.spring_stiffness,
            m.spring_reference, m.armature, m.position_gain, m.velocity_gain, m.inverse_inertia, m.limit_stiffness, m.limit_dissipation);
 }
-template <class A> void field(A& a, Of<A, Link>& m) { fields(a, m.name, m.body, m.X_BL, m.p_BC); }
+template <class A> void field(A& a, Of<A, Link>& m) { fields(a, m.name, m.body, m.X_BL, m.p_BC, m.mass, m.inertia_C, m.gravity, m.carrier, m.parent); }
 template <class A> void field(A& a, Of<A, Joint>& m) {
-    fields(a, m.name, m.kind, m.body, m.q_index, m.v_index, m.nv, m.reversed, m.loop);
+    fields(a, m.name, m.kind, m.body, m.q_index, m.v_index, m.nv, m.reversed, m.loop, m.p_BJ);
 }
 template <class A> void field(A& a, Of<A, LoopJoint>& m) {
-    fields(a, m.joint, m.kind, m.body_a, m.body_b, m.X_AJ, m.X_BJ, m.axis_J, m.axis2_J, m.pitch, m.dofs, m.motor_index, m.inverse_mass,
+    fields(a, m.joint, m.kind, m.body_a, m.body_b, m.link_a, m.link_b, m.X_AJ, m.X_BJ, m.axis_J, m.axis2_J, m.pitch, m.dofs, m.motor_index, m.inverse_mass,
            m.inverse_inertia);
 }
 template <class A> void field(A& a, Of<A, CoordinateCoupling>& m) {
@@ -89,7 +89,7 @@ template <class A> void field(A& a, Of<A, Shape>& m) {
     pointer(a, a.model.surfaces, m.surface);
 }
 template <class A> void field(A& a, Of<A, BodyShape>& m) { fields(a, m.shape, m.body, m.link, m.X_BS, m.material); }
-template <class A> void field(A& a, Of<A, LinkDrag>& m) { fields(a, m.body, m.p_BC, m.R_BL, m.area, m.linear, m.wind); }
+template <class A> void field(A& a, Of<A, LinkDrag>& m) { fields(a, m.body, m.link, m.p_BC, m.R_BL, m.area, m.linear, m.wind); }
 template <class A> void field(A& a, Of<A, NoiseSpec>& m) {
     fields(a, m.mean, m.stddev, m.bias_mean, m.bias_stddev, m.precision);
 }
@@ -126,14 +126,14 @@ template <class A> void field(A& a, Of<A, Model>& m) {
 /// computes is left out above: hashes, paths, the tree over the scenery.)
 [[maybe_unused]] void know_fields(const Body& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15] = m; }
 [[maybe_unused]] void know_fields(const Dof& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15] = m; }
-[[maybe_unused]] void know_fields(const Link& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3] = m; }
-[[maybe_unused]] void know_fields(const Joint& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7] = m; }
-[[maybe_unused]] void know_fields(const LoopJoint& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12] = m; }
+[[maybe_unused]] void know_fields(const Link& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8] = m; }
+[[maybe_unused]] void know_fields(const Joint& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8] = m; }
+[[maybe_unused]] void know_fields(const LoopJoint& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14] = m; }
 [[maybe_unused]] void know_fields(const CoordinateCoupling& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const Material& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15] = m; }
 [[maybe_unused]] void know_fields(const Shape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const BodyShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4] = m; }
-[[maybe_unused]] void know_fields(const LinkDrag& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
+[[maybe_unused]] void know_fields(const LinkDrag& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6] = m; }
 [[maybe_unused]] void know_fields(const SensorSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17, f18, f19, f20, f21, f22] = m; }
 [[maybe_unused]] void know_fields(const SensorInfo& m) { [[maybe_unused]] const auto& [f0, f1] = m; }
 [[maybe_unused]] void know_fields(const RobotType& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17, f18, f19, f20, f21, f22, f23] = m; }

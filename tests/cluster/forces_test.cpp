@@ -137,10 +137,11 @@ TEST(Forces, AFollowersHingeBearsTheTorqueOfItsMimic) {
         if (client.tick() < 20) return;
         ++asked;
         const std::vector<JointReaction> reactions = client.joint_reactions(RobotId(0u));
-        ASSERT_EQ(reactions.size(), 2u);
+        ASSERT_EQ(reactions.size(), 3u);
         const double a = 1.0 / (kInertia * (1 + 4));  // torque over the inertia that the leader feels
-        EXPECT_NEAR(reactions[0].torque.z / (kInertia * a), 1, 1e-5) << "motor less the gear's share";
-        EXPECT_NEAR(reactions[1].torque.z / (kInertia * 2 * a), 1, 1e-5);
+        EXPECT_NEAR(reactions[0].torque.z / (kInertia * 3 * a), 1, 1e-5) << "the weld's, which bears both";
+        EXPECT_NEAR(reactions[1].torque.z / (kInertia * a), 1, 1e-5) << "motor less the gear's share";
+        EXPECT_NEAR(reactions[2].torque.z / (kInertia * 2 * a), 1, 1e-5);
     });
     EXPECT_GT(asked, 10);
 }

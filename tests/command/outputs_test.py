@@ -1,6 +1,7 @@
 """What a run leaves behind: trace, summary, picture, saved state; and its end by Ctrl-C."""
 import csv
 import json
+import shlex
 import signal
 import subprocess
 import time
@@ -52,6 +53,28 @@ class Outputs(unittest.TestCase):
         self.assertEqual(data["ticks"], 100)
         self.assertRegex(data["state_hash"], "^[0-9a-f]{16}$")
         self.assertIn(data["state_hash"], done.stdout)
+
+    def test_the_log_tells_what_happens_who_has_what_and_how_the_run_stands(self):
+        file = FOLDER / "run.log"
+        file.write_text("a line of a run before\n")
+        summary(WORLDS / "heap.sdf", "--duration", 0.4, "--simulators", 3, "--log", file, "--log-every", 0.001)
+        first, *lines = file.read_text().splitlines()
+        self.assertEqual(first, "a line of a run before", "it is added to")
+        events = [dict(p.split("=", 1) for p in shlex.split(line)[1:]) for line in lines]
+        self.assertEqual({e["level"] for e in events}, {"info"})
+        states = [e for e in events if e["event"] == "state"]
+        self.assertGreater(len(states), 1)
+        self.assertEqual(states[-1]["simulators"], "3")
+        self.assertLessEqual({"tick", "time_s", "islands", "window", "windows", "repeated", "efficiency"}, set(states[-1]))
+        at_end = [e for e in events if e["event"] == "load" and e["tick"] == "200"]
+        self.assertEqual({e["simulator"] for e in at_end}, {"0", "1", "2"})
+        self.assertEqual(sum(int(e["robots"]) for e in at_end), int(states[-1]["robots"]))
+        self.assertIn("the run has ended", [e.get("text") for e in events])
+
+    def test_a_log_that_cannot_be_written_is_refused(self):
+        done = roboss("run", WORLDS / "heap.sdf", "--duration", 0.1, "--log", FOLDER)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("cannot write the log", done.stderr)
 
     def test_the_picture_is_an_svg_with_a_path_for_each_car(self):
         picture = FOLDER / "city.svg"
