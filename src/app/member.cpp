@@ -77,8 +77,13 @@ void Member::mend_silence(std::int64_t now_ms) {
     const std::int64_t heard_ms = bus_->heard_ms(kControllerAddress).value_or(0);
     if (heard_ms > connected_ms_) silence_ms_max_ = kSilence_ms;
     if (now_ms - std::max(heard_ms, connected_ms_) < silence_ms_max_) return;
-    bus_->reconnect();
     connected_ms_ = now_ms;
+    if (const Result<> again = bus_->reconnect(); !again) {
+        if (std::exchange(told_trouble_, again.error().message) != again.error().message)
+            say(again.error().message + ": it tries again");
+        return;
+    }
+    told_trouble_.clear();
     silence_ms_max_ = std::min(2 * silence_ms_max_, kSilenceLongest_ms);
 }
 

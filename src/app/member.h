@@ -45,6 +45,7 @@ class Member {
     std::int64_t seen_ms_ = 0;  // when a Controller was there last
     std::int64_t connected_ms_ = 0, silence_ms_max_ = 0;
     bool told_waiting_ = false;
+    std::string told_trouble_;
 };
 
 }  // namespace roboss

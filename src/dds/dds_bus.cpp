@@ -115,6 +115,7 @@ struct DdsBus::Network {
 
     /// Everything that hangs on the participant anew; messages between addresses of this process stay.
     Result<> reconnect() {
+        if (Result<> possible = Participant::possible(options); !possible) return possible.error();
         lose_controller();
         outboxes.clear();
         for (auto& [address, home] : homes) {
@@ -124,7 +125,7 @@ struct DdsBus::Network {
         }
         participant.reset();
         Result<std::unique_ptr<Participant>> again = Participant::create(options);
-        if (!again) return again.error();
+        ROBOSS_CHECK(again.ok(), again.error().text());
         participant = std::move(again).value();
         for (auto& [address, home] : homes) open(address, home);
         return Ok{};
@@ -270,9 +271,8 @@ std::optional<std::int64_t> DdsBus::heard_ms(const Address& address) const {
     return found == network_->heard_ms.end() ? std::nullopt : std::optional(found->second);
 }
 
-void DdsBus::reconnect() {
-    const Result<> done = network_->reconnect();
-    ROBOSS_CHECK(done.ok(), done.error().text());
+Result<> DdsBus::reconnect() {
+    return network_->reconnect();
 }
 
 bool DdsBus::taken_elsewhere(const Address& address) const {

@@ -35,8 +35,10 @@ class DdsBus : public Bus {
     /// When a message from this address came last (now_ms()); nothing: never.
     std::optional<std::int64_t> heard_ms(const Address& address) const;
     /// Leaves the network and joins it afresh, for one who hears nothing though others are there: when a
-    /// process was stopped for longer than its lease, DDS may find only one direction again.
-    void reconnect();
+    /// process was stopped for longer than its lease, DDS may find only one direction again. An Error: the
+    /// interface is down or a peer's name unknown at the moment (its container is being made again, say);
+    /// then all stays as it is.
+    Result<> reconnect();
     /// Another process has opened the inbox of this address: two must not be the same.
     bool taken_elsewhere(const Address& address) const;
     /// Waits until all that was sent has arrived, at most so long. For the end of a process.

@@ -161,6 +161,15 @@ Result<std::unique_ptr<Participant>> Participant::create(const DdsOptions& optio
     return result;
 }
 
+Result<> Participant::possible(const DdsOptions& options) {
+    if (Result<std::string> address = interface_address(options.interface); !address) return address.error();
+    if (const std::string& server = options.discovery_server; !server.empty())
+        if (Result<HostPort> at = host_port(server); !at) return at.error();
+    for (const std::string& peer : options.peers)
+        if (Result<HostPort> at = host_port(peer); !at) return at.error();
+    return Ok{};
+}
+
 Participant::~Participant() {
     if (participant_ == nullptr) return;
     participant_->set_listener(nullptr);

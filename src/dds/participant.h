@@ -19,6 +19,8 @@ namespace roboss {
 class Participant : private eprosima::fastdds::dds::DomainParticipantListener {
   public:
     static Result<std::unique_ptr<Participant>> create(const DdsOptions& options);
+    /// The interface is up and all who are named can be found, now: both may change while a process runs.
+    static Result<> possible(const DdsOptions& options);
     ~Participant() override;
 
     eprosima::fastdds::dds::Publisher& publisher() { return *publisher_; }
