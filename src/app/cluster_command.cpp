@@ -4,15 +4,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <future>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
 
 #include "app/cluster_file.h"
 #include "app/control_command.h"
 #include "app/exit_codes.h"
+#include "app/host_processes.h"
 #include "app/member.h"
 #include "app/remote_shell.h"
 #include "app/run.h"
@@ -21,8 +26,6 @@ namespace roboss {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::size_t kAtOnce = 16;  // shells open at the same time
 
 const char* const kFooter =
     R"(HOSTS.toml says what runs where:
@@ -44,9 +47,9 @@ const char* const kFooter =
   host = "node1"
   program = "driver.so"
 
-Hosts are reached by ssh without a password (an agent or a key); reach = ["ip", "netns", "exec", "{host}", "sh", "-s"]
-names another way to have a shell that reads a script. What was started is noted beside the file (HOSTS.toml.running),
-logs are on the hosts under ~/.roboss/logs.
+Hosts are reached by ssh without a question (an agent or a key; known hosts), by one shell a host;
+reach = ["ip", "netns", "exec", "{host}", "sh", "-s"] names another way to have a shell that reads a script.
+What was started is noted beside the file (HOSTS.toml.running), logs are on the hosts under ~/.roboss/logs.
 
 Examples:
   roboss cluster up hosts.toml
@@ -55,55 +58,6 @@ Examples:
   roboss cluster down hosts.toml
 
 Exit codes: 0 done, 1 the file is wrong or nothing is there, 2 wrong usage, 3 a host cannot be reached or a process does not start.)";
-
-struct Started {
-    std::string name, role, host, log;
-    long pid = 0;
-};
-
-std::vector<std::string> shell_on(const ClusterFile& file, const std::string& host) {
-    if (host == "local") return {"sh", "-s"};
-    std::vector<std::string> words = file.reach;
-    for (std::string& word : words)
-        if (const std::size_t at = word.find("{host}"); at != std::string::npos) word.replace(at, 6, host);
-    return words;
-}
-
-/// `arguments` for `roboss` where this process is.
-std::string command_line(const ClusterFile& file, const ClusterProcess& process,
-                         const std::vector<std::string>& arguments) {
-    std::string line = quoted(file.program);
-    for (const std::string& word : arguments) line += " " + quoted(word);
-    line += " --simulation " + quoted(file.simulation);
-    for (const std::string& word : process.network) line += " " + quoted(word);
-    return line;
-}
-
-std::string in_folder(const ClusterFile& file) {
-    return file.folder.empty() ? "" : "cd " + quoted(file.folder) + " || exit 3\n";
-}
-
-std::string starting_script(const ClusterFile& file, const ClusterProcess& process) {
-    return in_folder(file) + fmt::format(R"(folder="${{HOME:-/tmp}}/.roboss/logs"
-mkdir -p "$folder" || exit 3
-log="$folder/"{}
-command -v {} >/dev/null || {{ echo {} is not there; exit 3; }}
-setsid nohup {} >"$log" 2>&1 </dev/null &
-pid=$!
-sleep 0.5
-kill -0 $pid 2>/dev/null || {{ echo it ended at once:; tail -n 5 "$log"; exit 4; }}
-echo "started $pid $log"
-)",
-                                         quoted(file.simulation + "-" + process.name + ".log"),
-                                         quoted(file.program), quoted(file.program),
-                                         command_line(file, process, process.arguments));
-}
-
-/// Asks for the process, and makes sure that it is the one that was started.
-std::string about(const Started& process, const ClusterFile& file) {
-    return fmt::format("tr '\\0' ' ' </proc/{0}/cmdline 2>/dev/null | grep -qF -e {1}", process.pid,
-                       quoted("--simulation " + file.simulation + " "));
-}
 
 std::string notes_of(const ClusterFile& file) {
     return file.path + ".running";
@@ -133,104 +87,106 @@ Result<std::vector<Started>> read_notes(const ClusterFile& file) {
     return all;
 }
 
-/// Runs what(i) for all i, some at a time.
-template <class What>
-void side_by_side(std::size_t count, What&& what) {
-    for (std::size_t first = 0; first < count; first += kAtOnce) {
-        std::vector<std::future<void>> under_way;
-        for (std::size_t i = first; i < std::min(count, first + kAtOnce); ++i)
-            under_way.push_back(std::async(std::launch::async, [&what, i] { what(i); }));
-    }
+void say(const std::map<std::string, std::string>& silent) {
+    for (const auto& [host, why] : silent) fmt::print(stderr, "roboss: {} does not answer: {}\n", host, why);
 }
 
-Result<Started> start(const ClusterFile& file, const ClusterProcess& process) {
-    Result<std::string> said = run_script(shell_on(file, process.host), starting_script(file, process));
-    if (!said)
-        return Error{process.name + " on " + process.host + ": " + said.error().text(),
-                     "see that the host is reached and has the program"};
-    Started started{process.name, process.role, process.host, "", 0};
-    std::istringstream words(said.value());
-    for (std::string word; words >> word;)
-        if (word == "started" && words >> started.pid >> started.log) return started;
-    return Error{process.name + " on " + process.host + " said: " + said.value(),
-                 "is there a shell behind `reach`?"};
-}
-
-/// Those of `all` that still run, by their hosts' word.
-std::vector<bool> alive(const ClusterFile& file, const std::vector<Started>& all) {
-    std::vector<char> lives(all.size(), 0);
-    side_by_side(all.size(), [&](std::size_t i) {
-        lives[i] = run_script(shell_on(file, all[i].host), about(all[i], file) + "\n").ok() ? 1 : 0;
-    });
-    return {lives.begin(), lives.end()};
+/// Something of what was started before runs, or may run; it has been said.
+bool is_up(const ClusterFile& file) {
+    const Result<std::vector<Started>> before = read_notes(file);
+    if (!before) return false;
+    const Presence presence = ask_hosts(file, before.value());
+    const std::string remedy = "`roboss cluster down " + file.path + "` ends it first";
+    if (std::find(presence.runs.begin(), presence.runs.end(), true) != presence.runs.end())
+        return print(Error{"it is up already", remedy}), true;
+    say(presence.silent);
+    if (!presence.silent.empty())
+        print(Error{"what was started there before may still run",
+                    remedy + "; if these hosts are gone for good, remove " + notes_of(file)});
+    return !presence.silent.empty();
 }
 
 int up(const std::string& path) {
     Result<ClusterFile> file = load_cluster_file(path);
     if (!file) return print(file.error()), kBadInput;
-    if (Result<std::vector<Started>> before = read_notes(file.value()); before) {
-        const std::vector<bool> lives = alive(file.value(), before.value());
-        if (std::find(lives.begin(), lives.end(), true) != lives.end())
-            return print(Error{"it is up already", "`roboss cluster down " + path + "` ends it first"}),
-                   kRunFailed;
-    }
-    const std::vector<ClusterProcess>& processes = file.value().processes;
-    std::vector<Result<Started>> results(processes.size(), Error{"not started", ""});
-    side_by_side(processes.size(), [&](std::size_t i) { results[i] = start(file.value(), processes[i]); });
-    std::vector<Started> all;
-    bool good = true;
-    for (const Result<Started>& result : results) {
-        good = good && result.ok();
-        if (!result) print(result.error());
-        if (!result) continue;
-        all.push_back(result.value());
-        fmt::print("{:<24} on {:<16} process {}, log {}\n", all.back().name, all.back().host, all.back().pid,
-                   all.back().log);
-    }
-    if (Result<> written = write_notes(file.value(), all); !written) print(written.error()), good = false;
+    if (is_up(file.value())) return kRunFailed;
+    const StartOutcome outcome = start_processes(file.value());
+    for (const Started& s : outcome.started)
+        fmt::print("{:<24} on {:<16} process {}, log {}\n", s.name, s.host, s.pid, s.log);
+    for (const Error& error : outcome.errors) print(error);
+    bool good = outcome.errors.empty() && outcome.started.size() == file.value().processes.size();
     if (!good)
         fmt::print(stderr, "roboss: not all has started; `roboss cluster down {}` ends the rest\n", path);
+    if (Result<> written = write_notes(file.value(), outcome.started); !written)
+        print(written.error()), good = false;
     return good ? kDone : kRunFailed;
 }
 
-/// Waits for the end of all, at most so long; those that are left.
-std::vector<Started> outlived(const ClusterFile& file, std::vector<Started> all, int seconds) {
-    for (int i = 0; i <= 2 * seconds && !all.empty(); ++i) {
-        if (i > 0) std::this_thread::sleep_for(std::chrono::milliseconds(500));
-        const std::vector<bool> lives = alive(file, all);
-        std::vector<Started> left;
-        for (std::size_t k = 0; k < all.size(); ++k)
-            if (lives[k]) left.push_back(all[k]);
-        all = std::move(left);
-    }
-    return all;
-}
+/// Ends processes, and knows whose hosts do not answer any more: nobody waits for them again.
+class Ending {
+  public:
+    explicit Ending(const ClusterFile& file, std::vector<Started> all) : file_(file), left_(std::move(all)) {}
 
-void send_signal(const ClusterFile& file, const std::vector<Started>& to, const char* name) {
-    side_by_side(to.size(), [&](std::size_t i) {
-        (void)run_script(shell_on(file, to[i].host),
-                         about(to[i], file) + fmt::format(" && kill -{} {}\n", name, to[i].pid));
-    });
-}
+    void signal(const char* name) { send_signal(file_, left_, name); }
+    /// False: there is none.
+    bool signal_controller(const char* name) {
+        std::vector<Started> controller;
+        for (const Started& s : left_)
+            if (s.role == "controller") controller.push_back(s);
+        send_signal(file_, controller, name);
+        return !controller.empty();
+    }
+    /// Waits for the end of all, at most so long; whether some are left.
+    bool wait(int seconds) {
+        for (int i = 0; i <= 2 * seconds && !left_.empty(); ++i) {
+            if (i > 0) std::this_thread::sleep_for(std::chrono::milliseconds(500));
+            Presence presence = ask_hosts(file_, left_);
+            silent_.merge(presence.silent);
+            std::vector<Started> running;
+            for (std::size_t k = 0; k < left_.size(); ++k) {
+                if (!presence.runs[k]) unknown_.push_back(left_[k]);
+                if (presence.runs[k].value_or(false)) running.push_back(left_[k]);
+            }
+            left_ = std::move(running);
+        }
+        return !left_.empty();
+    }
+    const std::vector<Started>& left() const { return left_; }
+    const std::vector<Started>& unknown() const { return unknown_; }
+    const std::map<std::string, std::string>& silent() const { return silent_; }
+
+  private:
+    const ClusterFile& file_;
+    std::vector<Started> left_, unknown_;
+    std::map<std::string, std::string> silent_;
+};
 
 int down(const std::string& path) {
     Result<ClusterFile> file = load_cluster_file(path);
     if (!file) return print(file.error()), kBadInput;
     Result<std::vector<Started>> all = read_notes(file.value());
     if (!all) return print(all.error()), kBadInput;
-    std::vector<Started> controller, others;
-    for (const Started& s : all.value()) (s.role == "controller" ? controller : others).push_back(s);
-    send_signal(file.value(), controller,
-                "INT");  // as Ctrl-C: the run ends as at its duration, and sends everybody home
-    std::vector<Started> left = outlived(file.value(), all.value(), 10);
+    Ending ending(file.value(), all.value());
+    // As Ctrl-C: the run ends as at its duration, and sends everybody home.
+    bool some_left = ending.wait(ending.signal_controller("INT") ? 10 : 0);
     for (const char* name : {"TERM", "KILL"}) {
-        if (left.empty()) break;
-        send_signal(file.value(), left, name);
-        left = outlived(file.value(), left, 5);
+        if (!some_left) break;
+        ending.signal(name);
+        some_left = ending.wait(5);
     }
-    for (const Started& s : left)
+    say(ending.silent());
+    std::vector<Started> rest = ending.left();
+    for (const Started& s : rest)
         fmt::print(stderr, "roboss: {} (process {} on {}) does not end\n", s.name, s.pid, s.host);
-    if (!left.empty()) return kRunFailed;
+    for (const Started& s : ending.unknown())
+        fmt::print(stderr, "roboss: {} (process {} on {}) may still run\n", s.name, s.pid, s.host);
+    rest.insert(rest.end(), ending.unknown().begin(), ending.unknown().end());
+    if (!rest.empty()) {
+        if (Result<> written = write_notes(file.value(), rest); !written) print(written.error());
+        fmt::print(stderr, "roboss: {} processes have ended; `roboss cluster down {}` again for the rest\n",
+                   all.value().size() - rest.size(), path);
+        return kRunFailed;
+    }
     std::filesystem::remove(notes_of(file.value()));
     fmt::print("all {} processes have ended\n", all.value().size());
     return kDone;
@@ -262,11 +218,36 @@ struct StatusOptions {
 
 Result<std::string> ask_status(const StatusOptions& o, const ClusterFile* file) {
     if (file == nullptr) return request_of_controller(o.member, {"status"});
-    const std::string script =
-        in_folder(*file) + "exec " +
-        command_line(*file, file->processes.front(), {"control", "status", "--quiet", "--patience", "5"}) +
-        "\n";
-    return run_script(shell_on(*file, file->processes.front().host), script);
+    const ClusterProcess& controller = file->processes.front();
+    return run_on_host(
+        *file, controller.host,
+        "exec " + command_line(*file, controller, {"control", "status", "--quiet", "--patience", "5"}) +
+            "\n");
+}
+
+/// What the hosts say of the processes that were started; an Error if the Controller is not among those that
+/// run.
+Result<Json> ask_processes(const ClusterFile& file) {
+    Result<std::vector<Started>> all = read_notes(file);
+    if (!all) return all.error();
+    const Presence presence = ask_hosts(file, all.value());
+    say(presence.silent);
+    Json processes = Json::array();
+    std::optional<Error> ended;
+    for (std::size_t i = 0; i < all.value().size(); ++i) {
+        const Started& s = all.value()[i];
+        const std::optional<bool> runs = presence.runs[i];
+        processes.push_back({{"name", s.name}, {"host", s.host}, {"pid", s.pid}, {"log", s.log}});
+        processes.back()["runs"] = runs ? Json(*runs) : Json();
+        if (runs.value_or(true)) continue;
+        fmt::print(stderr, "roboss: {} (process {} on {}) has ended; its log: {}\n", s.name, s.pid, s.host,
+                   s.log);
+        if (s.role != "controller") continue;
+        const Result<std::string> log = run_on_host(file, s.host, "tail -n 5 " + quoted(s.log) + "\n");
+        ended = Error{"the run is over; the last lines of its log:\n" + (log ? log.value() : ""), ""};
+    }
+    if (ended) return *ended;
+    return processes;
 }
 
 int status(const StatusOptions& o) {
@@ -276,25 +257,15 @@ int status(const StatusOptions& o) {
         Result<ClusterFile> loaded = load_cluster_file(o.path);
         if (!loaded) return print(loaded.error()), kBadInput;
         file = std::move(loaded).value();
-        Result<std::vector<Started>> all = read_notes(*file);
-        if (!all) return print(all.error()), kBadInput;
-        const std::vector<bool> lives = alive(*file, all.value());
-        for (std::size_t i = 0; i < lives.size(); ++i) {
-            const Started& s = all.value()[i];
-            processes.push_back({{"name", s.name},
-                                 {"host", s.host},
-                                 {"pid", s.pid},
-                                 {"runs", static_cast<bool>(lives[i])},
-                                 {"log", s.log}});
-            if (!lives[i])
-                fmt::print(stderr, "roboss: {} (process {} on {}) has ended; its log: {}\n", s.name, s.pid,
-                           s.host, s.log);
-        }
+        Result<Json> asked = ask_processes(*file);
+        if (!asked) return print(asked.error()), kBadInput;
+        processes = std::move(asked).value();
     }
     Result<std::string> text = ask_status(o, file ? &*file : nullptr);
     if (!text) return print(text.error()), kBadInput;
     Json told = Json::parse(text.value(), nullptr, false);
-    if (told.is_discarded()) return print(Error{"the run said: " + text.value(), ""}), kRunFailed;
+    if (!told.is_object() || !told.contains("members") || !told.contains("robots"))
+        return print(Error{"the run said: " + text.value(), ""}), kRunFailed;
     if (file) told["processes"] = processes;
     if (o.json) return fmt::print("{}\n", told.dump(2)), kDone;
     print_status(told);

@@ -13,6 +13,8 @@
 namespace roboss {
 namespace {
 
+constexpr const char* kBegins = "roboss-script-begins";
+
 /// Both ends are closed when this process goes on to another program.
 struct Pipe {
     std::array<int, 2> ends{-1, -1};
@@ -44,6 +46,15 @@ std::string read_all(int from) {
     }
 }
 
+/// Cuts off what was said before the script began: by ssh, by the host, by the user's own .bashrc. False if
+/// it never began.
+bool drop_greeting(std::string& said) {
+    const std::size_t at = said.find(kBegins);
+    if (at == std::string::npos) return false;
+    said.erase(0, at + std::strlen(kBegins) + 1);
+    return true;
+}
+
 }  // namespace
 
 std::string quoted(const std::string& word) {
@@ -73,18 +84,23 @@ Result<std::string> run_script(const std::vector<std::string>& words, const std:
     }
     in.close_end(0), out.close_end(1);
     ::signal(SIGPIPE, SIG_IGN);
-    write_all(in.ends[1], script);
+    write_all(in.ends[1], "echo " + std::string(kBegins) + "\n" + script);
     in.close_end(1);
     std::string said = read_all(out.ends[0]);
     int status = 0;
     while (waitpid(id, &status, 0) < 0 && errno == EINTR) {
     }
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return said;
+    const bool is_shell = drop_greeting(said);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && is_shell) return said;
     while (!said.empty() && said.back() == '\n') said.pop_back();
     if (WIFEXITED(status) && WEXITSTATUS(status) == 127 && said.empty())
         return Error{"'" + words[0] + "' is not found here",
                      "install it, or say how hosts are reached (reach = [...])"};
-    return Error{said.empty() ? "it ended with code " + std::to_string(WEXITSTATUS(status)) : said, ""};
+    if (said.empty()) said = "it ended with code " + std::to_string(WEXITSTATUS(status));
+    if (is_shell) return Error{said, ""};
+    std::string command;
+    for (const std::string& word : words) command += " " + word;
+    return Error{said, "this must give a shell without a question:" + command};
 }
 
 }  // namespace roboss

@@ -8,8 +8,9 @@
 
 namespace roboss {
 
-/// Starts `words` (found by PATH), writes `script` to its input, and reads its output until it ends. An
-/// Error: it could not be started or ended with another code than 0; then with what it complained of.
+/// Starts `words` (found by PATH), writes `script` to its input, and reads what the script says until it
+/// ends; what others say before is dropped. An Error: it could not be started, is no shell or ended with
+/// another code than 0; then with what it complained of.
 Result<std::string> run_script(const std::vector<std::string>& words, const std::string& script);
 
 /// As one word of a shell.

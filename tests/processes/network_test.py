@@ -6,9 +6,11 @@ import json
 import os
 import shutil
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
+from pathlib import Path
 
 import bad_cable
 from members import DRIVER, FOLDER, ROBOSS, WORLDS, Member, embedded  # takes its own arguments
@@ -82,22 +84,28 @@ class Network(unittest.TestCase):
             with discovery_server(hosts.address(0), 11811, hosts.inside(0)) as finding:
                 self.assertEqual(self.city(lambda _: finding, hosts)["state_hash"], expected)
 
-    def test_a_simulator_cut_off_by_its_host_is_done_without(self):
-        expected = embedded(*HEAP)["state_hash"]
+    def test_a_simulator_cut_off_by_its_host_is_done_without_and_comes_back(self):
+        world = [WORLDS / "heap.sdf", "--until", 3.0]
+        expected = embedded(*world)["state_hash"]
         with bad_cable.Hosts(3, loss=0.01, delay_s=0.002, seed=4) as hosts:
             place = ["--simulation", "net", "--interface"]
             summary = FOLDER / "cut.json"
-            controller = HostMember(hosts, 0, "controller", *HEAP, "--simulators", 2, "--speed", 0.5, "--json", summary, *place, hosts.address(0))
+            controller = HostMember(hosts, 0, "controller", *world, "--simulators", 2, "--speed", 0.25, "--json", summary, *place, hosts.address(0))
             simulators = [HostMember(hosts, i, "simulator", "--patience", 30, *place, hosts.address(i)) for i in (1, 2)]
             try:
                 controller.hears("joined", 2)
                 time.sleep(1.0)
                 bad_cable.ip("-n", hosts.name(2), "link", "set", "eth0", "down")
-                controller.hears("lost", 1, 5)
+                controller.hears("given up", 1, 5)
+                simulators[1].hears("it tries again")
+                bad_cable.ip("-n", hosts.name(2), "link", "set", "eth0", "up")
+                bad_cable.ip("-n", hosts.name(2), "route", "add", "224.0.0.0/4", "dev", "eth0")
+                controller.hears("joined", 3)
                 self.assertEqual(controller.end(100), 0, controller.said())
                 told = json.loads(summary.read_text())
                 self.assertEqual(told["state_hash"], expected)
-                self.assertEqual(simulators[0].end(20), 0)
+                for simulator in simulators:
+                    self.assertEqual(simulator.end(20), 0, simulator.said())
             finally:
                 for member in [controller, *simulators]:
                     member.kill()
@@ -186,6 +194,53 @@ class ClusterFile(unittest.TestCase):
         done = subprocess.run([ROBOSS, "cluster", "up", file], capture_output=True, text=True, timeout=30)
         self.assertEqual(done.returncode, 3)
         self.assertIn("controller on local: /nowhere/roboss is not there", done.stderr)
+        file.write_text('program = "absent-roboss"\n[controller]\nworld = "a.sdf"\n')
+        done = subprocess.run([ROBOSS, "cluster", "up", file], capture_output=True, text=True, timeout=30)
+        self.assertIn("absent-roboss is not found by PATH, which is /", done.stderr)
+
+
+STAND_IN = """import os, signal, sys, time
+if "status" in sys.argv:
+    sys.exit(print('{"members": [], "robots": []}'))
+over = os.path.join(os.path.dirname(sys.argv[0]), "over")
+signal.signal(signal.SIGINT, lambda *_: sys.exit(open(over, "w").close()))  # the Controller sends all home
+while not os.path.exists(over):
+    time.sleep(0.1)
+"""
+
+
+class Reach(unittest.TestCase):
+    """Shells on hosts as ssh gives them: with greetings, one at a time, and not always."""
+
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(dir=FOLDER))
+        self.program = self.folder / "stands for roboss"
+        self.program.write_text(f"#!{sys.executable}\n" + STAND_IN)
+        self.program.chmod(0o755)
+        self.way = self.folder / "way"
+        self.way.touch()
+        reach = f"[ -e '{self.way}' ] || {{ echo no way; exit 255; }}; mkdir '{self.folder}/shell-on-'$0 || exit 255; echo be welcome; sh -s; code=$?; rmdir '{self.folder}/shell-on-'$0; exit $code"
+        self.file = self.folder / "hosts.toml"
+        self.file.write_text(f"simulation = 'reach-{os.getpid()}'\nprogram = {json.dumps(str(self.program))}\nreach = ['sh', '-c', {json.dumps(reach)}, '{{host}}']\n"
+                             "[controller]\nhost = 'one'\nworld = 'a b.sdf'\n[[simulators]]\nhost = 'two'\ncount = 12\n")
+
+    def cluster(self, action, code):
+        done = subprocess.run([ROBOSS, "cluster", action, self.file], capture_output=True, text=True, timeout=100, env={**os.environ, "HOME": str(self.folder)})
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stdout + done.stderr
+
+    def test_one_shell_a_host_and_a_host_that_is_away_is_not_taken_for_ended(self):
+        self.assertEqual(self.cluster("up", 0).count("process "), 13)
+        try:
+            self.assertIn("efficiency before messages", self.cluster("status", 0))
+            self.way.unlink()
+            self.assertIn("two does not answer: no way", self.cluster("up", 3))
+            said = self.cluster("down", 3)
+            self.assertEqual(said.count("may still run"), 13, said)
+        finally:
+            self.way.touch()
+            said = self.cluster("down", 0)
+        self.assertIn("all 13 processes have ended", said)
 
 
 if __name__ == "__main__":
