@@ -128,8 +128,9 @@ class Ending {
     explicit Ending(const ClusterFile& file, std::vector<Started> all) : file_(file), left_(std::move(all)) {}
 
     void signal(const char* name) { send_signal(file_, left_, name); }
-    /// False: there is none.
+    /// False: there is none that runs.
     bool signal_controller(const char* name) {
+        wait(0);
         std::vector<Started> controller;
         for (const Started& s : left_)
             if (s.role == "controller") controller.push_back(s);
@@ -138,8 +139,10 @@ class Ending {
     }
     /// Waits for the end of all, at most so long; whether some are left.
     bool wait(int seconds) {
-        for (int i = 0; i <= 2 * seconds && !left_.empty(); ++i) {
-            if (i > 0) std::this_thread::sleep_for(std::chrono::milliseconds(500));
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
+        for (bool again = false; !left_.empty(); again = true) {
+            if (again && std::chrono::steady_clock::now() >= end) break;
+            if (again) std::this_thread::sleep_for(std::chrono::milliseconds(500));
             Presence presence = ask_hosts(file_, left_);
             silent_.merge(presence.silent);
             std::vector<Started> running;
@@ -172,7 +175,7 @@ int down(const std::string& path) {
     for (const char* name : {"TERM", "KILL"}) {
         if (!some_left) break;
         ending.signal(name);
-        some_left = ending.wait(5);
+        some_left = ending.wait(8);  // a Client without Controller takes five to leave
     }
     say(ending.silent());
     std::vector<Started> rest = ending.left();

@@ -77,7 +77,7 @@ command -v {0} >/dev/null || {{ echo {0} {1}; exit 3; }}
 
 /// Asks for the process, and makes sure that it is the one that was started.
 std::string about(const Started& process, const ClusterFile& file) {
-    return fmt::format("tr '\\0' ' ' </proc/{0}/cmdline 2>/dev/null | grep -qF -e {1}", process.pid,
+    return fmt::format("tr '\\0' ' ' 2>/dev/null </proc/{0}/cmdline | grep -qF -e {1}", process.pid,
                        quoted("--simulation " + file.simulation + " "));
 }
 
@@ -147,10 +147,13 @@ Presence ask_hosts(const ClusterFile& file, const std::vector<Started>& all) {
         }
         for (std::size_t i = 0; i < all.size(); ++i)
             if (all[i].host == host) presence.runs[i] = false;
-        std::istringstream words(said.value());
-        std::string sign;
-        for (std::size_t i = 0; words >> sign >> i;)
-            if (i < all.size()) presence.runs[i] = true;
+        std::istringstream lines(said.value());
+        for (std::string line; std::getline(lines, line);) {
+            std::istringstream words(line);
+            char sign = 0;
+            std::size_t i = 0;
+            if (words >> sign >> i && sign == '+' && i < all.size()) presence.runs[i] = true;
+        }
     }
     return presence;
 }

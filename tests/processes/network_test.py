@@ -5,6 +5,7 @@ import contextlib
 import json
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -227,12 +228,16 @@ class Reach(unittest.TestCase):
     def cluster(self, action, code):
         done = subprocess.run([ROBOSS, "cluster", action, self.file], capture_output=True, text=True, timeout=100, env={**os.environ, "HOME": str(self.folder)})
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
-        return done.stdout + done.stderr
+        return done.stderr + done.stdout
 
     def test_one_shell_a_host_and_a_host_that_is_away_is_not_taken_for_ended(self):
         self.assertEqual(self.cluster("up", 0).count("process "), 13)
+        ids = [process["pid"] for process in json.loads(Path(f"{self.file}.running").read_text())["processes"]]
         try:
-            self.assertIn("efficiency before messages", self.cluster("status", 0))
+            os.kill(ids[3], signal.SIGKILL)
+            said = self.cluster("status", 0)
+            self.assertIn("efficiency before messages", said)
+            self.assertEqual(said.count("has ended"), 1, said)
             self.way.unlink()
             self.assertIn("two does not answer: no way", self.cluster("up", 3))
             said = self.cluster("down", 3)
@@ -241,6 +246,8 @@ class Reach(unittest.TestCase):
             self.way.touch()
             said = self.cluster("down", 0)
         self.assertIn("all 13 processes have ended", said)
+        for i in ids:
+            self.assertFalse(Path(f"/proc/{i}/cmdline").exists() and Path(f"/proc/{i}/cmdline").read_bytes(), "it runs on")
 
 
 if __name__ == "__main__":
