@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <stdexcept>
 
 #include "scenes/car_drive.h"
 #include "scenes/overlap.h"
@@ -49,7 +50,7 @@ std::vector<Block> lay_blocks(Random& random, double side) {
 
 Pose free_place(Random& random, double side, const std::vector<Block>& blocks,
                 const std::vector<Vec3>& taken) {
-    for (;;) {
+    for (int tries = 0; tries < 100'000; ++tries) {
         const Vec3 p{random.uniform(0, side), random.uniform(0, side), 0};
         const bool is_free = std::all_of(blocks.begin(), blocks.end(),
                                          [&](const Block& b) { return keeps_clear(b, p, kCarRadius); }) &&
@@ -58,6 +59,7 @@ Pose free_place(Random& random, double side, const std::vector<Block>& blocks,
                              });
         if (is_free) return {p, from_rpy(0, 0, random.uniform(-3.1, 3.1))};
     }
+    throw std::runtime_error("a city this small has no room for a car among its boxes: take more robots");
 }
 
 /// Ticks between the changes of direction, and the first of them, of one car.

@@ -140,7 +140,7 @@ void add_controller(Reading& read, const toml::table& root, ClusterFile& file) {
     ClusterProcess process{"controller",
                            "controller",
                            read.text(*table, "host", "local"),
-                           {"controller", world},
+                           {"controller", world, "--log", "-"},
                            network_options(read, *table, root)};
     append(process.arguments, read.texts(*table, "options"));
     file.processes.push_back(std::move(process));

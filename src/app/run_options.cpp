@@ -139,9 +139,11 @@ void add_watch_options(CLI::App& command, RunOptions& o) {
     command.add_option("--hash-every", o.hash_every_s, "print the state hash each so many simulated seconds")
         ->check(CLI::PositiveNumber);
     command.add_option("--json", o.json, "write the summary to this file");
-    command.add_option("--log", o.log,
-                       "add to this file (-: standard error) a line for each event and, every so often, how "
-                       "the run stands: window, repeated windows, efficiency, who has what and at what load");
+    command
+        .add_option("--log", o.log,
+                    "add to this file (-: standard error) a line for each event and, every so often, how "
+                    "the run stands: window, repeated windows, efficiency, who has what and at what load")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     command.add_option("--log-every", o.log_every_s, "real time between two such states, s")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();

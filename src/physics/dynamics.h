@@ -18,7 +18,7 @@ TransformT<T> base_transform(std::span<const T> q) {
 }
 
 template <class T>
-SpatialInertiaT<T> inertia_of(const Body& body, const BodyWorkT<T>& w) {
+[[gnu::always_inline]] inline SpatialInertiaT<T> inertia_of(const Body& body, const BodyWorkT<T>& w) {
     return spatial_inertia(T(body.mass), w.centre, rotated(w.X_WB.R, broadcast<T>(body.inertia_C)));
 }
 

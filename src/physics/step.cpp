@@ -249,7 +249,7 @@ struct Call {
     /// Steps those who may meet, some sets at a time: so few that what is computed of them stays in the
     /// cache, so many that lanes are filled.
     bool step_near(Impl& s, StepReport& report) const {
-        constexpr std::size_t kTogether = 64;
+        constexpr std::size_t kTogether = 16;
         std::size_t first = 0, last = 0;
         const auto step_some = [&] {
             const std::span<std::uint32_t> some = std::span(s.near).subspan(first, last - first);
