@@ -128,7 +128,8 @@ StartOutcome start_processes(const ClusterFile& file) {
         }
         std::string who = file.processes[places[host].front()].name;
         if (places[host].size() > 1) who += fmt::format(" and {} more", places[host].size() - 1);
-        outcome.errors.push_back({who + " on " + host + ": " + said.error().message, said.error().remedy});
+        outcome.errors.push_back(
+            {fmt::format("{} on {}: {}", who, host, said.error().message), said.error().remedy});
     }
     return outcome;
 }

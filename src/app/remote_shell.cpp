@@ -2,12 +2,12 @@
 #include "app/remote_shell.h"
 
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 
 namespace roboss {
@@ -37,7 +37,7 @@ void write_all(int to, const std::string& text) {
 
 std::string read_all(int from) {
     std::string text;
-    std::array<char, 4096> buffer;
+    std::array<char, 4096> buffer{};
     for (;;) {
         const ssize_t n = ::read(from, buffer.data(), buffer.size());
         if (n < 0 && errno == EINTR) continue;
@@ -68,6 +68,7 @@ Result<std::string> run_script(const std::vector<std::string>& words, const std:
     if (!in.open() || !out.open())
         return Error{std::string("no pipe: ") + std::strerror(errno), "see the limits (ulimit -n)"};
     std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
     for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
     pointers.push_back(nullptr);
     const pid_t id = fork();

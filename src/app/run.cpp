@@ -100,6 +100,7 @@ bool Run::create() {
     std::vector<NamedProgram> programs;
     if (!load_programs(programs)) return false;
     std::vector<std::string> names;
+    names.reserve(programs.size());
     for (const NamedProgram& program : programs) names.push_back(program.name);
     names.insert(names.end(), o_.clients_awaited.begin(), o_.clients_awaited.end());
     const Result<std::vector<std::string>> others = journal_->awaited(names, o_.is_controller);

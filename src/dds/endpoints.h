@@ -102,7 +102,7 @@ class Outbox : private eprosima::fastdds::dds::DataWriterListener {
     std::atomic<int> readers_ = 0;
     bool was_connected_ = false;
     struct Piece {
-        std::int64_t sent_ms;
+        std::int64_t sent_ms = 0;
         ByteSample sample;
     };
     std::deque<Piece> waiting_;

@@ -166,7 +166,7 @@ T Newton<T, Matrix>::gradient(const SolveProblem<T>& p) {
             scale += (mv_[i] * mv_[i] + free * free + applied_[i] * applied_[i]) * lightness_[i];
         }
     }
-    const Mask finite = equal(error - error, T(0));
+    const Mask finite = error < T(kNeverSolved);
     return select(equal(scale, T(0)), T(0), select(finite, sqrt(error / scale), T(kNeverSolved)));
 }
 
