@@ -162,12 +162,10 @@ Result<std::unique_ptr<Participant>> Participant::create(const DdsOptions& optio
 }
 
 Result<> Participant::possible(const DdsOptions& options) {
-    if (Result<std::string> address = interface_address(options.interface); !address) return address.error();
-    if (const std::string& server = options.discovery_server; !server.empty())
-        if (Result<HostPort> at = host_port(server); !at) return at.error();
-    for (const std::string& peer : options.peers)
-        if (Result<HostPort> at = host_port(peer); !at) return at.error();
-    return Ok{};
+    const Result<std::string> address = interface_address(options.interface);
+    if (!address) return address.error();
+    rtps::BuiltinAttributes unused;
+    return set_discovery(options, address.value(), unused);
 }
 
 Participant::~Participant() {

@@ -219,7 +219,7 @@ class PartBuilder {
                                  : inverse(X_MB_[static_cast<std::size_t>(body)]) * to_transform(spec.X_ML));
             link.carrier = hangs_on_[l].joint, link.parent = hangs_on_[l].parent;
             const LinkId id(part_.type.links.size());
-            if (body >= 0) add_mass(part_.type.bodies[static_cast<std::size_t>(body)], spec, link.X_BL);
+            if (body >= 0) add_mass(part_.type.bodies[static_cast<std::size_t>(body)], link);
             add_shapes(spec, link, id);
             if (spec.drag.acts && body >= 0)
                 part_.type.drags.push_back(

@@ -29,7 +29,7 @@ void add_to_hash(Hash& hash, const Material& material);
 Vec3 drag_area(const LinkSpec& link);
 
 /// Adds a link's inertia to its body: common centre of mass, parallel-axis theorem for both.
-void add_mass(Body& body, const LinkSpec& link, const Transform& X_BL);
+void add_mass(Body& body, const Link& link);
 
 /// Radius of the sphere about the base origin that holds every shape in every pose.
 double reach_of(const RobotType& type);

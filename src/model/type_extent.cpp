@@ -31,17 +31,15 @@ bool loop_joins(const RobotType& type, int a, int b) {
 
 }  // namespace
 
-void add_mass(Body& body, const LinkSpec& link, const Transform& X_BL) {
-    const Vec3 p_BC = X_BL * link.p_LC;
-    const Mat3 inertia = X_BL.R * link.inertia_C * transpose(X_BL.R);
+void add_mass(Body& body, const Link& link) {
     const double total = body.mass + link.mass;
     if (total <= 0) return;
-    const Vec3 centre = (body.p_BC * body.mass + p_BC * link.mass) * (1.0 / total);
-    body.inertia_C = body.inertia_C + point_inertia(body.mass, body.p_BC - centre) + inertia +
-                     point_inertia(link.mass, p_BC - centre);
+    const Vec3 centre = (body.p_BC * body.mass + link.p_BC * link.mass) * (1.0 / total);
+    body.inertia_C = body.inertia_C + point_inertia(body.mass, body.p_BC - centre) + link.inertia_C +
+                     point_inertia(link.mass, link.p_BC - centre);
     if (link.gravity && link.mass > 0) {
         const double felt = body.gravity_mass + link.mass;
-        body.p_BG = (body.p_BG * body.gravity_mass + p_BC * link.mass) * (1.0 / felt);
+        body.p_BG = (body.p_BG * body.gravity_mass + link.p_BC * link.mass) * (1.0 / felt);
         body.gravity_mass = felt;
     }
     body.p_BC = centre;
