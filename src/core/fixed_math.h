@@ -81,6 +81,7 @@ SinCosT<T> fixed_sincos(const T& angle) {
                 n * fixed::kPio2Part3Rest;
     const T s = fixed::sin_kernel(r), c = fixed::cos_kernel(r);
     const T quadrant = fixed::mod_4(n);
+    if (!any(!equal(quadrant, T(0)))) return {s, c};  // most joints, most of the time
     const auto second = equal(quadrant, T(1)), third = equal(quadrant, T(2)), fourth = equal(quadrant, T(3));
     const T sine = select(second | fourth, c, s), cosine = select(second | fourth, s, c);
     return {select(third | fourth, -sine, sine), select(second | third, -cosine, cosine)};

@@ -60,6 +60,16 @@ Sym3T<T> rotated(const Mat3T<T>& R, const Mat3T<T>& inertia) {
     return {dot(R.r0, a), dot(R.r1, b), dot(R.r2, c), dot(R.r0, b), dot(R.r0, c), dot(R.r1, c)};
 }
 
+/// R * diag(inertia) * R^T
+template <class T>
+[[gnu::always_inline]] inline Sym3T<T> rotated_diagonal(const Mat3T<T>& R, const Vec3T<T>& inertia) {
+    const auto scaled = [&](const Vec3T<T>& row) {
+        return Vec3T<T>{inertia.x * row.x, inertia.y * row.y, inertia.z * row.z};
+    };
+    const Vec3T<T> a = scaled(R.r0), b = scaled(R.r1), c = scaled(R.r2);
+    return {dot(R.r0, a), dot(R.r1, b), dot(R.r2, c), dot(R.r0, b), dot(R.r0, c), dot(R.r1, c)};
+}
+
 /// Inertia about O of everything rigid so far: mass, first moment (mass times centre), second moment.
 template <class T>
 struct SpatialInertiaT {

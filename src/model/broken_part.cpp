@@ -184,7 +184,7 @@ class TypeCheck {
                 !sensible(s.shape, false))
                 return false;
         for (const LinkDrag& drag : t_.drags)
-            if (!within(drag.body, t_.bodies.size()) || drag.link.index() >= t_.links.size()) return false;
+            if (drag.link.index() >= t_.links.size() || t_.links[drag.link.index()].body < 0) return false;
         for (const auto& [a, b] : t_.self_pairs)
             if (!within(a, t_.shapes.size()) || !within(b, t_.shapes.size()) || a == b) return false;
         return true;

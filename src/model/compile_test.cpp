@@ -64,6 +64,25 @@ TEST(Compile, LinksWeldedByFixedJointsAreOneBody) {
     EXPECT_EQ(t.links[2].X_BL.p, (Vec3{2, 0, 0}));
 }
 
+bool same(const Mat3& a, const Mat3& b) {
+    return a.r0 == b.r0 && a.r1 == b.r1 && a.r2 == b.r2;
+}
+
+TEST(Compile, FramesThatOnlyRoundingTurnsCoincide) {
+    for (int i = 1; i < 20; ++i) {
+        ModelSpec m = row_of_three();
+        const Pose turned{{0.5, 0, 0}, from_rpy(0.3 * i, 0.7, -0.2 * i)};
+        m.links[1].X_ML = turned;
+        m.links[1].inertia_C = Mat3::diagonal(1, 2, 2.5);
+        m.joints.push_back(joint(JointSpecKind::kRevolute, "ab", "a", "b", turned, {0, 0, 1}));
+        const Compiled c = compile_one(m);
+        const RobotType& t = c.type();
+        EXPECT_TRUE(same(t.links[t.find_link("b")->index()].X_BL.R, Mat3::identity()));
+        EXPECT_TRUE(same(t.bodies[1].inertia_C, Mat3::diagonal(1, 2, 2.5)));
+        EXPECT_FALSE(same(t.bodies[1].X_PJ.R, Mat3::identity())) << "this one is turned";
+    }
+}
+
 TEST(Compile, JointToTheWorldFixesTheBase) {
     const Compiled c = compile_one(arm(), {{1, 2, 3}, from_rpy(0, 0, 1)});
     const RobotType& t = c.type();

@@ -13,6 +13,27 @@
 namespace roboss {
 namespace {
 
+/// A rotation by quarter turns that only rounding keeps from being one.
+Mat3 without_rounding(const Mat3& R) {
+    constexpr double kRounding = 4e-15;  // of quaternions, their matrices and a product
+    Mat3 whole;
+    double error = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            whole(i, j) = std::nearbyint(R(i, j)) + 0.0;  // no negative zeros
+            error = std::max(error, std::fabs(R(i, j) - whole(i, j)));
+        }
+    }
+    return error <= kRounding ? whole : R;
+}
+
+/// Pose of frame B in frame A, both given in the model frame.
+Transform between(const Transform& X_MA, const Transform& X_MB) {
+    Transform X_AB = inverse(X_MA) * X_MB;
+    X_AB.R = without_rounding(X_AB.R);
+    return X_AB;
+}
+
 /// Yet without what it hangs on.
 Link to_link(const LinkSpec& spec, int body, const Transform& X_BL) {
     Link link;
@@ -178,7 +199,7 @@ class PartBuilder {
         Body body;
         body.parent = parent;
         body.joint = kind;
-        body.X_PJ = parent < 0 ? X_MJ : inverse(X_MB_[static_cast<std::size_t>(parent)]) * X_MJ;
+        body.X_PJ = parent < 0 ? X_MJ : between(X_MB_[static_cast<std::size_t>(parent)], X_MJ);
         body.axis_J = reversed ? -axis.xyz : axis.xyz;
         if (kind == JointKind::kScrew) body.pitch = spec.screw_pitch;
         body.reversed_ball = reversed && kind == JointKind::kBall;
@@ -216,14 +237,13 @@ class PartBuilder {
             Link link =
                 to_link(spec, body,
                         body < 0 ? to_transform(spec.X_ML)
-                                 : inverse(X_MB_[static_cast<std::size_t>(body)]) * to_transform(spec.X_ML));
+                                 : between(X_MB_[static_cast<std::size_t>(body)], to_transform(spec.X_ML)));
             link.carrier = hangs_on_[l].joint, link.parent = hangs_on_[l].parent;
             const LinkId id(part_.type.links.size());
             if (body >= 0) add_mass(part_.type.bodies[static_cast<std::size_t>(body)], link);
             add_shapes(spec, link, id);
             if (spec.drag.acts && body >= 0)
-                part_.type.drags.push_back(
-                    {body, id, link.p_BC, link.X_BL.R, drag_area(spec), spec.drag.linear, spec.drag.wind});
+                part_.type.drags.push_back({id, drag_area(spec), spec.drag.linear, spec.drag.wind});
             for (const SensorSpec& sensor : spec.sensors) part_.type.sensors.push_back({sensor, id});
             part_.type.links.push_back(link);
         }

@@ -3,6 +3,7 @@
 // matrix, its factors) is stored densely, a path a row, and its elimination runs over contiguous numbers.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -22,6 +23,7 @@ class DofPaths {
             dofs_.push_back(static_cast<int>(i));
             start_.push_back(dofs_.size());
         }
+        trunk_ = trunk_of(parent);
     }
 
     /// Degrees of freedom.
@@ -35,9 +37,21 @@ class DofPaths {
     /// The first path(i).size() numbers from here ascend from the root to i.
     const int* path(std::size_t i) const { return dofs_.data() + start_[i]; }
 
+    /// Numbers 0 .. trunk() - 1 begin every later path: those of a free base, mostly.
+    std::size_t trunk() const { return trunk_; }
+
   private:
+    static std::size_t trunk_of(std::span<const int> parent) {
+        std::size_t trunk = 0;
+        while (trunk < parent.size() && parent[trunk] == static_cast<int>(trunk) - 1) ++trunk;
+        for (std::size_t i = trunk; i < parent.size(); ++i)
+            trunk = std::min(trunk, static_cast<std::size_t>(parent[i] + 1));
+        return trunk;
+    }
+
     std::vector<std::size_t> start_{0};
     std::vector<int> dofs_;
+    std::size_t trunk_ = 0;
 };
 
 }  // namespace roboss

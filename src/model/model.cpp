@@ -80,7 +80,7 @@ void add_shape(Hash& hash, const BodyShape& s) {
 }
 
 void add_drag(Hash& hash, const LinkDrag& drag) {
-    add(hash, drag.body), add(hash, drag.p_BC), add(hash, drag.R_BL), add(hash, drag.area);
+    add(hash, static_cast<int>(drag.link.value)), add(hash, drag.area);
     hash.add(drag.linear), add(hash, drag.wind ? 1 : 0);
 }
 

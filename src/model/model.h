@@ -146,10 +146,7 @@ struct BodyShape {
 /// velocity through the air. A(u): projected area times coefficient, given along the link's axes, in between
 /// as an ellipsoid's.
 struct LinkDrag {
-    int body = 0;
-    LinkId link;
-    Vec3 p_BC;  // the link's centre of mass
-    Mat3 R_BL = Mat3::identity();
+    LinkId link;        // on a body
     Vec3 area;          // m^2
     double linear = 0;  // N s/m
     bool wind = false;  // u is measured against the wind, else against the world

@@ -35,11 +35,10 @@ inline constexpr double kApproachSpeedMax =
     10.0;  // rad/s or m/s, of a position motor whose force and speed have no bound: else one tick is enough
 
 template <class T>
-BoundedRowT<T> bounded_row(const T& target, double compliance, double low, double high, const T& mend) {
-    BoundedRowT<T> row;
+[[gnu::always_inline]] inline void set_row(const T& target, double compliance, double low, double high,
+                                           const T& mend, BoundedRowT<T>& row) {
     row.target = target, row.compliance = compliance;
     row.low = low, row.high = high, row.position_target = target + mend;
-    return row;
 }
 
 /// Speed towards a position that the motor's force can still brake: sqrt(2 a e), with half of the force kept
@@ -52,10 +51,10 @@ T braking_speed(const AxisStateT<T>& s, const T& error) {
 }
 
 template <class T>
-BoundedRowT<T> position_motor(const AxisStateT<T>& s, const T& impulse_max) {
+[[gnu::always_inline]] inline void position_motor(const AxisStateT<T>& s, const T& impulse_max,
+                                                  BoundedRowT<T>& row) {
     const T error = s.motor.target - s.q;
     const double kp = s.dof.position_gain, kd = s.dof.velocity_gain;
-    BoundedRowT<T> row;
     row.low = -impulse_max, row.high = impulse_max;
     T speed_max = s.dof.max_velocity;
     if (kp > 0) {  // implicit PD: force = kp (target - q - dt v) - kd v
@@ -69,30 +68,26 @@ BoundedRowT<T> position_motor(const AxisStateT<T>& s, const T& impulse_max) {
     }
     speed_max = select(speed_max < T(kInfinity), speed_max, T(kApproachSpeedMax));
     row.target = clamped(row.target, -speed_max, speed_max);
-    return row;
 }
 
 /// The ordered force, as long as it does not drive the joint beyond its maximum velocity.
 template <class T>
-BoundedRowT<T> effort_motor(const AxisStateT<T>& s) {
-    BoundedRowT<T> row;
+[[gnu::always_inline]] inline void effort_motor(const AxisStateT<T>& s, BoundedRowT<T>& row) {
     const T impulse = clamped(s.motor.target, -s.motor.max_effort, s.motor.max_effort) * T(s.dt);
     const double speed = std::isfinite(s.dof.max_velocity) ? s.dof.max_velocity : 1e6;
     row.target = select(impulse < T(0), T(-speed), T(speed));
     row.compliance = s.compliance;
     row.low = smaller(impulse, T(0)), row.high = larger(impulse, T(0));
-    return row;
 }
 
 template <class T>
-BoundedRowT<T> velocity_motor(const AxisStateT<T>& s, const T& impulse_max) {
-    BoundedRowT<T> row;
+[[gnu::always_inline]] inline void velocity_motor(const AxisStateT<T>& s, const T& impulse_max,
+                                                  BoundedRowT<T>& row) {
     row.target = kIsFloat<T>
                      ? s.motor.target  // in bounds, and relative to the present velocity (lane_state.h)
                      : clamped(s.motor.target, T(-s.dof.max_velocity), T(s.dof.max_velocity));
     row.compliance = s.dof.velocity_gain > 0 ? 1.0 / (s.dt * s.dof.velocity_gain) : s.compliance;
     row.low = -impulse_max, row.high = impulse_max;
-    return row;
 }
 
 /// Way that a limit asks for in this tick, and how hard. `room`: way left to the limit, negative beyond it.
@@ -121,8 +116,8 @@ MaskOf<T> near(const T& room, const T& v, double dt) {
 }
 
 /// A limit pushes away from itself, and only if this tick could reach it. True if one is violated.
-template <class T>
-MaskOf<T> add_limits(const AxisStateT<T>& s, Lockstep<T>& together, std::vector<BoundedRowT<T>>& rows) {
+template <class T, class Row>
+MaskOf<T> add_limits(const AxisStateT<T>& s, Lockstep<T>& together, std::vector<Row>& rows) {
     const T below = s.q - T(s.dof.lower), above = T(s.dof.upper) - s.q;
     const auto mend = [&](const T& room, bool hard) {
         return hard ? clamped((-room - kLimitSlop) * kLimitShare / T(s.dt), T(0), T(kLimitSpeedMax)) : T(0);
@@ -130,12 +125,14 @@ MaskOf<T> add_limits(const AxisStateT<T>& s, Lockstep<T>& together, std::vector<
     MaskOf<T> mends = false;
     if (together(near(below, s.v, s.dt))) {
         const LimitRow<T> limit = limit_row(s, below);
-        rows.push_back(bounded_row(limit.away, limit.compliance, 0.0, kInfinity, mend(below, limit.hard)));
+        set_row<T>(limit.away, limit.compliance, 0.0, kInfinity, mend(below, limit.hard),
+                   rows.emplace_back());
         if (limit.hard) mends = mends | (below < T(-kLimitSlop));
     }
     if (together(near(above, s.v, s.dt))) {
         const LimitRow<T> limit = limit_row(s, above);
-        rows.push_back(bounded_row(-limit.away, limit.compliance, -kInfinity, 0.0, -mend(above, limit.hard)));
+        set_row<T>(-limit.away, limit.compliance, -kInfinity, 0.0, -mend(above, limit.hard),
+                   rows.emplace_back());
         if (limit.hard) mends = mends | (above < T(-kLimitSlop));
     }
     return mends;
@@ -152,24 +149,28 @@ bool has_hard_motor(const AxisStateT<T>& axis) {
 }
 
 /// Row of the motor, if it drives.
-template <class T>
-void add_motor(const AxisStateT<T>& s, std::vector<BoundedRowT<T>>& rows) {
+template <class T, class Row>
+[[gnu::always_inline]] inline void add_motor(const AxisStateT<T>& s, std::vector<Row>& rows) {
     if (s.motor.mode == MotorMode::kPassive) return;
     const T impulse_max = s.motor.max_effort * T(s.dt);
-    rows.push_back(s.motor.mode == MotorMode::kVelocity   ? axis::velocity_motor(s, impulse_max)
-                   : s.motor.mode == MotorMode::kPosition ? axis::position_motor(s, impulse_max)
-                                                          : axis::effort_motor(s));
-    BoundedRowT<T>& row = rows.back();
+    BoundedRowT<T>& row = rows.emplace_back();
+    if (s.motor.mode == MotorMode::kVelocity)
+        axis::velocity_motor(s, impulse_max, row);
+    else if (s.motor.mode == MotorMode::kPosition)
+        axis::position_motor(s, impulse_max, row);
+    else
+        axis::effort_motor(s, row);
     if (has_hard_motor(s)) row.target += s.compliance * s.motor.load;
     row.position_target = row.target;
 }
 
-/// Rows of the axis, appended. True if a hard limit is violated and so has something to mend.
-template <class T>
-MaskOf<T> add_axis_rows(const AxisStateT<T>& axis, Lockstep<T>& together, std::vector<BoundedRowT<T>>& rows) {
+/// Rows of the axis, appended (`Row`: a BoundedRowT<T>). True if a hard limit is violated and so has
+/// something to mend.
+template <class T, class Row>
+MaskOf<T> add_axis_rows(const AxisStateT<T>& axis, Lockstep<T>& together, std::vector<Row>& rows) {
     add_motor(axis, rows);
     const double friction = axis.dof.friction * axis.dt;
-    if (friction > 0) rows.push_back(axis::bounded_row(T(0), axis.compliance, -friction, friction, T(0)));
+    if (friction > 0) axis::set_row<T>(T(0), axis.compliance, -friction, friction, T(0), rows.emplace_back());
     if (!axis.has_position) return false;
     return axis::add_limits(axis, together, rows);
 }

@@ -8,6 +8,7 @@
 
 #include "geometry/shape_bounds.h"
 #include "model/joint_motion.h"
+#include "physics/body_impulses.h"
 #include "physics/robot_work.h"
 
 namespace roboss {
@@ -15,11 +16,6 @@ namespace roboss {
 template <class T>
 TransformT<T> base_transform(std::span<const T> q) {
     return {to_matrix(QuatT<T>{q[3], q[4], q[5], q[6]}), {q[0], q[1], q[2]}};
-}
-
-template <class T>
-[[gnu::always_inline]] inline SpatialInertiaT<T> inertia_of(const Body& body, const BodyWorkT<T>& w) {
-    return spatial_inertia(T(body.mass), w.centre, rotated(w.X_WB.R, broadcast<T>(body.inertia_C)));
 }
 
 /// The part of a row that the free base's axes give: unit vectors, so the components themselves. Returns how
@@ -66,8 +62,8 @@ void move_bodies(const RobotType& type, std::span<const T> v, Mechanics<T>& work
             w.bias = {{}, -cross(w.velocity.angular, w.velocity.linear)};
             continue;
         }
-        SpatialT<T> joint{};
-        for (std::size_t k = 0; k < static_cast<std::size_t>(body.nv); ++k)
+        SpatialT<T> joint = work.axes[first] * v[first];
+        for (std::size_t k = 1; k < static_cast<std::size_t>(body.nv); ++k)
             joint += work.axes[first + k] * v[first + k];
         if (body.parent < 0) {
             w.velocity = joint;
@@ -109,24 +105,6 @@ void place_shapes(const RobotType& type, double dt, std::span<const T> q, Mechan
         work.box.include(w.box);
     }
     if (type.shapes.empty()) work.box.include(work.origin);
-}
-
-/// Momenta and forces of the bodies by themselves, each about O.
-template <class T>
-void set_body_impulses(const Model& model, double dt, double momentum_weight, Mechanics<T>& work) {
-    const RobotType& type = *work.type;
-    for (std::size_t b = 0; b < type.bodies.size(); ++b) {
-        const Body& body = type.bodies[b];
-        BodyWorkT<T>& w = work.bodies[b];
-        w.inertia = inertia_of(body, w);
-        const SpatialT<T> momentum = w.inertia * w.velocity;
-        const Vec3T<T> weight = broadcast<T>(model.gravity * body.gravity_mass);
-        const Vec3T<T> feels =
-            body.gravity_mass == body.mass ? w.centre : w.X_WB * broadcast<T>(body.p_BG) - work.origin;
-        const SpatialT<T> force = SpatialT<T>{cross(feels, weight), weight} - w.inertia * w.bias -
-                                  cross_force(w.velocity, momentum);
-        w.impulse = momentum * T(momentum_weight) + force * T(dt);
-    }
 }
 
 /// Springs and rotor inertias: they act along one degree of freedom, outside the tree of bodies.
@@ -180,12 +158,31 @@ void take_off_damping(double dt, std::span<const T> v, Mechanics<T>& work) {
     }
 }
 
+/// Rows of the free base: its axes are unit vectors, so these are the entries of the whole robot's inertia.
+template <class T>
+void put_base_rows(const SpatialInertiaT<T>& whole, T* row) {
+    const Sym3T<T>& I = whole.inertia;
+    const Vec3T<T>& m = whole.moment;
+    const T zero = 0;
+    const T entries[21] = {I.xx,                                      //
+                           I.xy, I.yy,                                //
+                           I.xz, I.yz, I.zz,                          //
+                           zero, m.z,  -m.y, whole.mass,              //
+                           -m.z, zero, m.x,  zero,       whole.mass,  //
+                           m.y,  -m.x, zero, zero,       zero,       whole.mass};
+    std::copy_n(entries, 21, row);
+}
+
 template <class T>
 void compute_mass_matrix(const RobotType& type, double dt, Mechanics<T>& work) {
     work.mass_matrix.resize(type.paths.entries());
     for (std::size_t b = type.bodies.size(); b-- > 0;) {
         const Body& body = type.bodies[b];
         const SpatialInertiaT<T>& subtree = work.bodies[b].inertia;
+        if (body.joint == JointKind::kFree) {
+            put_base_rows(subtree, work.mass_matrix.data());
+            continue;
+        }
         for (int axis = body.nv - 1; axis >= 0; --axis) {
             const auto i = static_cast<std::size_t>(body.v_index + axis);
             const SpatialT<T> momentum = subtree * work.axes[i];

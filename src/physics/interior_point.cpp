@@ -149,7 +149,8 @@ void IslandSolver::interior_point(const Problem& p, std::vector<double>& v, Repo
     double centring = 0.2;
     for (int i = 0; i < kStepsMax; ++i) {
         const double gap = mean_gap(p.rows);
-        report.residual = gradient(p);
+        set_gradient(p);
+        report.residual = imbalance(p);
         if (gap <= kGapEnd * gap_start && report.residual <= kBalanced) return;
         const double alpha = interior_step(p, centring * gap, v);
         if (alpha == 0) return;

@@ -144,7 +144,7 @@ bool add_joint_rows(const Model& model, const RobotWork& robot, int offset, RowB
                     IslandRows& rows) {
     const RobotType& type = *robot.type;
     Lockstep<double> alone;
-    bool mends = add_tree_rows(model, type, joint_states(robot), offset, alone, buffer.axis, rows);
+    bool mends = add_tree_rows(model, type, joint_states(robot), offset, alone, rows.joints);
     if (!type.has_equalities()) return mends;
     gather_equalities(robot, robot.state->q, buffer.equalities);
     add_equality_rows(model, robot.id, buffer.equalities, offset, rows);

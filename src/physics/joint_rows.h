@@ -10,7 +10,7 @@ namespace roboss {
 /// What add_joint_rows overwrites from robot to robot.
 struct RowBuffer {
     Equalities equalities;
-    std::vector<BoundedRow> axis;
+    std::vector<BoundedRow> axis;  // of a loop joint
 };
 
 /// Coordinates, velocities and motors of a robot, or of a few in lanes.
@@ -39,18 +39,17 @@ AxisStateT<T> tree_axis(const Model& model, const RobotType& type, const JointSt
 /// Motors, joint friction and limits of the tree. True if a row has something to mend.
 template <class T>
 MaskOf<T> add_tree_rows(const Model& model, const RobotType& type, const JointStates<T>& state, int offset,
-                        Lockstep<T>& together, std::vector<BoundedRowT<T>>& buffer, IslandRowsT<T>& rows) {
+                        Lockstep<T>& together, std::vector<JointRowT<T>>& rows) {
     MaskOf<T> mends = false;
     for (std::size_t d = 0; d < type.dofs.size(); ++d) {
-        buffer.clear();
+        const std::size_t first = rows.size();
         const AxisStateT<T> axis = tree_axis(model, type, state, d);
-        mends = mends | add_axis_rows(axis, together, buffer);
-        for (std::size_t r = 0; r < buffer.size(); ++r) {
-            JointRowT<T>& row = rows.joints.emplace_back();
-            static_cast<BoundedRowT<T>&>(row) = buffer[r];
+        mends = mends | add_axis_rows(axis, together, rows);
+        for (std::size_t r = first; r < rows.size(); ++r) {
+            JointRowT<T>& row = rows[r];
             row.dof = offset + type.base_nv() + static_cast<int>(d);
-            if (r == 0 && has_hard_motor(axis)) row.motor = &state.motors[d];
-            if (kIsFloat<T> && !(r == 0 && axis.motor.mode == MotorMode::kVelocity))
+            if (r == first && has_hard_motor(axis)) row.motor = &state.motors[d];
+            if (kIsFloat<T> && !(r == first && axis.motor.mode == MotorMode::kVelocity))
                 row.target -= axis.v, row.position_target -= axis.v;  // relative, as a velocity motor's is
         }
     }

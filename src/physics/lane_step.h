@@ -260,7 +260,7 @@ class LaneStep final : public LaneStepper {
         sum_impulses<T>(model.dt_s, kMomentum, joints.q, joints.v, work_);
         if constexpr (kIsFloat<T>) take_off_damping<T>(model.dt_s, joints.v, work_);
         compute_mass_matrix(type, model.dt_s, work_);
-        split_ = add_tree_rows(model, type, joints, 0, together, buffer_, rows_);
+        split_ = add_tree_rows(model, type, joints, 0, together, rows_.joints);
         for (std::size_t c = 0; c < contacts_.size(); ++c) {
             const ContactT<T>& contact = contacts_[c];
             split_ = split_ | add_contact_row<T>(model, contact, {&work_, contact.body_a, 0}, nullptr, rows_);
@@ -393,7 +393,6 @@ class LaneStep final : public LaneStepper {
     std::vector<T> solution_, way_;              // of floats, what is added to the velocities before
     std::vector<T> whole_solution_, whole_way_;  // of floats, in all
     std::vector<ContactT<T>> contacts_;
-    std::vector<BoundedRowT<T>> buffer_;
     IslandRowsT<T> rows_;
     Newton<T, TreeHessian<T>> newton_;
     SolveReportT<T> solved_;

@@ -75,7 +75,8 @@ class Newton {
     void move(const SolveProblem<T>& p, const T& alpha, std::vector<T>& v);
     void move_some(const SolveProblem<T>& p, const Mask& some, std::vector<T>& v);
     T balance(const SolveProblem<T>& p);
-    T gradient(const SolveProblem<T>& p);
+    void set_gradient(const SolveProblem<T>& p);
+    T imbalance(const SolveProblem<T>& p) const;
     T slope() const;
     T take_step(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v);
     T slope_beyond(const SolveProblem<T>& p, const T& way);
@@ -119,11 +120,11 @@ void Newton<T, Matrix>::times_mass(const SolveProblem<T>& p, const std::vector<T
 template <class T, class Matrix>
 void Newton<T, Matrix>::start(const SolveProblem<T>& p, const std::vector<T>& v) {
     n_ = v.size();
-    for (auto* buffer : {&mv_, &g_, &applied_, &step_, &m_step_}) buffer->resize(n_);
-    lightness_.clear();
+    for (auto* buffer : {&mv_, &g_, &applied_, &lightness_, &step_, &m_step_}) buffer->resize(n_);
+    T* lightness = lightness_.data();
     for (const Mechanics<T>* robot : p.robots)
         for (std::size_t k = 0; k < robot->type->paths.size(); ++k)
-            lightness_.push_back(T(1) / robot->mass_matrix[robot->type->paths.diagonal(k)]);
+            *lightness++ = T(1) / robot->mass_matrix[robot->type->paths.diagonal(k)];
     hessian_.start(p.robots, p.offsets, p.rows, n_);
     times_mass(p, v, mv_);
     set_steps(p.rows, v);
@@ -140,32 +141,50 @@ void Newton<T, Matrix>::measure_from_targets(const SolveProblem<T>& p) {
     for_each_bounded(p.rows, [](BoundedRowT<T>& row) { row.u -= row.target, row.target = 0; });
 }
 
-/// Impulses at the present velocities and g = M v - p - J^T impulses; returns its size relative to the
-/// momenta in play, both measured in the metric of M's diagonal.
+/// Impulses at the present velocities and what follows from them; returns the imbalance.
 template <class T, class Matrix>
 T Newton<T, Matrix>::balance(const SolveProblem<T>& p) {
     newton::update_impulses(p.rows);
-    return gradient(p);
+    set_gradient(p);
+    return imbalance(p);
 }
 
+/// g = M v - p - J^T impulses
 template <class T, class Matrix>
-T Newton<T, Matrix>::gradient(const SolveProblem<T>& p) {
-    using std::sqrt;
-    constexpr double kNeverSolved = std::numeric_limits<double>::infinity();
+void Newton<T, Matrix>::set_gradient(const SolveProblem<T>& p) {
     for (T& x : applied_) x = 0;
     add_impulses(p.rows, applied_);
+    for (std::size_t r = 0; r < p.robots.size(); ++r) {
+        const auto offset = static_cast<std::size_t>(p.offsets[r]);
+        const auto nv = static_cast<std::size_t>(p.robots[r]->type->nv);
+        const T *free = p.robots[r]->impulse.data(), *mv = mv_.data() + offset,
+                *applied = applied_.data() + offset;
+        T* __restrict g = g_.data() + offset;
+        for (std::size_t k = 0; k < nv; ++k) g[k] = mv[k] - free[k] - applied[k];
+    }
+}
+
+/// Size of the gradient relative to the momenta in play, both measured in the metric of M's diagonal.
+template <class T, class Matrix>
+T Newton<T, Matrix>::imbalance(const SolveProblem<T>& p) const {
+    using std::sqrt;
+    constexpr double kNeverSolved = std::numeric_limits<double>::infinity();
+    Two<T> errors{}, scales{};  // of even and odd unknowns, which do not wait for each other
     T error = 0, scale = 0;
     for (std::size_t r = 0; r < p.robots.size(); ++r) {
-        const Mechanics<T>& robot = *p.robots[r];
-        const auto nv = static_cast<std::size_t>(robot.type->nv);
-        for (std::size_t k = 0; k < nv; ++k) {
-            const std::size_t i = static_cast<std::size_t>(p.offsets[r]) + k;
-            const T& free = robot.impulse[k];
-            g_[i] = mv_[i] - free - applied_[i];
-            error += g_[i] * g_[i] * lightness_[i];
-            scale += (mv_[i] * mv_[i] + free * free + applied_[i] * applied_[i]) * lightness_[i];
-        }
+        const auto offset = static_cast<std::size_t>(p.offsets[r]);
+        const auto nv = static_cast<std::size_t>(p.robots[r]->type->nv);
+        const T *free = p.robots[r]->impulse.data(), *g = g_.data() + offset, *mv = mv_.data() + offset,
+                *applied = applied_.data() + offset, *lightness = lightness_.data() + offset;
+        const auto add = [&](auto at, auto& error_of, auto& scale_of) {
+            error_of += at(g) * at(g) * at(lightness);
+            scale_of += (at(mv) * at(mv) + at(free) * at(free) + at(applied) * at(applied)) * at(lightness);
+        };
+        for (std::size_t k = 0; k + 1 < nv; k += 2)
+            add([&](const T* x) { return two_at(x + k); }, errors, scales);
+        if (nv % 2 != 0) add([&](const T* x) { return x[nv - 1]; }, error, scale);
     }
+    error += errors[0] + errors[1], scale += scales[0] + scales[1];
     const Mask finite = error < T(kNeverSolved);
     return select(equal(scale, T(0)), T(0), select(finite, sqrt(error / scale), T(kNeverSolved)));
 }
@@ -334,7 +353,7 @@ void Newton<T, Matrix>::start_as_expected(const SolveProblem<T>& p, Lockstep<T>&
     newton::set_curvatures(p.rows);
     if (!together(newton::expect_sticking(p.rows))) return;
     keep_start(p, v);
-    gradient(p);
+    set_gradient(p);
     find_step(p, false);
     move(p, 1.0, v);
     report.iterations += T(1);

@@ -128,24 +128,6 @@ inline void add_run(const double* n, double a, std::size_t count, double* y) {
     if (count % 2 != 0) y[count - 1] += n[count - 1] * a;
 }
 
-/// Sums of even columns and of odd ones, which do not wait for each other. Lanes hold both twice.
-template <class T>
-struct Halves {
-    T even{}, odd{};
-    void add(const T* row, const T* x, std::size_t k) { even += row[k] * x[k], odd += row[k + 1] * x[k + 1]; }
-    void add_one(const T& part) { even += part; }
-    T sum() const { return even + odd; }
-};
-template <>
-struct Halves<double> {
-    Pair halves{};
-    void add(const double* row, const double* x, std::size_t k) {
-        halves += pair_at(row + k) * pair_at(x + k);
-    }
-    void add_one(double part) { halves[0] += part; }
-    double sum() const { return halves[0] + halves[1]; }
-};
-
 template <class T>
 [[gnu::always_inline]] inline Along<T> along(const ContactColumnsT<T>& columns, std::size_t first,
                                              std::size_t last, const std::vector<T>& x) {
@@ -154,10 +136,11 @@ template <class T>
         const T* xs = x.data() + columns.dof[c];
         const T *cn = columns.n.data() + c, *c1 = columns.t1.data() + c, *c2 = columns.t2.data() + c;
         if (columns.base[c]) {
-            for (std::size_t k = 0; k < 6; k += 2) n.add(cn, xs, k), t1.add(c1, xs, k), t2.add(c2, xs, k);
+            for (std::size_t k = 0; k < 6; k += 2)
+                n.add(cn + k, xs + k), t1.add(c1 + k, xs + k), t2.add(c2 + k, xs + k);
             c += 6;
         } else {
-            n.add_one(*cn * *xs), t1.add_one(*c1 * *xs), t2.add_one(*c2 * *xs);
+            n.add_even(*cn * *xs), t1.add_even(*c1 * *xs), t2.add_even(*c2 * *xs);
             ++c;
         }
     }
@@ -168,10 +151,15 @@ template <class T>
 [[gnu::always_inline]] inline void add(const ContactColumnsT<T>& columns, std::size_t first, std::size_t last,
                                        const Along<T>& impulse, std::vector<T>& y) {
     for (std::size_t c = first; c < last;) {
-        const std::size_t count = columns.base[c] ? 6 : 1;
-        add_run(columns.n.data() + c, columns.t1.data() + c, columns.t2.data() + c, impulse, count,
-                y.data() + columns.dof[c]);
-        c += count;
+        T* ys = y.data() + columns.dof[c];
+        const T *n = columns.n.data() + c, *t1 = columns.t1.data() + c, *t2 = columns.t2.data() + c;
+        if (columns.base[c]) {
+            add_run(n, t1, t2, impulse, 6, ys);
+            c += 6;
+        } else {
+            *ys += *n * impulse.n + *t1 * impulse.t1 + *t2 * impulse.t2;
+            ++c;
+        }
     }
 }
 

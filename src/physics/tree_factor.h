@@ -3,54 +3,32 @@
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
 
 #include "core/lanes.h"
 #include "model/dof_paths.h"
+#include "physics/free_base_tree.h"
+#include "physics/tree_path.h"
 
 namespace roboss {
-namespace path {
-
-/// sum of row[k] * x[path[k]], k < count, in two interleaved halves: half the latency.
-template <class T>
-T dot(const T* row, const int* path, std::size_t count, const T* x) {
-    T even = 0, odd = 0;
-    std::size_t k = 0;
-    for (; k + 1 < count; k += 2) even += row[k] * x[path[k]], odd += row[k + 1] * x[path[k + 1]];
-    if (k < count) even += row[k] * x[path[k]];
-    return even + odd;
-}
-
-/// x[path[k]] -= row[k] * s, k < count
-template <class T>
-void subtract(const T* row, const int* path, std::size_t count, const T& s, T* x) {
-    for (std::size_t k = 0; k < count; ++k) x[path[k]] -= row[k] * s;
-}
-
-}  // namespace path
-
 /// y = A x for a symmetric matrix; x and y do not overlap.
 template <class T>
 void tree_times(const DofPaths& paths, const T* a, const T* __restrict x, T* __restrict y) {
+    if constexpr (std::is_same_v<T, double>)
+        if (free_base::begins(paths)) return free_base::times(paths, a, x, y);
     for (std::size_t i = 0; i < paths.size(); ++i) {
         const T* row = a + paths.row(i);
-        const int* path = paths.path(i);
         const std::size_t above = paths.length(i) - 1;
-        const T x_i = x[i];
-        T even = 0, odd = 0;  // as path::dot
-        const auto take = [&](std::size_t k, T& sum) {
-            y[path[k]] += row[k] * x_i;
-            sum += row[k] * x[path[k]];
-        };
-        std::size_t k = 0;
-        for (; k + 1 < above; k += 2) take(k, even), take(k + 1, odd);
-        if (k < above) take(k, even);
-        y[i] = row[above] * x_i + (even + odd);  // later rows add their share
+        // later rows add their share
+        y[i] = row[above] * x[i] + path::dot_and_add(row, paths.path(i), 0, above, x, x[i], y);
     }
 }
 
 /// A = L^T D L in place: D's reciprocals on the diagonal, L below it.
 template <class T>
 void tree_factor(const DofPaths& paths, T* a) {
+    if constexpr (std::is_same_v<T, double>)
+        if (free_base::begins(paths)) return free_base::factor(paths, a);
     for (std::size_t k = paths.size(); k-- > 0;) {
         T* row_k = a + paths.row(k);
         const int* path = paths.path(k);
@@ -69,18 +47,22 @@ void tree_factor(const DofPaths& paths, T* a) {
 /// x := A^-1 x with the factor of tree_factor.
 template <class T>
 void tree_solve(const DofPaths& paths, const T* a, T* x) {
+    if constexpr (std::is_same_v<T, double>)
+        if (free_base::begins(paths)) return free_base::solve(paths, a, x);
     const std::size_t n = paths.size();
     for (std::size_t i = n; i-- > 0;)
-        path::subtract(a + paths.row(i), paths.path(i), paths.length(i) - 1, x[i], x);
+        path::subtract(a + paths.row(i), paths.path(i), 0, paths.length(i) - 1, x[i], x);
     for (std::size_t i = 0; i < n; ++i)
-        x[i] =
-            x[i] * a[paths.diagonal(i)] - path::dot(a + paths.row(i), paths.path(i), paths.length(i) - 1, x);
+        x[i] = x[i] * a[paths.diagonal(i)] -
+               path::dot(a + paths.row(i), paths.path(i), 0, paths.length(i) - 1, x);
 }
 
 /// The same for a matrix that is not symmetric, on the same pattern: `lower` holds A(i, j) and `upper` A(j,
 /// i) (the diagonal in `lower`). No pivoting: false for the lanes in which a pivot is not positive.
 template <class T>
 MaskOf<T> tree_factor_general(const DofPaths& paths, T* lower, T* upper) {
+    constexpr bool kOne = std::is_same_v<T, double>;
+    const bool on_base = kOne && free_base::begins(paths);
     MaskOf<T> good = true;
     for (std::size_t k = paths.size(); k-- > 0;) {
         T* row = lower + paths.row(k);     // A(k, j)
@@ -92,7 +74,8 @@ MaskOf<T> tree_factor_general(const DofPaths& paths, T* lower, T* upper) {
         const T inverse = T(1) / row[above];
         row[above] = inverse;
         for (std::size_t j = 0; j < above; ++j) column[j] *= inverse;
-        for (std::size_t m = above; m-- > 0;) {
+        const std::size_t first = on_base && k >= 6 ? 6 : 0;
+        for (std::size_t m = above; m-- > first;) {
             const std::size_t start = paths.row(static_cast<std::size_t>(path[m]));
             T* __restrict below = lower + start;
             T* __restrict beside = upper + start;
@@ -100,6 +83,10 @@ MaskOf<T> tree_factor_general(const DofPaths& paths, T* lower, T* upper) {
             for (std::size_t j = 0; j <= m; ++j) below[j] -= l * row[j];
             for (std::size_t j = 0; j < m; ++j) beside[j] -= column[j] * r;
         }
+        if constexpr (kOne)
+            if (first == 6)
+                free_base::subtract_triangle(row, column, lower),
+                    free_base::subtract_triangle<1>(column, row, upper);
     }
     return good;
 }
@@ -108,10 +95,11 @@ template <class T>
 void tree_solve_general(const DofPaths& paths, const T* lower, const T* upper, T* x) {
     const std::size_t n = paths.size();
     for (std::size_t i = n; i-- > 0;)
-        path::subtract(upper + paths.row(i), paths.path(i), paths.length(i) - 1, x[i], x);
+        path::subtract(upper + paths.row(i), paths.path(i), 0, paths.length(i) - 1, x[i], x);
     for (std::size_t i = 0; i < n; ++i) {
         const T* row = lower + paths.row(i);
-        x[i] = (x[i] - path::dot(row, paths.path(i), paths.length(i) - 1, x)) * row[paths.length(i) - 1];
+        const std::size_t above = paths.length(i) - 1;
+        x[i] = (x[i] - path::dot(row, paths.path(i), 0, above, x)) * row[above];
     }
 }
 

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "physics/row_math.h"
@@ -92,20 +94,50 @@ class TreeHessian {
         if (first == last || !any(some)) return;
         const T *cn = columns.n.data() + first, *c1 = columns.t1.data() + first,
                 *c2 = columns.t2.data() + first;
-        const auto add_to = [&](auto&& keep) {
+        using Share = jacobian::Along<T>;
+        const auto rows = [&](auto&& add) {
             for (std::size_t a = 0; a < last - first; ++a) {
-                const T n = d.n * cn[a], t1 = d.t11 * c1[a] + d.t12 * c2[a],
-                        t2 = d.t12 * c1[a] + d.t22 * c2[a];
-                T* __restrict h =
-                    kept_.data() + paths_->row(static_cast<std::size_t>(columns.dof[first + a]));
-                for (std::size_t b = 0; b <= a; ++b)
-                    h[b] = keep(h[b], h[b] + (n * cn[b] + t1 * c1[b] + t2 * c2[b]));
+                const Share share{d.n * cn[a], d.t11 * c1[a] + d.t12 * c2[a], d.t12 * c1[a] + d.t22 * c2[a]};
+                add(share, a + 1,
+                    kept_.data() + paths_->row(static_cast<std::size_t>(columns.dof[first + a])));
             }
         };
+        if constexpr (std::is_same_v<T, double>) {
+            if (columns.base[first]) return add_block_on_base(columns, first, last, d);
+        }
         if (!any(nothing))
-            add_to([](const T&, const T& sum) -> const T& { return sum; });
+            rows([&](const Share& share, std::size_t count, T* h) {
+                jacobian::add_run(cn, c1, c2, share, count, h);
+            });
         else  // adding zero is not nothing: it takes the sign from a zero
-            add_to([&](const T& before, const T& sum) { return select(some, sum, before); });
+            rows([&](const Share& share, std::size_t count, T* __restrict h) {
+                for (std::size_t b = 0; b < count; ++b)
+                    h[b] = select(some, h[b] + (cn[b] * share.n + c1[b] * share.t1 + c2[b] * share.t2), h[b]);
+            });
+    }
+
+    /// The same for a contact whose path begins with a free base.
+    void add_block_on_base(const ContactColumns& columns, std::size_t first, std::size_t last,
+                           const CurvatureChange<double>& d) {
+        const double *cn = columns.n.data() + first, *c1 = columns.t1.data() + first,
+                     *c2 = columns.t2.data() + first;
+        const auto share = [&](std::size_t a) {
+            return jacobian::Along<double>{d.n * cn[a], d.t11 * c1[a] + d.t12 * c2[a],
+                                           d.t12 * c1[a] + d.t22 * c2[a]};
+        };
+        const auto add_row = [&]<std::size_t a>(std::integral_constant<std::size_t, a>) {
+            jacobian::add_run(cn, c1, c2, share(a), a + 1, kept_.data() + a * (a + 1) / 2);
+        };
+        [&]<std::size_t... a>(std::index_sequence<a...>) {
+            (add_row(std::integral_constant<std::size_t, a>{}), ...);
+        }
+        (std::make_index_sequence<6>{});
+        for (std::size_t a = 6; a < last - first; ++a) {
+            double* h = kept_.data() + paths_->row(static_cast<std::size_t>(columns.dof[first + a]));
+            const jacobian::Along<double> s = share(a);
+            jacobian::add_run(cn, c1, c2, s, 6, h);
+            jacobian::add_run(cn + 6, c1 + 6, c2 + 6, s, a - 5, h + 6);
+        }
     }
 
     /// Sliding friction by the normal velocity: the part that is not symmetric. What is right of the diagonal
