@@ -2,6 +2,7 @@
 // the machine does meets them all.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -11,10 +12,16 @@ namespace roboss::bench {
 
 struct ContestOptions {
     std::vector<std::string> engines;  // names; empty: all
-    int settle = 200, steps = 1000, blocks = 5;
+    int settle = 200, blocks = 9;
+    int steps = 0;        // counted; 0: a thousand, more of few robots
     double accuracy = 1;  // EngineOptions
     double limit_s = 8;   // of counted steps an engine and scene; less of them where it would take longer
     double start_limit_s = 40;  // of building and settling; beyond, the engine is left out
+
+    /// Of few robots so many that a block is not over in a moment of whatever else the machine does.
+    int steps_of(std::size_t robots) const {
+        return steps > 0 ? steps : std::max(1000, 100000 / static_cast<int>(robots));
+    }
 };
 
 /// A line of the table. Times in microseconds for one step of one robot.

@@ -49,7 +49,7 @@ int run_alone(const SceneKind& kind, std::size_t robots, const EngineKind& engin
     const Scene scene = kind.make(robots);
     Trial trial(engine, scene, options.accuracy);
     trial.run(options.settle);
-    const int ticks = std::max(1, options.steps / options.blocks);
+    const int ticks = std::max(1, options.steps_of(robots) / options.blocks);
     for (int block = 0; block < options.blocks; ++block) {
         const Spent spent = trial.run(ticks);
         const double steps = static_cast<double>(ticks) * static_cast<double>(robots);
@@ -93,9 +93,11 @@ std::vector<Row> run_contests(const Wishes& wishes) {
 
 void add_options(CLI::App& app, Wishes& wishes) {
     app.add_option("--scene", wishes.scenes, "only these scenes");
-    app.add_option("--robots", wishes.robots, "instead of the scenes' own sizes");
+    app.add_option("--robots", wishes.robots, "instead of the scenes' own sizes")->check(CLI::PositiveNumber);
     app.add_option("--engine", wishes.contest.engines, "only these engines; ratios need RoBOSS among them");
-    app.add_option("--steps", wishes.contest.steps, "counted steps")->check(CLI::PositiveNumber);
+    app.add_option("--steps", wishes.contest.steps,
+                   "counted steps (otherwise a thousand, or 100000 robot-steps if that is more)")
+        ->check(CLI::PositiveNumber);
     app.add_option("--settle", wishes.contest.settle, "steps before")->check(CLI::PositiveNumber);
     app.add_option("--blocks", wishes.contest.blocks, "in so many blocks, of which the median is told")
         ->check(CLI::PositiveNumber);
