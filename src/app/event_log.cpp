@@ -8,6 +8,8 @@
 
 #include <utility>
 
+#include "app/cannot_write.h"
+
 namespace roboss {
 namespace {
 
@@ -75,8 +77,7 @@ Result<EventLog> EventLog::open(const std::string& path, double every_s) {
         else
             sink = std::make_shared<spdlog::sinks::basic_file_sink_st>(path);
     } catch (const spdlog::spdlog_ex& e) {
-        return Error{fmt::format("cannot write the log '{}': {}", path, e.what()),
-                     "check the folder, its rights and the space left"};
+        return cannot_write("the log '" + path + "'", e.what());
     }
     auto logger = std::make_shared<spdlog::logger>("roboss", std::move(sink));
     logger->set_pattern("%Y-%m-%dT%H:%M:%S.%eZ level=%l %v", spdlog::pattern_time_type::utc);

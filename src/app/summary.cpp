@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "app/cannot_write.h"
 #include "core/hash.h"
 
 namespace roboss {
@@ -59,9 +60,7 @@ Result<> write_json(const Summary& summary, const std::string& file) {
     std::ofstream out(file);
     out << to_json(summary);
     out.close();
-    if (!out)
-        return Error{"cannot write the summary to '" + file + "'",
-                     "check the folder, its rights and the space left"};
+    if (!out) return cannot_write("the summary to '" + file + "'");
     return Ok{};
 }
 

@@ -1,26 +1,16 @@
 // Writes the CSV of --trace.
 #include "app/trace_file.h"
 
-#include <cerrno>
-#include <cstring>
-
+#include "app/cannot_write.h"
 #include "physics/kinematics.h"
 
 namespace roboss {
-namespace {
-
-Error cannot_write(const std::string& path) {
-    return Error{"cannot write '" + path + "': " + std::strerror(errno),
-                 "check the folder, its rights and the space left"};
-}
-
-}  // namespace
 
 Result<TraceFile> TraceFile::create(const std::string& path) {
     TraceFile trace;
     trace.path_ = path;
     trace.file_.reset(std::fopen(path.c_str(), "w"));
-    if (!trace.file_) return cannot_write(path);
+    if (!trace.file_) return cannot_write("'" + path + "'");
     std::fputs("time_s,robot,link,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n", trace.file_.get());
     return trace;
 }
@@ -40,12 +30,12 @@ Result<> TraceFile::write(const Model& model, Tick tick, std::span<const RobotSt
                 v.angular.z);
         }
     }
-    if (std::ferror(file_.get())) return cannot_write(path_);
+    if (std::ferror(file_.get())) return cannot_write("'" + path_ + "'");
     return Ok{};
 }
 
 Result<> TraceFile::close() {
-    if (file_ && std::fclose(file_.release()) != 0) return cannot_write(path_);
+    if (file_ && std::fclose(file_.release()) != 0) return cannot_write("'" + path_ + "'");
     return Ok{};
 }
 
