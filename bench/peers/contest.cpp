@@ -47,8 +47,7 @@ void settle(Entry& entry, const ContestOptions& options) {
     }
     const double a_step = spent / options.settle;
     const int affordable = static_cast<int>(options.limit_s / std::max(a_step, 1e-9));
-    const int steps = std::clamp(affordable, options.blocks, options.steps);
-    entry.block_ticks = (steps + options.blocks - 1) / options.blocks;
+    entry.block_ticks = options.block_of(std::clamp(affordable, options.blocks, options.steps));
 }
 
 void run_block(Entry& entry, std::size_t robots, const ContestOptions& options) {

@@ -22,6 +22,8 @@ struct ContestOptions {
     int steps_of(std::size_t robots) const {
         return steps > 0 ? steps : std::max(1000, 100000 / static_cast<int>(robots));
     }
+    /// Steps of one block, of so many in all: rounded up, so that none of these is missing.
+    int block_of(int all) const { return (all + blocks - 1) / blocks; }
 };
 
 /// A line of the table. Times in microseconds for one step of one robot.

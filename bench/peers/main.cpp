@@ -49,7 +49,7 @@ int run_alone(const SceneKind& kind, std::size_t robots, const EngineKind& engin
     const Scene scene = kind.make(robots);
     Trial trial(engine, scene, options.accuracy);
     trial.run(options.settle);
-    const int ticks = std::max(1, options.steps_of(robots) / options.blocks);
+    const int ticks = options.block_of(options.steps_of(robots));
     for (int block = 0; block < options.blocks; ++block) {
         const Spent spent = trial.run(ticks);
         const double steps = static_cast<double>(ticks) * static_cast<double>(robots);

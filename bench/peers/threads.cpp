@@ -51,7 +51,7 @@ std::vector<Row> compare_threads(std::size_t cars, const ContestOptions& options
         runs.push_back(start(model, threads));
         take(runs.back().simulation->run_until(options.settle));
     }
-    const int ticks = std::max(1, options.steps_of(cars) / options.blocks);
+    const int ticks = options.block_of(options.steps_of(cars));
     for (int block = 0; block < options.blocks; ++block) {
         std::fprintf(stderr, "  block %d of %d\n", block + 1, options.blocks);
         for (Run& run : runs) {

@@ -9,9 +9,11 @@
 
 namespace roboss {
 
-/// `what`: the file, in words; `why`: the system's reason.
-inline Error cannot_write(const std::string& what, const std::string& why = std::strerror(errno)) {
-    return Error{"cannot write " + what + ": " + why, "check the folder, its rights and the space left"};
+/// `what`: what the file is, with a space behind it; `why`: the system's reason.
+inline Error cannot_write(const std::string& path, const std::string& what = "",
+                          const std::string& why = std::strerror(errno)) {
+    return Error{"cannot write " + what + "'" + path + "': " + why,
+                 "check the folder, its rights and the space left"};
 }
 
 }  // namespace roboss

@@ -16,7 +16,7 @@ Result<ContactsFile> ContactsFile::create(const std::string& path) {
     ContactsFile contacts;
     contacts.path_ = path;
     contacts.file_.reset(std::fopen(path.c_str(), "w"));
-    if (!contacts.file_) return cannot_write("'" + path + "'");
+    if (!contacts.file_) return cannot_write(path);
     std::fputs("time_s,robot_a,link_a,robot_b,link_b,x,y,z,nx,ny,nz,gap,impulse,fx,fy,fz\n",
                contacts.file_.get());
     return contacts;
@@ -35,12 +35,12 @@ Result<> ContactsFile::write(const Model& model, Tick tick, std::span<const Cont
             std::fprintf(file_.get(), ",%.17g", x);
         std::fputc('\n', file_.get());
     }
-    if (std::ferror(file_.get())) return cannot_write("'" + path_ + "'");
+    if (std::ferror(file_.get())) return cannot_write(path_);
     return Ok{};
 }
 
 Result<> ContactsFile::close() {
-    if (file_ && std::fclose(file_.release()) != 0) return cannot_write("'" + path_ + "'");
+    if (file_ && std::fclose(file_.release()) != 0) return cannot_write(path_);
     return Ok{};
 }
 

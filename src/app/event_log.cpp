@@ -77,7 +77,7 @@ Result<EventLog> EventLog::open(const std::string& path, double every_s) {
         else
             sink = std::make_shared<spdlog::sinks::basic_file_sink_st>(path);
     } catch (const spdlog::spdlog_ex& e) {
-        return cannot_write("the log '" + path + "'", e.what());
+        return cannot_write(path, "the log ", e.what());
     }
     auto logger = std::make_shared<spdlog::logger>("roboss", std::move(sink));
     logger->set_pattern("%Y-%m-%dT%H:%M:%S.%eZ level=%l %v", spdlog::pattern_time_type::utc);

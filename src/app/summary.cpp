@@ -60,7 +60,7 @@ Result<> write_json(const Summary& summary, const std::string& file) {
     std::ofstream out(file);
     out << to_json(summary);
     out.close();
-    if (!out) return cannot_write("the summary to '" + file + "'");
+    if (!out) return cannot_write(file, "the summary to ");
     return Ok{};
 }
 

@@ -10,7 +10,7 @@ Result<TraceFile> TraceFile::create(const std::string& path) {
     TraceFile trace;
     trace.path_ = path;
     trace.file_.reset(std::fopen(path.c_str(), "w"));
-    if (!trace.file_) return cannot_write("'" + path + "'");
+    if (!trace.file_) return cannot_write(path);
     std::fputs("time_s,robot,link,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n", trace.file_.get());
     return trace;
 }
@@ -30,12 +30,12 @@ Result<> TraceFile::write(const Model& model, Tick tick, std::span<const RobotSt
                 v.angular.z);
         }
     }
-    if (std::ferror(file_.get())) return cannot_write("'" + path_ + "'");
+    if (std::ferror(file_.get())) return cannot_write(path_);
     return Ok{};
 }
 
 Result<> TraceFile::close() {
-    if (file_ && std::fclose(file_.release()) != 0) return cannot_write("'" + path_ + "'");
+    if (file_ && std::fclose(file_.release()) != 0) return cannot_write(path_);
     return Ok{};
 }
 
