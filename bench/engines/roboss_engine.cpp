@@ -21,6 +21,8 @@ class RobossEngine final : public Engine {
         for (std::size_t r = model_.robots.size(); r-- > 0;) first_robot_[model_.robots[r].family] = r;
         for (std::size_t i = world.instances.size(); i-- > 0;)
             first_robot_[i] = std::min(first_robot_[i], first_robot_[i + 1]);
+        robots_.reserve(model_.robots.size()), states_.reserve(model_.robots.size());
+        pointers_.reserve(model_.robots.size());
         for (std::size_t r = 0; r < model_.robots.size(); ++r) {
             robots_.emplace_back(r);
             states_.push_back(initial_state(model_, RobotId(r)));

@@ -22,9 +22,9 @@ double mobility(const ContactSide<double>& side) {
 
 }  // namespace
 
-void add_angular_row(const Model& model, const Contact& c, std::span<const RobotWork> robots,
-                     std::span<const int> offsets, IslandRows& rows) {
-    if (c.torsional <= 0 && c.rolling <= 0) return;
+void add_angular_row(const Model& model, const Contact& c, const SurfacePair& surface,
+                     std::span<const RobotWork> robots, std::span<const int> offsets, IslandRows& rows) {
+    if (surface.torsional <= 0 && surface.rolling <= 0) return;
     ContactFrame frame{c.normal, {}, {}};
     tangents(c.normal, frame.t1, frame.t2);
     AngularRow row;
@@ -41,12 +41,12 @@ void add_angular_row(const Model& model, const Contact& c, std::span<const Robot
     }
     if (c.robot_b == c.robot_a) rows.columns.merge(row.first, middle);
     row.last = rows.columns.size();
-    row.torsional = c.torsional;
+    row.torsional = surface.torsional;
     row.spin.compliance = row.roll.compliance = model.accuracy.compliance * ease;
-    row.spin.high = c.torsional * c.impulse;
+    row.spin.high = surface.torsional * c.impulse;
     row.spin.low = -row.spin.high;
-    row.roll.coefficient = c.rolling;
-    row.roll.bound = c.rolling * c.impulse;
+    row.roll.coefficient = surface.rolling;
+    row.roll.bound = surface.rolling * c.impulse;
     rows.angulars.push_back(row);
 }
 

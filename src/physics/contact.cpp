@@ -8,7 +8,6 @@
 #include <tuple>
 
 #include "geometry/collide.h"
-#include "physics/surface_pair.h"
 
 namespace roboss {
 namespace {
@@ -33,11 +32,6 @@ std::uint32_t points_to_keep(const Manifold& manifold, std::uint32_t keep) {
     return kept;
 }
 
-struct Placed {
-    const Material& material;
-    const Mat3& R_WS;
-};
-
 /// Who meets whom; of a Contact, what is known before it is found.
 struct Pair {
     int robot_a = 0, robot_b = -1;
@@ -45,55 +39,46 @@ struct Pair {
     int body_a = -1, body_b = -1;
 };
 
-/// Adds a point of the pair, all but its place.
-Contact& add_contact(const Pair& pair, const Vec3& normal, std::vector<Contact>& contacts) {
+/// The buffer grows by a quarter, not to twice its size: of a heap it is the largest.
+void make_room(std::size_t more, std::vector<Contact>& contacts) {
+    const std::size_t count = contacts.size() + more;
+    if (count > contacts.capacity()) contacts.reserve(count + count / 4);
+}
+
+void add_point(const Pair& pair, const Vec3& normal, const auto& point, std::vector<Contact>& contacts) {
     Contact& contact = contacts.emplace_back();
     contact.robot_a = pair.robot_a, contact.robot_b = pair.robot_b;
     contact.shape_a = static_cast<std::uint32_t>(pair.shape_a);
     contact.shape_b = static_cast<std::uint32_t>(pair.shape_b);
     contact.body_a = pair.body_a, contact.body_b = pair.body_b;
-    contact.normal = normal;
-    return contact;
-}
-
-/// What is the point's own: where it is, how deep, and what hangs on that.
-void set_place(const auto& point, const Material& a, const Material& b, Contact& contact) {
     contact.p_W = point.p_W, contact.gap = point.gap, contact.feature = point.feature;
-    contact.torsional = torsional_lever(a, b, -contact.gap);
+    contact.normal = normal;
 }
 
 /// Points of a triangle surface, each with a normal of its own; all but the deepest are dropped.
-void add_points(std::vector<SurfaceContact>& points, const Pair& pair, const Placed& pa, const Placed& pb,
+void add_points(std::vector<SurfaceContact>& points, const Pair& pair, std::size_t keep,
                 std::vector<Contact>& contacts) {
-    for (const std::size_t keep = std::min(pa.material.contacts_max, pb.material.contacts_max);
-         points.size() > keep;) {
+    while (points.size() > keep) {
         const auto shallowest = std::max_element(points.rbegin(), points.rend(),
                                                  [](const auto& p, const auto& q) { return p.gap < q.gap; });
         points.erase(std::next(shallowest).base());
     }
-    for (const SurfaceContact& point : points) {
-        Contact& contact = add_contact(pair, point.n_W, contacts);
-        combine(pa.material, pa.R_WS, pb.material, pb.R_WS, contact);
-        set_place(point, pa.material, pb.material, contact);
-    }
+    make_room(points.size(), contacts);
+    for (const SurfaceContact& point : points) add_point(pair, point.n_W, point, contacts);
 }
 
-void add_points(const Manifold& manifold, const Pair& pair, const Placed& pa, const Placed& pb,
+void add_points(const Manifold& manifold, const Pair& pair, std::uint32_t keep,
                 std::vector<Contact>& contacts) {
     if (manifold.count == 0) return;
-    const std::uint32_t kept =
-        points_to_keep(manifold, std::min(pa.material.contacts_max, pb.material.contacts_max));
-    const std::size_t first = contacts.size();
-    for (int i = 0; i < manifold.count; ++i) {
-        if ((kept >> i & 1) == 0) continue;
-        const ContactPoint& point = manifold.points[static_cast<std::size_t>(i)];
-        if (contacts.size() == first) {
-            combine(pa.material, pa.R_WS, pb.material, pb.R_WS, add_contact(pair, manifold.n_W, contacts));
-        } else {
-            contacts.push_back(Contact(contacts[first]));
-        }
-        set_place(point, pa.material, pb.material, contacts.back());
-    }
+    const std::uint32_t kept = points_to_keep(manifold, keep);
+    make_room(static_cast<std::size_t>(manifold.count), contacts);
+    for (int i = 0; i < manifold.count; ++i)
+        if ((kept >> i & 1) != 0)
+            add_point(pair, manifold.n_W, manifold.points[static_cast<std::size_t>(i)], contacts);
+}
+
+std::uint32_t points_max(const Material& a, const Material& b) {
+    return std::min(a.contacts_max, b.contacts_max);
 }
 
 /// Collides two placed shapes of robots.
@@ -102,7 +87,7 @@ void collide_shapes(const BodyShape& a, const ShapeWork& wa, const BodyShape& b,
     if (!overlaps(wa.box, wb.box) || !may_collide(a.material, b.material)) return;
     pair.body_a = a.body, pair.body_b = b.body;
     const Manifold manifold = collide(a.shape, wa.X_WS, b.shape, wb.X_WS, wa.margin + wb.margin);
-    add_points(manifold, pair, {a.material, wa.X_WS.R}, {b.material, wb.X_WS.R}, contacts);
+    add_points(manifold, pair, points_max(a.material, b.material), contacts);
 }
 
 std::uint32_t other_id(std::span<const RobotWork> robots, const Contact& c) {
@@ -120,16 +105,17 @@ void sort_contacts(std::span<const RobotWork> robots, std::span<Contact> contact
 
 }  // namespace
 
-void combine(const Material& a, const Mat3& R_WA, const Material& b, const Mat3& R_WB, Contact& contact) {
-    const FrictionEllipse friction = friction_of(a, R_WA, b, R_WB, contact.normal);
-    contact.mu = friction.mu, contact.mu_across = friction.across;
-    contact.has_friction_axis = !(friction.axis == Vec3{}), contact.friction_axis = friction.axis;
-    contact.restitution = std::max(a.restitution, b.restitution);
-    contact.bounce_threshold = std::max(a.bounce_threshold, b.bounce_threshold);
-    contact.rolling = std::max(a.rolling, b.rolling);
-    const Softness soft = softness_of(a, b);
-    contact.stiffness = soft.stiffness, contact.damping = soft.damping;
-    contact.slop = std::max(a.slop, b.slop), contact.mend_speed = std::min(a.mend_speed, b.mend_speed);
+SurfacePair surface_of(const Model& model, std::span<const RobotWork> robots, const Contact& contact) {
+    const RobotWork& a = robots[static_cast<std::size_t>(contact.robot_a)];
+    const Material& of_a = a.type->shapes[contact.shape_a].material;
+    const Mat3& R_WA = a.shapes[contact.shape_a].X_WS.R;
+    if (contact.robot_b < 0) {
+        const StaticShape& scenery = model.statics[contact.shape_b];
+        return surface_pair(of_a, R_WA, scenery.material, scenery.X_WS.R, contact.normal, -contact.gap);
+    }
+    const RobotWork& b = robots[static_cast<std::size_t>(contact.robot_b)];
+    return surface_pair(of_a, R_WA, b.type->shapes[contact.shape_b].material,
+                        b.shapes[contact.shape_b].X_WS.R, contact.normal, -contact.gap);
 }
 
 void ContactFinder::find(const Model& model, std::span<RobotWork> robots, std::vector<Contact>& contacts) {
@@ -180,15 +166,15 @@ void ContactFinder::with_static(const Model& model, std::span<const RobotWork> r
     const StaticShape& scenery = model.statics[i];
     if (!may_collide(shape.material, scenery.material)) return;
     const Pair pair{static_cast<int>(a), -1, s, i, shape.body, -1};
-    const Placed of_shape{shape.material, placed.X_WS.R}, of_scenery{scenery.material, scenery.X_WS.R};
+    const std::uint32_t keep = points_max(shape.material, scenery.material);
     if (scenery.shape.kind == ShapeKind::kSurface) {
         collide_surface(shape.shape, placed.X_WS, *scenery.shape.surface, scenery.X_WS, placed.margin,
                         surface_contacts_);
-        add_points(surface_contacts_.points, pair, of_shape, of_scenery, contacts);
+        add_points(surface_contacts_.points, pair, keep, contacts);
         return;
     }
     const Manifold manifold = collide(shape.shape, placed.X_WS, scenery.shape, scenery.X_WS, placed.margin);
-    add_points(manifold, pair, of_shape, of_scenery, contacts);
+    add_points(manifold, pair, keep, contacts);
 }
 
 void ContactFinder::with_itself(std::span<RobotWork> robots, std::size_t a, std::vector<Contact>& contacts) {

@@ -7,11 +7,13 @@
 
 #include "geometry/collide_surface.h"
 #include "physics/robot_work.h"
+#include "physics/surface_pair.h"
 
 namespace roboss {
 
-/// One contact point, or the same point of a few robots in lanes; what the materials say is the same for all
-/// of them. Side A is the robot that owns it (the lower id), side B another robot, itself, or static scenery.
+/// One contact point, or the same point of a few robots in lanes; what the materials make of it is asked when
+/// it is needed (surface_of). Side A is the robot that owns it (the lower id), side B another robot, itself,
+/// or static scenery.
 template <class T>
 struct ContactT {
     int robot_a = 0;   // index into the island's robots
@@ -20,23 +22,15 @@ struct ContactT {
     int body_a = -1, body_b = -1;
     Vec3T<T> p_W, normal;  // normal from B towards A
     T gap{};
-    double mu = 0, restitution = 0, bounce_threshold = 0;
-    bool has_friction_axis = false;     // if not, mu counts in all directions
-    Vec3T<T> friction_axis;             // mu counts along it, mu * mu_across across
-    double mu_across = 1;               // from 0 to 1
-    double torsional = 0, rolling = 0;  // m: levers of the largest torques over the normal force
-    double stiffness = 0, damping = 0;  // N/m, N s/m; stiffness 0: rigid
-    double slop = 0, mend_speed = 0;    // of a rigid contact, m and m/s
-    T impulse{};                        // normal, N s: remembered, then solved
-    Vec3T<T> friction;                  // tangential, N s, world axes: likewise
-    T load{};         // normal, N s: the smaller of the impulses of the last two ticks, so not a blow
-    Vec3T<T> moment;  // N m s, world axes: torsional and rolling friction, solved
+    T impulse{};        // normal, N s: remembered, then solved
+    Vec3T<T> friction;  // tangential, N s, world axes: likewise
+    T load{};           // normal, N s: the smaller of the impulses of the last two ticks, so not a blow
+    Vec3T<T> moment;    // N m s, world axes: torsional and rolling friction, solved
 };
 using Contact = ContactT<double>;
 
-/// What the materials of two shapes make of all contacts along contact.normal. Torsional friction hangs on
-/// the depth too, and is left out.
-void combine(const Material& a, const Mat3& R_WA, const Material& b, const Mat3& R_WB, Contact& contact);
+/// What the materials make of a contact of the island.
+SurfacePair surface_of(const Model& model, std::span<const RobotWork> robots, const Contact& contact);
 
 /// Finds all contacts of the island. `robots` ascending by id. Result sorted by (robot_a, other id, shapes,
 /// feature).

@@ -19,13 +19,13 @@ struct ContactFrameT {
 using ContactFrame = ContactFrameT<double>;
 
 template <class T>
-ContactFrameT<T> frame_of(const ContactT<T>& c) {
-    ContactFrameT<T> frame{c.normal, {}, {}};
-    if (!c.has_friction_axis) {
-        tangents(c.normal, frame.t1, frame.t2);
+ContactFrameT<T> frame_of(const Vec3T<T>& normal, const FrictionEllipse& friction) {
+    ContactFrameT<T> frame{normal, {}, {}};
+    if (friction.axis == Vec3{}) {
+        tangents(normal, frame.t1, frame.t2);
     } else {
-        frame.t1 = c.friction_axis;
-        frame.t2 = cross(c.normal, c.friction_axis) * T(c.mu_across);
+        frame.t1 = broadcast<T>(friction.axis);
+        frame.t2 = cross(normal, frame.t1) * T(friction.across);
     }
     return frame;
 }
@@ -144,17 +144,18 @@ struct NormalTargets {
 /// An impact inside the tick: flies `to_hit` seconds, bounces, flies the rest; gravity counted in both parts.
 /// `split` is false where nothing hits.
 template <class T>
-NormalTargets<T> impact(const ContactT<T>& c, const T& approach, const T& gravity_n, double dt) {
+NormalTargets<T> impact(const ContactT<T>& c, const SurfacePair& surface, const T& approach,
+                        const T& gravity_n, double dt) {
     const T to_hit = select(c.gap > T(0), c.gap / approach, T(0));
     const T speed = approach - gravity_n * to_hit;
     const T rest = dt - to_hit;
-    const T away = c.restitution * speed;
+    const T away = surface.restitution * speed;
     const T gap_after = away * rest + 0.5 * gravity_n * rest * rest;
     NormalTargets<T> targets;
     targets.velocity = away + gravity_n * rest;
     targets.way = (gap_after - larger(c.gap, T(0))) / T(dt);
-    targets.split =
-        (approach > T(0)) & (to_hit <= T(dt)) & (speed > T(c.bounce_threshold)) & (targets.velocity > T(0));
+    targets.split = (approach > T(0)) & (to_hit <= T(dt)) & (speed > T(surface.bounce_threshold)) &
+                    (targets.velocity > T(0));
     return targets;
 }
 
@@ -164,14 +165,15 @@ NormalTargets<T> impact(const ContactT<T>& c, const T& approach, const T& gravit
 /// of kSoftBlow: shapes that start deep in each other are not shot apart. False if the contact is as hard as
 /// rigid ones, of compliance `rigid`.
 template <class T>
-bool set_softness(const ContactT<T>& c, double dt, double ease, double rigid, BoundedRowT<T>& row) {
-    if (c.stiffness <= 0) return false;
-    const double compliance = 1.0 / (dt * dt * c.stiffness + dt * c.damping);
+bool set_softness(const ContactT<T>& c, const Softness& soft, double dt, double ease, double rigid,
+                  BoundedRowT<T>& row) {
+    if (soft.stiffness <= 0) return false;
+    const double compliance = 1.0 / (dt * dt * soft.stiffness + dt * soft.damping);
     if (compliance < rigid) return false;
     row.compliance = compliance;
-    const T depth = smaller(-c.gap, T(kSoftBlow / std::sqrt(c.stiffness * ease)));
-    row.target =
-        select(c.gap <= T(0), depth * T(c.stiffness) / T(dt * c.stiffness + c.damping), -c.gap / T(dt));
+    const T depth = smaller(-c.gap, T(kSoftBlow / std::sqrt(soft.stiffness * ease)));
+    row.target = select(c.gap <= T(0), depth * T(soft.stiffness) / T(dt * soft.stiffness + soft.damping),
+                        -c.gap / T(dt));
     row.position_target = row.target;
     return true;
 }
@@ -179,16 +181,16 @@ bool set_softness(const ContactT<T>& c, double dt, double ease, double rigid, Bo
 /// Targets of the normal. The load of the last tick is where the row starts from (a proximal step): a contact
 /// at rest carries it without any velocity, however compliant the row. True if velocity and way differ.
 template <class T>
-MaskOf<T> set_normal(const ContactT<T>& c, const T& approach, const T& gravity_n, double dt,
-                     const T& compliance, BoundedRowT<T>& row) {
+MaskOf<T> set_normal(const ContactT<T>& c, const SurfacePair& surface, const T& approach, const T& gravity_n,
+                     double dt, const T& compliance, BoundedRowT<T>& row) {
     row.compliance = compliance;
     const T closing = select(c.gap > T(0), -c.gap / T(dt), T(0));
-    const MaskOf<T> mends = c.gap < T(-c.slop);
-    const T mending = smaller(kMendShare * (-c.gap - c.slop) / T(dt), T(c.mend_speed));
+    const MaskOf<T> mends = c.gap < T(-surface.slop);
+    const T mending = smaller(kMendShare * (-c.gap - surface.slop) / T(dt), T(surface.mend_speed));
     row.target = closing + compliance * c.load;
     row.position_target = select(mends, mending, closing) + compliance * c.load;
-    if (c.restitution <= 0) return mends;
-    const NormalTargets<T> hit = impact(c, approach, gravity_n, dt);
+    if (surface.restitution <= 0) return mends;
+    const NormalTargets<T> hit = impact(c, surface, approach, gravity_n, dt);
     row.target = select(hit.split, hit.velocity, row.target);
     row.position_target = select(hit.split, hit.way, row.position_target);
     return hit.split | mends;
@@ -196,22 +198,23 @@ MaskOf<T> set_normal(const ContactT<T>& c, const T& approach, const T& gravity_n
 
 /// Friction starts from that of the last tick, as the normal does; `share` makes velocities of its impulses.
 template <class T>
-void set_friction_targets(const ContactT<T>& c, const ContactFrameT<T>& frame, const T& share,
+void set_friction_targets(const ContactT<T>& c, const ContactFrameT<T>& frame, double across, const T& share,
                           FrictionDiscT<T>& slip) {
     slip.target_1 = share * dot(frame.t1, c.friction);
     slip.target_2 = share * dot(frame.t2, c.friction);
-    if (c.mu_across == 1) return;
-    const double short2 = c.mu_across * c.mu_across;
+    if (across == 1) return;
+    const double short2 = across * across;
     slip.target_2 = short2 > 0 ? slip.target_2 / T(short2) : T(0);
 }
 
 /// What a contact that carried a load starts from; the others start from nothing.
 template <class T>
-void start_from_load(const ContactT<T>& c, const ContactFrameT<T>& frame, const MaskOf<T>& loaded,
-                     const T& compliance, ContactRowT<T>& row) {
+void start_from_load(const ContactT<T>& c, const FrictionEllipse& friction, const ContactFrameT<T>& frame,
+                     const MaskOf<T>& loaded, const T& compliance, ContactRowT<T>& row) {
     if (!any(loaded)) return;
-    set_friction_targets(c, frame, compliance * (c.load / c.impulse), row.slip);
-    const T t1 = row.slip.target_1, t2 = row.slip.target_2, end = kSticking * compliance * T(c.mu) * c.load;
+    set_friction_targets(c, frame, friction.across, compliance * (c.load / c.impulse), row.slip);
+    const T t1 = row.slip.target_1, t2 = row.slip.target_2,
+            end = kSticking * compliance * T(friction.mu) * c.load;
     row.sticks = loaded & (t1 * t1 + t2 * t2 < end * end);
     row.slip.target_1 = select(loaded, t1, T(0)), row.slip.target_2 = select(loaded, t2, T(0));
 }
@@ -221,10 +224,10 @@ void start_from_load(const ContactT<T>& c, const ContactFrameT<T>& frame, const 
 /// Adds the rows of a contact of `a` with `b` (nullptr: scenery). True if the way of this tick needs another
 /// target than the velocity.
 template <class T>
-MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const ContactSide<T>& a,
-                          const ContactSide<T>* b, IslandRowsT<T>& rows) {
+MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const SurfacePair& surface,
+                          const ContactSide<T>& a, const ContactSide<T>* b, IslandRowsT<T>& rows) {
     const double dt = model.dt_s;
-    const ContactFrameT<T> frame = frame_of(c);
+    const ContactFrameT<T> frame = frame_of(c.normal, surface.friction);
     ContactRowT<T>& row = rows.contacts.emplace_back();
     row.first = rows.columns.size();
     contact::add_columns(a, 1.0, c.p_W, frame, rows.columns);
@@ -244,15 +247,16 @@ MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const Contac
     const T compliance =
         ease * select(loaded, T(loaded_compliance<T>(model.accuracy)), T(new_compliance<T>(model.accuracy)));
     row.normal.high = std::numeric_limits<double>::infinity();
-    row.soft = contact::set_softness(c, dt, ease, ease * new_compliance<T>(model.accuracy), row.normal);
+    row.soft = contact::set_softness(c, surface.softness, dt, ease, ease * new_compliance<T>(model.accuracy),
+                                     row.normal);
     MaskOf<T> split = false;
-    if (!row.soft) split = contact::set_normal(c, approach, gravity_n, dt, compliance, row.normal);
-    row.slip.coefficient = c.mu;
-    row.slip.bound = c.mu * c.impulse;
+    if (!row.soft) split = contact::set_normal(c, surface, approach, gravity_n, dt, compliance, row.normal);
+    row.slip.coefficient = surface.friction.mu;
+    row.slip.bound = surface.friction.mu * c.impulse;
     row.slip.compliance = compliance;
     row.ease = ease;
     row.load_max = larger(4.0 * c.load, T(contact::kWeights * norm(model.gravity) * dt / ease));
-    contact::start_from_load(c, frame, loaded, compliance, row);
+    contact::start_from_load(c, surface.friction, frame, loaded, compliance, row);
     return split;
 }
 

@@ -70,7 +70,7 @@ std::span<Contact> contacts_of(std::uint32_t robot, std::span<Contact> contacts)
 bool gather_island(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
                    std::span<const std::uint32_t> members, std::span<Contact> contacts) {
     s.island_robots.clear(), s.island_offsets.clear();
-    s.rows.clear(), s.v.clear();
+    s.island_surfaces.clear(), s.rows.clear(), s.v.clear();
     s.offsets.resize(robots.size());
     bool split = false;
     for (std::uint32_t m : members) {
@@ -87,8 +87,9 @@ bool gather_island(const Model& model, std::span<RobotWork> robots, GroupScratch
     }
     for (std::uint32_t m : members) {
         for (Contact& c : contacts_of(m, contacts)) {
-            split |= add_contact_row(model, c, robots, s.offsets, s.rows);
-            add_angular_row(model, c, robots, s.offsets, s.rows);
+            const SurfacePair& surface = s.island_surfaces.emplace_back(surface_of(model, robots, c));
+            split |= add_contact_row(model, c, surface, robots, s.offsets, s.rows);
+            add_angular_row(model, c, surface, robots, s.offsets, s.rows);
             s.island_contacts.push_back(&c);
         }
     }
@@ -105,7 +106,7 @@ void take_impulses(GroupScratch& s) {
         for (const CouplingRow& row : s.rows.couplings)
             if (row.loop >= 0) s.loads.push_back({row.robot, row.loop, row.wrench * row.impulse});
     for (std::size_t c = 0; c < s.rows.contacts.size(); ++c)
-        take_impulse(s.rows.contacts[c], *s.island_contacts[c]);
+        take_impulse(s.rows.contacts[c], s.island_surfaces[c].friction, *s.island_contacts[c]);
     for (const AngularRow& row : s.rows.angulars) {
         Contact& contact = *s.island_contacts[row.contact];
         Vec3 t1, t2;

@@ -28,6 +28,7 @@ struct GroupScratch {
     UnionFind islands;  // of robots in contact
     std::vector<std::uint32_t> members;
     std::vector<Contact*> island_contacts;
+    std::vector<SurfacePair> island_surfaces;  // of these
     std::vector<const Mechanics<double>*> island_robots;
     std::vector<int> offsets, island_offsets;
     IslandRows rows;

@@ -8,11 +8,7 @@ namespace roboss {
 namespace {
 
 bool same_point(const Contact& a, const Contact& b) {
-    return a.shape_a == b.shape_a && a.shape_b == b.shape_b && a.feature == b.feature && a.mu == b.mu;
-}
-
-bool is_plain(const Contact& c) {
-    return !c.has_friction_axis && c.torsional <= 0 && c.rolling <= 0;
+    return a.shape_a == b.shape_a && a.shape_b == b.shape_b && a.feature == b.feature;
 }
 
 unsigned bit(std::size_t lane) {
@@ -49,18 +45,20 @@ std::optional<std::uint32_t> LaneContacts::only_plane(const Model& model, const 
     return scenery_[0];
 }
 
-std::optional<Contact> LaneContacts::plain_surface(const Model& model, const BodyShape& shape,
-                                                   std::uint32_t i) {
-    constexpr std::uint32_t kPointsMax = 4;  // of a shape on a plane, as far as lanes know them
+std::optional<SurfacePair> LaneContacts::plain_surface(const Model& model, const BodyShape& shape,
+                                                       std::uint32_t i) {
     const Material &a = shape.material, &b = model.statics[i].material;
     const bool directed = (a.direction_S != Vec3{} || b.direction_S != Vec3{}) &&
                           std::min(a.mu, b.mu) != std::min(a.mu2, b.mu2);
-    if (directed || std::min(a.contacts_max, b.contacts_max) < kPointsMax) return {};
-    Contact contact;
-    combine(a, Mat3::identity(), b, Mat3::identity(), contact);
     const bool has_patch = std::max({a.patch_radius, b.patch_radius, a.surface_radius, b.surface_radius}) > 0;
-    if ((std::min(a.torsional_mu, b.torsional_mu) > 0 && has_patch) || contact.rolling > 0) return {};
-    return contact;
+    if (directed || (std::min(a.torsional_mu, b.torsional_mu) > 0 && has_patch)) return {};
+    const SurfacePair pair = surface_pair(a, Mat3::identity(), b, Mat3::identity(), {}, 0);
+    return pair.rolling > 0 ? std::optional<SurfacePair>() : pair;
+}
+
+bool LaneContacts::keeps_all_points(const Model& model, const BodyShape& shape, std::uint32_t i) {
+    constexpr std::uint32_t kPointsMax = 4;  // as far as lanes know them
+    return std::min(shape.material.contacts_max, model.statics[i].material.contacts_max) >= kPointsMax;
 }
 
 ContactMemory* LaneContacts::memory_for(std::size_t count, RobotState& state) {
@@ -68,7 +66,10 @@ ContactMemory* LaneContacts::memory_for(std::size_t count, RobotState& state) {
     return state.contacts.data();
 }
 
-unsigned LaneContacts::alike(unsigned present) const {
+unsigned LaneContacts::alike(const Model& model, const RobotType& type, unsigned present) const {
+    const auto is_plain = [&](const Contact& c) {
+        return plain_surface(model, type.shapes[c.shape_a], c.shape_b).has_value();
+    };
     unsigned best = 0, unseen = present;
     while (std::popcount(unseen) > std::popcount(best)) {
         const auto first = static_cast<std::size_t>(std::countr_zero(unseen));

@@ -23,16 +23,20 @@ class LaneContacts {
     void find(const Model& model, std::size_t lane);
     /// If all the scenery near `box` is one plane: its number.
     std::optional<std::uint32_t> only_plane(const Model& model, const Aabb& box);
-    /// What the materials make of a shape on scenery `i`; nothing if that is more than lanes know.
-    static std::optional<Contact> plain_surface(const Model& model, const BodyShape& shape, std::uint32_t i);
+    /// What the materials make of a shape on scenery `i`; nothing if that is more than lanes know (friction
+    /// axes, torsion, rolling).
+    static std::optional<SurfacePair> plain_surface(const Model& model, const BodyShape& shape,
+                                                    std::uint32_t i);
+    /// Whether no point of a shape on a plane `i` is ever dropped.
+    static bool keeps_all_points(const Model& model, const BodyShape& shape, std::uint32_t i);
     /// Room for so many contacts in what a state remembers; the first of them.
     static ContactMemory* memory_for(std::size_t count, RobotState& state);
 
     /// Contacts found elsewhere.
     void take(std::size_t lane, std::span<Contact> contacts) { spans_[lane] = contacts; }
     /// Of the lanes `present`, those that have the same contact points as the first, or as another if that
-    /// are more; none if they have points that lanes do not know (friction axes, torsion, rolling).
-    unsigned alike(unsigned present) const;
+    /// are more; none if a surface is not plain.
+    unsigned alike(const Model& model, const RobotType& type, unsigned present) const;
 
     std::size_t count(std::size_t lane) const { return spans_[lane].size(); }
     Contact& contact(std::size_t lane, std::size_t i) { return spans_[lane][i]; }

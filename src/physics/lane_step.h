@@ -15,7 +15,6 @@
 #include "physics/loads.h"
 #include "physics/newton.h"
 #include "physics/sleep.h"
-#include "physics/surface_pair.h"
 #include "physics/tree_hessian.h"
 #include "physics/velocity_forces.h"
 
@@ -32,7 +31,7 @@ class LaneStep final : public LaneStepper {
         state_.gather(*work_.type, robots, together);
         place(model, robots, together);
         if (!together.any()) return 0;
-        take_contacts(together);
+        take_contacts(model, together);
         add_rows(model, together);
         solve(model, together);
         leave_the_free(together);
@@ -85,7 +84,7 @@ class LaneStep final : public LaneStepper {
                 found_.find(model, lane);
             }
         }
-        leave(~found_.alike(together.present()), together);
+        leave(~found_.alike(model, type, together.present()), together);
     }
 
     /// Poses and velocities, in doubles.
@@ -120,7 +119,7 @@ class LaneStep final : public LaneStepper {
             plane = found;
         }
         if (!plane) return false;
-        contacts_.clear(), velocities_.clear();
+        contacts_.clear(), surfaces_.clear(), velocities_.clear();
         Lockstep<Wide> finders(together.present());
         for (std::size_t s = 0; s < placed().shapes.size(); ++s)
             if (work_.type->shapes[s].body >= 0 && !add_on_plane(model, s, *plane, finders)) return false;
@@ -136,14 +135,15 @@ class LaneStep final : public LaneStepper {
         if (!may_collide(shape.material, scenery.material)) return true;
         const Vec3 n = scenery.X_WS.R.col(2);
         PlaneContacts<Wide> points(scenery.X_WS.p, n, placed().shapes[s].margin, finders);
-        const std::optional<Contact> surface = found_.plain_surface(model, shape, plane);
-        if (!surface || !points.add(shape.shape, placed().shapes[s].X_WS)) return false;
+        const std::optional<SurfacePair> surface = found_.plain_surface(model, shape, plane);
+        if (!surface || !found_.keeps_all_points(model, shape, plane)) return false;
+        if (!points.add(shape.shape, placed().shapes[s].X_WS)) return false;
         for (std::size_t i = 0; i < points.count(); ++i) {
             if (i > 0 && points[i].feature < points[i - 1].feature) return false;  // they would be sorted
             ContactT<T>& c = contacts_.emplace_back();
             c.shape_a = static_cast<std::uint32_t>(s), c.shape_b = plane, c.feature = points[i].feature;
             c.body_a = shape.body;
-            set_surface(*surface, c);
+            surfaces_.push_back(*surface);
             c.gap = kernel(points[i].gap), c.normal = broadcast<T>(n);
             put_point(points[i].p_W, c);
         }
@@ -203,12 +203,6 @@ class LaneStep final : public LaneStepper {
     }
     Aabb box_of(std::size_t i) const { return box_of(placed().box, i); }
 
-    static void set_surface(const Contact& from, ContactT<T>& to) {
-        to.mu = from.mu, to.restitution = from.restitution, to.bounce_threshold = from.bounce_threshold;
-        to.stiffness = from.stiffness, to.damping = from.damping;
-        to.slop = from.slop, to.mend_speed = from.mend_speed;
-    }
-
     void put_shapes(std::size_t i, ShapeWork* shapes) const {
         for (const ShapeWorkT<Wide>& from : placed().shapes) {
             ShapeWork& to = *shapes++;
@@ -221,14 +215,14 @@ class LaneStep final : public LaneStepper {
     }
 
     /// What all lanes have in common from the first of them, the rest lane by lane.
-    void take_contacts(const Lockstep<T>& together) {
+    void take_contacts(const Model& model, const Lockstep<T>& together) {
         if (on_plane_) return;
         const auto first = static_cast<std::size_t>(std::countr_zero(together.present()));
-        contacts_.resize(found_.count(first)), velocities_.clear();
+        contacts_.resize(found_.count(first)), surfaces_.clear(), velocities_.clear();
         for (std::size_t c = 0; c < contacts_.size(); ++c) {
             const Contact& all = found_.contact(first, c);
             contacts_[c].body_a = all.body_a;
-            set_surface(all, contacts_[c]);
+            surfaces_.push_back(*found_.plain_surface(model, work_.type->shapes[all.shape_a], all.shape_b));
             for (std::size_t i = 0; i < kLanesOf<T>; ++i) {
                 const Contact& from = found_.contact(is_in(together, i) ? i : first, c);
                 set_lanes(point_, i, from.p_W);
@@ -263,8 +257,11 @@ class LaneStep final : public LaneStepper {
         split_ = add_tree_rows(model, type, joints, 0, together, rows_.joints);
         for (std::size_t c = 0; c < contacts_.size(); ++c) {
             const ContactT<T>& contact = contacts_[c];
-            split_ = split_ | add_contact_row<T>(model, contact, {&work_, contact.body_a, 0}, nullptr, rows_);
-            if constexpr (kIsFloat<T>) count_from(velocities_[c], frame_of(contact), rows_.contacts.back());
+            split_ = split_ | add_contact_row<T>(model, contact, surfaces_[c], {&work_, contact.body_a, 0},
+                                                 nullptr, rows_);
+            if constexpr (kIsFloat<T>)
+                count_from(velocities_[c], frame_of(contact.normal, surfaces_[c].friction),
+                           rows_.contacts.back());
         }
         free_ = true;
         for (std::size_t d = 0; d < type.dofs.size(); ++d)
@@ -321,7 +318,7 @@ class LaneStep final : public LaneStepper {
         for (const JointRowT<T>& row : rows_.joints)
             if (row.motor != nullptr) remember_load(row.impulse, *row.motor);
         for (std::size_t c = 0; c < contacts_.size(); ++c) {
-            take_impulse(rows_.contacts[c], contacts_[c]);
+            take_impulse(rows_.contacts[c], surfaces_[c].friction, contacts_[c]);
             pushed_ = pushed_ | (contacts_[c].impulse > T(0));
         }
     }
@@ -393,6 +390,7 @@ class LaneStep final : public LaneStepper {
     std::vector<T> solution_, way_;              // of floats, what is added to the velocities before
     std::vector<T> whole_solution_, whole_way_;  // of floats, in all
     std::vector<ContactT<T>> contacts_;
+    std::vector<SurfacePair> surfaces_;  // of these, the same in all lanes
     IslandRowsT<T> rows_;
     Newton<T, TreeHessian<T>> newton_;
     SolveReportT<T> solved_;

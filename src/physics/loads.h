@@ -18,8 +18,8 @@ void remember_load(const T& impulse, MotorSetpointT<T>& motor) {
 }
 
 template <class T>
-void take_impulse(const ContactRowT<T>& row, ContactT<T>& contact) {
-    const ContactFrameT<T> frame = frame_of(contact);
+void take_impulse(const ContactRowT<T>& row, const FrictionEllipse& friction, ContactT<T>& contact) {
+    const ContactFrameT<T> frame = frame_of(contact.normal, friction);
     contact.load = smaller(smaller(contact.impulse, row.normal.impulse), row.load_max);
     contact.impulse = row.normal.impulse;
     contact.friction = frame.t1 * row.slip.impulse_1 + frame.t2 * row.slip.impulse_2;

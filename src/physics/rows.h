@@ -159,12 +159,12 @@ using IslandRows = IslandRowsT<double>;
 
 /// Rows of one contact; offsets[i] is the first dof of robots[i] in the contact island. Returns true if the
 /// way of this tick needs another target than the velocity (penetration to mend, an impact inside the tick).
-bool add_contact_row(const Model& model, const Contact& contact, std::span<const RobotWork> robots,
-                     std::span<const int> offsets, IslandRows& rows);
+bool add_contact_row(const Model& model, const Contact& contact, const SurfacePair& surface,
+                     std::span<const RobotWork> robots, std::span<const int> offsets, IslandRows& rows);
 
 /// The row of torsional and rolling friction at the contact added last, if it has any.
-void add_angular_row(const Model& model, const Contact& contact, std::span<const RobotWork> robots,
-                     std::span<const int> offsets, IslandRows& rows);
+void add_angular_row(const Model& model, const Contact& contact, const SurfacePair& surface,
+                     std::span<const RobotWork> robots, std::span<const int> offsets, IslandRows& rows);
 
 template <class T>
 void ContactColumnsT<T>::merge(std::size_t first, std::size_t middle) {

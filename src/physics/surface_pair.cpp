@@ -49,4 +49,16 @@ double torsional_lever(const Material& a, const Material& b, double depth) {
     return 3.0 * kPi / 16.0 * std::min(a.torsional_mu, b.torsional_mu) * radius;
 }
 
+SurfacePair surface_pair(const Material& a, const Mat3& R_WA, const Material& b, const Mat3& R_WB,
+                         const Vec3& normal, double depth) {
+    SurfacePair pair;
+    pair.friction = friction_of(a, R_WA, b, R_WB, normal);
+    pair.torsional = torsional_lever(a, b, depth), pair.rolling = std::max(a.rolling, b.rolling);
+    pair.restitution = std::max(a.restitution, b.restitution);
+    pair.bounce_threshold = std::max(a.bounce_threshold, b.bounce_threshold);
+    pair.softness = softness_of(a, b);
+    pair.slop = std::max(a.slop, b.slop), pair.mend_speed = std::min(a.mend_speed, b.mend_speed);
+    return pair;
+}
+
 }  // namespace roboss

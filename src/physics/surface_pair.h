@@ -28,6 +28,15 @@ struct Softness {
     double stiffness = 0, damping = 0;  // N/m, N s/m; stiffness 0: rigid
 };
 
+/// All of it, for one point.
+struct SurfacePair {
+    FrictionEllipse friction;
+    double torsional = 0, rolling = 0;  // m: levers of the largest torques over the normal force
+    double restitution = 0, bounce_threshold = 0;
+    Softness softness;
+    double slop = 0, mend_speed = 0;  // of a rigid contact, m and m/s
+};
+
 bool may_collide(const Material& a, const Material& b);
 FrictionEllipse friction_of(const Material& a, const Mat3& R_WA, const Material& b, const Mat3& R_WB,
                             const Vec3& normal);
@@ -35,5 +44,8 @@ Softness softness_of(const Material& a, const Material& b);
 /// Radius of the patch that turns against torsional friction, times its coefficient and 3 pi / 16: the lever
 /// of the largest torque over the normal force (pressure as Hertz says; SDFormat's <torsional>).
 double torsional_lever(const Material& a, const Material& b, double depth);
+/// `depth` of the point, m; `normal` in world axes, as R_WA and R_WB have them.
+SurfacePair surface_pair(const Material& a, const Mat3& R_WA, const Material& b, const Mat3& R_WB,
+                         const Vec3& normal, double depth);
 
 }  // namespace roboss
