@@ -69,7 +69,7 @@ google_benchmark() {
     local program=build/release/bin/roboss-bench
     if [[ $# -eq 0 ]]; then
         printf 'benchmarks (./bench.sh NAME runs one, ./bench.sh all runs all but these):\n'
-        printf 'peers  (RoBOSS beside ODE, Bullet, MuJoCo, DART: about 12 minutes; --quick: two; --help)\n'
+        printf 'peers  (RoBOSS beside ODE, Bullet, MuJoCo, DART: about half an hour; --quick: two; --help)\n'
         printf 'accuracy  (RoBOSS and the same engines against known truths: some minutes; --list; --help)\n'
         printf 'table1  (one world on 1 to 12 Simulators, the paper'"'"'s experiment: about 20 minutes; --help)\n'
         printf 'viewer  (what browsers cost a run of 2000 cars: a minute; --help)\n'

@@ -51,7 +51,7 @@ void settle(Entry& entry, const ContestOptions& options) {
 }
 
 void run_block(Entry& entry, std::size_t robots, const ContestOptions& options) {
-    const Report report = entry.worker->run(entry.block_ticks, 30 * options.limit_s);
+    const Report report = entry.worker->run(entry.block_ticks, 10 * options.limit_s);
     if (report.failed) return give_up(entry, report.text);
     entry.us.push_back(1e6 * report.cpu_s / entry.block_ticks / static_cast<double>(robots));
     entry.row.steps += entry.block_ticks;

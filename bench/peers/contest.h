@@ -13,9 +13,9 @@ namespace roboss::bench {
 struct ContestOptions {
     std::vector<std::string> engines;  // names; empty: all
     int settle = 200, blocks = 9;
-    int steps = 0;        // counted; 0: a thousand, more of few robots
-    double accuracy = 1;  // EngineOptions
-    double limit_s = 8;   // of counted steps an engine and scene; less of them where it would take longer
+    int steps = 0;         // counted; 0: a thousand, more of few robots
+    double accuracy = 1;   // EngineOptions
+    double limit_s = 120;  // of counted steps an engine and scene; less of them where it would take longer
     double start_limit_s = 40;  // of building and settling; beyond, the engine is left out
 
     /// Of few robots so many that a block is not over in a moment of whatever else the machine does.

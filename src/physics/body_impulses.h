@@ -23,6 +23,14 @@ template <class T>
                                     : rotated(w.X_WB.R, broadcast<T>(I));
 }
 
+/// Sets the body's inertia about O; returns that about its centre of mass.
+template <class T>
+[[gnu::always_inline]] inline Sym3T<T> set_inertia(const Body& body, BodyWorkT<T>& w) {
+    const Sym3T<T> inertia_C = rotated_inertia(body, w);
+    w.inertia = spatial_inertia(T(body.mass), w.centre, inertia_C);
+    return inertia_C;
+}
+
 namespace body_impulse {
 
 /// What the laws need besides poses and velocities; `torque`: of the weight, about the centre.
@@ -48,24 +56,24 @@ template <class T>
     return {twist + cross(centre, push), push};
 }
 
-using Two = Lanes<double, 2, struct AnyProcessor>;
+using TwoBodies = Lanes<double, 2, struct AnyProcessor>;
 
-inline Two both(double a, double b) {
-    return Two(Two::Vector{a, b});
+inline TwoBodies both(double a, double b) {
+    return TwoBodies(TwoBodies::Vector{a, b});
 }
-inline Vec3T<Two> both(const Vec3& a, const Vec3& b) {
+inline Vec3T<TwoBodies> both(const Vec3& a, const Vec3& b) {
     return {both(a.x, b.x), both(a.y, b.y), both(a.z, b.z)};
 }
-inline SpatialT<Two> both(const Spatial& a, const Spatial& b) {
+inline SpatialT<TwoBodies> both(const Spatial& a, const Spatial& b) {
     return {both(a.angular, b.angular), both(a.linear, b.linear)};
 }
-inline void put(const Two& x, double& a, double& b) {
+inline void put(const TwoBodies& x, double& a, double& b) {
     a = x[0], b = x[1];
 }
-inline void put(const Vec3T<Two>& v, Vec3& a, Vec3& b) {
+inline void put(const Vec3T<TwoBodies>& v, Vec3& a, Vec3& b) {
     put(v.x, a.x, b.x), put(v.y, a.y, b.y), put(v.z, a.z, b.z);
 }
-inline void put(const SpatialInertiaT<Two>& I, SpatialInertia& a, SpatialInertia& b) {
+inline void put(const SpatialInertiaT<TwoBodies>& I, SpatialInertia& a, SpatialInertia& b) {
     put(I.mass, a.mass, b.mass), put(I.moment, a.moment, b.moment);
     put(I.inertia.xx, a.inertia.xx, b.inertia.xx), put(I.inertia.yy, a.inertia.yy, b.inertia.yy);
     put(I.inertia.zz, a.inertia.zz, b.inertia.zz), put(I.inertia.xy, a.inertia.xy, b.inertia.xy);
@@ -80,14 +88,15 @@ inline bool is_plain(const Body& body) {
 [[gnu::always_inline]] inline void set_two(const Vec3& gravity, const Body& a, const Body& b, double dt,
                                            double momentum_weight, BodyWork& wa, BodyWork& wb) {
     const Mat3 &Ra = wa.X_WB.R, &Rb = wb.X_WB.R, &Ia = a.inertia_C, &Ib = b.inertia_C;
-    const Mat3T<Two> R{both(Ra.r0, Rb.r0), both(Ra.r1, Rb.r1), both(Ra.r2, Rb.r2)};
-    const Vec3T<Two> inertia{both(Ia.r0.x, Ib.r0.x), both(Ia.r1.y, Ib.r1.y), both(Ia.r2.z, Ib.r2.z)};
-    const Vec3T<Two> centre = both(wa.centre, wb.centre);
-    const Two mass = both(a.mass, b.mass);
-    const Sym3T<Two> inertia_C = rotated_diagonal(R, inertia);
+    const Mat3T<TwoBodies> R{both(Ra.r0, Rb.r0), both(Ra.r1, Rb.r1), both(Ra.r2, Rb.r2)};
+    const Vec3T<TwoBodies> inertia{both(Ia.r0.x, Ib.r0.x), both(Ia.r1.y, Ib.r1.y), both(Ia.r2.z, Ib.r2.z)};
+    const Vec3T<TwoBodies> centre = both(wa.centre, wb.centre);
+    const TwoBodies mass = both(a.mass, b.mass);
+    const Sym3T<TwoBodies> inertia_C = rotated_diagonal(R, inertia);
     put(spatial_inertia(mass, centre, inertia_C), wa.inertia, wb.inertia);
-    const Cause<Two> cause{mass, mass * Two(momentum_weight), inertia_C, broadcast<Two>(gravity) * mass, {}};
-    const SpatialT<Two> impulse =
+    const Cause<TwoBodies> cause{
+        mass, mass * TwoBodies(momentum_weight), inertia_C, broadcast<TwoBodies>(gravity) * mass, {}};
+    const SpatialT<TwoBodies> impulse =
         of(cause, centre, both(wa.velocity, wb.velocity), both(wa.bias, wb.bias), dt, momentum_weight);
     put(impulse.angular, wa.impulse.angular, wb.impulse.angular);
     put(impulse.linear, wa.impulse.linear, wb.impulse.linear);
@@ -112,10 +121,9 @@ void set_body_impulses(const Model& model, double dt, double momentum_weight, Me
         }
         const Vec3T<T> weight = broadcast<T>(model.gravity) * T(body.gravity_mass);
         body_impulse::Cause<T> cause{
-            T(body.mass), T(body.mass * momentum_weight), rotated_inertia(body, w), weight, {}};
+            T(body.mass), T(body.mass * momentum_weight), set_inertia(body, w), weight, {}};
         if (body.gravity_mass != body.mass)
             cause.torque = cross(w.X_WB * broadcast<T>(body.p_BG) - work.origin - w.centre, weight);
-        w.inertia = spatial_inertia(cause.mass, w.centre, cause.inertia_C);
         w.impulse = body_impulse::of(cause, w.centre, w.velocity, w.bias, dt, momentum_weight);
     }
 }

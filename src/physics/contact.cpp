@@ -7,6 +7,7 @@
 #include <limits>
 #include <tuple>
 
+#include "core/make_room.h"
 #include "geometry/collide.h"
 
 namespace roboss {
@@ -39,12 +40,6 @@ struct Pair {
     int body_a = -1, body_b = -1;
 };
 
-/// The buffer grows by a quarter, not to twice its size: of a heap it is the largest.
-void make_room(std::size_t more, std::vector<Contact>& contacts) {
-    const std::size_t count = contacts.size() + more;
-    if (count > contacts.capacity()) contacts.reserve(count + count / 4);
-}
-
 void add_point(const Pair& pair, const Vec3& normal, const auto& point, std::vector<Contact>& contacts) {
     Contact& contact = contacts.emplace_back();
     contact.robot_a = pair.robot_a, contact.robot_b = pair.robot_b;
@@ -63,7 +58,7 @@ void add_points(std::vector<SurfaceContact>& points, const Pair& pair, std::size
                                                  [](const auto& p, const auto& q) { return p.gap < q.gap; });
         points.erase(std::next(shallowest).base());
     }
-    make_room(points.size(), contacts);
+    make_room(contacts, contacts.size() + points.size());
     for (const SurfaceContact& point : points) add_point(pair, point.n_W, point, contacts);
 }
 
@@ -71,7 +66,7 @@ void add_points(const Manifold& manifold, const Pair& pair, std::uint32_t keep,
                 std::vector<Contact>& contacts) {
     if (manifold.count == 0) return;
     const std::uint32_t kept = points_to_keep(manifold, keep);
-    make_room(static_cast<std::size_t>(manifold.count), contacts);
+    make_room(contacts, contacts.size() + static_cast<std::size_t>(manifold.count));
     for (int i = 0; i < manifold.count; ++i)
         if ((kept >> i & 1) != 0)
             add_point(pair, manifold.n_W, manifold.points[static_cast<std::size_t>(i)], contacts);

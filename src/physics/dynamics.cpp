@@ -46,9 +46,7 @@ void compute_impulse(const Model& model, double dt, double momentum_weight, std:
 }
 
 void compute_inertias(const RobotType& type, RobotWork& work) {
-    for (std::size_t b = 0; b < type.bodies.size(); ++b)
-        work.bodies[b].inertia = spatial_inertia(type.bodies[b].mass, work.bodies[b].centre,
-                                                 rotated_inertia(type.bodies[b], work.bodies[b]));
+    for (std::size_t b = 0; b < type.bodies.size(); ++b) set_inertia(type.bodies[b], work.bodies[b]);
 }
 
 }  // namespace roboss

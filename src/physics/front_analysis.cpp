@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <iterator>
 
+#include "core/make_room.h"
+
 namespace roboss {
 
 void FrontFactor::analyse(std::span<const int> group_first, std::span<const int> heads,
@@ -197,6 +199,7 @@ void FrontFactor::map_to_parents() {
         size += front.size * front.stride;
         largest = std::max(largest, front.size);
     }
+    make_room(a_, size), make_room(kept_, size);
     a_.resize(size), x_.resize(largest);
     for (int g : order_) {  // g as a parent: where its unknowns stand, told to its children
         const Front& parent = fronts_[static_cast<std::size_t>(g)];

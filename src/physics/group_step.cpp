@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/make_room.h"
 #include "physics/loads.h"
 #include "physics/velocity_forces.h"
 
@@ -86,7 +87,10 @@ bool gather_island(const Model& model, std::span<RobotWork> robots, GroupScratch
         s.v.insert(s.v.end(), work.state->v.begin(), work.state->v.end());
     }
     for (std::uint32_t m : members) {
-        for (Contact& c : contacts_of(m, contacts)) {
+        const std::span<Contact> own = contacts_of(m, contacts);
+        make_room(s.rows.contacts, s.rows.contacts.size() + own.size());
+        make_room(s.island_surfaces, s.island_surfaces.size() + own.size());
+        for (Contact& c : own) {
             const SurfacePair& surface = s.island_surfaces.emplace_back(surface_of(model, robots, c));
             split |= add_contact_row(model, c, surface, robots, s.offsets, s.rows);
             add_angular_row(model, c, surface, robots, s.offsets, s.rows);
@@ -126,10 +130,10 @@ void limit_mending(std::span<const RobotWork> robots, GroupScratch& s,
         const auto part = [&](const std::vector<double>& v) {
             return std::span(v).subspan(static_cast<std::size_t>(s.island_offsets[m]), before.size());
         };
-        share = std::min(share, share_of_mending<double>(before, part(s.v), part(s.v_before)));
+        share = std::min(share, share_of_mending<double>(before, part(s.v), part(s.way)));
     }
     if (share == 1) return;
-    for (std::size_t i = 0; i < s.v.size(); ++i) s.v_before[i] = s.v[i] + share * (s.v_before[i] - s.v[i]);
+    for (std::size_t i = 0; i < s.v.size(); ++i) s.way[i] = s.v[i] + share * (s.way[i] - s.v[i]);
 }
 
 /// Lone bodies that hardly turn, before and after the tick.
@@ -169,8 +173,8 @@ bool contacts_are_steady(const GroupScratch& s, double dt) {
 void take_mean_way(std::span<const RobotWork> robots, GroupScratch& s, std::span<const std::uint32_t> members,
                    double dt) {
     const bool even = slides_only(robots, s, members) && contacts_are_steady(s, dt);
-    for (std::size_t i = 0; i < s.v.size(); ++i)
-        s.v_before[i] = even ? 0.5 * (s.v_before[i] + s.v[i]) : s.v[i];
+    s.way.resize(s.v.size());
+    for (std::size_t i = 0; i < s.v.size(); ++i) s.way[i] = even ? 0.5 * (s.v_before[i] + s.v[i]) : s.v[i];
 }
 
 void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
@@ -189,16 +193,17 @@ void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch&
     report.residual = std::max(report.residual, solved.residual);
     take_impulses(s);
     if (split) {
+        s.way = s.v;
         for (ContactRow& row : s.rows.contacts) row.slip.bound = row.slip.coefficient * row.normal.impulse;
         report.iterations +=
-            s.solver.solve({model.accuracy, s.island_robots, s.island_offsets, s.rows, true}, s.v_before)
+            s.solver.solve({model.accuracy, s.island_robots, s.island_offsets, s.rows, true}, s.way)
                 .iterations;
         limit_mending(robots, s, members);
     } else {
         take_mean_way(robots, s, members, model.dt_s);
     }
     mark_pushed(robots, s);
-    finish_island(model, robots, s, members, s.v_before);
+    finish_island(model, robots, s, members, s.way);
 }
 
 void count_contacts(const Model& model, std::span<const Contact> contacts, StepReport& report) {

@@ -33,6 +33,7 @@ struct GroupScratch {
     std::vector<int> offsets, island_offsets;
     IslandRows rows;
     std::vector<double> v, v_before;
+    std::vector<double> way;  // of the tick, over dt
     IslandSolver solver;
     RowBuffer buffer;
     FreeBuffer free_buffer;

@@ -101,11 +101,10 @@ void Hessian::add_block(const ContactColumns& columns, std::size_t first, std::s
     for (std::size_t r = 0; r < place.runs.size(); ++r) {
         for (std::size_t k = 0; k < place.runs[r].count; ++k) {
             const std::size_t a = place.runs[r].first + k;
-            const double n = d.n * cn[a], t1 = d.t11 * c1[a] + d.t12 * c2[a],
-                         t2 = d.t12 * c1[a] + d.t22 * c2[a];
+            const jacobian::Along<double> share = d.times(cn[a], c1[a], c2[a]);
             double* h = place.matrix + (place.runs[r].place + k) * place.stride;
             for (const FrontFactor::Run& run : place.runs.subspan(r))
-                jacobian::add_run(cn + run.first, c1 + run.first, c2 + run.first, {n, t1, t2}, run.count,
+                jacobian::add_run(cn + run.first, c1 + run.first, c2 + run.first, share, run.count,
                                   h + run.place);
         }
     }

@@ -326,7 +326,6 @@ class LaneStep final : public LaneStepper {
     void solve_way(SolveProblem<T> problem, Lockstep<T>& together) {
         problem.position = true;
         for (ContactRowT<T>& row : rows_.contacts) row.slip.bound = row.slip.coefficient * row.normal.impulse;
-        start_from_before(way_);
         SolveReportT<T> report;
         newton_.start(problem, way_);
         leave_where(!newton_.solve(problem, together, way_, report), together);

@@ -100,8 +100,12 @@ struct ContactColumnsT {
     void extend(std::size_t more) {
         count_ += more;
         if (count_ <= dof.size()) return;
-        const std::size_t room = 2 * count_;
-        dof.resize(room), base.resize(room), n.resize(room), t1.resize(room), t2.resize(room);
+        const std::size_t room = count_ + count_ / 4;
+        const auto grow = [room](auto&... arrays) {
+            (arrays.reserve(room), ...);
+            (arrays.resize(room), ...);
+        };
+        grow(dof, base, n, t1, t2);
     }
     void clear() { count_ = 0; }
     /// Columns from `middle` on into those of [first, middle), ascending, one a degree of freedom: a robot in

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/float_env.h"
+#include "core/make_room.h"
 #include "core/union_find.h"
 #include "physics/coarse_bound.h"
 #include "physics/group_step.h"
@@ -254,6 +255,7 @@ struct Call {
         const auto step_some = [&] {
             const std::span<std::uint32_t> some = std::span(s.near).subspan(first, last - first);
             std::sort(some.begin(), some.end());
+            make_room(s.works, some.size());
             if (s.works.size() < some.size()) s.works.resize(some.size());
             first = last;
             return some.empty() || step(some, std::span(s.works).first(some.size()), s, report);

@@ -19,6 +19,10 @@ struct CurvatureChange {
     MaskOf<T> nothing() const {
         return equal(n, T(0)) & equal(t11, T(0)) & equal(t12, T(0)) & equal(t22, T(0));
     }
+    /// D J for a column of J.
+    jacobian::Along<T> times(const T& cn, const T& c1, const T& c2) const {
+        return {n * cn, t11 * c1 + t12 * c2, t12 * c1 + t22 * c2};
+    }
 };
 
 /// What the matrix lacks, which from now on it holds.
@@ -97,8 +101,7 @@ class TreeHessian {
         using Share = jacobian::Along<T>;
         const auto rows = [&](auto&& add) {
             for (std::size_t a = 0; a < last - first; ++a) {
-                const Share share{d.n * cn[a], d.t11 * c1[a] + d.t12 * c2[a], d.t12 * c1[a] + d.t22 * c2[a]};
-                add(share, a + 1,
+                add(d.times(cn[a], c1[a], c2[a]), a + 1,
                     kept_.data() + paths_->row(static_cast<std::size_t>(columns.dof[first + a])));
             }
         };
@@ -121,10 +124,7 @@ class TreeHessian {
                            const CurvatureChange<double>& d) {
         const double *cn = columns.n.data() + first, *c1 = columns.t1.data() + first,
                      *c2 = columns.t2.data() + first;
-        const auto share = [&](std::size_t a) {
-            return jacobian::Along<double>{d.n * cn[a], d.t11 * c1[a] + d.t12 * c2[a],
-                                           d.t12 * c1[a] + d.t22 * c2[a]};
-        };
+        const auto share = [&](std::size_t a) { return d.times(cn[a], c1[a], c2[a]); };
         const auto add_row = [&]<std::size_t a>(std::integral_constant<std::size_t, a>) {
             jacobian::add_run(cn, c1, c2, share(a), a + 1, kept_.data() + a * (a + 1) / 2);
         };
