@@ -54,20 +54,33 @@ template <class T>
 [[gnu::always_inline]] inline void position_motor(const AxisStateT<T>& s, const T& impulse_max,
                                                   BoundedRowT<T>& row) {
     const T error = s.motor.target - s.q;
-    const double kp = s.dof.position_gain, kd = s.dof.velocity_gain;
-    row.low = -impulse_max, row.high = impulse_max;
-    T speed_max = s.dof.max_velocity;
-    if (kp > 0) {  // implicit PD: force = kp (target - q - dt v) - kd v
-        const double damping = kp * s.dt + kd;
-        row.target = kp * error / T(damping);
-        row.compliance = 1.0 / (s.dt * damping);
-    } else {
-        row.target = error / T(s.dt);
-        row.compliance = s.compliance;
-        speed_max = smaller(speed_max, braking_speed(s, error));
-    }
+    T speed_max = smaller(T(s.dof.max_velocity), braking_speed(s, error));
     speed_max = select(speed_max < T(kInfinity), speed_max, T(kApproachSpeedMax));
-    row.target = clamped(row.target, -speed_max, speed_max);
+    row.target = clamped(error / T(s.dt), -speed_max, speed_max);
+    row.compliance = s.compliance;
+    row.low = -impulse_max, row.high = impulse_max;
+}
+
+/// A position motor with gains is an implicit PD: force = kp (target - q - dt v) - kd v.
+template <class T>
+[[gnu::always_inline]] inline void servo(const AxisStateT<T>& s, const T& impulse_max, BoundedRowT<T>& row) {
+    const double kp = s.dof.position_gain, damping = kp * s.dt + s.dof.velocity_gain;
+    row.target = kp * (s.motor.target - s.q) / T(damping);
+    row.compliance = 1.0 / (s.dt * damping);
+    row.low = -impulse_max, row.high = impulse_max;
+}
+
+/// A servo does not drive the joint beyond its maximum velocity: there, this row takes back what it gives.
+template <class T>
+void brake_servo(const AxisStateT<T>& s, const BoundedRowT<T>& servo, BoundedRowT<T>& row) {
+    const T most = s.dof.max_velocity;
+    const T beyond = larger(magnitude(servo.target) - most, T(0));
+    const T given = smaller(beyond / servo.compliance, servo.high);  // at the maximum velocity
+    const MaskOf<T> ahead = servo.target > T(0);
+    row.target = select(ahead, most, -most);
+    row.compliance = s.compliance;
+    row.low = select(ahead, -given, T(0)), row.high = select(ahead, T(0), given);
+    row.position_target = row.target;
 }
 
 /// The ordered force, as long as it does not drive the joint beyond its maximum velocity.
@@ -140,15 +153,21 @@ MaskOf<T> add_limits(const AxisStateT<T>& s, Lockstep<T>& together, std::vector<
 
 }  // namespace axis
 
+/// True if the axis' motor goes to a position with gains.
+template <class T>
+bool is_servo(const AxisStateT<T>& axis) {
+    return axis.motor.mode == MotorMode::kPosition && axis.dof.position_gain > 0;
+}
+
 /// True if the axis' motor is hard, one without gains: its row, the first, starts from the motor's load.
 template <class T>
 bool has_hard_motor(const AxisStateT<T>& axis) {
     const MotorMode mode = axis.motor.mode;
     return (mode == MotorMode::kVelocity && !(axis.dof.velocity_gain > 0)) ||
-           (mode == MotorMode::kPosition && !(axis.dof.position_gain > 0));
+           (mode == MotorMode::kPosition && !is_servo(axis));
 }
 
-/// Row of the motor, if it drives.
+/// Rows of the motor, if it drives.
 template <class T, class Row>
 [[gnu::always_inline]] inline void add_motor(const AxisStateT<T>& s, std::vector<Row>& rows) {
     if (s.motor.mode == MotorMode::kPassive) return;
@@ -156,12 +175,18 @@ template <class T, class Row>
     BoundedRowT<T>& row = rows.emplace_back();
     if (s.motor.mode == MotorMode::kVelocity)
         axis::velocity_motor(s, impulse_max, row);
-    else if (s.motor.mode == MotorMode::kPosition)
+    else if (s.motor.mode == MotorMode::kEffort)
+        axis::effort_motor(s, row);
+    else if (has_hard_motor(s))
         axis::position_motor(s, impulse_max, row);
     else
-        axis::effort_motor(s, row);
+        axis::servo(s, impulse_max, row);
     if (has_hard_motor(s)) row.target += s.compliance * s.motor.load;
     row.position_target = row.target;
+    if (is_servo(s) && std::isfinite(s.dof.max_velocity)) {
+        const BoundedRowT<T> servo = row;
+        axis::brake_servo(s, servo, rows.emplace_back());
+    }
 }
 
 /// Rows of the axis, appended (`Row`: a BoundedRowT<T>). True if a hard limit is violated and so has

@@ -57,6 +57,22 @@ TEST(Impact, BallThatFeelsNoGravityBouncesByItsRestitutionAlone) {
     EXPECT_NEAR(sim.states[0].v[5], 0.5, 1e-5);
 }
 
+/// Of two surfaces the larger restitution counts, and the larger threshold.
+TEST(Impact, BallBouncesOnlyWhenItHitsFasterThanTheThreshold) {
+    for (const bool on_the_ball : {true, false})
+        for (const double speed : {0.29, 0.31}) {
+            SurfaceSpec lively = surface(0.5, 0.5), dull = surface(0.5, 0.2);
+            lively.bounce_threshold = 0.1, dull.bounce_threshold = 0.3;
+            World world = empty_world(1e-3, {});
+            place(world, ground(on_the_ball ? dull : lively), "ground");
+            place(world, solid_sphere(1.0, 0.05, on_the_ball ? lively : dull), "ball", {{0, 0, 0.06}, {}});
+            Simulation sim(world);
+            sim.states[0].v[5] = -speed;
+            sim.run(0.2);
+            EXPECT_NEAR(sim.states[0].v[5], speed > 0.3 ? 0.5 * speed : 0, 1e-5) << speed << " m/s";
+        }
+}
+
 TEST(Impact, BallWithoutRestitutionStaysDown) {
     World world = empty_world(1e-3);
     place(world, ground(surface(0.5)), "ground");

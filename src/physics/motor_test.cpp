@@ -139,6 +139,56 @@ TEST(Motor, PositionGainsActAsASpringWithADamper) {
     EXPECT_NEAR(40 * (0.5 - hinge.q()), hinge.weight_torque() * std::sin(hinge.q()), 1e-6);
 }
 
+/// However short the tick and small the damping: the level rod droops by its weight over the gain, with the
+/// axis' maximum velocity as without.
+TEST(Motor, ServoGivesTheWholeForceOfItsGains) {
+    for (const double max_velocity : {0.05, std::numeric_limits<double>::infinity()}) {
+        Hinge hinge(1e3, true, [&](AxisSpec& axis) {
+            axis.position_gain = 50, axis.velocity_gain = 0, axis.max_velocity = max_velocity;
+        });
+        hinge.q() = -kPi / 2;
+        hinge.set(MotorMode::kPosition, -kPi / 2 - hinge.weight_torque() / 50);
+        hinge.sim->run(1);
+        EXPECT_NEAR(hinge.q(), -kPi / 2, 1e-9) << "at most " << max_velocity;
+    }
+    Hinge free(1e3, false, [](AxisSpec& axis) { axis.position_gain = 50, axis.velocity_gain = 0.5; });
+    free.set(MotorMode::kPosition, 0.4);
+    free.sim->step();
+    const double damping = 50 * 1e-3 + 0.5;
+    EXPECT_NEAR(free.v() * (free.inertia() + 1e-3 * damping) / (1e-3 * 50 * 0.4), 1, 1e-9);
+}
+
+TEST(Motor, ServoStopsPushingAtTheAxisMaximumVelocity) {
+    for (const double target : {3.0, -3.0}) {
+        Hinge hinge(20, false, [](AxisSpec& axis) {
+            axis.position_gain = 30, axis.velocity_gain = 3, axis.max_velocity = 0.5;
+        });
+        hinge.set(MotorMode::kPosition, target);
+        hinge.sim->step();
+        EXPECT_NEAR(hinge.v() / (20e-3 / hinge.inertia()) * (target > 0 ? 1 : -1), 1, 1e-9);
+        double fastest = 0;
+        for (int i = 0; i < 15000; ++i) {
+            hinge.sim->step();
+            fastest = std::fmax(fastest, std::fabs(hinge.v()));
+        }
+        tell("fastest, rad/s beyond the maximum", fastest - 0.5);
+        EXPECT_NEAR(fastest, 0.5, 1e-6);
+        EXPECT_NEAR(hinge.q(), target, 1e-6);
+    }
+}
+
+/// Pushed beyond its maximum velocity by something else, a servo brakes no more than its damping would.
+TEST(Motor, ServoThatIsOverrunBrakesByItsDampingAlone) {
+    Hinge hinge(1e3, false, [](AxisSpec& axis) {
+        axis.position_gain = 10, axis.velocity_gain = 2, axis.max_velocity = 0.5;
+    });
+    hinge.set(MotorMode::kPosition, 3);
+    hinge.sim->states[0].v[0] = 2;
+    hinge.sim->step();
+    const double damping = 10 * 1e-3 + 2;
+    EXPECT_NEAR((2 - hinge.v()) * hinge.inertia() / (1e-3 * damping * (hinge.v() - 0.5)), 1, 1e-9);
+}
+
 TEST(Motor, PositionMotorKeepsTheAxisMaximumVelocity) {
     Hinge hinge(20, false, [](AxisSpec& axis) { axis.max_velocity = 0.5; });
     hinge.set(MotorMode::kPosition, 1.2);

@@ -54,6 +54,24 @@ class Outputs(unittest.TestCase):
         self.assertRegex(data["state_hash"], "^[0-9a-f]{16}$")
         self.assertIn(data["state_hash"], done.stdout)
 
+    def test_accuracy_and_profile_of_the_command_line_are_part_of_the_model(self):
+        world = FOLDER / "profiles.sdf"
+        world.write_text("""<sdf version="1.9"><world name="w">
+<physics name="coarse" default="true" type="ode"><max_step_size>0.004</max_step_size></physics>
+<physics name="fine" type="ode"><max_step_size>0.001</max_step_size></physics>
+<model name="box"><pose>0 0 1 0 0 0</pose><link name="body"><inertial><mass>3</mass></inertial></link></model></world></sdf>""")
+        ways = [[], ["--accuracy", "fast"], ["--accuracy", "high"], ["--tolerance", "3e-11"], ["--friction-tolerance", "3e-5"],
+                ["--newton-max", "77"], ["--friction-max", "17"], ["--compliance", "1e-7"], ["--contact-compliance", "1e-4"]]
+        models = [summary(world, "--duration", 0.1, *way)["model_hash"] for way in ways]
+        self.assertEqual(len(set(models)), len(ways), "each number tells")
+        self.assertEqual(summary(world, "--duration", 0.1, "--accuracy", "standard")["model_hash"], models[0])
+        self.assertEqual(summary(world, "--duration", 0.1)["dt_s"], 0.004)
+        self.assertEqual(summary(world, "--duration", 0.1, "--profile", "fine")["dt_s"], 0.001)
+        for way in (["--tolerance", "1"], ["--accuracy", "exact"], ["--profile", "finer"]):
+            done = roboss("run", world, "--duration", 0.1, *way)
+            self.assertNotEqual(done.returncode, 0, way)
+            self.assertIn(way[1], done.stderr + done.stdout)
+
     def test_the_log_tells_what_happens_who_has_what_and_how_the_run_stands(self):
         file = FOLDER / "run.log"
         file.write_text("a line of a run before\n")
