@@ -75,7 +75,10 @@ class ModelConverter {
             spec_.links.push_back(std::move(spec));
             return;
         }
-        if (!spec_.is_static) convert_inertial(source, import_, spec);
+        const auto collision_pose = [&](const Element& collision) {
+            return pose_of(collision, link.CollisionByName(collision.name()), link);
+        };
+        if (!spec_.is_static) convert_inertial(source, collision_pose, import_, spec);
         convert_link_flags(source, spec);
         convert_drag(source, scope.wind, import_, spec);
         for (const auto node : source.node.children()) {
