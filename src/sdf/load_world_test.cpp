@@ -207,6 +207,28 @@ TEST(LoadWorld, WhatAJointCannotUseIsReported) {
         nullptr);
 }
 
+TEST(LoadWorld, ReadsTheMagneticFieldOfOldPhysics) {
+    const std::string physics = "<physics type='ode'><magnetic_field>1 2 3</magnetic_field></physics>";
+    const Loaded old = load_elements(physics, "1.5");
+    EXPECT_TRUE(old.diagnostics.items().empty()) << old.text();
+    expect_near(old.world->magnetic_field_T, {1, 2, 3});
+    const Loaded both = load_elements(physics + "<magnetic_field>4 5 6</magnetic_field>", "1.5");
+    expect_near(both.world->magnetic_field_T, {4, 5, 6});
+}
+
+TEST(LoadWorld, SelfCollisionThatOneLinkAsksForIsToldOnceForItsModel) {
+    const auto load = [](const std::string& of_model) {
+        const std::string asks = "\n<self_collide>1</self_collide>";
+        return load_elements("<model name='m'>" + of_model + link("a", asks) + link("b", asks) + "</model>");
+    };
+    const Loaded of_link = load("");
+    EXPECT_TRUE(of_link.world->prototypes[0].self_collide);
+    ASSERT_EQ(of_link.diagnostics.items().size(), 1u) << of_link.text();
+    EXPECT_EQ(of_link.diagnostics.items()[0].code, "self-collide");
+    EXPECT_EQ(of_link.diagnostics.items()[0].where.line, 2);
+    EXPECT_TRUE(load("<self_collide>1</self_collide>").diagnostics.items().empty());
+}
+
 TEST(LoadWorld, LimitsOfAContinuousJointAreReported) {
     const auto load = [](const std::string& limit) {
         return load_joint("continuous", "<axis><xyz>0 0 1</xyz>\n<limit>" + limit + "</limit></axis>");

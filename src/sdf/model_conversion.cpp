@@ -89,13 +89,24 @@ class ModelConverter {
 
     void convert_link_flags(const Element& source, LinkSpec& spec) {
         spec.gravity = import_.reader.boolean(source, "gravity", true);
-        if (import_.reader.boolean(source, "self_collide", false)) spec_.self_collide = true;
+        if (import_.reader.boolean(source, "self_collide", false)) collide_with_itself(source);
         if (import_.reader.boolean(source, "kinematic", false)) {
             import_.diagnostics().warning(
                 source.where(), "kinematic",
                 "link '" + spec.name + "' is kinematic; it is simulated as a dynamic link",
                 "Move it with velocity orders, or make the model static.");
         }
+    }
+
+    /// Told once a model.
+    void collide_with_itself(const Element& link) {
+        if (spec_.self_collide) return;
+        spec_.self_collide = true;
+        import_.diagnostics().note(link.child("self_collide").where(), "self-collide",
+                                   "link '" + link.name() +
+                                       "' asks for <self_collide>: all links of model '" + spec_.name +
+                                       "' collide with each other",
+                                   "Write <self_collide> in the model, or leave it out.");
     }
 
     /// A <collision>, <visual> or sensor of a link.
