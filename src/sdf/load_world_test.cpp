@@ -229,6 +229,20 @@ TEST(LoadWorld, SelfCollisionThatOneLinkAsksForIsToldOnceForItsModel) {
     EXPECT_TRUE(load("<self_collide>1</self_collide>").diagnostics.items().empty());
 }
 
+TEST(LoadWorld, FlagsOfANestedModelThatItsOuterModelDoesNotShareAreReported) {
+    const auto load = [](const std::string& outer, const std::string& inner) {
+        return load_elements("<model name='m'>" + outer + link("a") + "<model name='n'>\n" + inner +
+                             link("b") + "</model></model>");
+    };
+    for (const char* flag :
+         {"<self_collide>1</self_collide>", "<allow_auto_disable>0</allow_auto_disable>"}) {
+        const Loaded nested = load("", flag);
+        ASSERT_NE(nested.find("nested-flag"), nullptr) << flag;
+        EXPECT_EQ(nested.find("nested-flag")->where.line, 2);
+        EXPECT_TRUE(load(flag, flag).diagnostics.items().empty()) << load(flag, flag).text();
+    }
+}
+
 TEST(LoadWorld, LimitsOfAContinuousJointAreReported) {
     const auto load = [](const std::string& limit) {
         return load_joint("continuous", "<axis><xyz>0 0 1</xyz>\n<limit>" + limit + "</limit></axis>");

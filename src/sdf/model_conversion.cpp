@@ -58,8 +58,23 @@ class ModelConverter {
                     "' is static, but the model around it is not; it is taken as movable",
                 "Make it a model of the world, or weld it to the world with a fixed joint.");
         }
+        report_nested_flags(source);
         convert({nested, outer.prefix + nested.Name() + "::", outer.X_MS * resolved(nested, "__model__"),
                  import_.reader.boolean(source, "enable_wind", outer.wind)});
+    }
+
+    /// Flags that only the outermost model has.
+    void report_nested_flags(const Element& nested) {
+        const auto report = [&](const char* flag) {
+            import_.diagnostics().warning(nested.child(flag).where(), "nested-flag",
+                                          "<" + std::string(flag) + "> of the nested model '" +
+                                              nested.name() + "' is ignored: the outermost model's counts",
+                                          "Write it in the outermost model.");
+        };
+        if (import_.reader.boolean(nested, "self_collide", false) && !spec_.self_collide)
+            report("self_collide");
+        if (!import_.reader.boolean(nested, "allow_auto_disable", true) && spec_.may_sleep)
+            report("allow_auto_disable");
     }
 
     void convert_link(const sdf::Link& link, const Scope& scope) {
