@@ -24,11 +24,13 @@ enum class In {
     kSurface,
     kRevolute,
     kRevoluteAxis,
+    kContinuousAxis,
     kPrismaticAxis,
     kUniversalAxis2,
     kBall,
     kScrew,
     kGearbox,
+    kGearboxAxis2,
     kSensor
 };
 
@@ -72,10 +74,10 @@ std::string world_with(In at, const std::string& text, const std::string& versio
                "<axis>" + axis + "</axis><axis2><xyz>0 1 0</xyz>" + slot(In::kUniversalAxis2) + "</axis2>") +
            joint("ball", "d", slot(In::kBall)) +
            joint("screw", "e", "<axis>" + axis + "</axis>" + slot(In::kScrew)) +
-           joint("continuous", "f", "<axis>" + axis + "</axis>") +
+           joint("continuous", "f", "<axis>" + axis + slot(In::kContinuousAxis) + "</axis>") +
            "<joint name='gears' type='gearbox'><parent>a</parent><child>f</child><gearbox_reference_body>base"
-           "</gearbox_reference_body><axis><xyz>0 0 1</xyz></axis><axis2><xyz>0 0 1</xyz></axis2>" +
-           slot(In::kGearbox) + "</joint></model></world></sdf>\n";
+           "</gearbox_reference_body><axis><xyz>0 0 1</xyz></axis><axis2><xyz>0 0 1</xyz>" +
+           slot(In::kGearboxAxis2) + "</axis2>" + slot(In::kGearbox) + "</joint></model></world></sdf>\n";
 }
 
 struct Outcome {
@@ -110,6 +112,14 @@ const Element kElements[] = {
     {In::kRevoluteAxis,
      "<limit><upper>1</upper><stiffness>100</stiffness><dissipation>7</dissipation></limit>"},
     {In::kRevoluteAxis, "<limit><upper>1</upper><dissipation>7</dissipation></limit>", "dissipation"},
+    {In::kRevoluteAxis, "<limit><stiffness>100</stiffness></limit>", "<stiffness>"},
+    {In::kRevoluteAxis, "<limit><dissipation>7</dissipation></limit>", "<dissipation>"},
+    {In::kRevoluteAxis, "<roboss:motor><position_gain>9</position_gain></roboss:motor>"},
+    {In::kRevoluteAxis, "<roboss:motor><gain>9</gain></roboss:motor>", "<gain>"},
+    {In::kContinuousAxis, "<limit><effort>3</effort></limit>"},
+    {In::kContinuousAxis, "<limit><lower>-1</lower></limit>", "<lower>"},
+    {In::kContinuousAxis, "<limit><upper>1</upper></limit>", "<upper>"},
+    {In::kContinuousAxis, "<limit><stiffness>100</stiffness></limit>", "<stiffness>"},
     {In::kRevoluteAxis, "<dynamics><damping>.1</damping></dynamics>"},
     {In::kRevoluteAxis, "<dynamics><friction>.1</friction></dynamics>"},
     {In::kRevoluteAxis, "<dynamics><spring_stiffness>4</spring_stiffness></dynamics>"},
@@ -128,6 +138,7 @@ const Element kElements[] = {
     // joints
     {In::kRevolute, "<axis2><xyz>0 1 0</xyz><dynamics><damping>.1</damping></dynamics></axis2>", "axis2"},
     {In::kRevolute, "<axis2><xyz>0 1 0</xyz><limit><effort>3</effort></limit></axis2>", "axis2"},
+    {In::kRevolute, "<axis2><xyz>0 1 0</xyz><initial_position>.1</initial_position></axis2>", "axis2"},
     {In::kRevolute, "<thread_pitch>2</thread_pitch>", "thread_pitch"},
     {In::kRevolute, "<gearbox_ratio>2</gearbox_ratio>", "gearbox_ratio"},
     {In::kRevolute, "<gearbox_reference_body>base</gearbox_reference_body>", "gearbox_reference_body"},
@@ -151,10 +162,16 @@ const Element kElements[] = {
     {In::kBall, "<axis><xyz>0 0 1</xyz><dynamics><damping>.1</damping></dynamics></axis>"},
     {In::kBall, "<axis><xyz>0 0 1</xyz><dynamics><friction>.1</friction></dynamics></axis>", "axis"},
     {In::kBall, "<axis><xyz>0 0 1</xyz><limit><effort>1</effort></limit></axis>", "axis"},
+    {In::kBall, "<roboss:motor><position_gain>9</position_gain></roboss:motor>", "<roboss:motor>"},
     {In::kScrew, "<thread_pitch>2</thread_pitch>"},
     {In::kScrew, "<screw_thread_pitch>.01</screw_thread_pitch>", "", "1.10"},
     {In::kGearbox, "<gearbox_ratio>2</gearbox_ratio>"},
     {In::kGearbox, "<dynamics/>", "dynamics"},
+    {In::kGearbox, "<roboss:motor><position_gain>9</position_gain></roboss:motor>", "gearbox"},
+    {In::kGearboxAxis2, "<limit><effort>3</effort></limit>", "gearbox"},
+    {In::kGearboxAxis2, "<limit><velocity>3</velocity></limit>", "gearbox"},
+    {In::kGearboxAxis2, "<initial_position>.1</initial_position>", "gearbox", "1.5"},
+    {In::kGearboxAxis2, "<mimic joint='prismatic'><multiplier>2</multiplier></mimic>", "gearbox", "1.11"},
     // surfaces
     {In::kCollision, "<max_contacts>2</max_contacts>"},
     {In::kCollision, "<laser_retro>9</laser_retro>", "laser_retro"},
@@ -205,6 +222,8 @@ const Element kElements[] = {
     {In::kLink, "<kinematic>1</kinematic>", "kinematic"},
     {In::kLink, "<enable_wind>1</enable_wind>"},
     {In::kLink, "<self_collide>1</self_collide>"},
+    {In::kLink, "<self_collide>1</self_collide>", "self_collide"},
+    {In::kLink, "<roboss:drag><linaer>1</linaer></roboss:drag>", "<linaer>"},
     {In::kLink, "<velocity_decay><linear>.1</linear></velocity_decay>", "velocity_decay"},
     {In::kLink, "<velocity_decay><angular>.1</angular></velocity_decay>", "velocity_decay"},
     {In::kLink, "<must_be_base_link>1</must_be_base_link>", "must_be_base_link"},
@@ -228,7 +247,12 @@ const Element kElements[] = {
     {In::kWorld, "<population name='p'/>", "population"},
     {In::kWorld, "<state world_name='w'/>", "state"},
     {In::kWorld, "<actor name='a'/>", "actor"},
+    {In::kWorld, "<wind><speed>1</speed></wind>", "<speed>"},
+    {In::kWorld, "<spherical_coordinates><latitude>1</latitude></spherical_coordinates>", "<latitude>"},
     {In::kPhysics, "<max_contacts>2</max_contacts>"},
+    {In::kPhysics, "<gravity>0 0 -1</gravity>", "", "1.4"},
+    {In::kPhysics, "<magnetic_field>1 0 0</magnetic_field>", "", "1.5"},
+    {In::kPhysics, "<step_size>.002</step_size>", "<step_size>"},
     {In::kPhysics, "<ode><solver><iters>9</iters></solver></ode>", "<ode>"},
     {In::kPhysics, "<bullet><solver><iters>9</iters></solver></bullet>", "<bullet>"},
     {In::kPhysics, "<dart><collision_detector>ode</collision_detector></dart>", "<dart>"},

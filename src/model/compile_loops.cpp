@@ -55,20 +55,25 @@ std::optional<GearHinge> find_gear_hinge(const ModelSpec& spec, const JointSpec&
     return std::nullopt;
 }
 
+/// Whether an axis says more than its direction.
+bool says_more(const AxisSpec& axis) {
+    const bool dynamic = axis.damping != 0 || axis.friction != 0 || axis.spring_stiffness != 0;
+    const bool limited = axis.lower > -kUnlimited || axis.upper < kUnlimited;
+    const bool bounded = (axis.max_effort >= 0 && axis.max_effort < kUnlimited) ||
+                         (axis.max_velocity >= 0 && axis.max_velocity < kUnlimited);
+    const bool driven = axis.position_gain != 0 || axis.velocity_gain != 0 || axis.armature != 0;
+    return dynamic || limited || bounded || driven || axis.initial_position != 0 || axis.mimic;
+}
+
 void find_gearbox(const ModelSpec& spec, const JointSpec& gearbox, std::vector<CouplingSpec>& found,
                   Diagnostics& diagnostics) {
     if (gearbox.axes.size() < 2) return;
-    for (const AxisSpec& axis : gearbox.axes) {
-        if (axis.damping == 0 && axis.friction == 0 && axis.spring_stiffness == 0 &&
-            axis.lower <= -kUnlimited && axis.upper >= kUnlimited)
-            continue;
+    if (std::any_of(gearbox.axes.begin(), gearbox.axes.end(), says_more))
         diagnostics.warning(gearbox.where, "gearbox-axis",
                             called(gearbox, spec) +
-                                ": limits, damping, friction and springs of a gearbox' axes "
-                                "are ignored",
+                                ": limits, damping, friction, springs, initial position, motor and mimic of "
+                                "a gearbox' axes are ignored",
                             "Write them at the hinges that it couples.");
-        break;
-    }
     const auto first = find_gear_hinge(spec, gearbox, 0, diagnostics);
     const auto second = find_gear_hinge(spec, gearbox, 1, diagnostics);
     if (!first || !second) return;

@@ -150,5 +150,24 @@ TEST(CompileLoops, GearboxNeedsHingesOnItsReference) {
     EXPECT_TRUE(has(compile_one(m).diagnostics, "gearbox-hinge"));
 }
 
+TEST(CompileLoops, WhatAGearboxCannotUseIsReported) {
+    const auto reported = [](auto change) {
+        ModelSpec m = geared_wheels(2);
+        change(m.joints.back().axes[1]);
+        return has(compile_one(m).diagnostics, "gearbox-axis");
+    };
+    EXPECT_FALSE(reported([](AxisSpec&) {}));
+    EXPECT_FALSE(reported([](AxisSpec& axis) { axis.max_effort = 1e16; })) << "no bound";
+    EXPECT_TRUE(reported([](AxisSpec& axis) { axis.damping = 1; }));
+    EXPECT_TRUE(reported([](AxisSpec& axis) { axis.lower = -1; }));
+    EXPECT_TRUE(reported([](AxisSpec& axis) { axis.max_effort = 3; }));
+    EXPECT_TRUE(reported([](AxisSpec& axis) { axis.max_velocity = 3; }));
+    EXPECT_TRUE(reported([](AxisSpec& axis) { axis.initial_position = 0.1; }));
+    EXPECT_TRUE(reported([](AxisSpec& axis) { axis.position_gain = 5; }));
+    EXPECT_TRUE(reported([](AxisSpec& axis) { axis.velocity_gain = 5; }));
+    EXPECT_TRUE(reported([](AxisSpec& axis) { axis.armature = 0.1; }));
+    EXPECT_TRUE(reported([](AxisSpec& axis) { axis.mimic = MimicSpec{}; }));
+}
+
 }  // namespace
 }  // namespace roboss::test

@@ -163,15 +163,15 @@ struct Placed {
     double density = kWater;
 };
 
-std::vector<Placed> solids_of(const Element& link, const Import& import) {
+std::vector<Placed> solids_of(const Element& link, const PoseInLink& pose_of, const Import& import) {
     const double link_density = import.reader.number(link.child("inertial"), "density", kWater);
     std::vector<Placed> solids;
     for (const auto node : link.node.children("collision")) {
         const Element collision{link.source, node};
         const auto solid = solid_of(collision.child("geometry"), import);
         if (solid) {
-            solids.push_back({*solid, import.reader.pose(collision.child("pose")),
-                              import.reader.number(collision, "density", link_density)});
+            solids.push_back(
+                {*solid, pose_of(collision), import.reader.number(collision, "density", link_density)});
         } else {
             import.diagnostics().warning(
                 collision.where(), "automatic-inertia",
@@ -185,8 +185,9 @@ std::vector<Placed> solids_of(const Element& link, const Import& import) {
 
 }  // namespace
 
-std::optional<MassProperties> automatic_inertia(const Element& link, const Import& import) {
-    const auto solids = solids_of(link, import);
+std::optional<MassProperties> automatic_inertia(const Element& link, const PoseInLink& pose_of,
+                                                const Import& import) {
+    const auto solids = solids_of(link, pose_of, import);
     MassProperties all;
     for (const Placed& p : solids) {
         const double mass = p.solid.volume * p.density;

@@ -16,6 +16,7 @@ struct MassProperties {
 
 /// nullopt if no collision of the link has a known volume. Collisions without one (open meshes) are reported
 /// and left out.
-std::optional<MassProperties> automatic_inertia(const Element& link, const Import& import);
+std::optional<MassProperties> automatic_inertia(const Element& link, const PoseInLink& pose_of,
+                                                const Import& import);
 
 }  // namespace roboss::sdf_import

@@ -144,6 +144,63 @@ TEST(BadInput, UnknownElementsAreReportedWithTheirLine) {
     EXPECT_FALSE(loaded.diagnostics.has_errors());
 }
 
+TEST(BadInput, UnknownElementsOfBlocksOfTheWorldAreReported) {
+    for (const char* block : {"physics", "wind", "atmosphere", "spherical_coordinates"}) {
+        const std::string tag = block;
+        const Loaded loaded = load_elements("<" + tag + ">\n<slip>1</slip></" + tag + ">");
+        EXPECT_NE(loaded.text().find("world.sdf:2: warning: <slip> in <" + tag + "> is not known"),
+                  std::string::npos)
+            << loaded.text();
+        const Loaded foreign = load_elements("<" + tag + ">\n<other:word/></" + tag + ">");
+        EXPECT_NE(foreign.text().find("world.sdf:2: note: <other:word> in <" + tag + ">"), std::string::npos)
+            << foreign.text();
+    }
+}
+
+TEST(BadInput, UnknownElementsOfOurOwnBlocksAreReported) {
+    const auto load = [](const std::string& in_link, const std::string& in_joint) {
+        return load_elements("<model name='m'>" + link("a", in_link) + link("b") +
+                             "<joint name='j' type='universal'><parent>a</parent><child>b</child>" +
+                             in_joint +
+                             "<axis><xyz>0 0 1</xyz></axis><axis2><xyz>0 1 0</xyz></axis2></joint></model>");
+    };
+    const Loaded drag = load("<roboss:drag>\n<linaer>1</linaer></roboss:drag>", "");
+    EXPECT_NE(drag.text().find("world.sdf:2: warning: <linaer> in <roboss:drag>"), std::string::npos)
+        << drag.text();
+    const Loaded motor = load("", "<roboss:motor>\n<gain>1</gain></roboss:motor>");
+    EXPECT_NE(motor.text().find("world.sdf:2: warning: <gain> in <roboss:motor>"), std::string::npos)
+        << motor.text();
+    EXPECT_EQ(motor.diagnostics.items().size(), 1u) << motor.text();
+}
+
+TEST(BadInput, BlocksAsOthersWriteThemGiveNoWarning) {
+    const Loaded loaded = load_elements(
+        "<physics name='p' default='1' type='ode'><max_step_size>0.001</max_step_size><real_time_factor>1"
+        "</real_time_factor><real_time_update_rate>1000</real_time_update_rate><max_contacts>20</"
+        "max_contacts>"
+        "<ode><solver><type>quick</type><iters>50</iters></solver><constraints><erp>.2</erp></constraints></"
+        "ode>"
+        "<bullet><solver><type>sequential_impulse</type></solver></bullet><simbody><contact><stiffness>1"
+        "</stiffness></contact></simbody><dart><solver><solver_type>pgs</solver_type></solver></dart></"
+        "physics>"
+        "<wind><linear_velocity>0 0 0</linear_velocity></wind><atmosphere type='adiabatic'><temperature>288"
+        "</temperature><pressure>101325</pressure></"
+        "atmosphere><spherical_coordinates><surface_model>EARTH_WGS84"
+        "</surface_model><world_frame_orientation>ENU</world_frame_orientation><latitude_deg>1</latitude_deg>"
+        "<longitude_deg>2</longitude_deg><elevation>3</elevation><heading_deg>0</heading_deg>"
+        "</spherical_coordinates>");
+    EXPECT_EQ(loaded.diagnostics.count(Severity::kWarning), 0u) << loaded.text();
+    EXPECT_EQ(loaded.diagnostics.count(Severity::kNote), 4u) << "one for each engine\n" << loaded.text();
+}
+
+TEST(BadInput, AxesOfACustomSurfaceHaveNoEffect) {
+    const Loaded loaded = load_elements(
+        "<spherical_coordinates>\n<surface_axis_polar>1</surface_axis_polar></spherical_coordinates>",
+        "1.10");
+    EXPECT_NE(loaded.text().find("world.sdf:2: note: <surface_axis_polar> has no effect"), std::string::npos)
+        << loaded.text();
+}
+
 TEST(BadInput, EqualFindingsAreOneWithTheirNumber) {
     std::string models;
     for (int i = 0; i < 7; ++i) {

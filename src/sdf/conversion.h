@@ -1,6 +1,7 @@
 // The parts of a model's conversion: elements of the source to the World's plain data. No libsdformat here.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,8 +25,12 @@ struct Import {
     Diagnostics& diagnostics() const { return reader.diagnostics(); }
 };
 
-/// Mass, centre and inertia of a link, as written, as SDF's defaults (reported), or automatic (auto="true").
-void convert_inertial(const Element& link, const Import& import, LinkSpec& spec);
+/// The pose of a part of a link in the link frame, whatever frame it is written in.
+using PoseInLink = std::function<Pose(const Element& part)>;
+
+/// Mass, centre and inertia of a link, as written, as SDF's defaults (reported), or automatic (auto="true"):
+/// that of its collisions, which stand where `pose_of` says.
+void convert_inertial(const Element& link, const PoseInLink& pose_of, const Import& import, LinkSpec& spec);
 
 /// <enable_wind> and <roboss:drag> of a link; `wind`: what the model says of <enable_wind>.
 void convert_drag(const Element& link, bool wind, const Import& import, LinkSpec& spec);

@@ -3,9 +3,13 @@
 #include <sstream>
 
 #include "sdf/conversion.h"
+#include "sdf/known_children.h"
 
 namespace roboss::sdf_import {
 namespace {
+
+constexpr const char* kMotor[] = {"position_gain", "velocity_gain", "armature", "max_effort", "max_velocity"};
+constexpr const char* kDrag[] = {"coefficient", "area", "linear"};
 
 ExtensionElement kept(const Element& element) {
     std::ostringstream text;
@@ -23,7 +27,11 @@ bool is_ours_here(const char* parent, const char* name) {
 
 void report_foreign(const Element& element, const Import& import) {
     const std::string name = element.node.name(), parent = element.node.parent().name();
-    if (is_ours_here(parent.c_str(), name.c_str())) return;
+    if (is_ours_here(parent.c_str(), name.c_str())) {
+        if (name == "roboss:motor") report_unknown_children(element, kMotor, import.diagnostics());
+        if (name == "roboss:drag") report_unknown_children(element, kDrag, import.diagnostics());
+        return;
+    }
     if (name.rfind("roboss:", 0) == 0) {
         import.diagnostics().warning(
             element.where(), "unknown-extension",

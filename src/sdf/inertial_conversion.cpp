@@ -19,8 +19,9 @@ Mat3 read_inertia(const Element& inertia, const ElementReader& reader) {
     return {{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}};
 }
 
-void read_automatic(const Element& link, const Element& inertial, const Import& import, LinkSpec& spec) {
-    const auto automatic = automatic_inertia(link, import);
+void read_automatic(const Element& link, const PoseInLink& pose_of, const Import& import, LinkSpec& spec) {
+    const Element inertial = link.child("inertial");
+    const auto automatic = automatic_inertia(link, pose_of, import);
     if (!automatic) {
         import.diagnostics().warning(
             inertial.where(), "automatic-inertia",
@@ -45,7 +46,7 @@ void read_automatic(const Element& link, const Element& inertial, const Import& 
 
 }  // namespace
 
-void convert_inertial(const Element& link, const Import& import, LinkSpec& spec) {
+void convert_inertial(const Element& link, const PoseInLink& pose_of, const Import& import, LinkSpec& spec) {
     const Element inertial = link.child("inertial");
     if (!inertial) {
         import.diagnostics().warning(link.where(), "missing-inertia",
@@ -55,7 +56,7 @@ void convert_inertial(const Element& link, const Import& import, LinkSpec& spec)
                                      "Write its <inertial> with <mass> and <inertia>.");
         return;
     }
-    if (inertial.node.attribute("auto").as_bool()) return read_automatic(link, inertial, import, spec);
+    if (inertial.node.attribute("auto").as_bool()) return read_automatic(link, pose_of, import, spec);
     const Pose X_LI = import.reader.pose(inertial.child("pose"));
     spec.mass = import.reader.number(inertial, "mass", 1.0);
     spec.p_LC = X_LI.p;

@@ -48,6 +48,20 @@ unsigned axes_of(JointSpecKind kind) {
     }
 }
 
+constexpr double kUnlimited = 1e15;  // SDF writes 1e16 for "no limit"
+
+bool has_limits(const AxisSpec& spec) {
+    return spec.lower > -kUnlimited || spec.upper < kUnlimited;
+}
+
+bool has_stiffness(const AxisSpec& spec) {
+    return spec.limit_stiffness < AxisSpec{}.limit_stiffness;
+}
+
+bool has_dissipation(const AxisSpec& spec) {
+    return spec.limit_dissipation != AxisSpec{}.limit_dissipation;
+}
+
 /// Negative or infinite: unlimited, as in SDF.
 double bound(double written) {
     return written >= 0 && std::isfinite(written) ? written : -1.0;
@@ -62,12 +76,34 @@ void read_limit(const Element& limit, const ElementReader& reader, AxisSpec& spe
     spec.max_velocity = bound(reader.number(limit, "velocity", -1, kAny));
     spec.limit_stiffness = reader.number(limit, "stiffness", spec.limit_stiffness, kAny);
     spec.limit_dissipation = reader.number(limit, "dissipation", spec.limit_dissipation, kAny);
-    if (limit.child("dissipation") && spec.limit_dissipation != AxisSpec{}.limit_dissipation &&
-        spec.limit_stiffness >= AxisSpec{}.limit_stiffness)
-        reader.diagnostics().note(
-            limit.child("dissipation").where(), "axis-element",
-            "<dissipation> has no effect: a limit without <stiffness> below 1e8 is hard",
-            "Write <stiffness>, or leave <dissipation> out.");
+}
+
+/// <stiffness> and <dissipation> are those of <lower> and <upper>, and <dissipation> only of soft ones.
+void report_softness(const Element& limit, const AxisSpec& spec, const Import& import) {
+    const auto report = [&](const char* name, const std::string& why, const std::string& remedy) {
+        import.diagnostics().note(limit.child(name).where(), "axis-element",
+                                  "<" + std::string(name) + "> has no effect: " + why,
+                                  "Write " + remedy + ", or leave <" + name + "> out.");
+    };
+    const char* kNoLimits = "the axis has no limits";
+    if (has_stiffness(spec) && !has_limits(spec)) report("stiffness", kNoLimits, "<lower> and <upper>");
+    if (!has_dissipation(spec)) return;
+    if (!has_limits(spec)) return report("dissipation", kNoLimits, "<lower> and <upper>");
+    if (!has_stiffness(spec))
+        report("dissipation", "a limit without <stiffness> below 1e8 is hard", "<stiffness>");
+}
+
+/// A continuous joint turns without end.
+void drop_limits(const sdf::Joint& joint, const Element& limit, AxisSpec& spec, const Import& import) {
+    if (has_limits(spec) || has_stiffness(spec) || has_dissipation(spec))
+        import.diagnostics().warning(
+            limit.where(), "unused-limit",
+            "joint '" + joint.Name() +
+                "' is continuous and has no limits: <lower>, <upper>, <stiffness> and <dissipation> of its "
+                "<limit> are ignored",
+            "Write type=\"revolute\", or leave them out.");
+    spec.lower = -std::numeric_limits<double>::infinity();
+    spec.upper = std::numeric_limits<double>::infinity();
 }
 
 void read_dynamics(const Element& dynamics, const ElementReader& reader, AxisSpec& spec) {
@@ -134,10 +170,10 @@ AxisSpec read_axis(const sdf::Joint& joint, const Element& source, unsigned inde
     read_motor(source.child("roboss:motor"), import.reader, spec);
     read_motor(axis.child("roboss:motor"), import.reader, spec);
     spec.mimic = read_mimic(axis.child("mimic"), scope, import.reader);
-    if (kind == JointSpecKind::kContinuous) {
-        spec.lower = -std::numeric_limits<double>::infinity();
-        spec.upper = std::numeric_limits<double>::infinity();
-    }
+    if (kind == JointSpecKind::kContinuous)
+        drop_limits(joint, axis.child("limit"), spec, import);
+    else
+        report_softness(axis.child("limit"), spec, import);
     return spec;
 }
 
@@ -158,21 +194,30 @@ void report_unused_axis(JointSpec& spec, const Element& source, const char* name
     read_dynamics(axis.child("dynamics"), import.reader, says);
     // A ball joint has no axis to turn about, but damping can be the same in all directions.
     if (spec.kind == JointSpecKind::kBall) std::swap(spec.ball_damping, says.damping);
-    const bool limited =
-        says.lower > -1e15 || says.upper < 1e15 || says.max_effort >= 0 || says.max_velocity >= 0;
+    const bool limited = has_limits(says) || has_stiffness(says) || has_dissipation(says) ||
+                         says.max_effort >= 0 || says.max_velocity >= 0;
     const bool dynamic = says.damping != 0 || says.friction != 0 || says.spring_stiffness != 0;
-    if (!limited && !dynamic && !axis.child("mimic")) return;
+    const bool driven = import.reader.number(axis, "initial_position", 0) != 0 ||
+                        axis.child("roboss:motor") || axis.child("mimic");
+    if (!limited && !dynamic && !driven) return;
     import.diagnostics().warning(
         axis.where(), "unused-axis",
         "joint '" + std::string(source.name()) + "' of type '" + source.node.attribute("type").value() +
             "' has no <" + name + ">: its limits, " + (spec.kind == JointSpecKind::kBall ? "" : "damping, ") +
-            "friction, springs and mimic are ignored",
+            "friction, springs, initial position, motor and mimic are ignored",
         "Use a joint with that axis, or several hinges in a row.");
 }
 
 void report_unused(JointSpec& spec, const Element& source, const Import& import) {
     if (axes_of(spec.kind) < 1) report_unused_axis(spec, source, "axis", import);
     if (axes_of(spec.kind) < 2) report_unused_axis(spec, source, "axis2", import);
+    if (const Element motor = source.child("roboss:motor"); motor && axes_of(spec.kind) == 0) {
+        import.diagnostics().warning(motor.where(), "unused-motor",
+                                     "joint '" + spec.name + "' of type '" +
+                                         source.node.attribute("type").value() +
+                                         "' has no axis to drive: its <roboss:motor> is ignored",
+                                     "Use a joint with an axis, or several hinges in a row.");
+    }
     if (const Element physics = source.child("physics")) {
         import.diagnostics().note(
             physics.where(), "joint-physics",

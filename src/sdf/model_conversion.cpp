@@ -58,8 +58,23 @@ class ModelConverter {
                     "' is static, but the model around it is not; it is taken as movable",
                 "Make it a model of the world, or weld it to the world with a fixed joint.");
         }
+        report_nested_flags(source);
         convert({nested, outer.prefix + nested.Name() + "::", outer.X_MS * resolved(nested, "__model__"),
                  import_.reader.boolean(source, "enable_wind", outer.wind)});
+    }
+
+    /// Flags that only the outermost model has.
+    void report_nested_flags(const Element& nested) {
+        const auto report = [&](const char* flag) {
+            import_.diagnostics().warning(nested.child(flag).where(), "nested-flag",
+                                          "<" + std::string(flag) + "> of the nested model '" +
+                                              nested.name() + "' is ignored: the outermost model's counts",
+                                          "Write it in the outermost model.");
+        };
+        if (import_.reader.boolean(nested, "self_collide", false) && !spec_.self_collide)
+            report("self_collide");
+        if (!import_.reader.boolean(nested, "allow_auto_disable", true) && spec_.may_sleep)
+            report("allow_auto_disable");
     }
 
     void convert_link(const sdf::Link& link, const Scope& scope) {
@@ -75,7 +90,10 @@ class ModelConverter {
             spec_.links.push_back(std::move(spec));
             return;
         }
-        if (!spec_.is_static) convert_inertial(source, import_, spec);
+        const auto collision_pose = [&](const Element& collision) {
+            return pose_of(collision, link.CollisionByName(collision.name()), link);
+        };
+        if (!spec_.is_static) convert_inertial(source, collision_pose, import_, spec);
         convert_link_flags(source, spec);
         convert_drag(source, scope.wind, import_, spec);
         for (const auto node : source.node.children()) {
@@ -86,13 +104,24 @@ class ModelConverter {
 
     void convert_link_flags(const Element& source, LinkSpec& spec) {
         spec.gravity = import_.reader.boolean(source, "gravity", true);
-        if (import_.reader.boolean(source, "self_collide", false)) spec_.self_collide = true;
+        if (import_.reader.boolean(source, "self_collide", false)) collide_with_itself(source);
         if (import_.reader.boolean(source, "kinematic", false)) {
             import_.diagnostics().warning(
                 source.where(), "kinematic",
                 "link '" + spec.name + "' is kinematic; it is simulated as a dynamic link",
                 "Move it with velocity orders, or make the model static.");
         }
+    }
+
+    /// Told once a model.
+    void collide_with_itself(const Element& link) {
+        if (spec_.self_collide) return;
+        spec_.self_collide = true;
+        import_.diagnostics().note(link.child("self_collide").where(), "self-collide",
+                                   "link '" + link.name() +
+                                       "' asks for <self_collide>: all links of model '" + spec_.name +
+                                       "' collide with each other",
+                                   "Write <self_collide> in the model, or leave it out.");
     }
 
     /// A <collision>, <visual> or sensor of a link.

@@ -3,8 +3,15 @@
 
 #include <cstring>
 
+#include "sdf/known_children.h"
+
 namespace roboss::sdf_import {
 namespace {
+
+constexpr const char* kKnown[] = {"max_step_size",   "real_time_factor", "real_time_update_rate",
+                                  "max_contacts",    "gravity",          "magnetic_field",
+                                  "roboss:accuracy", "roboss:precision", "ode",
+                                  "bullet",          "simbody",          "dart"};
 
 std::string names_of(const std::vector<Element>& profiles) {
     std::string all;
@@ -89,13 +96,15 @@ void read_physics(const Element& world, const std::string& wanted, Import& impor
                 "Choose with --profile.");
         out.dt_s = positive_number(physics, "max_step_size", 0.001, import);
         read_pace(physics, import, out);
-        // Up to SDFormat 1.4 gravity stood in <physics>.
+        // Gravity and magnetic field stood in <physics> up to SDFormat 1.5.
         out.gravity = import.reader.vector(physics, "gravity", out.gravity);
+        out.magnetic_field_T = import.reader.vector(physics, "magnetic_field", out.magnetic_field_T);
         import.max_contacts = import.reader.integer(physics, "max_contacts", -1);
         for (const auto node : physics.node.children("roboss:accuracy"))
             out.accuracy.push_back(read_accuracy({world.source, node}, import));
         read_precision(physics, import, out);
         report_engines(physics, import);
+        report_unknown_children(physics, kKnown, import.diagnostics());
     }
     out.gravity = import.reader.vector(world, "gravity", out.gravity);
     import.dt_s = out.dt_s;

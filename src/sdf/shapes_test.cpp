@@ -152,6 +152,25 @@ TEST(SdfShapes, AutomaticInertiaOfAnLIsThatOfItsTwoBoxes) {
     EXPECT_NEAR(link.inertia_C(0, 1), -(2 * 600 * (0.5 * -1)), 1e-9);
 }
 
+TEST(SdfShapes, AutomaticInertiaFollowsCollisionsPlacedInOtherFrames) {
+    const auto link_with = [](const std::string& pose) {
+        const Loaded loaded = load_elements(
+            "<model name='m'><frame name='f'><pose>1 2 3 0 0 1.5707963267948966</pose></frame>"
+            "<link name='a'><pose>0 0 1 0 0 0</pose>" +
+            kAutomatic + "<collision name='c'>" + pose +
+            "<geometry><box><size>1 2 3</size></box></geometry></collision></link></model>");
+        EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
+        return loaded.world->prototypes[0].links[0];
+    };
+    const LinkSpec there = link_with("<pose relative_to='f'>1 0 0 0 0 0</pose>");
+    const LinkSpec plain = link_with("<pose>1 3 2 0 0 1.5707963267948966</pose>");
+    EXPECT_NEAR(norm(there.p_LC - plain.p_LC), 0, 1e-9);
+    EXPECT_NEAR(norm(there.p_LC - there.collisions[0].X_LS.p), 0, 1e-12);
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+            EXPECT_NEAR(there.inertia_C(i, j), plain.inertia_C(i, j), 1e-9) << i << " " << j;
+}
+
 TEST(SdfShapes, AnOpenMeshHasNoAutomaticInertia) {
     const TestFolder folder;
     folder.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");

@@ -27,7 +27,7 @@ bool is_left_out(const char* parent, const char* name) {
                              "battery"});
     }
     if (std::strcmp(parent, "joint") == 0) return is_any(name, {"physics"});
-    return std::strcmp(parent, "axis") == 0 && std::strcmp(name, "initial_position") == 0;
+    return is_any(parent, {"axis", "axis2"}) && std::strcmp(name, "initial_position") == 0;
 }
 
 /// How many numbers the importer reads from an element itself, and so reports when they are wrong; 0: not

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "sdf/known_children.h"
 #include "sdf/physics_profile.h"
 
 namespace roboss::sdf_import {
@@ -20,6 +21,30 @@ constexpr const char* kSilent[] = {"light",           "gui",
                                    "population",      "frame",
                                    "roboss:accuracy", "roboss:sleep",
                                    "roboss:precision"};
+
+constexpr const char* kWind[] = {"linear_velocity"};
+constexpr const char* kAtmosphere[] = {"temperature", "pressure", "temperature_gradient"};
+constexpr const char* kSpherical[] = {"latitude_deg",
+                                      "longitude_deg",
+                                      "elevation",
+                                      "heading_deg",
+                                      "surface_model",
+                                      "world_frame_orientation",
+                                      "surface_axis_equatorial",
+                                      "surface_axis_polar"};
+
+void read_wind(const Element& wind, const Import& import, World& out) {
+    out.wind = import.reader.vector(wind, "linear_velocity", {});
+    report_unknown_children(wind, kWind, import.diagnostics());
+}
+
+/// Axes of SDFormat 1.10's CUSTOM_SURFACE.
+void report_surface_axes(const Element& spherical, const Import& import) {
+    for (const char* name : {"surface_axis_equatorial", "surface_axis_polar"})
+        if (const Element axis = spherical.child(name))
+            import.diagnostics().note(axis.where(), "surface-model",
+                                      "<" + std::string(name) + "> has no effect: WGS84 is used");
+}
 
 void read_spherical(const Element& spherical, const Import& import, World& out) {
     if (!spherical) return;
@@ -44,6 +69,8 @@ void read_spherical(const Element& spherical, const Import& import, World& out) 
             "the world frame orientation '" + orientation + "' is not supported; x is east, y north",
             "Use ENU.");
     }
+    report_surface_axes(spherical, import);
+    report_unknown_children(spherical, kSpherical, import.diagnostics());
 }
 
 /// Density of dry air at the temperature and pressure written, taken everywhere: the world is not that high.
@@ -61,6 +88,7 @@ void read_atmosphere(const Element& atmosphere, const Import& import, World& out
         import.diagnostics().note(
             atmosphere.child("temperature_gradient").where(), "temperature-gradient",
             "<temperature_gradient> has no effect: the air is equally dense everywhere");
+    report_unknown_children(atmosphere, kAtmosphere, import.diagnostics());
 }
 
 void report_other(const Element& element, const Import& import, World& out) {
@@ -106,7 +134,7 @@ void read_world_settings(const Element& world, const std::string& profile, Impor
     read_precision(world, import, out);
     read_physics(world, profile, import, out);
     out.magnetic_field_T = import.reader.vector(world, "magnetic_field", out.magnetic_field_T);
-    out.wind = import.reader.vector(world.child("wind"), "linear_velocity", {});
+    if (const Element wind = world.child("wind")) read_wind(wind, import, out);
     if (const Element atmosphere = world.child("atmosphere")) read_atmosphere(atmosphere, import, out);
     read_spherical(world.child("spherical_coordinates"), import, out);
     for (const auto node : world.node.children()) {

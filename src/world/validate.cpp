@@ -179,6 +179,10 @@ class ModelCheck {
                                    "dissipation of its limits",
                                "Write values of at least 0.");
         }
+        if (!(axis.position_gain >= 0) || !(axis.velocity_gain >= 0)) {
+            diagnostics_.error(joint.where, "bad-gain", name + " has a motor with a negative gain",
+                               "Write gains of at least 0; 0 is as stiff as the solver allows.");
+        }
     }
 
     void check_sensors(const LinkSpec& link) {

@@ -119,6 +119,8 @@ TEST(Validate, LimitsAndDynamicsMustMakeSense) {
                [](World& w) { joint(w).axes[0].lower = 2, joint(w).axes[0].upper = 1; });
     expect_one("bad-dynamics", Severity::kError, 9, [](World& w) { joint(w).axes[0].damping = -1; });
     expect_one("bad-dynamics", Severity::kError, 9, [](World& w) { joint(w).axes[0].friction = kNan; });
+    expect_one("bad-gain", Severity::kError, 9, [](World& w) { joint(w).axes[0].position_gain = -1; });
+    expect_one("bad-gain", Severity::kError, 9, [](World& w) { joint(w).axes[0].velocity_gain = -1; });
 }
 
 TEST(Validate, AScrewMustHaveAPitch) {
