@@ -72,7 +72,7 @@ void finish(Entry& entry, std::size_t robots, const ContestOptions& options) {
 
 std::vector<Row> hold_contest(const SceneKind& kind, std::size_t robots, const ContestOptions& wanted) {
     ContestOptions options = wanted;
-    options.steps = std::min(options.steps_of(robots), kind.steps_max);
+    options.steps = options.steps_of(robots);
     const Scene scene = kind.make(robots);
     std::vector<Entry> entries;
     for (const EngineKind& engine : contestants()) {

@@ -31,7 +31,6 @@ struct SceneKind {
     std::string what;                 // one line for people
     std::vector<std::size_t> robots;  // the sizes that are measured
     std::function<Scene(std::size_t robots)> make;
-    int steps_max = 100000;  // counted at most; beyond, the scene has nothing more to tell
 };
 
 std::span<const SceneKind> scenes();

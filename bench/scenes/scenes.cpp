@@ -9,11 +9,7 @@ std::span<const SceneKind> scenes() {
         {"city", "the same cars driving into 100 boxes and each other", {50, 500, 2000}, city_scene},
         {"spiders", "six-legged walkers: standing, then a tripod gait", {20, 200}, spiders_scene},
         {"arms", "arms of four joints on fixed bases following a path", {100}, arms_scene},
-        {"shapes",
-         "boxes, spheres and cylinders falling on a plane and on each other",
-         {3000},
-         shapes_scene,
-         400},
+        {"shapes", "boxes, spheres and cylinders falling on a plane and on each other", {3000}, shapes_scene},
     };
     return kinds;
 }

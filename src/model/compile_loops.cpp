@@ -8,7 +8,6 @@
 namespace roboss {
 namespace {
 
-constexpr double kUnlimited = 1e15;     // SDF writes 1e16 for "no limit"
 constexpr double kHardStiffness = 1e8;  // SDF's default: as stiff as the solver allows
 constexpr double kAligned = 1e-6;       // 1 - cosine of the angle between a gearbox' axis and its hinge's
 
@@ -58,11 +57,10 @@ std::optional<GearHinge> find_gear_hinge(const ModelSpec& spec, const JointSpec&
 /// Whether an axis says more than its direction.
 bool says_more(const AxisSpec& axis) {
     const bool dynamic = axis.damping != 0 || axis.friction != 0 || axis.spring_stiffness != 0;
-    const bool limited = axis.lower > -kUnlimited || axis.upper < kUnlimited;
-    const bool bounded = (axis.max_effort >= 0 && axis.max_effort < kUnlimited) ||
-                         (axis.max_velocity >= 0 && axis.max_velocity < kUnlimited);
+    const Dof dof = to_dof(axis, false);
+    const bool bounded = std::isfinite(dof.max_effort) || std::isfinite(dof.max_velocity);
     const bool driven = axis.position_gain != 0 || axis.velocity_gain != 0 || axis.armature != 0;
-    return dynamic || limited || bounded || driven || axis.initial_position != 0 || axis.mimic;
+    return dynamic || axis.has_limits() || bounded || driven || axis.initial_position != 0 || axis.mimic;
 }
 
 void find_gearbox(const ModelSpec& spec, const JointSpec& gearbox, std::vector<CouplingSpec>& found,

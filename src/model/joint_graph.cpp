@@ -8,8 +8,6 @@
 namespace roboss {
 namespace {
 
-constexpr double kUnlimited = 1e15;  // SDF writes 1e16 for "no limit"
-
 /// Joints whose coordinates others need: mimic leaders and followers, gearboxes' hinges, odometers.
 std::set<std::string> joints_in_use(const ModelSpec& spec) {
     std::set<std::string> used;
@@ -33,8 +31,7 @@ int worth(const JointSpec& joint, bool in_use) {
     if (joint.kind == JointSpecKind::kFixed) return 100;
     int sum = in_use ? 50 : 0;
     for (const AxisSpec& axis : joint.axes) {
-        const bool limited =
-            joint.kind != JointSpecKind::kContinuous && (axis.lower > -kUnlimited || axis.upper < kUnlimited);
+        const bool limited = joint.kind != JointSpecKind::kContinuous && axis.has_limits();
         if (axis.position_gain > 0 || axis.velocity_gain > 0 || axis.armature > 0) sum += 8;
         if (limited || axis.friction > 0 || axis.initial_position != 0) sum += 4;
         if (axis.damping > 0 || axis.spring_stiffness > 0) sum += 2;

@@ -32,7 +32,7 @@ inline constexpr double kLimitSlop = 1e-6;  // rad or m beyond a limit that are 
 inline constexpr double kLimitSpeedMax =
     1.0;  // rad/s or m/s, while mending; it never enters the velocity, so it adds no energy
 inline constexpr double kApproachSpeedMax =
-    10.0;  // rad/s or m/s, of a position motor whose force and speed have no bound: else one tick is enough
+    10.0;  // rad/s or m/s, of a position motor without gains whose force and speed have no bound
 
 template <class T>
 [[gnu::always_inline]] inline void set_row(const T& target, double compliance, double low, double high,
@@ -71,8 +71,9 @@ template <class T>
 }
 
 /// A servo does not drive the joint beyond its maximum velocity: there, this row takes back what it gives.
+/// Both together stay within the motor's bound.
 template <class T>
-void brake_servo(const AxisStateT<T>& s, const BoundedRowT<T>& servo, BoundedRowT<T>& row) {
+void brake_servo(const AxisStateT<T>& s, BoundedRowT<T>& servo, BoundedRowT<T>& row) {
     const T most = s.dof.max_velocity;
     const T beyond = larger(magnitude(servo.target) - most, T(0));
     const T given = smaller(beyond / servo.compliance, servo.high);  // at the maximum velocity
@@ -81,6 +82,7 @@ void brake_servo(const AxisStateT<T>& s, const BoundedRowT<T>& servo, BoundedRow
     row.compliance = s.compliance;
     row.low = select(ahead, -given, T(0)), row.high = select(ahead, T(0), given);
     row.position_target = row.target;
+    servo.low -= row.low, servo.high -= row.high;
 }
 
 /// The ordered force, as long as it does not drive the joint beyond its maximum velocity.
@@ -184,8 +186,8 @@ template <class T, class Row>
     if (has_hard_motor(s)) row.target += s.compliance * s.motor.load;
     row.position_target = row.target;
     if (is_servo(s) && std::isfinite(s.dof.max_velocity)) {
-        const BoundedRowT<T> servo = row;
-        axis::brake_servo(s, servo, rows.emplace_back());
+        rows.emplace_back();
+        axis::brake_servo(s, rows[rows.size() - 2], rows.back());
     }
 }
 

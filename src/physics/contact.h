@@ -1,4 +1,4 @@
-// Contacts of one tick: found pair by pair, in canonical order, with the data that the solver needs.
+// Contacts of one tick: found pair by pair, in canonical order; where they are and what they carried.
 #pragma once
 
 #include <cstdint>

@@ -296,7 +296,10 @@ class LaneStep final : public LaneStepper {
         const Mechanics<T>* robot = &work_;
         const int offset = 0;
         SolveProblem<T> problem{model.accuracy, {&robot, 1}, {&offset, 1}, rows_};
-        start_from_before(solution_);
+        if constexpr (kIsFloat<T>)  // what the tick changes of the velocities
+            solution_.assign(state_.v().size(), T(0));
+        else
+            solution_ = state_.v();
         solved_ = {};
         newton_.start(problem, solution_);
         leave_where(!newton_.solve(problem, together, solution_, solved_), together);
@@ -304,14 +307,6 @@ class LaneStep final : public LaneStepper {
         take_impulses();
         way_ = solution_;
         if (together.any() && together(split_)) solve_way(problem, together);
-    }
-
-    /// The velocities before the tick, or of floats that nothing changes.
-    void start_from_before(std::vector<T>& v) const {
-        if constexpr (kIsFloat<T>)
-            v.assign(state_.v().size(), T(0));
-        else
-            v = state_.v();
     }
 
     void take_impulses() {

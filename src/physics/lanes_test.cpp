@@ -129,6 +129,43 @@ TEST(Lanes, ArmsOnFixedBasesFollowTheirServosAlike) {
     compare(scattered(arm(), 11, 2.0), drive, 300);
 }
 
+/// Servos with gains, far from their targets and near: at their bounds, at their maximum velocity, below.
+TEST(Lanes, ArmsWithGainsFollowAlike) {
+    World world = scattered(arm(), 11, 2.0);
+    for (JointSpec& j : world.prototypes.back().joints)
+        for (AxisSpec& axis : j.axes) {
+            axis.position_gain = 60, axis.velocity_gain = 3;
+            axis.max_effort = 15, axis.max_velocity = 1.5;
+        }
+    const Drive drive = [](Simulation& sim) {
+        for (std::size_t r = 0; r < sim.states.size(); ++r)
+            for (std::size_t d = 0; d < sim.states[r].motors.size(); ++d)
+                sim.set_motor(r, d, MotorMode::kPosition,
+                              0.2 * static_cast<double>(r) * (sim.tick / 100 % 2 == 0 ? 1 : -1));
+    };
+    compare(world, drive, 300);
+}
+
+/// Cars on soft wheels, which stay in lanes; with friction by direction, which does not.
+TEST(Lanes, CarsOnOtherSurfacesAlike) {
+    const Drive drive = [](Simulation& sim) {
+        for (std::size_t r = 0; r < sim.states.size(); ++r)
+            for (std::size_t d = 0; d < sim.states[r].motors.size(); ++d)
+                sim.set_motor(r, d, MotorMode::kVelocity, d % 2 == 0 ? 4 : 10);
+    };
+    for (const bool soft : {true, false}) {
+        World world = scattered(car(), 9, 0.05);
+        for (LinkSpec& l : world.prototypes.back().links)
+            for (CollisionSpec& c : l.collisions) {
+                if (soft)
+                    c.surface.stiffness = 2e4, c.surface.damping = 100;
+                else
+                    c.surface.mu2 = 0.2, c.surface.fdir1 = {1, 0, 0};
+            }
+        compare(world, drive, 300);
+    }
+}
+
 /// Trees with every kind of joint, dropped: limits, joint friction, springs, bounces, rest.
 TEST(Lanes, MixedTreesFallAlike) {
     const Drive none = [](Simulation&) {};

@@ -189,6 +189,18 @@ TEST(Motor, ServoThatIsOverrunBrakesByItsDampingAlone) {
     EXPECT_NEAR((2 - hinge.v()) * hinge.inertia() / (1e-3 * damping * (hinge.v() - 0.5)), 1, 1e-9);
 }
 
+TEST(Motor, ServoThatIsOverrunFarKeepsItsBound) {
+    for (const double way : {1.0, -1.0}) {
+        Hinge hinge(1.5, false, [](AxisSpec& axis) {
+            axis.position_gain = 10, axis.velocity_gain = 2, axis.max_velocity = 0.5;
+        });
+        hinge.set(MotorMode::kPosition, 3 * way);
+        hinge.sim->states[0].v[0] = 20 * way;
+        hinge.sim->step();
+        EXPECT_NEAR((20 - hinge.v() * way) * hinge.inertia() / 1.5e-3, 1, 1e-9);
+    }
+}
+
 TEST(Motor, PositionMotorKeepsTheAxisMaximumVelocity) {
     Hinge hinge(20, false, [](AxisSpec& axis) { axis.max_velocity = 0.5; });
     hinge.set(MotorMode::kPosition, 1.2);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/make_room.h"
 #include "core/wide.h"
 #include "physics/contact.h"
 
@@ -100,12 +101,11 @@ struct ContactColumnsT {
     void extend(std::size_t more) {
         count_ += more;
         if (count_ <= dof.size()) return;
-        const std::size_t room = count_ + count_ / 4;
-        const auto grow = [room](auto&... arrays) {
-            (arrays.reserve(room), ...);
-            (arrays.resize(room), ...);
+        const auto grow = [this](auto& array) {
+            make_room(array, count_);
+            array.resize(array.capacity());
         };
-        grow(dof, base, n, t1, t2);
+        grow(dof), grow(base), grow(n), grow(t1), grow(t2);
     }
     void clear() { count_ = 0; }
     /// Columns from `middle` on into those of [first, middle), ascending, one a degree of freedom: a robot in

@@ -48,12 +48,6 @@ unsigned axes_of(JointSpecKind kind) {
     }
 }
 
-constexpr double kUnlimited = 1e15;  // SDF writes 1e16 for "no limit"
-
-bool has_limits(const AxisSpec& spec) {
-    return spec.lower > -kUnlimited || spec.upper < kUnlimited;
-}
-
 bool has_stiffness(const AxisSpec& spec) {
     return spec.limit_stiffness < AxisSpec{}.limit_stiffness;
 }
@@ -86,16 +80,16 @@ void report_softness(const Element& limit, const AxisSpec& spec, const Import& i
                                   "Write " + remedy + ", or leave <" + name + "> out.");
     };
     const char* kNoLimits = "the axis has no limits";
-    if (has_stiffness(spec) && !has_limits(spec)) report("stiffness", kNoLimits, "<lower> and <upper>");
+    if (has_stiffness(spec) && !spec.has_limits()) report("stiffness", kNoLimits, "<lower> and <upper>");
     if (!has_dissipation(spec)) return;
-    if (!has_limits(spec)) return report("dissipation", kNoLimits, "<lower> and <upper>");
+    if (!spec.has_limits()) return report("dissipation", kNoLimits, "<lower> and <upper>");
     if (!has_stiffness(spec))
         report("dissipation", "a limit without <stiffness> below 1e8 is hard", "<stiffness>");
 }
 
 /// A continuous joint turns without end.
 void drop_limits(const sdf::Joint& joint, const Element& limit, AxisSpec& spec, const Import& import) {
-    if (has_limits(spec) || has_stiffness(spec) || has_dissipation(spec))
+    if (spec.has_limits() || has_stiffness(spec) || has_dissipation(spec))
         import.diagnostics().warning(
             limit.where(), "unused-limit",
             "joint '" + joint.Name() +
@@ -194,7 +188,7 @@ void report_unused_axis(JointSpec& spec, const Element& source, const char* name
     read_dynamics(axis.child("dynamics"), import.reader, says);
     // A ball joint has no axis to turn about, but damping can be the same in all directions.
     if (spec.kind == JointSpecKind::kBall) std::swap(spec.ball_damping, says.damping);
-    const bool limited = has_limits(says) || has_stiffness(says) || has_dissipation(says) ||
+    const bool limited = says.has_limits() || has_stiffness(says) || has_dissipation(says) ||
                          says.max_effort >= 0 || says.max_velocity >= 0;
     const bool dynamic = says.damping != 0 || says.friction != 0 || says.spring_stiffness != 0;
     const bool driven = import.reader.number(axis, "initial_position", 0) != 0 ||

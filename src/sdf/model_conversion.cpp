@@ -58,23 +58,22 @@ class ModelConverter {
                     "' is static, but the model around it is not; it is taken as movable",
                 "Make it a model of the world, or weld it to the world with a fixed joint.");
         }
-        report_nested_flags(source);
         convert({nested, outer.prefix + nested.Name() + "::", outer.X_MS * resolved(nested, "__model__"),
                  import_.reader.boolean(source, "enable_wind", outer.wind)});
+        report_nested_flags(source);
     }
 
     /// Flags that only the outermost model has.
     void report_nested_flags(const Element& nested) {
-        const auto report = [&](const char* flag) {
+        const auto report = [&](const char* flag, bool counts) {
+            if (import_.reader.boolean(nested, flag, counts) == counts) return;
             import_.diagnostics().warning(nested.child(flag).where(), "nested-flag",
                                           "<" + std::string(flag) + "> of the nested model '" +
                                               nested.name() + "' is ignored: the outermost model's counts",
                                           "Write it in the outermost model.");
         };
-        if (import_.reader.boolean(nested, "self_collide", false) && !spec_.self_collide)
-            report("self_collide");
-        if (!import_.reader.boolean(nested, "allow_auto_disable", true) && spec_.may_sleep)
-            report("allow_auto_disable");
+        report("self_collide", spec_.self_collide);
+        report("allow_auto_disable", spec_.may_sleep);
     }
 
     void convert_link(const sdf::Link& link, const Scope& scope) {
@@ -115,7 +114,7 @@ class ModelConverter {
 
     /// Told once a model.
     void collide_with_itself(const Element& link) {
-        if (spec_.self_collide) return;
+        if (spec_.self_collide || spec_.is_static) return;
         spec_.self_collide = true;
         import_.diagnostics().note(link.child("self_collide").where(), "self-collide",
                                    "link '" + link.name() +

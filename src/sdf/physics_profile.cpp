@@ -104,8 +104,8 @@ void read_physics(const Element& world, const std::string& wanted, Import& impor
             out.accuracy.push_back(read_accuracy({world.source, node}, import));
         read_precision(physics, import, out);
         report_engines(physics, import);
-        report_unknown_children(physics, kKnown, import.diagnostics());
     }
+    for (const Element& profile : profiles) report_unknown_children(profile, kKnown, import.diagnostics());
     out.gravity = import.reader.vector(world, "gravity", out.gravity);
     import.dt_s = out.dt_s;
 }

@@ -179,8 +179,10 @@ class ModelCheck {
                                    "dissipation of its limits",
                                "Write values of at least 0.");
         }
-        if (!(axis.position_gain >= 0) || !(axis.velocity_gain >= 0)) {
-            diagnostics_.error(joint.where, "bad-gain", name + " has a motor with a negative gain",
+        if (!(axis.position_gain >= 0 && std::isfinite(axis.position_gain)) ||
+            !(axis.velocity_gain >= 0 && std::isfinite(axis.velocity_gain))) {
+            diagnostics_.error(joint.where, "bad-gain",
+                               name + " has a motor with a gain that is negative or not finite",
                                "Write gains of at least 0; 0 is as stiff as the solver allows.");
         }
     }

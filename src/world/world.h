@@ -186,6 +186,8 @@ struct MimicSpec {
 };
 
 /// One axis of a joint. Infinite limits mean none.
+inline constexpr double kUnlimited = 1e15;  // from here on there is no limit: SDF writes 1e16
+
 struct AxisSpec {
     Vec3 xyz{0, 0, 1};                   // unit, in the joint frame
     double lower = -1e16, upper = 1e16;  // rad or m
@@ -199,6 +201,8 @@ struct AxisSpec {
     double position_gain = 0, velocity_gain = 0;
     double armature = 0;  // rotor inertia seen at the joint, kg m^2
     std::optional<MimicSpec> mimic;
+
+    bool has_limits() const { return lower > -kUnlimited || upper < kUnlimited; }
 };
 
 struct JointSpec {
