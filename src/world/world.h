@@ -185,9 +185,9 @@ struct MimicSpec {
     double multiplier = 1, offset = 0, reference = 0;
 };
 
-/// One axis of a joint. Infinite limits mean none.
 inline constexpr double kUnlimited = 1e15;  // from here on there is no limit: SDF writes 1e16
 
+/// One axis of a joint. Infinite limits mean none.
 struct AxisSpec {
     Vec3 xyz{0, 0, 1};                   // unit, in the joint frame
     double lower = -1e16, upper = 1e16;  // rad or m
