@@ -54,19 +54,11 @@ std::optional<GearHinge> find_gear_hinge(const ModelSpec& spec, const JointSpec&
     return std::nullopt;
 }
 
-/// Whether an axis says more than its direction.
-bool says_more(const AxisSpec& axis) {
-    const bool dynamic = axis.damping != 0 || axis.friction != 0 || axis.spring_stiffness != 0;
-    const Dof dof = to_dof(axis, false);
-    const bool bounded = std::isfinite(dof.max_effort) || std::isfinite(dof.max_velocity);
-    const bool driven = axis.position_gain != 0 || axis.velocity_gain != 0 || axis.armature != 0;
-    return dynamic || axis.has_limits() || bounded || driven || axis.initial_position != 0 || axis.mimic;
-}
-
 void find_gearbox(const ModelSpec& spec, const JointSpec& gearbox, std::vector<CouplingSpec>& found,
                   Diagnostics& diagnostics) {
     if (gearbox.axes.size() < 2) return;
-    if (std::any_of(gearbox.axes.begin(), gearbox.axes.end(), says_more))
+    if (std::any_of(gearbox.axes.begin(), gearbox.axes.end(),
+                    [](const AxisSpec& axis) { return axis.says_more(); }))
         diagnostics.warning(gearbox.where, "gearbox-axis",
                             called(gearbox, spec) +
                                 ": limits, damping, friction, springs, initial position, motor and mimic of "

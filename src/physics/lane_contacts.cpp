@@ -45,15 +45,17 @@ std::optional<std::uint32_t> LaneContacts::only_plane(const Model& model, const 
     return scenery_[0];
 }
 
-std::optional<SurfacePair> LaneContacts::plain_surface(const Model& model, const BodyShape& shape,
-                                                       std::uint32_t i) {
+bool LaneContacts::is_plain(const Model& model, const BodyShape& shape, std::uint32_t i) {
     const Material &a = shape.material, &b = model.statics[i].material;
     const bool directed = (a.direction_S != Vec3{} || b.direction_S != Vec3{}) &&
                           std::min(a.mu, b.mu) != std::min(a.mu2, b.mu2);
     const bool has_patch = std::max({a.patch_radius, b.patch_radius, a.surface_radius, b.surface_radius}) > 0;
-    if (directed || (std::min(a.torsional_mu, b.torsional_mu) > 0 && has_patch)) return {};
-    const SurfacePair pair = surface_pair(a, Mat3::identity(), b, Mat3::identity(), {}, 0);
-    return pair.rolling > 0 ? std::optional<SurfacePair>() : pair;
+    const bool turns_hard = std::min(a.torsional_mu, b.torsional_mu) > 0 && has_patch;
+    return !directed && !turns_hard && std::max(a.rolling, b.rolling) <= 0;
+}
+
+SurfacePair LaneContacts::plain_surface(const Model& model, const BodyShape& shape, std::uint32_t i) {
+    return surface_pair(shape.material, Mat3::identity(), model.statics[i].material, Mat3::identity(), {}, 0);
 }
 
 bool LaneContacts::keeps_all_points(const Model& model, const BodyShape& shape, std::uint32_t i) {
@@ -67,8 +69,8 @@ ContactMemory* LaneContacts::memory_for(std::size_t count, RobotState& state) {
 }
 
 unsigned LaneContacts::alike(const Model& model, const RobotType& type, unsigned present) const {
-    const auto is_plain = [&](const Contact& c) {
-        return plain_surface(model, type.shapes[c.shape_a], c.shape_b).has_value();
+    const auto plain_contact = [&](const Contact& c) {
+        return is_plain(model, type.shapes[c.shape_a], c.shape_b);
     };
     unsigned best = 0, unseen = present;
     while (std::popcount(unseen) > std::popcount(best)) {
@@ -78,7 +80,7 @@ unsigned LaneContacts::alike(const Model& model, const RobotType& type, unsigned
             if ((unseen & bit(lane)) != 0 && std::ranges::equal(spans_[lane], spans_[first], same_point))
                 like_first |= bit(lane);
         unseen &= ~like_first;
-        const bool plain = std::ranges::all_of(spans_[first], is_plain);
+        const bool plain = std::ranges::all_of(spans_[first], plain_contact);
         if (plain && std::popcount(like_first) > std::popcount(best)) best = like_first;
     }
     return best;

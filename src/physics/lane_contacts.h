@@ -23,10 +23,11 @@ class LaneContacts {
     void find(const Model& model, std::size_t lane);
     /// If all the scenery near `box` is one plane: its number.
     std::optional<std::uint32_t> only_plane(const Model& model, const Aabb& box);
-    /// What the materials make of a shape on scenery `i`; nothing if that is more than lanes know (friction
-    /// axes, torsion, rolling).
-    static std::optional<SurfacePair> plain_surface(const Model& model, const BodyShape& shape,
-                                                    std::uint32_t i);
+    /// Whether lanes know what the materials make of a shape on scenery `i`: no friction axes, torsion,
+    /// rolling.
+    static bool is_plain(const Model& model, const BodyShape& shape, std::uint32_t i);
+    /// What they make of it, where it is plain.
+    static SurfacePair plain_surface(const Model& model, const BodyShape& shape, std::uint32_t i);
     /// Whether no point of a shape on a plane `i` is ever dropped.
     static bool keeps_all_points(const Model& model, const BodyShape& shape, std::uint32_t i);
     /// Room for so many contacts in what a state remembers; the first of them.

@@ -135,15 +135,16 @@ class LaneStep final : public LaneStepper {
         if (!may_collide(shape.material, scenery.material)) return true;
         const Vec3 n = scenery.X_WS.R.col(2);
         PlaneContacts<Wide> points(scenery.X_WS.p, n, placed().shapes[s].margin, finders);
-        const std::optional<SurfacePair> surface = found_.plain_surface(model, shape, plane);
-        if (!surface || !found_.keeps_all_points(model, shape, plane)) return false;
+        if (!found_.is_plain(model, shape, plane) || !found_.keeps_all_points(model, shape, plane))
+            return false;
         if (!points.add(shape.shape, placed().shapes[s].X_WS)) return false;
+        const SurfacePair surface = found_.plain_surface(model, shape, plane);
         for (std::size_t i = 0; i < points.count(); ++i) {
             if (i > 0 && points[i].feature < points[i - 1].feature) return false;  // they would be sorted
             ContactT<T>& c = contacts_.emplace_back();
             c.shape_a = static_cast<std::uint32_t>(s), c.shape_b = plane, c.feature = points[i].feature;
             c.body_a = shape.body;
-            surfaces_.push_back(*surface);
+            surfaces_.push_back(surface);
             c.gap = kernel(points[i].gap), c.normal = broadcast<T>(n);
             put_point(points[i].p_W, c);
         }
@@ -222,7 +223,7 @@ class LaneStep final : public LaneStepper {
         for (std::size_t c = 0; c < contacts_.size(); ++c) {
             const Contact& all = found_.contact(first, c);
             contacts_[c].body_a = all.body_a;
-            surfaces_.push_back(*found_.plain_surface(model, work_.type->shapes[all.shape_a], all.shape_b));
+            surfaces_.push_back(found_.plain_surface(model, work_.type->shapes[all.shape_a], all.shape_b));
             for (std::size_t i = 0; i < kLanesOf<T>; ++i) {
                 const Contact& from = found_.contact(is_in(together, i) ? i : first, c);
                 set_lanes(point_, i, from.p_W);

@@ -5,9 +5,8 @@
 //   it stands on that plane, every tangent is across it and mu2 counts.
 // - Restitution and its threshold: the larger.
 // - Softness: two springs in series; their damping such that slow motion loses what both lose. A rigid
-// surface
-//   changes nothing in a soft one. A soft contact does not use restitution: its spring gives back what its
-//   damper leaves.
+//   surface changes nothing in a soft one. A soft contact does not use restitution: its spring gives back
+//   what its damper leaves.
 // - Torsional friction: the smaller coefficient, the larger radius. Rolling friction: the larger.
 // - Penetration left alone: the larger. Speed of mending, points of contact: the smaller.
 #pragma once

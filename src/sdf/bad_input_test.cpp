@@ -157,6 +157,15 @@ TEST(BadInput, UnknownElementsOfBlocksOfTheWorldAreReported) {
     }
 }
 
+TEST(BadInput, MisspeltElementsOfOurOwnInAWorldAreNotTakenForForeign) {
+    const Loaded loaded = load_elements("<roboss:slep>false</roboss:slep>\n<other:word/>");
+    EXPECT_NE(loaded.text().find("world.sdf:1: warning: <roboss:slep> in <world> is not known"),
+              std::string::npos)
+        << loaded.text();
+    EXPECT_NE(loaded.text().find("world.sdf:2: note: <other:word> in <world>"), std::string::npos)
+        << loaded.text();
+}
+
 TEST(BadInput, UnknownElementsOfOurOwnBlocksAreReported) {
     const auto load = [](const std::string& in_link, const std::string& in_joint) {
         return load_elements("<model name='m'>" + link("a", in_link) + link("b") +

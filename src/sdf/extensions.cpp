@@ -25,23 +25,19 @@ bool is_ours_here(const char* parent, const char* name) {
     return false;
 }
 
-void report_foreign(const Element& element, const Import& import) {
+void report_extension(const Element& element, const Import& import) {
     const std::string name = element.node.name(), parent = element.node.parent().name();
+    if (is_foreign(name)) return report_foreign(element, import.diagnostics());
     if (is_ours_here(parent.c_str(), name.c_str())) {
         if (name == "roboss:motor") report_unknown_children(element, kMotor, import.diagnostics());
         if (name == "roboss:drag") report_unknown_children(element, kDrag, import.diagnostics());
         return;
     }
-    if (name.rfind("roboss:", 0) == 0) {
-        import.diagnostics().warning(
-            element.where(), "unknown-extension",
-            "<" + name + "> in <" + parent + "> is not known and is ignored",
-            "Known: <roboss:sensor> and <roboss:drag> in a link, <roboss:motor> in a joint or axis, "
-            "<roboss:rolling_friction> in a collision or surface.");
-    } else {
-        import.diagnostics().note(element.where(), "foreign-element",
-                                  "<" + name + "> is not for RoBOSS and is ignored");
-    }
+    import.diagnostics().warning(
+        element.where(), "unknown-extension",
+        "<" + name + "> in <" + parent + "> is not known and is ignored",
+        "Known: <roboss:sensor> and <roboss:drag> in a link, <roboss:motor> in a joint or axis, "
+        "<roboss:rolling_friction> in a collision or surface.");
 }
 
 }  // namespace
@@ -60,7 +56,7 @@ void convert_extensions(const Element& parent, const Import& import,
         } else if (std::strcmp(node.name(), "model") == 0) {
             continue;  // nested models and includes take their own turn
         } else if (std::strchr(node.name(), ':') != nullptr) {
-            report_foreign(element, import);
+            report_extension(element, import);
         } else {
             convert_extensions(element, import, extensions);
         }

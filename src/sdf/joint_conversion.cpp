@@ -186,14 +186,12 @@ void report_unused_axis(JointSpec& spec, const Element& source, const char* name
     AxisSpec says;
     read_limit(axis.child("limit"), import.reader, says);
     read_dynamics(axis.child("dynamics"), import.reader, says);
+    says.initial_position = import.reader.number(axis, "initial_position", 0);
     // A ball joint has no axis to turn about, but damping can be the same in all directions.
     if (spec.kind == JointSpecKind::kBall) std::swap(spec.ball_damping, says.damping);
-    const bool limited = says.has_limits() || has_stiffness(says) || has_dissipation(says) ||
-                         says.max_effort >= 0 || says.max_velocity >= 0;
-    const bool dynamic = says.damping != 0 || says.friction != 0 || says.spring_stiffness != 0;
-    const bool driven = import.reader.number(axis, "initial_position", 0) != 0 ||
-                        axis.child("roboss:motor") || axis.child("mimic");
-    if (!limited && !dynamic && !driven) return;
+    const bool soft = has_stiffness(says) || has_dissipation(says);
+    const bool moved = axis.child("roboss:motor") || axis.child("mimic");
+    if (!says.says_more() && !soft && !moved) return;
     import.diagnostics().warning(
         axis.where(), "unused-axis",
         "joint '" + std::string(source.name()) + "' of type '" + source.node.attribute("type").value() +

@@ -12,11 +12,17 @@ std::string listed(std::span<const char* const> names) {
     return all;
 }
 
+}  // namespace
+
 bool is_foreign(const std::string& name) {
     return name.find(':') != std::string::npos && name.rfind("roboss:", 0) != 0;
 }
 
-}  // namespace
+void report_foreign(const Element& element, Diagnostics& diagnostics) {
+    diagnostics.note(element.where(), "foreign-element",
+                     "<" + std::string(element.node.name()) + "> in <" + element.node.parent().name() +
+                         "> is not for RoBOSS and is ignored");
+}
 
 void report_unknown_children(const Element& block, std::span<const char* const> known,
                              Diagnostics& diagnostics) {
@@ -24,13 +30,11 @@ void report_unknown_children(const Element& block, std::span<const char* const> 
         const std::string name = node.name();
         if (node.type() != pugi::node_element) continue;
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        const SourceLocation where = block.source->where(node);
-        const std::string parent = block.node.name();
         if (is_foreign(name))
-            diagnostics.note(where, "foreign-element", "<" + name + "> in <" + parent + "> is ignored");
+            report_foreign({block.source, node}, diagnostics);
         else
-            diagnostics.warning(where, "unknown-element",
-                                "<" + name + "> in <" + parent + "> is not known and is ignored",
+            diagnostics.warning(block.source->where(node), "unknown-element",
+                                "<" + name + "> in <" + block.node.name() + "> is not known and is ignored",
                                 "Check the spelling and the place. Known: " + listed(known) + ".");
     }
 }

@@ -91,7 +91,7 @@ void read_atmosphere(const Element& atmosphere, const Import& import, World& out
     report_unknown_children(atmosphere, kAtmosphere, import.diagnostics());
 }
 
-void report_other(const Element& element, const Import& import, World& out) {
+void report_other(const Element& element, const Import& import) {
     const std::string name = element.node.name();
     if (name == "actor") {
         import.diagnostics().warning(element.where(), "actor",
@@ -107,8 +107,8 @@ void report_other(const Element& element, const Import& import, World& out) {
     } else if (name == "road") {
         import.diagnostics().note(element.where(), "road",
                                   "roads are only drawn in Gazebo; they are left out");
-    } else if (std::strchr(name.c_str(), ':') != nullptr) {
-        import.diagnostics().note(element.where(), "foreign-element", "<" + name + "> in <world> is ignored");
+    } else if (is_foreign(name)) {
+        report_foreign(element, import.diagnostics());
     } else if (name == "plugin") {
         const auto written = element.name();
         import.diagnostics().note(
@@ -117,11 +117,11 @@ void report_other(const Element& element, const Import& import, World& out) {
                 "' is not run",
             "Drive robots from a Client program; physics and sensors need no plugin here.");
     } else {
-        import.diagnostics().warning(element.where(), "unknown-element",
-                                     "<" + name + "> in <world> is not known and is ignored",
-                                     "Check the spelling and the place.");
+        import.diagnostics().warning(
+            element.where(), "unknown-element", "<" + name + "> in <world> is not known and is ignored",
+            "Check the spelling and the place. Of RoBOSS in a world: <roboss:accuracy>, "
+            "<roboss:sleep> and <roboss:precision>.");
     }
-    (void)out;
 }
 
 }  // namespace
@@ -142,7 +142,7 @@ void read_world_settings(const Element& world, const std::string& profile, Impor
         const bool silent = std::any_of(std::begin(kSilent), std::end(kSilent), [&](const char* name) {
             return std::strcmp(name, node.name()) == 0;
         });
-        if (!silent) report_other({world.source, node}, import, out);
+        if (!silent) report_other({world.source, node}, import);
     }
 }
 

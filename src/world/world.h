@@ -203,6 +203,14 @@ struct AxisSpec {
     std::optional<MimicSpec> mimic;
 
     bool has_limits() const { return lower > -kUnlimited || upper < kUnlimited; }
+    /// Whether it says more than a direction (limits' softness without limits says nothing).
+    bool says_more() const {
+        const bool dynamic = damping != 0 || friction != 0 || spring_stiffness != 0;
+        const auto bounds = [](double most) { return most >= 0 && most < kUnlimited; };
+        const bool driven = position_gain != 0 || velocity_gain != 0 || armature != 0;
+        return dynamic || has_limits() || bounds(max_effort) || bounds(max_velocity) || driven ||
+               initial_position != 0 || mimic;
+    }
 };
 
 struct JointSpec {
@@ -222,7 +230,7 @@ struct JointSpec {
 
 /// <plugin> and namespaced elements that are kept for others to read.
 struct ExtensionElement {
-    std::string name;  // e.g. "plugin", "roboss:population"
+    std::string name;  // e.g. "plugin", "roboss:sensor"
     std::string text;  // the element as XML
     SourceLocation where;
 };
