@@ -56,6 +56,20 @@ double frame_bytes(const VirtualCluster& cluster) {
     return found == cluster.network().received.end() ? 0 : static_cast<double>(found->second.bytes);
 }
 
+/// The efficiency before messages if what islands cost is counted (Newton iterations) instead of measured, by
+/// the Simulators and here: how well plans share out the work, whatever the machine's moods.
+double counted_efficiency(const Work& work, std::size_t simulators, VirtualCluster::Options options) {
+    options.measure_cpu = false;
+    VirtualCluster cluster(work.model, options, work.start());
+    cluster.run_until(work.settle);
+    const Counters before = cluster.controller().counters();
+    cluster.run_until(work.ticks);
+    check_hash(work, cluster.controller().hash(), "the cluster of counted work");
+    const Counters& c = cluster.controller().counters();
+    return share(c.step_cpu_s - before.step_cpu_s,
+                 static_cast<double>(simulators) * (c.critical_cpu_s - before.critical_cpu_s));
+}
+
 }  // namespace
 
 Json measure(const Work& work, std::size_t simulators, const ClusterSettings& settings, bool one_island) {
@@ -77,23 +91,27 @@ Json measure(const Work& work, std::size_t simulators, const ClusterSettings& se
     const auto n = static_cast<double>(simulators), robots = static_cast<double>(work.model->robots.size());
     const auto ticks = static_cast<double>(work.ticks - work.settle);
     const double windows = since(&Counters::windows);
-    return {{"world", one_island ? work.name + ", one island" : work.name},
-            {"robots", work.model->robots.size()},
-            {"simulators", simulators},
-            {"ceiling", one_island ? 1 / n : packing_ceiling(work.model->robots.size(), simulators)},
-            {"stepping", share(alone.step_cpu_s(), n * since(&Counters::critical_cpu_s))},
-            {"everything", share(alone.step_cpu_s(), n * time_s)},
-            {"dearer", share(since(&Counters::step_cpu_s), alone.step_cpu_s())},
-            {"speedup", share(alone.cpu_s(), time_s)},
-            {"step_us", 1e6 * time_s / ticks},
-            {"alone_us", 1e6 * alone.cpu_s() / ticks},
-            {"window_ticks", share(ticks, windows)},
-            {"repeated", share(since(&Counters::windows_repeated), windows)},
-            {"islands", share(since(&Counters::island_ticks), ticks)},
-            {"migrations", share(since(&Counters::migrations), windows)},
-            {"controller_us", share(1e6 * controller_s, windows)},
-            {"frame_bytes", share(frame_bytes(cluster) - begin_bytes,
-                                  robots * windows + since(&Counters::robots_repeated))}};
+    Json row = {{"world", one_island ? work.name + ", one island" : work.name},
+                {"robots", work.model->robots.size()},
+                {"simulators", simulators},
+                {"ceiling", one_island ? 1 / n : packing_ceiling(work.model->robots.size(), simulators)},
+                {"stepping", share(alone.step_cpu_s(), n * since(&Counters::critical_cpu_s))},
+                {"everything", share(alone.step_cpu_s(), n * time_s)},
+                {"dearer", share(since(&Counters::step_cpu_s), alone.step_cpu_s())},
+                {"speedup", share(alone.cpu_s(), time_s)},
+                {"step_us", 1e6 * time_s / ticks},
+                {"alone_us", 1e6 * alone.cpu_s() / ticks},
+                {"window_ticks", share(ticks, windows)},
+                {"repeated", share(since(&Counters::windows_repeated), windows)},
+                {"islands", share(since(&Counters::island_ticks), ticks)},
+                {"migrations", share(since(&Counters::migrations), windows)},
+                {"controller_us", share(1e6 * controller_s, windows)},
+                {"frame_bytes", share(frame_bytes(cluster) - begin_bytes,
+                                      robots * windows + since(&Counters::robots_repeated))}};
+    constexpr std::size_t kFewRobots = 500;  // of more it takes long and says no more than the time does
+    if (work.model->robots.size() <= kFewRobots)
+        row["counted"] = counted_efficiency(work, simulators, options);
+    return row;
 }
 
 Json detach(const Work& work, std::size_t simulators, Tick every, const ClusterSettings& settings) {
@@ -123,15 +141,19 @@ Json detach(const Work& work, std::size_t simulators, Tick every, const ClusterS
 std::string line_of(const Json& row) {
     char text[500];
     const auto number = [&](const char* name) { return row[name].get<double>(); };
+    std::string counted;
+    if (row.contains("counted"))
+        counted = "; stepping by counted work " + std::to_string(number("counted")).substr(0, 5);
     std::snprintf(text, sizeof text,
                   "%-18s %5.0f robots, %2.0f Simulators: efficiency ceiling %.3f, stepping %.3f, everything "
                   "%.3f, a step %.3f times as dear as in one process; speed-up %.2f; %.1f us a step; "
                   "windows of %.1f ticks, %.3f repeated; Controller %.0f us a window, %.1f bytes a robot to "
-                  "it; %.1f moves; in one process %.1f us a step",
+                  "it; %.1f moves; in one process %.1f us a step%s",
                   row["world"].get<std::string>().c_str(), number("robots"), number("simulators"),
                   number("ceiling"), number("stepping"), number("everything"), number("dearer"),
                   number("speedup"), number("step_us"), number("window_ticks"), number("repeated"),
-                  number("controller_us"), number("frame_bytes"), number("migrations"), number("alone_us"));
+                  number("controller_us"), number("frame_bytes"), number("migrations"), number("alone_us"),
+                  counted.c_str());
     return text;
 }
 

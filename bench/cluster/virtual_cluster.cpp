@@ -17,6 +17,7 @@ VirtualCluster::VirtualCluster(std::shared_ptr<const Model> model, const Options
     network_.add(kControllerAddress);
     SimulatorOptions role;
     role.lanes = options.lanes;
+    role.measure_cpu = options.measure_cpu;
     for (std::size_t i = 1; i <= options.simulators; ++i) {
         const Address address{Role::kSimulator, i};
         simulators_.push_back(std::make_unique<Simulator>(model_, address, role, pool_));

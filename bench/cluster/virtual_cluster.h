@@ -19,6 +19,7 @@ class VirtualCluster {
     struct Options {
         std::size_t simulators = 1;
         std::size_t lanes = 1;
+        bool measure_cpu = true;  // SimulatorOptions
         NetworkCosts network;
         ControllerOptions controller;
     };

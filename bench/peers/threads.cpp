@@ -22,8 +22,8 @@ double wall_s() {
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-constexpr int kRoundsPerBlock =
-    4;  // more than a contest has: whether cores disturb each other comes and goes
+// More turns than a contest has: whether cores disturb each other comes and goes.
+constexpr int kRoundsPerBlock = 4;
 
 using Run = std::unique_ptr<Simulation>;
 
