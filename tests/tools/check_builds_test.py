@@ -23,7 +23,8 @@ class CheckBuilds(unittest.TestCase):
         self.root = Path(self.folder.name)
         (self.root / "tests").mkdir()
         (self.root / "tools").mkdir()
-        shutil.copy(TOOL, self.root / "tools/check_builds")
+        for tool in (TOOL, TOOL.parent / "jobs.sh"):
+            shutil.copy(tool, self.root / "tools")
         self.script("tools/build.sh", "#!/bin/bash\n")
         for preset in ("release", "dev", "clang"):
             self.build(preset, "aaaa", "1111")
@@ -63,6 +64,13 @@ class CheckBuilds(unittest.TestCase):
     def test_fails_when_the_list_says_otherwise(self):
         self.list.write_text("cccc worlds/a.sdf\n")
         self.assertEqual(self.run_tool()[1].splitlines()[-1], "builds: 0 passed, 3 failed")
+
+    def test_tells_each_run_in_the_order_of_the_list(self):
+        self.list.write_text("".join(f"{'cccc' if i == 3 else 'aaaa'} worlds/{i}.sdf\n" for i in range(6)))
+        code, output = self.run_tool("release", "clang")
+        self.assertEqual(code, 1)
+        told = [(line.split()[0], line.split()[1], line.split()[-1]) for line in output.splitlines()[:-1]]
+        self.assertEqual(told, [("WRONG" if i == 3 else "ok", build, f"worlds/{i}.sdf") for i in range(6) for build in ("release", "clang")])
 
     def test_fails_when_a_run_fails_or_nothing_is_listed(self):
         self.script("build/dev/bin/roboss", "#!/bin/bash\necho no such world >&2\nexit 3\n")
