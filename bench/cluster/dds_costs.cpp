@@ -11,6 +11,7 @@
 
 #include "core/thread_cpu.h"
 #include "dds/dds_bus.h"
+#include "median.h"
 
 namespace roboss::bench {
 namespace {
@@ -39,12 +40,6 @@ Plan letter() {
         plan.island_offsets.push_back(i + 1);
     }
     return plan;
-}
-
-double median(std::vector<double> values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                     values.end());
-    return values[values.size() / 2];
 }
 
 double wall_us() {

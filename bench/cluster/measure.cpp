@@ -141,20 +141,19 @@ Json detach(const Work& work, std::size_t simulators, Tick every, const ClusterS
 std::string line_of(const Json& row) {
     char text[500];
     const auto number = [&](const char* name) { return row[name].get<double>(); };
-    std::string counted;
-    if (row.contains("counted"))
-        counted = "; stepping by counted work " + std::to_string(number("counted")).substr(0, 5);
     std::snprintf(text, sizeof text,
                   "%-18s %5.0f robots, %2.0f Simulators: efficiency ceiling %.3f, stepping %.3f, everything "
                   "%.3f, a step %.3f times as dear as in one process; speed-up %.2f; %.1f us a step; "
                   "windows of %.1f ticks, %.3f repeated; Controller %.0f us a window, %.1f bytes a robot to "
-                  "it; %.1f moves; in one process %.1f us a step%s",
+                  "it; %.1f moves; in one process %.1f us a step",
                   row["world"].get<std::string>().c_str(), number("robots"), number("simulators"),
                   number("ceiling"), number("stepping"), number("everything"), number("dearer"),
                   number("speedup"), number("step_us"), number("window_ticks"), number("repeated"),
-                  number("controller_us"), number("frame_bytes"), number("migrations"), number("alone_us"),
-                  counted.c_str());
-    return text;
+                  number("controller_us"), number("frame_bytes"), number("migrations"), number("alone_us"));
+    if (!row.contains("counted")) return text;
+    char counted[50];
+    std::snprintf(counted, sizeof counted, "; stepping by counted work %.3f", number("counted"));
+    return std::string(text) + counted;
 }
 
 }  // namespace roboss::bench

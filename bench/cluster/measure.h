@@ -17,8 +17,7 @@ struct ClusterSettings {
 };
 
 /// Efficiencies (docs/cluster-efficiency.md says how each is meant; "counted" only of few robots), costs and
-/// traffic. Throws if the run
-/// does not end with the state hash of the recorded one.
+/// traffic. Throws if the run does not end with the state hash of the recorded one.
 Json measure(const Work& work, std::size_t simulators, const ClusterSettings& settings,
              bool one_island = false);
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "median.h"
 #include "peers/worker.h"
 
 namespace roboss::bench {
@@ -60,15 +61,18 @@ void run_block(Entry& entry, std::size_t robots, const ContestOptions& options) 
 void finish(Entry& entry, std::size_t robots, const ContestOptions& options) {
     const Report report = entry.worker->judge(options.start_limit_s);
     if (report.failed) return give_up(entry, report.text);
-    std::sort(entry.us.begin(), entry.us.end());
-    entry.row.us_least = entry.us.front(), entry.row.us_most = entry.us.back();
-    entry.row.us_median = entry.us[entry.us.size() / 2];
+    entry.row.set_times(entry.us);
     entry.row.bytes_per_robot = report.bytes / static_cast<double>(robots);
     entry.row.right = report.good, entry.row.verdict = report.text;
     entry.worker.reset();
 }
 
 }  // namespace
+
+void Row::set_times(const std::vector<double>& us) {
+    const auto [least, most] = std::minmax_element(us.begin(), us.end());
+    us_least = *least, us_median = median(us), us_most = *most;
+}
 
 std::vector<Row> hold_contest(const SceneKind& kind, std::size_t robots, const ContestOptions& wanted) {
     ContestOptions options = wanted;

@@ -37,6 +37,9 @@ struct Row {
     double build_s = 0, bytes_per_robot = 0;
     bool right = false;
     std::string verdict;
+
+    /// From those of the blocks; there must be one.
+    void set_times(const std::vector<double>& us);
 };
 
 std::vector<Row> hold_contest(const SceneKind& kind, std::size_t robots, const ContestOptions& options);

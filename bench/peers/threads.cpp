@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "median.h"
 #include "peers/contest.h"
 #include "scenes/car_drive.h"
 #include "simulation/simulation.h"
@@ -50,12 +51,6 @@ double wall_s_of(const std::function<void()>& work) {
     return wall_s() - before;
 }
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 /// Who is compared: what it does in a round, and how often it steps every car of a world meanwhile.
 struct Contender {
     std::string name, settings;
@@ -68,9 +63,7 @@ Row row_of(const Contender& who, const Contender& first, std::size_t cars) {
     Row row;
     row.scene = "threads", row.robots = cars;
     row.engine = who.name, row.settings = who.settings;
-    row.us_median = median(who.us);
-    row.us_least = *std::min_element(who.us.begin(), who.us.end());
-    row.us_most = *std::max_element(who.us.begin(), who.us.end());
+    row.set_times(who.us);
     std::vector<double> ratios;
     for (std::size_t i = 0; i < who.us.size(); ++i) ratios.push_back(who.us[i] / first.us[i]);
     row.ratio = median(ratios);

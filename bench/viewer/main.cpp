@@ -11,6 +11,7 @@
 #include "browser.h"
 #include "car_field.h"
 #include "live_run.h"
+#include "median.h"
 
 namespace roboss::bench {
 namespace {
@@ -74,11 +75,6 @@ Round play(const std::shared_ptr<const Model>& model, const Question& question, 
     for (const auto& browser : browsers)
         round.states_per_s += static_cast<double>(browser->states()) / (wall_s + 1) / viewers;
     return round;
-}
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
 }
 
 Round median_of(const std::vector<Round>& rounds) {
