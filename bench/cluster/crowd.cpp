@@ -61,7 +61,7 @@ class Answerer {
 
   private:
     Frame answer(const Plan& plan) const {
-        Frame frame{plan.epoch, plan.window, plan.attempt, plan.simulator, {}, {}, {}};
+        Frame frame{plan.epoch, plan.window, plan.attempt, plan.simulator, 0, {}, {}, {}};
         for (const RobotId robot : plan.robots) frame.robots.push_back(frame_of(robot, plan));
         for (std::size_t i = 0; i + 1 < plan.island_offsets.size(); ++i)
             frame.islands.push_back(
@@ -102,7 +102,7 @@ CrowdCosts measure_crowd(std::size_t robots, std::size_t simulators, std::size_t
     options.simulators = simulators;
     options.window = 16;
     Controller controller(model, options, beginning_of(*model));
-    VirtualNetwork network({0, 1, 1e9});
+    VirtualNetwork network({0, 1, 1e9}, false);
     network.add(kControllerAddress);
     std::vector<Answerer> answerers;
     for (std::size_t i = 1; i <= simulators; ++i) {

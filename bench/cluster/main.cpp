@@ -41,6 +41,7 @@ void add_options(CLI::App& app, Wishes& w) {
         ->capture_default_str();
     app.add_option("--window-max", w.settings.window_max, "ticks (0: by the number of robots)")
         ->capture_default_str();
+    app.add_flag("!--helpless", w.settings.help, "nobody takes over from who is late");
     app.add_option("--lanes", w.settings.lanes, "robots stepped at once")->capture_default_str();
     app.add_option("--send-us", w.send_us, "CPU time of sending a message (default: measured over Fast DDS)");
     app.add_option("--way-us", w.way_us, "its time on the way (default: measured)");

@@ -2,6 +2,7 @@
 #include "cluster/measure.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "cluster/virtual_cluster.h"
@@ -27,7 +28,8 @@ VirtualCluster::Options options_for(std::size_t simulators, const ClusterSetting
     options.controller.seed = 7;
     options.controller.window_max = settings.window_max;
     options.controller.loss_ms = options.controller.resend_ms = 60'000;  // nothing is lost here
-    options.controller.checkpoint_work_s = 0.2;                          // as `roboss controller` has it
+    if (!settings.help) options.controller.help_least_ns = std::numeric_limits<double>::infinity();
+    options.controller.checkpoint_work_s = 0.2;  // as `roboss controller` has it
     return options;
 }
 
@@ -60,6 +62,7 @@ double frame_bytes(const VirtualCluster& cluster) {
 /// the Simulators and here: how well plans share out the work, whatever the machine's moods.
 double counted_efficiency(const Work& work, std::size_t simulators, VirtualCluster::Options options) {
     options.measure_cpu = false;
+    options.network = {0, 0, 1e9};
     VirtualCluster cluster(work.model, options, work.start());
     cluster.run_until(work.settle);
     const Counters before = cluster.controller().counters();
@@ -105,6 +108,7 @@ Json measure(const Work& work, std::size_t simulators, const ClusterSettings& se
                 {"repeated", share(since(&Counters::windows_repeated), windows)},
                 {"islands", share(since(&Counters::island_ticks), ticks)},
                 {"migrations", share(since(&Counters::migrations), windows)},
+                {"cuts", share(since(&Counters::cuts), windows)},
                 {"controller_us", share(1e6 * controller_s, windows)},
                 {"frame_bytes", share(frame_bytes(cluster) - begin_bytes,
                                       robots * windows + since(&Counters::robots_repeated))}};
@@ -145,11 +149,12 @@ std::string line_of(const Json& row) {
                   "%-18s %5.0f robots, %2.0f Simulators: efficiency ceiling %.3f, stepping %.3f, everything "
                   "%.3f, a step %.3f times as dear as in one process; speed-up %.2f; %.1f us a step; "
                   "windows of %.1f ticks, %.3f repeated; Controller %.0f us a window, %.1f bytes a robot to "
-                  "it; %.1f moves; in one process %.1f us a step",
+                  "it; %.1f moves, %.1f cut short; in one process %.1f us a step",
                   row["world"].get<std::string>().c_str(), number("robots"), number("simulators"),
                   number("ceiling"), number("stepping"), number("everything"), number("dearer"),
                   number("speedup"), number("step_us"), number("window_ticks"), number("repeated"),
-                  number("controller_us"), number("frame_bytes"), number("migrations"), number("alone_us"));
+                  number("controller_us"), number("frame_bytes"), number("migrations"), number("cuts"),
+                  number("alone_us"));
     if (!row.contains("counted")) return text;
     char counted[50];
     std::snprintf(counted, sizeof counted, "; stepping by counted work %.3f", number("counted"));

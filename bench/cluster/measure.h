@@ -14,6 +14,7 @@ struct ClusterSettings {
     NetworkCosts network;
     Tick window_max = 0;  // 0: by the number of robots
     std::size_t lanes = 1;
+    bool help = true;  // who is done takes over from who is late
 };
 
 /// Efficiencies (docs/cluster-efficiency.md says how each is meant; "counted" only of few robots), costs and

@@ -10,7 +10,7 @@ constexpr std::int64_t kIdle_ns = 1'000'000;  // nothing is under way: clocks go
 
 VirtualCluster::VirtualCluster(std::shared_ptr<const Model> model, const Options& options,
                                StartingPoint start)
-    : model_(std::move(model)), network_(options.network) {
+    : model_(std::move(model)), network_(options.network, !options.measure_cpu) {
     ControllerOptions controller = options.controller;
     controller.simulators = options.simulators;
     controller_ = std::make_unique<Controller>(model_, controller, std::move(start));
@@ -18,6 +18,8 @@ VirtualCluster::VirtualCluster(std::shared_ptr<const Model> model, const Options
     SimulatorOptions role;
     role.lanes = options.lanes;
     role.measure_cpu = options.measure_cpu;
+    role.counted = [this](double work_ns) { network_.count(work_ns); };
+    role.cpu_clock = [this] { return network_.work_ns(); };
     for (std::size_t i = 1; i <= options.simulators; ++i) {
         const Address address{Role::kSimulator, i};
         simulators_.push_back(std::make_unique<Simulator>(model_, address, role, pool_));

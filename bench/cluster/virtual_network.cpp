@@ -7,13 +7,9 @@
 
 namespace roboss::bench {
 
-namespace {
-
-std::int64_t cpu_ns() {
-    return static_cast<std::int64_t>(thread_cpu_ns());
+std::int64_t VirtualNetwork::cpu_ns() const {
+    return static_cast<std::int64_t>(counted_ ? static_cast<std::uint64_t>(counted_ns_) : thread_cpu_ns());
 }
-
-}  // namespace
 
 void VirtualNetwork::add(const Address& address) {
     places_[address] = members_.size();
@@ -33,6 +29,13 @@ void VirtualNetwork::send(const Address& from, const Address& to, Message messag
 
 void VirtualNetwork::drain(const Address&, std::vector<Envelope>& inbox) {
     inbox.clear();
+    if (looked_ && others_are_behind()) {
+        const std::size_t self = at_work_;
+        end();
+        members_[self].turn->pause();
+        begin(self, members_[self].clock_ns);
+    }
+    looked_ = true;
     Member& member = members_[at_work_];
     while (!member.inbox.empty() && member.inbox.top().arrival_ns <= now_ns()) {
         const std::vector<std::uint8_t>& bytes = member.inbox.top().bytes;
@@ -54,8 +57,16 @@ std::int64_t VirtualNetwork::latest_ns() const {
     return latest;
 }
 
+bool VirtualNetwork::others_are_behind() const {
+    const std::int64_t now = now_ns();
+    for (std::size_t i = 0; i < members_.size(); ++i)
+        if (i != at_work_ && ready_ns(i) < now) return true;
+    return false;
+}
+
 std::int64_t VirtualNetwork::ready_ns(std::size_t i) const {
     const Member& m = members_[i];
+    if (m.turn->under_way()) return m.clock_ns;
     return m.inbox.empty() ? kNever : std::max(m.clock_ns, m.inbox.top().arrival_ns);
 }
 
@@ -64,6 +75,17 @@ std::size_t VirtualNetwork::next() const {
     for (std::size_t i = 1; i < members_.size(); ++i)
         if (ready_ns(i) < ready_ns(first)) first = i;
     return ready_ns(first) == kNever ? members_.size() : first;
+}
+
+void VirtualNetwork::work(std::size_t i, std::int64_t start_ns, const std::function<void(Bus&)>& role) {
+    Fiber& turn = *members_[i].turn;
+    if (turn.under_way()) return turn.go_on();
+    turn.begin([this, i, start_ns, role] {
+        begin(i, start_ns);
+        looked_ = false;
+        role(*this);
+        end();
+    });
 }
 
 void VirtualNetwork::begin(std::size_t i, std::int64_t start_ns) {
@@ -75,9 +97,14 @@ void VirtualNetwork::begin(std::size_t i, std::int64_t start_ns) {
 
 void VirtualNetwork::end() {
     Member& member = members_[at_work_];
-    const std::int64_t spent = cpu_ns() - began_ns_ + member.toll_ns;
+    const std::int64_t work = cpu_ns() - began_ns_, spent = work + member.toll_ns;
+    member.work_ns += work;
     member.clock_ns += spent;
     member.spent_ns += spent;
+}
+
+std::uint64_t VirtualNetwork::work_ns() const {
+    return static_cast<std::uint64_t>(members_[at_work_].work_ns + cpu_ns() - began_ns_);
 }
 
 std::int64_t VirtualNetwork::now_ns() const {

@@ -4,14 +4,17 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
+#include <memory>
 #include <queue>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "bus/bus.h"
+#include "cluster/fiber.h"
 #include "wire/codec.h"
 
 namespace roboss::bench {
@@ -33,7 +36,8 @@ class VirtualNetwork : public Bus {
   public:
     static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
-    explicit VirtualNetwork(const NetworkCosts& costs) : costs_(costs) {}
+    /// `counted`: clocks run by the work that is told of (count()), not by CPU time.
+    VirtualNetwork(const NetworkCosts& costs, bool counted) : costs_(costs), counted_(counted) {}
     void add(const Address& address);
 
     void send(const Address& from, const Address& to, Message message) override;
@@ -45,18 +49,17 @@ class VirtualNetwork : public Bus {
     std::int64_t latest_ns() const;
     /// CPU time that this member has spent, tolls included.
     std::int64_t spent_ns(std::size_t i) const { return members_[i].spent_ns; }
+    void count(double work_ns) { counted_ns_ += work_ns; }
+    /// CPU time of the member whose turn it is, without tolls: its own clock for what it measures.
+    std::uint64_t work_ns() const;
     /// When this member can go on; kNever: nothing has come for it.
     std::int64_t ready_ns(std::size_t i) const;
     /// The one that can go on first; size(): nobody can, for nothing is under way.
     std::size_t next() const;
 
-    /// Gives a member its turn: role(bus) is its work, from `start_ns` by its clock.
-    template <class Role>
-    void work(std::size_t i, std::int64_t start_ns, Role&& role) {
-        begin(i, start_ns);
-        role(static_cast<Bus&>(*this));
-        end();
-    }
+    /// Gives a member its turn: role(bus) is its work, from `start_ns` by its clock. In its midst, where it
+    /// looks for messages, it pauses while others' clocks are behind: they may still write to it.
+    void work(std::size_t i, std::int64_t start_ns, const std::function<void(Bus&)>& role);
 
     /// By the Controller, by message name.
     std::map<std::string, Traffic> received;
@@ -71,7 +74,8 @@ class VirtualNetwork : public Bus {
         }
     };
     struct Member {
-        std::int64_t clock_ns = 0, spent_ns = 0;
+        std::unique_ptr<Fiber> turn = std::make_unique<Fiber>();
+        std::int64_t clock_ns = 0, spent_ns = 0, work_ns = 0;
         std::int64_t toll_ns = 0;  // of what was sent in this turn
         std::priority_queue<Letter> inbox;
     };
@@ -79,11 +83,17 @@ class VirtualNetwork : public Bus {
     void begin(std::size_t i, std::int64_t start_ns);
     void end();
     std::int64_t now_ns() const;
+    bool others_are_behind() const;
+
+    std::int64_t cpu_ns() const;
 
     NetworkCosts costs_;
+    bool counted_ = false;
+    double counted_ns_ = 0;
     std::map<Address, std::size_t> places_;
     std::vector<Member> members_;
     std::size_t at_work_ = 0;
+    bool looked_ = false;  // for messages, since its turn began
     std::int64_t began_ns_ = 0;
     std::uint64_t serial_ = 0;
 };

@@ -44,6 +44,7 @@ void FaultyBus::send(const Address& from, const Address& to, Message message) {
 
 void FaultyBus::drain(const Address& self, std::vector<Envelope>& inbox) {
     inbox.clear();
+    if (on_drain) on_drain();
     auto& queue = under_way_[self];
     while (!queue.empty() && queue.begin()->first.first <= now_ms_) {
         Result<Envelope> envelope = decode_envelope(queue.begin()->second);

@@ -3,6 +3,7 @@
 // tests.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <set>
 
@@ -31,6 +32,10 @@ class FaultyBus : public Bus {
     std::vector<Address> take_vanished(const Address& self) override;
     /// A uniform number below `limit`, from the same seeded stream; for choosing when to kill whom.
     std::uint64_t random(std::uint64_t limit);
+    /// Called when somebody looks for messages, before it gets them: a test's chance to let others go on
+    /// meanwhile.
+    std::function<void()> on_drain;
+
     std::uint64_t dropped() const { return dropped_; }
     std::uint64_t doubled() const { return doubled_; }
 

@@ -54,6 +54,7 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
 void Controller::advance(Bus& bus) {
     bus.drain(kControllerAddress, inbox_);
     for (Envelope& envelope : inbox_) handle(bus, envelope);
+    relieve(bus);
     notice_losses(bus);
     notice_client_losses(bus);
     if (round_ && round_->all_answered()) finish_round();
@@ -81,6 +82,8 @@ void Controller::handle(Bus& bus, Envelope& envelope) {
     const Address& from = envelope.from;
     if (const auto* frame = std::get_if<Frame>(&envelope.message)) {
         if (heard_from(bus, from, frame->simulator)) take_frame(*frame);
+    } else if (const auto* late = std::get_if<Late>(&envelope.message)) {
+        if (heard_from(bus, from, late->simulator) && round_) round_->take_late(*late, roster_);
     } else if (const auto* alive = std::get_if<Alive>(&envelope.message)) {
         heard_from(bus, from, alive->simulator);
     } else if (const auto* request = std::get_if<StateRequest>(&envelope.message)) {

@@ -37,7 +37,9 @@ struct ControllerOptions {
     std::vector<std::string> clients;  // and for these; their ids are their places here
     std::uint64_t seed = 1;            // told to Clients
     std::int64_t resend_ms = 100;
-    std::size_t ahead_least = 500;    // orders of the next window that are worth telling before it
+    std::size_t ahead_least = 500;  // orders of the next window that are worth telling before it
+    /// Of a window's work for each: less of it is not shared out anew, whoever is late.
+    double help_least_ns = 500'000;
     std::int64_t alive_ms = 250;      // a sign of life to everybody
     std::int64_t loss_ms = 0;         // a Simulator silent for so long is given up; 0: never
     std::int64_t client_loss_ms = 0;  // so is a Client that does not answer an observation; 0: never
@@ -86,6 +88,7 @@ struct Counters {
     double critical_cpu_s = 0;  // of the busiest Simulator of each attempt: what many machines would wait for
     std::uint64_t losses = 0, recoveries = 0, migrations = 0, checkpoints = 0, orders_refused = 0;
     std::uint64_t orders_ahead = 0;  // told before the plan of their window
+    std::uint64_t cuts = 0;          // plans that were late and of which others took a part over
     std::size_t simulators = 0, islands_now = 0;
 };
 
@@ -244,12 +247,18 @@ class Controller {
     double largest_share() const;
     void send_plans(Bus& bus);
     void take_frame(const Frame& frame);
+    void take_costs(const Round::Answered& answered, const Frame& frame);
     void finish_round();
     bool merge_touching();
     void commit();
     void learn_costs();
     void learn_rates(std::span<const double> expected_ns, std::span<const double> spent_ns);
     std::optional<Error> failed_island() const;
+
+    // controller_help.cpp: who is done takes over from who is late
+    void expect_work();
+    void relieve(Bus& bus);
+    void share_out_rest(const Round::Answered& cut_short, std::span<const IslandFrame> parts, Tick at);
 
     // controller_views.cpp
     void take_view_request(Bus& bus, const Address& from, const ViewRequest& request);
@@ -321,7 +330,6 @@ class Controller {
     double work_since_s_ = 0;  // of the busiest Simulator since the last checkpoint
     bool states_wanted_ = false;
     std::vector<WantedTick> wants_;
-    std::uint64_t busiest_ns_ = 0;     // of the attempt under way
     std::vector<RobotId> recovering_;  // robots of the recovery under way, ascending
     bool tell_again_ = false;
     std::int64_t alive_said_ms_ = 0;

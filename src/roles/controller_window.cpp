@@ -87,6 +87,7 @@ void Controller::plan_window() {
     round_->plan(round_->islands, place, holder_, roster_);
     feed_.give_rest(book_, *round_);
     round_->send_dearest_first(cost_);
+    expect_work();
     for (std::size_t r = 0; r < holder_.size(); ++r)
         if (holder_[r] != kAtController && holder_[r] != round_->seat_of(RobotId(r))) ++counters_.migrations;
     keep_wanted(*round_);
@@ -106,7 +107,9 @@ void Controller::keep_wanted(Round& round) const {
 
 /// While they are worked on there is time to tell the orders of the next window.
 void Controller::send_plans(Bus& bus) {
-    round_->send(bus, roster_, options_.resend_ms, [this](Plan& plan) { give_all(book_, plan); });
+    round_->send(bus, roster_, options_.resend_ms, [this](Plan& plan) {
+        if (plan.ahead != 0) give_all(book_, plan);
+    });
     const RoundSpan& span = round_->span();
     if (span.recovery || feed_.sent_in(span.window)) return;
     look_ahead();
@@ -133,14 +136,19 @@ double Controller::largest_share() const {
 
 void Controller::take_frame(const Frame& frame) {
     if (!round_) return;
-    const std::optional<Plan> plan = round_->answered_by(frame);
-    if (!plan) return;
+    const std::optional<Round::Answered> answered = round_->answered_by(frame);
+    if (!answered) return;
+    const Plan& plan = answered->plan;
+    take_costs(*answered, frame);
+    if (frame.left > 0)
+        return share_out_rest(*answered, frame.islands, plan.until - static_cast<Tick>(frame.left));
     const bool plan_is_recovery = round_->span().recovery,
-               first = !plan_is_recovery && round_->attempt() == 0;
-    const auto span_s = static_cast<float>(static_cast<double>(plan->until - plan->from) * model_->dt_s);
+               first = !plan_is_recovery && round_->repeats() == 0;
     for (const RobotFrame& f : frame.robots) {
         next_hashes_[f.robot.index()] = f.hash;
         if (plan_is_recovery) continue;
+        const auto span_s =
+            static_cast<float>(static_cast<double>(plan.until - round_->since(f.robot)) * model_->dt_s);
         RobotMotion& motion = motions_[f.robot.index()];
         motion = {f.swept, unpack_place(f.place, f.swept), unpack_velocity(f.velocity), span_s};
         if (!first) continue;
@@ -149,19 +157,31 @@ void Controller::take_frame(const Frame& frame) {
     }
     if (first)
         for (const EarlierBox& e : frame.earlier) watch_.add({e.swept, e.robot.value}, false);
+    round_->earlier.insert(round_->earlier.end(), frame.earlier.begin(), frame.earlier.end());
+}
+
+/// What islands cost, and how they fared; where a part of the window was stepped, besides what the parts
+/// before it say.
+void Controller::take_costs(const Round::Answered& answered, const Frame& frame) {
+    const Plan& plan = answered.plan;
     std::uint64_t cost_ns = 0;
     for (std::size_t i = 0; i < frame.islands.size(); ++i) {
-        round_->outcome[plan->robots[plan->island_offsets[i]].index()] = frame.islands[i];
-        cost_ns += frame.islands[i].cost_ns;
+        const IslandFrame& part = frame.islands[i];
+        IslandFrame& outcome = round_->outcome[plan.robots[plan.island_offsets[i]].index()];
+        const IslandFrame before = plan.from > plan.window_from ? outcome : IslandFrame{};
+        outcome = part;
+        outcome.cost_ns += before.cost_ns;
+        outcome.contacts += before.contacts;
+        outcome.static_contacts += before.static_contacts;
+        cost_ns += part.cost_ns;
     }
-    busiest_ns_ = std::max(busiest_ns_, cost_ns);
+    round_->spend(answered.place, cost_ns);
     counters_.step_cpu_s += 1e-9 * static_cast<double>(cost_ns);
-    round_->earlier.insert(round_->earlier.end(), frame.earlier.begin(), frame.earlier.end());
 }
 
 void Controller::finish_round() {
     if (waits_for_log()) return options_.log->hurry();
-    counters_.critical_cpu_s += 1e-9 * static_cast<double>(std::exchange(busiest_ns_, 0));
+    counters_.critical_cpu_s += 1e-9 * static_cast<double>(round_->busiest_ns());
     if (round_->span().recovery) return finish_leg();
     if (merge_touching()) return;
     if (std::optional<Error> error = failed_island()) {
@@ -239,15 +259,15 @@ void Controller::commit() {
         counters_.contacts += round.outcome[robots.front().index()].contacts;
         counters_.static_contacts += round.outcome[robots.front().index()].static_contacts;
     }
-    length_.committed(ticks, round.attempt() > 0, largest_share(), window_max());
+    length_.committed(ticks, round.repeats() > 0, largest_share(), window_max());
     ++counters_.windows;
-    counters_.windows_repeated += round.attempt() > 0 ? 1 : 0;
+    counters_.windows_repeated += round.repeats() > 0 ? 1 : 0;
     counters_.islands += round.islands.count();
     counters_.ticks += static_cast<std::uint64_t>(ticks);
     counters_.island_ticks += static_cast<std::uint64_t>(ticks) * round.islands.count();
     counters_.islands_now = round.islands.count();
 
-    holder_.assign(round.seats().begin(), round.seats().end());
+    holder_.assign(round.last_seats().begin(), round.last_seats().end());
     hashes_ = next_hashes_;
     tick_ = round.span().until;
     islands_ = std::move(round_->islands);
@@ -266,13 +286,17 @@ void Controller::learn_costs() {
     std::vector<double> expected_ns(roster_.size(), 0.0), spent_ns(roster_.size(), 0.0);
     for (std::size_t i = 0; i < round.islands.count(); ++i) {
         const auto robots = round.islands.of(i);
-        const std::uint32_t place = round.seat_of(robots.front());
+        const std::uint32_t place = round.seat_of(robots.front()),
+                            last = round.last_seats()[robots.front().index()];
         const auto cost_ns = static_cast<double>(round.outcome[robots.front().index()].cost_ns);
         double expected = 0;
         for (const RobotId robot : robots) expected += static_cast<double>(cost_[robot.index()]);
-        expected_ns[place] += ticks * expected / roster_.seat(place).rate;
-        spent_ns[place] += cost_ns;
-        const double each = roster_.seat(place).rate * cost_ns / (ticks * static_cast<double>(robots.size()));
+        const double rate = 0.5 * (roster_.seat(place).rate + roster_.seat(last).rate);
+        if (place == last) {  // what two have stepped says nothing of either
+            expected_ns[place] += ticks * expected / rate;
+            spent_ns[place] += cost_ns;
+        }
+        const double each = rate * cost_ns / (ticks * static_cast<double>(robots.size()));
         for (const RobotId robot : robots) {
             float& cost = cost_[robot.index()];
             cost += share * (static_cast<float>(std::max(each, 1e-3)) - cost);

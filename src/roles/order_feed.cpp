@@ -77,7 +77,6 @@ void give_all(OrderBook& book, Round& round) {
 }
 
 void give_all(OrderBook& book, Plan& plan) {
-    if (plan.ahead == 0) return;
     plan.ahead = 0;
     plan.orders.clear();
     std::vector<RobotId> robots = plan.robots;

@@ -25,7 +25,11 @@ std::vector<RobotId>& robots_of(std::vector<Entry>& entries, Address Entry::*who
 }  // namespace
 
 Round::Round(const RoundSpan& span, std::size_t robots)
-    : outcome(robots), span_(span), seat_(robots, kLost) {}
+    : outcome(robots),
+      span_(span),
+      seat_(robots, kLost),
+      last_seat_(robots, kLost),
+      since_(robots, span.from) {}
 
 Plan& Round::plan_for(std::uint32_t place) {
     if (plan_of_seat_.size() <= place) plan_of_seat_.resize(place + std::size_t{1}, nullptr);
@@ -36,7 +40,7 @@ Plan& Round::plan_for(std::uint32_t place) {
     sent.plan.epoch = span_.epoch;
     sent.plan.window = span_.window;
     sent.plan.attempt = attempt_;
-    sent.plan.from = span_.from;
+    sent.plan.window_from = sent.plan.from = span_.from;
     sent.plan.until = span_.until;
     sent.plan.island_offsets.push_back(0);
     return sent.plan;
@@ -44,11 +48,23 @@ Plan& Round::plan_for(std::uint32_t place) {
 
 void Round::plan(const Islands& part, std::span<const std::uint32_t> place,
                  std::span<const std::uint32_t> source, const Roster& roster) {
-    if (planned_) ++attempt_;
+    if (planned_) ++attempt_, ++repeats_;
     planned_ = true;
-    std::vector<std::uint32_t> from(source.begin(),
-                                    source.end());  // `source` may be seats(), which change below
+    const std::vector<std::uint32_t> from(source.begin(),
+                                          source.end());  // `source` may be seats(), which change below
     in_attempt_.assign(seat_.size(), false);
+    spent_ns_.assign(roster.size(), 0);
+    for (std::size_t i = 0; i < part.count(); ++i)
+        for (const RobotId robot : part.of(i)) {
+            seat_[robot.index()] = last_seat_[robot.index()] = place[i];
+            since_[robot.index()] = span_.from;
+            in_attempt_[robot.index()] = true;
+        }
+    write(part, place, from, roster);
+}
+
+void Round::write(const Islands& part, std::span<const std::uint32_t> place,
+                  std::span<const std::uint32_t> source, const Roster& roster) {
     plan_of_seat_.assign(roster.size(), nullptr);
     std::vector<std::size_t> robots(roster.size(), 0);
     for (std::size_t i = 0; i < part.count(); ++i) robots[place[i]] += part.size_of(i);
@@ -62,9 +78,7 @@ void Round::plan(const Islands& part, std::span<const std::uint32_t> place,
         Plan& plan = plan_for(place[i]);
         for (const RobotId robot : part.of(i)) {
             plan.robots.push_back(robot);
-            seat_[robot.index()] = place[i];
-            in_attempt_[robot.index()] = true;
-            const std::uint32_t source_place = from[robot.index()];
+            const std::uint32_t source_place = source[robot.index()];
             if (source_place == place[i]) continue;
             const Address source_address = roster.address_of(source_place);
             robots_of(plan.hand_offs, &Holding::source, source_address).push_back(robot);
@@ -123,26 +137,100 @@ void Round::send(Bus& bus, const Roster& roster, std::int64_t resend_ms,
     }
 }
 
-std::optional<Plan> Round::answered_by(const Frame& frame) {
-    if (frame.epoch != span_.epoch || frame.window != span_.window || frame.attempt != attempt_)
-        return std::nullopt;
-    const auto sent = std::find_if(sent_.begin(), sent_.end(),
-                                   [&](const Sent& s) { return s.plan.simulator == frame.simulator; });
-    if (sent == sent_.end()) return std::nullopt;
-    const Plan& plan = sent->plan;
-    const bool fits = frame.robots.size() == plan.robots.size() &&
-                      frame.islands.size() + 1 == plan.island_offsets.size() &&
-                      std::equal(plan.robots.begin(), plan.robots.end(), frame.robots.begin(),
-                                 [](RobotId robot, const RobotFrame& f) { return robot == f.robot; }) &&
-                      std::all_of(frame.earlier.begin(), frame.earlier.end(),
-                                  [&](const EarlierBox& e) { return e.robot.index() < seat_.size(); }) &&
-                      std::all_of(frame.islands.begin(), frame.islands.end(), [&](const IslandFrame& i) {
-                          return !i.failed.valid() || i.failed.index() < seat_.size();
-                      });
-    if (!fits) return std::nullopt;
-    std::optional<Plan> answered = std::move(sent->plan);
+std::optional<Round::Answered> Round::answered_by(const Frame& frame) {
+    if (frame.epoch != span_.epoch || frame.window != span_.window) return std::nullopt;
+    const auto sent = std::find_if(sent_.begin(), sent_.end(), [&](const Sent& s) {
+        return s.plan.simulator == frame.simulator && s.plan.attempt == frame.attempt;
+    });
+    if (sent == sent_.end() || !fits(sent->plan, frame)) return std::nullopt;
+    std::optional<Answered> answered({sent->place, std::move(sent->plan), std::move(sent->helpers)});
     sent_.erase(sent);
     return answered;
+}
+
+bool Round::fits(const Plan& plan, const Frame& frame) const {
+    const auto known = [this](RobotId robot) { return robot.index() < seat_.size(); };
+    const bool told =
+        frame.left > 0
+            ? frame.left < static_cast<std::uint64_t>(plan.until - plan.from)
+            : std::equal(plan.robots.begin(), plan.robots.end(), frame.robots.begin(), frame.robots.end(),
+                         [](RobotId robot, const RobotFrame& f) { return robot == f.robot; });
+    return told && frame.islands.size() + 1 == plan.island_offsets.size() &&
+           std::all_of(frame.earlier.begin(), frame.earlier.end(),
+                       [&](const EarlierBox& e) { return known(e.robot); }) &&
+           std::all_of(frame.islands.begin(), frame.islands.end(),
+                       [&](const IslandFrame& i) { return !i.failed.valid() || known(i.failed); });
+}
+
+void Round::spend(std::uint32_t place, std::uint64_t cost_ns) {
+    if (spent_ns_.size() <= place) spent_ns_.resize(place + std::size_t{1}, 0);  // it joined since
+    spent_ns_[place] += cost_ns;
+}
+
+std::uint64_t Round::busiest_ns() const {
+    return spent_ns_.empty() ? 0 : *std::max_element(spent_ns_.begin(), spent_ns_.end());
+}
+
+void Round::expect(std::uint64_t due_ns) {
+    for (Sent& sent : sent_) sent.plan.due_ns = due_ns;
+}
+
+void Round::take_late(const Late& late, const Roster& roster) {
+    if (late.epoch != span_.epoch || late.window != span_.window) return;
+    for (Sent& sent : sent_)
+        if (roster.id_of(sent.place) == late.simulator && sent.plan.attempt == late.attempt)
+            sent.needs_ns = late.needs_ns;
+}
+
+std::vector<std::uint32_t> Round::late() const {
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> late;
+    for (const Sent& sent : sent_)
+        if (sent.needs_ns > 0 && !sent.cut && sent.plan.island_offsets.size() > 2)
+            late.emplace_back(sent.needs_ns, sent.place);
+    std::sort(late.rbegin(), late.rend());
+    std::vector<std::uint32_t> places;
+    for (const auto& [needs_ns, place] : late) places.push_back(place);
+    return places;
+}
+
+std::vector<std::uint32_t> Round::idle(const Roster& roster) const {
+    std::vector<std::uint32_t> idle = roster.workers();
+    std::erase_if(idle, [this](std::uint32_t place) {
+        return std::any_of(sent_.begin(), sent_.end(), [place](const Sent& sent) {
+            return sent.place == place ||
+                   std::find(sent.helpers.begin(), sent.helpers.end(), place) != sent.helpers.end();
+        });
+    });
+    return idle;
+}
+
+void Round::cut(Bus& bus, const Roster& roster, std::uint32_t place, std::vector<std::uint32_t> helpers) {
+    for (Sent& sent : sent_) {
+        if (sent.place != place) continue;
+        sent.cut = true;
+        sent.helpers = std::move(helpers);
+        return bus.send(kControllerAddress, roster.address_of(place),
+                        Cut{span_.epoch, span_.window, sent.plan.attempt, roster.id_of(place)});
+    }
+}
+
+void Round::plan_rest(const Answered& cut_short, Tick at, std::span<const std::uint32_t> place,
+                      std::uint64_t due_ns, const Roster& roster,
+                      const std::function<void(Plan&)>& complete) {
+    ++attempt_;
+    const Islands part{cut_short.plan.island_offsets, cut_short.plan.robots};
+    write(part, place, last_seat_, roster);
+    for (std::size_t i = 0; i < part.count(); ++i)
+        for (const RobotId robot : part.of(i)) {
+            if (last_seat_[robot.index()] != place[i]) since_[robot.index()] = at;
+            last_seat_[robot.index()] = place[i];
+        }
+    for (Plan* plan : plan_of_seat_) {
+        if (plan == nullptr) continue;
+        plan->from = at;
+        plan->due_ns = due_ns;
+        complete(*plan);
+    }
 }
 
 }  // namespace roboss

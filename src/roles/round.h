@@ -27,7 +27,8 @@ class Round {
     Round(const RoundSpan& span, std::size_t robots);
 
     const RoundSpan& span() const { return span_; }
-    std::uint32_t attempt() const { return attempt_; }
+    /// How often islands of the window were merged and planned again.
+    std::uint32_t repeats() const { return repeats_; }
 
     /// Writes plans: part.of(i) to seat place[i]; `source`[robot]: where its state at `from` is. Later
     /// calls are further attempts, for those islands only.
@@ -47,13 +48,41 @@ class Round {
     void send(Bus& bus, const Roster& roster, std::int64_t resend_ms,
               const std::function<void(Plan&)>& complete);
 
+    /// What a frame answers.
+    struct Answered {
+        std::uint32_t place = 0;
+        Plan plan;
+        std::vector<std::uint32_t> helpers;  // that wait for what a Cut leaves
+    };
     /// The plan that this frame answers, removed from those unanswered; nothing if it answers none.
-    std::optional<Plan> answered_by(const Frame& frame);
+    std::optional<Answered> answered_by(const Frame& frame);
     bool all_answered() const { return sent_.empty(); }
 
-    /// The seat that steps this robot.
+    /// What a seat's stepping cost, and the most that one's has cost, in this attempt for all.
+    void spend(std::uint32_t place, std::uint64_t cost_ns);
+    std::uint64_t busiest_ns() const;
+
+    // Helping out: who has answered may take over from who is late.
+    /// Everybody is expected to need so much time for the window.
+    void expect(std::uint64_t due_ns);
+    void take_late(const Late& late, const Roster& roster);
+    /// Who said that it is late, has something to give away and was not cut short yet, the latest first.
+    std::vector<std::uint32_t> late() const;
+    /// Whom nothing is to come from.
+    std::vector<std::uint32_t> idle(const Roster& roster) const;
+    void cut(Bus& bus, const Roster& roster, std::uint32_t place, std::vector<std::uint32_t> helpers);
+    /// Writes plans for what is left of a plan from tick `at` on: its island i to seat place[i].
+    /// `complete` gives them their orders.
+    void plan_rest(const Answered& cut_short, Tick at, std::span<const std::uint32_t> place,
+                   std::uint64_t due_ns, const Roster& roster, const std::function<void(Plan&)>& complete);
+
+    /// The seat that has this robot at the window's start and steps it, to the end or to a Cut.
     std::uint32_t seat_of(RobotId robot) const { return seat_[robot.index()]; }
     std::span<const std::uint32_t> seats() const { return seat_; }
+    /// The seats that have the robots at the window's end.
+    std::span<const std::uint32_t> last_seats() const { return last_seat_; }
+    /// Since when that seat steps it.
+    Tick since(RobotId robot) const { return since_[robot.index()]; }
 
     Islands islands;                   // of the whole window so far
     std::vector<IslandFrame> outcome;  // by the island's root
@@ -64,17 +93,25 @@ class Round {
         std::uint32_t place = 0;
         Plan plan;
         std::optional<std::int64_t> sent_ms;
-        int times = 0;  // sent again
+        int times = 0;               // sent again
+        std::uint64_t needs_ns = 0;  // it is late and needs so much
+        bool cut = false;
+        std::vector<std::uint32_t> helpers;
     };
     Plan& plan_for(std::uint32_t place);
+    bool fits(const Plan& plan, const Frame& frame) const;
+    void write(const Islands& part, std::span<const std::uint32_t> place,
+               std::span<const std::uint32_t> source, const Roster& roster);
 
     RoundSpan span_;
-    std::uint32_t attempt_ = 0;
+    std::uint32_t attempt_ = 0, repeats_ = 0;
     bool planned_ = false;
-    std::deque<Sent> sent_;            // so that a plan stays where it is while others are added
-    std::vector<std::uint32_t> seat_;  // by RobotId
-    std::vector<bool> in_attempt_;     // by RobotId
-    std::vector<Plan*> plan_of_seat_;  // of this attempt; null: has none
+    std::deque<Sent> sent_;                        // so that a plan stays where it is while others are added
+    std::vector<std::uint32_t> seat_, last_seat_;  // by RobotId
+    std::vector<Tick> since_;                      // by RobotId
+    std::vector<bool> in_attempt_;                 // by RobotId
+    std::vector<std::uint64_t> spent_ns_;          // by seat
+    std::vector<Plan*> plan_of_seat_;              // of this attempt; null: has none
 };
 
 }  // namespace roboss

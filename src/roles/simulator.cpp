@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/thread_cpu.h"
 #include "roles/send_views.h"
 
 namespace roboss {
 
 namespace {
 
+constexpr double kLateFrom = 0.5;       // of a plan's ticks: before, it is hard to say
+constexpr double kLateShare = 0.04;     // of what was due, beyond it
 constexpr std::size_t kEarlyMost = 64;  // more would be another's mistake; what is dropped is asked for
 
 template <class A, class B>
@@ -20,6 +23,15 @@ bool same_attempt(const A& a, const B& b) {
 template <class A, class B>
 bool is_newer(const A& a, const B& b) {
     return std::tie(a.epoch, a.window, a.attempt) > std::tie(b.epoch, b.window, b.attempt);
+}
+
+SteppingOptions stepping(const SimulatorOptions& options) {
+    SteppingOptions stepping{nullptr, nullptr, options.lanes, options.look_up};
+    if (options.measure_cpu)
+        stepping.clock = options.cpu_clock ? options.cpu_clock : thread_cpu_ns;
+    else
+        stepping.counted = options.counted;
+    return stepping;
 }
 
 bool good_orders(const Model& model, const std::vector<Order>& orders) {
@@ -52,7 +64,7 @@ Simulator::Simulator(std::shared_ptr<const Model> model, const Address& self, co
       self_(self),
       options_(options),
       store_(*model_),
-      stepper_(model_, pool, options.measure_cpu, options.lanes) {}
+      stepper_(model_, pool, stepping(options)) {}
 
 void Simulator::advance(Bus& bus) {
     if (gone_) return;
@@ -61,7 +73,9 @@ void Simulator::advance(Bus& bus) {
     keep_in_touch(bus);
     if (gone_ || !plan_) return;
     if (!pull_.complete()) return pull_.advance(bus, self_, options_.resend_ms);
-    answer_ = stepper_.step(*plan_, store_, [&] { attend(bus); });
+    said_late_ = cut_ = false;
+    answer_ =
+        stepper_.step(*plan_, store_, [&](const StepProgress& progress) { return attend(bus, progress); });
     plan_.reset();
     bus.send(self_, kControllerAddress, *answer_);
     catch_up(bus);
@@ -153,18 +167,38 @@ void Simulator::take_states(StateReply& reply) {
 }
 
 /// In the midst of stepping: others wait for states of the window's start, and want to know that it lives.
-void Simulator::attend(Bus& bus) {
+WindowStepper::Next Simulator::attend(Bus& bus, const StepProgress& progress) {
     say_alive(bus);
     bus.drain(self_, inbox_);
     for (Envelope& envelope : inbox_) {
         if (const auto* plan = std::get_if<Plan>(&envelope.message))
             if (plan->simulator == id_ && same_attempt(*plan, *plan_)) continue;  // it is being worked on
+        if (const auto* cut = std::get_if<Cut>(&envelope.message)) {
+            cut_ = cut_ || (cut->simulator == id_ && same_attempt(*cut, *plan_));
+            continue;
+        }
         const auto* request = std::get_if<StateRequest>(&envelope.message);
         if (request != nullptr && request->tick <= plan_->from)
             serve(bus, envelope.from, *request);
         else
             later_.push_back(std::move(envelope));
     }
+    return whether_late(bus, progress);
+}
+
+/// Who is late says so, and then may be cut short.
+WindowStepper::Next Simulator::whether_late(Bus& bus, const StepProgress& progress) {
+    using Next = WindowStepper::Next;
+    if (progress.done < kLateFrom || plan_->due_ns == 0) return Next::kGoOn;
+    if (said_late_ && !cut_) return Next::kGoOnAlert;
+    const double spent_ns = progress.spent_ns(), needs_ns = spent_ns / progress.done;
+    if (cut_) return needs_ns - spent_ns < options_.cut_least_ns ? Next::kGoOn : Next::kStop;
+    const auto due_ns = static_cast<double>(plan_->due_ns);
+    if (needs_ns < due_ns + std::max(options_.cut_least_ns, kLateShare * due_ns)) return Next::kGoOn;
+    said_late_ = true;
+    bus.send(self_, kControllerAddress,
+             Late{plan_->epoch, plan_->window, plan_->attempt, id_, static_cast<std::uint64_t>(needs_ns)});
+    return Next::kGoOnAlert;
 }
 
 void Simulator::give(Bus& bus, const Plan& plan) const {
@@ -176,6 +210,8 @@ void Simulator::adopt(Bus& bus, Plan& plan) {
     keep_wanted();
     to_keep_ = {plan.from, std::move(plan.keep)};
     store_.release_before(plan.release_before);
+    store_.forget_aside_before(plan.window_from);
+    if (plan.from > plan.window_from) store_.set_aside(plan.robots, plan.window_from);
     std::vector<bool> comes(model_->robots.size(), false);
     for (const Holding& holding : plan.hand_offs)
         for (const RobotId robot : holding.robots)

@@ -17,9 +17,14 @@
 namespace roboss {
 
 struct SimulatorOptions {
-    std::int64_t resend_ms = 100;    // unanswered requests are sent again after this
-    std::int64_t alive_ms = 50;      // sign of life, also from within a long step
-    bool measure_cpu = true;         // false: cost is counted work, so that a seeded test repeats exactly
+    std::int64_t resend_ms = 100;  // unanswered requests are sent again after this
+    std::int64_t alive_ms = 50;    // sign of life, also from within a long step
+    bool measure_cpu = true;       // false: cost is counted work, so that a seeded test repeats exactly
+    // For clusters in virtual time:
+    std::function<std::uint64_t()> cpu_clock;  // in ns; none: the thread's
+    std::function<void(double)> counted;       // told of counted work, in ns, as it is done
+    std::size_t look_up = 64;      // robots times ticks between two looks for messages, where few are stepped
+    double cut_least_ns = 50'000;  // of a plan's work: less does not pay to be told of, or given away
     std::size_t lanes = kMostLanes;  // robots stepped at once (StepScratch::use_lanes)
     std::string name;                // for people: where it runs
 };
@@ -55,7 +60,8 @@ class Simulator {
     void take_ahead(Bus& bus, OrdersAhead& ahead);
     void add_ahead(Plan& plan) const;
     void take_states(StateReply& reply);
-    void attend(Bus& bus);
+    WindowStepper::Next attend(Bus& bus, const StepProgress& progress);
+    WindowStepper::Next whether_late(Bus& bus, const StepProgress& progress);
     void serve(Bus& bus, const Address& from, const StateRequest& request) const;
     void show(Bus& bus, const ViewDue& due);
     void catch_up(Bus& bus);
@@ -77,6 +83,7 @@ class Simulator {
     std::optional<Plan> plan_;   // being worked on
     std::optional<Plan> unfed_;  // waits for the orders that were told ahead of it
     std::optional<OrdersAhead> ahead_;
+    bool said_late_ = false, cut_ = false;  // of the plan
     StateRequest to_keep_;           // of the plan: copied when there is time, before another is adopted
     StatePull pull_;                 // of its hand-offs
     std::vector<StateReply> early_;  // that came before the plan that speaks of them

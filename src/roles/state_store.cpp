@@ -20,7 +20,10 @@ bool StateStore::start(RobotId robot, Tick tick) {
         slot.start_tick = tick;
         slot.end_tick = kNone;
     }
-    return slot.start_tick == tick;
+    if (slot.start_tick == tick) return true;
+    const RobotState* aside = find_aside(robot, tick);
+    if (aside != nullptr) put(robot, tick, RobotState(*aside));
+    return aside != nullptr;
 }
 
 RobotState& StateStore::begin_window(RobotId robot, Tick until) {
@@ -34,6 +37,20 @@ RobotState& StateStore::begin_window(RobotId robot, Tick until) {
     return slot.end;
 }
 
+void StateStore::cut_window(RobotId robot, Tick tick) {
+    slots_[robot.index()].end_tick = tick;
+}
+
+void StateStore::set_aside(std::span<const RobotId> robots, Tick tick) {
+    for (const RobotId robot : robots)
+        if (const RobotState* state = find_aside(robot, tick) == nullptr ? find(robot, tick) : nullptr)
+            aside_.push_back({robot, tick, *state});
+}
+
+void StateStore::forget_aside_before(Tick tick) {
+    std::erase_if(aside_, [tick](const Aside& a) { return a.tick < tick; });
+}
+
 void StateStore::copy_ahead(RobotId robot) {
     Slot& slot = slots_[robot.index()];
     slot.ahead = slot.end;
@@ -43,7 +60,14 @@ void StateStore::copy_ahead(RobotId robot) {
 const RobotState* StateStore::find(RobotId robot, Tick tick) const {
     const Slot& slot = slots_[robot.index()];
     if (slot.start_tick == tick) return &slot.start;
-    return slot.end_tick == tick ? &slot.end : nullptr;
+    if (slot.end_tick == tick) return &slot.end;
+    return find_aside(robot, tick);
+}
+
+const RobotState* StateStore::find_aside(RobotId robot, Tick tick) const {
+    const auto here = std::find_if(aside_.begin(), aside_.end(),
+                                   [&](const Aside& a) { return a.robot == robot && a.tick == tick; });
+    return here == aside_.end() ? nullptr : &here->state;
 }
 
 void StateStore::keep(std::span<const RobotId> robots, Tick tick) {
@@ -72,6 +96,7 @@ bool StateStore::copy_to(StateBlock& out, RobotId robot, Tick tick) const {
 void StateStore::clear() {
     std::fill(slots_.begin(), slots_.end(), Slot{});
     kept_.clear();
+    aside_.clear();
 }
 
 }  // namespace roboss

@@ -1,5 +1,6 @@
 // A Simulator's states: of each robot that at the window's start and that at its end (and a second copy of
-// it, to be stepped on in the next), and copies that were kept because somebody still wants an earlier tick.
+// it, to be stepped on in the next); those at the start of a window of which only the rest is stepped here;
+// and copies that were kept because somebody still wants an earlier tick.
 // A state is found by (robot, tick), never by "the current one", so late and doubled requests get the right
 // bits or nothing.
 #pragma once
@@ -25,6 +26,12 @@ class StateStore {
     /// The state to step on: a copy of the start, which becomes the state at `until`.
     RobotState& begin_window(RobotId robot, Tick until);
     const RobotState& end_of(RobotId robot) const { return slots_[robot.index()].end; }
+    /// The window is left off here: the state that is stepped on is that at `tick`.
+    void cut_window(RobotId robot, Tick tick);
+    /// Before what is left of a window is stepped: the states at its start, of those that have one here, may
+    /// be asked for again.
+    void set_aside(std::span<const RobotId> robots, Tick tick);
+    void forget_aside_before(Tick tick);
     /// begin_window()'s copy for the next window, made while there is time.
     void copy_ahead(RobotId robot);
 
@@ -44,7 +51,16 @@ class StateStore {
         RobotState start, end, ahead;
     };
 
+    struct Aside {
+        RobotId robot;
+        Tick tick = kNone;
+        RobotState state;
+    };
+
+    const RobotState* find_aside(RobotId robot, Tick tick) const;
+
     std::vector<Slot> slots_;
+    std::vector<Aside> aside_;  // few
     std::vector<StateShelf> kept_;
 };
 

@@ -51,6 +51,24 @@ TEST(StateStore, ForgetsACopyMadeAheadWhenTheWindowIsSteppedAgain) {
     EXPECT_EQ(x_of(store.begin_window(kRobot, 20)), 5);
 }
 
+TEST(StateStore, HasTheStateAtAWindowsStartStillWhenItsRestWasStepped) {
+    StateStore store(one_robot());
+    store.put(kRobot, 0, at(1));
+    store.begin_window(kRobot, 10) = at(2);
+    store.cut_window(kRobot, 6);
+    EXPECT_EQ(store.find(kRobot, 10), nullptr);
+    store.set_aside(std::vector{kRobot}, 0);
+    ASSERT_TRUE(store.start(kRobot, 6));
+    EXPECT_EQ(x_of(store.begin_window(kRobot, 10)), 2);
+    store.begin_window(kRobot, 10) = at(3);
+    EXPECT_EQ(x_of(*store.find(kRobot, 0)), 1);
+    ASSERT_TRUE(store.start(kRobot, 0)) << "the window is stepped again";
+    EXPECT_EQ(x_of(store.begin_window(kRobot, 10)), 1);
+    store.forget_aside_before(10);
+    ASSERT_TRUE(store.start(kRobot, 10));
+    EXPECT_EQ(store.find(kRobot, 6), nullptr);
+}
+
 TEST(StateStore, ForgetsACopyMadeAheadWhenAnotherStateComes) {
     StateStore store(one_robot());
     store.put(kRobot, 0, at(1));

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
-
-#include "core/thread_cpu.h"
+#include <utility>
 
 namespace roboss {
 
@@ -12,6 +11,8 @@ namespace {
 
 constexpr std::size_t kRobotsPerBatch = 8;  // a look at the clock costs about a tenth of a robot's step
 constexpr std::size_t kSignOfLife = 512;    // robots times ticks, after which there is a sign of life
+constexpr std::size_t kAbreastMost = 24;    // robots that are stepped tick by tick in all their islands
+constexpr std::size_t kAlert = 4;           // times as often does it look for messages who may be cut short
 
 constexpr double kCounted_ns = 1'200;  // for an effort (step.h) where no time is measured: a car's, about
 
@@ -23,9 +24,9 @@ bool sensible(const Aabb& b) {
     return b.min.x <= b.max.x && b.min.y <= b.max.y && b.min.z <= b.max.z;
 }
 
-/// Whether, of so many robots stepped together, a sign of life is due after so many ticks.
-bool shows_life(std::size_t robots, Tick ticks) {
-    return ticks % static_cast<Tick>(std::max<std::size_t>(kSignOfLife / robots, 1)) == 0;
+/// Whether, of so many robots stepped together, something is due after so many ticks.
+bool is_due(std::size_t robots, Tick ticks, std::size_t each = kSignOfLife) {
+    return ticks % static_cast<Tick>(std::max<std::size_t>(each / robots, 1)) == 0;
 }
 
 bool teleports(const Order& order) {
@@ -37,7 +38,7 @@ bool teleports(const Order& order) {
 struct WindowStepper::Job {
     const Plan& plan;
     StateStore& store;
-    const std::function<void()>& between;
+    const Between& between;
     Frame frame;
 
     std::span<const RobotId> robots(std::size_t island) const {
@@ -55,14 +56,13 @@ struct WindowStepper::Convoy {
     std::vector<Order> orders;  // of a tick
 };
 
-WindowStepper::WindowStepper(std::shared_ptr<const Model> model, ThreadPool& pool, bool measure_cpu,
-                             std::size_t lanes)
+WindowStepper::WindowStepper(std::shared_ptr<const Model> model, ThreadPool& pool, SteppingOptions options)
     : model_(std::move(model)),
       pool_(pool),
-      measure_cpu_(measure_cpu),
+      options_(std::move(options)),
       scratch_(pool.threads()),
       convoys_(pool.threads()) {
-    for (StepScratch& scratch : scratch_) scratch.use_lanes(lanes);
+    for (StepScratch& scratch : scratch_) scratch.use_lanes(options_.lanes);
 }
 
 WindowStepper::~WindowStepper() = default;
@@ -86,7 +86,13 @@ void WindowStepper::sort_orders(const Plan& plan) {
         if (concerns(order)) orders_[next[island_of_[order.robot.index()]]++] = order;
 }
 
+/// Few robots on one thread, which others may help out with: in one batch, all tick by tick.
+bool WindowStepper::abreast(const Plan& plan) const {
+    return plan.due_ns > 0 && threads() == 1 && plan.robots.size() <= kAbreastMost;
+}
+
 void WindowStepper::cut_batches(const Plan& plan) {
+    const std::size_t robots_most = abreast(plan) ? kAbreastMost + 1 : kRobotsPerBatch;
     const auto size = [&](std::uint32_t i) { return plan.island_offsets[i + 1] - plan.island_offsets[i]; };
     sequence_.resize(plan.island_offsets.size() - 1);
     std::iota(sequence_.begin(), sequence_.end(), 0u);
@@ -95,29 +101,33 @@ void WindowStepper::cut_batches(const Plan& plan) {
     std::size_t robots = 0;
     for (std::size_t k = 0; k < sequence_.size(); ++k) {
         robots += size(sequence_[k]);
-        if (robots < kRobotsPerBatch && k + 1 < sequence_.size()) continue;
+        if (robots < robots_most && k + 1 < sequence_.size()) continue;
         batch_offsets_.push_back(k + 1);
         robots = 0;
     }
 }
 
-Frame WindowStepper::step(const Plan& plan, StateStore& store, const std::function<void()>& between) {
+Frame WindowStepper::step(const Plan& plan, StateStore& store, const Between& between) {
     const std::size_t n = plan.robots.size();
     sort_orders(plan);
     cut_batches(plan);
     states_.resize(n);
     bounds_.resize(n);
-    swept_.assign(n, Aabb{});
+    swept_before_.assign(n, Aabb{});
     earlier_.resize(plan.island_offsets.size() - 1);
     efforts_.assign(plan.island_offsets.size() - 1, 0.0);
     for (std::size_t k = 0; k < n; ++k) states_[k] = &store.begin_window(plan.robots[k], plan.until);
 
-    Job job{plan, store, between, Frame{plan.epoch, plan.window, plan.attempt, plan.simulator, {}, {}, {}}};
+    Job job{plan, store, between,
+            Frame{plan.epoch, plan.window, plan.attempt, plan.simulator, 0, {}, {}, {}}};
+    take_up(job);
+    swept_ = swept_before_;
     job.frame.robots.resize(n);
     job.frame.islands.resize(plan.island_offsets.size() - 1);
     pool_.run(
         batch_offsets_.size() - 1, [&](std::size_t b, std::size_t worker) { step_batch(job, b, worker); },
-        between);
+        [&] { between({}); });
+    if (job.frame.left > 0) return std::move(job.frame);
     for (auto& boxes : earlier_) {
         job.frame.earlier.insert(job.frame.earlier.end(), boxes.begin(), boxes.end());
         boxes.clear();
@@ -128,20 +138,30 @@ Frame WindowStepper::step(const Plan& plan, StateStore& store, const std::functi
 void WindowStepper::step_batch(Job& job, std::size_t batch, std::size_t worker) {
     const auto islands = std::span(sequence_).subspan(batch_offsets_[batch],
                                                       batch_offsets_[batch + 1] - batch_offsets_[batch]);
-    const std::uint64_t start_ns = measure_cpu_ ? thread_cpu_ns() : 0;
+    const std::uint64_t start_ns = options_.clock ? options_.clock() : 0;
     const auto first_single = std::find_if(islands.begin(), islands.end(),
                                            [&](std::uint32_t i) { return job.robots(i).size() == 1; });
-    for (auto island = islands.begin(); island != first_single; ++island)
-        step_island_through(job, *island, worker);
-    if (first_single != islands.end()) step_convoy_through(job, {first_single, islands.end()}, worker);
+    if (abreast(job.plan)) {
+        step_abreast(job, islands, static_cast<std::size_t>(islands.end() - first_single), start_ns);
+    } else {
+        for (auto island = islands.begin(); island != first_single; ++island)
+            step_island_through(job, *island, worker);
+        if (first_single != islands.end()) step_convoy_through(job, {first_single, islands.end()}, worker);
+    }
     double effort = 0;  // by which the measured time is shared out
     for (const std::uint32_t island : islands) effort += efforts_[island];
-    const double spent_ns =
-        measure_cpu_ ? static_cast<double>(thread_cpu_ns() - start_ns) : kCounted_ns * effort;
+    const double spent =
+        options_.clock ? static_cast<double>(options_.clock() - start_ns) : kCounted_ns * effort;
     for (const std::uint32_t island : islands)
         job.frame.islands[island].cost_ns =
-            static_cast<std::uint64_t>(spent_ns * efforts_[island] / std::max(effort, 1.0));
-    if (worker == 0) job.between();
+            static_cast<std::uint64_t>(spent * efforts_[island] / std::max(effort, 1.0));
+    if (worker == 0) job.between({});
+}
+
+/// In the one batch of a plan that is stepped abreast.
+double WindowStepper::spent_ns(std::uint64_t start_ns) const {
+    if (options_.clock) return static_cast<double>(options_.clock() - start_ns);
+    return kCounted_ns * std::accumulate(efforts_.begin(), efforts_.end(), 0.0);
 }
 
 void WindowStepper::step_island_through(Job& job, std::size_t island, std::size_t worker) {
@@ -151,7 +171,7 @@ void WindowStepper::step_island_through(Job& job, std::size_t island, std::size_
         const std::size_t first = next;
         while (next < end && orders_[next].apply_at == tick) ++next;
         if (!step_tick(job, island, tick, std::span(orders_).subspan(first, next - first), worker)) return;
-        if (worker == 0 && shows_life(job.robots(island).size(), tick + 1 - job.plan.from)) job.between();
+        if (worker == 0 && is_due(job.robots(island).size(), tick + 1 - job.plan.from)) job.between({});
     }
     report_robots(job, island);
 }
@@ -164,12 +184,17 @@ bool WindowStepper::step_tick(Job& job, std::size_t island, Tick tick, std::span
         step_island(*model_, tick, robots, std::span(states_).subspan(first, robots.size()), orders,
                     std::span(bounds_).subspan(first, robots.size()), scratch_[worker]);
     sweep(job, island, orders);
-    for (const float effort : read_efforts(scratch_[worker])) efforts_[island] += static_cast<double>(effort);
+    for (const float effort : read_efforts(scratch_[worker])) count(island, effort);
     IslandFrame& outcome = job.frame.islands[island];
     outcome.contacts += static_cast<std::uint64_t>(report.contacts);
     outcome.static_contacts += static_cast<std::uint64_t>(report.static_contacts);
     if (report.not_finite.valid()) give_up(job, island, report.not_finite, tick);
     return !report.not_finite.valid();
+}
+
+void WindowStepper::count(std::size_t island, float effort) {
+    efforts_[island] += static_cast<double>(effort);
+    if (options_.counted) options_.counted(kCounted_ns * static_cast<double>(effort));
 }
 
 /// Takes the bounds of a tick into those of the window.
@@ -202,6 +227,16 @@ void WindowStepper::give_up(Job& job, std::size_t island, RobotId failed, Tick t
 /// not depend on who shares the call. Their contacts are counted for the first.
 void WindowStepper::step_convoy_through(Job& job, std::span<const std::uint32_t> islands,
                                         std::size_t worker) {
+    load_convoy(job, islands, worker);
+    const Convoy& c = convoys_[worker];
+    for (Tick tick = job.plan.from; tick < job.plan.until; ++tick) {
+        if (!step_convoy(job, tick, worker)) return step_apart(job, c.islands, worker);
+        if (worker == 0 && is_due(c.islands.size(), tick + 1 - job.plan.from)) job.between({});
+    }
+    for (const std::uint32_t i : c.islands) report_robots(job, i);
+}
+
+void WindowStepper::load_convoy(const Job& job, std::span<const std::uint32_t> islands, std::size_t worker) {
     Convoy& c = convoys_[worker];
     c.islands.assign(islands.begin(), islands.end());
     std::sort(c.islands.begin(), c.islands.end());
@@ -212,27 +247,89 @@ void WindowStepper::step_convoy_through(Job& job, std::span<const std::uint32_t>
         c.next.push_back(order_offsets_[i]);
     }
     c.bounds.resize(c.robots.size());
+}
+
+bool WindowStepper::step_convoy(Job& job, Tick tick, std::size_t worker) {
+    Convoy& c = convoys_[worker];
+    c.orders.clear();
+    for (std::size_t i = 0; i < c.islands.size(); ++i)
+        for (std::size_t& o = c.next[i]; o < order_offsets_[c.islands[i] + 1] && orders_[o].apply_at == tick;
+             ++o)
+            c.orders.push_back(orders_[o]);
+    const StepReport report =
+        step_island(*model_, tick, c.robots, c.states, c.orders, c.bounds, scratch_[worker]);
+    for (std::size_t i = 0; i < c.islands.size(); ++i)
+        bounds_[job.plan.island_offsets[c.islands[i]]] = c.bounds[i];
+    for (const std::uint32_t i : c.islands) sweep(job, i, c.orders);
+    const std::span<const float> efforts = read_efforts(scratch_[worker]);
+    for (std::size_t i = 0; i < c.islands.size(); ++i) count(c.islands[i], efforts[i]);
+    IslandFrame& outcome = job.frame.islands[c.islands[0]];
+    outcome.contacts += static_cast<std::uint64_t>(report.contacts);
+    outcome.static_contacts += static_cast<std::uint64_t>(report.static_contacts);
+    return !report.not_finite.valid();
+}
+
+/// All islands tick by tick, so that at any of them the rest may be left to others; not any more where
+/// something failed. `singles`: the last so many have one robot.
+void WindowStepper::step_abreast(Job& job, std::span<const std::uint32_t> islands, std::size_t singles,
+                                 std::uint64_t start_ns) {
+    const auto larger = islands.first(islands.size() - singles);
+    const auto ticks = static_cast<double>(job.plan.until - job.plan.from);
+    const std::function<double()> clock = [this, start_ns] { return spent_ns(start_ns); };
+    std::vector<std::size_t>& next = next_order_;
+    next.assign(order_offsets_.begin(), order_offsets_.end() - 1);
+    bool convoy_goes = singles > 0, intact = true;
+    std::size_t look_up = options_.look_up;
+    if (convoy_goes) load_convoy(job, islands.last(singles), 0);
     for (Tick tick = job.plan.from; tick < job.plan.until; ++tick) {
-        c.orders.clear();
-        for (std::size_t i = 0; i < c.islands.size(); ++i)
-            for (std::size_t& o = c.next[i];
-                 o < order_offsets_[c.islands[i] + 1] && orders_[o].apply_at == tick; ++o)
-                c.orders.push_back(orders_[o]);
-        const StepReport report =
-            step_island(*model_, tick, c.robots, c.states, c.orders, c.bounds, scratch_[worker]);
-        for (std::size_t i = 0; i < c.islands.size(); ++i)
-            bounds_[job.plan.island_offsets[c.islands[i]]] = c.bounds[i];
-        for (const std::uint32_t i : c.islands) sweep(job, i, c.orders);
-        const std::span<const float> efforts = read_efforts(scratch_[worker]);
-        for (std::size_t i = 0; i < c.islands.size(); ++i)
-            efforts_[c.islands[i]] += static_cast<double>(efforts[i]);
-        IslandFrame& outcome = job.frame.islands[c.islands[0]];
-        outcome.contacts += static_cast<std::uint64_t>(report.contacts);
-        outcome.static_contacts += static_cast<std::uint64_t>(report.static_contacts);
-        if (report.not_finite.valid()) return step_apart(job, c.islands, worker);
-        if (worker == 0 && shows_life(c.islands.size(), tick + 1 - job.plan.from)) job.between();
+        for (const std::uint32_t i : larger) {
+            if (job.frame.islands[i].failed.valid()) continue;
+            const std::size_t first = next[i];
+            while (next[i] < order_offsets_[i + 1] && orders_[next[i]].apply_at == tick) ++next[i];
+            intact = step_tick(job, i, tick, std::span(orders_).subspan(first, next[i] - first), 0) && intact;
+        }
+        if (convoy_goes && !step_convoy(job, tick, 0)) {
+            convoy_goes = intact = false;
+            step_apart(job, convoys_[0].islands, 0);
+        }
+        if (!is_due(job.plan.robots.size(), tick + 1 - job.plan.from, look_up)) continue;
+        const double done = static_cast<double>(tick + 1 - job.plan.from) / ticks;
+        const Next go = job.between(intact ? StepProgress{done, &clock} : StepProgress{});
+        if (go == Next::kStop && intact && tick + 1 < job.plan.until) return cut_short(job, tick + 1);
+        look_up = options_.look_up / (go == Next::kGoOnAlert ? kAlert : 1);
     }
-    for (const std::uint32_t i : c.islands) report_robots(job, i);
+    for (const std::uint32_t i : larger)
+        if (!job.frame.islands[i].failed.valid()) report_robots(job, i);
+    if (convoy_goes)
+        for (const std::uint32_t i : convoys_[0].islands) report_robots(job, i);
+}
+
+void WindowStepper::cut_short(Job& job, Tick tick) {
+    job.frame.left = static_cast<std::uint64_t>(job.plan.until - tick);
+    job.frame.robots.clear();
+    stub_ = {job.plan.epoch,  job.plan.window, tick,
+             job.plan.robots, swept_,          std::exchange(job.frame.earlier, {})};
+    for (auto& boxes : earlier_) {
+        stub_.earlier.insert(stub_.earlier.end(), boxes.begin(), boxes.end());
+        boxes.clear();
+    }
+    for (const RobotId robot : job.plan.robots) job.store.cut_window(robot, tick);
+}
+
+/// Whoever steps robots on after a Cut, what they swept before it is told here: in their bounds where they
+/// stayed, else beside them.
+void WindowStepper::take_up(Job& job) {
+    const Plan& plan = job.plan;
+    const Stub stub = std::exchange(stub_, {});
+    if (stub.tick != plan.from || stub.window != plan.window || stub.epoch != plan.epoch) return;
+    job.frame.earlier = stub.earlier;
+    for (std::size_t i = 0; i < stub.robots.size(); ++i) {
+        const auto here = std::find(plan.robots.begin(), plan.robots.end(), stub.robots[i]);
+        if (here != plan.robots.end())
+            swept_before_[static_cast<std::size_t>(here - plan.robots.begin())] = stub.swept[i];
+        else if (!stub.swept[i].empty())
+            job.frame.earlier.push_back({stub.robots[i], outward(stub.swept[i])});
+    }
 }
 
 /// One of them failed at a tick, and nobody knows which of the others were stepped in it: all once more from
@@ -242,7 +339,7 @@ void WindowStepper::step_apart(Job& job, std::span<const std::uint32_t> islands,
         job.frame.islands[i] = {};
         earlier_[i].clear();
         for (std::size_t k = job.plan.island_offsets[i]; k < job.plan.island_offsets[i + 1]; ++k) {
-            swept_[k] = Aabb{};
+            swept_[k] = swept_before_[k];
             states_[k] = &job.store.begin_window(job.plan.robots[k], job.plan.until);
         }
         step_island_through(job, i, worker);

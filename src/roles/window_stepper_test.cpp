@@ -38,8 +38,9 @@ TEST(WindowStepper, StepsTheOthersToTheEndWhenOneFails) {
         store.put(robot, 0, std::move(state));
     }
     ThreadPool pool(1);
-    WindowStepper stepper(sim.model, pool, false, 1);
-    const Frame frame = stepper.step(plan_for(sim, 8), store, [] {});
+    WindowStepper stepper(sim.model, pool, {nullptr, nullptr, 1});
+    const Frame frame =
+        stepper.step(plan_for(sim, 8), store, [](const StepProgress&) { return WindowStepper::Next::kGoOn; });
     for (int i = 0; i < 8; ++i) sim.step();
     ASSERT_EQ(frame.islands.size(), 6u);
     for (std::size_t i = 0; i < 6; ++i) {
@@ -47,6 +48,66 @@ TEST(WindowStepper, StepsTheOthersToTheEndWhenOneFails) {
         if (i == 2) continue;
         EXPECT_EQ(frame.robots[i].hash, state_hash(RobotId(i), 8, sim.states[i])) << i;
         EXPECT_EQ(frame.robots[i].robot, RobotId(i));
+    }
+}
+
+/// Two Simulators' stores: the first is cut short at `cut`, keeps the first `kept` of the balls for the rest,
+/// and gives the others to the second. Together they say what one says that stepped all to the end.
+TEST(WindowStepper, WhatACutLeavesIsSteppedOnBySomebodyElseToTheSameStates) {
+    constexpr Tick kCut = 5, kUntil = 12;
+    constexpr std::size_t kBalls = 6, kKept = 4;
+    Simulation sim(lone_balls(kBalls));
+    ThreadPool pool(1);
+    const auto goes_on = [](const StepProgress&) { return WindowStepper::Next::kGoOn; };
+    const auto started = [&](StateStore& store) {
+        for (const RobotId robot : sim.ids) store.put(robot, 0, RobotState(sim.states[robot.index()]));
+    };
+    StateStore whole_store(*sim.model), store(*sim.model), other_store(*sim.model);
+    started(whole_store), started(store);
+    WindowStepper whole(sim.model, pool, {}), stepper(sim.model, pool, {{}, {}, kMostLanes, 1}),
+        other(sim.model, pool, {});
+    Plan plan = plan_for(sim, kUntil);
+    const Frame expected = whole.step(plan, whole_store, goes_on);
+
+    plan.due_ns = 1;
+    const Frame cut = stepper.step(plan, store, [&](const StepProgress& progress) {
+        return progress.done * kUntil < kCut ? WindowStepper::Next::kGoOn : WindowStepper::Next::kStop;
+    });
+    EXPECT_EQ(cut.left, static_cast<std::uint64_t>(kUntil - kCut));
+    EXPECT_TRUE(cut.robots.empty());
+    ASSERT_EQ(cut.islands.size(), kBalls);
+
+    const auto rest_of = [&](std::size_t first, std::size_t last) {
+        Plan rest = plan_for(sim, kUntil);
+        rest.from = kCut;
+        rest.robots.assign(sim.ids.begin() + static_cast<std::ptrdiff_t>(first),
+                           sim.ids.begin() + static_cast<std::ptrdiff_t>(last));
+        rest.island_offsets.resize(last - first + 1);
+        return rest;
+    };
+    for (std::size_t i = kKept; i < kBalls; ++i)
+        other_store.put(sim.ids[i], kCut, RobotState(*store.find(sim.ids[i], kCut)));
+    for (std::size_t i = 0; i < kKept; ++i) ASSERT_TRUE(store.start(sim.ids[i], kCut));
+    const Frame kept = stepper.step(rest_of(0, kKept), store, goes_on),
+                given = other.step(rest_of(kKept, kBalls), other_store, goes_on);
+
+    ASSERT_EQ(kept.earlier.size(), kBalls - kKept);
+    for (std::size_t i = 0; i < kBalls; ++i) {
+        const RobotFrame& got = i < kKept ? kept.robots[i] : given.robots[i - kKept];
+        const IslandFrame& rest = i < kKept ? kept.islands[i] : given.islands[i - kKept];
+        EXPECT_EQ(got.hash, expected.robots[i].hash) << i;
+        EXPECT_EQ(cut.islands[i].cost_ns + rest.cost_ns, expected.islands[i].cost_ns) << i;
+        if (i < kKept) {
+            EXPECT_EQ(got.swept, expected.robots[i].swept) << i;
+            continue;
+        }
+        EXPECT_EQ(kept.earlier[i - kKept].robot, sim.ids[i]);
+        Box32 both = got.swept;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            both.min[axis] = std::min(both.min[axis], kept.earlier[i - kKept].swept.min[axis]);
+            both.max[axis] = std::max(both.max[axis], kept.earlier[i - kKept].swept.max[axis]);
+        }
+        EXPECT_EQ(both, expected.robots[i].swept) << i;
     }
 }
 

@@ -61,10 +61,12 @@ template <class A> void field(A& a, Of<A, Alive>& m) { fields(a, m.simulator); }
 template <class A> void field(A& a, Of<A, LeaveRequest>& m) { fields(a, m.simulator); }
 template <class A> void field(A& a, Of<A, Goodbye>& m) { fields(a, m.simulator); }
 template <class A> void field(A& a, Of<A, Plan>& m) {
-    fields(a, m.epoch, m.window, m.attempt, m.simulator, m.from, m.until, m.island_offsets, m.robots, m.hand_offs, m.gives, m.orders, m.ahead,
-           m.keep, m.release_before);
+    fields(a, m.epoch, m.window, m.attempt, m.simulator, m.window_from, m.from, m.until, m.island_offsets, m.robots, m.hand_offs, m.gives, m.orders,
+           m.ahead, m.keep, m.release_before, m.due_ns);
 }
 template <class A> void field(A& a, Of<A, OrdersAhead>& m) { fields(a, m.window, m.simulator, m.orders); }
+template <class A> void field(A& a, Of<A, Late>& m) { fields(a, m.epoch, m.window, m.attempt, m.simulator, m.needs_ns); }
+template <class A> void field(A& a, Of<A, Cut>& m) { fields(a, m.epoch, m.window, m.attempt, m.simulator); }
 template <class A> void field(A& a, Of<A, IslandFrame>& m) {
     compact(a, m.cost_ns);
     compact(a, m.contacts);
@@ -75,7 +77,9 @@ template <class A> void field(A& a, Of<A, IslandFrame>& m) {
     if constexpr (A::kReading) if (failed && !m.failed.valid()) a.fail("an island failed by no robot");
 }
 template <class A> void field(A& a, Of<A, Frame>& m) {
-    fields(a, m.epoch, m.window, m.attempt, m.simulator, m.robots, m.earlier, m.islands);
+    fields(a, m.epoch, m.window, m.attempt, m.simulator);
+    compact(a, m.left);
+    fields(a, m.robots, m.earlier, m.islands);
 }
 template <class A> void field(A& a, Of<A, StateRequest>& m) { fields(a, m.tick, m.robots); }
 template <class A> void field(A& a, Of<A, StateReply>& m) { fields(a, m.states); }
@@ -170,7 +174,12 @@ const char* broken_rule(const Plan& plan) {
         return "its islands do not cover its robots";
     for (std::size_t i = 1; i < offsets.size(); ++i)
         if (offsets[i] <= offsets[i - 1]) return "one of its islands is empty";
-    return plan.until < plan.from ? "it ends before it starts" : nullptr;
+    return plan.until < plan.from || plan.from < plan.window_from ? "it ends before it starts" : nullptr;
+}
+
+const char* broken_rule(const Frame& frame) {
+    const bool told = frame.left == 0 || (frame.robots.empty() && frame.earlier.empty());
+    return told ? nullptr : "it was cut short and tells of robots";
 }
 
 const char* broken_rule(const StateReply& reply) {
@@ -217,7 +226,7 @@ const char* message_name(const Message& message) {
         "Goodbye",       "Plan",        "Frame",         "StateRequest",   "StateReply",   "ClientHello",
         "ClientWelcome", "Observation", "ClientWord",    "WordAck",        "ClientBye",    "RunOver",
         "ModelRequest",  "ModelPart",   "ClientUnknown", "ControlRequest", "ControlReply", "ModelChanged",
-        "ViewRequest",   "ViewDue",     "ViewStates",    "OrdersAhead"};
+        "ViewRequest",   "ViewDue",     "ViewStates",    "OrdersAhead",    "Late",         "Cut"};
     static_assert(std::size(kNames) == std::variant_size_v<Message>);
     return kNames[message.index()];
 }

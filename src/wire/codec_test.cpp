@@ -23,6 +23,7 @@ std::vector<Message> one_of_each() {
               17,
               1,
               SimulatorId(3u),
+              4,
               10,
               26,
               {0, 1, 2},
@@ -32,11 +33,13 @@ std::vector<Message> one_of_each() {
               some_orders(),
               16,
               {kRobot},
-              8};
+              8,
+              3'000'000};
     Frame frame{2,
                 17,
                 1,
                 SimulatorId(3u),
+                0,
                 {{kRobot, {}, {1, 2, 3}, {4, 5, 6}, 77}},
                 {{kRobot, {}}},
                 {{100, 5, 2, kRobot, 12}, {1ull << 63, 0x3FFF, 0x4000, {}, 0}}};
@@ -70,7 +73,9 @@ std::vector<Message> one_of_each() {
             ViewRequest{5, 33, 100, false, {kRobot}},
             ViewDue{2, 77, 1000, {Role::kClient, 4}, {kRobot, kOther}, {kOther}},
             ViewStates{5, 2, 77, 1000, {1, 2, 3, 4}},
-            OrdersAhead{16, SimulatorId(3u), some_orders()}};
+            OrdersAhead{16, SimulatorId(3u), some_orders()},
+            Late{2, 17, 1, SimulatorId(3u), 4'000'000},
+            Cut{2, 17, 1, SimulatorId(3u)}};
 }
 
 Envelope envelope_of(Message message) {
@@ -177,6 +182,18 @@ TEST(Codec, RefusesPlansWhoseIslandsDoNotCoverTheirRobots) {
     EXPECT_FALSE(decode_envelope(encode(envelope_of(plan))).ok());
     plan.island_offsets = {0, 1};
     EXPECT_TRUE(decode_envelope(encode(envelope_of(plan))).ok());
+}
+
+TEST(Codec, RefusesFramesThatWereCutShortAndTellOfRobots) {
+    Frame frame;
+    frame.left = 12;
+    frame.islands.resize(1);
+    EXPECT_TRUE(decode_envelope(encode(envelope_of(frame))).ok());
+    frame.robots.resize(1);
+    EXPECT_FALSE(decode_envelope(encode(envelope_of(frame))).ok());
+    frame.robots.clear();
+    frame.earlier.push_back({kRobot, {}});
+    EXPECT_FALSE(decode_envelope(encode(envelope_of(frame))).ok());
 }
 
 TEST(Codec, KeepsOrders) {

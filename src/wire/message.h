@@ -92,6 +92,8 @@ struct Plan {
     std::uint64_t window = 0;   // grows with every window planned
     std::uint32_t attempt = 0;  // grows when touching islands of the window are merged
     SimulatorId simulator;
+    Tick window_from = 0;  // where the window starts, for all
+    /// What this plan steps: the whole window, or what a Cut left of it.
     Tick from = 0, until = 0;
     std::vector<std::uint32_t> island_offsets;
     std::vector<RobotId> robots;
@@ -103,6 +105,9 @@ struct Plan {
     std::uint64_t ahead = 0;    // those of the OrdersAhead of this window; 0: none
     std::vector<RobotId> keep;  // robots of this Simulator whose states at `from` somebody still wants
     Tick release_before = 0;    // states kept for earlier ticks may go
+    /// CPU time that everybody is expected to need for the window; who sees that it will need more says
+    /// Late. 0: nobody does.
+    std::uint64_t due_ns = 0;
     friend bool operator==(const Plan&, const Plan&);
 };
 
@@ -114,7 +119,26 @@ struct OrdersAhead {
     std::vector<Order> orders;  // canonical order
 };
 
-/// Interaction bounds from before a teleport within the window.
+/// Simulator -> Controller while it steps: it will need so much CPU time for this plan, more than was due.
+struct Late {
+    std::uint32_t epoch = 0;
+    std::uint64_t window = 0;
+    std::uint32_t attempt = 0;
+    SimulatorId simulator;
+    std::uint64_t needs_ns = 0;
+};
+
+/// Controller -> Simulator that is late, when others have nothing to do: to stop where it is; what is left of
+/// the window will be shared out. Who is nearly done goes on to the end, so nothing depends on its coming.
+struct Cut {
+    std::uint32_t epoch = 0;
+    std::uint64_t window = 0;
+    std::uint32_t attempt = 0;
+    SimulatorId simulator;
+};
+
+/// Interaction bounds from earlier in the window: from before a teleport, or of a robot that somebody else
+/// steps on after a Cut.
 struct EarlierBox {
     RobotId robot;
     Box32 swept;
@@ -130,11 +154,14 @@ struct IslandFrame {
     friend bool operator==(const IslandFrame&, const IslandFrame&) = default;
 };
 
-struct Frame {  // Simulator -> Controller: the answer to a Plan, robots and islands in the Plan's order
+/// Simulator -> Controller: the answer to a Plan, robots and islands in the Plan's order. After a Cut:
+/// without robots, and islands tell of the ticks stepped; bounds so far come with the frame of what was left.
+struct Frame {
     std::uint32_t epoch = 0;
     std::uint64_t window = 0;
     std::uint32_t attempt = 0;
     SimulatorId simulator;
+    std::uint64_t left = 0;  // ticks that were not stepped, because of a Cut
     std::vector<RobotFrame> robots;
     std::vector<EarlierBox> earlier;
     std::vector<IslandFrame> islands;
@@ -278,7 +305,7 @@ using Message =
     std::variant<Hello, Welcome, Refused, Expelled, Alive, LeaveRequest, Goodbye, Plan, Frame, StateRequest,
                  StateReply, ClientHello, ClientWelcome, Observation, ClientWord, WordAck, ClientBye, RunOver,
                  ModelRequest, ModelPart, ClientUnknown, ControlRequest, ControlReply, ModelChanged,
-                 ViewRequest, ViewDue, ViewStates, OrdersAhead>;
+                 ViewRequest, ViewDue, ViewStates, OrdersAhead, Late, Cut>;
 
 struct Envelope {
     Address from, to;

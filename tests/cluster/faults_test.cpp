@@ -58,7 +58,7 @@ ControllerOptions checkpointing(std::uint64_t seed) {
 TEST(Faults, AHundredSeedsOfABadBusWithKillsEndWithTheUndisturbedHash) {
     const auto model = carts_world(4);
     const std::uint64_t expected = undisturbed_hash(model);
-    std::uint64_t losses = 0, recoveries = 0, checkpoints = 0;
+    std::uint64_t losses = 0, recoveries = 0, checkpoints = 0, cuts = 0;
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         FaultOptions faults;
@@ -73,12 +73,38 @@ TEST(Faults, AHundredSeedsOfABadBusWithKillsEndWithTheUndisturbedHash) {
         losses += cluster.controller().counters().losses;
         recoveries += cluster.controller().counters().recoveries;
         checkpoints += cluster.controller().counters().checkpoints;
+        cuts += cluster.controller().counters().cuts;
     }
     EXPECT_GT(losses, 100u);  // else this test did not test
+    EXPECT_GT(cuts, 100u);
     EXPECT_GT(recoveries, 50u);
     EXPECT_GT(checkpoints, 300u);
     RecordProperty("losses", std::to_string(losses));
     RecordProperty("recoveries", std::to_string(recoveries));
+}
+
+TEST(Faults, WhoIsDoneTakesOverFromWhoIsLateAndTheHashStays) {
+    const auto model = carts_world(12);
+    ControllerOptions controller;
+    controller.checkpoint_ticks = 40;
+    std::uint64_t expected = 0, cuts = 0, repeated = 0;
+    for (std::uint64_t seed = 0; seed <= 24; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const double bad = seed % 2 == 0 ? 0.03 : 0.0;
+        controller.forecast.reach_scale = seed % 3 == 1 ? 0 : 1;
+        FaultyCluster cluster(model, controller, {seed, bad, bad, static_cast<std::int64_t>(seed % 3)},
+                              {seed % 4 == 3 ? 80u : 0u, 0, 0, 150, 2000}, seed == 0 ? 1 : 2 + seed % 3);
+        ControlOptions options;
+        options.period_s = 0.08;
+        cluster.add_program("driver", options);
+        ASSERT_TRUE(cluster.run_until(kTicks)) << "stuck at tick " << cluster.controller().tick();
+        if (seed == 0) expected = cluster.controller().hash();
+        EXPECT_EQ(cluster.controller().hash(), expected);
+        cuts += cluster.controller().counters().cuts;
+        repeated += cluster.controller().counters().windows_repeated;
+    }
+    EXPECT_GT(cuts, 100u);
+    EXPECT_GT(repeated, 20u);
 }
 
 TEST(Faults, WhoIsSaidToHaveVanishedIsReplacedAtOnceAndComesBackIfItWasNotTrue) {

@@ -12,6 +12,8 @@ FaultyCluster::FaultyCluster(std::shared_ptr<const Model> model, ControllerOptio
     options_.resend_ms = 20;
     options_.ahead_least = 1;
     options_.loss_ms = 250;
+    options_.help_least_ns = 0;
+    bus_.on_drain = [this] { let_others_go_on(); };
     for (std::size_t i = 0; i < simulators; ++i) add_simulator();
 }
 
@@ -27,6 +29,8 @@ void FaultyCluster::add_simulator() {
     options.resend_ms = 20;
     options.alive_ms = 20;
     options.measure_cpu = false;
+    options.look_up = 1;
+    options.cut_least_ns = 0;
     simulators_.push_back({std::make_unique<Simulator>(model_, address, options, pool_), address, 0});
 }
 
@@ -53,26 +57,41 @@ void FaultyCluster::make_trouble() {
     if (simulators_.empty() && happens(trouble_.rescue)) add_simulator();
 }
 
+/// To who has none already.
+void FaultyCluster::give_turn(std::size_t role) {
+    if (role == 0) {
+        if (controller_at_it_) return;
+        controller_at_it_ = true;
+        controller_->advance(bus_);
+        controller_at_it_ = false;
+    } else if (role <= hosts_.size()) {
+        if (steppers_ == 0) hosts_[role - 1]->advance(bus_);
+    } else {
+        Member& member = simulators_[role - 1 - hosts_.size()];
+        if (member.at_it || member.hangs_for-- > 0) return;
+        member.hangs_for = 0;
+        member.at_it = true;
+        ++steppers_;
+        member.role->advance(bus_);
+        --steppers_;
+        member.at_it = false;
+    }
+}
+
+/// Somebody looks for messages; if it is a Simulator, others may have gone on since it looked last.
+void FaultyCluster::let_others_go_on() {
+    constexpr std::size_t kDeep = 5;
+    if (steppers_ == 0 || steppers_ > kDeep || controller_at_it_ || bus_.random(3) > 0) return;
+    bus_.advance_clock(static_cast<std::int64_t>(bus_.random(2)));
+    give_turn(bus_.random(2) == 0 ? 0 : bus_.random(roles()));
+}
+
 void FaultyCluster::turn() {
     if (!controller_) controller_ = std::make_unique<Controller>(model_, options_, beginning_of(*model_));
     bus_.advance_clock(1);
     make_trouble();
-    const std::size_t roles = 1 + hosts_.size() + simulators_.size();
-    const std::size_t first = bus_.random(roles);
-    for (std::size_t k = 0; k < roles; ++k) {
-        const std::size_t i = (first + k) % roles;
-        if (i == 0) {
-            controller_->advance(bus_);
-        } else if (i <= hosts_.size()) {
-            hosts_[i - 1]->advance(bus_);
-        } else {
-            Member& member = simulators_[i - 1 - hosts_.size()];
-            if (member.hangs_for > 0)
-                --member.hangs_for;
-            else
-                member.role->advance(bus_);
-        }
-    }
+    const std::size_t first = bus_.random(roles());
+    for (std::size_t k = 0; k < roles(); ++k) give_turn((first + k) % roles());
     std::erase_if(simulators_, [](const Member& m) { return m.role->gone(); });
 }
 

@@ -1,5 +1,5 @@
-// A cluster on a FaultyBus, all in one thread and by one seed: roles take turns in random order, Simulators
-// are killed, hang, leave and join at random moments.
+// A cluster on a FaultyBus, all in one thread and by one seed: roles take turns in random order, and while a
+// Simulator steps others go on; Simulators are killed, hang, leave and join at random moments.
 #pragma once
 
 #include <memory>
@@ -49,8 +49,12 @@ class FaultyCluster {
     struct Member {
         std::unique_ptr<Simulator> role;
         Address address;
-        int hangs_for = 0;  // turns
+        int hangs_for = 0;   // turns
+        bool at_it = false;  // has its turn
     };
+    void give_turn(std::size_t role);
+    void let_others_go_on();
+    std::size_t roles() const { return 1 + hosts_.size() + simulators_.size(); }
     void make_trouble();
     bool happens(std::uint64_t chance) { return bus_.random(100'000) < chance; }
 
@@ -63,6 +67,8 @@ class FaultyCluster {
     std::vector<std::unique_ptr<ProgramHost>> hosts_;
     std::vector<Member> simulators_;
     std::uint64_t instance_ = 0;
+    std::size_t steppers_ = 0;  // Simulators in the midst of their turn
+    bool controller_at_it_ = false;
     int kills_ = 0;
 };
 

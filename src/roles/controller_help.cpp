@@ -1,0 +1,73 @@
+// Helping out within a window: what islands will cost is known to a tenth at best, so of many Simulators one
+// is always late. It says so; when another has nothing to do, it is told to stop, and what it has left is
+// shared out between it and them, from the tick to which it came.
+#include <algorithm>
+
+#include "plan/assign.h"
+#include "roles/controller.h"
+
+namespace roboss {
+
+namespace {
+
+constexpr double kHandOver_ns = 30'000;  // until a helper has a state and can begin
+
+}  // namespace
+
+/// Tells what is due: then who will need longer says so.
+void Controller::expect_work() {
+    if (!costs_known_ || roster_.workers().size() < 2) return;
+    double work = 0, speed = 0;
+    for (const float cost : cost_) work += static_cast<double>(cost);
+    for (const std::uint32_t place : roster_.workers()) speed += roster_.seat(place).speed();
+    const RoundSpan& span = round_->span();
+    const double due_ns = work * static_cast<double>(span.until - span.from) / speed;
+    if (due_ns >= options_.help_least_ns) round_->expect(static_cast<std::uint64_t>(std::max(due_ns, 1.0)));
+}
+
+void Controller::relieve(Bus& bus) {
+    if (!round_ || round_->span().recovery || round_->repeats() > 0) return;
+    const std::vector<std::uint32_t> late = round_->late();
+    if (late.empty()) return;
+    std::vector<std::uint32_t> idle = round_->idle(roster_);
+    const std::size_t each = std::max<std::size_t>(idle.size() / late.size(), 1);
+    for (const std::uint32_t place : late) {
+        if (idle.empty()) return;
+        const std::size_t n = std::min(each, idle.size());
+        round_->cut(bus, roster_, place, {idle.end() - static_cast<std::ptrdiff_t>(n), idle.end()});
+        idle.resize(idle.size() - n);
+    }
+}
+
+void Controller::share_out_rest(const Round::Answered& cut_short, std::span<const IslandFrame> parts,
+                                Tick at) {
+    const Plan& plan = cut_short.plan;
+    const Islands part{plan.island_offsets, plan.robots};
+    std::vector<std::uint32_t> seats = cut_short.helpers;
+    seats.push_back(cut_short.place);
+    std::vector<double> speeds;
+    for (const std::uint32_t seat : seats) speeds.push_back(roster_.seat(seat).rate);
+    double left_ns = 0;
+    std::vector<float> cost(model_->robots.size(), 0.0F);
+    std::vector<std::uint32_t> stays(cost.size(), kNowhere);
+    const double here = roster_.seat(cut_short.place).rate / static_cast<double>(at - plan.from);
+    for (std::size_t i = 0; i < part.count(); ++i) {
+        const auto robots = part.of(i);
+        const auto cost_ns = static_cast<double>(parts[i].cost_ns);
+        left_ns += cost_ns / static_cast<double>(at - plan.from) * static_cast<double>(plan.until - at);
+        for (const RobotId robot : robots) {
+            cost[robot.index()] =
+                static_cast<float>(std::max(here * cost_ns / static_cast<double>(robots.size()), 1e-3));
+            stays[robot.index()] = static_cast<std::uint32_t>(seats.size() - 1);
+        }
+    }
+    std::vector<std::uint32_t> place =
+        assign({part, cost, stays, speeds, kHandOver_ns / static_cast<double>(plan.until - at)});
+    for (std::uint32_t& seat : place) seat = seats[seat];
+    round_->plan_rest(cut_short, at, place,
+                      static_cast<std::uint64_t>(left_ns / static_cast<double>(seats.size())) + 1, roster_,
+                      [this](Plan& rest) { give_all(book_, rest); });
+    ++counters_.cuts;
+}
+
+}  // namespace roboss
