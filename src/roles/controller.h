@@ -258,7 +258,7 @@ class Controller {
     // controller_help.cpp: who is done takes over from who is late
     void expect_work();
     void relieve(Bus& bus);
-    void share_out_rest(const Round::Answered& cut_short, std::span<const IslandFrame> parts, Tick at);
+    void share_out_rest(const Round::Answered& cut_short, std::span<const IslandFrame> stepped, Tick at);
 
     // controller_views.cpp
     void take_view_request(Bus& bus, const Address& from, const ViewRequest& request);

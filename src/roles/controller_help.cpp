@@ -2,6 +2,7 @@
 // is always late. It says so; when another has nothing to do, it is told to stop, and what it has left is
 // shared out between it and them, from the tick to which it came.
 #include <algorithm>
+#include <numeric>
 
 #include "plan/assign.h"
 #include "roles/controller.h"
@@ -11,6 +12,18 @@ namespace roboss {
 namespace {
 
 constexpr double kHandOver_ns = 30'000;  // until a helper has a state and can begin
+
+/// By RobotId, in ns a tick where they were stepped: what islands cost in the ticks before.
+std::vector<float> cost_of_rest(const Islands& part, std::span<const IslandFrame> stepped, Tick ticks,
+                                std::size_t robots) {
+    std::vector<float> cost(robots, 0.0F);
+    for (std::size_t i = 0; i < part.count(); ++i) {
+        const double each = static_cast<double>(stepped[i].cost_ns) /
+                            (static_cast<double>(ticks) * static_cast<double>(part.size_of(i)));
+        for (const RobotId robot : part.of(i)) cost[robot.index()] = static_cast<float>(std::max(each, 1e-3));
+    }
+    return cost;
+}
 
 }  // namespace
 
@@ -39,33 +52,23 @@ void Controller::relieve(Bus& bus) {
     }
 }
 
-void Controller::share_out_rest(const Round::Answered& cut_short, std::span<const IslandFrame> parts,
+void Controller::share_out_rest(const Round::Answered& cut_short, std::span<const IslandFrame> stepped,
                                 Tick at) {
     const Plan& plan = cut_short.plan;
     const Islands part{plan.island_offsets, plan.robots};
     std::vector<std::uint32_t> seats = cut_short.helpers;
     seats.push_back(cut_short.place);
     std::vector<double> speeds;
-    for (const std::uint32_t seat : seats) speeds.push_back(roster_.seat(seat).rate);
-    double left_ns = 0;
-    std::vector<float> cost(model_->robots.size(), 0.0F);
-    std::vector<std::uint32_t> stays(cost.size(), kNowhere);
-    const double here = roster_.seat(cut_short.place).rate / static_cast<double>(at - plan.from);
-    for (std::size_t i = 0; i < part.count(); ++i) {
-        const auto robots = part.of(i);
-        const auto cost_ns = static_cast<double>(parts[i].cost_ns);
-        left_ns += cost_ns / static_cast<double>(at - plan.from) * static_cast<double>(plan.until - at);
-        for (const RobotId robot : robots) {
-            cost[robot.index()] =
-                static_cast<float>(std::max(here * cost_ns / static_cast<double>(robots.size()), 1e-3));
-            stays[robot.index()] = static_cast<std::uint32_t>(seats.size() - 1);
-        }
-    }
-    std::vector<std::uint32_t> place =
-        assign({part, cost, stays, speeds, kHandOver_ns / static_cast<double>(plan.until - at)});
+    for (const std::uint32_t seat : seats)
+        speeds.push_back(roster_.seat(seat).rate / roster_.seat(cut_short.place).rate);
+    const std::vector<float> cost = cost_of_rest(part, stepped, at - plan.from, model_->robots.size());
+    const std::vector<std::uint32_t> stays(cost.size(), static_cast<std::uint32_t>(seats.size() - 1));
+    const auto left = static_cast<double>(plan.until - at);
+    std::vector<std::uint32_t> place = assign({part, cost, stays, speeds, kHandOver_ns / left});
     for (std::uint32_t& seat : place) seat = seats[seat];
-    round_->plan_rest(cut_short, at, place,
-                      static_cast<std::uint64_t>(left_ns / static_cast<double>(seats.size())) + 1, roster_,
+    const double due_ns =
+        left * std::accumulate(cost.begin(), cost.end(), 0.0) / static_cast<double>(seats.size());
+    round_->plan_rest(cut_short, at, place, static_cast<std::uint64_t>(due_ns) + 1, roster_,
                       [this](Plan& rest) { give_all(book_, rest); });
     ++counters_.cuts;
 }

@@ -181,7 +181,7 @@ void Controller::take_costs(const Round::Answered& answered, const Frame& frame)
 
 void Controller::finish_round() {
     if (waits_for_log()) return options_.log->hurry();
-    counters_.critical_cpu_s += 1e-9 * static_cast<double>(round_->busiest_ns());
+    counters_.critical_cpu_s += 1e-9 * round_->busiest_ns();
     if (round_->span().recovery) return finish_leg();
     if (merge_touching()) return;
     if (std::optional<Error> error = failed_island()) {
@@ -306,8 +306,9 @@ void Controller::learn_costs() {
     double busiest_ns = 0;
     for (std::uint32_t place = 0; place < roster_.size(); ++place) {
         SimulatorSeat& seat = roster_.seat(place);
-        seat.spent_ns += kNewSpentShare * (spent_ns[place] / (ticks * seat.threads) - seat.spent_ns);
-        busiest_ns = std::max(busiest_ns, spent_ns[place]);
+        const double spent = round.spent_ns(place);
+        seat.spent_ns += kNewSpentShare * (spent / (ticks * seat.threads) - seat.spent_ns);
+        busiest_ns = std::max(busiest_ns, spent);
     }
     work_since_s_ += 1e-9 * busiest_ns;
 }

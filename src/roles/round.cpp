@@ -53,7 +53,7 @@ void Round::plan(const Islands& part, std::span<const std::uint32_t> place,
     const std::vector<std::uint32_t> from(source.begin(),
                                           source.end());  // `source` may be seats(), which change below
     in_attempt_.assign(seat_.size(), false);
-    spent_ns_.assign(roster.size(), 0);
+    spent_before_ns_ = spent_ns_;
     for (std::size_t i = 0; i < part.count(); ++i)
         for (const RobotId robot : part.of(i)) {
             seat_[robot.index()] = last_seat_[robot.index()] = place[i];
@@ -163,12 +163,17 @@ bool Round::fits(const Plan& plan, const Frame& frame) const {
 }
 
 void Round::spend(std::uint32_t place, std::uint64_t cost_ns) {
-    if (spent_ns_.size() <= place) spent_ns_.resize(place + std::size_t{1}, 0);  // it joined since
-    spent_ns_[place] += cost_ns;
+    if (spent_ns_.size() <= place) spent_ns_.resize(place + std::size_t{1}, 0);
+    spent_ns_[place] += static_cast<double>(cost_ns);
 }
 
-std::uint64_t Round::busiest_ns() const {
-    return spent_ns_.empty() ? 0 : *std::max_element(spent_ns_.begin(), spent_ns_.end());
+double Round::busiest_ns() const {
+    double busiest = 0;
+    for (std::size_t place = 0; place < spent_ns_.size(); ++place) {
+        const double before = place < spent_before_ns_.size() ? spent_before_ns_[place] : 0;
+        busiest = std::max(busiest, spent_ns_[place] - before);
+    }
+    return busiest;
 }
 
 void Round::expect(std::uint64_t due_ns) {

@@ -58,9 +58,11 @@ class Round {
     std::optional<Answered> answered_by(const Frame& frame);
     bool all_answered() const { return sent_.empty(); }
 
-    /// What a seat's stepping cost, and the most that one's has cost, in this attempt for all.
+    /// What a seat's stepping cost; in the whole window; the most of one seat since islands were planned for
+    /// all, or again.
     void spend(std::uint32_t place, std::uint64_t cost_ns);
-    std::uint64_t busiest_ns() const;
+    double spent_ns(std::uint32_t place) const { return place < spent_ns_.size() ? spent_ns_[place] : 0; }
+    double busiest_ns() const;
 
     // Helping out: who has answered may take over from who is late.
     /// Everybody is expected to need so much time for the window.
@@ -110,8 +112,8 @@ class Round {
     std::vector<std::uint32_t> seat_, last_seat_;  // by RobotId
     std::vector<Tick> since_;                      // by RobotId
     std::vector<bool> in_attempt_;                 // by RobotId
-    std::vector<std::uint64_t> spent_ns_;          // by seat
-    std::vector<Plan*> plan_of_seat_;              // of this attempt; null: has none
+    std::vector<double> spent_ns_, spent_before_ns_;  // by seat; before: when islands were planned again
+    std::vector<Plan*> plan_of_seat_;                 // of this attempt; null: has none
 };
 
 }  // namespace roboss

@@ -3,18 +3,14 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
+
+#include "roles/window_job.h"
 
 namespace roboss {
 
 namespace {
 
 constexpr std::size_t kRobotsPerBatch = 8;  // a look at the clock costs about a tenth of a robot's step
-constexpr std::size_t kSignOfLife = 512;    // robots times ticks, after which there is a sign of life
-constexpr std::size_t kAbreastMost = 24;    // robots that are stepped tick by tick in all their islands
-constexpr std::size_t kAlert = 4;           // times as often does it look for messages who may be cut short
-
-constexpr double kCounted_ns = 1'200;  // for an effort (step.h) where no time is measured: a car's, about
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const Aabb kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
@@ -24,37 +20,11 @@ bool sensible(const Aabb& b) {
     return b.min.x <= b.max.x && b.min.y <= b.max.y && b.min.z <= b.max.z;
 }
 
-/// Whether, of so many robots stepped together, something is due after so many ticks.
-bool is_due(std::size_t robots, Tick ticks, std::size_t each = kSignOfLife) {
-    return ticks % static_cast<Tick>(std::max<std::size_t>(each / robots, 1)) == 0;
-}
-
 bool teleports(const Order& order) {
     return std::holds_alternative<SetPose>(order.action);
 }
 
 }  // namespace
-
-struct WindowStepper::Job {
-    const Plan& plan;
-    StateStore& store;
-    const Between& between;
-    Frame frame;
-
-    std::span<const RobotId> robots(std::size_t island) const {
-        const std::size_t first = plan.island_offsets[island];
-        return std::span(plan.robots).subspan(first, plan.island_offsets[island + 1] - first);
-    }
-};
-
-struct WindowStepper::Convoy {
-    std::vector<std::uint32_t> islands;  // ascending, as their robots are
-    std::vector<std::size_t> next;       // by island: its next order
-    std::vector<RobotId> robots;
-    std::vector<RobotState*> states;
-    std::vector<Aabb> bounds;
-    std::vector<Order> orders;  // of a tick
-};
 
 WindowStepper::WindowStepper(std::shared_ptr<const Model> model, ThreadPool& pool, SteppingOptions options)
     : model_(std::move(model)),
@@ -84,11 +54,6 @@ void WindowStepper::sort_orders(const Plan& plan) {
     orders_.resize(order_offsets_.back());
     for (const Order& order : plan.orders)
         if (concerns(order)) orders_[next[island_of_[order.robot.index()]]++] = order;
-}
-
-/// Few robots on one thread, which others may help out with: in one batch, all tick by tick.
-bool WindowStepper::abreast(const Plan& plan) const {
-    return plan.due_ns > 0 && threads() == 1 && plan.robots.size() <= kAbreastMost;
 }
 
 void WindowStepper::cut_batches(const Plan& plan) {
@@ -156,12 +121,6 @@ void WindowStepper::step_batch(Job& job, std::size_t batch, std::size_t worker) 
         job.frame.islands[island].cost_ns =
             static_cast<std::uint64_t>(spent * efforts_[island] / std::max(effort, 1.0));
     if (worker == 0) job.between({});
-}
-
-/// In the one batch of a plan that is stepped abreast.
-double WindowStepper::spent_ns(std::uint64_t start_ns) const {
-    if (options_.clock) return static_cast<double>(options_.clock() - start_ns);
-    return kCounted_ns * std::accumulate(efforts_.begin(), efforts_.end(), 0.0);
 }
 
 void WindowStepper::step_island_through(Job& job, std::size_t island, std::size_t worker) {
@@ -267,69 +226,6 @@ bool WindowStepper::step_convoy(Job& job, Tick tick, std::size_t worker) {
     outcome.contacts += static_cast<std::uint64_t>(report.contacts);
     outcome.static_contacts += static_cast<std::uint64_t>(report.static_contacts);
     return !report.not_finite.valid();
-}
-
-/// All islands tick by tick, so that at any of them the rest may be left to others; not any more where
-/// something failed. `singles`: the last so many have one robot.
-void WindowStepper::step_abreast(Job& job, std::span<const std::uint32_t> islands, std::size_t singles,
-                                 std::uint64_t start_ns) {
-    const auto larger = islands.first(islands.size() - singles);
-    const auto ticks = static_cast<double>(job.plan.until - job.plan.from);
-    const std::function<double()> clock = [this, start_ns] { return spent_ns(start_ns); };
-    std::vector<std::size_t>& next = next_order_;
-    next.assign(order_offsets_.begin(), order_offsets_.end() - 1);
-    bool convoy_goes = singles > 0, intact = true;
-    std::size_t look_up = options_.look_up;
-    if (convoy_goes) load_convoy(job, islands.last(singles), 0);
-    for (Tick tick = job.plan.from; tick < job.plan.until; ++tick) {
-        for (const std::uint32_t i : larger) {
-            if (job.frame.islands[i].failed.valid()) continue;
-            const std::size_t first = next[i];
-            while (next[i] < order_offsets_[i + 1] && orders_[next[i]].apply_at == tick) ++next[i];
-            intact = step_tick(job, i, tick, std::span(orders_).subspan(first, next[i] - first), 0) && intact;
-        }
-        if (convoy_goes && !step_convoy(job, tick, 0)) {
-            convoy_goes = intact = false;
-            step_apart(job, convoys_[0].islands, 0);
-        }
-        if (!is_due(job.plan.robots.size(), tick + 1 - job.plan.from, look_up)) continue;
-        const double done = static_cast<double>(tick + 1 - job.plan.from) / ticks;
-        const Next go = job.between(intact ? StepProgress{done, &clock} : StepProgress{});
-        if (go == Next::kStop && intact && tick + 1 < job.plan.until) return cut_short(job, tick + 1);
-        look_up = options_.look_up / (go == Next::kGoOnAlert ? kAlert : 1);
-    }
-    for (const std::uint32_t i : larger)
-        if (!job.frame.islands[i].failed.valid()) report_robots(job, i);
-    if (convoy_goes)
-        for (const std::uint32_t i : convoys_[0].islands) report_robots(job, i);
-}
-
-void WindowStepper::cut_short(Job& job, Tick tick) {
-    job.frame.left = static_cast<std::uint64_t>(job.plan.until - tick);
-    job.frame.robots.clear();
-    stub_ = {job.plan.epoch,  job.plan.window, tick,
-             job.plan.robots, swept_,          std::exchange(job.frame.earlier, {})};
-    for (auto& boxes : earlier_) {
-        stub_.earlier.insert(stub_.earlier.end(), boxes.begin(), boxes.end());
-        boxes.clear();
-    }
-    for (const RobotId robot : job.plan.robots) job.store.cut_window(robot, tick);
-}
-
-/// Whoever steps robots on after a Cut, what they swept before it is told here: in their bounds where they
-/// stayed, else beside them.
-void WindowStepper::take_up(Job& job) {
-    const Plan& plan = job.plan;
-    const Stub stub = std::exchange(stub_, {});
-    if (stub.tick != plan.from || stub.window != plan.window || stub.epoch != plan.epoch) return;
-    job.frame.earlier = stub.earlier;
-    for (std::size_t i = 0; i < stub.robots.size(); ++i) {
-        const auto here = std::find(plan.robots.begin(), plan.robots.end(), stub.robots[i]);
-        if (here != plan.robots.end())
-            swept_before_[static_cast<std::size_t>(here - plan.robots.begin())] = stub.swept[i];
-        else if (!stub.swept[i].empty())
-            job.frame.earlier.push_back({stub.robots[i], outward(stub.swept[i])});
-    }
 }
 
 /// One of them failed at a tick, and nobody knows which of the others were stepped in it: all once more from

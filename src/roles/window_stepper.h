@@ -45,10 +45,11 @@ class WindowStepper {
     std::size_t threads() const { return scratch_.size(); }
 
   private:
-    struct Job;     // one call of step()
-    struct Convoy;  // islands of one robot that are stepped together, so that lanes fill
-                    // (physics/lane_stepper.h)
-    struct Stub {   // of a plan that was cut short
+    struct Job;      // one call of step()
+    struct Convoy;   // islands of one robot that are stepped together, so that lanes fill
+                     // (physics/lane_stepper.h)
+    struct Abreast;  // islands that all go tick by tick
+    struct Stub {    // of a plan that was cut short
         std::uint32_t epoch = 0;
         std::uint64_t window = 0;
         Tick tick = -1;
@@ -67,16 +68,18 @@ class WindowStepper {
     void load_convoy(const Job& job, std::span<const std::uint32_t> islands, std::size_t worker);
     bool step_convoy(Job& job, Tick tick, std::size_t worker);
     void step_apart(Job& job, std::span<const std::uint32_t> islands, std::size_t worker);
-    bool abreast(const Plan& plan) const;
-    void step_abreast(Job& job, std::span<const std::uint32_t> islands, std::size_t singles,
-                      std::uint64_t start_ns);
-    double spent_ns(std::uint64_t start_ns) const;
-    void cut_short(Job& job, Tick tick);
-    void take_up(Job& job);
     void count(std::size_t island, float effort);
     void sweep(const Job& job, std::size_t island, std::span<const Order> orders);
     void give_up(Job& job, std::size_t island, RobotId failed, Tick tick);
     void report_robots(Job& job, std::size_t island);
+    // window_cut.cpp
+    bool abreast(const Plan& plan) const;
+    void step_abreast(Job& job, std::span<const std::uint32_t> islands, std::size_t singles,
+                      std::uint64_t start_ns);
+    double spent_ns(std::uint64_t start_ns) const;
+    void step_all(Job& job, Abreast& a, Tick tick);
+    void cut_short(Job& job, Tick tick);
+    void take_up(Job& job);
 
     std::shared_ptr<const Model> model_;
     ThreadPool& pool_;

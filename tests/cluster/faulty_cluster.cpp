@@ -81,7 +81,10 @@ void FaultyCluster::give_turn(std::size_t role) {
 /// Somebody looks for messages; if it is a Simulator, others may have gone on since it looked last.
 void FaultyCluster::let_others_go_on() {
     constexpr std::size_t kDeep = 5;
-    if (steppers_ == 0 || steppers_ > kDeep || controller_at_it_ || bus_.random(3) > 0) return;
+    constexpr int kMost = 40;  // in a turn: who watches from outside must not miss too much
+    if (steppers_ == 0 || steppers_ > kDeep || controller_at_it_ || others_went_on_ >= kMost) return;
+    if (bus_.random(3) > 0) return;
+    ++others_went_on_;
     bus_.advance_clock(static_cast<std::int64_t>(bus_.random(2)));
     give_turn(bus_.random(2) == 0 ? 0 : bus_.random(roles()));
 }
@@ -90,6 +93,7 @@ void FaultyCluster::turn() {
     if (!controller_) controller_ = std::make_unique<Controller>(model_, options_, beginning_of(*model_));
     bus_.advance_clock(1);
     make_trouble();
+    others_went_on_ = 0;
     const std::size_t first = bus_.random(roles());
     for (std::size_t k = 0; k < roles(); ++k) give_turn((first + k) % roles());
     std::erase_if(simulators_, [](const Member& m) { return m.role->gone(); });

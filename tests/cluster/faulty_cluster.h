@@ -69,6 +69,7 @@ class FaultyCluster {
     std::uint64_t instance_ = 0;
     std::size_t steppers_ = 0;  // Simulators in the midst of their turn
     bool controller_at_it_ = false;
+    int others_went_on_ = 0;  // in this turn
     int kills_ = 0;
 };
 

@@ -11,7 +11,7 @@ namespace roboss::test {
 namespace {
 
 constexpr Tick kTicks = 240;
-constexpr Tick kLate = 6;  // ticks before theirs that late orders are given
+constexpr Tick kLate = 20;  // ticks before theirs that late orders are given
 
 /// Wheels turn anew every few ticks; now and then a robot is pushed, and one is put elsewhere.
 std::vector<Order> many_orders(const Model& model) {
