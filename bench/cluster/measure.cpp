@@ -52,10 +52,14 @@ void run_by_turns(const Work& work, VirtualCluster& cluster, OneProcess& alone) 
     check_hash(work, alone.hash(), "one process");
 }
 
-/// Bytes of frames so far.
-double frame_bytes(const VirtualCluster& cluster) {
-    const auto found = cluster.network().received.find("Frame");
-    return found == cluster.network().received.end() ? 0 : static_cast<double>(found->second.bytes);
+/// Bytes of what Simulators tell of windows, so far.
+double window_bytes(const VirtualCluster& cluster) {
+    double bytes = 0;
+    for (const char* name : {"Frame", "Late"}) {
+        const auto found = cluster.network().received.find(name);
+        if (found != cluster.network().received.end()) bytes += static_cast<double>(found->second.bytes);
+    }
+    return bytes;
 }
 
 /// The efficiency before messages if what islands cost is counted (Newton iterations) instead of measured, by
@@ -83,7 +87,7 @@ Json measure(const Work& work, std::size_t simulators, const ClusterSettings& se
     OneProcess alone(work, settings.lanes, one_island);
     const Counters before = cluster.controller().counters();
     const double begin_s = cluster.time_s(), begin_cpu_s = cluster.controller_cpu_s(),
-                 begin_bytes = frame_bytes(cluster);
+                 begin_bytes = window_bytes(cluster);
     run_by_turns(work, cluster, alone);
 
     const Counters& c = cluster.controller().counters();
@@ -110,7 +114,7 @@ Json measure(const Work& work, std::size_t simulators, const ClusterSettings& se
                 {"migrations", share(since(&Counters::migrations), windows)},
                 {"cuts", share(since(&Counters::cuts), windows)},
                 {"controller_us", share(1e6 * controller_s, windows)},
-                {"frame_bytes", share(frame_bytes(cluster) - begin_bytes,
+                {"frame_bytes", share(window_bytes(cluster) - begin_bytes,
                                       robots * windows + since(&Counters::robots_repeated))}};
     constexpr std::size_t kFewRobots = 500;  // of more it takes long and says no more than the time does
     if (work.model->robots.size() <= kFewRobots)
