@@ -202,9 +202,9 @@ void print_status(const Json& o) {
                o.value("islands", 0), o.value("window_ticks", 0));
     fmt::print(
         "{} windows, {} repeated; efficiency before messages {:.3f}; {} losses, {} recoveries, {} "
-        "migrations\n",
+        "migrations, {} late plans relieved\n",
         o.value("windows", 0), o.value("windows_repeated", 0), o.value("efficiency", 0.0),
-        o.value("losses", 0), o.value("recoveries", 0), o.value("migrations", 0));
+        o.value("losses", 0), o.value("recoveries", 0), o.value("migrations", 0), o.value("cuts", 0));
     fmt::print("{:>4}  {:<32} {:<8} {:>7} {:>7} {:>8} {:>6} {:>10}\n", "id", "where", "state", "threads",
                "robots", "islands", "load", "us a tick");
     for (const Json& m : o["members"])

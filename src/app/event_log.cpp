@@ -54,9 +54,9 @@ std::vector<std::string> state_lines(const Simulation& simulation) {
     std::vector<std::string> lines;
     lines.push_back(fmt::format(
         "event=state time_s={:.3f} simulators={} robots={} islands={} window={} windows={} repeated={} "
-        "efficiency={:.3f} losses={} recoveries={} migrations={}",
+        "efficiency={:.3f} losses={} recoveries={} migrations={} cuts={}",
         simulation.time_s(), c.simulators, robots, c.islands_now, controller.window_ticks(), c.windows,
-        c.windows_repeated, controller.balance(), c.losses, c.recoveries, c.migrations));
+        c.windows_repeated, controller.balance(), c.losses, c.recoveries, c.migrations, c.cuts));
     for (std::size_t place = 0; place < members.size(); ++place) {
         const MemberReport& member = members[place];
         if (!member.alive) continue;

@@ -234,6 +234,7 @@ Summary Run::summary(double wall_s) const {
     s.losses = c.losses;
     s.recoveries = c.recoveries;
     s.migrations = c.migrations;
+    s.cuts = c.cuts;
     s.simulators = c.simulators;
     return s;
 }

@@ -55,6 +55,7 @@ std::string Run::status() const {
            {"losses", c.losses},
            {"recoveries", c.recoveries},
            {"migrations", c.migrations},
+           {"cuts", c.cuts},
            {"messages", json_of(traffic_.total())},
            {"model_hash", to_hex(model_->hash)},
            {"state_hash", to_hex(simulation_->hash())}};

@@ -30,6 +30,7 @@ std::string to_json(const Summary& s) {
     o["losses"] = s.losses;
     o["recoveries"] = s.recoveries;
     o["migrations"] = s.migrations;
+    o["cuts"] = s.cuts;
     o["model_hash"] = to_hex(s.model_hash);
     o["state_hash"] = to_hex(s.state_hash);
     return o.dump(2) + "\n";

@@ -6,9 +6,10 @@
 namespace roboss {
 
 void StatePull::begin(const Model& model, Tick tick, std::vector<Holding> holders,
-                      std::optional<std::int64_t> unasked_ms) {
+                      std::optional<std::int64_t> unasked_ms, std::uint64_t window) {
     active_ = true;
     tick_ = tick;
+    window_ = window;
     wanted_.assign(model.robots.size(), false);
     missing_ = 0;
     holders_.clear();
@@ -27,6 +28,7 @@ void StatePull::begin(const Model& model, Tick tick, std::vector<Holding> holder
 void StatePull::begin_all(const Model& model, Tick tick) {
     active_ = true;
     tick_ = tick;
+    window_ = 0;
     wanted_.assign(model.robots.size(), true);
     missing_ = model.robots.size();
     holders_.clear();
@@ -49,7 +51,7 @@ void StatePull::advance(Bus& bus, const Address& self, std::int64_t resend_ms) {
     ask_now_ = false;
     asked_ms_ = now;
     for (const Holding& holding : holders_) {
-        StateRequest request{tick_, {}};
+        StateRequest request{tick_, {}, window_};
         for (const RobotId robot : holding.robots)
             if (robot.index() < wanted_.size() && wanted_[robot.index()]) request.robots.push_back(robot);
         if (!request.robots.empty()) bus.send(self, holding.source, std::move(request));

@@ -13,9 +13,10 @@ namespace roboss {
 class StatePull {
   public:
     /// Starts to fetch `holders`' robots at `tick`; accept() says where each state goes. `unasked_ms`: they
-    /// are sent without being asked for; who has not done so by then (Bus::now_ms()) is asked.
+    /// are sent without being asked for; who has not done so by then (Bus::now_ms()) is asked. `window`:
+    /// StateRequest's.
     void begin(const Model& model, Tick tick, std::vector<Holding> holders,
-               std::optional<std::int64_t> unasked_ms = {});
+               std::optional<std::int64_t> unasked_ms = {}, std::uint64_t window = 0);
     /// Starts to fetch every robot; redirect() says from whom.
     void begin_all(const Model& model, Tick tick);
     /// Who has the robots now; what has come stays. Asks at once on the next advance() if this is news.
@@ -25,6 +26,9 @@ class StatePull {
     bool active() const { return active_; }
     bool complete() const { return active_ && missing_ == 0; }
     Tick tick() const { return tick_; }
+    bool is_for(const StateReply& reply) const {
+        return active_ && reply.states.tick == tick_ && reply.window == window_;
+    }
 
     /// Sends requests for what is missing, at once and then every resend_ms.
     void advance(Bus& bus, const Address& self, std::int64_t resend_ms);
@@ -32,7 +36,7 @@ class StatePull {
     /// Calls put(robot, RobotState&&) for every missing robot of the reply. Damaged states count as not come.
     template <class Put>
     void accept(const Model& model, const StateReply& reply, Put&& put) {
-        if (!active_ || reply.states.tick != tick_) return;
+        if (!is_for(reply)) return;
         std::size_t offset = 0;
         for (std::size_t i = 0; i < reply.states.robots.size(); ++i) {
             if (std::optional<RobotState> state = take(model, reply.states, i, offset))
@@ -47,6 +51,7 @@ class StatePull {
 
     bool active_ = false;
     Tick tick_ = 0;
+    std::uint64_t window_ = 0;
     std::vector<Holding> holders_;
     std::vector<bool> wanted_;  // by RobotId
     std::size_t missing_ = 0;

@@ -1,6 +1,6 @@
 // How many ticks the next window should have. Long windows spare messages; but forecasts reach further,
 // islands grow and repeats cost more. Depends on counts only (never on clocks), so a run's windows are the
-// same every time.
+// same every time on one Simulator; on several, who is late and who takes over decides what forecasts see.
 #pragma once
 
 #include <algorithm>

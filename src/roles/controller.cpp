@@ -182,7 +182,7 @@ void Controller::take_leave(Bus& bus, const Address& from, const LeaveRequest& r
 }
 
 void Controller::serve(Bus& bus, const Address& from, const StateRequest& request) const {
-    if (request.tick != base_.tick) return;
+    if (request.tick != base_.tick || request.window != 0) return;
     StateReply reply;
     reply.states.tick = request.tick;
     for (const RobotId robot : request.robots)

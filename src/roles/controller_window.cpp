@@ -292,7 +292,8 @@ void Controller::learn_costs() {
         double expected = 0;
         for (const RobotId robot : robots) expected += static_cast<double>(cost_[robot.index()]);
         const double rate = 0.5 * (roster_.seat(place).rate + roster_.seat(last).rate);
-        if (place == last) {  // what two have stepped says nothing of either
+        if (round.since(robots.front()) ==
+            round.span().from) {  // what two have stepped says nothing of either
             expected_ns[place] += ticks * expected / rate;
             spent_ns[place] += cost_ns;
         }

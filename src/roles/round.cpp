@@ -142,7 +142,8 @@ std::optional<Round::Answered> Round::answered_by(const Frame& frame) {
     const auto sent = std::find_if(sent_.begin(), sent_.end(), [&](const Sent& s) {
         return s.plan.simulator == frame.simulator && s.plan.attempt == frame.attempt;
     });
-    if (sent == sent_.end() || !fits(sent->plan, frame)) return std::nullopt;
+    if (sent == sent_.end() || (frame.left > 0 && !sent->cut) || !fits(sent->plan, frame))
+        return std::nullopt;
     std::optional<Answered> answered({sent->place, std::move(sent->plan), std::move(sent->helpers)});
     sent_.erase(sent);
     return answered;
@@ -187,15 +188,15 @@ void Round::take_late(const Late& late, const Roster& roster) {
             sent.needs_ns = late.needs_ns;
 }
 
-std::vector<std::uint32_t> Round::late() const {
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> late;
+std::vector<Round::LateSeat> Round::late() const {
+    std::vector<const Sent*> late;
     for (const Sent& sent : sent_)
-        if (sent.needs_ns > 0 && !sent.cut && sent.plan.island_offsets.size() > 2)
-            late.emplace_back(sent.needs_ns, sent.place);
-    std::sort(late.rbegin(), late.rend());
-    std::vector<std::uint32_t> places;
-    for (const auto& [needs_ns, place] : late) places.push_back(place);
-    return places;
+        if (sent.needs_ns > 0 && !sent.cut && sent.plan.island_offsets.size() > 2) late.push_back(&sent);
+    std::stable_sort(late.begin(), late.end(),
+                     [](const Sent* a, const Sent* b) { return a->needs_ns > b->needs_ns; });
+    std::vector<LateSeat> seats;
+    for (const Sent* sent : late) seats.push_back({sent->place, sent->plan.island_offsets.size() - 1});
+    return seats;
 }
 
 std::vector<std::uint32_t> Round::idle(const Roster& roster) const {

@@ -68,8 +68,12 @@ class Round {
     /// Everybody is expected to need so much time for the window.
     void expect(std::uint64_t due_ns);
     void take_late(const Late& late, const Roster& roster);
+    struct LateSeat {
+        std::uint32_t place = 0;
+        std::size_t islands = 0;
+    };
     /// Who said that it is late, has something to give away and was not cut short yet, the latest first.
-    std::vector<std::uint32_t> late() const;
+    std::vector<LateSeat> late() const;
     /// Whom nothing is to come from.
     std::vector<std::uint32_t> idle(const Roster& roster) const;
     void cut(Bus& bus, const Roster& roster, std::uint32_t place, std::vector<std::uint32_t> helpers);

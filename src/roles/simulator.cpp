@@ -25,6 +25,11 @@ bool is_newer(const A& a, const B& b) {
     return std::tie(a.epoch, a.window, a.attempt) > std::tie(b.epoch, b.window, b.attempt);
 }
 
+/// The window in whose midst the plan begins; 0: it begins at a window's start.
+std::uint64_t midst_of(const Plan& plan) {
+    return plan.from > plan.window_from ? plan.window : 0;
+}
+
 SteppingOptions stepping(const SimulatorOptions& options) {
     SteppingOptions stepping{nullptr, nullptr, options.lanes, options.look_up};
     if (options.measure_cpu)
@@ -159,7 +164,7 @@ void Simulator::add_ahead(Plan& plan) const {
 
 void Simulator::take_states(StateReply& reply) {
     const Tick tick = reply.states.tick;
-    if (pull_.active() && tick == pull_.tick())
+    if (pull_.is_for(reply) && !pull_.complete())
         return pull_.accept(*model_, reply, [&](RobotId robot, RobotState&& state) {
             store_.put(robot, tick, std::move(state));
         });
@@ -202,7 +207,8 @@ WindowStepper::Next Simulator::whether_late(Bus& bus, const StepProgress& progre
 }
 
 void Simulator::give(Bus& bus, const Plan& plan) const {
-    for (const HandOver& hand_over : plan.gives) serve(bus, hand_over.to, {plan.from, hand_over.robots});
+    for (const HandOver& hand_over : plan.gives)
+        serve(bus, hand_over.to, {plan.from, hand_over.robots, midst_of(plan)});
 }
 
 void Simulator::adopt(Bus& bus, Plan& plan) {
@@ -211,7 +217,7 @@ void Simulator::adopt(Bus& bus, Plan& plan) {
     to_keep_ = {plan.from, std::move(plan.keep)};
     store_.release_before(plan.release_before);
     store_.forget_aside_before(plan.window_from);
-    if (plan.from > plan.window_from) store_.set_aside(plan.robots, plan.window_from);
+    if (midst_of(plan) != 0) store_.set_aside(plan.robots, plan.window_from);
     std::vector<bool> comes(model_->robots.size(), false);
     for (const Holding& holding : plan.hand_offs)
         for (const RobotId robot : holding.robots)
@@ -222,15 +228,18 @@ void Simulator::adopt(Bus& bus, Plan& plan) {
                          std::to_string(robot.value) + " at tick " + std::to_string(plan.from));
     const bool all_given = std::all_of(plan.hand_offs.begin(), plan.hand_offs.end(),
                                        [](const Holding& h) { return h.source.role == Role::kSimulator; });
-    pull_.begin(*model_, plan.from, plan.hand_offs, all_given ? std::optional(bus.now_ms()) : std::nullopt);
+    pull_.begin(*model_, plan.from, plan.hand_offs, all_given ? std::optional(bus.now_ms()) : std::nullopt,
+                midst_of(plan));
     plan_ = std::move(plan);
     for (StateReply& reply : std::exchange(early_, {}))
-        if (reply.states.tick >= plan_->from) take_states(reply);
+        if (reply.states.tick >= plan_->from && (reply.window == 0 || reply.window >= plan_->window))
+            take_states(reply);
 }
 
 void Simulator::serve(Bus& bus, const Address& from, const StateRequest& request) const {
     StateReply reply;
     reply.states.tick = request.tick;
+    reply.window = request.window;
     for (const RobotId robot : request.robots) store_.copy_to(reply.states, robot, request.tick);
     if (!reply.states.robots.empty()) bus.send(self_, from, std::move(reply));
 }

@@ -1,5 +1,5 @@
 // The Simulator role (the paper's section 3): takes a window's plan, fetches the states it lacks, steps its
-// islands through the window without talking to anyone, and answers with a frame. It knows nothing of other
+// islands through the window without waiting for anyone, and answers with a frame. It knows nothing of other
 // Simulators' plans and decides nothing; a plan that comes twice is answered from memory.
 #pragma once
 

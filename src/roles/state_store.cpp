@@ -11,6 +11,7 @@ void StateStore::put(RobotId robot, Tick tick, RobotState&& state) {
     slot.start = std::move(state);
     slot.start_tick = tick;
     slot.end_tick = slot.ahead_tick = kNone;
+    if (!aside_.empty()) forget_aside(robot, tick);  // that may be of an attempt that was repeated
 }
 
 bool StateStore::start(RobotId robot, Tick tick) {
@@ -22,8 +23,9 @@ bool StateStore::start(RobotId robot, Tick tick) {
     }
     if (slot.start_tick == tick) return true;
     const RobotState* aside = find_aside(robot, tick);
-    if (aside != nullptr) put(robot, tick, RobotState(*aside));
-    return aside != nullptr;
+    if (aside == nullptr) return false;
+    put(robot, tick, RobotState(*aside));
+    return true;
 }
 
 RobotState& StateStore::begin_window(RobotId robot, Tick until) {
@@ -42,9 +44,16 @@ void StateStore::cut_window(RobotId robot, Tick tick) {
 }
 
 void StateStore::set_aside(std::span<const RobotId> robots, Tick tick) {
-    for (const RobotId robot : robots)
-        if (const RobotState* state = find_aside(robot, tick) == nullptr ? find(robot, tick) : nullptr)
-            aside_.push_back({robot, tick, *state});
+    for (const RobotId robot : robots) {
+        const RobotState* state = find_in_slot(robot, tick);
+        if (state == nullptr) continue;
+        forget_aside(robot, tick);
+        aside_.push_back({robot, tick, *state});
+    }
+}
+
+void StateStore::forget_aside(RobotId robot, Tick tick) {
+    std::erase_if(aside_, [&](const Aside& a) { return a.robot == robot && a.tick == tick; });
 }
 
 void StateStore::forget_aside_before(Tick tick) {
@@ -58,10 +67,14 @@ void StateStore::copy_ahead(RobotId robot) {
 }
 
 const RobotState* StateStore::find(RobotId robot, Tick tick) const {
+    const RobotState* state = find_in_slot(robot, tick);
+    return state != nullptr ? state : find_aside(robot, tick);
+}
+
+const RobotState* StateStore::find_in_slot(RobotId robot, Tick tick) const {
     const Slot& slot = slots_[robot.index()];
     if (slot.start_tick == tick) return &slot.start;
-    if (slot.end_tick == tick) return &slot.end;
-    return find_aside(robot, tick);
+    return slot.end_tick == tick ? &slot.end : nullptr;
 }
 
 const RobotState* StateStore::find_aside(RobotId robot, Tick tick) const {

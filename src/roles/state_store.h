@@ -57,7 +57,9 @@ class StateStore {
         RobotState state;
     };
 
+    const RobotState* find_in_slot(RobotId robot, Tick tick) const;
     const RobotState* find_aside(RobotId robot, Tick tick) const;
+    void forget_aside(RobotId robot, Tick tick);
 
     std::vector<Slot> slots_;
     std::vector<Aside> aside_;  // few

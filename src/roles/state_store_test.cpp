@@ -64,6 +64,14 @@ TEST(StateStore, HasTheStateAtAWindowsStartStillWhenItsRestWasStepped) {
     EXPECT_EQ(x_of(*store.find(kRobot, 0)), 1);
     ASSERT_TRUE(store.start(kRobot, 0)) << "the window is stepped again";
     EXPECT_EQ(x_of(store.begin_window(kRobot, 10)), 1);
+    store.begin_window(kRobot, 10) = at(3);
+    store.set_aside(std::vector{kRobot}, 0);
+    store.put(kRobot, 0, at(9));
+    EXPECT_EQ(x_of(*store.find(kRobot, 0)), 9) << "what came last counts";
+    store.set_aside(std::vector{kRobot}, 0);
+    store.put(kRobot, 6, at(4));
+    EXPECT_EQ(x_of(*store.find(kRobot, 0)), 9);
+    store.begin_window(kRobot, 10) = at(3);
     store.forget_aside_before(10);
     ASSERT_TRUE(store.start(kRobot, 10));
     EXPECT_EQ(store.find(kRobot, 6), nullptr);

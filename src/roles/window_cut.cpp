@@ -16,7 +16,8 @@ constexpr std::size_t kAlert = 4;  // times as often does it look for messages w
 
 /// Few robots on one thread, which others may help out with: in one batch, all tick by tick.
 bool WindowStepper::abreast(const Plan& plan) const {
-    return plan.due_ns > 0 && threads() == 1 && plan.robots.size() <= kAbreastMost;
+    return plan.due_ns > 0 && threads() == 1 && plan.island_offsets.size() > 2 &&
+           plan.robots.size() <= kAbreastMost;
 }
 
 /// In the one batch of a plan that is stepped abreast.

@@ -229,7 +229,7 @@ bool WindowStepper::step_convoy(Job& job, Tick tick, std::size_t worker) {
 }
 
 /// One of them failed at a tick, and nobody knows which of the others were stepped in it: all once more from
-/// the window's start, each by itself.
+/// the plan's start, each by itself.
 void WindowStepper::step_apart(Job& job, std::span<const std::uint32_t> islands, std::size_t worker) {
     for (const std::uint32_t i : islands) {
         job.frame.islands[i] = {};

@@ -81,8 +81,8 @@ template <class A> void field(A& a, Of<A, Frame>& m) {
     compact(a, m.left);
     fields(a, m.robots, m.earlier, m.islands);
 }
-template <class A> void field(A& a, Of<A, StateRequest>& m) { fields(a, m.tick, m.robots); }
-template <class A> void field(A& a, Of<A, StateReply>& m) { fields(a, m.states); }
+template <class A> void field(A& a, Of<A, StateRequest>& m) { fields(a, m.tick, m.window, m.robots); }
+template <class A> void field(A& a, Of<A, StateReply>& m) { fields(a, m.window, m.states); }
 template <class A> void field(A& a, Of<A, ClientHello>& m) {
     fields(a, m.name, m.model_hash, m.period, m.latency, m.synchronous, m.guest, m.expected, m.acknowledged, m.said);
 }

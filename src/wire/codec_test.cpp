@@ -43,7 +43,7 @@ std::vector<Message> one_of_each() {
                 {{kRobot, {}, {1, 2, 3}, {4, 5, 6}, 77}},
                 {{kRobot, {}}},
                 {{100, 5, 2, kRobot, 12}, {1ull << 63, 0x3FFF, 0x4000, {}, 0}}};
-    StateReply reply{{12, {kRobot, kOther}, {2, 3}, {1, 2, 3, 4, 5}}};
+    StateReply reply{{12, {kRobot, kOther}, {2, 3}, {1, 2, 3, 4, 5}}, 17};
     std::vector<ClientOrder> orders;
     for (const Order& o : some_orders()) orders.push_back({o.sequence, o.robot, o.action});
     return {Hello{0xABCDEF, 4, "elsewhere/17"},
@@ -55,7 +55,7 @@ std::vector<Message> one_of_each() {
             Goodbye{SimulatorId(1u)},
             plan,
             frame,
-            StateRequest{12, {kRobot, kOther}},
+            StateRequest{12, {kRobot, kOther}, 17},
             reply,
             ClientHello{"driver", 5, 20, 20, true, true, 40, 3, 5},
             ClientWelcome{ClientId(0u), 40, 99},

@@ -90,7 +90,7 @@ struct Goodbye {  // Controller -> Simulator: nothing depends on it any more
 struct Plan {
     std::uint32_t epoch = 0;    // grows when a Simulator is lost
     std::uint64_t window = 0;   // grows with every window planned
-    std::uint32_t attempt = 0;  // grows when touching islands of the window are merged
+    std::uint32_t attempt = 0;  // grows when touching islands of the window are merged, and with every Cut
     SimulatorId simulator;
     Tick window_from = 0;  // where the window starts, for all
     /// What this plan steps: the whole window, or what a Cut left of it.
@@ -105,8 +105,8 @@ struct Plan {
     std::uint64_t ahead = 0;    // those of the OrdersAhead of this window; 0: none
     std::vector<RobotId> keep;  // robots of this Simulator whose states at `from` somebody still wants
     Tick release_before = 0;    // states kept for earlier ticks may go
-    /// CPU time that everybody is expected to need for the window; who sees that it will need more says
-    /// Late. 0: nobody does.
+    /// CPU time that everybody is expected to need for the window, or for what a Cut left; who sees that it
+    /// will need more says Late. 0: nobody does.
     std::uint64_t due_ns = 0;
     friend bool operator==(const Plan&, const Plan&);
 };
@@ -191,9 +191,13 @@ struct ModelPart {
 struct StateRequest {  // anyone -> whoever holds the robots
     Tick tick = 0;
     std::vector<RobotId> robots;
+    /// Of states in the midst of a window (where a Cut ended it), for such may be of no account tomorrow: the
+    /// window's number. 0: of states at a window's start, which are committed.
+    std::uint64_t window = 0;
 };
 struct StateReply {
-    StateBlock states;  // may lack robots that are not here (yet)
+    StateBlock states;         // may lack robots that are not here (yet)
+    std::uint64_t window = 0;  // the request's
 };
 
 // --- views: what is shown of the world; nothing is computed from them, and none is missed

@@ -16,7 +16,8 @@ namespace roboss {
 
 struct RobotFrame {
     RobotId robot;
-    Box32 swept;  // all interaction bounds since the window's start, or since the last teleport
+    Box32 swept;  // all interaction bounds since the window's start, a teleport, or it was taken over after a
+                  // Cut
     std::array<std::uint16_t, 3> place{};  // centre of the last bound, in 65535ths of the way through `swept`
     std::array<std::uint16_t, 3> velocity{};  // of the base at the end: the upper halves of floats, m/s
     std::uint64_t hash = 0;                   // state_hash at the end of the window
