@@ -5,7 +5,6 @@
 
 #include <exception>
 #include <functional>
-#include <memory>
 #include <vector>
 
 namespace roboss::bench {

@@ -53,10 +53,7 @@ void WindowStepper::step_abreast(Job& job, std::span<const std::uint32_t> island
 void WindowStepper::step_all(Job& job, Abreast& a, Tick tick) {
     for (const std::uint32_t i : a.larger) {
         if (job.frame.islands[i].failed.valid()) continue;
-        std::size_t& next = next_order_[i];
-        const std::size_t first = next;
-        while (next < order_offsets_[i + 1] && orders_[next].apply_at == tick) ++next;
-        if (!step_tick(job, i, tick, std::span(orders_).subspan(first, next - first), 0)) a.intact = false;
+        if (!step_tick(job, i, tick, take_orders(i, tick, next_order_[i]), 0)) a.intact = false;
     }
     if (!a.convoy_goes || step_convoy(job, tick, 0)) return;
     a.convoy_goes = a.intact = false;

@@ -123,13 +123,16 @@ void WindowStepper::step_batch(Job& job, std::size_t batch, std::size_t worker) 
     if (worker == 0) job.between({});
 }
 
+std::span<const Order> WindowStepper::take_orders(std::size_t island, Tick tick, std::size_t& next) const {
+    const std::size_t first = next, end = order_offsets_[island + 1];
+    while (next < end && orders_[next].apply_at == tick) ++next;
+    return std::span(orders_).subspan(first, next - first);
+}
+
 void WindowStepper::step_island_through(Job& job, std::size_t island, std::size_t worker) {
     std::size_t next = order_offsets_[island];
-    const std::size_t end = order_offsets_[island + 1];
     for (Tick tick = job.plan.from; tick < job.plan.until; ++tick) {
-        const std::size_t first = next;
-        while (next < end && orders_[next].apply_at == tick) ++next;
-        if (!step_tick(job, island, tick, std::span(orders_).subspan(first, next - first), worker)) return;
+        if (!step_tick(job, island, tick, take_orders(island, tick, next), worker)) return;
         if (worker == 0 && is_due(job.robots(island).size(), tick + 1 - job.plan.from)) job.between({});
     }
     report_robots(job, island);
@@ -211,10 +214,10 @@ void WindowStepper::load_convoy(const Job& job, std::span<const std::uint32_t> i
 bool WindowStepper::step_convoy(Job& job, Tick tick, std::size_t worker) {
     Convoy& c = convoys_[worker];
     c.orders.clear();
-    for (std::size_t i = 0; i < c.islands.size(); ++i)
-        for (std::size_t& o = c.next[i]; o < order_offsets_[c.islands[i] + 1] && orders_[o].apply_at == tick;
-             ++o)
-            c.orders.push_back(orders_[o]);
+    for (std::size_t i = 0; i < c.islands.size(); ++i) {
+        const std::span<const Order> due = take_orders(c.islands[i], tick, c.next[i]);
+        c.orders.insert(c.orders.end(), due.begin(), due.end());
+    }
     const StepReport report =
         step_island(*model_, tick, c.robots, c.states, c.orders, c.bounds, scratch_[worker]);
     for (std::size_t i = 0; i < c.islands.size(); ++i)

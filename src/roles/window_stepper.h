@@ -61,6 +61,8 @@ class WindowStepper {
     void sort_orders(const Plan& plan);
     void cut_batches(const Plan& plan);
     void step_batch(Job& job, std::size_t batch, std::size_t worker);
+    /// An island's orders of this tick; `next`: its first that was not taken yet.
+    std::span<const Order> take_orders(std::size_t island, Tick tick, std::size_t& next) const;
     void step_island_through(Job& job, std::size_t island, std::size_t worker);
     bool step_tick(Job& job, std::size_t island, Tick tick, std::span<const Order> orders,
                    std::size_t worker);
