@@ -61,7 +61,7 @@ class Answerer {
 
   private:
     Frame answer(const Plan& plan) const {
-        Frame frame{plan.epoch, plan.window, plan.attempt, plan.simulator, 0, {}, {}, {}};
+        Frame frame{plan.epoch, plan.window, plan.attempt, 0, {}, {}, {}};
         for (const RobotId robot : plan.robots) frame.robots.push_back(frame_of(robot, plan));
         for (std::size_t i = 0; i + 1 < plan.island_offsets.size(); ++i)
             frame.islands.push_back(

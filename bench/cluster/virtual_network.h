@@ -42,7 +42,9 @@ class VirtualNetwork : public Bus {
 
     void send(const Address& from, const Address& to, Message message) override;
     void drain(const Address& self, std::vector<Envelope>& inbox) override;
-    std::int64_t now_ms() override { return now_ns() / 1'000'000; }
+    /// When the member last looked for messages, or its turn began: asking a clock of CPU time takes longer
+    /// than asking what time it is.
+    std::int64_t now_ms() override { return members_[at_work_].clock_ns / 1'000'000; }
 
     std::size_t size() const { return members_.size(); }
     std::int64_t clock_ns(std::size_t i) const { return members_[i].clock_ns; }
@@ -58,7 +60,7 @@ class VirtualNetwork : public Bus {
     std::size_t next() const;
 
     /// Gives a member its turn: role(bus) is its work, from `start_ns` by its clock. In its midst, where it
-    /// looks for messages, it pauses while others' clocks are behind: they may still write to it.
+    /// looks for messages, it pauses while others' clocks are behind by more than a message's way.
     void work(std::size_t i, std::int64_t start_ns, const std::function<void(Bus&)>& role);
 
     /// By the Controller, by message name.
@@ -83,7 +85,9 @@ class VirtualNetwork : public Bus {
     void begin(std::size_t i, std::int64_t start_ns);
     void end();
     std::int64_t now_ns() const;
-    bool others_are_behind() const;
+    /// Something that would be here by now, for their clocks are behind by more than its way.
+    bool others_may_write() const;
+    Envelope read(const std::vector<std::uint8_t>& bytes);
 
     std::int64_t cpu_ns() const;
 

@@ -81,9 +81,9 @@ void Controller::say_alive(Bus& bus) {
 void Controller::handle(Bus& bus, Envelope& envelope) {
     const Address& from = envelope.from;
     if (const auto* frame = std::get_if<Frame>(&envelope.message)) {
-        if (heard_from(bus, from, frame->simulator)) take_frame(*frame);
+        if (const auto place = heard_from(bus, from)) take_frame(*place, *frame);
     } else if (const auto* late = std::get_if<Late>(&envelope.message)) {
-        if (heard_from(bus, from, late->simulator) && round_) round_->take_late(*late, roster_);
+        if (const auto place = heard_from(bus, from); place && round_) round_->take_late(*place, *late);
     } else if (const auto* alive = std::get_if<Alive>(&envelope.message)) {
         heard_from(bus, from, alive->simulator);
     } else if (const auto* request = std::get_if<StateRequest>(&envelope.message)) {
@@ -153,6 +153,12 @@ bool Controller::send_one_home() {
     if (workers.size() < 2) return false;
     roster_.seat(workers.back()).leaving = true;
     return true;
+}
+
+std::optional<std::uint32_t> Controller::heard_from(Bus& bus, const Address& from) {
+    const auto place = roster_.place_at(from);
+    if (place) roster_.seat(*place).heard_ms = bus.now_ms();
+    return place;
 }
 
 std::optional<std::uint32_t> Controller::heard_from(Bus& bus, const Address& from, SimulatorId id) {

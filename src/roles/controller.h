@@ -208,6 +208,8 @@ class Controller {
     void handle(Bus& bus, Envelope& envelope);
     void take_hello(Bus& bus, const Address& from, const Hello& hello);
     void take_leave(Bus& bus, const Address& from, const LeaveRequest& request);
+    /// The place of the Simulator that lives there.
+    std::optional<std::uint32_t> heard_from(Bus& bus, const Address& from);
     /// The place of who lives by this id; who does not is told.
     std::optional<std::uint32_t> heard_from(Bus& bus, const Address& from, SimulatorId id);
     void serve(Bus& bus, const Address& from, const StateRequest& request) const;
@@ -246,7 +248,7 @@ class Controller {
     void look_ahead();
     double largest_share() const;
     void send_plans(Bus& bus);
-    void take_frame(const Frame& frame);
+    void take_frame(std::uint32_t place, const Frame& frame);
     void take_costs(const Round::Answered& answered, const Frame& frame);
     void finish_round();
     bool merge_touching();

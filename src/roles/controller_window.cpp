@@ -134,9 +134,9 @@ double Controller::largest_share() const {
            static_cast<double>(std::max<std::size_t>(model_->robots.size(), 1));
 }
 
-void Controller::take_frame(const Frame& frame) {
+void Controller::take_frame(std::uint32_t place, const Frame& frame) {
     if (!round_) return;
-    const std::optional<Round::Answered> answered = round_->answered_by(frame);
+    const std::optional<Round::Answered> answered = round_->answered_by(place, frame);
     if (!answered) return;
     const Plan& plan = answered->plan;
     take_costs(*answered, frame);
@@ -168,7 +168,7 @@ void Controller::take_costs(const Round::Answered& answered, const Frame& frame)
     for (std::size_t i = 0; i < frame.islands.size(); ++i) {
         const IslandFrame& part = frame.islands[i];
         IslandFrame& outcome = round_->outcome[plan.robots[plan.island_offsets[i]].index()];
-        const IslandFrame before = plan.from > plan.window_from ? outcome : IslandFrame{};
+        const IslandFrame before = plan.midst() != 0 ? outcome : IslandFrame{};
         outcome = part;
         outcome.cost_ns += before.cost_ns;
         outcome.contacts += before.contacts;

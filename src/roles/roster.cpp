@@ -9,10 +9,9 @@ namespace roboss {
 
 std::optional<std::uint32_t> Roster::seat_for(const Address& address, const Hello& hello, std::int64_t now_ms,
                                               bool& is_new) {
-    const auto here = std::find_if(seats_.begin(), seats_.end(),
-                                   [&](const SimulatorSeat& s) { return s.alive && s.address == address; });
-    is_new = here == seats_.end();
-    if (!is_new) return static_cast<std::uint32_t>(here - seats_.begin());
+    const std::optional<std::uint32_t> here = place_at(address);
+    is_new = !here;
+    if (here) return here;
     const bool has_left = std::any_of(seats_.begin(), seats_.end(), [&](const SimulatorSeat& s) {
         return !s.alive && s.leaving && s.address == address;
     });
@@ -24,6 +23,13 @@ std::optional<std::uint32_t> Roster::seat_for(const Address& address, const Hell
     seat.heard_ms = now_ms;
     seats_.push_back(seat);
     return static_cast<std::uint32_t>(seats_.size() - 1);
+}
+
+std::optional<std::uint32_t> Roster::place_at(const Address& address) const {
+    const auto here = std::find_if(seats_.begin(), seats_.end(),
+                                   [&](const SimulatorSeat& s) { return s.alive && s.address == address; });
+    if (here == seats_.end()) return std::nullopt;
+    return static_cast<std::uint32_t>(here - seats_.begin());
 }
 
 std::optional<std::uint32_t> Roster::place_of(SimulatorId id) const {

@@ -38,6 +38,8 @@ class Roster {
     std::optional<std::uint32_t> seat_for(const Address& address, const Hello& hello, std::int64_t now_ms,
                                           bool& is_new);
     SimulatorId id_of(std::uint32_t place) const { return SimulatorId(first_id_ + place); }
+    /// Of the living Simulator there.
+    std::optional<std::uint32_t> place_at(const Address& address) const;
     /// None: the id is of another Controller's run.
     std::optional<std::uint32_t> place_of(SimulatorId id) const;
     bool alive(std::uint32_t place) const { return place < seats_.size() && seats_[place].alive; }

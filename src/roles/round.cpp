@@ -137,10 +137,10 @@ void Round::send(Bus& bus, const Roster& roster, std::int64_t resend_ms,
     }
 }
 
-std::optional<Round::Answered> Round::answered_by(const Frame& frame) {
+std::optional<Round::Answered> Round::answered_by(std::uint32_t place, const Frame& frame) {
     if (frame.epoch != span_.epoch || frame.window != span_.window) return std::nullopt;
     const auto sent = std::find_if(sent_.begin(), sent_.end(), [&](const Sent& s) {
-        return s.plan.simulator == frame.simulator && s.plan.attempt == frame.attempt;
+        return s.place == place && s.plan.attempt == frame.attempt;
     });
     if (sent == sent_.end() || (frame.left > 0 && !sent->cut) || !fits(sent->plan, frame))
         return std::nullopt;
@@ -181,11 +181,10 @@ void Round::expect(std::uint64_t due_ns) {
     for (Sent& sent : sent_) sent.plan.due_ns = due_ns;
 }
 
-void Round::take_late(const Late& late, const Roster& roster) {
+void Round::take_late(std::uint32_t place, const Late& late) {
     if (late.epoch != span_.epoch || late.window != span_.window) return;
     for (Sent& sent : sent_)
-        if (roster.id_of(sent.place) == late.simulator && sent.plan.attempt == late.attempt)
-            sent.needs_ns = late.needs_ns;
+        if (sent.place == place && sent.plan.attempt == late.attempt) sent.needs_ns = late.needs_ns;
 }
 
 std::vector<Round::LateSeat> Round::late() const {

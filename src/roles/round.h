@@ -54,8 +54,8 @@ class Round {
         Plan plan;
         std::vector<std::uint32_t> helpers;  // that wait for what a Cut leaves
     };
-    /// The plan that this frame answers, removed from those unanswered; nothing if it answers none.
-    std::optional<Answered> answered_by(const Frame& frame);
+    /// The plan that this frame of a seat answers, removed from those unanswered; nothing if it answers none.
+    std::optional<Answered> answered_by(std::uint32_t place, const Frame& frame);
     bool all_answered() const { return sent_.empty(); }
 
     /// What a seat's stepping cost; in the whole window; the most of one seat since islands were planned for
@@ -67,7 +67,7 @@ class Round {
     // Helping out: who has answered may take over from who is late.
     /// Everybody is expected to need so much time for the window.
     void expect(std::uint64_t due_ns);
-    void take_late(const Late& late, const Roster& roster);
+    void take_late(std::uint32_t place, const Late& late);
     struct LateSeat {
         std::uint32_t place = 0;
         std::size_t islands = 0;

@@ -25,11 +25,6 @@ bool is_newer(const A& a, const B& b) {
     return std::tie(a.epoch, a.window, a.attempt) > std::tie(b.epoch, b.window, b.attempt);
 }
 
-/// The window in whose midst the plan begins; 0: it begins at a window's start.
-std::uint64_t midst_of(const Plan& plan) {
-    return plan.from > plan.window_from ? plan.window : 0;
-}
-
 SteppingOptions stepping(const SimulatorOptions& options) {
     SteppingOptions stepping{nullptr, nullptr, options.lanes, options.look_up};
     if (options.measure_cpu)
@@ -202,13 +197,13 @@ WindowStepper::Next Simulator::whether_late(Bus& bus, const StepProgress& progre
     if (needs_ns < due_ns + std::max(options_.cut_least_ns, kLateShare * due_ns)) return Next::kGoOn;
     said_late_ = true;
     bus.send(self_, kControllerAddress,
-             Late{plan_->epoch, plan_->window, plan_->attempt, id_, static_cast<std::uint64_t>(needs_ns)});
+             Late{plan_->epoch, plan_->window, plan_->attempt, static_cast<std::uint64_t>(needs_ns)});
     return Next::kGoOnAlert;
 }
 
 void Simulator::give(Bus& bus, const Plan& plan) const {
     for (const HandOver& hand_over : plan.gives)
-        serve(bus, hand_over.to, {plan.from, hand_over.robots, midst_of(plan)});
+        serve(bus, hand_over.to, {plan.from, hand_over.robots, plan.midst()});
 }
 
 void Simulator::adopt(Bus& bus, Plan& plan) {
@@ -217,7 +212,7 @@ void Simulator::adopt(Bus& bus, Plan& plan) {
     to_keep_ = {plan.from, std::move(plan.keep)};
     store_.release_before(plan.release_before);
     store_.forget_aside_before(plan.window_from);
-    if (midst_of(plan) != 0) store_.set_aside(plan.robots, plan.window_from);
+    if (plan.midst() != 0) store_.set_aside(plan.robots, plan.window_from);
     std::vector<bool> comes(model_->robots.size(), false);
     for (const Holding& holding : plan.hand_offs)
         for (const RobotId robot : holding.robots)
@@ -229,7 +224,7 @@ void Simulator::adopt(Bus& bus, Plan& plan) {
     const bool all_given = std::all_of(plan.hand_offs.begin(), plan.hand_offs.end(),
                                        [](const Holding& h) { return h.source.role == Role::kSimulator; });
     pull_.begin(*model_, plan.from, plan.hand_offs, all_given ? std::optional(bus.now_ms()) : std::nullopt,
-                midst_of(plan));
+                plan.midst());
     plan_ = std::move(plan);
     for (StateReply& reply : std::exchange(early_, {}))
         if (reply.states.tick >= plan_->from && (reply.window == 0 || reply.window >= plan_->window))

@@ -83,8 +83,7 @@ Frame WindowStepper::step(const Plan& plan, StateStore& store, const Between& be
     efforts_.assign(plan.island_offsets.size() - 1, 0.0);
     for (std::size_t k = 0; k < n; ++k) states_[k] = &store.begin_window(plan.robots[k], plan.until);
 
-    Job job{plan, store, between,
-            Frame{plan.epoch, plan.window, plan.attempt, plan.simulator, 0, {}, {}, {}}};
+    Job job{plan, store, between, Frame{plan.epoch, plan.window, plan.attempt, 0, {}, {}, {}}};
     take_up(job);
     swept_ = swept_before_;
     job.frame.robots.resize(n);

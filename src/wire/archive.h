@@ -67,6 +67,10 @@ class Reader {
     std::size_t count(std::size_t bytes_each) {
         std::uint32_t n = 0;
         scalar(n);
+        return plausible(n, bytes_each);
+    }
+    /// The same of a count that was read.
+    std::size_t plausible(std::uint64_t n, std::size_t bytes_each) {
         if (n > (bytes_.size() - at_) / bytes_each) fail("a count is larger than the bytes that follow");
         return failed() ? 0 : n;
     }
@@ -133,6 +137,12 @@ inline void compact(Reader& a, std::uint64_t& value) {
     }
     a.fail("a number has too many bytes");
 }
+inline void compact(Reader& a, std::uint32_t& value) {
+    std::uint64_t wide = 0;
+    compact(a, wide);
+    if (wide > 0xFFFFFFFFu) a.fail("a number is too large");
+    value = static_cast<std::uint32_t>(wide);
+}
 
 template <class Tag>
 void field(Writer& a, const Id<Tag>& id) {
@@ -152,13 +162,14 @@ inline void field(Reader& a, std::string& text) {
     a.raw(text.data(), text.size());
 }
 
-template <class T, std::size_t N>
+template <Scalar T, std::size_t N>
 void field(Writer& a, const std::array<T, N>& values) {
-    for (const T& v : values) field(a, v);
+    a.raw(values.data(), sizeof values);
 }
-template <class T, std::size_t N>
+template <Scalar T, std::size_t N>
 void field(Reader& a, std::array<T, N>& values) {
-    for (T& v : values) field(a, v);
+    values = {};
+    a.raw(values.data(), sizeof values);
 }
 
 }  // namespace roboss::wire

@@ -13,18 +13,29 @@ namespace {
 /// Types whose memory is their encoding, so that a vector of them is copied at once.
 template <class T>
 constexpr bool kPlain =
-    std::is_same_v<T, std::uint8_t> || std::is_same_v<T, std::uint32_t> || std::is_same_v<T, RobotId> ||
-    std::is_same_v<T, RobotFrame> || std::is_same_v<T, EarlierBox>;
-static_assert(sizeof(RobotId) == 4 && sizeof(RobotFrame) == 48 && sizeof(EarlierBox) == 28);
-static_assert(std::is_trivially_copyable_v<RobotFrame> && std::is_trivially_copyable_v<EarlierBox>);
+    std::is_same_v<T, std::uint8_t> || std::is_same_v<T, std::uint32_t> || std::is_same_v<T, RobotId>;
+static_assert(sizeof(RobotId) == 4);
+
+/// Of an island in a Frame: what it has to tell besides its cost.
+constexpr std::uint8_t kContacts = 1, kStaticContacts = 2, kFailure = 4;
+std::uint8_t told_of(const IslandFrame& island) {
+    return static_cast<std::uint8_t>((island.contacts > 0 ? kContacts : 0) |
+                                     (island.static_contacts > 0 ? kStaticContacts : 0) |
+                                     (island.failed.valid() ? kFailure : 0));
+}
+
+/// Of an Address' role: it has no number.
+constexpr std::uint8_t kAlone = 0x80;
 
 /// What an item takes at least, so that room is made for many of them at once.
 template <class T>
 constexpr std::size_t kLeastBytes = 1;
 template <>
 constexpr std::size_t kLeastBytes<Order> = 25;
-template <>
-constexpr std::size_t kLeastBytes<IslandFrame> = 4;
+
+/// The same in the lists of a Frame.
+constexpr std::size_t kBoxBytes = 24, kEarlierLeast = 1 + kBoxBytes, kRobotLeast = kEarlierLeast + 17,
+                      kIslandLeast = 2;
 
 template <class A, class... Fields>
 void fields(A& a, Fields&... values);
@@ -38,10 +49,61 @@ void field(Writer& a, const std::variant<T...>& value);
 template <class... T>
 void field(Reader& a, std::variant<T...>& value);
 
+/// What small messages about a plan begin with.
+template <class A, class M>
+void head(A& a, M& m) {
+    compact(a, m.epoch);
+    compact(a, m.window);
+    compact(a, m.attempt);
+}
+
+/// A list that is mostly short; an item takes at least `bytes_each`.
+template <class T, class Each>
+void short_list(Writer& a, const std::vector<T>& values, std::size_t, const Each& each) {
+    compact(a, values.size());
+    for (const T& value : values) each(value);
+}
+template <class T, class Each>
+void short_list(Reader& a, std::vector<T>& values, std::size_t bytes_each, const Each& each) {
+    std::uint64_t n = 0;
+    compact(a, n);
+    values.clear();
+    values.resize(a.plausible(n, bytes_each));
+    for (std::size_t i = 0; i < values.size() && !a.failed(); ++i) each(values[i]);
+}
+
+/// Robots of a list are mostly near each other: how far it is from the last one, in either direction.
+inline void next_robot(Writer& a, RobotId robot, std::uint32_t& last) {
+    const std::uint32_t gap = robot.value - last;
+    compact(a, (gap << 1) ^ (0 - (gap >> 31)));
+    last = robot.value;
+}
+inline void next_robot(Reader& a, RobotId& robot, std::uint32_t& last) {
+    std::uint32_t folded = 0;
+    compact(a, folded);
+    last += (folded >> 1) ^ (0 - (folded & 1));
+    robot = RobotId(last);
+}
+
+/// The Controller is alone in its role, so its number, 0, need not be told.
+inline void field(Writer& a, const Address& m) {
+    const bool alone = m.instance == 0;
+    a.scalar(static_cast<std::uint8_t>(static_cast<std::uint8_t>(m.role) | (alone ? kAlone : 0)));
+    if (!alone) a.scalar(m.instance);
+}
+inline void field(Reader& a, Address& m) {
+    std::uint8_t role = 0;
+    a.scalar(role);
+    m = {static_cast<Role>(role & ~kAlone), 0};
+    if (m.role > Role::kClient) a.fail("it names an unknown role");
+    if ((role & kAlone) != 0) return;
+    a.scalar(m.instance);
+    if (m.instance == 0) a.fail("an address has no number");
+}
+
 // clang-format off
 template <class A> void field(A& a, Of<A, Vec3>& m) { fields(a, m.x, m.y, m.z); }
 template <class A> void field(A& a, Of<A, Quat>& m) { fields(a, m.w, m.x, m.y, m.z); }
-template <class A> void field(A& a, Of<A, Address>& m) { fields(a, m.role, m.instance); }
 template <class A> void field(A& a, Of<A, StateBlock>& m) { fields(a, m.tick, m.robots, m.sizes, m.bytes); }
 template <class A> void field(A& a, Of<A, Holding>& m) { fields(a, m.source, m.robots); }
 template <class A> void field(A& a, Of<A, HandOver>& m) { fields(a, m.to, m.robots); }
@@ -65,21 +127,28 @@ template <class A> void field(A& a, Of<A, Plan>& m) {
            m.ahead, m.keep, m.release_before, m.due_ns);
 }
 template <class A> void field(A& a, Of<A, OrdersAhead>& m) { fields(a, m.window, m.simulator, m.orders); }
-template <class A> void field(A& a, Of<A, Late>& m) { fields(a, m.epoch, m.window, m.attempt, m.simulator, m.needs_ns); }
-template <class A> void field(A& a, Of<A, Cut>& m) { fields(a, m.epoch, m.window, m.attempt, m.simulator); }
+template <class A> void field(A& a, Of<A, Late>& m) { head(a, m); compact(a, m.needs_ns); }
+template <class A> void field(A& a, Of<A, Cut>& m) { head(a, m); field(a, m.simulator); }
+template <class A> void field(A& a, Of<A, Box32>& m) { fields(a, m.min, m.max); }
 template <class A> void field(A& a, Of<A, IslandFrame>& m) {
+    std::uint8_t told = told_of(m);
+    field(a, told);
     compact(a, m.cost_ns);
-    compact(a, m.contacts);
-    compact(a, m.static_contacts);
-    bool failed = m.failed.valid();
-    field(a, failed);
-    if (failed) fields(a, m.failed, m.failed_at);
-    if constexpr (A::kReading) if (failed && !m.failed.valid()) a.fail("an island failed by no robot");
+    if ((told & kContacts) != 0) compact(a, m.contacts);
+    if ((told & kStaticContacts) != 0) compact(a, m.static_contacts);
+    if ((told & kFailure) != 0) fields(a, m.failed, m.failed_at);
+    if constexpr (A::kReading) if (told != told_of(m)) a.fail("an island does not have what it tells of");
 }
 template <class A> void field(A& a, Of<A, Frame>& m) {
-    fields(a, m.epoch, m.window, m.attempt, m.simulator);
+    head(a, m);
     compact(a, m.left);
-    fields(a, m.robots, m.earlier, m.islands);
+    std::uint32_t last = 0;
+    short_list(a, m.robots, kRobotLeast, [&](auto& r) {
+        next_robot(a, r.robot, last);
+        fields(a, r.swept, r.place, r.velocity, r.hash);
+    });
+    short_list(a, m.earlier, kEarlierLeast, [&](auto& e) { next_robot(a, e.robot, last); field(a, e.swept); });
+    short_list(a, m.islands, kIslandLeast, [&](auto& i) { field(a, i); });
 }
 template <class A> void field(A& a, Of<A, StateRequest>& m) { fields(a, m.tick, m.window, m.robots); }
 template <class A> void field(A& a, Of<A, StateReply>& m) { fields(a, m.window, m.states); }
@@ -204,17 +273,9 @@ const char* broken_rule(const ModelPart& part) {
     return inside ? nullptr : "it goes beyond the end of the whole";
 }
 
-const char* broken_rule(const ViewDue& due) {
-    return due.viewer.role > Role::kClient ? "it names an unknown role" : nullptr;
-}
-
 template <class T>
 const char* broken_rule(const T&) {
     return nullptr;
-}
-
-const char* role_rule(const Envelope& e) {
-    return e.from.role > Role::kClient || e.to.role > Role::kClient ? "it names an unknown role" : nullptr;
 }
 
 }  // namespace
@@ -251,7 +312,6 @@ Result<Envelope> decode_envelope(std::span<const std::uint8_t> bytes) {
     if (a.left() > 0) a.fail("bytes are left over behind it");
     if (!a.failed()) {
         const char* broken = std::visit([](const auto& m) { return wire::broken_rule(m); }, envelope.message);
-        if (broken == nullptr) broken = wire::role_rule(envelope);
         if (broken != nullptr) a.fail(broken);
     }
     if (!a.failed()) return envelope;

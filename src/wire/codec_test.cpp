@@ -38,7 +38,6 @@ std::vector<Message> one_of_each() {
     Frame frame{2,
                 17,
                 1,
-                SimulatorId(3u),
                 0,
                 {{kRobot, {}, {1, 2, 3}, {4, 5, 6}, 77}},
                 {{kRobot, {}}},
@@ -74,7 +73,7 @@ std::vector<Message> one_of_each() {
             ViewDue{2, 77, 1000, {Role::kClient, 4}, {kRobot, kOther}, {kOther}},
             ViewStates{5, 2, 77, 1000, {1, 2, 3, 4}},
             OrdersAhead{16, SimulatorId(3u), some_orders()},
-            Late{2, 17, 1, SimulatorId(3u), 4'000'000},
+            Late{2, 17, 1, 4'000'000},
             Cut{2, 17, 1, SimulatorId(3u)}};
 }
 
@@ -194,6 +193,39 @@ TEST(Codec, RefusesFramesThatWereCutShortAndTellOfRobots) {
     frame.robots.clear();
     frame.earlier.push_back({kRobot, {}});
     EXPECT_FALSE(decode_envelope(encode(envelope_of(frame))).ok());
+}
+
+TEST(Codec, KeepsRobotsOfAFrameInAnyOrder) {
+    Frame frame;
+    for (const std::uint32_t id : {9u, 7u, 7u, 0u, 0x80000000u, 1u, 0xFFFFFFFFu, 0u}) {
+        frame.robots.push_back({RobotId(id), {{-1, 0, 2}, {3, 4, 5}}, {0, 128, 255}, {1, 2, 65535}, ~0ull});
+        frame.earlier.push_back({RobotId(~id), {{-1, 0, 2}, {3, 4, 5}}});
+    }
+    const Result<Envelope> back = decode_envelope(encode(envelope_of(frame)));
+    ASSERT_TRUE(back.ok()) << back.error().text();
+    EXPECT_EQ(std::get<Frame>(back.value().message), frame);
+}
+
+TEST(Codec, TakesSixtyFourBytesARobotWhereASimulatorHasFour) {
+    Frame frame{1000, 100'000, 3, 0, {}, {}, {}};
+    for (std::uint32_t id = 100; id < 104; ++id) {
+        frame.robots.push_back({RobotId(id), {{-1, 0, 2}, {3, 4, 5}}, {}, {}, ~0ull});
+        frame.islands.push_back({2'000'000, 1000, 1000, {}, 0});
+    }
+    EXPECT_LE(encode(envelope_of(frame)).size(), 4 * 64u);
+}
+
+TEST(Codec, RefusesASecondWayToWriteAnAddress) {
+    std::vector<std::uint8_t> bytes = encode(envelope_of(Alive{SimulatorId(1u)}));
+    bytes[2] = 0x81;  // the sender: a Simulator without a number, where it has one
+    EXPECT_FALSE(decode_envelope(bytes).ok());
+    bytes = encode({{Role::kSimulator, 1}, {Role::kController, 0}, Alive{SimulatorId(1u)}});
+    bytes[3] = 0;
+    const Result<Envelope> back = decode_envelope(bytes);
+    ASSERT_FALSE(back.ok());
+    EXPECT_NE(back.error().message.find("an address has no number"), std::string::npos);
+    bytes[2] = 3;
+    EXPECT_NE(decode_envelope(bytes).error().message.find("an unknown role"), std::string::npos);
 }
 
 TEST(Codec, KeepsOrders) {

@@ -108,6 +108,8 @@ struct Plan {
     /// CPU time that everybody is expected to need for the window, or for what a Cut left; who sees that it
     /// will need more says Late. 0: nobody does.
     std::uint64_t due_ns = 0;
+    /// The window in whose midst this begins; 0: it begins at a window's start.
+    std::uint64_t midst() const { return from > window_from ? window : 0; }
     friend bool operator==(const Plan&, const Plan&);
 };
 
@@ -124,7 +126,6 @@ struct Late {
     std::uint32_t epoch = 0;
     std::uint64_t window = 0;
     std::uint32_t attempt = 0;
-    SimulatorId simulator;
     std::uint64_t needs_ns = 0;
 };
 
@@ -160,7 +161,6 @@ struct Frame {
     std::uint32_t epoch = 0;
     std::uint64_t window = 0;
     std::uint32_t attempt = 0;
-    SimulatorId simulator;
     std::uint64_t left = 0;  // ticks that were not stepped, because of a Cut
     std::vector<RobotFrame> robots;
     std::vector<EarlierBox> earlier;
