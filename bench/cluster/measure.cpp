@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "cluster/even_work.h"
 #include "cluster/virtual_cluster.h"
 
 namespace roboss::bench {
@@ -117,8 +118,10 @@ Json measure(const Work& work, std::size_t simulators, const ClusterSettings& se
                 {"frame_bytes", share(window_bytes(cluster) - begin_bytes,
                                       robots * windows + since(&Counters::robots_repeated))}};
     constexpr std::size_t kFewRobots = 500;  // of more it takes long and says no more than the time does
-    if (work.model->robots.size() <= kFewRobots)
+    if (work.model->robots.size() <= kFewRobots) {
         row["counted"] = counted_efficiency(work, simulators, options);
+        row["even"] = even_efficiency(work, simulators, settings.lanes);
+    }
     return row;
 }
 
@@ -160,8 +163,10 @@ std::string line_of(const Json& row) {
                   number("controller_us"), number("frame_bytes"), number("migrations"), number("cuts"),
                   number("alone_us"));
     if (!row.contains("counted")) return text;
-    char counted[50];
-    std::snprintf(counted, sizeof counted, "; stepping by counted work %.3f", number("counted"));
+    char counted[100];
+    std::snprintf(counted, sizeof counted,
+                  "; stepping by counted work %.3f; the same work everywhere, timed: %.3f", number("counted"),
+                  number("even"));
     return std::string(text) + counted;
 }
 

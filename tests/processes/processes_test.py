@@ -31,6 +31,14 @@ class Processes(unittest.TestCase):
                     self.assertEqual(found["model_hash"], expected["model_hash"])
                     self.assertEqual(found["simulators"], count)
 
+    def test_processes_that_take_over_from_late_ones_give_the_hash_of_one_process(self):
+        driven = [WORLDS / "city.sdf", "--duration", 4, "--seed", 7, "--client", DRIVER]
+        expected = embedded(*driven)
+        found = embedded(*driven, "--processes", 3)
+        self.assertEqual(found["state_hash"], expected["state_hash"])
+        self.assertEqual(expected["cuts"], 0, "nobody helps in one process")
+        self.assertGreater(found["cuts"], 0, "of some eighty windows in half somebody is cut short")
+
     def test_a_control_program_in_a_process_of_its_own_drives_as_in_one_process(self):
         expected = embedded(*CITY, "--client", DRIVER)
         with Cluster() as cluster:

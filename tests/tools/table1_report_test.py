@@ -43,6 +43,17 @@ class Table1Report(unittest.TestCase):
         self.assertIn("| city, one island | 50 | 12 | 1.500 |", page)
         self.assertIn("| 2 | 5.00 (5.00 to 6.00) | 2.00 | 9.00 |", page)
 
+    def test_counted_and_equal_work_have_columns_where_they_were_measured(self):
+        self.report([{**row("city", 50, 12, 0.66), "counted": 0.936, "even": 0.901}, row("city", 2000, 12, 0.97)])
+        page = (self.folder / "page.md").read_text()
+        self.assertIn("| 12 | 0.65 | 1.000 | 0.970 | 0.936 | 0.901 | **0.660** |", page)
+        self.assertIn("| 12 | 1.000 | 0.970 | **0.970** |", page)
+        lines = page.splitlines()
+        heads = [i for i, line in enumerate(lines) if line.startswith("| Simulators | p")]
+        self.assertEqual(len(heads), 2)
+        for i in heads:
+            self.assertEqual(len({line.count("|") for line in lines[i:i + 3]}), 1, "head, rule and rows have as many columns")
+
     def test_the_plot_is_well_formed_and_shows_every_size(self):
         self.report([row("city", 50, 1, 1), row("city", 50, 2, 0.9), row("city", 500, 1, 1), row("city", 500, 2, 0.95)])
         text = "".join(xml.etree.ElementTree.parse(self.folder / "plot.svg").getroot().itertext())

@@ -1,0 +1,71 @@
+// The same window again and again, by turns with stores and scratch of each Simulator's own.
+#include "cluster/even_work.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "core/thread_cpu.h"
+#include "roles/state_store.h"
+#include "roles/window_stepper.h"
+
+namespace roboss::bench {
+namespace {
+
+constexpr Tick kWindow = 128;
+constexpr std::size_t kRounds = 60, kRoundsLeast = 10, kFewRobots = 50;
+
+struct Seat {
+    Seat(const Work& work, std::size_t lanes)
+        : store(*work.model),
+          stepper(work.model, pool, SteppingOptions{thread_cpu_ns, {}, lanes, SteppingOptions{}.look_up}) {}
+    ThreadPool pool{1};
+    StateStore store;
+    WindowStepper stepper;
+};
+
+Plan plan_of(const Work& work, std::size_t robots) {
+    Plan plan;
+    plan.window_from = plan.from = work.before;
+    plan.until = plan.from + kWindow;
+    for (std::size_t r = 0; r < robots; ++r) plan.robots.push_back(RobotId(r));
+    plan.island_offsets = {0, static_cast<std::uint32_t>(robots)};  // whether they meet or not
+    for (const SaidOrder& said : work.orders)
+        if (said.order.robot.index() < robots && said.order.apply_at >= plan.from &&
+            said.order.apply_at < plan.until)
+            plan.orders.push_back(said.order);
+    return plan;
+}
+
+double stepping_ns(const Work& work, const Plan& plan, Seat& seat) {
+    for (const RobotId robot : plan.robots) {
+        seat.store.put(robot, plan.from, RobotState(work.states[robot.index()]));
+        seat.store.start(robot, plan.from);
+    }
+    const Frame frame =
+        seat.stepper.step(plan, seat.store, [](const StepProgress&) { return WindowStepper::Next::kGoOn; });
+    return static_cast<double>(frame.islands[0].cost_ns);
+}
+
+}  // namespace
+
+double even_efficiency(const Work& work, std::size_t simulators, std::size_t lanes) {
+    const Plan plan = plan_of(work, std::max<std::size_t>(work.model->robots.size() / simulators, 1));
+    std::vector<std::unique_ptr<Seat>> seats;
+    for (std::size_t i = 0; i < simulators; ++i) seats.push_back(std::make_unique<Seat>(work, lanes));
+    double all_ns = 0, largest_ns = 0;
+    const std::size_t rounds = std::max(kRounds * kFewRobots / work.model->robots.size(), kRoundsLeast);
+    for (std::size_t round = 0; round <= rounds; ++round) {
+        double largest = 0, sum = 0;
+        for (const std::unique_ptr<Seat>& seat : seats) {
+            const double ns = stepping_ns(work, plan, *seat);
+            largest = std::max(largest, ns);
+            sum += ns;
+        }
+        if (round == 0) continue;  // memory comes to be there
+        all_ns += sum;
+        largest_ns += largest;
+    }
+    return all_ns / (static_cast<double>(simulators) * largest_ns);
+}
+
+}  // namespace roboss::bench
