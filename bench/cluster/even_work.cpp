@@ -12,7 +12,7 @@ namespace roboss::bench {
 namespace {
 
 constexpr Tick kWindow = 128;
-constexpr std::size_t kRounds = 60, kRoundsLeast = 10, kFewRobots = 50;
+constexpr std::size_t kRounds = 60, kRoundsLeast = 6, kFewRobots = 50;
 
 struct Seat {
     Seat(const Work& work, std::size_t lanes)

@@ -17,7 +17,7 @@ using namespace roboss::bench;
 
 constexpr Tick kSettle = 1500;  // until windows have grown
 constexpr double kDt_s = 0.002;
-constexpr std::size_t kVeryMany = 10'000;  // cars
+constexpr std::size_t kFew = 500, kVeryMany = 10'000;  // cars
 
 struct Wishes {
     std::vector<std::size_t> cars{50, 500, 2000, 10'000}, simulators{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
@@ -65,8 +65,11 @@ void measure_cities(const Wishes& w, Json& rows) {
         const double seconds = std::max(1.0, w.seconds * 50 / static_cast<double>(cars));
         const Work work = record("city", city_file(cars), w.driver, kSettle,
                                  kSettle + static_cast<Tick>(seconds / kDt_s), w.settings.lanes);
-        for (const std::size_t n : simulators_for(cars, w))
-            rows.push_back(tell(measure(work, n, w.settings)));
+        for (const std::size_t n : simulators_for(cars, w)) {
+            ClusterSettings settings = w.settings;
+            settings.count_work = cars <= kFew || (cars < kVeryMany && n == w.simulators.back());
+            rows.push_back(tell(measure(work, n, settings)));
+        }
         if (cars != w.cars.front()) continue;
         for (const std::size_t n : {w.simulators.front(), w.simulators.back()})
             rows.push_back(tell(measure(work, n, w.settings, true)));

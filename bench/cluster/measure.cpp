@@ -7,6 +7,7 @@
 
 #include "cluster/even_work.h"
 #include "cluster/virtual_cluster.h"
+#include "roles/window_stepper.h"
 
 namespace roboss::bench {
 namespace {
@@ -21,11 +22,14 @@ double packing_ceiling(std::size_t islands, std::size_t n) {
     return static_cast<double>(islands) / static_cast<double>(n * most);
 }
 
-VirtualCluster::Options options_for(std::size_t simulators, const ClusterSettings& settings) {
+VirtualCluster::Options options_for(const Work& work, std::size_t simulators,
+                                    const ClusterSettings& settings) {
     VirtualCluster::Options options;
     options.simulators = simulators;
     options.lanes = settings.lanes;
     options.network = settings.network;
+    // Who cannot be cut short misses nothing, and keeps its cache to itself as on a computer of its own.
+    options.network.in_midst = work.model->robots.size() <= simulators * kAbreastMost;
     options.controller.seed = 7;
     options.controller.window_max = settings.window_max;
     options.controller.loss_ms = options.controller.resend_ms = 60'000;  // nothing is lost here
@@ -67,7 +71,7 @@ double window_bytes(const VirtualCluster& cluster) {
 /// the Simulators and here: how well plans share out the work, whatever the machine's moods.
 double counted_efficiency(const Work& work, std::size_t simulators, VirtualCluster::Options options) {
     options.measure_cpu = false;
-    options.network = {0, 0, 1e9};
+    options.network = {0, 0, 1e9, options.network.in_midst};
     VirtualCluster cluster(work.model, options, work.start());
     cluster.run_until(work.settle);
     const Counters before = cluster.controller().counters();
@@ -81,7 +85,7 @@ double counted_efficiency(const Work& work, std::size_t simulators, VirtualClust
 }  // namespace
 
 Json measure(const Work& work, std::size_t simulators, const ClusterSettings& settings, bool one_island) {
-    VirtualCluster::Options options = options_for(simulators, settings);
+    VirtualCluster::Options options = options_for(work, simulators, settings);
     options.controller.forecast.merge_all = one_island;
     VirtualCluster cluster(work.model, options, work.start());
     cluster.run_until(work.settle);
@@ -117,8 +121,7 @@ Json measure(const Work& work, std::size_t simulators, const ClusterSettings& se
                 {"controller_us", share(1e6 * controller_s, windows)},
                 {"frame_bytes", share(window_bytes(cluster) - begin_bytes,
                                       robots * windows + since(&Counters::robots_repeated))}};
-    constexpr std::size_t kFewRobots = 500;  // of more it takes long and says no more than the time does
-    if (work.model->robots.size() <= kFewRobots) {
+    if (settings.count_work) {
         row["counted"] = counted_efficiency(work, simulators, options);
         row["even"] = even_efficiency(work, simulators, settings.lanes);
     }
@@ -126,7 +129,7 @@ Json measure(const Work& work, std::size_t simulators, const ClusterSettings& se
 }
 
 Json detach(const Work& work, std::size_t simulators, Tick every, const ClusterSettings& settings) {
-    VirtualCluster cluster(work.model, options_for(simulators, settings), work.start());
+    VirtualCluster cluster(work.model, options_for(work, simulators, settings), work.start());
     constexpr double kBin_s = 0.5;  // simulated
     Json points = Json::array();
     double bin_began_s = 0;

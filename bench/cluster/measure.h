@@ -14,11 +14,12 @@ struct ClusterSettings {
     NetworkCosts network;
     Tick window_max = 0;  // 0: by the number of robots
     std::size_t lanes = 1;
-    bool help = true;  // who is done takes over from who is late
+    bool help = true;         // who is done takes over from who is late
+    bool count_work = false;  // also the efficiency by counted work, and what the clock makes of equal work
 };
 
-/// Efficiencies (docs/cluster-efficiency.md says how each is meant; "counted" only of few robots), costs and
-/// traffic. Throws if the run does not end with the state hash of the recorded one.
+/// Efficiencies (docs/cluster-efficiency.md says how each is meant; "counted" and "even" where it is asked
+/// for), costs and traffic. Throws if the run does not end with the state hash of the recorded one.
 Json measure(const Work& work, std::size_t simulators, const ClusterSettings& settings,
              bool one_island = false);
 

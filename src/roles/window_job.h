@@ -7,7 +7,6 @@
 
 namespace roboss {
 
-inline constexpr std::size_t kAbreastMost = 24;  // robots that are stepped tick by tick in all their islands
 inline constexpr std::size_t kSignOfLife = 512;  // robots times ticks, after which there is a sign of life
 inline constexpr double kCounted_ns =
     1'200;  // for an effort (step.h) where no time is measured: a car's, about

@@ -22,6 +22,9 @@ struct StepProgress {
     double spent_ns() const { return (*clock)(); }
 };
 
+/// Robots of a plan that is stepped tick by tick in all its islands, so that it can be cut short, at most.
+inline constexpr std::size_t kAbreastMost = 24;
+
 struct SteppingOptions {
     /// In ns, CPU time of the calling thread; none: costs are counted work (step.h), so that a seeded test
     /// repeats exactly.

@@ -44,9 +44,10 @@ class Table1Report(unittest.TestCase):
         self.assertIn("| 2 | 5.00 (5.00 to 6.00) | 2.00 | 9.00 |", page)
 
     def test_counted_and_equal_work_have_columns_where_they_were_measured(self):
-        self.report([{**row("city", 50, 12, 0.66), "counted": 0.936, "even": 0.901}, row("city", 2000, 12, 0.97)])
+        self.report([row("city", 50, 11, 0.71), {**row("city", 50, 12, 0.66), "counted": 0.936, "even": 0.901}, row("city", 2000, 12, 0.97)])
         page = (self.folder / "page.md").read_text()
         self.assertIn("| 12 | 0.65 | 1.000 | 0.970 | 0.936 | 0.901 | **0.660** |", page)
+        self.assertIn("| 11 | 0.71 | 1.000 | 0.970 | | | **0.710** |", page)
         self.assertIn("| 12 | 1.000 | 0.970 | **0.970** |", page)
         lines = page.splitlines()
         heads = [i for i, line in enumerate(lines) if line.startswith("| Simulators | p")]
