@@ -14,10 +14,15 @@ namespace {
 constexpr Tick kWindow = 128;
 constexpr std::size_t kRounds = 60, kRoundsLeast = 6, kFewRobots = 50;
 
+SteppingOptions timed(std::size_t lanes) {
+    SteppingOptions options;
+    options.clock = thread_cpu_ns;
+    options.lanes = lanes;
+    return options;
+}
+
 struct Seat {
-    Seat(const Work& work, std::size_t lanes)
-        : store(*work.model),
-          stepper(work.model, pool, SteppingOptions{thread_cpu_ns, {}, lanes, SteppingOptions{}.look_up}) {}
+    Seat(const Work& work, std::size_t lanes) : store(*work.model), stepper(work.model, pool, timed(lanes)) {}
     ThreadPool pool{1};
     StateStore store;
     WindowStepper stepper;

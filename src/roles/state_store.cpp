@@ -11,7 +11,7 @@ void StateStore::put(RobotId robot, Tick tick, RobotState&& state) {
     slot.start = std::move(state);
     slot.start_tick = tick;
     slot.end_tick = slot.ahead_tick = kNone;
-    if (!aside_.empty()) forget_aside(robot, tick);  // that may be of an attempt that was repeated
+    forget_aside(robot, tick);  // that may be of an attempt that was repeated
 }
 
 bool StateStore::start(RobotId robot, Tick tick) {

@@ -32,10 +32,12 @@ template <class T>
 constexpr std::size_t kLeastBytes = 1;
 template <>
 constexpr std::size_t kLeastBytes<Order> = 25;
-
-/// The same in the lists of a Frame.
-constexpr std::size_t kBoxBytes = 24, kEarlierLeast = 1 + kBoxBytes, kRobotLeast = kEarlierLeast + 17,
-                      kIslandLeast = 2;
+template <>
+constexpr std::size_t kLeastBytes<RobotFrame> = 42;
+template <>
+constexpr std::size_t kLeastBytes<EarlierBox> = 25;
+template <>
+constexpr std::size_t kLeastBytes<IslandFrame> = 2;
 
 template <class A, class... Fields>
 void fields(A& a, Fields&... values);
@@ -57,18 +59,18 @@ void head(A& a, M& m) {
     compact(a, m.attempt);
 }
 
-/// A list that is mostly short; an item takes at least `bytes_each`.
+/// A list that is mostly short.
 template <class T, class Each>
-void short_list(Writer& a, const std::vector<T>& values, std::size_t, const Each& each) {
+void short_list(Writer& a, const std::vector<T>& values, const Each& each) {
     compact(a, values.size());
     for (const T& value : values) each(value);
 }
 template <class T, class Each>
-void short_list(Reader& a, std::vector<T>& values, std::size_t bytes_each, const Each& each) {
+void short_list(Reader& a, std::vector<T>& values, const Each& each) {
     std::uint64_t n = 0;
     compact(a, n);
     values.clear();
-    values.resize(a.plausible(n, bytes_each));
+    values.resize(a.plausible(n, kLeastBytes<T>));
     for (std::size_t i = 0; i < values.size() && !a.failed(); ++i) each(values[i]);
 }
 
@@ -143,12 +145,12 @@ template <class A> void field(A& a, Of<A, Frame>& m) {
     head(a, m);
     compact(a, m.left);
     std::uint32_t last = 0;
-    short_list(a, m.robots, kRobotLeast, [&](auto& r) {
+    short_list(a, m.robots, [&](auto& r) {
         next_robot(a, r.robot, last);
         fields(a, r.swept, r.place, r.velocity, r.hash);
     });
-    short_list(a, m.earlier, kEarlierLeast, [&](auto& e) { next_robot(a, e.robot, last); field(a, e.swept); });
-    short_list(a, m.islands, kIslandLeast, [&](auto& i) { field(a, i); });
+    short_list(a, m.earlier, [&](auto& e) { next_robot(a, e.robot, last); field(a, e.swept); });
+    short_list(a, m.islands, [&](auto& i) { field(a, i); });
 }
 template <class A> void field(A& a, Of<A, StateRequest>& m) { fields(a, m.tick, m.window, m.robots); }
 template <class A> void field(A& a, Of<A, StateReply>& m) { fields(a, m.window, m.states); }
