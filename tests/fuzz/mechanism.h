@@ -1,0 +1,38 @@
+// Random mechanisms by seed, for property tests: nobody has tuned the engine to them. Every quantity comes
+// from one Random, so a seed names a mechanism on every machine.
+#pragma once
+
+#include <support/random.h>
+
+#include "world/world.h"
+
+namespace roboss::fuzz {
+
+using test::Random;
+
+struct MechanismOptions {
+    int links_least = 1, links_most = 5;
+    bool fixed_base = false;
+    bool springs = true;
+    bool shapes = false;          // a collision on every link
+    double restitution_most = 0;  // of 40 % of the shapes
+};
+
+/// A tree of revolute, prismatic, ball, universal and screw joints with random frames, inertias, limits,
+/// damping, friction, springs and rotor inertias. No motor drives it. A free base is one of its links.
+ModelSpec random_tree(Random& random, const MechanismOptions& options);
+
+/// A mechanism with one kinematic loop and at least one internal degree of freedom: a chain of random joints
+/// back to its base, or a planar four-bar linkage.
+ModelSpec random_loop(Random& random, const MechanismOptions& options);
+
+/// A tree with a mimic joint, or two wheels with a gearbox.
+ModelSpec random_coupled(Random& random, const MechanismOptions& options);
+
+/// One link with one random shape: box, ball, cylinder, capsule or ellipsoid.
+ModelSpec random_solid(Random& random, double restitution_most);
+
+/// Radius of the sphere about the model's origin that holds all links at the start.
+double start_radius(const ModelSpec& model);
+
+}  // namespace roboss::fuzz

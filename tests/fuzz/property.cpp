@@ -1,0 +1,91 @@
+#include "fuzz/property.h"
+
+#include <cstdio>
+
+namespace roboss::fuzz {
+namespace {
+
+std::vector<Property> make_properties() {
+    const std::vector<double> steps{1e-3, 2e-3, 4e-3}, spins{1, 10, 30, 100};
+    const auto passive = kinds_where([](const SceneKind& k) { return k.passive; });
+    const auto isolated = kinds_where([](const SceneKind& k) { return k.isolated; });
+    const auto any = kinds_where([](const SceneKind&) { return true; });
+    return {
+        {"energy",
+         "the energy of a passive system never grows by more than 1e-3 of itself",
+         "largest growth, E(t) / lowest E before - 1",
+         passive,
+         steps,
+         spins,
+         {0},
+         10,
+         run_energy},
+        {"momentum",
+         "linear and angular momentum stay within 1e-6 where nothing acts from outside",
+         "largest drift, relative to the sum of the links' own momenta",
+         isolated,
+         steps,
+         spins,
+         {0},
+         10,
+         run_momentum},
+        {"finite",
+         "no state becomes infinite or not a number",
+         "fastest base or joint, rad/s or m/s",
+         any,
+         {1e-3, 2e-3, 4e-3, 5e-3},
+         spins,
+         {0},
+         10,
+         run_finite},
+    };
+}
+
+std::string text(double value) {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%g", value);
+    return buffer;
+}
+
+}  // namespace
+
+std::vector<std::string> kinds_where(bool (*wanted)(const SceneKind&)) {
+    std::vector<std::string> names;
+    for (const SceneKind& kind : scene_kinds())
+        if (wanted(kind)) names.emplace_back(kind.name);
+    return names;
+}
+
+std::span<const Property> properties() {
+    static const std::vector<Property> all = make_properties();
+    return all;
+}
+
+const Property* find_property(const std::string& name) {
+    for (const Property& property : properties())
+        if (property.name == name) return &property;
+    return nullptr;
+}
+
+Setting Property::setting(std::uint64_t seed) const {
+    std::uint64_t turn = seed;
+    const auto next = [&](const auto& choices) {
+        const auto& choice = choices[turn % choices.size()];
+        turn /= choices.size();
+        return choice;
+    };
+    Setting s;
+    s.seed = seed;
+    s.kind = next(kinds), s.dt_s = next(steps_s), s.spin = next(spins), s.speed = next(speeds);
+    return s;
+}
+
+std::string replay_command(const Property& property, const Request& request) {
+    const Setting& s = request.setting;
+    std::string command = "roboss-fuzz --property " + property.name + " --seed " + std::to_string(s.seed) +
+                          " --kind " + s.kind + " --dt " + text(s.dt_s) + " --spin " + text(s.spin);
+    if (property.speeds.size() > 1) command += " --speed " + text(s.speed);
+    return command + " --seconds " + text(request.seconds);
+}
+
+}  // namespace roboss::fuzz

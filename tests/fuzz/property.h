@@ -1,0 +1,61 @@
+// What must hold of every random world. A property is one file with a function and one row of the table in
+// property.cpp; roboss-fuzz and the tests run the same.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fuzz/scene.h"
+
+namespace roboss::fuzz {
+
+/// What came of one seed.
+struct Finding {
+    bool failed = false;
+    double figure = 0;   // what is bounded, the worst of the run; infinite: a state was not finite
+    Tick tick = 0;       // of that
+    std::string text{};  // what happened, if it failed
+};
+
+struct Request {
+    Setting setting;
+    double seconds = 0;
+    /// Receives a line for each tick; empty: nobody wants them.
+    std::function<void(const std::string&)> tell{};
+};
+
+struct Property {
+    std::string name;
+    std::string claim;   // with its bound
+    std::string figure;  // what Finding::figure is
+    std::vector<std::string> kinds;
+    std::vector<double> steps_s, spins, speeds;  // that seeds take by turns; speeds: m/s, of shots
+    double seconds = 10;                         // simulated
+    Finding (*run)(const Request&) = nullptr;
+
+    /// The setting of a seed: kinds by turns, then steps, spins and speeds, so that a block of consecutive
+    /// seeds has every combination.
+    Setting setting(std::uint64_t seed) const;
+};
+
+std::span<const Property> properties();
+/// nullptr: there is none of that name.
+const Property* find_property(const std::string& name);
+
+/// What replays a seed, as one types it.
+std::string replay_command(const Property& property, const Request& request);
+
+/// Names of the scenes for which `wanted` holds.
+std::vector<std::string> kinds_where(bool (*wanted)(const SceneKind&));
+
+// The bounds.
+inline constexpr double kEnergyGrowthMost = 1e-3;   // of itself
+inline constexpr double kMomentumDriftMost = 1e-6;  // of what the links' momenta amount to
+
+Finding run_energy(const Request& request);
+Finding run_momentum(const Request& request);
+Finding run_finite(const Request& request);
+
+}  // namespace roboss::fuzz

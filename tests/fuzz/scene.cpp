@@ -1,0 +1,294 @@
+#include "fuzz/scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include <support/bodies.h>
+#include <support/robots.h>
+
+#include "core/check.h"
+#include "model/accuracy.h"
+#include "physics/equality.h"
+
+namespace roboss::fuzz {
+namespace {
+
+bool chance(Random& random, double probability) {
+    return random.uniform(0, 1) < probability;
+}
+
+Scene still_air(const Setting& setting) {
+    Scene scene;
+    scene.world = test::empty_world(setting.dt_s, {});
+    return scene;
+}
+
+Scene one_robot(const Setting& setting, ModelSpec model) {
+    Scene scene = still_air(setting);
+    test::place(scene.world, std::move(model), "robot");
+    return scene;
+}
+
+Scene tree(Random& random, const Setting& setting) {
+    return one_robot(setting, random_tree(random, {}));
+}
+
+Scene anchored(Random& random, const Setting& setting) {
+    MechanismOptions options;
+    options.fixed_base = true;
+    return one_robot(setting, random_tree(random, options));
+}
+
+Scene hanging(Random& random, const Setting& setting) {
+    Scene scene = anchored(random, setting);
+    scene.world.gravity = {0, 0, -9.81};
+    return scene;
+}
+
+Scene loop(Random& random, const Setting& setting) {
+    return one_robot(setting, random_loop(random, {}));
+}
+
+Scene coupled(Random& random, const Setting& setting) {
+    return one_robot(setting, random_coupled(random, {}));
+}
+
+Scene idle_motors(Random& random, const Setting& setting) {
+    MechanismOptions options;
+    options.links_least = 2;
+    Scene scene = one_robot(setting, random_tree(random, options));
+    scene.zero_effort = true;
+    return scene;
+}
+
+/// A mechanism with shapes, or a solid.
+ModelSpec something(Random& random, double restitution_most) {
+    MechanismOptions options;
+    options.shapes = true;
+    options.links_most = 4;
+    options.restitution_most = restitution_most;
+    return chance(random, 0.6) ? random_tree(random, options) : random_solid(random, restitution_most);
+}
+
+/// Puts 2 x 2 x 2 robots into cells in which none reaches another at the start; returns the edge of a cell.
+double fill_cells(Random& random, double restitution_most, World& world) {
+    std::vector<ModelSpec> models;
+    double cell = 0;
+    for (int i = 0; i < 8; ++i) {
+        models.push_back(something(random, restitution_most));
+        cell = std::fmax(cell, 2 * start_radius(models.back()));
+    }
+    for (int i = 0; i < 8; ++i) {
+        const Vec3 corner{i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5};
+        test::place(world, models[static_cast<std::size_t>(i)], "robot_" + std::to_string(i),
+                    {corner * cell, {}});
+    }
+    return cell;
+}
+
+constexpr double kRestitutionMost = 0.97;
+
+/// A closed room, walls 0.2 m thick.
+void add_room(Random& random, double edge, World& world) {
+    constexpr double kThick = 0.2;
+    const SurfaceSpec s =
+        test::surface(random.uniform(0, 1), chance(random, 0.5) ? 0 : random.uniform(0, 0.97));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (const double side : {-1.0, 1.0}) {
+            Vec3 size{edge + 2 * kThick, edge + 2 * kThick, edge + 2 * kThick}, p;
+            size[axis] = kThick, p[axis] = side * 0.5 * (edge + kThick);
+            test::place(world, test::scenery(test::box_shape(size, s)),
+                        "wall_" + std::to_string(2 * axis) + (side < 0 ? "a" : "b"), {p, {}});
+        }
+    }
+}
+
+Scene room(Random& random, const Setting& setting) {
+    Scene scene = still_air(setting);
+    const double cell = fill_cells(random, chance(random, 0.5) ? kRestitutionMost : 0, scene.world);
+    add_room(random, 2 * cell, scene.world);
+    scene.base_speed = 3;
+    return scene;
+}
+
+Scene cloud(Random& random, const Setting& setting) {
+    Scene scene = still_air(setting);
+    fill_cells(random, chance(random, 0.5) ? kRestitutionMost : 0, scene.world);
+    scene.base_speed = 3;
+    return scene;
+}
+
+/// Cars, spiders and trees on the ground in each other's way, every motor with a target of its own.
+Scene crowd(Random& random, const Setting& setting) {
+    Scene scene;
+    scene.world = test::empty_world(setting.dt_s);
+    test::place(scene.world, test::ground(test::surface(0.7)), "ground");
+    test::place(scene.world, test::scenery(test::box_shape({0.3, 3, 0.5}, test::surface(0.5))), "wall",
+                {{0.4, 0, 0.2}, {}});
+    for (int i = 0; i < 9; ++i) {
+        const Vec3 at{0.6 * (i % 3 - 1) - 0.8, 0.5 * (i / 3 - 1), 0.01};
+        const std::string name = "robot_" + std::to_string(i);
+        const Quat turn = from_rpy(0, 0, random.uniform(-3, 3));
+        const int pick = random.integer(0, 3);
+        if (pick < 2) test::place(scene.world, test::car(), name, {at, turn});
+        if (pick == 2) test::place(scene.world, something(random, 0.5), name, {at + Vec3{0, 0, 0.8}, turn});
+        if (pick == 3)
+            test::place(scene.world, random_solid(random, 0.9), name, {at + Vec3{0, 0, 0.5}, turn});
+    }
+    scene.driven = true;
+    return scene;
+}
+
+/// Some of the accuracy's numbers at an end of their range.
+AccuracySpec random_corner(Random& random) {
+    AccuracySpec spec;
+    spec.setting = std::array{"fast", "standard", "high"}[static_cast<std::size_t>(random.integer(0, 2))];
+    for (const AccuracyNumber& n : accuracy_numbers()) {
+        const double pick = random.uniform(0, 1);
+        if (pick < 0.4) continue;
+        const double most = n.whole != nullptr ? std::fmin(n.high, 200) : n.high;
+        spec.numbers.push_back({n.name, pick < 0.7 ? n.low : most});
+    }
+    return spec;
+}
+
+/// Mechanisms that start in each other and collide with themselves, hard or soft, driven by any motor.
+Scene wild(Random& random, const Setting& setting) {
+    Scene scene;
+    scene.world = test::empty_world(setting.dt_s);
+    test::place(scene.world, test::ground(test::surface(0.7)), "ground");
+    const double stiffness = std::pow(10.0, random.uniform(2, 10)),
+                 damping = std::pow(10.0, random.uniform(-1, 4));
+    const bool soft = chance(random, 0.5);
+    for (int i = 0; i < 5; ++i) {
+        ModelSpec m = something(random, kRestitutionMost);
+        m.self_collide = true;
+        for (LinkSpec& l : m.links)
+            for (CollisionSpec& c : l.collisions)
+                if (soft) c.surface.stiffness = stiffness, c.surface.damping = damping;
+        const Vec3 p{random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2), random.uniform(0, 0.5)};
+        test::place(scene.world, m, "robot_" + std::to_string(i), {p, random.rotation()});
+    }
+    scene.world.accuracy.push_back(random_corner(random));
+    scene.driven = true;
+    return scene;
+}
+
+constexpr SceneKind kKinds[] = {
+    {"tree", "a free tree of links in empty space", tree, true, true},
+    {"anchored", "a tree on a fixed base, without gravity", anchored, true, false},
+    {"hanging", "a tree on a fixed base under gravity", hanging, true, false},
+    {"loop", "a free mechanism with a kinematic loop", loop, true, true},
+    {"coupled", "a free mechanism with a mimic joint or a gearbox", coupled, true, true},
+    {"idle-motors", "a free tree whose motors give an effort of 0", idle_motors, true, true},
+    {"cloud", "eight free robots that collide in empty space", cloud, true, true},
+    {"room", "eight free robots in a closed room", room, true, false},
+    {"crowd", "nine driven robots on the ground, in each other's way", crowd, false, false},
+    {"wild", "driven robots that start in each other, soft contacts, any accuracy", wild, false, false},
+};
+
+/// Any motor at all, with targets far beyond what it can reach.
+void drive(const RobotType& type, const Setting& setting, Random& random, RobotState& state) {
+    for (std::size_t d = 0; d < state.motors.size(); ++d) {
+        const int pick = random.integer(0, 3);
+        const double most = std::isfinite(type.dofs[d].max_effort) ? type.dofs[d].max_effort : 50;
+        MotorSetpoint& motor = state.motors[d];
+        motor.mode = static_cast<MotorMode>(pick);
+        const double target = random.uniform(-1, 1);
+        motor.target = target * (motor.mode == MotorMode::kEffort     ? 5
+                                 : motor.mode == MotorMode::kPosition ? 3
+                                                                      : setting.spin);
+        motor.max_effort = most;
+    }
+}
+
+}  // namespace
+
+std::span<const SceneKind> scene_kinds() {
+    return kKinds;
+}
+
+const SceneKind* find_scene_kind(const std::string& name) {
+    for (const SceneKind& kind : kKinds)
+        if (name == kind.name) return &kind;
+    return nullptr;
+}
+
+std::shared_ptr<const Model> compile_scene(const World& world) {
+    Diagnostics diagnostics;
+    validate(world, diagnostics);
+    auto model = compile(world, {}, diagnostics);
+    if (model == nullptr || diagnostics.count(Severity::kError) > 0)
+        for (const Diagnostic& d : diagnostics.items())
+            if (d.severity == Severity::kError) std::fprintf(stderr, "%s\n", to_text(d).c_str());
+    ROBOSS_CHECK(model != nullptr && diagnostics.count(Severity::kError) == 0,
+                 "a generated world does not compile");
+    return model;
+}
+
+std::vector<RobotState> start_states(const Model& model, const Scene& scene, const Setting& setting,
+                                     Random& random) {
+    constexpr double kSlidePerTurn = 0.1;  // m/s of a slide for each rad/s of a hinge
+    std::vector<RobotState> states;
+    for (std::size_t r = 0; r < model.robots.size(); ++r) {
+        const RobotId id(r);
+        const RobotType& type = model.type_of(id);
+        RobotState state = initial_state(model, id);
+        for (const Body& body : type.bodies) {
+            for (int k = 0; k < body.nv; ++k) {
+                const bool base_linear = body.joint == JointKind::kFree && k >= 3;
+                const double most = base_linear                           ? scene.base_speed
+                                    : body.joint == JointKind::kPrismatic ? kSlidePerTurn * setting.spin
+                                                                          : setting.spin;
+                state.v[static_cast<std::size_t>(body.v_index + k)] = random.uniform(-most, most);
+            }
+        }
+        if (type.has_equalities()) {
+            EqualityProjection projection;
+            projection.close_velocities(type, state.q, state.v);
+        }
+        if (scene.driven) drive(type, setting, random, state);
+        if (scene.zero_effort)
+            for (std::size_t d = 0; d < state.motors.size(); ++d)
+                state.motors[d].mode = MotorMode::kEffort,
+                state.motors[d].max_effort = type.dofs[d].max_effort;
+        states.push_back(std::move(state));
+    }
+    return states;
+}
+
+Motion::Motion(const Setting& setting) {
+    const SceneKind* kind = find_scene_kind(setting.kind);
+    ROBOSS_CHECK(kind != nullptr, "there is no such kind of scene");
+    Random random(setting.seed);
+    const Scene scene = kind->make(random, setting);
+    model_ = compile_scene(scene.world);
+    states_ = start_states(*model_, scene, setting, random);
+    for (std::size_t r = 0; r < states_.size(); ++r) ids_.emplace_back(r), pointers_.push_back(&states_[r]);
+    bounds_.resize(states_.size());
+}
+
+const StepReport& Motion::step() {
+    report_ = step_island(*model_, tick_++, ids_, pointers_, {}, bounds_, scratch_);
+    return report_;
+}
+
+RobotId Motion::find_not_finite() const {
+    const auto finite = [](const std::vector<double>& x) {
+        return std::ranges::all_of(x, [](double value) { return std::isfinite(value); });
+    };
+    for (std::size_t r = 0; r < states_.size(); ++r)
+        if (!finite(states_[r].q) || !finite(states_[r].v)) return RobotId(r);
+    return {};
+}
+
+double Motion::fastest() const {
+    double most = 0;
+    for (const RobotState& state : states_)
+        for (const double v : state.v) most = std::fmax(most, std::fabs(v));
+    return most;
+}
+
+}  // namespace roboss::fuzz
