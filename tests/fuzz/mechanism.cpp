@@ -170,6 +170,12 @@ ModelSpec random_ring(Random& random, const MechanismOptions& options) {
     return m;
 }
 
+/// Mechanisms of tests/support name joints as their links, which a file may not.
+ModelSpec with_own_joint_names(ModelSpec m) {
+    for (JointSpec& j : m.joints) j.name = "joint_" + j.name;
+    return m;
+}
+
 }  // namespace
 
 ModelSpec random_tree(Random& random, const MechanismOptions& options) {
@@ -189,7 +195,7 @@ ModelSpec random_loop(Random& random, const MechanismOptions& options) {
     test::FourBarOptions four_bar;
     four_bar.free_base = true;
     four_bar.last = chance(random, 0.5) ? JointSpecKind::kRevolute : JointSpecKind::kBall;
-    ModelSpec m = test::four_bar(four_bar);
+    ModelSpec m = with_own_joint_names(test::four_bar(four_bar));
     for (std::size_t j = 0; j < 3; ++j) vary_axis(random, false, options.springs, m.joints[j].axes[0]);
     return m;
 }
@@ -197,7 +203,7 @@ ModelSpec random_loop(Random& random, const MechanismOptions& options) {
 ModelSpec random_coupled(Random& random, const MechanismOptions& options) {
     const double ratio = random.uniform(0.3, 3) * (chance(random, 0.5) ? 1 : -1);
     if (chance(random, 0.25)) {
-        ModelSpec m = test::geared_wheels(ratio, true);
+        ModelSpec m = with_own_joint_names(test::geared_wheels(ratio, true));
         for (std::size_t j = 0; j < 2; ++j) vary_axis(random, false, options.springs, m.joints[j].axes[0]);
         for (std::size_t j = 0; j < 2; ++j)
             m.joints[j].axes[0].lower = -1e16, m.joints[j].axes[0].upper = 1e16;
