@@ -40,7 +40,7 @@ struct Options {
     std::string seeds = "0..48", json;
     std::optional<std::uint64_t> seed;
     std::optional<double> dt_s, spin, speed, seconds;
-    unsigned jobs = 1;
+    unsigned jobs = 1, every = 1;
     bool list = false;
 };
 
@@ -80,6 +80,7 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--jobs", o.jobs, "seeds run at the same time; no result depends on it")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
+    app.add_option("--every", o.every, "with --seed: print one tick of so many")->check(CLI::Range(1, 1000000));
     app.add_option("--json", o.json, "write every seed's figure to this file");
     app.add_flag("--list", o.list, "print properties and kinds of world, and end");
 }
@@ -199,12 +200,14 @@ bool write_json(const std::string& name, const std::vector<Row>& rows) {
 }
 
 /// One seed, tick by tick.
-bool replay(const Property& registered, const Property& property, std::uint64_t seed) {
+bool replay(const Property& registered, const Property& property, const Options& o) {
     Row row;
     row.property = &registered;
-    row.request.setting = property.setting(seed);
+    row.request.setting = property.setting(*o.seed);
     row.request.seconds = property.seconds;
-    row.request.tell = [](const std::string& line) { fmt::print("{}\n", line); };
+    row.request.tell = [&, tick = 0u](const std::string& line) mutable {
+        if (tick++ % o.every == 0) fmt::print("{}\n", line);
+    };
     row.finding = property.run(row.request);
     fmt::print("{}", row.finding.failed
                          ? failure_line(row)
@@ -235,7 +238,7 @@ int run(const Options& o) {
         if (!property) continue;
         any = true;
         if (o.seed) {
-            held &= replay(registered, *property, *o.seed);
+            held &= replay(registered, *property, o);
             continue;
         }
         const std::vector<Row> rows = run_seeds(registered, *property, *range, pool);

@@ -74,7 +74,7 @@ LinkSpec random_link(Random& random, const std::string& name, const Pose& X_ML,
     return l;
 }
 
-/// Everything that an axis may have; a sliding one always has limits, so that it stays within reach.
+/// Everything that an axis may have.
 void vary_axis(Random& random, bool slides, bool springs, AxisSpec& axis) {
     const double low = random.uniform(slides ? -0.3 : -2.0, -0.05),
                  high = random.uniform(0.05, slides ? 0.3 : 2.0);
@@ -92,8 +92,11 @@ void vary_axis(Random& random, bool slides, bool springs, AxisSpec& axis) {
 }
 
 void vary_axes(Random& random, bool springs, JointSpec& joint) {
-    for (AxisSpec& axis : joint.axes)
+    for (AxisSpec& axis : joint.axes) {
         vary_axis(random, joint.kind == JointSpecKind::kPrismatic, springs, axis);
+        // What slides has limits, so that it stays within reach and gravity does not drive a screw beyond all speeds.
+        if (joint.kind == JointSpecKind::kScrew && !axis.has_limits()) axis.lower = -6, axis.upper = 6;
+    }
     const double damping = magnitude(random, 1e-4, 1e-1);
     if (joint.kind == JointSpecKind::kBall && chance(random, 0.35)) joint.ball_damping = damping;
 }
