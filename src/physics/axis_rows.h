@@ -202,13 +202,21 @@ MaskOf<T> add_axis_rows(const AxisStateT<T>& axis, Lockstep<T>& together, std::v
     return axis::add_limits(axis, together, rows);
 }
 
+/// True for a motor that is not there, or an effort motor at zero.
+template <class T>
+MaskOf<T> is_switched_off(const MotorSetpointT<T>& motor) {
+    if (motor.mode == MotorMode::kEffort) return equal(motor.target, T(0));
+    return motor.mode == MotorMode::kPassive;
+}
+
 /// True if no row acts on the axis and none will in this tick.
 template <class T>
 MaskOf<T> is_left_alone(const AxisStateT<T>& axis) {
-    if (axis.motor.mode != MotorMode::kPassive || axis.dof.friction > 0) return false;
-    if (!axis.has_position) return true;
-    return !(axis::near(axis.q - T(axis.dof.lower), axis.v, axis.dt) |
-             axis::near(T(axis.dof.upper) - axis.q, axis.v, axis.dt));
+    const MaskOf<T> off = is_switched_off(axis.motor);
+    if (axis.dof.friction > 0 || !any(off)) return false;
+    if (!axis.has_position) return off;
+    return off & !(axis::near(axis.q - T(axis.dof.lower), axis.v, axis.dt) |
+                   axis::near(T(axis.dof.upper) - axis.q, axis.v, axis.dt));
 }
 
 /// Springs or damping so stiff that the explicit Runge-Kutta step would not follow them. The limit of

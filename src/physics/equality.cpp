@@ -136,6 +136,12 @@ void EqualitySolver::solve(std::span<const double> wanted, std::span<double> cha
     }
 }
 
+void leave_out_locked(std::span<const char> locked, Equalities& equalities) {
+    if (locked.empty()) return;
+    for (EqualityColumn& column : equalities.columns)
+        if (locked[static_cast<std::size_t>(column.dof)]) column.j = 0;
+}
+
 void EqualityProjection::place(const RobotType& type, std::span<const double> q) {
     work_.type = &type;
     place_bodies<double>(type, q, work_);
@@ -145,7 +151,17 @@ void EqualityProjection::place(const RobotType& type, std::span<const double> q)
     change_.resize(static_cast<std::size_t>(type.nv));
 }
 
-void EqualityProjection::close_coordinates(const RobotType& type, std::span<double> q) {
+void EqualityProjection::prepare(const RobotType& type, std::span<const char> locked) {
+    compute_inertias(type, work_);
+    compute_mass_matrix<double>(type, 0.0, work_);
+    lock_rows(type.paths, locked, work_.mass_matrix.data());
+    leave_out_locked(locked, equalities_);
+    tree_factor(type.paths, work_.mass_matrix.data());
+    solver_.prepare(type, work_.mass_matrix, equalities_);
+}
+
+void EqualityProjection::close_coordinates(const RobotType& type, std::span<double> q,
+                                           std::span<const char> locked) {
     for (int i = 0; i < kNewtonMax; ++i) {
         place(type, q);
         double largest = 0;
@@ -154,10 +170,7 @@ void EqualityProjection::close_coordinates(const RobotType& type, std::span<doub
             largest = std::max(largest, std::fabs(wanted_[r]));
         }
         if (largest <= kClosed) return;
-        compute_inertias(type, work_);
-        compute_mass_matrix<double>(type, 0.0, work_);
-        tree_factor(type.paths, work_.mass_matrix.data());
-        solver_.prepare(type, work_.mass_matrix, equalities_);
+        prepare(type, locked);
         solver_.solve(wanted_, change_);
         double step = 0;
         for (const double x : change_) step = std::max(step, std::fabs(x));
@@ -167,14 +180,11 @@ void EqualityProjection::close_coordinates(const RobotType& type, std::span<doub
 }
 
 void EqualityProjection::close_velocities(const RobotType& type, std::span<const double> q,
-                                          std::span<double> v) {
+                                          std::span<double> v, std::span<const char> locked) {
     place(type, q);
-    compute_inertias(type, work_);
-    compute_mass_matrix<double>(type, 0.0, work_);
-    tree_factor(type.paths, work_.mass_matrix.data());
-    solver_.prepare(type, work_.mass_matrix, equalities_);
     for (std::size_t r = 0; r < wanted_.size(); ++r)
         wanted_[r] = -times_row(equalities_, equalities_.rows[r], v);
+    prepare(type, locked);
     solver_.solve(wanted_, change_);
     for (std::size_t k = 0; k < v.size(); ++k) v[k] += change_[k];
 }

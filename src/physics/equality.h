@@ -33,6 +33,9 @@ struct Equalities {
 /// All equalities of a placed robot (moved, too, if the curvatures are wanted) at coordinates q.
 void gather_equalities(const RobotWork& work, std::span<const double> q, Equalities& equalities);
 
+/// Takes locked degrees of freedom (none: empty) out of the rows.
+void leave_out_locked(std::span<const char> locked, Equalities& equalities);
+
 /// J x of one row.
 double times_row(const Equalities& equalities, const EqualityRow& row, std::span<const double> x);
 
@@ -57,13 +60,15 @@ class EqualitySolver {
 };
 
 /// Puts a robot's coordinates and velocities back onto its equalities, with the least change in the metric
-/// of its mass: momentum stays.
+/// of its mass: momentum stays. Degrees of freedom that are `locked` do not move.
 class EqualityProjection {
   public:
-    void close_coordinates(const RobotType& type, std::span<double> q);
-    void close_velocities(const RobotType& type, std::span<const double> q, std::span<double> v);
+    void close_coordinates(const RobotType& type, std::span<double> q, std::span<const char> locked = {});
+    void close_velocities(const RobotType& type, std::span<const double> q, std::span<double> v,
+                          std::span<const char> locked = {});
 
   private:
+    void prepare(const RobotType& type, std::span<const char> locked);
     void place(const RobotType& type, std::span<const double> q);
 
     RobotWork work_;

@@ -5,8 +5,9 @@
 #include <cmath>
 
 #include "core/make_room.h"
+#include "physics/drag.h"
 #include "physics/loads.h"
-#include "physics/velocity_forces.h"
+#include "physics/stirring.h"
 
 namespace roboss {
 namespace {
@@ -37,6 +38,60 @@ bool flies(const Model& model, const RobotWork& work, const GroupScratch& s) {
     return moves_freely(model, work) && !(s.keep_loads && !work.type->loops.empty());
 }
 
+/// Marks the robots that another robot or scenery pushes. True if the island is anchored: something pushes it
+/// that does not move freely.
+bool mark_touched(std::span<const RobotWork> robots, GroupScratch& s) {
+    const auto is_fixed = [&](int robot) {
+        return robot < 0 || !robots[static_cast<std::size_t>(robot)].type->free_base;
+    };
+    s.touched.assign(robots.size(), 0);
+    bool anchored = false;
+    for (std::size_t c = 0; c < s.rows.contacts.size(); ++c) {
+        const Contact& contact = *s.island_contacts[c];
+        if (s.rows.contacts[c].normal.impulse <= 0 || contact.robot_a == contact.robot_b) continue;
+        anchored |= is_fixed(contact.robot_a) || is_fixed(contact.robot_b);
+        s.touched[static_cast<std::size_t>(contact.robot_a)] = 1;
+        if (contact.robot_b >= 0) s.touched[static_cast<std::size_t>(contact.robot_b)] = 1;
+    }
+    return anchored;
+}
+
+/// How each member moves, and, if any drifts, the split of the solved impulses. Where nothing pushes an
+/// island from outside its momentum is to stay, and that of its energy that no motor gives: then it drifts
+/// always. Others do where they stir.
+void choose_drifting(const Model& model, std::span<const RobotWork> robots, GroupScratch& s,
+                     std::span<const std::uint32_t> members) {
+    s.drifting.assign(members.size(), Drifting::kNo);
+    const bool anchored = mark_touched(robots, s);
+    bool any = false;
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        const RobotWork& work = robots[members[m]];
+        if (work.type->nv == 0 || drag_is_stiff(model, work)) continue;
+        const bool touched = s.touched[members[m]] != 0;
+        const bool kept =
+            touched ? !anchored : work.type->free_base || !is_driven<double>(work.state->motors);
+        if (!kept && !stirs<double>(work, model.dt_s)) continue;
+        s.drifting[m] = touched ? Drifting::kTouched : Drifting::kIsolated;
+        any = true;
+    }
+    if (any)
+        split_rows({model.accuracy, s.island_robots, s.island_offsets, s.rows}, s.v_before, s.v, model.dt_s,
+                   s.split);
+}
+
+/// Moves one member by the kick-drift step.
+void drift(const Model& model, RobotWork& work, std::size_t member, std::span<const double> way,
+           GroupScratch& s) {
+    const auto offset = static_cast<std::size_t>(s.island_offsets[member]);
+    const auto nv = static_cast<std::size_t>(work.type->nv);
+    const auto own = [&](const auto& array) { return std::span(array).subspan(offset, nv); };
+    SolvedTick solved{own(s.v), way.subspan(offset, nv), own(s.split.kick), own(s.split.load),
+                      own(s.split.locked)};
+    solved.isolated = s.drifting[member] == Drifting::kIsolated;
+    solved.passive = is_passive(work);
+    advance_kick_drift(model, work, solved, s.free_buffer);
+}
+
 /// Writes the solved velocities into the states and moves the coordinates. A robot that is near something but
 /// not pushed moves freely, else a ball would lose height in every tick that it spends close to the ground.
 void finish_island(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
@@ -50,6 +105,10 @@ void finish_island(const Model& model, std::span<RobotWork> robots, GroupScratch
             continue;
         }
         work.held = true;
+        if (s.drifting[m] != Drifting::kNo) {
+            drift(model, work, m, way, s);
+            continue;
+        }
         std::copy_n(s.v.begin() + static_cast<std::ptrdiff_t>(offset), nv, work.state->v.begin());
         advance_coordinates<double>(*work.type, way.subspan(offset, nv), model.dt_s, work.state->q);
         if (work.type->has_equalities())
@@ -82,7 +141,6 @@ bool gather_island(const Model& model, std::span<RobotWork> robots, GroupScratch
         s.island_offsets.push_back(offset);
         compute_impulse(model, model.dt_s, 1.0, work.state->q, work.state->v, work);
         compute_mass_matrix<double>(*work.type, model.dt_s, work);
-        tame_velocity_forces(model, work, s.free_buffer);
         split |= add_joint_rows(model, work, offset, s.buffer, s.rows);
         s.v.insert(s.v.end(), work.state->v.begin(), work.state->v.end());
     }
@@ -192,6 +250,7 @@ void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch&
     report.iterations += solved.iterations;
     report.residual = std::max(report.residual, solved.residual);
     take_impulses(s);
+    choose_drifting(model, robots, s, members);
     if (split) {
         s.way = s.v;
         for (ContactRow& row : s.rows.contacts) row.slip.bound = row.slip.coefficient * row.normal.impulse;

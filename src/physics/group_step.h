@@ -9,12 +9,21 @@
 #include "physics/contact_rows.h"
 #include "physics/integrate.h"
 #include "physics/joint_rows.h"
+#include "physics/kick_drift.h"
 #include "physics/lane_stepper.h"
+#include "physics/row_split.h"
 #include "physics/sleep.h"
 #include "physics/solver.h"
 #include "physics/step.h"
 
 namespace roboss {
+
+/// How a robot moves that rows act on.
+enum class Drifting : char {
+    kNo,       // by the solved velocities
+    kTouched,  // by the kick-drift step, pushed from outside
+    kIsolated  // by the kick-drift step, pushed by nothing from outside
+};
 
 /// Buffers of a group's step; the contacts stay until the next one.
 struct GroupScratch {
@@ -33,7 +42,10 @@ struct GroupScratch {
     std::vector<int> offsets, island_offsets;
     IslandRows rows;
     std::vector<double> v, v_before;
-    std::vector<double> way;  // of the tick, over dt
+    std::vector<double> way;         // of the tick, over dt
+    std::vector<Drifting> drifting;  // by member of the island
+    std::vector<char> touched;       // by robot: pushed from outside
+    RowSplit split;                  // if anyone drifts
     IslandSolver solver;
     RowBuffer buffer;
     FreeBuffer free_buffer;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "physics/joint_rows.h"
 #include "physics/tree_factor.h"
 
 namespace roboss {
@@ -55,10 +56,11 @@ void normalise(const RobotType& type, std::span<double> q) {
 }
 
 /// Adds what loops and couplings accelerate: so much that their second derivatives are zero.
-void add_equality_acceleration(FreeBuffer& free, std::span<const double> q) {
+void add_equality_acceleration(std::span<const double> q, std::span<const char> locked, FreeBuffer& free) {
     RobotWork& work = free.work;
     const RobotType& type = *work.type;
     gather_equalities(work, q, free.equalities);
+    leave_out_locked(locked, free.equalities);
     free.solver.prepare(type, work.mass_matrix, free.equalities);
     free.wanted.clear();
     for (const EqualityRow& row : free.equalities.rows)
@@ -68,32 +70,50 @@ void add_equality_acceleration(FreeBuffer& free, std::span<const double> q) {
     for (std::size_t i = 0; i < free.change.size(); ++i) work.velocity[i] += free.change[i];
 }
 
-/// Acceleration of the free robot at (q, v), explicit damping included, into its work's velocity.
-void free_acceleration(const Model& model, std::span<const double> q, std::span<const double> v,
-                       FreeBuffer& free) {
+/// Damping and springs of the tree's joints, as forces at (q, v). Springs stand in `impulse` already; where
+/// they are stiff, the steady force holds both.
+void add_joint_forces(const Model& model, std::span<const double> q, std::span<const double> v,
+                      bool has_stiff, RobotWork& work) {
+    const RobotType& type = *work.type;
+    for (std::size_t d = 0; d < type.dofs.size(); ++d) {
+        const Dof& dof = type.dofs[d];
+        const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
+        if (!has_stiff || !is_stiff(dof, model.dt_s)) {
+            work.impulse[i] -= dof.damping * v[i];
+        } else if (dof.spring_stiffness != 0) {
+            const Body& body = type.bodies[static_cast<std::size_t>(dof.body)];
+            work.impulse[i] +=
+                dof.spring_stiffness * (q[static_cast<std::size_t>(body.q_index)] - dof.spring_reference);
+        }
+    }
+}
+
+/// Acceleration of the robot at (q, v) with what acts on it evenly, into its work's velocity.
+void free_acceleration(const Model& model, const SteadyRows& rows, std::span<const double> q,
+                       std::span<const double> v, FreeBuffer& free) {
     RobotWork& buffer = free.work;
     const RobotType& type = *buffer.type;
     place_bodies<double>(type, q, buffer);
     move_bodies<double>(type, v, buffer);
     compute_impulse(model, 1.0, 0.0, q, v, buffer);
     compute_mass_matrix<double>(type, 0.0, buffer);
-    for (std::size_t d = 0; d < type.dofs.size(); ++d) {
-        const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
-        buffer.impulse[i] -= type.dofs[d].damping * v[i];
-    }
+    add_joint_forces(model, q, v, rows.has_stiff, buffer);
+    for (std::size_t i = 0; i < rows.force.size(); ++i) buffer.impulse[i] += rows.force[i];
+    for (std::size_t i = 0; i < rows.locked.size(); ++i)
+        if (rows.locked[i]) buffer.impulse[i] = 0;
+    lock_rows(type.paths, rows.locked, buffer.mass_matrix.data());
     tree_factor(type.paths, buffer.mass_matrix.data());
     buffer.velocity = buffer.impulse;
     tree_solve(type.paths, buffer.mass_matrix.data(), buffer.velocity.data());
-    if (type.has_equalities()) add_equality_acceleration(free, q);
+    if (type.has_equalities()) add_equality_acceleration(q, rows.locked, free);
 }
 
-/// Into so many parts the tick is cut: no body turns further than half a radian in one, for beyond
-/// that the method loses the motion, and far beyond its stability.
-int parts_of_tick(const RobotWork& work, double dt) {
-    constexpr double kTurnMax = 0.5, kPartsMax = 64;
-    double fastest = 0;
-    for (const BodyWork& body : work.bodies) fastest = std::max(fastest, norm_squared(body.velocity.angular));
-    return static_cast<int>(std::ceil(std::clamp(std::sqrt(fastest) * dt / kTurnMax, 1.0, kPartsMax)));
+/// Into so many parts the tick is cut: no body turns further in one than the method follows to a millionth.
+int parts_of_tick(const RobotType& type, double fastest, double dt) {
+    constexpr double kTurnOfBody = 0.1, kTurnOfTree = 0.25;  // rad: of the methods of fourth and sixth order
+    constexpr double kPartsMax = 64;
+    const double turn = type.dofs.empty() ? kTurnOfBody : kTurnOfTree;
+    return static_cast<int>(std::ceil(std::clamp(std::sqrt(fastest) * dt / turn, 1.0, kPartsMax)));
 }
 
 /// An explicit Runge-Kutta method: stage s starts from the rates of those before it, weighed by `from[s]`.
@@ -138,7 +158,8 @@ void add_rates(std::span<const double> from, double dt, std::span<const double> 
 }
 
 /// One step of the method, of length `dt`.
-void advance_part(const Model& model, double dt, RobotWork& work, FreeBuffer& buffer) {
+void advance_part(const Model& model, double dt, const SteadyRows& rows, RobotWork& work,
+                  FreeBuffer& buffer) {
     const RobotType& type = *work.type;
     const Method& method = method_of(type);
     RobotState& state = *work.state;
@@ -154,7 +175,7 @@ void advance_part(const Model& model, double dt, RobotWork& work, FreeBuffer& bu
         add_rates(state.v, dt, weights, buffer.v_rates, buffer.v_sum, buffer.v);
         normalise(type, buffer.q);
         coordinate_rate(type, buffer.q, buffer.v, std::span(buffer.q_rates).subspan(stage * nq, nq));
-        free_acceleration(model, buffer.q, buffer.v, buffer);
+        free_acceleration(model, rows, buffer.q, buffer.v, buffer);
         std::copy(buffer.work.velocity.begin(), buffer.work.velocity.end(),
                   buffer.v_rates.begin() + static_cast<std::ptrdiff_t>(stage * nv));
     }
@@ -163,15 +184,22 @@ void advance_part(const Model& model, double dt, RobotWork& work, FreeBuffer& bu
     add_rates(state.v, dt, weights, buffer.v_rates, buffer.v_sum, state.v);
     normalise(type, state.q);
     if (!type.has_equalities()) return;
-    buffer.projection.close_coordinates(type, state.q);
-    buffer.projection.close_velocities(type, state.q, state.v);
+    buffer.projection.close_coordinates(type, state.q, rows.locked);
+    buffer.projection.close_velocities(type, state.q, state.v, rows.locked);
 }
 
 }  // namespace
 
-void advance_freely(const Model& model, RobotWork& work, FreeBuffer& buffer) {
-    const int parts = parts_of_tick(work, model.dt_s);
-    for (int i = 0; i < parts; ++i) advance_part(model, model.dt_s / parts, work, buffer);
+double fastest_turn(const Mechanics<double>& work) {
+    double fastest = 0;
+    for (const BodyWork& body : work.bodies) fastest = std::max(fastest, norm_squared(body.velocity.angular));
+    return fastest;
+}
+
+void advance_steadily(const Model& model, RobotWork& work, const SteadyRows& rows, double fastest,
+                      FreeBuffer& buffer) {
+    const int parts = parts_of_tick(*work.type, fastest, model.dt_s);
+    for (int i = 0; i < parts; ++i) advance_part(model, model.dt_s / parts, rows, work, buffer);
 }
 
 }  // namespace roboss

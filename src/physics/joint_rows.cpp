@@ -23,10 +23,10 @@ class LoopRowWriter {
     LoopRowWriter(const RobotWork& robot, const LoopJoint& loop, int offset, IslandRows& rows)
         : robot_(robot), loop_(loop), offset_(offset), rows_(rows) {}
 
-    void add(const BoundedRow& bounded, const Spatial& wrench, MotorSetpoint* motor = nullptr) {
+    void add(const BoundedRow& bounded, const Spatial& wrench, bool soft, MotorSetpoint* motor = nullptr) {
         CouplingRow row;
         static_cast<BoundedRow&>(row) = bounded;
-        row.motor = motor;
+        row.motor = motor, row.soft = soft;
         row.robot = robot_.id, row.wrench = wrench;
         row.loop = static_cast<int>(&loop_ - robot_.type->loops.data());
         row.first = rows_.coupling_columns.size();
@@ -68,7 +68,7 @@ void add_spring(const AxisState& axis, double q, const Spatial& wrench, LoopRowW
     row.target = row.position_target = -axis.dof.spring_stiffness * (q - axis.dof.spring_reference) / damping;
     row.compliance = 1.0 / (axis.dt * damping);
     row.low = -kInfinity, row.high = kInfinity;
-    writer.add(row, wrench);
+    writer.add(row, wrench, row.compliance > axis.dof.inverse_inertia);
 }
 
 /// Everything that acts along the free directions of a loop joint. Returns true if something is to be mended.
@@ -100,7 +100,8 @@ bool add_loop_axes(const Model& model, const RobotWork& robot, const LoopJoint& 
         buffer.clear();
         mends |= add_axis_rows(axis, alone, buffer);
         for (std::size_t r = 0; r < buffer.size(); ++r)
-            writer.add(buffer[r], direction.wrench, r == 0 && has_hard_motor(axis) ? &motor : nullptr);
+            writer.add(buffer[r], direction.wrench, buffer[r].compliance > axis.dof.inverse_inertia,
+                       r == 0 && has_hard_motor(axis) ? &motor : nullptr);
         add_spring(axis, near(direction.position, dof.spring_reference, loop, dof), direction.wrench, writer);
     }
     return mends;
@@ -110,8 +111,7 @@ bool add_loop_axes(const Model& model, const RobotWork& robot, const LoopJoint& 
 bool needs_rows(const LoopJoint& loop, const RobotState& state) {
     for (std::size_t d = 0; d < loop.dofs.size(); ++d) {
         const Dof& dof = loop.dofs[d];
-        if (state.motors[static_cast<std::size_t>(loop.motor_index) + d].mode != MotorMode::kPassive)
-            return true;
+        if (!is_switched_off(state.motors[static_cast<std::size_t>(loop.motor_index) + d])) return true;
         if (dof.friction > 0 || dof.damping > 0 || dof.spring_stiffness > 0) return true;
         if (std::isfinite(dof.lower) || std::isfinite(dof.upper)) return true;
     }
@@ -129,6 +129,7 @@ void add_equality_rows(const Model& model, RobotId robot, const Equalities& equa
         row.target = row.position_target = -0.5 * model.dt_s * equality.curvature;
         row.compliance = model.accuracy.compliance * equality.mobility;
         row.low = -kInfinity, row.high = kInfinity;
+        row.equality = true;
         row.robot = robot, row.loop = equality.loop, row.wrench = equality.wrench;
         row.first = rows.coupling_columns.size();
         for (std::size_t c = equality.first; c < equality.last; ++c)

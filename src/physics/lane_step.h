@@ -15,8 +15,8 @@
 #include "physics/loads.h"
 #include "physics/newton.h"
 #include "physics/sleep.h"
+#include "physics/stirring.h"
 #include "physics/tree_hessian.h"
-#include "physics/velocity_forces.h"
 
 namespace roboss {
 
@@ -61,14 +61,14 @@ class LaneStep final : public LaneStepper {
         leave(LaneTraits<Wide>::bits(m), together);
     }
 
-    /// Bodies and shapes in lanes, contacts lane by lane. Who might fall asleep or turns far leaves. All
+    /// Bodies and shapes in lanes, contacts lane by lane. Who might fall asleep or stirs leaves. All
     /// robots come with contacts, or none.
     void place(const Model& model, std::span<const LaneRobot> robots, Lockstep<T>& together) {
         const RobotType& type = *work_.type;
         placed().type = &type;
         place_bodies<Wide>(type, state_.q(), placed());
         move_bodies<Wide>(type, state_.v(), placed());
-        leave_where(turns_far(placed(), model.dt_s), together);
+        leave_where(stirs<Wide>(placed(), model.dt_s), together);
         const bool has_contacts = robots[0].has_contacts;
         if (model.sleep || !has_contacts) place_shapes<Wide>(type, model.dt_s, state_.q(), placed());
         if (model.sleep) leave_where(placed().speed <= Wide(kRestSpeed), together);
@@ -306,6 +306,7 @@ class LaneStep final : public LaneStepper {
         leave_where(!newton_.solve(problem, together, solution_, solved_), together);
         pushed_ = false;
         take_impulses();
+        leave_the_isolated(together);
         way_ = solution_;
         if (together.any() && together(split_)) solve_way(problem, together);
     }
@@ -337,6 +338,13 @@ class LaneStep final : public LaneStepper {
         for (std::size_t i = 0; i < way_.size(); ++i)
             whole_solution_[i] += before[i], whole_way_[i] += before[i];
         return share_of_mending<T>(before, whole_solution_, whole_way_) < T(1);
+    }
+
+    /// What nothing pushes from outside keeps its momentum and, if no motor drives it, its energy: it takes
+    /// the kick-drift step (group_step.cpp).
+    void leave_the_isolated(Lockstep<T>& together) {
+        const Mask driven = is_driven<T>(state_.joints().motors);
+        leave_where((!pushed_) & (Mask(work_.type->free_base) | (!driven)), together);
     }
 
     /// What nothing holds moves by the method for free motion.

@@ -82,8 +82,10 @@ struct CouplingRowT : BoundedRowT<T> {
     std::size_t first = 0, last = 0;     // columns
     MotorSetpointT<T>* motor = nullptr;  // that remembers its load
     RobotId robot;
-    int loop = -1;       // in RobotType::loops, if it is of one
-    SpatialT<T> wrench;  // of a loop: on its body B about the robot's origin, per unit of impulse
+    bool soft = false;      // a spring, damper or servo that does not outweigh the inertia
+    bool equality = false;  // a loop, gearbox or mimic joint that always holds, in both directions
+    int loop = -1;          // in RobotType::loops, if it is of one
+    SpatialT<T> wrench;     // of a loop: on its body B about the robot's origin, per unit of impulse
 };
 using CouplingRow = CouplingRowT<double>;
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <type_traits>
 
 #include "core/lanes.h"
@@ -21,6 +22,18 @@ void tree_times(const DofPaths& paths, const T* a, const T* __restrict x, T* __r
         const std::size_t above = paths.length(i) - 1;
         // later rows add their share
         y[i] = row[above] * x[i] + path::dot_and_add(row, paths.path(i), 0, above, x, x[i], y);
+    }
+}
+
+/// Rows and columns of locked degrees of freedom (none: empty) become those of the identity.
+inline void lock_rows(const DofPaths& paths, std::span<const char> locked, double* a) {
+    if (locked.empty()) return;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+        double* row = a + paths.row(i);
+        const std::size_t above = paths.length(i) - 1;
+        for (std::size_t k = 0; k < above; ++k)
+            if (locked[i] || locked[static_cast<std::size_t>(paths.path(i)[k])]) row[k] = 0;
+        if (locked[i]) row[above] = 1;
     }
 }
 

@@ -80,7 +80,8 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--jobs", o.jobs, "seeds run at the same time; no result depends on it")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
-    app.add_option("--every", o.every, "with --seed: print one tick of so many")->check(CLI::Range(1, 1000000));
+    app.add_option("--every", o.every, "with --seed: print one tick of so many")
+        ->check(CLI::Range(1, 1000000));
     app.add_option("--json", o.json, "write every seed's figure to this file");
     app.add_flag("--list", o.list, "print properties and kinds of world, and end");
 }

@@ -94,7 +94,8 @@ void vary_axis(Random& random, bool slides, bool springs, AxisSpec& axis) {
 void vary_axes(Random& random, bool springs, JointSpec& joint) {
     for (AxisSpec& axis : joint.axes) {
         vary_axis(random, joint.kind == JointSpecKind::kPrismatic, springs, axis);
-        // What slides has limits, so that it stays within reach and gravity does not drive a screw beyond all speeds.
+        // What slides has limits, so that it stays within reach and gravity does not drive a screw beyond all
+        // speeds.
         if (joint.kind == JointSpecKind::kScrew && !axis.has_limits()) axis.lower = -6, axis.upper = 6;
     }
     const double damping = magnitude(random, 1e-4, 1e-1);

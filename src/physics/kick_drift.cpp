@@ -1,0 +1,351 @@
+// See kick_drift.h.
+#include "physics/kick_drift.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "physics/axis_rows.h"
+#include "physics/stirring.h"
+#include "physics/tree_factor.h"
+
+namespace roboss {
+namespace {
+
+constexpr double kGrowth = 2e-5;  // 1/s: of the kinetic energy, left to the method's errors of either sign
+
+/// Where the centre of mass comes to (from the origin), and the momentum about the origin.
+struct Course {
+    Vec3 centre;
+    Spatial momentum;
+};
+
+/// One robot's tick.
+class KickDrift {
+  public:
+    KickDrift(const Model& model, const SolvedTick& solved, RobotWork& work, FreeBuffer& buffer)
+        : model_(model), solved_(solved), work_(work), buffer_(buffer) {
+        buffer_.work.type = work.type;
+        buffer_.work.state = work.state;
+    }
+
+    /// Where no row acts.
+    void fly() {
+        const BodySums before = sums();
+        advance_steadily(model_, work_, {}, fastest_turn(work_), buffer_);
+        guard(before);
+    }
+
+    /// Where rows act. The first attempt may pass a limit, which the solver did not know of, or may gain
+    /// energy, because a joint that moves as solved works against forces that the solver took at the
+    /// beginning.
+    void advance() {
+        HeldJoints& held = buffer_.held;
+        held.locked.assign(solved_.locked.begin(), solved_.locked.end());
+        held.velocity.assign(solved_.velocity.begin(), solved_.velocity.end());
+        held.q_start = state_.q, held.v_start = state_.v;
+        const BodySums before = sums();
+        attempt();
+        for (int i = 0; i < kLimitRounds && stop_at_limits(); ++i) attempt_again();
+        if (!solved_.passive && is_far_off(before)) return take_solution();
+        bool kept = guard(before);
+        if (!kept && hold_still()) {
+            attempt_again();
+            kept = guard(before);
+        }
+        if (!kept) {
+            hold_all();
+            attempt_again();
+            guard(before);
+        }
+        shift();
+    }
+
+  private:
+    static constexpr int kLimitRounds = 3;
+
+    BodySums sums() { return sum_bodies(model_, state_.q, state_.v, origin_, buffer_.work); }
+    Vec3 base() const { return {state_.q[0], state_.q[1], state_.q[2]}; }
+    std::size_t dof_index(std::size_t d) const { return d + static_cast<std::size_t>(type_.base_nv()); }
+
+    void attempt() {
+        kick();
+        drift();
+    }
+    void attempt_again() {
+        state_.q = buffer_.held.q_start, state_.v = buffer_.held.v_start;
+        place_bodies<double>(type_, state_.q, work_);
+        attempt();
+    }
+
+    /// Velocities right after the kick: those of locked joints as they are to be, the others by the kick and
+    /// by how the locked ones move them.
+    void kick() {
+        const DofPaths& paths = type_.paths;
+        const HeldJoints& held = buffer_.held;
+        const std::size_t nv = state_.v.size();
+        buffer_.work.bodies = work_.bodies, buffer_.work.axes = work_.axes,
+        buffer_.work.origin = work_.origin;
+        compute_inertias(type_, buffer_.work);
+        compute_mass_matrix<double>(type_, 0.0, buffer_.work);
+        std::vector<double>&mass_matrix = buffer_.work.mass_matrix, &change = buffer_.change,
+        &by_locked = buffer_.wanted, &jump = buffer_.v;
+        jump.assign(nv, 0.0), by_locked.resize(nv), change.resize(nv);
+        for (std::size_t i = 0; i < nv; ++i)
+            if (held.locked[i]) jump[i] = held.velocity[i] - state_.v[i];
+        tree_times(paths, mass_matrix.data(), jump.data(), by_locked.data());
+        for (std::size_t i = 0; i < nv; ++i)
+            change[i] = held.locked[i] ? jump[i] : solved_.kick[i] - by_locked[i];
+        lock_rows(paths, held.locked, mass_matrix.data());
+        tree_factor(paths, mass_matrix.data());
+        tree_solve(paths, mass_matrix.data(), change.data());
+        for (std::size_t i = 0; i < nv; ++i)
+            state_.v[i] = held.locked[i] ? held.velocity[i] : state_.v[i] + change[i];
+        if (type_.has_equalities())
+            buffer_.projection.close_velocities(type_, state_.q, state_.v, held.locked);
+    }
+
+    void drift() {
+        double fastest = 0;
+        const std::vector<double>& before = buffer_.held.v_start;
+        for (const std::span<const double> v :
+             {std::span(before), solved_.velocity, std::span<const double>(state_.v)}) {
+            move_bodies<double>(type_, v, work_);
+            fastest = std::max(fastest, fastest_turn(work_));
+        }
+        buffer_.force.assign(solved_.load.begin(), solved_.load.end());
+        for (double& x : buffer_.force) x /= model_.dt_s;
+        add_stiff_forces();
+        advance_steadily(model_, work_, {buffer_.force, buffer_.held.locked, true}, fastest, buffer_);
+    }
+
+    /// Stiff springs and dampings as the solver took them: at the end of the tick.
+    void add_stiff_forces() {
+        for (std::size_t d = 0; d < type_.dofs.size(); ++d) {
+            const Dof& dof = type_.dofs[d];
+            if (!is_stiff(dof, model_.dt_s)) continue;
+            const double rate = solved_.velocity[dof_index(d)];
+            double& force = buffer_.force[dof_index(d)];
+            force -= dof.damping * rate;
+            if (dof.spring_stiffness == 0) continue;
+            const double q = state_.q[static_cast<std::size_t>(body_of(dof).q_index)];
+            force -= dof.spring_stiffness * (q - dof.spring_reference + model_.dt_s * rate);
+        }
+    }
+
+    /// True where large loads and kicks that nearly cancel (jammed limbs between strong motors) have carried the
+    /// drift away from the solution.
+    bool is_far_off(const BodySums& before) {
+        constexpr double kMore = 2;  // times the kinetic energy
+        const double solution =
+            sum_bodies(model_, buffer_.held.q_start, solved_.velocity, origin_, buffer_.work).kinetic;
+        return !(sums().kinetic <= kMore * std::max(before.kinetic, solution));
+    }
+
+    /// The explicit step: the solved velocities and displacement.
+    void take_solution() {
+        state_.q = buffer_.held.q_start;
+        std::copy(solved_.velocity.begin(), solved_.velocity.end(), state_.v.begin());
+        advance_coordinates<double>(type_, solved_.displacement, model_.dt_s, state_.q);
+        if (type_.has_equalities()) buffer_.projection.close_coordinates(type_, state_.q);
+    }
+
+    const Body& body_of(const Dof& dof) const { return type_.bodies[static_cast<std::size_t>(dof.body)]; }
+
+    /// Joints that passed a hard or stiff limit in the drift are locked: they come to the limit at the end of
+    /// the tick, or less far if they were slower. False if none did.
+    bool stop_at_limits() {
+        constexpr double kSlop = 1e-9;  // rad or m
+        HeldJoints& held = buffer_.held;
+        const double dt = model_.dt_s;
+        bool any = false;
+        for (std::size_t d = 0; d < type_.dofs.size(); ++d) {
+            const Dof& dof = type_.dofs[d];
+            const Body& body = body_of(dof);
+            const std::size_t i = dof_index(d);
+            if (held.locked[i] || body.joint == JointKind::kBall) continue;
+            if (dof.limit_stiffness * dt * dt * dof.inverse_inertia < 1) continue;
+            const double q0 = held.q_start[static_cast<std::size_t>(body.q_index)];
+            const double q1 = state_.q[static_cast<std::size_t>(body.q_index)], v0 = held.v_start[i];
+            const bool above = q1 > std::max(dof.upper, q0) + kSlop,
+                       below = q1 < std::min(dof.lower, q0) - kSlop;
+            if (!above && !below) continue;
+            const double room = (above ? std::max(dof.upper - q0, 0.0) : std::min(dof.lower - q0, 0.0)) / dt;
+            held.velocity[i] = above ? std::min(room, std::max(v0, 0.0)) : std::max(room, std::min(v0, 0.0));
+            held.locked[i] = 1;
+            any = true;
+        }
+        return any;
+    }
+
+    /// Locked joints that moved go to where they were to come at once, momentum unchanged, and stay there.
+    /// Quasi- static motion of a stiff spring takes energy then. False if none moved.
+    bool hold_still() {
+        HeldJoints& held = buffer_.held;
+        bool any = false;
+        std::vector<double>& way = buffer_.wanted;
+        way.assign(state_.v.size(), 0.0);
+        for (std::size_t i = 0; i < way.size(); ++i) {
+            if (!held.locked[i] || held.velocity[i] == 0) continue;
+            way[i] = held.velocity[i], held.velocity[i] = 0;
+            any = true;
+        }
+        if (!any) return false;
+        state_.q = held.q_start, state_.v = held.v_start;
+        const BodySums before = sums();
+        advance_coordinates<double>(type_, way, model_.dt_s, state_.q);
+        if (type_.has_equalities()) buffer_.projection.close_coordinates(type_, state_.q);
+        put_on({centre_of(before), before.momentum});
+        const BodySums after = sums();
+        if (after.kinetic + after.potential <= before.kinetic + before.potential)
+            held.q_start = state_.q, held.v_start = state_.v;
+        return true;
+    }
+
+    /// The last resort: all joints stay for this tick, and a rigid body gains no energy.
+    void hold_all() {
+        HeldJoints& held = buffer_.held;
+        for (std::size_t i = dof_index(0); i < held.locked.size(); ++i)
+            held.locked[i] = 1, held.velocity[i] = 0;
+    }
+
+    /// The mending of penetrations and what impacts inside the tick change in the displacement. Momentum
+    /// stays.
+    void shift() {
+        std::vector<double>& extra = buffer_.wanted;
+        extra.resize(state_.v.size());
+        bool any = false;
+        for (std::size_t i = 0; i < extra.size(); ++i) {
+            extra[i] = solved_.displacement[i] - solved_.velocity[i];
+            any |= extra[i] != 0;
+        }
+        if (!any) return;
+        const BodySums before = sums();
+        advance_coordinates<double>(type_, extra, model_.dt_s, state_.q);
+        if (type_.has_equalities()) buffer_.projection.close_coordinates(type_, state_.q);
+        if (!type_.free_base) return;
+        const Spatial pushed = displaced();
+        put_on({centre_of(before) + pushed.linear * (model_.dt_s / before.inertia.mass), before.momentum});
+        if (solved_.isolated && solved_.passive) limit(before.kinetic + before.potential);
+    }
+
+    /// The momentum that the extra displacement over dt would have as a velocity, at the beginning of the
+    /// tick.
+    Spatial displaced() {
+        const std::vector<double>& extra = buffer_.wanted;
+        return sum_bodies(model_, buffer_.held.q_start, extra, origin_, buffer_.work).momentum;
+    }
+
+    static Vec3 centre_of(const BodySums& sums) { return sums.inertia.moment * (1.0 / sums.inertia.mass); }
+
+    /// What the drift loses of momentum, and gains of energy, is put right. False if too much energy remains.
+    bool guard(const BodySums& before) {
+        if (const std::optional<Course> course = course_of(before)) put_on(*course);
+        if (!solved_.isolated || !solved_.passive) return true;
+        const double energy = before.kinetic + before.potential;
+        return limit(energy + kGrowth * model_.dt_s * before.kinetic);
+    }
+
+    /// The base's part of a generalised impulse of rows: what they push from outside, about the origin.
+    Spatial outer(std::span<const double> impulse) const {
+        if (impulse.empty()) return {};
+        return {{impulse[0], impulse[1], impulse[2]}, {impulse[3], impulse[4], impulse[5]}};
+    }
+
+    /// The course of a robot on which contacts and gravity are all that acts from outside: kicks act at the
+    /// beginning, loads evenly, and the torque of the weight is integrated along the parabola.
+    std::optional<Course> course_of(const BodySums& before) const {
+        if (!type_.free_base || !state_.wrenches.empty() || !type_.drags.empty()) return std::nullopt;
+        if (model_.gravity != Vec3{})
+            for (const Body& body : type_.bodies)
+                if (body.gravity_mass != body.mass) return std::nullopt;
+        const double dt = model_.dt_s, mass = before.inertia.mass;
+        const Spatial kick = outer(solved_.kick), load = outer(solved_.load);
+        const Vec3 weight = model_.gravity * mass;
+        const Vec3 velocity = (before.momentum.linear + kick.linear) * (1.0 / mass);
+        const Vec3 acceleration = model_.gravity + load.linear * (1.0 / (mass * dt));
+        const Vec3 centre = centre_of(before);
+        const Vec3 arm = centre * dt + velocity * (0.5 * dt * dt);
+        Spatial momentum = before.momentum + kick + load;
+        momentum += Spatial{cross(arm, weight), weight * dt};
+        return Course{centre + velocity * dt + acceleration * (0.5 * dt * dt), momentum};
+    }
+
+    /// Moves the robot as a whole onto the course.
+    void put_on(const Course& course) {
+        if (!type_.free_base) return;
+        BodySums now = sums();
+        const Vec3 off = course.centre - centre_of(now);
+        for (std::size_t i = 0; i < 3; ++i) state_.q[i] += off[i];
+        now = sums();
+        now.momentum = {course.momentum.angular - now.momentum.angular,
+                        course.momentum.linear - now.momentum.linear};
+        Spatial missing;
+        if (now.rigid_motion(missing)) add_base(moved_motion(missing, base() - origin_), 1.0);
+    }
+
+    void add_base(const Spatial& motion, double share) {
+        const Vec3 parts[2] = {motion.angular, motion.linear};
+        for (std::size_t i = 0; i < 6; ++i) state_.v[i] += share * parts[i / 3][i % 3];
+    }
+
+    /// Takes the energy beyond `most` out of the motion of the joints against each other: momentum stays. On
+    /// a fixed base, out of all motion. False if more remains.
+    bool limit(double most) {
+        const BodySums now = sums();
+        const double allowed = most - now.potential;
+        if (!(now.kinetic > allowed)) return true;
+        Spatial rigid;
+        double locked = 0;
+        if (type_.free_base && now.rigid_motion(rigid)) {
+            locked = 0.5 * dot(now.inertia * rigid, rigid);
+            rigid = moved_motion(rigid, base() - origin_);
+        } else {
+            rigid = {};
+        }
+        const double inner = now.kinetic - locked;
+        if (!(inner > 0)) return false;
+        const double share = allowed > locked ? std::sqrt((allowed - locked) / inner) : 0.0;
+        for (double& x : state_.v) x *= share;
+        if (type_.free_base) add_base(rigid, 1.0 - share);
+        return share > 0;
+    }
+
+    const Model& model_;
+    const SolvedTick& solved_;
+    RobotWork& work_;
+    FreeBuffer& buffer_;
+    const RobotType& type_ = *work_.type;
+    RobotState& state_ = *work_.state;
+    const Vec3 origin_ = work_.origin;
+};
+
+}  // namespace
+
+bool is_passive(const RobotWork& work) {
+    const RobotType& type = *work.type;
+    if (is_driven<double>(work.state->motors) || !work.state->wrenches.empty()) return false;
+    for (const LinkDrag& drag : type.drags)
+        if (drag.wind) return false;
+    for (const LoopJoint& loop : type.loops)
+        for (const Dof& dof : loop.dofs)
+            if (dof.spring_stiffness > 0 || std::isfinite(dof.limit_stiffness)) return false;
+    return true;
+}
+
+void advance_kick_drift(const Model& model, RobotWork& work, const SolvedTick& solved, FreeBuffer& buffer) {
+    KickDrift(model, solved, work, buffer).advance();
+}
+
+void advance_freely(const Model& model, RobotWork& work, FreeBuffer& buffer) {
+    const double slow = work.type->dofs.empty() ? 0.1 : 0.02;  // rad in a tick: the methods' errors are small
+    const double fastest = fastest_turn(work);
+    if (fastest * model.dt_s * model.dt_s < slow * slow)
+        return advance_steadily(model, work, {}, fastest, buffer);
+    SolvedTick free;
+    free.isolated = true;
+    free.passive = is_passive(work);
+    KickDrift(model, free, work, buffer).fly();
+}
+
+}  // namespace roboss
