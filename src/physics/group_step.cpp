@@ -8,6 +8,7 @@
 #include "physics/drag.h"
 #include "physics/loads.h"
 #include "physics/stirring.h"
+#include "physics/velocity_forces.h"
 
 namespace roboss {
 namespace {
@@ -38,40 +39,40 @@ bool flies(const Model& model, const RobotWork& work, const GroupScratch& s) {
     return moves_freely(model, work) && !(s.keep_loads && !work.type->loops.empty());
 }
 
-/// Marks the robots that another robot or scenery pushes. True if the island is anchored: something pushes it
-/// that does not move freely.
-bool mark_touched(std::span<const RobotWork> robots, GroupScratch& s) {
+/// Marks the robots that another robot or scenery pushes, by the impulses of the last solution, and notes
+/// whether the island is anchored: pushed by something that does not move freely.
+void mark_touched(std::span<const RobotWork> robots, GroupScratch& s) {
     const auto is_fixed = [&](int robot) {
         return robot < 0 || !robots[static_cast<std::size_t>(robot)].type->free_base;
     };
-    s.touched.assign(robots.size(), 0);
-    bool anchored = false;
     for (std::size_t c = 0; c < s.rows.contacts.size(); ++c) {
         const Contact& contact = *s.island_contacts[c];
         if (s.rows.contacts[c].normal.impulse <= 0 || contact.robot_a == contact.robot_b) continue;
-        anchored |= is_fixed(contact.robot_a) || is_fixed(contact.robot_b);
+        s.anchored |= is_fixed(contact.robot_a) || is_fixed(contact.robot_b);
         s.touched[static_cast<std::size_t>(contact.robot_a)] = 1;
         if (contact.robot_b >= 0) s.touched[static_cast<std::size_t>(contact.robot_b)] = 1;
     }
-    return anchored;
 }
 
-/// How each member moves, and, if any drifts, the split of the solved impulses. Where nothing pushes an
-/// island from outside its momentum is to stay, and that of its energy that no motor gives: then it drifts
-/// always. Others do where they stir.
+/// Which members drift, and, if any does, the split of the solved impulses. Where nothing pushes an island
+/// from outside its momentum is to stay, and that of its energy that no motor gives: then all drift. Others
+/// do where they stir.
 void choose_drifting(const Model& model, std::span<const RobotWork> robots, GroupScratch& s,
                      std::span<const std::uint32_t> members) {
-    s.drifting.assign(members.size(), Drifting::kNo);
-    const bool anchored = mark_touched(robots, s);
+    s.touched.resize(robots.size());
+    for (const std::uint32_t m : members) s.touched[m] = 0;
+    s.anchored = false;
+    mark_touched(robots, s);
+    s.drifts.assign(members.size(), 0);
     bool any = false;
     for (std::size_t m = 0; m < members.size(); ++m) {
         const RobotWork& work = robots[members[m]];
         if (work.type->nv == 0 || drag_is_stiff(model, work)) continue;
-        const bool touched = s.touched[members[m]] != 0;
-        const bool kept =
-            touched ? !anchored : work.type->free_base || !is_driven<double>(work.state->motors);
+        const bool kept = s.touched[members[m]]
+                              ? !s.anchored
+                              : work.type->free_base || !is_driven<double>(work.state->motors);
         if (!kept && !stirs<double>(work, model.dt_s)) continue;
-        s.drifting[m] = touched ? Drifting::kTouched : Drifting::kIsolated;
+        s.drifts[m] = 1;
         any = true;
     }
     if (any)
@@ -80,14 +81,14 @@ void choose_drifting(const Model& model, std::span<const RobotWork> robots, Grou
 }
 
 /// Moves one member by the kick-drift step.
-void drift(const Model& model, RobotWork& work, std::size_t member, std::span<const double> way,
+void drift(const Model& model, RobotWork& work, std::size_t member, bool touched, std::span<const double> way,
            GroupScratch& s) {
     const auto offset = static_cast<std::size_t>(s.island_offsets[member]);
     const auto nv = static_cast<std::size_t>(work.type->nv);
     const auto own = [&](const auto& array) { return std::span(array).subspan(offset, nv); };
     SolvedTick solved{own(s.v), way.subspan(offset, nv), own(s.split.kick), own(s.split.load),
                       own(s.split.locked)};
-    solved.isolated = s.drifting[member] == Drifting::kIsolated;
+    solved.isolated = !touched;
     solved.passive = is_passive(work);
     advance_kick_drift(model, work, solved, s.free_buffer);
 }
@@ -105,8 +106,8 @@ void finish_island(const Model& model, std::span<RobotWork> robots, GroupScratch
             continue;
         }
         work.held = true;
-        if (s.drifting[m] != Drifting::kNo) {
-            drift(model, work, m, way, s);
+        if (s.drifts[m]) {
+            drift(model, work, m, s.touched[members[m]] != 0, way, s);
             continue;
         }
         std::copy_n(s.v.begin() + static_cast<std::ptrdiff_t>(offset), nv, work.state->v.begin());
@@ -141,6 +142,7 @@ bool gather_island(const Model& model, std::span<RobotWork> robots, GroupScratch
         s.island_offsets.push_back(offset);
         compute_impulse(model, model.dt_s, 1.0, work.state->q, work.state->v, work);
         compute_mass_matrix<double>(*work.type, model.dt_s, work);
+        tame_velocity_forces(model, work, s.free_buffer);
         split |= add_joint_rows(model, work, offset, s.buffer, s.rows);
         s.v.insert(s.v.end(), work.state->v.begin(), work.state->v.end());
     }
@@ -258,11 +260,16 @@ void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch&
             s.solver.solve({model.accuracy, s.island_robots, s.island_offsets, s.rows, true}, s.way)
                 .iterations;
         limit_mending(robots, s, members);
+        mark_touched(robots, s);
     } else {
         take_mean_way(robots, s, members, model.dt_s);
     }
     mark_pushed(robots, s);
+    const auto is_touched = [&](std::uint32_t m) { return s.touched[m] != 0; };
+    const bool guards = std::ranges::any_of(members, is_touched) &&
+                        s.guard.start(model, robots, members, s.anchored, s.rows, s.free_buffer.work);
     finish_island(model, robots, s, members, s.way);
+    if (guards) s.guard.finish(model, robots, members, s.free_buffer.work);
 }
 
 void count_contacts(const Model& model, std::span<const Contact> contacts, StepReport& report) {

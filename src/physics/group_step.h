@@ -8,8 +8,8 @@
 #include "core/union_find.h"
 #include "physics/contact_rows.h"
 #include "physics/integrate.h"
+#include "physics/island_guard.h"
 #include "physics/joint_rows.h"
-#include "physics/kick_drift.h"
 #include "physics/lane_stepper.h"
 #include "physics/row_split.h"
 #include "physics/sleep.h"
@@ -17,13 +17,6 @@
 #include "physics/step.h"
 
 namespace roboss {
-
-/// How a robot moves that rows act on.
-enum class Drifting : char {
-    kNo,       // by the solved velocities
-    kTouched,  // by the kick-drift step, pushed from outside
-    kIsolated  // by the kick-drift step, pushed by nothing from outside
-};
 
 /// Buffers of a group's step; the contacts stay until the next one.
 struct GroupScratch {
@@ -42,10 +35,12 @@ struct GroupScratch {
     std::vector<int> offsets, island_offsets;
     IslandRows rows;
     std::vector<double> v, v_before;
-    std::vector<double> way;         // of the tick, over dt
-    std::vector<Drifting> drifting;  // by member of the island
-    std::vector<char> touched;       // by robot: pushed from outside
-    RowSplit split;                  // if anyone drifts
+    std::vector<double> way;    // of the tick, over dt
+    std::vector<char> drifts;   // by member of the island: takes the kick-drift step
+    std::vector<char> touched;  // by robot: pushed by another or by scenery
+    bool anchored = false;      // the island: pushed by something that does not move freely
+    RowSplit split;             // if anyone drifts
+    IslandGuard guard;
     IslandSolver solver;
     RowBuffer buffer;
     FreeBuffer free_buffer;

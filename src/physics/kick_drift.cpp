@@ -47,7 +47,7 @@ class KickDrift {
         const BodySums before = sums();
         attempt();
         for (int i = 0; i < kLimitRounds && stop_at_limits(); ++i) attempt_again();
-        if (!solved_.passive && is_far_off(before)) return take_solution();
+        if (!(solved_.passive && solved_.isolated) && is_far_off(before)) return take_solution();
         bool kept = guard(before);
         if (!kept && hold_still()) {
             attempt_again();
@@ -63,13 +63,14 @@ class KickDrift {
 
   private:
     static constexpr int kLimitRounds = 3;
+    static constexpr double kTurnMost = 8;  // rad in a tick
 
     BodySums sums() { return sum_bodies(model_, state_.q, state_.v, origin_, buffer_.work); }
-    Vec3 base() const { return {state_.q[0], state_.q[1], state_.q[2]}; }
     std::size_t dof_index(std::size_t d) const { return d + static_cast<std::size_t>(type_.base_nv()); }
 
     void attempt() {
         kick();
+        kicked_ = sums();
         drift();
     }
     void attempt_again() {
@@ -106,17 +107,17 @@ class KickDrift {
     }
 
     void drift() {
-        double fastest = 0;
+        fastest_ = 0;
         const std::vector<double>& before = buffer_.held.v_start;
         for (const std::span<const double> v :
              {std::span(before), solved_.velocity, std::span<const double>(state_.v)}) {
             move_bodies<double>(type_, v, work_);
-            fastest = std::max(fastest, fastest_turn(work_));
+            fastest_ = std::max(fastest_, fastest_turn(work_));
         }
         buffer_.force.assign(solved_.load.begin(), solved_.load.end());
         for (double& x : buffer_.force) x /= model_.dt_s;
         add_stiff_forces();
-        advance_steadily(model_, work_, {buffer_.force, buffer_.held.locked, true}, fastest, buffer_);
+        advance_steadily(model_, work_, {buffer_.force, buffer_.held.locked, true}, fastest_, buffer_);
     }
 
     /// Stiff springs and dampings as the solver took them: at the end of the tick.
@@ -133,13 +134,16 @@ class KickDrift {
         }
     }
 
-    /// True where large loads and kicks that nearly cancel (jammed limbs between strong motors) have carried the
-    /// drift away from the solution.
+    /// True where the drift is no better than the solution: a body turns further than the method can follow,
+    /// or large loads or kicks (jammed limbs between strong motors) have carried it away.
     bool is_far_off(const BodySums& before) {
-        constexpr double kMore = 2;  // times the kinetic energy
+        constexpr double kMoreByKick = 2, kMoreByDrift = 1.2;  // times the kinetic energy
+        if (!(fastest_ * model_.dt_s * model_.dt_s < kTurnMost * kTurnMost)) return true;
         const double solution =
             sum_bodies(model_, buffer_.held.q_start, solved_.velocity, origin_, buffer_.work).kinetic;
-        return !(sums().kinetic <= kMore * std::max(before.kinetic, solution));
+        if (!(kicked_.kinetic <= kMoreByKick * std::max(before.kinetic, solution))) return true;
+        const BodySums now = sums();
+        return !(now.energy() <= kMoreByDrift * std::max(kicked_.kinetic, solution) + kicked_.potential);
     }
 
     /// The explicit step: the solved velocities and displacement.
@@ -195,10 +199,9 @@ class KickDrift {
         const BodySums before = sums();
         advance_coordinates<double>(type_, way, model_.dt_s, state_.q);
         if (type_.has_equalities()) buffer_.projection.close_coordinates(type_, state_.q);
-        put_on({centre_of(before), before.momentum});
-        const BodySums after = sums();
-        if (after.kinetic + after.potential <= before.kinetic + before.potential)
-            held.q_start = state_.q, held.v_start = state_.v;
+        BodySums after = sums();
+        if (type_.free_base) put_on({before.centre(), before.momentum}, after);
+        if (after.energy() <= before.energy()) held.q_start = state_.q, held.v_start = state_.v;
         return true;
     }
 
@@ -225,8 +228,9 @@ class KickDrift {
         if (type_.has_equalities()) buffer_.projection.close_coordinates(type_, state_.q);
         if (!type_.free_base) return;
         const Spatial pushed = displaced();
-        put_on({centre_of(before) + pushed.linear * (model_.dt_s / before.inertia.mass), before.momentum});
-        if (solved_.isolated && solved_.passive) limit(before.kinetic + before.potential);
+        BodySums now = sums();
+        put_on({before.centre() + pushed.linear * (model_.dt_s / before.inertia.mass), before.momentum}, now);
+        if (solved_.isolated && solved_.passive) limit(before.energy(), now);
     }
 
     /// The momentum that the extra displacement over dt would have as a velocity, at the beginning of the
@@ -236,14 +240,14 @@ class KickDrift {
         return sum_bodies(model_, buffer_.held.q_start, extra, origin_, buffer_.work).momentum;
     }
 
-    static Vec3 centre_of(const BodySums& sums) { return sums.inertia.moment * (1.0 / sums.inertia.mass); }
-
     /// What the drift loses of momentum, and gains of energy, is put right. False if too much energy remains.
     bool guard(const BodySums& before) {
-        if (const std::optional<Course> course = course_of(before)) put_on(*course);
-        if (!solved_.isolated || !solved_.passive) return true;
-        const double energy = before.kinetic + before.potential;
-        return limit(energy + kGrowth * model_.dt_s * before.kinetic);
+        const std::optional<Course> course = course_of(before);
+        const bool limits = solved_.isolated && solved_.passive;
+        if (!course && !limits) return true;
+        BodySums now = sums();
+        if (course) put_on(*course, now);
+        return !limits || limit(before.energy() + kGrowth * model_.dt_s * before.kinetic, now);
     }
 
     /// The base's part of a generalised impulse of rows: what they push from outside, about the origin.
@@ -264,51 +268,33 @@ class KickDrift {
         const Vec3 weight = model_.gravity * mass;
         const Vec3 velocity = (before.momentum.linear + kick.linear) * (1.0 / mass);
         const Vec3 acceleration = model_.gravity + load.linear * (1.0 / (mass * dt));
-        const Vec3 centre = centre_of(before);
+        const Vec3 centre = before.centre();
         const Vec3 arm = centre * dt + velocity * (0.5 * dt * dt);
         Spatial momentum = before.momentum + kick + load;
         momentum += Spatial{cross(arm, weight), weight * dt};
         return Course{centre + velocity * dt + acceleration * (0.5 * dt * dt), momentum};
     }
 
-    /// Moves the robot as a whole onto the course.
-    void put_on(const Course& course) {
-        if (!type_.free_base) return;
-        BodySums now = sums();
-        const Vec3 off = course.centre - centre_of(now);
+    /// Moves the robot as a whole onto the course; `now` are its sums.
+    void put_on(const Course& course, BodySums& now) {
+        const Vec3 off = course.centre - now.centre();
         for (std::size_t i = 0; i < 3; ++i) state_.q[i] += off[i];
-        now = sums();
-        now.momentum = {course.momentum.angular - now.momentum.angular,
-                        course.momentum.linear - now.momentum.linear};
+        translate(off, model_.gravity, now);
+        BodySums lacks = now;
+        lacks.momentum = {course.momentum.angular - now.momentum.angular,
+                          course.momentum.linear - now.momentum.linear};
         Spatial missing;
-        if (now.rigid_motion(missing)) add_base(moved_motion(missing, base() - origin_), 1.0);
-    }
-
-    void add_base(const Spatial& motion, double share) {
-        const Vec3 parts[2] = {motion.angular, motion.linear};
-        for (std::size_t i = 0; i < 6; ++i) state_.v[i] += share * parts[i / 3][i % 3];
+        if (!lacks.rigid_motion(missing)) return;
+        add_rigid_motion(missing, origin_, 1.0, state_);
+        add_motion(missing, now);
     }
 
     /// Takes the energy beyond `most` out of the motion of the joints against each other: momentum stays. On
-    /// a fixed base, out of all motion. False if more remains.
-    bool limit(double most) {
-        const BodySums now = sums();
-        const double allowed = most - now.potential;
-        if (!(now.kinetic > allowed)) return true;
-        Spatial rigid;
-        double locked = 0;
-        if (type_.free_base && now.rigid_motion(rigid)) {
-            locked = 0.5 * dot(now.inertia * rigid, rigid);
-            rigid = moved_motion(rigid, base() - origin_);
-        } else {
-            rigid = {};
-        }
-        const double inner = now.kinetic - locked;
-        if (!(inner > 0)) return false;
-        const double share = allowed > locked ? std::sqrt((allowed - locked) / inner) : 0.0;
-        for (double& x : state_.v) x *= share;
-        if (type_.free_base) add_base(rigid, 1.0 - share);
-        return share > 0;
+    /// a fixed base, out of all motion. False if more may remain.
+    bool limit(double most, const BodySums& now) {
+        const Slowdown slowdown = slowdown_to(most - now.potential, now, !type_.free_base);
+        slowdown.apply(type_, origin_, state_);
+        return slowdown.share > 0;
     }
 
     const Model& model_;
@@ -318,6 +304,8 @@ class KickDrift {
     const RobotType& type_ = *work_.type;
     RobotState& state_ = *work_.state;
     const Vec3 origin_ = work_.origin;
+    BodySums kicked_;     // right after the kick
+    double fastest_ = 0;  // (rad/s)^2
 };
 
 }  // namespace
@@ -338,7 +326,8 @@ void advance_kick_drift(const Model& model, RobotWork& work, const SolvedTick& s
 }
 
 void advance_freely(const Model& model, RobotWork& work, FreeBuffer& buffer) {
-    const double slow = work.type->dofs.empty() ? 0.1 : 0.02;  // rad in a tick: the methods' errors are small
+    const double slow =
+        work.type->dofs.empty() ? 0.005 : 0.02;  // rad in a tick: the methods' errors are small
     const double fastest = fastest_turn(work);
     if (fastest * model.dt_s * model.dt_s < slow * slow)
         return advance_steadily(model, work, {}, fastest, buffer);

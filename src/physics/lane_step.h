@@ -340,11 +340,10 @@ class LaneStep final : public LaneStepper {
         return share_of_mending<T>(before, whole_solution_, whole_way_) < T(1);
     }
 
-    /// What nothing pushes from outside keeps its momentum and, if no motor drives it, its energy: it takes
-    /// the kick-drift step (group_step.cpp).
+    /// What moves freely and nothing pushes keeps its momentum: it takes the kick-drift step
+    /// (group_step.cpp).
     void leave_the_isolated(Lockstep<T>& together) {
-        const Mask driven = is_driven<T>(state_.joints().motors);
-        leave_where((!pushed_) & (Mask(work_.type->free_base) | (!driven)), together);
+        if (work_.type->free_base) leave_where(!pushed_, together);
     }
 
     /// What nothing holds moves by the method for free motion.

@@ -90,7 +90,8 @@ bool step_batch(const LaneSteppers& steppers, const Model& model, std::vector<st
 }
 
 /// Whether a robot may be stepped in lanes at all: no loops, couplings or drag, no contact with itself, no
-/// wrench; and no lone body (what slides without turning is stepped apart, see group_step.cpp).
+/// wrench; no lone body (what slides without turning is stepped apart, see group_step.cpp), and nothing
+/// without a driven motor (its energy is guarded, see kick_drift.h and island_guard.h).
 bool fits_lanes(const RobotType& type, const RobotState& state);
 
 /// The widest stepper of at most `most` lanes that this processor can run. If there is none: nullptr for

@@ -23,6 +23,13 @@ Sym3 about_centre(const SpatialInertia& I, const Vec3& centre) {
     return a;
 }
 
+/// The inertia about O of bodies that were moved by `way`.
+void move_inertia(const Vec3& way, SpatialInertia& I) {
+    if (!(I.mass > 0)) return;
+    const Vec3 centre = I.moment * (1.0 / I.mass);
+    I = spatial_inertia(I.mass, centre + way, about_centre(I, centre));
+}
+
 /// Energy of the springs of a joint and of its soft limits, J.
 double joint_potential(const Dof& dof, double q) {
     const double stretch = q - dof.spring_reference;
@@ -81,11 +88,48 @@ BodySums sum_placed_bodies(const Model& model, std::span<const double> q, std::s
         if (body.joint != JointKind::kBall)
             sums.potential += joint_potential(dof, q[static_cast<std::size_t>(body.q_index)]);
     }
-    sums.momentum = moved_force(sums.momentum, arm * -1.0);
-    const Vec3 centre = sums.inertia.mass > 0 ? sums.inertia.moment * (1.0 / sums.inertia.mass) : Vec3{};
-    if (sums.inertia.mass > 0)
-        sums.inertia = spatial_inertia(sums.inertia.mass, centre + arm, about_centre(sums.inertia, centre));
+    if (arm == Vec3{}) return sums;
+    sums.momentum = moved_force(sums.momentum, -arm);
+    move_inertia(arm, sums.inertia);
     return sums;
+}
+
+void translate(const Vec3& way, const Vec3& gravity, BodySums& sums) {
+    sums.momentum.angular += cross(way, sums.momentum.linear);
+    move_inertia(way, sums.inertia);
+    sums.potential -= sums.inertia.mass * dot(gravity, way);
+}
+
+void add_motion(const Spatial& change, BodySums& sums) {
+    const Spatial added = sums.inertia * change;
+    sums.kinetic += dot(change, sums.momentum) + 0.5 * dot(added, change);
+    sums.momentum += added;
+}
+
+void add_rigid_motion(const Spatial& motion, const Vec3& origin, double share, RobotState& state) {
+    const Vec3 arm = Vec3{state.q[0], state.q[1], state.q[2]} - origin;
+    const Vec3 at_base = motion.linear + cross(motion.angular, arm);
+    for (std::size_t i = 0; i < 3; ++i)
+        state.v[i] += share * motion.angular[i], state.v[i + 3] += share * at_base[i];
+}
+
+void Slowdown::apply(const RobotType& type, const Vec3& origin, RobotState& state) const {
+    if (share == 1) return;
+    for (double& x : state.v) x *= share;
+    if (type.free_base) add_rigid_motion(rigid, origin, 1.0 - share, state);
+}
+
+Slowdown slowdown_to(double kinetic, const BodySums& sums, bool anchored) {
+    Slowdown slowdown;
+    if (!(sums.kinetic > kinetic)) return slowdown;
+    double locked = 0;
+    if (!anchored && sums.rigid_motion(slowdown.rigid))
+        locked = 0.5 * dot(sums.inertia * slowdown.rigid, slowdown.rigid);
+    else
+        slowdown.rigid = {};
+    const double inner = sums.kinetic - locked;
+    slowdown.share = kinetic > locked && inner > 0 ? std::sqrt((kinetic - locked) / inner) : 0.0;
+    return slowdown;
 }
 
 BodySums sum_bodies(const Model& model, std::span<const double> q, std::span<const double> v,

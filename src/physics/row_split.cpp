@@ -12,8 +12,8 @@ bool is_at_bound(const BoundedRow& row) {
     return row.impulse <= row.low || row.impulse >= row.high;
 }
 
-/// A joint is held where what the solver takes implicitly (hard rows, stiff springs, dampings and servos) outweighs
-/// its inertia: then it moves as solved, and nothing else does to it within the tick.
+/// A joint is held where what the solver takes implicitly (hard rows, stiff springs, dampings and servos)
+/// outweighs its inertia: then it moves as solved, and nothing else does to it within the tick.
 void find_locked(const IslandSolver::Problem& p, double dt, RowSplit& split) {
     std::size_t row = 0;
     for (std::size_t r = 0; r < p.robots.size(); ++r) {
@@ -78,7 +78,8 @@ void split_rows(const IslandSolver::Problem& p, std::span<const double> v_before
     split_couplings(p, v_before, v, split);
     const auto& contacts = p.rows.contacts;
     for (const ContactRow& row : contacts)
-        add(p.rows.columns, row.first, row.last, row.normal, row.slip, is_soft(row) ? split.load : split.kick);
+        add(p.rows.columns, row.first, row.last, row.normal, row.slip,
+            is_soft(row) ? split.load : split.kick);
     for (const AngularRow& row : p.rows.angulars)
         add(p.rows.columns, row.first, row.last, row.spin, row.roll,
             is_soft(contacts[row.contact]) ? split.load : split.kick);

@@ -1,0 +1,16 @@
+// Keeps explicit centrifugal and gyroscopic forces from feeding energy to the solver of what turns far in a
+// tick.
+#pragma once
+
+#include "physics/integrate.h"
+
+namespace roboss {
+
+/// Centrifugal and gyroscopic forces do no work. Taken at the beginning of the tick, as the solver takes
+/// them, they add j M^-1 j / 2 to the energy. Where a robot stirs (stirring.h) and a body turns by more than
+/// half a radian in the tick, j is cut back so that it adds no more than a small share: else rows would be
+/// solved for velocities without bound. `work` has its impulse and mass matrix; the impulse changes, and
+/// `buffer` is overwritten.
+void tame_velocity_forces(const Model& model, RobotWork& work, FreeBuffer& buffer);
+
+}  // namespace roboss
