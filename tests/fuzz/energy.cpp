@@ -57,7 +57,7 @@ Finding run_energy(const Request& request) {
         const StepReport& report = motion.step();
         sums = summer(motion.states());
         const double growth =
-            motion.find_not_finite().valid() ? std::numeric_limits<double>::infinity() : gauge.read(sums);
+            find_not_finite(motion.states()).valid() ? std::numeric_limits<double>::infinity() : gauge.read(sums);
         if (request.tell) request.tell(line(motion, sums, growth, report.contacts));
         if (growth > finding.figure) finding.figure = growth, finding.tick = motion.tick();
     }

@@ -15,6 +15,7 @@
 
 #include "core/thread_pool.h"
 #include "fuzz/property.h"
+#include "fuzz/shot.h"
 
 namespace roboss::fuzz {
 namespace {
@@ -80,7 +81,8 @@ void add_options(CLI::App& app, Options& o) {
     app.add_option("--jobs", o.jobs, "seeds run at the same time; no result depends on it")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
-    app.add_option("--every", o.every, "with --seed: print one tick of so many")->check(CLI::Range(1, 1000000));
+    app.add_option("--every", o.every, "with --seed: print one tick of so many")
+        ->check(CLI::Range(1, 1000000));
     app.add_option("--json", o.json, "write every seed's figure to this file");
     app.add_flag("--list", o.list, "print properties and kinds of world, and end");
 }
@@ -94,7 +96,8 @@ void print_list() {
         fmt::print("\n");
     }
     fmt::print("kinds of world:\n");
-    for (const SceneKind& kind : scene_kinds()) fmt::print("  {:12} {}\n", kind.name, kind.what);
+    for (const SceneKind& kind : scene_kinds()) fmt::print("  {:14} {}\n", kind.name, kind.what);
+    for (const ShotKind& kind : shot_kinds()) fmt::print("  {:14} {}\n", kind.name, kind.what);
 }
 
 /// The property as the options narrow it; nullopt: none of the wanted kinds is one of its own.

@@ -75,7 +75,7 @@ LinkSpec random_link(Random& random, const std::string& name, const Pose& X_ML,
 }
 
 /// Everything that an axis may have.
-void vary_axis(Random& random, bool slides, bool springs, AxisSpec& axis) {
+void vary_axis(Random& random, bool slides, AxisSpec& axis) {
     const double low = random.uniform(slides ? -0.3 : -2.0, -0.05),
                  high = random.uniform(0.05, slides ? 0.3 : 2.0);
     if (chance(random, slides ? 1.0 : 0.45)) axis.lower = low, axis.upper = high;
@@ -86,15 +86,16 @@ void vary_axis(Random& random, bool slides, bool springs, AxisSpec& axis) {
     const double friction = magnitude(random, 1e-3, 1e-1);
     if (chance(random, 0.35)) axis.friction = friction;
     const double spring = magnitude(random, 0.1, 30), reference = random.uniform(-0.5, 0.5);
-    if (chance(random, 0.2) && springs) axis.spring_stiffness = spring, axis.spring_reference = reference;
+    if (chance(random, 0.2)) axis.spring_stiffness = spring, axis.spring_reference = reference;
     const double armature = magnitude(random, 1e-4, 1e-2);
     if (chance(random, 0.15)) axis.armature = armature;
 }
 
-void vary_axes(Random& random, bool springs, JointSpec& joint) {
+void vary_axes(Random& random, JointSpec& joint) {
     for (AxisSpec& axis : joint.axes) {
-        vary_axis(random, joint.kind == JointSpecKind::kPrismatic, springs, axis);
-        // What slides has limits, so that it stays within reach and gravity does not drive a screw beyond all speeds.
+        vary_axis(random, joint.kind == JointSpecKind::kPrismatic, axis);
+        // What slides has limits, so that it stays within reach and gravity does not drive a screw beyond all
+        // speeds.
         if (joint.kind == JointSpecKind::kScrew && !axis.has_limits()) axis.lower = -6, axis.upper = 6;
     }
     const double damping = magnitude(random, 1e-4, 1e-1);
@@ -143,7 +144,7 @@ void add_limb(Random& random, const MechanismOptions& options, int i, int parent
     m.links.push_back(random_link(random, link_name(i), X_ML, options));
     m.joints.push_back(bare_joint(random, kind, "joint_" + std::to_string(i),
                                   parent < 0 ? "world" : link_name(parent), link_name(i), X_MJ));
-    vary_axes(random, options.springs, m.joints.back());
+    if (!options.bare) vary_axes(random, m.joints.back());
 }
 
 ModelSpec named(const std::string& name) {
@@ -199,7 +200,7 @@ ModelSpec random_loop(Random& random, const MechanismOptions& options) {
     four_bar.free_base = true;
     four_bar.last = chance(random, 0.5) ? JointSpecKind::kRevolute : JointSpecKind::kBall;
     ModelSpec m = with_own_joint_names(test::four_bar(four_bar));
-    for (std::size_t j = 0; j < 3; ++j) vary_axis(random, false, options.springs, m.joints[j].axes[0]);
+    for (std::size_t j = 0; j < 3; ++j) vary_axis(random, false, m.joints[j].axes[0]);
     return m;
 }
 
@@ -207,7 +208,7 @@ ModelSpec random_coupled(Random& random, const MechanismOptions& options) {
     const double ratio = random.uniform(0.3, 3) * (chance(random, 0.5) ? 1 : -1);
     if (chance(random, 0.25)) {
         ModelSpec m = with_own_joint_names(test::geared_wheels(ratio, true));
-        for (std::size_t j = 0; j < 2; ++j) vary_axis(random, false, options.springs, m.joints[j].axes[0]);
+        for (std::size_t j = 0; j < 2; ++j) vary_axis(random, false, m.joints[j].axes[0]);
         for (std::size_t j = 0; j < 2; ++j)
             m.joints[j].axes[0].lower = -1e16, m.joints[j].axes[0].upper = 1e16;
         return m;

@@ -13,8 +13,8 @@ using test::Random;
 struct MechanismOptions {
     int links_least = 1, links_most = 5;
     bool fixed_base = false;
-    bool springs = true;
-    bool shapes = false;          // a collision on every link
+    bool bare = false;    // joints without limits, damping, friction, springs and rotors: no row ever acts
+    bool shapes = false;  // a collision on every link
     double restitution_most = 0;  // of 40 % of the shapes
 };
 

@@ -2,8 +2,18 @@
 
 #include <cstdio>
 
+#include "fuzz/shot.h"
+
 namespace roboss::fuzz {
 namespace {
+
+/// Those that are meant to pass, or all.
+std::vector<std::string> shots(bool passes_only) {
+    std::vector<std::string> names;
+    for (const ShotKind& kind : shot_kinds())
+        if (kind.passes || !passes_only) names.emplace_back(kind.name);
+    return names;
+}
 
 std::vector<Property> make_properties() {
     const std::vector<double> steps{1e-3, 2e-3, 4e-3}, spins{1, 10, 30, 100};
@@ -38,6 +48,24 @@ std::vector<Property> make_properties() {
          {0},
          10,
          run_finite},
+        {"ghost",
+         "who passes clear of everything is not pushed, not by one bit",
+         "largest change of a velocity, m/s or rad/s",
+         shots(true),
+         steps,
+         {0, 20, 100},
+         {2, 5, 20, 100, 1000},
+         0,
+         run_ghost},
+        {"tunnel",
+         "nothing passes through anything",
+         "deepest overlap, relative to what is allowed",
+         shots(false),
+         steps,
+         {0, 20, 100},
+         {2, 5, 20, 50, 100},
+         0,
+         run_tunnel},
     };
 }
 
@@ -85,7 +113,8 @@ std::string replay_command(const Property& property, const Request& request) {
     std::string command = "roboss-fuzz --property " + property.name + " --seed " + std::to_string(s.seed) +
                           " --kind " + s.kind + " --dt " + text(s.dt_s) + " --spin " + text(s.spin);
     if (property.speeds.size() > 1) command += " --speed " + text(s.speed);
-    return command + " --seconds " + text(request.seconds);
+    if (property.seconds > 0) command += " --seconds " + text(request.seconds);
+    return command;
 }
 
 }  // namespace roboss::fuzz

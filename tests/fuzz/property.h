@@ -57,5 +57,7 @@ inline constexpr double kMomentumDriftMost = 1e-6;  // of what the links' moment
 Finding run_energy(const Request& request);
 Finding run_momentum(const Request& request);
 Finding run_finite(const Request& request);
+Finding run_ghost(const Request& request);
+Finding run_tunnel(const Request& request);
 
 }  // namespace roboss::fuzz

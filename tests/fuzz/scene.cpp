@@ -275,12 +275,12 @@ const StepReport& Motion::step() {
     return report_;
 }
 
-RobotId Motion::find_not_finite() const {
+RobotId find_not_finite(const std::vector<RobotState>& states) {
     const auto finite = [](const std::vector<double>& x) {
         return std::ranges::all_of(x, [](double value) { return std::isfinite(value); });
     };
-    for (std::size_t r = 0; r < states_.size(); ++r)
-        if (!finite(states_[r].q) || !finite(states_[r].v)) return RobotId(r);
+    for (std::size_t r = 0; r < states.size(); ++r)
+        if (!finite(states[r].q) || !finite(states[r].v)) return RobotId(r);
     return {};
 }
 

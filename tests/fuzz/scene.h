@@ -39,6 +39,9 @@ struct SceneKind {
     bool isolated;  // nothing acts from outside: its momentum must stay
 };
 
+/// The first robot with a coordinate or velocity that is not finite; not valid: none.
+RobotId find_not_finite(const std::vector<RobotState>& states);
+
 std::span<const SceneKind> scene_kinds();
 /// nullptr: there is none of that name.
 const SceneKind* find_scene_kind(const std::string& name);
@@ -55,8 +58,6 @@ class Motion {
     const Model& model() const { return *model_; }
     std::shared_ptr<const Model> shared_model() const { return model_; }
     const std::vector<RobotState>& states() const { return states_; }
-    /// The first robot with a coordinate or velocity that is not finite.
-    RobotId find_not_finite() const;
     /// Largest velocity of a base or joint, rad/s or m/s.
     double fastest() const;
 
