@@ -11,6 +11,7 @@ namespace roboss::fuzz {
 
 Finding run_ghost(const Request& request) {
     constexpr double kClear = 1e-4;  // m: nearer than this counts as touching
+    constexpr double kResolution = 2e-5;  // m
     Flight flight(request.setting);
     SweptDistance swept(flight.model(), flight.shot().stand_ins);
     Finding finding;
@@ -22,7 +23,7 @@ Finding run_ghost(const Request& request) {
         if (change == 0 && !request.tell) continue;  // nothing pushed: no need to know how near it was
         swept.clear();
         for (const std::vector<RobotState>& states : flight.fine_way()) swept.add(states);
-        const double gap = swept.least_gap(kClear);
+        const double gap = swept.least_gap(kClear, kResolution);
         if (request.tell) {
             char buffer[120];
             std::snprintf(buffer, sizeof buffer, "%6lld  least gap %-10.4g change of velocity %-10.4g",

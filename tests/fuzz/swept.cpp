@@ -105,21 +105,21 @@ void SweptDistance::add_between(const std::vector<RobotState>& from, const std::
     }
 }
 
-void SweptDistance::search(const Placed& a, const Placed& b, const Transform from[2], const Transform to[2],
-                           double enough) {
-    if (least_ < enough) return;
+void SweptDistance::search(const Placed& a, const Placed& b, const Transform from[2], const Transform to[2]) {
+    if (least_ < enough_) return;
     const double way = travel(from[0], to[0], a.radius) + travel(from[1], to[1], b.radius);
     const Transform middle[2] = {between(from[0], to[0], 0.5), between(from[1], to[1], 0.5)};
     const double radii = a.radius + b.radius;
     if (std::isfinite(radii) && norm(middle[0].p - middle[1].p) - radii - 0.5 * way > least_) return;
     const double now = gap(a.shape, middle[0], b.shape, middle[1]);
     if (now < least_) least_ = now, width_ = std::fmin(width(a.shape), width(b.shape));
-    if (now - 0.5 * way >= least_ - kResolution || way < kResolution) return;
-    search(a, b, from, middle, enough);
-    search(a, b, middle, to, enough);
+    if (now - 0.5 * way >= least_ - resolution_ || way < resolution_) return;
+    search(a, b, from, middle);
+    search(a, b, middle, to);
 }
 
-double SweptDistance::least_gap(double enough) {
+double SweptDistance::least_gap(double enough, double resolution) {
+    enough_ = enough, resolution_ = resolution;
     least_ = std::numeric_limits<double>::infinity(), width_ = 0;
     const std::size_t moving = shapes_.size() - fixed_.size();
     for (std::size_t i = 0; i < moving; ++i)
@@ -128,7 +128,7 @@ double SweptDistance::least_gap(double enough) {
             for (std::size_t k = 0; k + 1 < samples_.size(); ++k) {
                 const Transform from[2] = {samples_[k][i], samples_[k][j]};
                 const Transform to[2] = {samples_[k + 1][i], samples_[k + 1][j]};
-                search(shapes_[i], shapes_[j], from, to, enough);
+                search(shapes_[i], shapes_[j], from, to);
             }
         }
     return least_;

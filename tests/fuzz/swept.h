@@ -22,12 +22,11 @@ class SweptDistance {
     /// Samples from one state to the next, coordinates interpolated.
     void add_between(const std::vector<RobotState>& from, const std::vector<RobotState>& to, int samples);
 
-    /// Least signed distance on the path, m, exact to kResolution. Once it is below `enough` the search ends.
-    double least_gap(double enough);
+    /// Least signed distance on the path, m, exact to `resolution`. Once it is below `enough` the search ends.
+    double least_gap(double enough, double resolution);
     /// Of the pair that least_gap found: the smaller of the two shapes' least widths.
     double least_width() const { return width_; }
 
-    static constexpr double kResolution = 2e-5;  // m
     /// Twice the radius of the largest ball that fits in, or less.
     static double width(const Shape& shape);
 
@@ -39,15 +38,14 @@ class SweptDistance {
     };
     using Sample = std::vector<Transform>;
 
-    void search(const Placed& a, const Placed& b, const Transform from[2], const Transform to[2],
-                double enough);
+    void search(const Placed& a, const Placed& b, const Transform from[2], const Transform to[2]);
 
     const Model& model_;
     std::vector<Placed> shapes_;    // of robots by RobotId, then statics
     std::vector<Transform> fixed_;  // of the statics
     std::vector<Sample> samples_;
     RobotWork work_;
-    double least_ = 0, width_ = 0;
+    double least_ = 0, width_ = 0, enough_ = 0, resolution_ = 0;
 };
 
 }  // namespace roboss::fuzz

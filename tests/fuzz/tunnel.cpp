@@ -64,18 +64,40 @@ void judge_sides(const Flight& flight, Judge& judge) {
     }
 }
 
+/// Largest angle that any base or hinge turns in a tick.
+double turn_of(const Flight& flight, const std::vector<RobotState>& states) {
+    double most = 0;
+    for (std::size_t r = 0; r < states.size(); ++r) {
+        const RobotType& type = flight.model().type_of(RobotId(r));
+        for (std::size_t k = 0; k < states[r].v.size(); ++k)
+            if (!type.free_base || k < 3 || k > 5) most = std::fmax(most, std::fabs(states[r].v[k]));
+    }
+    return most * flight.model().dt_s;
+}
+
+double overlap_of(SweptDistance& swept) {
+    constexpr double kDeep = -1, kResolution = 2e-4;  // m
+    return -swept.least_gap(kDeep, kResolution);
+}
+
+/// Two signs in the way of the last tick. Who began it in an overlap may well leave it without an impulse.
 void judge_ways(const Flight& flight, SweptDistance& swept, Judge& judge) {
-    constexpr double kDeep = -1;
-    swept.clear();
-    swept.add_between(flight.before(), flight.states(), Flight::kFine);
-    const double overlap = -swept.least_gap(kDeep);
-    if (overlap > 0)
-        judge.see(overlap / (0.5 * swept.least_width() + kSlack), flight.tick(), "deep in each other",
-                  overlap);
+    // A path between two states is not the one that was taken where these turn far: the bend is in between.
+    constexpr double kTurnMost = 0.5;
+    if (std::fmax(turn_of(flight, flight.before()), turn_of(flight, flight.states())) < kTurnMost) {
+        swept.clear();
+        swept.add_between(flight.before(), flight.states(), Flight::kFine);
+        const double overlap = overlap_of(swept);
+        if (overlap > 0)
+            judge.see(overlap / (0.5 * swept.least_width() + kSlack), flight.tick(), "deep in each other", overlap);
+    }
     if (flight.change() != 0) return;
     swept.clear();
+    swept.add_between(flight.before(), flight.before(), 1);
+    const double at_first = std::fmax(0.0, overlap_of(swept));
+    swept.clear();
     for (const std::vector<RobotState>& states : flight.fine_way()) swept.add(states);
-    const double missed = -swept.least_gap(kDeep);
+    const double missed = overlap_of(swept) - at_first;
     if (missed > 0) judge.see(missed / kFelt, flight.tick(), "a hit was not felt", missed);
 }
 
