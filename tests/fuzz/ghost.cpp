@@ -10,7 +10,7 @@
 namespace roboss::fuzz {
 
 Finding run_ghost(const Request& request) {
-    constexpr double kClear = 1e-4;  // m: nearer than this counts as touching
+    constexpr double kClear = 1e-4;       // m: nearer than this counts as touching
     constexpr double kResolution = 2e-5;  // m
     Flight flight(request.setting);
     SweptDistance swept(flight.model(), flight.shot().stand_ins);

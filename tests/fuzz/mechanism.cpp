@@ -174,13 +174,12 @@ ModelSpec random_ring(Random& random, const MechanismOptions& options) {
     return m;
 }
 
-/// Mechanisms of tests/support name joints as their links, which a file may not.
-ModelSpec with_own_joint_names(ModelSpec m) {
-    for (JointSpec& j : m.joints) j.name = "joint_" + j.name;
-    return m;
-}
-
 }  // namespace
+
+ModelSpec with_own_joint_names(ModelSpec model) {
+    for (JointSpec& j : model.joints) j.name = "joint_" + j.name;
+    return model;
+}
 
 ModelSpec random_tree(Random& random, const MechanismOptions& options) {
     ModelSpec m = named("tree");

@@ -32,6 +32,9 @@ ModelSpec random_coupled(Random& random, const MechanismOptions& options);
 /// One link with one random shape: box, ball, cylinder, capsule or ellipsoid.
 ModelSpec random_solid(Random& random, double restitution_most);
 
+/// Robots of tests/support name joints as their links, which a file may not.
+ModelSpec with_own_joint_names(ModelSpec model);
+
 /// Radius of the sphere about the model's origin that holds all links at the start.
 double start_radius(const ModelSpec& model);
 

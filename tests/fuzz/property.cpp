@@ -66,6 +66,15 @@ std::vector<Property> make_properties() {
          {2, 5, 20, 50, 100},
          0,
          run_tunnel},
+        {"hash",
+         "the state hash is the same for any threads, lanes, Simulators, windows and grouping",
+         "configurations of five whose hash differs from the first",
+         any,
+         {1e-3, 2e-3, 4e-3, 5e-3},
+         {1, 10, 30, 100},
+         {0},
+         0.5,
+         run_hash},
     };
 }
 

@@ -59,5 +59,6 @@ Finding run_momentum(const Request& request);
 Finding run_finite(const Request& request);
 Finding run_ghost(const Request& request);
 Finding run_tunnel(const Request& request);
+Finding run_hash(const Request& request);
 
 }  // namespace roboss::fuzz

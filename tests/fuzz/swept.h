@@ -22,7 +22,8 @@ class SweptDistance {
     /// Samples from one state to the next, coordinates interpolated.
     void add_between(const std::vector<RobotState>& from, const std::vector<RobotState>& to, int samples);
 
-    /// Least signed distance on the path, m, exact to `resolution`. Once it is below `enough` the search ends.
+    /// Least signed distance on the path, m, exact to `resolution`. Once it is below `enough` the search
+    /// ends.
     double least_gap(double enough, double resolution);
     /// Of the pair that least_gap found: the smaller of the two shapes' least widths.
     double least_width() const { return width_; }

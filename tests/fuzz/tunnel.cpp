@@ -80,18 +80,21 @@ double overlap_of(SweptDistance& swept) {
     return -swept.least_gap(kDeep, kResolution);
 }
 
-/// Two signs in the way of the last tick. Who began it in an overlap may well leave it without an impulse.
+/// Two signs in the way of the last tick. What turns further in it than the ranges of the engine say is left
+/// to judge_sides: a path between two states is not the one that was taken, and the fine one is too coarse.
 void judge_ways(const Flight& flight, SweptDistance& swept, Judge& judge) {
-    // A path between two states is not the one that was taken where these turn far: the bend is in between.
-    constexpr double kTurnMost = 0.5;
-    if (std::fmax(turn_of(flight, flight.before()), turn_of(flight, flight.states())) < kTurnMost) {
+    constexpr double kTurnMost = 0.5, kFineTurnMost = 1.5;  // rad
+    const double before = turn_of(flight, flight.before());
+    if (std::fmax(before, turn_of(flight, flight.states())) < kTurnMost) {
         swept.clear();
         swept.add_between(flight.before(), flight.states(), Flight::kFine);
         const double overlap = overlap_of(swept);
         if (overlap > 0)
-            judge.see(overlap / (0.5 * swept.least_width() + kSlack), flight.tick(), "deep in each other", overlap);
+            judge.see(overlap / (0.5 * swept.least_width() + kSlack), flight.tick(), "deep in each other",
+                      overlap);
     }
-    if (flight.change() != 0) return;
+    if (flight.change() != 0 || before > kFineTurnMost) return;
+    // Who begins the tick in an overlap may well leave it without an impulse.
     swept.clear();
     swept.add_between(flight.before(), flight.before(), 1);
     const double at_first = std::fmax(0.0, overlap_of(swept));
