@@ -46,7 +46,7 @@ std::vector<Property> make_properties() {
          {1e-3, 2e-3, 4e-3, 5e-3},
          spins,
          {0},
-         10,
+         5,
          run_finite},
         {"ghost",
          "who passes clear of everything is not pushed, not by one bit",

@@ -76,7 +76,7 @@ double turn_of(const Flight& flight, const std::vector<RobotState>& states) {
 }
 
 double overlap_of(SweptDistance& swept) {
-    constexpr double kDeep = -1, kResolution = 2e-4;  // m
+    constexpr double kDeep = -1, kResolution = 5e-4;  // m
     return -swept.least_gap(kDeep, kResolution);
 }
 
