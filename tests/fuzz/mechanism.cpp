@@ -1,6 +1,5 @@
 #include "fuzz/mechanism.h"
 
-#include <array>
 #include <cmath>
 #include <string>
 
@@ -91,9 +90,16 @@ void vary_axis(Random& random, bool slides, AxisSpec& axis) {
     if (chance(random, 0.15)) axis.armature = armature;
 }
 
-void vary_axes(Random& random, JointSpec& joint) {
+void store_nothing(AxisSpec& axis) {
+    const AxisSpec plain;
+    axis.limit_stiffness = plain.limit_stiffness, axis.limit_dissipation = plain.limit_dissipation;
+    axis.spring_stiffness = axis.armature = 0;
+}
+
+void vary_axes(Random& random, const MechanismOptions& options, JointSpec& joint) {
     for (AxisSpec& axis : joint.axes) {
         vary_axis(random, joint.kind == JointSpecKind::kPrismatic, axis);
+        if (!options.stores) store_nothing(axis);
         // What slides has limits, so that it stays within reach and gravity does not drive a screw beyond all
         // speeds.
         if (joint.kind == JointSpecKind::kScrew && !axis.has_limits()) axis.lower = -6, axis.upper = 6;
@@ -102,11 +108,9 @@ void vary_axes(Random& random, JointSpec& joint) {
     if (joint.kind == JointSpecKind::kBall && chance(random, 0.35)) joint.ball_damping = damping;
 }
 
-constexpr std::array kKinds{JointSpecKind::kRevolute, JointSpecKind::kPrismatic, JointSpecKind::kBall,
-                            JointSpecKind::kUniversal, JointSpecKind::kScrew};
-
-JointSpecKind random_kind(Random& random) {
-    return kKinds[static_cast<std::size_t>(random.integer(0, kKinds.size() - 1))];
+JointSpecKind random_kind(Random& random, const MechanismOptions& options) {
+    return options
+        .kinds[static_cast<std::size_t>(random.integer(0, static_cast<int>(options.kinds.size()) - 1))];
 }
 
 int freedoms(JointSpecKind kind) {
@@ -144,7 +148,7 @@ void add_limb(Random& random, const MechanismOptions& options, int i, int parent
     m.links.push_back(random_link(random, link_name(i), X_ML, options));
     m.joints.push_back(bare_joint(random, kind, "joint_" + std::to_string(i),
                                   parent < 0 ? "world" : link_name(parent), link_name(i), X_MJ));
-    if (!options.bare) vary_axes(random, m.joints.back());
+    if (!options.bare) vary_axes(random, options, m.joints.back());
 }
 
 ModelSpec named(const std::string& name) {
@@ -161,9 +165,9 @@ ModelSpec random_ring(Random& random, const MechanismOptions& options) {
     JointSpecKind closing = JointSpecKind::kBall;
     int freedom = 0;
     while (freedom < 7) {  // one of them is left when the loop is closed
-        kinds.clear(), closing = random_kind(random), freedom = freedoms(closing);
+        kinds.clear(), closing = random_kind(random, options), freedom = freedoms(closing);
         for (int i = 0; i < links; ++i)
-            kinds.push_back(random_kind(random)), freedom += freedoms(kinds.back());
+            kinds.push_back(random_kind(random, options)), freedom += freedoms(kinds.back());
     }
     m.links.push_back(random_link(random, link_name(0), {{}, random.rotation()}, options));
     for (int i = 1; i <= links; ++i)
@@ -188,7 +192,7 @@ ModelSpec random_tree(Random& random, const MechanismOptions& options) {
         m.links.push_back(random_link(random, link_name(0), {{}, random.rotation()}, options));
     for (int i = static_cast<int>(m.links.size()); i < links; ++i) {
         const int parent = options.fixed_base && i == 0 ? -1 : random.integer(0, i - 1);
-        add_limb(random, options, i, parent, random_kind(random), m);
+        add_limb(random, options, i, parent, random_kind(random, options), m);
     }
     return m;
 }

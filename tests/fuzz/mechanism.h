@@ -2,6 +2,8 @@
 // from one Random, so a seed names a mechanism on every machine.
 #pragma once
 
+#include <vector>
+
 #include <support/random.h>
 
 #include "world/world.h"
@@ -13,8 +15,11 @@ using test::Random;
 struct MechanismOptions {
     int links_least = 1, links_most = 5;
     bool fixed_base = false;
-    bool bare = false;    // joints without limits, damping, friction, springs and rotors: no row ever acts
-    bool shapes = false;  // a collision on every link
+    bool bare = false;   // joints without limits, damping, friction, springs and rotors: no row ever acts
+    bool stores = true;  // springs, soft limits and rotors, which hold energy besides the links
+    std::vector<JointSpecKind> kinds{JointSpecKind::kRevolute, JointSpecKind::kPrismatic,
+                                     JointSpecKind::kBall, JointSpecKind::kUniversal, JointSpecKind::kScrew};
+    bool shapes = false;          // a collision on every link
     double restitution_most = 0;  // of 40 % of the shapes
 };
 

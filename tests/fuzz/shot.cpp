@@ -393,17 +393,56 @@ const ShotKind* find_shot_kind(const std::string& name) {
     return nullptr;
 }
 
-Flight::Flight(const Setting& setting) {
+namespace {
+
+struct Loaded {
+    Shot shot;
+    std::shared_ptr<const Model> model;
+    std::vector<RobotState> states;
+};
+
+Loaded load(const Setting& setting) {
     const ShotKind* kind = find_shot_kind(setting.kind);
     ROBOSS_CHECK(kind != nullptr, "there is no such kind of shot");
     Random random(setting.seed);
-    shot_ = kind->make(random, setting);
-    model_ = compile_scene(shot_.world);
-    World free = without_collisions(shot_.world);
-    free_model_ = compile_scene(free);
-    free.dt_s /= kFine;
-    fine_model_ = compile_scene(free);
-    states_ = launched(*model_, shot_, random);
+    Loaded loaded;
+    loaded.shot = kind->make(random, setting);
+    loaded.model = compile_scene(loaded.shot.world);
+    loaded.states = launched(*loaded.model, loaded.shot, random);
+    return loaded;
+}
+
+/// The same world at a fraction of the step, and nothing in it collides.
+std::shared_ptr<const Model> without_collisions(const World& world, int parts) {
+    World free = without_collisions(world);
+    free.dt_s /= parts;
+    return compile_scene(free);
+}
+
+}  // namespace
+
+Shot make_shot(const Setting& setting) {
+    return load(setting).shot;
+}
+
+std::vector<std::vector<RobotState>> unhindered_flight(const Setting& setting) {
+    const Loaded loaded = load(setting);
+    const auto model = without_collisions(loaded.shot.world, Flight::kFine);
+    std::vector<std::vector<RobotState>> way{loaded.states};
+    StepScratch scratch;
+    const auto ticks = static_cast<Tick>(loaded.shot.flight_s / model->dt_s + 0.5);
+    for (Tick t = 0; t < ticks; ++t) {
+        way.push_back(way.back());
+        step_all(*model, t, way.back(), scratch);
+    }
+    return way;
+}
+
+Flight::Flight(const Setting& setting) {
+    Loaded loaded = load(setting);
+    free_model_ = without_collisions(loaded.shot.world, 1);
+    fine_model_ = without_collisions(loaded.shot.world, kFine);
+    shot_ = std::move(loaded.shot), model_ = std::move(loaded.model), states_ = std::move(loaded.states);
 }
 
 void Flight::step() {

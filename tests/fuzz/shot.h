@@ -46,6 +46,10 @@ std::span<const ShotKind> shot_kinds();
 /// nullptr: there is none of that name.
 const ShotKind* find_shot_kind(const std::string& name);
 
+Shot make_shot(const Setting& setting);
+/// States of the whole flight if nothing collides, kFine to a tick.
+std::vector<std::vector<RobotState>> unhindered_flight(const Setting& setting);
+
 /// A shot being stepped, beside the same motion in which nothing collides.
 class Flight {
   public:
