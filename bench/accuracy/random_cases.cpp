@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <exception>
+#include <limits>
 
 #include <support/bodies.h>
 
@@ -14,6 +16,7 @@ namespace roboss::bench {
 namespace {
 
 constexpr std::uint64_t kWorlds = 60;
+constexpr double kLost = std::numeric_limits<double>::infinity();  // the state is none any more
 
 /// A tree of one to five links with hinges, slides and ball joints: limits, damping, joint friction; nothing
 /// touches.
@@ -40,18 +43,31 @@ void spin_up(Engine& engine, const World& world, double spin, std::uint64_t seed
     }
 }
 
+/// False: the engine gave up.
+template <class Run>
+bool survives(Run&& run) {
+    try {
+        run();
+        return true;
+    } catch (const std::exception&) {
+        return false;
+    }
+}
+
 /// Largest growth of the energy above its lowest value before; infinite if it is none any more.
 double growth_of(Trial& trial) {
     constexpr double kSeconds = 5, kAtRest = 1e-6;  // of the energy at the start
     const double start = trial.energy();
     double lowest = start, growth = 0;
-    trial.run(kSeconds, trial.dt_s(), [&] {
-        const double energy = trial.energy();
-        const double now = energy / std::fmax(lowest, kAtRest * start) - 1;
-        growth = std::isfinite(now) ? std::fmax(growth, now) : std::numeric_limits<double>::infinity();
-        lowest = std::fmin(lowest, energy);
+    const bool whole = survives([&] {
+        trial.run(kSeconds, trial.dt_s(), [&] {
+            const double energy = trial.energy();
+            const double now = energy / std::fmax(lowest, kAtRest * start) - 1;
+            growth = std::isfinite(now) ? std::fmax(growth, now) : kLost;
+            lowest = std::fmin(lowest, energy);
+        });
     });
-    return growth;
+    return whole ? growth : kLost;
 }
 
 std::string expressed(std::uint64_t count) {
@@ -62,7 +78,7 @@ Outcome spin_trees(const Contender& contender) {
     double grew = 0, fourfold = 0, lost = 0;
     std::uint64_t count = 0;
     for (std::uint64_t seed = 0; seed < kWorlds; ++seed) {
-        Trial trial(contender, passive_tree(seed, contender.dt_s));
+        Trial trial(contender, passive_tree(seed, contender.dt_s), true);
         if (!trial.possible()) continue;
         ++count;
         spin_up(trial.engine(), trial.world(), 30, seed);
@@ -101,7 +117,7 @@ double pushed(const Trial& trial, const std::vector<RobotState>& states) {
         if (trial.world().prototypes[trial.world().instances[i].prototype].is_static) continue;
         const std::vector<double>& v = states[robot++].v;
         const double change = norm(trial.link(i).v_WC - Vec3{v[3], v[4], v[5]});
-        most = std::isfinite(change) ? std::fmax(most, change) : std::numeric_limits<double>::infinity();
+        most = std::isfinite(change) ? std::fmax(most, change) : kLost;
     }
     return most;
 }
@@ -115,7 +131,8 @@ Outcome shoot_past(const Contender& contender) {
             setting_of(seed, {"ball-box", "box-box", "rod-cylinder", "balls", "boxes"}, contender.dt_s);
         const fuzz::Shot shot = fuzz::make_shot(setting);
         const auto way = fuzz::unhindered_flight(setting);
-        fuzz::SweptDistance swept(*fuzz::compile_scene(shot.world), shot.stand_ins);
+        const auto model = fuzz::compile_scene(shot.world);
+        fuzz::SweptDistance swept(*model, shot.stand_ins);
         for (const auto& states : way) swept.add(states);
         if (swept.least_gap(kClear, 1e-4) < kClear) continue;
         Trial trial(contender, shot.world, true);
@@ -123,8 +140,8 @@ Outcome shoot_past(const Contender& contender) {
         ++clear;
         launch(trial.engine(), trial.world(), way.front());
         trial.begin();
-        trial.run(shot.flight_s);
-        ghosts += pushed(trial, way.front()) > kPushed * setting.speed;
+        const bool whole = survives([&] { trial.run(shot.flight_s); });
+        ghosts += !whole || pushed(trial, way.front()) > kPushed * setting.speed;
     }
     return {{ghosts, clear}};
 }
@@ -140,10 +157,10 @@ Outcome shoot_at_walls(const Contender& contender) {
         ++shots;
         launch(trial.engine(), trial.world(), fuzz::unhindered_flight(setting).front());
         trial.begin();
-        trial.run(shot.flight_s);
+        const bool whole = survives([&] { trial.run(shot.flight_s); });
         const Vec3 at = trial.centre(1);
         const bool beside = std::fmax(std::fabs(at.y), std::fabs(at.z)) > shot.wall->half_extent;
-        through += !is_finite(at) || (at.x > 0 && !beside);
+        through += !whole || !is_finite(at) || (at.x > 0 && !beside);
     }
     if (shots == 0) return Trial::impossible(2);
     return {{through, shots}};

@@ -48,8 +48,8 @@ class Writer {
         const Vec3& g = world_.gravity;
         return "<mujoco>\n<compiler angle=\"radian\" balanceinertia=\"false\" boundmass=\"0\" "
                "boundinertia=\"0\"/>\n" +
-               sizes() + "<option integrator=\"Euler\" solver=\"" + options_.solver + "\" cone=\"" +
-               options_.cone + "\" jacobian=\"" + options_.jacobian + "\" iterations=\"" +
+               sizes() + "<option integrator=\"" + options_.integrator + "\" solver=\"" + options_.solver +
+               "\" cone=\"" + options_.cone + "\" jacobian=\"" + options_.jacobian + "\" iterations=\"" +
                std::to_string(options_.iterations) + "\"" + attribute("timestep", {options_.dt_s}) +
                attribute("tolerance", {options_.tolerance}) + attribute("impratio", {options_.impratio}) +
                attribute("gravity", {g.x, g.y, g.z}) + ">" +

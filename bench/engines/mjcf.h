@@ -18,6 +18,7 @@ struct MjcfOptions {
     double contact_time_s = 0.004;  // solref's time constant; MuJoCo wants at least two steps
     // Before version 3 the first three, since then the last: what its buffers hold.
     long rows_max = 100, contacts_max = 100, stack_numbers = 1000000, memory_bytes = 0;
+    std::string integrator = "Euler";
     bool speculative = false;  // contacts of bodies that would pass through each other; since version 4
 };
 

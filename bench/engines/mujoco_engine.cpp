@@ -120,6 +120,9 @@ class MujocoEngine final : public Engine {
             throw std::runtime_error("MuJoCo " + std::string(mj_versionString()) +
                                      " has no room for the constraint rows of " + std::to_string(model_->nv) +
                                      " degrees of freedom (version 2 counts its buffer in 32 bits)");
+        for (const int lost :
+             {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC})  // it starts anew, and goes on
+            if (data_->warning[lost].number > 0) throw std::runtime_error("MuJoCo: a state is not finite");
         mj_kinematics(model_.get(), data_.get());  // poses of the state after the step
         mj_comPos(model_.get(), data_.get());
         mj_comVel(model_.get(), data_.get());
@@ -251,12 +254,15 @@ std::unique_ptr<Engine> make_mujoco(const World& world, const EngineOptions& opt
     mjcf.tolerance /= options.accuracy;
     set_buffers(sizes, mjcf);
     mjcf.speculative = options.fast_bodies && mj_version() >= kSpeculativeSince;
+    if (options.fast_bodies && mj_version() >= kArenaSince) mjcf.integrator = "implicit";
+    mju_user_warning = [](const char*) {};  // by default they go to a file in the current folder
     auto places = write_mjcf(world, mjcf);
     if (!places) return nullptr;
     ModelPointer model = load(places->xml);
     const std::string settings =
-        "double, Euler, " + mjcf.solver + ", " + mjcf.cone + " cones, " + mjcf.jacobian + " Jacobians" +
-        (mj_version() >= kSpeculativeSince ? ", speculative contacts where bodies are fast" : "");
+        "double, " + mjcf.integrator + ", " + mjcf.solver + ", " + mjcf.cone + " cones, " + mjcf.jacobian +
+        " Jacobians" +
+        (mj_version() >= kSpeculativeSince ? "; where bodies are fast: implicit, speculative contacts" : "");
     return std::make_unique<MujocoEngine>(world, std::move(*places), std::move(model), settings);
 }
 
