@@ -35,6 +35,12 @@ Scene tree(Random& random, const Setting& setting) {
     return one_robot(setting, random_tree(random, {}));
 }
 
+Scene bare(Random& random, const Setting& setting) {
+    MechanismOptions options;
+    options.bare = true;
+    return one_robot(setting, random_tree(random, options));
+}
+
 Scene anchored(Random& random, const Setting& setting) {
     MechanismOptions options;
     options.fixed_base = true;
@@ -194,6 +200,7 @@ Scene wild(Random& random, const Setting& setting) {
 
 constexpr SceneKind kKinds[] = {
     {"tree", "a free tree of links in empty space", tree, true, true},
+    {"bare", "a free tree on which no row ever acts", bare, true, true},
     {"anchored", "a tree on a fixed base, without gravity", anchored, true, false},
     {"hanging", "a tree on a fixed base under gravity", hanging, true, false},
     {"loop", "a free mechanism with a kinematic loop", loop, true, true},
