@@ -465,6 +465,16 @@ std::vector<std::vector<RobotState>> Flight::fine_way() const {
     return way;
 }
 
+double Flight::turn(const std::vector<RobotState>& states) const {
+    double most = 0;
+    for (std::size_t r = 0; r < states.size(); ++r) {
+        const RobotType& type = model_->type_of(RobotId(r));
+        for (std::size_t k = 0; k < states[r].v.size(); ++k)
+            if (!type.free_base || k < 3 || k > 5) most = std::fmax(most, std::fabs(states[r].v[k]));
+    }
+    return most * model_->dt_s;
+}
+
 double Flight::change() const {
     double most = 0;
     for (std::size_t r = 0; r < states_.size(); ++r) {

@@ -73,7 +73,12 @@ class Flight {
     /// position or velocity differs.
     double change() const;
 
+    /// Largest angle, rad, that any base or hinge turns in a tick at these velocities.
+    double turn(const std::vector<RobotState>& states) const;
+
     static constexpr int kFine = 16;
+    static constexpr double kTurnMost =
+        1.5;  // rad in a tick: beyond it the fine way is too coarse to judge by
 
   private:
     Shot shot_;

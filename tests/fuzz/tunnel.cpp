@@ -64,17 +64,6 @@ void judge_sides(const Flight& flight, Judge& judge) {
     }
 }
 
-/// Largest angle that any base or hinge turns in a tick.
-double turn_of(const Flight& flight, const std::vector<RobotState>& states) {
-    double most = 0;
-    for (std::size_t r = 0; r < states.size(); ++r) {
-        const RobotType& type = flight.model().type_of(RobotId(r));
-        for (std::size_t k = 0; k < states[r].v.size(); ++k)
-            if (!type.free_base || k < 3 || k > 5) most = std::fmax(most, std::fabs(states[r].v[k]));
-    }
-    return most * flight.model().dt_s;
-}
-
 double overlap_of(SweptDistance& swept) {
     constexpr double kDeep = -1, kResolution = 5e-4;  // m
     return -swept.least_gap(kDeep, kResolution);
@@ -83,9 +72,9 @@ double overlap_of(SweptDistance& swept) {
 /// Two signs in the way of the last tick. What turns further in it than the ranges of the engine say is left
 /// to judge_sides: a path between two states is not the one that was taken, and the fine one is too coarse.
 void judge_ways(const Flight& flight, SweptDistance& swept, Judge& judge) {
-    constexpr double kTurnMost = 0.5, kFineTurnMost = 1.5;  // rad
-    const double before = turn_of(flight, flight.before());
-    if (std::fmax(before, turn_of(flight, flight.states())) < kTurnMost) {
+    constexpr double kTurnMost = 0.5;  // rad
+    const double before = flight.turn(flight.before());
+    if (std::fmax(before, flight.turn(flight.states())) < kTurnMost) {
         swept.clear();
         swept.add_between(flight.before(), flight.states(), Flight::kFine);
         const double overlap = overlap_of(swept);
@@ -93,7 +82,7 @@ void judge_ways(const Flight& flight, SweptDistance& swept, Judge& judge) {
             judge.see(overlap / (0.5 * swept.least_width() + kSlack), flight.tick(), "deep in each other",
                       overlap);
     }
-    if (flight.change() != 0 || before > kFineTurnMost) return;
+    if (flight.change() != 0 || before > Flight::kTurnMost) return;
     // Who begins the tick in an overlap may well leave it without an impulse.
     swept.clear();
     swept.add_between(flight.before(), flight.before(), 1);
