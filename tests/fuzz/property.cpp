@@ -105,15 +105,20 @@ const Property* find_property(const std::string& name) {
 }
 
 Setting Property::setting(std::uint64_t seed) const {
-    std::uint64_t turn = seed;
-    const auto next = [&](const auto& choices) {
-        const auto& choice = choices[turn % choices.size()];
+    const std::uint64_t kind = seed % kinds.size();
+    // Not in their own order, and each kind elsewhere, so that few seeds already have much of all. 7 divides
+    // no number of combinations, so a kind meets each of them once before it meets one again.
+    constexpr std::uint64_t kStride = 7;
+    std::uint64_t turn = kStride * (seed / kinds.size() + kind);
+    const auto next = [&](const std::vector<double>& choices) {
+        const double choice = choices[turn % choices.size()];
         turn /= choices.size();
         return choice;
     };
+    turn %= steps_s.size() * spins.size() * speeds.size();
     Setting s;
-    s.seed = seed;
-    s.kind = next(kinds), s.dt_s = next(steps_s), s.spin = next(spins), s.speed = next(speeds);
+    s.seed = seed, s.kind = kinds[kind];
+    s.dt_s = next(steps_s), s.spin = next(spins), s.speed = next(speeds);
     return s;
 }
 

@@ -35,8 +35,8 @@ struct Property {
     double seconds = 10;                         // simulated
     Finding (*run)(const Request&) = nullptr;
 
-    /// The setting of a seed: kinds by turns, then steps, spins and speeds, so that a block of consecutive
-    /// seeds has every combination.
+    /// The setting of a seed: kinds by turns, steps, spins and speeds so that as many consecutive seeds as
+    /// there are combinations have every one.
     Setting setting(std::uint64_t seed) const;
 };
 
