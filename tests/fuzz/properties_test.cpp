@@ -33,6 +33,32 @@ void expect_holds(const Share& share) {
     EXPECT_EQ(failed, 0u) << "of " << share.seeds << " seeds: " << property.claim << "\n" << commands;
 }
 
+// 7 kinds, 3 steps, 4 spins: each combination once.
+TEST(Property, EnergyOfPassiveMechanismsNeverGrows) {
+    expect_holds(
+        {"energy", 84, 10, {"tree", "bare", "anchored", "hanging", "loop", "coupled", "idle-motors"}});
+}
+
+TEST(Property, EnergyOfPassiveRobotsThatCollideNeverGrows) {
+    expect_holds({"energy", 36, 5, {"cloud", "room", "fleet"}});
+}
+
+TEST(Property, MomentumStaysWhereNothingActsFromOutside) {
+    expect_holds({"momentum", 72, 10});
+}
+
+TEST(Property, StatesStayFinite) {
+    expect_holds({"finite", 48, 2, {"wild", "crowd", "room"}});
+}
+
+TEST(Property, WhoPassesClearIsNotPushed) {
+    expect_holds({"ghost", 900, 0});
+}
+
+TEST(Property, NothingPassesThroughAnything) {
+    expect_holds({"tunnel", 114, 0});
+}
+
 TEST(Property, HashIsTheSameInFiveConfigurations) {
     expect_holds({"hash", 48, 0.3, {"fleet", "wild", "crowd", "room", "loop", "coupled"}});
 }
