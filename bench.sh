@@ -16,6 +16,7 @@ build() {
 # RoBOSS beside other engines. Only a whole run, without flags, changes docs/performance.md and its plot.
 peers() {
     tools/setup.sh build bench peers
+    tools/fetch_mujoco.sh
     build roboss-peers
     local rows=build/bench/peers.json
     build/release/bin/roboss-peers --check-engines  # a second: an adapter that means something else would spoil it all
@@ -32,6 +33,7 @@ peers() {
 # docs/accuracy.md and its picture; its exit code tells whether RoBOSS keeps every bound.
 accuracy() {
     tools/setup.sh build bench peers
+    tools/fetch_mujoco.sh
     build roboss-accuracy
     local outputs=(--json build/bench/accuracy.json)
     [[ $# -gt 0 ]] || outputs+=(--markdown docs/accuracy.md --picture docs/images/arm_energy.svg)

@@ -12,9 +12,9 @@ bool passes(const Quantity& quantity, double figure) {
 
 std::vector<Case> all_cases() {
     std::vector<Case> all;
-    for (const auto& some :
-         {free_motion_cases(), dynamics_cases(), convergence_cases(), slope_cases(), impact_cases(),
-          car_cases(), resting_cases(), gripper_cases(), loop_cases(), motor_cases(), walker_cases()})
+    for (const auto& some : {free_motion_cases(), dynamics_cases(), convergence_cases(), slope_cases(),
+                             impact_cases(), car_cases(), resting_cases(), gripper_cases(), loop_cases(),
+                             motor_cases(), walker_cases(), random_cases()})
         all.insert(all.end(), some.begin(), some.end());
     return all;
 }

@@ -67,6 +67,7 @@ std::vector<Case> gripper_cases();
 std::vector<Case> loop_cases();
 std::vector<Case> motor_cases();
 std::vector<Case> walker_cases();
+std::vector<Case> random_cases();
 
 /// All of them, in the order of the table.
 std::vector<Case> all_cases();

@@ -10,11 +10,12 @@
 
 namespace roboss::bench {
 
-Trial::Trial(const Contender& contender, World world)
+Trial::Trial(const Contender& contender, World world, bool fast_bodies)
     : world_(std::move(world)), patience_s_(contender.patience_s), start_(std::chrono::steady_clock::now()) {
     world_.dt_s = contender.dt_s;
     EngineOptions options;
     options.dt_s = contender.dt_s;
+    options.fast_bodies = fast_bodies;
     engine_ = contender.kind->make(world_, options);
 }
 

@@ -13,7 +13,8 @@ namespace roboss::bench {
 
 class Trial {
   public:
-    Trial(const Contender& contender, World world);
+    /// `fast_bodies`: EngineOptions::fast_bodies.
+    Trial(const Contender& contender, World world, bool fast_bodies = false);
 
     /// False: the engine cannot express the world; then nothing else may be asked.
     bool possible() const { return engine_ != nullptr; }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "core/check.h"
 #include "engines/assembly.h"
@@ -84,6 +85,16 @@ class DartEngine final : public Engine {
         return "double, Featherstone, boxed LCP (Dantzig, then PGS), ODE's narrow phase";
     }
 
+    /// DART ends the process by an assertion once a number is none.
+    void stop_if_lost() const {
+        constexpr double kFastest = 1e8;  // rad/s, m/s
+        for (std::size_t i = 0; i < dart_->getNumSkeletons(); ++i) {
+            const Eigen::VectorXd v = dart_->getSkeleton(i)->getVelocities();
+            if (v.size() > 0 && !(v.cwiseAbs().maxCoeff() < kFastest))
+                throw std::runtime_error("DART: a state is not finite");
+        }
+    }
+
     void step(int ticks) override {
         for (int i = 0; i < ticks; ++i) {
             const double dt = dart_->getTimeStep();
@@ -92,6 +103,7 @@ class DartEngine final : public Engine {
                                                 (s.servo.position - s.joint->getPosition(s.axis)) /
                                                 (s.servo.stiffness * dt + s.servo.damping));
             dart_->step(false);
+            stop_if_lost();
         }
     }
 

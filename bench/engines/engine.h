@@ -35,6 +35,8 @@ struct JointState {
 
 struct EngineOptions {
     double dt_s = 0.002;
+    bool fast_bodies =
+        false;            // something may pass through another in a tick: continuous collision, if it has any
     double accuracy = 1;  // 1: as a careful user would set the engine up; each adapter says what it does
 };
 

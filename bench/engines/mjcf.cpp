@@ -47,14 +47,21 @@ class Writer {
     std::string head() const {
         const Vec3& g = world_.gravity;
         return "<mujoco>\n<compiler angle=\"radian\" balanceinertia=\"false\" boundmass=\"0\" "
-               "boundinertia=\"0\"/>\n<size njmax=\"" +
-               std::to_string(options_.rows_max) + "\" nconmax=\"" + std::to_string(options_.contacts_max) +
-               "\" nstack=\"" + std::to_string(options_.stack_numbers) +
-               "\"/>\n<option integrator=\"Euler\" solver=\"" + options_.solver + "\" cone=\"" +
-               options_.cone + "\" jacobian=\"" + options_.jacobian + "\" iterations=\"" +
+               "boundinertia=\"0\"/>\n" +
+               sizes() + "<option integrator=\"" + options_.integrator + "\" solver=\"" + options_.solver +
+               "\" cone=\"" + options_.cone + "\" jacobian=\"" + options_.jacobian + "\" iterations=\"" +
                std::to_string(options_.iterations) + "\"" + attribute("timestep", {options_.dt_s}) +
                attribute("tolerance", {options_.tolerance}) + attribute("impratio", {options_.impratio}) +
-               attribute("gravity", {g.x, g.y, g.z}) + "/>\n";
+               attribute("gravity", {g.x, g.y, g.z}) + ">" +
+               (options_.speculative ? "<flag speculative=\"enable\"/>" : "") + "</option>\n";
+    }
+
+    std::string sizes() const {
+        if (options_.memory_bytes > 0)
+            return "<size memory=\"" + std::to_string(options_.memory_bytes) + "\"/>\n";
+        return "<size njmax=\"" + std::to_string(options_.rows_max) + "\" nconmax=\"" +
+               std::to_string(options_.contacts_max) + "\" nstack=\"" +
+               std::to_string(options_.stack_numbers) + "\"/>\n";
     }
 
     void instance_body(const ModelInstance& instance) {

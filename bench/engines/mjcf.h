@@ -16,7 +16,10 @@ struct MjcfOptions {
     int iterations = 100;
     double tolerance = 1e-8, impratio = 1;
     double contact_time_s = 0.004;  // solref's time constant; MuJoCo wants at least two steps
-    long rows_max = 100, contacts_max = 100, stack_numbers = 1000000;
+    // Before version 3 the first three, since then the last: what its buffers hold.
+    long rows_max = 100, contacts_max = 100, stack_numbers = 1000000, memory_bytes = 0;
+    std::string integrator = "Euler";
+    bool speculative = false;  // contacts of bodies that would pass through each other; since version 4
 };
 
 /// The XML; bodies and joints are numbered as in `MjcfPlaces`.

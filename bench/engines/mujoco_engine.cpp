@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <stdexcept>
 
+#include "accuracy/mujoco_load.h"
 #include "core/check.h"
 #include "engines/makers.h"
 #include "engines/mjcf.h"
@@ -57,16 +57,27 @@ long rows_that_fit(long freedoms, long wanted) {
     return std::min(wanted, static_cast<long>((std::sqrt(b * b + 4 * a * kBytes) - b) / (2 * a)));
 }
 
+constexpr int kArenaSince = 300, kSpeculativeSince = 4000000;  // versions
+
+void set_buffers(const Sizes& sizes, MjcfOptions& mjcf) {
+    if (mj_version() >= kArenaSince) {
+        mjcf.memory_bytes = 100'000'000 + 40'000 * sizes.bodies + 24 * sizes.freedoms * sizes.freedoms;
+        return;
+    }
+    mjcf.rows_max = rows_that_fit(sizes.freedoms, 20 * sizes.bodies + 300);
+    if (mjcf.rows_max < sizes.bodies)  // known before the long compilation
+        throw std::runtime_error("MuJoCo 2 holds at most " + std::to_string(mjcf.rows_max) +
+                                 " constraint rows for " + std::to_string(sizes.bodies) +
+                                 " bodies (its buffer is counted in 32 bits)");
+    mjcf.contacts_max = mjcf.rows_max / 3;
+    mjcf.stack_numbers =
+        std::min(1000000 + 400 * mjcf.rows_max + 3 * sizes.freedoms * sizes.freedoms, 1000000000L);
+}
+
 ModelPointer load(const std::string& xml) {
-    // MuJoCo 2 copies the file into a structure of its own.
-    auto files = std::make_unique<mjVFS>();
-    mj_defaultVFS(files.get());
-    mj_makeEmptyFileVFS(files.get(), "world.xml", static_cast<int>(xml.size()));
-    std::memcpy(files->filedata[mj_findFileVFS(files.get(), "world.xml")], xml.data(), xml.size());
-    char error[1000] = "";
-    ModelPointer model(mj_loadXML("world.xml", files.get(), error, sizeof error));
-    mj_deleteVFS(files.get());
-    if (!model) throw std::runtime_error(std::string("MuJoCo: ") + error);
+    std::string error;
+    ModelPointer model(test::load_mjcf(xml, error));
+    if (!model) throw std::runtime_error("MuJoCo: " + error);
     return model;
 }
 
@@ -106,9 +117,12 @@ class MujocoEngine final : public Engine {
             mj_step(model_.get(), data_.get());
         }
         if (data_->warning[mjWARN_CONTACTFULL].number + data_->warning[mjWARN_CNSTRFULL].number > 0)
-            throw std::runtime_error("MuJoCo 2 holds at most " + std::to_string(model_->njmax) +
-                                     " constraint rows at " + std::to_string(model_->nv) +
-                                     " degrees of freedom (its buffer is counted in 32 bits)");
+            throw std::runtime_error("MuJoCo " + std::string(mj_versionString()) +
+                                     " has no room for the constraint rows of " + std::to_string(model_->nv) +
+                                     " degrees of freedom (version 2 counts its buffer in 32 bits)");
+        for (const int lost :
+             {mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC})  // it starts anew, and goes on
+            if (data_->warning[lost].number > 0) throw std::runtime_error("MuJoCo: a state is not finite");
         mj_kinematics(model_.get(), data_.get());  // poses of the state after the step
         mj_comPos(model_.get(), data_.get());
         mj_comVel(model_.get(), data_.get());
@@ -238,19 +252,17 @@ std::unique_ptr<Engine> make_mujoco(const World& world, const EngineOptions& opt
     constexpr long kNewtonMax = 1000;  // degrees of freedom; Newton's stack takes their square
     mjcf.solver = sizes.freedoms <= kNewtonMax ? "Newton" : "CG";
     mjcf.tolerance /= options.accuracy;
-    mjcf.rows_max = rows_that_fit(sizes.freedoms, 20 * sizes.bodies + 300);
-    if (mjcf.rows_max < sizes.bodies)  // known before the long compilation
-        throw std::runtime_error("MuJoCo 2 holds at most " + std::to_string(mjcf.rows_max) +
-                                 " constraint rows for " + std::to_string(sizes.bodies) +
-                                 " bodies (its buffer is counted in 32 bits)");
-    mjcf.contacts_max = mjcf.rows_max / 3;
-    mjcf.stack_numbers =
-        std::min(1000000 + 400 * mjcf.rows_max + 3 * sizes.freedoms * sizes.freedoms, 1000000000L);
+    set_buffers(sizes, mjcf);
+    mjcf.speculative = options.fast_bodies && mj_version() >= kSpeculativeSince;
+    if (options.fast_bodies && mj_version() >= kArenaSince) mjcf.integrator = "implicit";
+    mju_user_warning = [](const char*) {};  // by default they go to a file in the current folder
     auto places = write_mjcf(world, mjcf);
     if (!places) return nullptr;
     ModelPointer model = load(places->xml);
     const std::string settings =
-        "double, Euler, " + mjcf.solver + ", " + mjcf.cone + " cones, " + mjcf.jacobian + " Jacobians";
+        "double, " + mjcf.integrator + ", " + mjcf.solver + ", " + mjcf.cone + " cones, " + mjcf.jacobian +
+        " Jacobians" +
+        (mj_version() >= kSpeculativeSince ? "; where bodies are fast: implicit, speculative contacts" : "");
     return std::make_unique<MujocoEngine>(world, std::move(*places), std::move(model), settings);
 }
 

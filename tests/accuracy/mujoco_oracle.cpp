@@ -1,10 +1,9 @@
 // See mujoco_oracle.h.
 #include "mujoco_oracle.h"
 
-#include <cstring>
-
 #include "core/check.h"
 #include "mjcf.h"
+#include "mujoco_load.h"
 
 namespace roboss::test {
 namespace {
@@ -23,14 +22,9 @@ void put(mjtNum* to, const Vec3& v) {
 }
 
 mjModel* load(const std::string& xml) {
-    auto vfs = std::make_unique<mjVFS>();
-    mj_defaultVFS(vfs.get());
-    mj_makeEmptyFileVFS(vfs.get(), "model.xml", static_cast<int>(xml.size()));
-    std::memcpy(vfs->filedata[mj_findFileVFS(vfs.get(), "model.xml")], xml.data(), xml.size());
-    char error[1000] = "";
-    mjModel* model = mj_loadXML("model.xml", vfs.get(), error, sizeof error);
-    mj_deleteVFS(vfs.get());
-    ROBOSS_CHECK(model != nullptr, std::string(error) + "\n" + xml);
+    std::string error;
+    mjModel* model = load_mjcf(xml, error);
+    ROBOSS_CHECK(model != nullptr, error + "\n" + xml);
     return model;
 }
 

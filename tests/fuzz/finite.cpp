@@ -22,7 +22,7 @@ Finding run_finite(const Request& request) {
             request.tell(buffer);
         }
         if (fastest > finding.figure) finding.figure = fastest, finding.tick = motion.tick();
-        const RobotId broken = motion.find_not_finite();
+        const RobotId broken = find_not_finite(motion.states());
         if (!broken.valid()) continue;
         finding.failed = true;
         finding.figure = std::numeric_limits<double>::infinity(), finding.tick = motion.tick();

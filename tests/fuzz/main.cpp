@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -15,6 +16,7 @@
 
 #include "core/thread_pool.h"
 #include "fuzz/property.h"
+#include "fuzz/shot.h"
 
 namespace roboss::fuzz {
 namespace {
@@ -28,7 +30,7 @@ Examples:
   roboss-fuzz --property energy --seeds 0..1000        one property, a thousand seeds
   roboss-fuzz --property energy --kind tree --dt 0.004 --spin 30 --seeds 0..60
   roboss-fuzz --property energy --seed 17              replays one seed and tells of every tick
-  roboss-fuzz --seeds 0..10000 --json soak.json        the soak of docs/testing.md (hours)
+  roboss-fuzz --seeds 0..10000 --json soak.json        the soak of docs/testing.md (an hour or two)
   roboss-fuzz --list                                   properties and kinds of world
 
 For each failing seed a line says what replays it. A seed whose state is not finite has an infinite figure.
@@ -95,7 +97,8 @@ void print_list() {
         fmt::print("\n");
     }
     fmt::print("kinds of world:\n");
-    for (const SceneKind& kind : scene_kinds()) fmt::print("  {:12} {}\n", kind.name, kind.what);
+    for (const SceneKind& kind : scene_kinds()) fmt::print("  {:14} {}\n", kind.name, kind.what);
+    for (const ShotKind& kind : shot_kinds()) fmt::print("  {:14} {}\n", kind.name, kind.what);
 }
 
 /// The property as the options narrow it; nullopt: none of the wanted kinds is one of its own.
@@ -124,20 +127,39 @@ std::string failure_line(const Row& row) {
                        row.finding.figure, replay_command(*row.property, row.request));
 }
 
+/// Tells failures at once, and every ten seconds how far it is.
+class Progress {
+  public:
+    Progress(const Property& property, std::size_t seeds) : property_(property), seeds_(seeds) {}
+
+    void done(const Row& row) {
+        const std::lock_guard lock(mutex_);
+        ++done_, failed_ += row.finding.failed;
+        if (row.finding.failed) fmt::print("{}", failure_line(row)), std::fflush(stdout);
+        const auto now = std::chrono::steady_clock::now();
+        if (now - told_ < std::chrono::seconds(10)) return;
+        told_ = now;
+        fmt::print(stderr, "{}: {} of {} seeds, {} failed\n", property_.name, done_, seeds_, failed_);
+    }
+
+  private:
+    const Property& property_;
+    std::size_t seeds_, done_ = 0, failed_ = 0;
+    std::mutex mutex_;
+    std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
+};
+
 std::vector<Row> run_seeds(const Property& registered, const Property& property, Range range,
                            ThreadPool& pool) {
     std::vector<Row> rows(range.until - range.from);
-    std::mutex mutex;
+    Progress progress(registered, rows.size());
     pool.run(rows.size(), [&](std::size_t i, std::size_t) {
         Row& row = rows[i];
         row.property = &registered;
         row.request.setting = property.setting(range.from + i);
         row.request.seconds = property.seconds;
         row.finding = property.run(row.request);
-        if (!row.finding.failed) return;
-        const std::lock_guard lock(mutex);
-        fmt::print("{}", failure_line(row));
-        std::fflush(stdout);
+        progress.done(row);
     });
     return rows;
 }

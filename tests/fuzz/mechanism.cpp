@@ -1,6 +1,5 @@
 #include "fuzz/mechanism.h"
 
-#include <array>
 #include <cmath>
 #include <string>
 
@@ -75,7 +74,7 @@ LinkSpec random_link(Random& random, const std::string& name, const Pose& X_ML,
 }
 
 /// Everything that an axis may have.
-void vary_axis(Random& random, bool slides, bool springs, AxisSpec& axis) {
+void vary_axis(Random& random, bool slides, AxisSpec& axis) {
     const double low = random.uniform(slides ? -0.3 : -2.0, -0.05),
                  high = random.uniform(0.05, slides ? 0.3 : 2.0);
     if (chance(random, slides ? 1.0 : 0.45)) axis.lower = low, axis.upper = high;
@@ -86,14 +85,21 @@ void vary_axis(Random& random, bool slides, bool springs, AxisSpec& axis) {
     const double friction = magnitude(random, 1e-3, 1e-1);
     if (chance(random, 0.35)) axis.friction = friction;
     const double spring = magnitude(random, 0.1, 30), reference = random.uniform(-0.5, 0.5);
-    if (chance(random, 0.2) && springs) axis.spring_stiffness = spring, axis.spring_reference = reference;
+    if (chance(random, 0.2)) axis.spring_stiffness = spring, axis.spring_reference = reference;
     const double armature = magnitude(random, 1e-4, 1e-2);
     if (chance(random, 0.15)) axis.armature = armature;
 }
 
-void vary_axes(Random& random, bool springs, JointSpec& joint) {
+void store_nothing(AxisSpec& axis) {
+    const AxisSpec plain;
+    axis.limit_stiffness = plain.limit_stiffness, axis.limit_dissipation = plain.limit_dissipation;
+    axis.spring_stiffness = axis.armature = 0;
+}
+
+void vary_axes(Random& random, const MechanismOptions& options, JointSpec& joint) {
     for (AxisSpec& axis : joint.axes) {
-        vary_axis(random, joint.kind == JointSpecKind::kPrismatic, springs, axis);
+        vary_axis(random, joint.kind == JointSpecKind::kPrismatic, axis);
+        if (!options.stores) store_nothing(axis);
         // What slides has limits, so that it stays within reach and gravity does not drive a screw beyond all
         // speeds.
         if (joint.kind == JointSpecKind::kScrew && !axis.has_limits()) axis.lower = -6, axis.upper = 6;
@@ -102,11 +108,9 @@ void vary_axes(Random& random, bool springs, JointSpec& joint) {
     if (joint.kind == JointSpecKind::kBall && chance(random, 0.35)) joint.ball_damping = damping;
 }
 
-constexpr std::array kKinds{JointSpecKind::kRevolute, JointSpecKind::kPrismatic, JointSpecKind::kBall,
-                            JointSpecKind::kUniversal, JointSpecKind::kScrew};
-
-JointSpecKind random_kind(Random& random) {
-    return kKinds[static_cast<std::size_t>(random.integer(0, kKinds.size() - 1))];
+JointSpecKind random_kind(Random& random, const MechanismOptions& options) {
+    return options
+        .kinds[static_cast<std::size_t>(random.integer(0, static_cast<int>(options.kinds.size()) - 1))];
 }
 
 int freedoms(JointSpecKind kind) {
@@ -144,7 +148,7 @@ void add_limb(Random& random, const MechanismOptions& options, int i, int parent
     m.links.push_back(random_link(random, link_name(i), X_ML, options));
     m.joints.push_back(bare_joint(random, kind, "joint_" + std::to_string(i),
                                   parent < 0 ? "world" : link_name(parent), link_name(i), X_MJ));
-    vary_axes(random, options.springs, m.joints.back());
+    if (!options.bare) vary_axes(random, options, m.joints.back());
 }
 
 ModelSpec named(const std::string& name) {
@@ -161,9 +165,9 @@ ModelSpec random_ring(Random& random, const MechanismOptions& options) {
     JointSpecKind closing = JointSpecKind::kBall;
     int freedom = 0;
     while (freedom < 7) {  // one of them is left when the loop is closed
-        kinds.clear(), closing = random_kind(random), freedom = freedoms(closing);
+        kinds.clear(), closing = random_kind(random, options), freedom = freedoms(closing);
         for (int i = 0; i < links; ++i)
-            kinds.push_back(random_kind(random)), freedom += freedoms(kinds.back());
+            kinds.push_back(random_kind(random, options)), freedom += freedoms(kinds.back());
     }
     m.links.push_back(random_link(random, link_name(0), {{}, random.rotation()}, options));
     for (int i = 1; i <= links; ++i)
@@ -174,13 +178,12 @@ ModelSpec random_ring(Random& random, const MechanismOptions& options) {
     return m;
 }
 
-/// Mechanisms of tests/support name joints as their links, which a file may not.
-ModelSpec with_own_joint_names(ModelSpec m) {
-    for (JointSpec& j : m.joints) j.name = "joint_" + j.name;
-    return m;
-}
-
 }  // namespace
+
+ModelSpec with_own_joint_names(ModelSpec model) {
+    for (JointSpec& j : model.joints) j.name = "joint_" + j.name;
+    return model;
+}
 
 ModelSpec random_tree(Random& random, const MechanismOptions& options) {
     ModelSpec m = named("tree");
@@ -189,7 +192,7 @@ ModelSpec random_tree(Random& random, const MechanismOptions& options) {
         m.links.push_back(random_link(random, link_name(0), {{}, random.rotation()}, options));
     for (int i = static_cast<int>(m.links.size()); i < links; ++i) {
         const int parent = options.fixed_base && i == 0 ? -1 : random.integer(0, i - 1);
-        add_limb(random, options, i, parent, random_kind(random), m);
+        add_limb(random, options, i, parent, random_kind(random, options), m);
     }
     return m;
 }
@@ -200,7 +203,7 @@ ModelSpec random_loop(Random& random, const MechanismOptions& options) {
     four_bar.free_base = true;
     four_bar.last = chance(random, 0.5) ? JointSpecKind::kRevolute : JointSpecKind::kBall;
     ModelSpec m = with_own_joint_names(test::four_bar(four_bar));
-    for (std::size_t j = 0; j < 3; ++j) vary_axis(random, false, options.springs, m.joints[j].axes[0]);
+    for (std::size_t j = 0; j < 3; ++j) vary_axis(random, false, m.joints[j].axes[0]);
     return m;
 }
 
@@ -208,7 +211,7 @@ ModelSpec random_coupled(Random& random, const MechanismOptions& options) {
     const double ratio = random.uniform(0.3, 3) * (chance(random, 0.5) ? 1 : -1);
     if (chance(random, 0.25)) {
         ModelSpec m = with_own_joint_names(test::geared_wheels(ratio, true));
-        for (std::size_t j = 0; j < 2; ++j) vary_axis(random, false, options.springs, m.joints[j].axes[0]);
+        for (std::size_t j = 0; j < 2; ++j) vary_axis(random, false, m.joints[j].axes[0]);
         for (std::size_t j = 0; j < 2; ++j)
             m.joints[j].axes[0].lower = -1e16, m.joints[j].axes[0].upper = 1e16;
         return m;

@@ -2,6 +2,8 @@
 // from one Random, so a seed names a mechanism on every machine.
 #pragma once
 
+#include <vector>
+
 #include <support/random.h>
 
 #include "world/world.h"
@@ -13,7 +15,10 @@ using test::Random;
 struct MechanismOptions {
     int links_least = 1, links_most = 5;
     bool fixed_base = false;
-    bool springs = true;
+    bool bare = false;   // joints without limits, damping, friction, springs and rotors: no row ever acts
+    bool stores = true;  // springs, soft limits and rotors, which hold energy besides the links
+    std::vector<JointSpecKind> kinds{JointSpecKind::kRevolute, JointSpecKind::kPrismatic,
+                                     JointSpecKind::kBall, JointSpecKind::kUniversal, JointSpecKind::kScrew};
     bool shapes = false;          // a collision on every link
     double restitution_most = 0;  // of 40 % of the shapes
 };
@@ -31,6 +36,9 @@ ModelSpec random_coupled(Random& random, const MechanismOptions& options);
 
 /// One link with one random shape: box, ball, cylinder, capsule or ellipsoid.
 ModelSpec random_solid(Random& random, double restitution_most);
+
+/// Robots of tests/support name joints as their links, which a file may not.
+ModelSpec with_own_joint_names(ModelSpec model);
 
 /// Radius of the sphere about the model's origin that holds all links at the start.
 double start_radius(const ModelSpec& model);

@@ -2,8 +2,18 @@
 
 #include <cstdio>
 
+#include "fuzz/shot.h"
+
 namespace roboss::fuzz {
 namespace {
+
+/// Those that are meant to pass, or all.
+std::vector<std::string> shots(bool passes_only) {
+    std::vector<std::string> names;
+    for (const ShotKind& kind : shot_kinds())
+        if (kind.passes || !passes_only) names.emplace_back(kind.name);
+    return names;
+}
 
 std::vector<Property> make_properties() {
     const std::vector<double> steps{1e-3, 2e-3, 4e-3}, spins{1, 10, 30, 100};
@@ -36,8 +46,35 @@ std::vector<Property> make_properties() {
          {1e-3, 2e-3, 4e-3, 5e-3},
          spins,
          {0},
-         10,
+         5,
          run_finite},
+        {"ghost",
+         "who passes clear of everything is not pushed, not by one bit",
+         "largest change of a velocity, m/s or rad/s",
+         shots(true),
+         steps,
+         {0, 20, 100},
+         {2, 5, 20, 100, 1000},
+         0,
+         run_ghost},
+        {"tunnel",
+         "nothing passes through anything",
+         "deepest overlap, relative to what is allowed",
+         shots(false),
+         steps,
+         {0, 20, 100},
+         {2, 5, 20, 50, 100},
+         0,
+         run_tunnel},
+        {"hash",
+         "the state hash is the same for any threads, lanes, Simulators, windows and grouping",
+         "configurations of five whose hash differs from the first",
+         any,
+         {1e-3, 2e-3, 4e-3, 5e-3},
+         {1, 10, 30, 100},
+         {0},
+         0.5,
+         run_hash},
     };
 }
 
@@ -68,15 +105,20 @@ const Property* find_property(const std::string& name) {
 }
 
 Setting Property::setting(std::uint64_t seed) const {
-    std::uint64_t turn = seed;
-    const auto next = [&](const auto& choices) {
-        const auto& choice = choices[turn % choices.size()];
+    const std::uint64_t kind = seed % kinds.size();
+    // Not in their own order, and each kind elsewhere, so that few seeds already have much of all. 7 divides
+    // no number of combinations, so a kind meets each of them once before it meets one again.
+    constexpr std::uint64_t kStride = 7;
+    std::uint64_t turn = kStride * (seed / kinds.size() + kind);
+    const auto next = [&](const std::vector<double>& choices) {
+        const double choice = choices[turn % choices.size()];
         turn /= choices.size();
         return choice;
     };
+    turn %= steps_s.size() * spins.size() * speeds.size();
     Setting s;
-    s.seed = seed;
-    s.kind = next(kinds), s.dt_s = next(steps_s), s.spin = next(spins), s.speed = next(speeds);
+    s.seed = seed, s.kind = kinds[kind];
+    s.dt_s = next(steps_s), s.spin = next(spins), s.speed = next(speeds);
     return s;
 }
 
@@ -85,7 +127,8 @@ std::string replay_command(const Property& property, const Request& request) {
     std::string command = "roboss-fuzz --property " + property.name + " --seed " + std::to_string(s.seed) +
                           " --kind " + s.kind + " --dt " + text(s.dt_s) + " --spin " + text(s.spin);
     if (property.speeds.size() > 1) command += " --speed " + text(s.speed);
-    return command + " --seconds " + text(request.seconds);
+    if (property.seconds > 0) command += " --seconds " + text(request.seconds);
+    return command;
 }
 
 }  // namespace roboss::fuzz

@@ -35,8 +35,8 @@ struct Property {
     double seconds = 10;                         // simulated
     Finding (*run)(const Request&) = nullptr;
 
-    /// The setting of a seed: kinds by turns, then steps, spins and speeds, so that a block of consecutive
-    /// seeds has every combination.
+    /// The setting of a seed: kinds by turns, steps, spins and speeds so that as many consecutive seeds as
+    /// there are combinations have every one.
     Setting setting(std::uint64_t seed) const;
 };
 
@@ -57,5 +57,8 @@ inline constexpr double kMomentumDriftMost = 1e-6;  // of what the links' moment
 Finding run_energy(const Request& request);
 Finding run_momentum(const Request& request);
 Finding run_finite(const Request& request);
+Finding run_ghost(const Request& request);
+Finding run_tunnel(const Request& request);
+Finding run_hash(const Request& request);
 
 }  // namespace roboss::fuzz

@@ -35,6 +35,12 @@ Scene tree(Random& random, const Setting& setting) {
     return one_robot(setting, random_tree(random, {}));
 }
 
+Scene bare(Random& random, const Setting& setting) {
+    MechanismOptions options;
+    options.bare = true;
+    return one_robot(setting, random_tree(random, options));
+}
+
 Scene anchored(Random& random, const Setting& setting) {
     MechanismOptions options;
     options.fixed_base = true;
@@ -120,6 +126,22 @@ Scene cloud(Random& random, const Setting& setting) {
     return scene;
 }
 
+/// Copies of one mechanism dropped on the ground, so that they go in lanes; some near each other.
+Scene fleet(Random& random, const Setting& setting) {
+    Scene scene;
+    scene.world = test::empty_world(setting.dt_s);
+    test::place(scene.world, test::ground(test::surface(random.uniform(0, 1))), "ground");
+    const ModelSpec model = something(random, 0);
+    const double radius = start_radius(model), spacing = random.uniform(1, 4) * radius;
+    scene.world.prototypes.push_back(model);
+    for (int i = 0; i < 12; ++i) {
+        const Vec3 at{spacing * (i % 4), spacing * (i / 4), radius * random.uniform(1, 1.5)};
+        scene.world.instances.push_back(
+            {"robot_" + std::to_string(i), scene.world.prototypes.size() - 1, {at, random.rotation()}, {}});
+    }
+    return scene;
+}
+
 /// Cars, spiders and trees on the ground in each other's way, every motor with a target of its own.
 Scene crowd(Random& random, const Setting& setting) {
     Scene scene;
@@ -132,7 +154,7 @@ Scene crowd(Random& random, const Setting& setting) {
         const std::string name = "robot_" + std::to_string(i);
         const Quat turn = from_rpy(0, 0, random.uniform(-3, 3));
         const int pick = random.integer(0, 3);
-        if (pick < 2) test::place(scene.world, test::car(), name, {at, turn});
+        if (pick < 2) test::place(scene.world, with_own_joint_names(test::car()), name, {at, turn});
         if (pick == 2) test::place(scene.world, something(random, 0.5), name, {at + Vec3{0, 0, 0.8}, turn});
         if (pick == 3)
             test::place(scene.world, random_solid(random, 0.9), name, {at + Vec3{0, 0, 0.5}, turn});
@@ -178,6 +200,7 @@ Scene wild(Random& random, const Setting& setting) {
 
 constexpr SceneKind kKinds[] = {
     {"tree", "a free tree of links in empty space", tree, true, true},
+    {"bare", "a free tree on which no row ever acts", bare, true, true},
     {"anchored", "a tree on a fixed base, without gravity", anchored, true, false},
     {"hanging", "a tree on a fixed base under gravity", hanging, true, false},
     {"loop", "a free mechanism with a kinematic loop", loop, true, true},
@@ -185,6 +208,7 @@ constexpr SceneKind kKinds[] = {
     {"idle-motors", "a free tree whose motors give an effort of 0", idle_motors, true, true},
     {"cloud", "eight free robots that collide in empty space", cloud, true, true},
     {"room", "eight free robots in a closed room", room, true, false},
+    {"fleet", "twelve copies of one robot dropped on the ground", fleet, true, false},
     {"crowd", "nine driven robots on the ground, in each other's way", crowd, false, false},
     {"wild", "driven robots that start in each other, soft contacts, any accuracy", wild, false, false},
 };
@@ -259,13 +283,21 @@ std::vector<RobotState> start_states(const Model& model, const Scene& scene, con
     return states;
 }
 
-Motion::Motion(const Setting& setting) {
+Start make_start(const Setting& setting, bool floats) {
     const SceneKind* kind = find_scene_kind(setting.kind);
     ROBOSS_CHECK(kind != nullptr, "there is no such kind of scene");
     Random random(setting.seed);
-    const Scene scene = kind->make(random, setting);
-    model_ = compile_scene(scene.world);
-    states_ = start_states(*model_, scene, setting, random);
+    Scene scene = kind->make(random, setting);
+    if (floats) scene.world.precision = Precision::kFloat;
+    Start start;
+    start.model = compile_scene(scene.world);
+    start.states = start_states(*start.model, scene, setting, random);
+    return start;
+}
+
+Motion::Motion(const Setting& setting) {
+    Start start = make_start(setting);
+    model_ = std::move(start.model), states_ = std::move(start.states);
     for (std::size_t r = 0; r < states_.size(); ++r) ids_.emplace_back(r), pointers_.push_back(&states_[r]);
     bounds_.resize(states_.size());
 }
@@ -275,12 +307,12 @@ const StepReport& Motion::step() {
     return report_;
 }
 
-RobotId Motion::find_not_finite() const {
+RobotId find_not_finite(const std::vector<RobotState>& states) {
     const auto finite = [](const std::vector<double>& x) {
         return std::ranges::all_of(x, [](double value) { return std::isfinite(value); });
     };
-    for (std::size_t r = 0; r < states_.size(); ++r)
-        if (!finite(states_[r].q) || !finite(states_[r].v)) return RobotId(r);
+    for (std::size_t r = 0; r < states.size(); ++r)
+        if (!finite(states[r].q) || !finite(states[r].v)) return RobotId(r);
     return {};
 }
 

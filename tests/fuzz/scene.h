@@ -39,24 +39,31 @@ struct SceneKind {
     bool isolated;  // nothing acts from outside: its momentum must stay
 };
 
+/// The first robot with a coordinate or velocity that is not finite; not valid: none.
+RobotId find_not_finite(const std::vector<RobotState>& states);
+
 std::span<const SceneKind> scene_kinds();
 /// nullptr: there is none of that name.
 const SceneKind* find_scene_kind(const std::string& name);
 
+/// A compiled scene and its start. `floats`: stepped in floats.
+struct Start {
+    std::shared_ptr<const Model> model;
+    std::vector<RobotState> states;  // by RobotId
+};
+/// Aborts if the world does not compile: a generator makes valid worlds only.
+Start make_start(const Setting& setting, bool floats = false);
+
 /// A scene being stepped, all robots in one call.
 class Motion {
   public:
-    /// Aborts if the world does not compile: a generator makes valid worlds only.
     explicit Motion(const Setting& setting);
 
     const StepReport& step();
     double time_s() const { return static_cast<double>(tick_) * model_->dt_s; }
     Tick tick() const { return tick_; }
     const Model& model() const { return *model_; }
-    std::shared_ptr<const Model> shared_model() const { return model_; }
     const std::vector<RobotState>& states() const { return states_; }
-    /// The first robot with a coordinate or velocity that is not finite.
-    RobotId find_not_finite() const;
     /// Largest velocity of a base or joint, rad/s or m/s.
     double fastest() const;
 

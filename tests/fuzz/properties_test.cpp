@@ -1,0 +1,67 @@
+// Each property on a few dozen seeds. A failing seed is told with the command that replays it; longer runs:
+// docs/testing.md.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "fuzz/property.h"
+
+namespace roboss::fuzz {
+namespace {
+
+struct Share {
+    const char* property;
+    std::uint64_t seeds;               // from 0
+    double seconds;                    // simulated
+    std::vector<std::string> kinds{};  // empty: all
+};
+
+void expect_holds(const Share& share) {
+    Property property = *find_property(share.property);
+    if (!share.kinds.empty()) property.kinds = share.kinds;
+    std::uint64_t failed = 0;
+    std::string commands;
+    for (std::uint64_t seed = 0; seed < share.seeds; ++seed) {
+        const Request request{property.setting(seed), share.seconds};
+        const Finding finding = property.run(request);
+        if (!finding.failed) continue;
+        constexpr std::uint64_t kToldMost = 10;
+        if (++failed <= kToldMost)
+            commands += finding.text + " " + std::to_string(finding.figure) + "\n  " +
+                        replay_command(property, request) + "\n";
+    }
+    EXPECT_EQ(failed, 0u) << "of " << share.seeds << " seeds: " << property.claim << "\n" << commands;
+}
+
+// 7 kinds, 3 steps, 4 spins: each combination once.
+TEST(Property, EnergyOfPassiveMechanismsNeverGrows) {
+    expect_holds(
+        {"energy", 84, 10, {"tree", "bare", "anchored", "hanging", "loop", "coupled", "idle-motors"}});
+}
+
+TEST(Property, EnergyOfPassiveRobotsThatCollideNeverGrows) {
+    expect_holds({"energy", 36, 5, {"cloud", "room", "fleet"}});
+}
+
+TEST(Property, MomentumStaysWhereNothingActsFromOutside) {
+    expect_holds({"momentum", 72, 10});
+}
+
+TEST(Property, StatesStayFinite) {
+    expect_holds({"finite", 48, 2, {"wild", "crowd", "room"}});
+}
+
+TEST(Property, WhoPassesClearIsNotPushed) {
+    expect_holds({"ghost", 900, 0});
+}
+
+TEST(Property, NothingPassesThroughAnything) {
+    expect_holds({"tunnel", 114, 0});
+}
+
+TEST(Property, HashIsTheSameInFiveConfigurations) {
+    expect_holds({"hash", 48, 0.3, {"fleet", "wild", "crowd", "room", "loop", "coupled"}});
+}
+
+}  // namespace
+}  // namespace roboss::fuzz
