@@ -1,7 +1,9 @@
 // Start, hash and bytes of a robot's state.
 #include "model/robot_state.h"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace roboss {
 
@@ -129,6 +131,21 @@ class Reader {
     bool short_ = false;
 };
 
+/// What is wrong with a state of which every field was read; nullptr: nothing.
+const char* inconsistency_of(const RobotState& state, std::size_t robots) {
+    const auto finite = [](double x) { return std::isfinite(x); };
+    if (!std::all_of(state.q.begin(), state.q.end(), finite) ||
+        !std::all_of(state.v.begin(), state.v.end(), finite))
+        return "is not finite";
+    const auto known = [robots](std::uint32_t id) { return id < robots; };
+    const bool knows_contacts = std::all_of(
+        state.contacts.begin(), state.contacts.end(),
+        [&](const ContactMemory& c) { return c.other_robot == RobotId::kNone || known(c.other_robot); });
+    if (!knows_contacts || !std::all_of(state.rest.neighbours.begin(), state.rest.neighbours.end(), known))
+        return "names a robot that does not exist";
+    return nullptr;
+}
+
 constexpr std::size_t kWrenchWords = 8;
 constexpr std::size_t kContactWords = 7;
 
@@ -153,7 +170,8 @@ void encode(const RobotState& state, std::vector<std::uint8_t>& out) {
     w.rest(state.rest);
 }
 
-Result<RobotState> decode_state(std::span<const std::uint8_t> bytes, const RobotType& type) {
+Result<RobotState> decode_state(std::span<const std::uint8_t> bytes, const RobotType& type,
+                                std::size_t robots) {
     Reader r(bytes);
     const std::uint64_t nq = r.word(), nv = r.word(), motors = r.word(), wrenches = r.word(),
                         contacts = r.word();
@@ -194,6 +212,9 @@ Result<RobotState> decode_state(std::span<const std::uint8_t> bytes, const Robot
     if (!r.complete())
         return Error{"the bytes of a state of type '" + type.name + "' have the wrong length",
                      "fetch or save it again"};
+    if (const char* wrong = inconsistency_of(state, robots); wrong != nullptr)
+        return Error{"a state of type '" + type.name + "' " + wrong,
+                     "the bytes are damaged or of another world"};
     return state;
 }
 

@@ -217,6 +217,8 @@ class Controller {
     void serve_model(Bus& bus, const Address& from, const ModelRequest& request);
     const WholeBytes& whole(Whole what);
     void fail(Error error);
+    /// A message that makes no sense.
+    void note_dropped(const char* message, const std::string& why);
     void notice(std::string text) { notices_.push_back(std::move(text)); }
 
     // controller_clients.cpp

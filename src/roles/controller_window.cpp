@@ -136,7 +136,10 @@ double Controller::largest_share() const {
 
 void Controller::take_frame(std::uint32_t place, const Frame& frame) {
     if (!round_) return;
-    const std::optional<Round::Answered> answered = round_->answered_by(place, frame);
+    bool fits = true;
+    const std::optional<Round::Answered> answered = round_->answered_by(place, frame, fits);
+    if (!fits)
+        note_dropped("Frame", "what simulator " + std::to_string(place) + " answers does not fit its plan");
     if (!answered) return;
     const Plan& plan = answered->plan;
     take_costs(*answered, frame);
@@ -209,6 +212,10 @@ bool Controller::merge_touching() {
     if (sweep_.unite_overlapping(boxes_, sets_) == 0) return false;
 
     forecast_.forget();
+    if (roster_.workers().empty()) {  // all want to leave: whoever comes next steps the window from its start
+        round_.reset();
+        return true;
+    }
     Islands all, again;
     collect_islands(sets_, all);
     std::vector<bool> stepped_again(n, false);

@@ -137,19 +137,21 @@ void Round::send(Bus& bus, const Roster& roster, std::int64_t resend_ms,
     }
 }
 
-std::optional<Round::Answered> Round::answered_by(std::uint32_t place, const Frame& frame) {
+std::optional<Round::Answered> Round::answered_by(std::uint32_t place, const Frame& frame, bool& fits) {
+    fits = true;
     if (frame.epoch != span_.epoch || frame.window != span_.window) return std::nullopt;
     const auto sent = std::find_if(sent_.begin(), sent_.end(), [&](const Sent& s) {
         return s.place == place && s.plan.attempt == frame.attempt;
     });
-    if (sent == sent_.end() || (frame.left > 0 && !sent->cut) || !fits(sent->plan, frame))
-        return std::nullopt;
+    if (sent == sent_.end()) return std::nullopt;
+    fits = (frame.left == 0 || sent->cut) && suits(sent->plan, frame);
+    if (!fits) return std::nullopt;
     std::optional<Answered> answered({sent->place, std::move(sent->plan), std::move(sent->helpers)});
     sent_.erase(sent);
     return answered;
 }
 
-bool Round::fits(const Plan& plan, const Frame& frame) const {
+bool Round::suits(const Plan& plan, const Frame& frame) const {
     const auto known = [this](RobotId robot) { return robot.index() < seat_.size(); };
     const bool told =
         frame.left > 0

@@ -1,6 +1,8 @@
 // One description of every message's fields, used by the encoder and by the decoder.
 #include "wire/codec.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "wire/archive.h"
@@ -230,13 +232,36 @@ void field(Reader& a, std::variant<T...>& value) {
     if (!a.failed()) read_alternative(a, index, value);
 }
 
-/// What the fields' types alone cannot say and every receiver relies on.
+// What the fields' types alone cannot say and every receiver relies on. A rule needs no Model; what does is
+// checked by the role that receives the message.
+
+/// So far that sums of two ticks do not overflow. -1: before the first.
+bool in_range(Tick tick) {
+    constexpr Tick kFarthest = Tick{1} << 60;
+    return tick >= -1 && tick <= kFarthest;
+}
+constexpr const char* kTickOutOfRange = "a tick is out of range";
+
+template <class Orders>
+const char* broken_rule_of(const Orders& orders) {
+    const bool fine =
+        std::all_of(orders.begin(), orders.end(), [](const auto& o) { return in_range(o.apply_at); });
+    return fine ? nullptr : kTickOutOfRange;
+}
+
+/// Sorting and comparing boxes relies on numbers.
+bool is_number(const Box32& box) {
+    const auto number = [](float x) { return !std::isnan(x); };
+    return std::all_of(box.min.begin(), box.min.end(), number) &&
+           std::all_of(box.max.begin(), box.max.end(), number);
+}
+
 const char* broken_rule(const StateBlock& block) {
     std::uint64_t bytes = 0;
     for (const std::uint32_t size : block.sizes) bytes += size;
     if (block.sizes.size() != block.robots.size()) return "it has not one size a robot";
     if (bytes != block.bytes.size()) return "the sizes do not add up to its bytes";
-    return nullptr;
+    return in_range(block.tick) ? nullptr : kTickOutOfRange;
 }
 
 const char* broken_rule(const Plan& plan) {
@@ -245,22 +270,70 @@ const char* broken_rule(const Plan& plan) {
         return "its islands do not cover its robots";
     for (std::size_t i = 1; i < offsets.size(); ++i)
         if (offsets[i] <= offsets[i - 1]) return "one of its islands is empty";
-    return plan.until < plan.from || plan.from < plan.window_from ? "it ends before it starts" : nullptr;
+    for (const Tick tick : {plan.window_from, plan.from, plan.until, plan.release_before})
+        if (!in_range(tick)) return kTickOutOfRange;
+    if (plan.window_from < 0 || plan.until < plan.from || plan.from < plan.window_from)
+        return "it ends before it starts";
+    const bool inside = std::all_of(plan.orders.begin(), plan.orders.end(), [&](const Order& order) {
+        return plan.from <= order.apply_at && order.apply_at < plan.until;
+    });
+    return inside ? nullptr : "one of its orders is for a tick that it does not step";
+}
+
+const char* broken_rule(const OrdersAhead& ahead) {
+    return broken_rule_of(ahead.orders);
 }
 
 const char* broken_rule(const Frame& frame) {
     const bool told = frame.left == 0 || (frame.robots.empty() && frame.earlier.empty());
-    return told ? nullptr : "it was cut short and tells of robots";
+    if (!told) return "it was cut short and tells of robots";
+    const auto numbers = [](const auto& entry) { return is_number(entry.swept); };
+    if (!std::all_of(frame.robots.begin(), frame.robots.end(), numbers) ||
+        !std::all_of(frame.earlier.begin(), frame.earlier.end(), numbers))
+        return "a robot's bound is not a number";
+    const bool known = std::all_of(frame.islands.begin(), frame.islands.end(),
+                                   [](const IslandFrame& island) { return in_range(island.failed_at); });
+    return known ? nullptr : kTickOutOfRange;
 }
 
 const char* broken_rule(const StateReply& reply) {
     return broken_rule(reply.states);
 }
 
+const char* broken_rule(const StateRequest& request) {
+    return in_range(request.tick) ? nullptr : kTickOutOfRange;
+}
+
+const char* broken_rule(const Observation& observation) {
+    return in_range(observation.tick) ? nullptr : kTickOutOfRange;
+}
+
+const char* broken_rule(const ClientWelcome& welcome) {
+    return in_range(welcome.first) ? nullptr : kTickOutOfRange;
+}
+
+const char* broken_rule(const ClientWord& word) {
+    return in_range(word.observed) ? nullptr : kTickOutOfRange;
+}
+
+const char* broken_rule(const ViewDue& due) {
+    return in_range(due.tick) ? nullptr : kTickOutOfRange;
+}
+
+const char* broken_rule(const ViewStates& views) {
+    return in_range(views.tick) ? nullptr : kTickOutOfRange;
+}
+
+const char* broken_rule(const Hello& hello) {
+    constexpr std::uint32_t kThreadsMost = 1u << 16;
+    return hello.threads >= 1 && hello.threads <= kThreadsMost ? nullptr
+                                                               : "its number of threads is out of range";
+}
+
 const char* broken_rule(const ClientHello& hello) {
     constexpr Tick kLongest = Tick{1} << 50;
     return hello.period < 1 || hello.period > kLongest || hello.latency < 0 || hello.latency > kLongest ||
-                   hello.expected > kLongest || hello.said < hello.acknowledged
+                   hello.expected < -1 || hello.expected > kLongest || hello.said < hello.acknowledged
                ? "its period or latency is out of range"
                : nullptr;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 
 namespace roboss {
@@ -12,10 +13,10 @@ namespace {
 const RobotId kRobot(7u), kOther(9u);
 
 std::vector<Order> some_orders() {
-    return {{3, ClientId(1u), 1, kRobot, SetPose{{{1, 2, 3}, {0.5, 0.5, 0.5, 0.5}}}},
-            {3, ClientId(1u), 2, kRobot, SetVelocity{{1, 0, 0}, {0, 0, -2}}},
-            {4, ClientId(2u), 1, kOther, ApplyWrench{LinkId(2u), {1, 2, 3}, {4, 5, 6}, 12}},
-            {5, ClientId(2u), 2, kOther, SetJoint{JointId(1u), 1, MotorMode::kPosition, 0.25, 8.5}}};
+    return {{10, ClientId(1u), 1, kRobot, SetPose{{{1, 2, 3}, {0.5, 0.5, 0.5, 0.5}}}},
+            {10, ClientId(1u), 2, kRobot, SetVelocity{{1, 0, 0}, {0, 0, -2}}},
+            {11, ClientId(2u), 1, kOther, ApplyWrench{LinkId(2u), {1, 2, 3}, {4, 5, 6}, 12}},
+            {12, ClientId(2u), 2, kOther, SetJoint{JointId(1u), 1, MotorMode::kPosition, 0.25, 8.5}}};
 }
 
 std::vector<Message> one_of_each() {
@@ -193,6 +194,65 @@ TEST(Codec, RefusesFramesThatWereCutShortAndTellOfRobots) {
     frame.robots.clear();
     frame.earlier.push_back({kRobot, {}});
     EXPECT_FALSE(decode_envelope(encode(envelope_of(frame))).ok());
+}
+
+bool accepted(Message message) {
+    return decode_envelope(encode(envelope_of(std::move(message)))).ok();
+}
+
+TEST(Codec, RefusesTicksWhoseSumsOverflow) {
+    constexpr Tick kLowest = std::numeric_limits<Tick>::min(), kHighest = std::numeric_limits<Tick>::max();
+    for (const Tick wrong : {kLowest, Tick{-2}, (Tick{1} << 60) + 1, kHighest}) {
+        EXPECT_FALSE(accepted(ClientWord{ClientId(0u), 1, wrong, {}})) << wrong;
+        EXPECT_FALSE(accepted(ClientWelcome{ClientId(0u), wrong, 1})) << wrong;
+        EXPECT_FALSE(accepted(Observation{wrong, 0, {}})) << wrong;
+        EXPECT_FALSE(accepted(StateRequest{wrong, {}, 0})) << wrong;
+        EXPECT_FALSE(accepted(StateReply{{wrong, {}, {}, {}}, 0})) << wrong;
+        EXPECT_FALSE(accepted(ViewDue{0, 0, wrong, {}, {}, {}})) << wrong;
+        EXPECT_FALSE(accepted(ViewStates{0, 0, 0, wrong, {}})) << wrong;
+        EXPECT_FALSE(accepted(OrdersAhead{1, SimulatorId(0u), {{wrong, {}, 0, kRobot, SetVelocity{}}}}))
+            << wrong;
+        EXPECT_FALSE(accepted(ClientHello{"a", 1, 1, 1, true, false, wrong, 0, 0})) << wrong;
+        Frame frame;
+        frame.islands.push_back({1, 0, 0, kRobot, wrong});
+        EXPECT_FALSE(accepted(frame)) << wrong;
+        for (Tick Plan::*tick : {&Plan::window_from, &Plan::from, &Plan::until, &Plan::release_before}) {
+            Plan plan;
+            plan.island_offsets = {0};
+            plan.*tick = wrong;
+            EXPECT_FALSE(accepted(plan)) << wrong;
+        }
+    }
+    EXPECT_TRUE(accepted(ClientWord{ClientId(0u), 1, -1, {}})) << "it has seen nothing yet";
+    EXPECT_TRUE(accepted(ClientWelcome{ClientId(0u), Tick{1} << 60, 1}));
+}
+
+TEST(Codec, RefusesPlansWithOrdersForTicksThatTheyDoNotStep) {
+    Plan plan;
+    plan.window_from = 10, plan.from = 12, plan.until = 20;
+    plan.island_offsets = {0};
+    for (const Tick tick : {Tick{11}, Tick{12}, Tick{19}, Tick{20}}) {
+        plan.orders = {{tick, ClientId(0u), 1, kRobot, SetVelocity{}}};
+        EXPECT_EQ(accepted(plan), tick == 12 || tick == 19) << tick;
+    }
+}
+
+TEST(Codec, RefusesBoundsThatAreNoNumbers) {
+    for (std::size_t k = 0; k < 6; ++k) {
+        Box32 box{{-1, 0, 2}, {3, 4, 5}};
+        (k < 3 ? box.min : box.max)[k % 3] = std::numeric_limits<float>::quiet_NaN();
+        Frame frame;
+        frame.robots.push_back({kRobot, box, {}, {}, 0});
+        EXPECT_FALSE(accepted(frame)) << k;
+        frame = {};
+        frame.earlier.push_back({kRobot, box});
+        EXPECT_FALSE(accepted(frame)) << k;
+    }
+}
+
+TEST(Codec, RefusesSimulatorsWithoutThreadsOrWithTooMany) {
+    for (const std::uint32_t threads : {0u, 1u, 1024u, 0xFFFFFFFFu})
+        EXPECT_EQ(accepted(Hello{1, threads, "here"}), threads == 1 || threads == 1024) << threads;
 }
 
 TEST(Codec, KeepsRobotsOfAFrameInAnyOrder) {

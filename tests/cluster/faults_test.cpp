@@ -232,6 +232,28 @@ TEST(Faults, JoiningLateAndLeavingInGoodOrderLosesNothing) {
     EXPECT_EQ(cluster.controller().counters().recoveries, 0u);
 }
 
+/// Who leaves finishes its window; if islands touched in it, nobody is left to step them together.
+TEST(Faults, AllSimulatorsMayLeaveInAWindowThatHasToBeRepeated) {
+    const auto model = carts_world(4);
+    const std::uint64_t expected = undisturbed_hash(model);
+    ControllerOptions options;
+    options.forecast.blind = true;
+    std::uint64_t repeated = 0, left = 0;
+    for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        FaultyCluster cluster(model, options, {seed, 0, 0, 2}, {0, 0, 4000, 0, 20'000}, 1);
+        add_programs(cluster);
+        ASSERT_TRUE(cluster.run_until(kTicks)) << "stuck at tick " << cluster.controller().tick();
+        EXPECT_EQ(cluster.controller().hash(), expected);
+        EXPECT_EQ(cluster.controller().counters().losses, 0u);
+        repeated += cluster.controller().counters().windows_repeated;
+        for (const std::string& notice : cluster.controller().take_notices())
+            left += notice.find("left at tick") != std::string::npos ? 1 : 0;
+    }
+    EXPECT_GT(repeated, 30u);
+    EXPECT_GT(left, 100u);
+}
+
 TEST(Faults, AClientThatFallsSilentIsGivenUp) {
     const auto model = carts_world(2);
     for (const bool synchronous : {true, false}) {
