@@ -13,11 +13,13 @@ namespace roboss {
 /// Level 1: puts the robot (SDF model) frame at X_WR; joints keep their coordinates, velocities are kept.
 struct SetPose {
     Pose X_WR;
+    friend bool operator==(const SetPose&, const SetPose&) = default;
 };
 
 /// Level 2: base velocity in world axes (of the base origin). Only for free bases.
 struct SetVelocity {
     Vec3 linear, angular;
+    friend bool operator==(const SetVelocity&, const SetVelocity&) = default;
 };
 
 /// Level 3: force at the link's centre of mass and torque, world axes, for `duration` ticks (at least 1).
@@ -25,6 +27,7 @@ struct ApplyWrench {
     LinkId link;
     Vec3 force, torque;
     Tick duration = 1;
+    friend bool operator==(const ApplyWrench&, const ApplyWrench&) = default;
 };
 
 /// Level 4: latches a setpoint of one degree of freedom of a joint. A negative max_effort means the joint's
@@ -35,6 +38,7 @@ struct SetJoint {
     MotorMode mode = MotorMode::kVelocity;
     double target = 0;
     double max_effort = -1;
+    friend bool operator==(const SetJoint&, const SetJoint&) = default;
 };
 
 using Action = std::variant<SetPose, SetVelocity, ApplyWrench, SetJoint>;
@@ -45,6 +49,7 @@ struct Order {
     std::uint64_t sequence = 0;  // per Client, ascending
     RobotId robot;
     Action action;
+    friend bool operator==(const Order&, const Order&) = default;
 };
 
 /// Canonical order: (apply_at, client, sequence).

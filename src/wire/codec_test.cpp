@@ -19,6 +19,8 @@ std::vector<Order> some_orders() {
             {12, ClientId(2u), 2, kOther, SetJoint{JointId(1u), 1, MotorMode::kPosition, 0.25, 8.5}}};
 }
 
+/// Of each kind one in which no field has the value that it has in a message just made, so that none can get
+/// lost unnoticed.
 std::vector<Message> one_of_each() {
     Plan plan{2,
               17,
@@ -40,9 +42,9 @@ std::vector<Message> one_of_each() {
                 17,
                 1,
                 0,
-                {{kRobot, {}, {1, 2, 3}, {4, 5, 6}, 77}},
-                {{kRobot, {}}},
-                {{100, 5, 2, kRobot, 12}, {1ull << 63, 0x3FFF, 0x4000, {}, 0}}};
+                {{kRobot, {{-1, 0, 2}, {3, 4, 5}}, {1, 2, 3}, {4, 5, 6}, 77}},
+                {{kOther, {{-6, 7, 8}, {9, 10, 11}}}},
+                {{100, 5, 2, kRobot, 12, JointId(3u), true}, {1ull << 63, 0x3FFF, 0x4000, {}, 0, {}, false}}};
     StateReply reply{{12, {kRobot, kOther}, {2, 3}, {1, 2, 3, 4, 5}}, 17};
     std::vector<ClientOrder> orders;
     for (const Order& o : some_orders()) orders.push_back({o.sequence, o.robot, o.action});
@@ -57,7 +59,7 @@ std::vector<Message> one_of_each() {
             frame,
             StateRequest{12, {kRobot, kOther}, 17},
             reply,
-            ClientHello{"driver", 5, 20, 20, true, true, 40, 3, 5},
+            ClientHello{"driver", 5, 20, 10, false, true, 40, 3, 5},
             ClientWelcome{ClientId(0u), 40, 99},
             Observation{40, 3, {{{Role::kController, 0}, {kRobot}}}},
             ClientWord{ClientId(0u), 4, 40, orders},
@@ -70,11 +72,12 @@ std::vector<Message> one_of_each() {
             ControlRequest{3, {"step", "10"}},
             ControlReply{3, true, "at tick 10"},
             ModelChanged{99},
-            ViewRequest{5, 33, 100, false, {kRobot}},
+            ViewRequest{5, 33, 100, true, {kRobot}},
             ViewDue{2, 77, 1000, {Role::kClient, 4}, {kRobot, kOther}, {kOther}},
             ViewStates{5, 2, 77, 1000, {1, 2, 3, 4}},
             OrdersAhead{16, SimulatorId(3u), some_orders()},
             Late{2, 17, 1, 4'000'000},
+            Frame{2, 17, 1, 9, {}, {}, {{100, 5, 2, {}, 0, {}, false}}},
             Cut{2, 17, 1, SimulatorId(3u)}};
 }
 
@@ -91,30 +94,10 @@ TEST(Codec, GivesBackEveryMessageAsItWas) {
         ASSERT_TRUE(back.ok()) << back.error().text();
         EXPECT_EQ(back.value().message.index(), message.index());
         EXPECT_EQ(back.value().from, (Address{Role::kSimulator, 3}));
+        EXPECT_TRUE(back.value().message == message) << message_name(message);
         EXPECT_EQ(encode(back.value()), bytes) << message_name(message);
     }
     EXPECT_EQ(std::count(met.begin(), met.end(), false), 0) << "a kind of message is not tested";
-}
-
-TEST(Codec, KeepsTheFieldsOfPlansAndFrames) {
-    for (const Message& message : one_of_each()) {
-        const Result<Envelope> back = decode_envelope(encode(envelope_of(message)));
-        if (const auto* plan = std::get_if<Plan>(&message)) {
-            const Plan& got = std::get<Plan>(back.value().message);
-            EXPECT_EQ(got.robots, plan->robots);
-            EXPECT_EQ(got.until, 26);
-            EXPECT_EQ(got.hand_offs, plan->hand_offs);
-            EXPECT_EQ(got.gives, plan->gives);
-            ASSERT_EQ(got.orders.size(), 4u);
-            EXPECT_EQ(std::get<SetPose>(got.orders[0].action).X_WR,
-                      std::get<SetPose>(plan->orders[0].action).X_WR);
-            EXPECT_EQ(std::get<ApplyWrench>(got.orders[2].action).duration, 12);
-            EXPECT_EQ(std::get<SetJoint>(got.orders[3].action).mode, MotorMode::kPosition);
-        }
-        if (const auto* frame = std::get_if<Frame>(&message)) {
-            EXPECT_EQ(std::get<Frame>(back.value().message), *frame);
-        }
-    }
 }
 
 TEST(Codec, RefusesEveryTruncation) {
@@ -214,7 +197,7 @@ TEST(Codec, RefusesTicksWhoseSumsOverflow) {
             << wrong;
         EXPECT_FALSE(accepted(ClientHello{"a", 1, 1, 1, true, false, wrong, 0, 0})) << wrong;
         Frame frame;
-        frame.islands.push_back({1, 0, 0, kRobot, wrong});
+        frame.islands.push_back({1, 0, 0, kRobot, wrong, {}, false});
         EXPECT_FALSE(accepted(frame)) << wrong;
         for (Tick Plan::*tick : {&Plan::window_from, &Plan::from, &Plan::until, &Plan::release_before}) {
             Plan plan;
@@ -270,7 +253,7 @@ TEST(Codec, TakesSixtyFourBytesARobotWhereASimulatorHasFour) {
     Frame frame{1000, 100'000, 3, 0, {}, {}, {}};
     for (std::uint32_t id = 100; id < 104; ++id) {
         frame.robots.push_back({RobotId(id), {{-1, 0, 2}, {3, 4, 5}}, {}, {}, ~0ull});
-        frame.islands.push_back({2'000'000, 1000, 1000, {}, 0});
+        frame.islands.push_back({2'000'000, 1000, 1000, {}, 0, {}, false});
     }
     EXPECT_LE(encode(envelope_of(frame)).size(), 4 * 64u);
 }
