@@ -86,6 +86,7 @@ struct Counters {
     std::uint64_t contacts = 0, static_contacts = 0;  // summed over ticks
     double step_cpu_s = 0;                            // all stepping, repeats included
     double critical_cpu_s = 0;  // of the busiest Simulator of each attempt: what many machines would wait for
+    std::uint64_t silences = 0;  // of the losses, those noticed by silence alone
     std::uint64_t losses = 0, recoveries = 0, migrations = 0, checkpoints = 0, orders_refused = 0;
     std::uint64_t orders_ahead = 0;  // told before the plan of their window
     std::uint64_t cuts = 0;          // plans that were late and of which others took a part over
