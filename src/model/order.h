@@ -52,11 +52,23 @@ struct Order {
     friend bool operator==(const Order&, const Order&) = default;
 };
 
+/// What an order may ask for at most, in size (docs/physics.md, "Ranges"): more than any robot does, and so
+/// little that sums and products of a step stay numbers. One order beyond them would end the run for
+/// everybody.
+struct OrderLimits {
+    double position = 1e9;   // m: coordinates of a pose; rad or m: target of a joint's position
+    double speed = 1e5;      // m/s: of a base; m/s or rad/s: target of a joint's velocity
+    double turn_rate = 1e5;  // rad/s, of a base
+    double force = 1e9;      // N: on a link; N or N m: target of a joint's effort
+    double torque = 1e9;     // N m, on a link
+};
+inline constexpr OrderLimits kOrderLimits;
+
 /// Canonical order: (apply_at, client, sequence).
 bool comes_before(const Order& a, const Order& b);
 
-/// What is wrong with the order for this Model (unknown robot, link or joint, number that is not finite,
-/// velocity of a fixed base ...), in words, or Ok.
+/// What is wrong with the order for this Model (unknown robot, link or joint, number that is not finite or
+/// beyond kOrderLimits, velocity of a fixed base ...), in words, or Ok.
 Result<> check_order(const Model& model, const Order& order);
 
 /// Applies a checked order to the robot's state, and wakes it.
