@@ -258,7 +258,10 @@ class Controller {
     void commit();
     void learn_costs();
     void learn_rates(std::span<const double> expected_ns, std::span<const double> spent_ns);
-    std::optional<Error> failed_island() const;
+    const IslandFrame* first_failure() const;
+    void end_before(const IslandFrame& failure);
+    void drop_round();
+    std::string part_of(RobotId robot, JointId joint) const;
 
     // controller_help.cpp: who is done takes over from who is late
     void expect_work();
@@ -310,6 +313,7 @@ class Controller {
     std::optional<Tick> log_tick_;  // of the checkpoint for the log that is under way
     Tick log_tried_ = -1;           // tick of the last one, whatever came of it
     std::optional<RunCheckpoint> log_checkpoint_;
+    std::optional<Tick> ends_at_;  // in this tick a state ceases to be finite
     bool started_ = false;
     std::vector<std::uint64_t> hashes_, next_hashes_;  // by RobotId: committed; of the round
     std::vector<std::uint32_t> holder_;                // by RobotId: place of its state at tick_

@@ -161,8 +161,10 @@ bool Round::suits(const Plan& plan, const Frame& frame) const {
     return told && frame.islands.size() + 1 == plan.island_offsets.size() &&
            std::all_of(frame.earlier.begin(), frame.earlier.end(),
                        [&](const EarlierBox& e) { return known(e.robot); }) &&
-           std::all_of(frame.islands.begin(), frame.islands.end(),
-                       [&](const IslandFrame& i) { return !i.failed.valid() || known(i.failed); });
+           std::all_of(frame.islands.begin(), frame.islands.end(), [&](const IslandFrame& i) {
+               return !i.failed.valid() ||
+                      (known(i.failed) && plan.from <= i.failed_at && i.failed_at < plan.until);
+           });
 }
 
 void Round::spend(std::uint32_t place, std::uint64_t cost_ns) {
