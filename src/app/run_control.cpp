@@ -7,10 +7,11 @@
 #include <fstream>
 
 #include "app/orders_file.h"
+#include "app/private_folder.h"
 #include "app/run.h"
-#include "core/hash.h"
 #include "model/accuracy.h"
 #include "model/edit.h"
+#include "model/order.h"
 #include "sdf/load_world.h"
 
 namespace roboss {
@@ -51,7 +52,7 @@ std::optional<Pose> pose_of(const std::string& text) {
     std::istringstream in(text);
     double x[6] = {};
     for (double& value : x)
-        if (!(in >> value) || !std::isfinite(value)) return std::nullopt;
+        if (!(in >> value) || !(std::fabs(value) <= kOrderLimits.position)) return std::nullopt;
     std::string rest;
     if (in >> rest) return std::nullopt;
     return Pose{{x[0], x[1], x[2]}, from_rpy(x[3], x[4], x[5])};
@@ -232,21 +233,20 @@ Answer Run::change_accuracy(const Words& words) {
 /// add FILE CONTENT POSE NAME: the content comes along, for the file may be on another computer.
 Answer Run::add_models(const Words& words) {
     const std::optional<Pose> X_WA = pose_of(words[3]);
-    if (!X_WA) return Error{"'" + words[3] + "' is not a pose", "give \"x y z roll pitch yaw\", m and rad"};
-    namespace fs = std::filesystem;
-    std::error_code error;
-    const fs::path folder = fs::temp_directory_path(error) /
-                            fmt::format("roboss-add-{}", to_hex(std::hash<std::string>()(words[2])));
-    fs::create_directories(folder, error);
-    const fs::path file = folder / fs::path(words[1]).filename();
+    if (!X_WA)
+        return Error{"'" + words[3] + "' is not a pose",
+                     "give \"x y z roll pitch yaw\", m and rad, none above 1e9"};
+    const std::optional<PrivateFolder> folder = PrivateFolder::make("add");
+    if (!folder)
+        return Error{"there is no room for temporary files", "set TMPDIR to a folder that can be written"};
+    const std::filesystem::path file = folder->path() / std::filesystem::path(words[1]).filename();
     if (!(std::ofstream(file) << words[2]))
-        return Error{file.string() + " cannot be written", "make room there"};
+        return Error{file.string() + " cannot be written", "make room there, and name a file"};
     Diagnostics found;
     std::optional<World> world = load_world(file.string(), {o_.paths, {}, is_shown()}, found);
     CompileOptions options;
     options.dt_s = model_->dt_s;
     const auto addition = world && !found.has_errors() ? compile(*world, options, found) : nullptr;
-    fs::remove_all(folder, error);
     if (!addition) return Error{first_error(found), "mend the file"};
     for (const Diagnostic& d : found.items())
         if (d.severity == Severity::kWarning) notices_.push_back(to_text(d));

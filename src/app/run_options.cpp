@@ -124,7 +124,7 @@ void add_pace_options(CLI::App& command, RunOptions& o) {
 }
 
 /// What is written and shown of a run.
-void add_watch_options(CLI::App& command, RunOptions& o) {
+void add_watch_options(CLI::App& command, RunOptions& o, ViewerDefault viewer) {
     command.add_option("--trace", o.trace, "write poses and velocities of all links to this CSV file");
     command
         .add_option("--trace-every", o.trace_every_s,
@@ -148,7 +148,7 @@ void add_watch_options(CLI::App& command, RunOptions& o) {
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     command.add_option("--picture", o.paths_picture, "draw where the robots went into this SVG file");
-    add_viewer_options(command, o.viewer, true);
+    add_viewer_options(command, o.viewer, viewer);
     command.add_flag("--quiet", o.quiet, "no progress, only the summary");
 }
 
@@ -205,7 +205,7 @@ void add_common_options(CLI::App& command, RunOptions& o) {
         "seed of sensor noise and control programs (default: that of --from or of the journal, else 0)");
     add_kept_options(command, o);
     add_pace_options(command, o);
-    add_watch_options(command, o);
+    add_watch_options(command, o, ViewerDefault::kOn);
 }
 
 }  // namespace
@@ -229,7 +229,7 @@ void add_replay_options(CLI::App& command, RunOptions& o) {
     command.footer(kReplayFooter);
     command.add_option("journal", o.replay, "FILE, FILE@TIME to begin later, FILE#BRANCH@TIME")->required();
     add_pace_options(command, o);
-    add_watch_options(command, o);
+    add_watch_options(command, o, ViewerDefault::kOnDemand);
     command.add_option("--simulators", o.simulators, "Simulators that share the robots, all in this process")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();

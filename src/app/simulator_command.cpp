@@ -75,6 +75,7 @@ class SimulatorProcess {
                 if (!member_.bus().present(kControllerAddress) || now - asked_ms > kGoodbye_ms) return true;
             }
             simulator.advance(member_.bus());
+            for (const std::string& line : simulator.take_notices()) member_.say(line);
             if (!member_.wait()) return false;
         }
         return true;

@@ -33,7 +33,7 @@ std::string to_json(const Summary& s) {
     o["cuts"] = s.cuts;
     o["model_hash"] = to_hex(s.model_hash);
     o["state_hash"] = to_hex(s.state_hash);
-    return o.dump(2) + "\n";
+    return o.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string to_text(const Summary& s) {

@@ -48,7 +48,7 @@ void add_view_command(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("view", "show a running Controller's world to browsers");
     command->footer(kFooter);
     auto options = std::make_shared<ViewCommandOptions>();
-    add_viewer_options(*command, options->viewer, false);
+    add_viewer_options(*command, options->viewer, ViewerDefault::kAlways);
     add_member_options(*command, options->member);
     command->callback([options, &exit_code] { exit_code = view(*options); });
 }

@@ -5,20 +5,28 @@
 
 namespace roboss {
 
-void add_viewer_options(CLI::App& command, ViewerOptions& o, bool may_do_without) {
+void add_viewer_options(CLI::App& command, ViewerOptions& o, ViewerDefault by_default) {
     const std::string group = "Viewer (docs/viewer.md)";
-    command
-        .add_option(
-            "--view", o.listen,
+    const bool on_demand = by_default == ViewerDefault::kOnDemand;
+    CLI::Option* view = command.add_option(
+        "--view", o.listen,
+        std::string(on_demand ? "show it to browsers, at " : "") +
             "[ADDRESS:]PORT at which browsers find the viewer; if the port is taken, the next one. The "
-            "default address is this computer's own; on any other the address printed carries a token")
-        ->group(group)
-        ->capture_default_str();
+            "default address is this computer's own; on any other the address printed carries a token");
+    view->group(group);
+    o.headless = on_demand;
+    if (on_demand)
+        view->each([&o](const std::string&) { o.headless = false; });
+    else
+        view->capture_default_str();
     command
         .add_option("--web", o.page_folder, "folder of the viewer's page (default: as built or installed)")
         ->check(CLI::ExistingDirectory)
         ->group(group);
-    if (may_do_without) command.add_flag("--headless", o.headless, "no viewer")->group(group);
+    if (by_default == ViewerDefault::kOn)
+        command.add_flag("--headless", o.headless, "no viewer")->group(group);
+    else if (on_demand)  // as scripts may say for `run`, too
+        command.add_flag("--headless", "no viewer (the default)")->excludes(view)->group(group);
 }
 
 Result<std::unique_ptr<Gateway>> open_viewer(const ViewerOptions& o, bool journal) {

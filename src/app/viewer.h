@@ -14,8 +14,12 @@ struct ViewerOptions {
     std::string page_folder;      // empty: where it was built or installed
     bool headless = false;        // none at all
 };
-/// `may_do_without`: with --headless.
-void add_viewer_options(CLI::App& command, ViewerOptions& options, bool may_do_without);
+enum class ViewerDefault {
+    kAlways,    // there is a viewer
+    kOn,        // unless --headless says no
+    kOnDemand,  // only if --view asks for it
+};
+void add_viewer_options(CLI::App& command, ViewerOptions& options, ViewerDefault by_default);
 
 /// Listens; `journal`: the run keeps one.
 Result<std::unique_ptr<Gateway>> open_viewer(const ViewerOptions& options, bool journal);

@@ -28,6 +28,19 @@ void FaultyBus::post(const Address& to, std::vector<std::uint8_t> bytes) {
     under_way_[to].emplace(std::pair{now_ms_ + delay, random(1u << 20) << 40 | ++serial_}, std::move(bytes));
 }
 
+void FaultyBus::garble(const Address& to, std::vector<std::uint8_t> bytes) {
+    for (std::uint64_t k = 0; k < 1 + random(3); ++k)
+        bytes[random(bytes.size())] = static_cast<std::uint8_t>(random(4) == 0 ? 0xFF : random(256));
+    const Result<Envelope> envelope = decode_envelope(bytes);
+    if (!envelope) return void(++refused_);
+    constexpr Tick kLongest = 500;  // a plan of years is stepped for years
+    if (const auto* plan = std::get_if<Plan>(&envelope.value().message);
+        plan && plan->until - plan->from > kLongest)
+        return;
+    ++garbled_[message_name(envelope.value().message)];
+    post(to, std::move(bytes));
+}
+
 void FaultyBus::send(const Address& from, const Address& to, Message message) {
     if (cut_.contains(from) || cut_.contains(to)) return;
     if (chance(options_.drop)) {
@@ -35,6 +48,7 @@ void FaultyBus::send(const Address& from, const Address& to, Message message) {
         return;
     }
     std::vector<std::uint8_t> bytes = encode(Envelope{from, to, std::move(message)});
+    if (options_.garble > 0 && chance(options_.garble)) garble(to, bytes);
     if (chance(options_.duplicate)) {
         ++doubled_;
         post(to, bytes);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <set>
+#include <string>
 
 #include "bus/bus.h"
 
@@ -15,6 +16,8 @@ struct FaultOptions {
     std::uint64_t seed = 1;
     double drop = 0.05, duplicate = 0.05;  // probabilities
     std::int64_t delay_ms_max = 8;         // each message is delayed by 0 .. this, so later ones overtake
+    /// Probability that a copy goes along in which some bytes are others, if it can still be decoded.
+    double garble = 0;
 };
 
 class FaultyBus : public Bus {
@@ -38,9 +41,13 @@ class FaultyBus : public Bus {
 
     std::uint64_t dropped() const { return dropped_; }
     std::uint64_t doubled() const { return doubled_; }
+    /// By kind of message: copies that went along garbled; garbled ones that the decoder refused.
+    const std::map<std::string, std::uint64_t>& garbled() const { return garbled_; }
+    std::uint64_t refused() const { return refused_; }
 
   private:
     bool chance(double probability);
+    void garble(const Address& to, std::vector<std::uint8_t> bytes);
     void post(const Address& to, std::vector<std::uint8_t> bytes);
 
     FaultOptions options_;
@@ -50,6 +57,8 @@ class FaultyBus : public Bus {
     // by receiver: (due time, serial) -> bytes
     std::map<Address, std::map<std::pair<std::int64_t, std::uint64_t>, std::vector<std::uint8_t>>> under_way_;
     std::set<Address> cut_;
+    std::map<std::string, std::uint64_t> garbled_;
+    std::uint64_t refused_ = 0;
     std::vector<Address> rumours_;
 };
 

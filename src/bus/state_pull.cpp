@@ -62,7 +62,8 @@ std::optional<RobotState> StatePull::take(const Model& model, const StateBlock& 
                                           std::size_t offset) {
     const RobotId robot = block.robots[i];
     if (robot.index() >= wanted_.size() || !wanted_[robot.index()]) return std::nullopt;
-    Result<RobotState> state = decode_state(state_bytes(block, i, offset), model.type_of(robot));
+    Result<RobotState> state =
+        decode_state(state_bytes(block, i, offset), model.type_of(robot), model.robots.size());
     if (!state) return std::nullopt;
     wanted_[robot.index()] = false;
     --missing_;

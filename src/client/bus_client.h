@@ -27,7 +27,10 @@ class BusClient : public Client {
 
     const Model& model() const override { return *model_; }
     Tick tick() const override { return tick_; }
-    const RobotState& state(RobotId robot) const override { return states_[robot.index()]; }
+    const RobotState& state(RobotId robot) const override {
+        (void)known(robot);
+        return states_[robot.index()];
+    }
     std::uint64_t seed() const override { return seed_; }
     Result<> order(RobotId robot, const Action& action) override;
     void control(std::vector<std::string> words) override;

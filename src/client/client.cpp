@@ -3,22 +3,87 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <stdexcept>
+#include <variant>
 
 #include "client/measure.h"
-#include "core/check.h"
 
 namespace roboss {
 
+namespace {
+
+constexpr const char* kKindNames[] = {"a laser", "a GPS receiver", "a compass",
+                                      "an odometer"};  // in the order of Sample
+static_assert(std::size(kKindNames) == std::variant_size_v<Sample>);
+
+[[noreturn]] void refuse(const std::string& message, const std::string& remedy) {
+    throw std::invalid_argument(Error{message, remedy}.text());
+}
+
+std::string called(const Robot& robot) {
+    return "robot '" + robot.name + "'";
+}
+
+/// "it has 0 'gps', 1 'scan'"
+template <class Items, class Name>
+std::string what_it_has(const Items& items, const Name& name_of) {
+    std::string text;
+    for (std::size_t i = 0; i < items.size(); ++i)
+        text += (text.empty() ? "" : ", ") + std::to_string(i) + " '" + name_of(items[i]) + "'";
+    return text.empty() ? "it has none" : "it has " + text;
+}
+
+}  // namespace
+
+const Robot& Client::known(RobotId robot) const {
+    const std::vector<Robot>& robots = model().robots;
+    if (robot.index() < robots.size()) return robots[robot.index()];
+    refuse("there is no robot number " + std::to_string(robot.value),
+           "the world has " + std::to_string(robots.size()) + " robots, counted from 0");
+}
+
+const RobotType& Client::known_type(RobotId robot, LinkId link) const {
+    const std::string name = called(known(robot));
+    const RobotType& type = model().type_of(robot);
+    if (link.index() < type.links.size()) return type;
+    refuse(name + " has no link number " + std::to_string(link.value),
+           what_it_has(type.links, [](const Link& l) { return l.name; }));
+}
+
+const SensorSpec& Client::known_sensor(RobotId robot, std::size_t sensor) const {
+    const std::string name = called(known(robot));
+    const std::vector<SensorInfo>& sensors = model().type_of(robot).sensors;
+    if (sensor >= sensors.size())
+        refuse(name + " has no sensor number " + std::to_string(sensor),
+               what_it_has(sensors, [](const SensorInfo& s) { return s.spec.name; }));
+    const SensorSpec& spec = sensors[sensor].spec;
+    if (spec.kind == SensorKind::kUnsupported)
+        refuse("sensor " + std::to_string(sensor) + " '" + spec.name + "' of " + name +
+                   " is of a kind that measures nothing (" + spec.sdf_type + ")",
+               "`roboss check` tells which sensors measure");
+    return spec;
+}
+
 Transform Client::pose(RobotId robot, LinkId link) const {
-    return link_pose(model().type_of(robot), state(robot), link);
+    return link_pose(known_type(robot, link), state(robot), link);
 }
 
 Twist Client::twist(RobotId robot, LinkId link) const {
-    return link_twist(model().type_of(robot), state(robot), link);
+    return link_twist(known_type(robot, link), state(robot), link);
 }
 
 JointState Client::joint(RobotId robot, JointId joint, int axis) const {
-    return joint_state(model().type_of(robot), state(robot), joint, axis);
+    const std::string name = called(known(robot));
+    const RobotType& type = model().type_of(robot);
+    if (joint.index() >= type.joints.size())
+        refuse(name + " has no joint number " + std::to_string(joint.value),
+               what_it_has(type.joints, [](const Joint& j) { return j.name; }));
+    const Joint& known_joint = type.joints[joint.index()];
+    if (axis < 0 || axis >= known_joint.nv)
+        refuse("joint '" + known_joint.name + "' of " + name + " has no axis " + std::to_string(axis),
+               "it has " + std::to_string(known_joint.nv) + " degrees of freedom, counted from 0");
+    return joint_state(type, state(robot), joint, axis);
 }
 
 Result<> Client::set_pose(RobotId robot, const Pose& X_WR) {
@@ -44,8 +109,6 @@ Result<> Client::set_joint(RobotId robot, JointId joint, MotorMode mode, double 
 }
 
 Sample Client::measure(RobotId robot, std::size_t sensor) {
-    const RobotType& type = model().type_of(robot);
-    ROBOSS_CHECK(sensor < type.sensors.size(), type.name + " has no sensor number " + std::to_string(sensor));
     return roboss::measure({model(), robot, sensor, state(robot), tick(), seed()},
                            [this]() -> RayScene& { return ray_scene(); });
 }
@@ -53,18 +116,17 @@ Sample Client::measure(RobotId robot, std::size_t sensor) {
 /// The sample that the sensor holds, or a new one where it has no rate or holds none yet.
 template <class Reading>
 Reading Client::sampled(RobotId robot, std::size_t sensor) {
+    const SensorSpec& spec = known_sensor(robot, sensor);
+    const std::size_t asked = Sample(Reading{}).index(), is = static_cast<std::size_t>(spec.kind);
+    if (is != asked)
+        refuse("sensor " + std::to_string(sensor) + " '" + spec.name + "' of " + called(known(robot)) +
+                   " is read as " + kKindNames[asked],
+               std::string("it is ") + kKindNames[is]);
     const HeldSamples::Key key{robot.value, static_cast<std::uint32_t>(sensor)};
     const Sample* held = samples_.find(key);
-    Sample fresh;
-    if (held == nullptr) {
-        fresh = measure(robot, sensor);
-        const bool rated = model().type_of(robot).sensors[sensor].spec.update_rate_hz > 0;
-        held = rated ? &samples_.put(key, std::move(fresh)) : &fresh;
-    }
-    const Reading* reading = std::get_if<Reading>(held);
-    ROBOSS_CHECK(reading != nullptr, "sensor number " + std::to_string(sensor) + " of a " +
-                                         model().type_of(robot).name + " is of another kind");
-    return *reading;
+    if (held != nullptr) return std::get<Reading>(*held);
+    Sample fresh = measure(robot, sensor);
+    return std::get<Reading>(spec.update_rate_hz > 0 ? samples_.put(key, std::move(fresh)) : fresh);
 }
 
 void Client::renew_samples() {
@@ -124,6 +186,7 @@ std::span<const ContactReport> Client::contacts() {
 }
 
 std::vector<JointReaction> Client::joint_reactions(RobotId robot) {
+    (void)known(robot);
     return probe().joint_reactions(robot);
 }
 

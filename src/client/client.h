@@ -28,6 +28,9 @@ struct ControlAnswer {
     std::string text;  // what was done, or why not
 };
 
+/// Questions about a robot, link, joint or sensor that does not exist throw std::invalid_argument, which
+/// names what was asked and what there is; so does a question to a sensor of another kind. If a
+/// ControlProgram lets it pass, the run ends with that text.
 class Client {
   public:
     virtual ~Client() = default;
@@ -83,6 +86,8 @@ class Client {
     Result<> restore_samples(const std::string& bytes);
 
   protected:
+    /// The robot; throws if there is none.
+    const Robot& known(RobotId robot) const;
     /// Whoever implements a Client calls it when a new observation is shown.
     void renew_samples();
     /// The scene for rays at the observed tick; built when the first laser of a tick asks.
@@ -90,6 +95,8 @@ class Client {
 
   private:
     StepProbe& probe();
+    const RobotType& known_type(RobotId robot, LinkId link) const;
+    const SensorSpec& known_sensor(RobotId robot, std::size_t sensor) const;
     Sample measure(RobotId robot, std::size_t sensor);
     template <class Reading>
     Reading sampled(RobotId robot, std::size_t sensor);

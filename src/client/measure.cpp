@@ -5,7 +5,7 @@
 
 namespace roboss {
 
-Sample measure(const SensorMoment& at, const std::function<RayScene&()>& rays) {
+Sample measure(const SensorQuery& at, const std::function<RayScene&()>& rays) {
     const SensorSpec& spec = at.model.type_of(at.robot).sensors[at.sensor].spec;
     switch (spec.kind) {
         case SensorKind::kLaser:

@@ -8,7 +8,7 @@
 namespace roboss {
 
 /// Sensor number `sensor` of a robot in `state`; see sensors/readings.h.
-struct SensorMoment {
+struct SensorQuery {
     const Model& model;
     RobotId robot;
     std::size_t sensor = 0;
@@ -18,6 +18,6 @@ struct SensorMoment {
 };
 
 /// `rays`: asked for by lasers only. The sensor must be of a kind that measures.
-Sample measure(const SensorMoment& at, const std::function<RayScene&()>& rays);
+Sample measure(const SensorQuery& at, const std::function<RayScene&()>& rays);
 
 }  // namespace roboss

@@ -1,10 +1,13 @@
-// On loopback a page of another site could reach the gateway through the user's browser: by its own scripts
-// (then the browser names the Origin) or by a name that is made to point here (then Host is that name). Both
-// are looked at.
+// A page of another site can reach a gateway on loopback through the user's browser: by its own scripts (then
+// the browser names that site as Origin), or after the site's name was made to resolve to this computer (DNS
+// rebinding; then Host is that name). Both headers are checked, by parsed address and exact name.
 #include "gateway/access.h"
 
 #include <algorithm>
+#include <boost/asio/ip/address.hpp>
+#include <cctype>
 #include <charconv>
+#include <optional>
 #include <random>
 
 #include "core/hash.h"
@@ -12,10 +15,48 @@
 namespace roboss {
 namespace {
 
-/// "host", "host:port" or "[::1]:port" without the port.
-std::string_view without_port(std::string_view host) {
-    if (host.starts_with('[')) return host.substr(0, std::min(host.find(']') + 1, host.size()));
-    return host.substr(0, host.find(':'));
+std::optional<std::uint16_t> port_number(std::string_view text) {
+    std::uint16_t port = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
+    if (error != std::errc() || end != text.data() + text.size() || port == 0) return std::nullopt;
+    return port;
+}
+
+/// The host of a Host header ("HOST", "HOST:PORT" or "[IPV6]:PORT"), an IPv6 address without its brackets;
+/// empty if the header is anything else.
+std::string_view host_of(std::string_view header) {
+    const bool bracketed = header.starts_with('[');
+    const std::size_t end = bracketed ? header.find(']') : header.find(':');
+    const std::string_view host = header.substr(bracketed ? 1 : 0, bracketed ? end - 1 : end);
+    if (bracketed && (end == std::string_view::npos || host.find(':') == std::string_view::npos)) return {};
+    const std::string_view rest =
+        end == std::string_view::npos ? std::string_view() : header.substr(bracketed ? end + 1 : end);
+    if (!rest.empty() && (rest[0] != ':' || !port_number(rest.substr(1)))) return {};
+    return host;
+}
+
+/// Whether the header holds an IPv4 address, "localhost" or, in brackets, an IPv6 address of loopback. Every
+/// other name may resolve to this computer at the will of whoever owns it (DNS rebinding).
+bool names_loopback(std::string_view header) {
+    const std::string_view host = host_of(header);
+    const bool ipv6 = host.find(':') != std::string_view::npos;
+    return !host.empty() && ipv6 == header.starts_with('[') && is_loopback(host);
+}
+
+bool same_name(std::string_view a, std::string_view b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+/// Whether `origin` is the page that this server gives at `host`. Behind a proxy that speaks TLS it is https.
+bool same_origin(std::string_view origin, std::string_view host) {
+    for (const std::string_view scheme : {"http://", "https://"})
+        if (!host.empty() && origin.starts_with(scheme) && origin.substr(scheme.size()) == host) return true;
+    return false;
+}
+
+std::string quoted(std::string_view text) {
+    return "'" + std::string(text.substr(0, 80)) + "'";
 }
 
 /// The value of NAME=value among parts that `mark` parts.
@@ -47,8 +88,13 @@ std::string_view query_of(std::string_view target) {
 
 }  // namespace
 
-bool is_loopback(std::string_view address) {
-    return address == "localhost" || address == "::1" || address == "[::1]" || address.starts_with("127.");
+bool is_loopback(std::string_view host) {
+    if (same_name(host, "localhost")) return true;
+    // The parser would take the zone of an IPv6 address, and ends at a zero byte.
+    if (host.find_first_not_of("0123456789abcdefABCDEF.:") != std::string_view::npos) return false;
+    boost::system::error_code error;
+    const auto address = boost::asio::ip::make_address(std::string(host), error);
+    return !error && address.is_loopback();
 }
 
 Result<ListenAddress> parse_listen_address(const std::string& text) {
@@ -71,17 +117,16 @@ bool Access::named_token(const Visitor& visitor) const {
 }
 
 std::string Access::refusal(const Visitor& visitor) const {
-    if (token_.empty() && !is_loopback(without_port(visitor.host)))
-        return "it names another host, '" + std::string(visitor.host.substr(0, 80)) + "'";
+    if (visitor.hosts != 1) return "it has " + std::to_string(visitor.hosts) + " Host headers instead of one";
+    if (token_.empty() && !names_loopback(visitor.host))
+        return "it names another host, " + quoted(visitor.host);
     if (!token_.empty() && !named_token(visitor) &&
         !same_secret(value_of(visitor.cookie, "roboss_token", ';'), token_))
         return "it has not the token that was printed at the start";
-    if (!visitor.wants_socket || visitor.origin.empty()) return {};
-    const std::size_t mark = visitor.origin.find("://");
-    const std::string_view origin_host =
-        mark == std::string_view::npos ? std::string_view() : visitor.origin.substr(mark + 3);
-    if (origin_host.empty() || origin_host != visitor.host)
-        return "a page of '" + std::string(visitor.origin.substr(0, 80)) + "' may not use it";
+    if (!visitor.wants_socket) return {};
+    if (visitor.origins == 0) return "it does not name its Origin, as every browser does";
+    if (visitor.origins > 1 || !same_origin(visitor.origin, visitor.host))
+        return "a page of " + quoted(visitor.origin) + " may not use it";
     return {};
 }
 

@@ -17,12 +17,15 @@ struct ListenAddress {
 };
 Result<ListenAddress> parse_listen_address(const std::string& text);
 
-bool is_loopback(std::string_view address);
+/// `host`: "localhost" or an IP address in its usual form (dotted decimal, or IPv6 without brackets and
+/// zone).
+bool is_loopback(std::string_view host);
 
 /// Everything that decides about a request, as its headers say.
 struct Visitor {
     std::string_view host, origin, target, cookie;
     bool wants_socket = false;
+    std::size_t hosts = 1, origins = 1;  // how many of these headers the request has
 };
 
 class Access {

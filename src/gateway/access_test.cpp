@@ -16,17 +16,103 @@ TEST(Access, ReadsAddresses) {
         EXPECT_FALSE(parse_listen_address(wrong).ok()) << wrong;
 }
 
-TEST(Access, OnLoopbackHostAndOriginMustBeThisComputers) {
+/// Why a page whose address bar shows `host` is refused; empty: it is not.
+std::string refusal_of_page(const Access& access, std::string_view host) {
+    const std::string origin = "http://" + std::string(host);
+    const std::string page = access.refusal({host, "", "/", "", false, 1, 0});
+    const std::string socket = access.refusal({host, origin, "/ws", "", true});
+    EXPECT_EQ(page, socket);
+    return socket;
+}
+
+TEST(Access, OnLoopbackTheHostIsLocalhostOrAnAddressOfLoopback) {
     const Access access("");
-    EXPECT_EQ(access.refusal({"127.0.0.1:8090", "", "/", "", false}), "");
-    EXPECT_EQ(access.refusal({"localhost:8090", "http://localhost:8090", "/ws", "", true}), "");
-    EXPECT_EQ(access.refusal({"[::1]:8090", "http://[::1]:8090", "/ws", "", true}), "");
-    EXPECT_NE(access.refusal({"rebound.example:8090", "", "/", "", false}), "");
-    EXPECT_NE(access.refusal({"", "", "/", "", false}), "");
-    EXPECT_NE(access.refusal({"127.0.0.1:8090", "http://127.0.0.1:9000", "/ws", "", true}), "")
-        << "another port";
-    EXPECT_NE(access.refusal({"127.0.0.1:8090", "null", "/ws", "", true}), "");
-    EXPECT_EQ(access.refusal({"127.0.0.1:8090", "http://evil.example", "/", "", false}), "")
+    for (const char* host : {"127.0.0.1:8090", "127.0.0.1", "127.255.0.7:1", "localhost:8090", "localhost",
+                             "LocalHost:8090", "[::1]:8090", "[::1]", "[0:0:0:0:0:0:0:1]:8090"})
+        EXPECT_EQ(refusal_of_page(access, host), "") << host;
+}
+
+/// A foreign site may make any name of its own resolve to this computer.
+TEST(Access, ANameThatOnlyLooksLikeLoopbackIsRefused) {
+    const Access access("");
+    for (const char* host : {"127.evil.com",
+                             "127.evil.com:8090",
+                             "127.0.0.1.evil.com:8090",
+                             "localhost.evil.com:8090",
+                             "rebound.example:8090",
+                             "127.0.0.1.:8090",
+                             "localhost.:8090",
+                             "evil.localhost:8090",
+                             "127.:8090",
+                             "127",
+                             "127.1:8090",
+                             "2130706433:8090",
+                             "0x7f000001:8090",
+                             "0x7f.0.0.1:8090",
+                             "0177.0.0.1:8090",
+                             "017700000001",
+                             "127.0.0.01:8090",
+                             "127.0.0.256:8090",
+                             "127.0.0.1@evil.com:8090",
+                             "evil.com@127.0.0.1:8090",
+                             "user:word@localhost:8090",
+                             "127.0.0.1:8090@evil.com",
+                             "127.0.0.1,evil.com",
+                             "127.0.0.1 evil.com",
+                             "127.0.0.1/evil.com",
+                             "127.0.0.1#evil.com",
+                             "127.0.0.1\\evil.com",
+                             "0.0.0.0:8090",
+                             "[::]:8090",
+                             "[::2]:8090",
+                             "[::1].evil.com:8090",
+                             "[::1]evil.com",
+                             "[::1%25lo]:8090",
+                             "[::1%lo]:8090",
+                             "[::1",
+                             "::1",
+                             "::1:8090",
+                             "[127.0.0.1]:8090",
+                             "[localhost]:8090",
+                             "[::ffff:127.0.0.1.evil.com]",
+                             "[]:8090",
+                             "localhost:",
+                             "localhost:0",
+                             "localhost:http",
+                             "localhost:80:80",
+                             "localhost:+80",
+                             "localhost:65536",
+                             ":8090",
+                             ":",
+                             "[",
+                             "]",
+                             ""})
+        EXPECT_NE(refusal_of_page(access, host), "") << host;
+    EXPECT_NE(refusal_of_page(access, std::string_view("127.0.0.1\0.evil.com", 19)), "");
+}
+
+TEST(Access, ARequestHasOneHost) {
+    for (const Access& access : {Access(""), Access("secret")}) {
+        const char* target = "/?token=secret";
+        EXPECT_EQ(access.refusal({"127.0.0.1:8090", "", target, "", false, 1, 0}), "");
+        EXPECT_NE(access.refusal({"", "", target, "", false, 0, 0}), "") << "no Host";
+        EXPECT_NE(access.refusal({"127.0.0.1:8090", "", target, "", false, 2, 0}), "") << "two Hosts";
+    }
+}
+
+TEST(Access, AWebSocketIsForThePageOfThisServerOnly) {
+    const Access access("");
+    const char* host = "127.0.0.1:8090";
+    EXPECT_EQ(access.refusal({host, "http://127.0.0.1:8090", "/ws", "", true}), "");
+    EXPECT_EQ(access.refusal({host, "https://127.0.0.1:8090", "/ws", "", true}), "") << "a proxy's TLS";
+    for (const char* origin :
+         {"http://127.0.0.1:9000", "http://localhost:8090", "http://127.0.0.1", "http://evil.example", "null",
+          "127.0.0.1:8090", "http://", "file://127.0.0.1:8090", "http://127.0.0.1:8090.evil.com",
+          "http://127.0.0.1:8090@evil.com", "http://evil.com@127.0.0.1:8090", "http://127.0.0.1:8090/", ""})
+        EXPECT_NE(access.refusal({host, origin, "/ws", "", true}), "") << origin;
+    EXPECT_NE(access.refusal({host, "", "/ws", "", true, 1, 0}), "") << "no Origin";
+    EXPECT_NE(access.refusal({host, "http://127.0.0.1:8090", "/ws", "", true, 1, 2}), "") << "two Origins";
+    EXPECT_EQ(access.refusal({host, "http://evil.example", "/", "", false}), "")
         << "files: the browser itself keeps them from other sites";
 }
 

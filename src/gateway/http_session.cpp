@@ -8,6 +8,7 @@
 #include "core/hash.h"
 #include "gateway/page_session.h"
 #include "gateway/server_core_session.h"
+#include "wire/viewer_protocol.h"
 
 namespace roboss {
 namespace {
@@ -71,8 +72,13 @@ void HttpSession::read() {
 void HttpSession::serve() {
     const std::string_view path = path_of(view_of(request_.target()));
     const bool socket = path == "/ws";
-    const Visitor visitor{view_of(request_[http::field::host]), view_of(request_[http::field::origin]),
-                          view_of(request_.target()), view_of(request_[http::field::cookie]), socket};
+    const Visitor visitor{view_of(request_[http::field::host]),
+                          view_of(request_[http::field::origin]),
+                          view_of(request_.target()),
+                          view_of(request_[http::field::cookie]),
+                          socket,
+                          request_.count(http::field::host),
+                          request_.count(http::field::origin)};
     if (const std::string refusal = core_.access().refusal(visitor); !refusal.empty())
         return refuse(http::status::forbidden, refusal);
     if (request_.method() != http::verb::get && request_.method() != http::verb::head)
@@ -87,6 +93,11 @@ void HttpSession::serve() {
 void HttpSession::upgrade() {
     if (!beast::websocket::is_upgrade(request_))
         return refuse(http::status::upgrade_required, "it asks for /ws without a WebSocket");
+    http::token_list subprotocols(request_[http::field::sec_websocket_protocol]);
+    if (!subprotocols.exists(viewer_protocol::kSubprotocol))
+        return refuse(
+            http::status::bad_request,
+            std::string("its WebSocket does not offer the subprotocol ") + viewer_protocol::kSubprotocol);
     auto page = std::make_shared<PageSession>(std::move(stream_), core_, core_.next_page(), peer_);
     if (!core_.admit(page)) {
         core_.notice("viewer: a page of " + peer_ + " is turned away, there are too many");

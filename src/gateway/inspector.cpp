@@ -143,7 +143,7 @@ void Inspector::take(const StateBlock& block) {
         const RobotId robot = block.robots[i];
         if (robot.index() < states_.size() && !states_[robot.index()]) {
             Result<RobotState> state =
-                decode_state(state_bytes(block, i, offset), scene_->model->type_of(robot));
+                decode_state(state_bytes(block, i, offset), scene_->model->type_of(robot), states_.size());
             if (state) states_[robot.index()] = std::move(state).value(), ++known_;
         }
         offset += block.sizes[i];

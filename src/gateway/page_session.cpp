@@ -33,10 +33,8 @@ void PageSession::start(const Request& request) {
     timeout.idle_timeout = std::chrono::seconds(kSilent_s);
     timeout.keep_alive_pings = true;
     socket_.set_option(timeout);
-    beast::http::token_list offered(request[beast::http::field::sec_websocket_protocol]);
-    const bool ours = offered.exists(viewer_protocol::kSubprotocol);
-    socket_.set_option(websocket::stream_base::decorator([ours](websocket::response_type& response) {
-        if (ours) response.set(beast::http::field::sec_websocket_protocol, viewer_protocol::kSubprotocol);
+    socket_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
+        response.set(beast::http::field::sec_websocket_protocol, viewer_protocol::kSubprotocol);
         response.set(beast::http::field::server, "roboss");
     }));
     socket_.read_message_max(viewer_protocol::kMessageBytesMax);

@@ -5,7 +5,7 @@
 
 namespace roboss {
 
-inline constexpr std::int64_t kJournalFormat = 2;
+inline constexpr std::int64_t kJournalFormat = 3;  // 3: the state hash counts the lengths of lists
 
 extern const char* const kJournalTables;
 

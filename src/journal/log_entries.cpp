@@ -107,7 +107,7 @@ Result<std::vector<RobotState>> decode_states(std::span<const std::uint8_t> byte
     for (std::size_t i = 0; i < n && !a.failed(); ++i) {
         const std::vector<std::uint8_t> block = take_block(a);
         if (a.failed()) break;
-        Result<RobotState> state = decode_state(block, model.type_of(RobotId(i)));
+        Result<RobotState> state = decode_state(block, model.type_of(RobotId(i)), model.robots.size());
         if (!state) return Error{"robot '" + model.robots[i].name + "': " + state.error().message, ""};
         states.push_back(std::move(state).value());
     }

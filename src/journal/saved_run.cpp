@@ -2,10 +2,10 @@
 #include "journal/saved_run.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "journal/journal.h"
 #include "journal/journal_format.h"
+#include "journal/new_file.h"
 
 namespace roboss {
 
@@ -64,19 +64,10 @@ std::uint64_t state_hash_of(const Model& model, const SavedRun& run) {
 }
 
 Result<> save_run(const std::string& path, const Model& model, const SavedRun& run) {
-    const std::string beside = path + ".part";
-    std::error_code ignored;
-    std::filesystem::remove(beside, ignored);
-    if (Result<> written = write(beside, model, run); !written) {
-        std::filesystem::remove(beside, ignored);
-        return written;
-    }
-    std::error_code error;
-    std::filesystem::rename(beside, path, error);
-    if (error)
-        return Error{"cannot rename " + beside + " to " + path + ": " + error.message(),
-                     "check the path and the permissions"};
-    return Ok{};
+    Result<NewFile> file = NewFile::beside(path);
+    if (!file) return file.error();
+    if (Result<> written = write(file.value().own_path(), model, run); !written) return written;
+    return file.value().publish();
 }
 
 Result<SavedRun> load_run(const std::string& path, const Model& model) {

@@ -1,7 +1,11 @@
 // Checks orders from outside and applies them to a robot's state.
 #include "model/order.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <initializer_list>
+#include <iterator>
 #include <tuple>
 
 namespace roboss {
@@ -13,6 +17,35 @@ const char* const kFiniteRemedy = "every number of an order must be finite";
 /// "robot 'car_7'" for messages.
 std::string called(const Model& model, const Order& order) {
     return "robot '" + model.robots[order.robot.index()].name + "'";
+}
+
+std::string text(double value) {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%g", value);
+    return buffer;
+}
+
+/// One number of an order and what it may be at most.
+struct Bounded {
+    const char* name;
+    double value, limit;
+    const char* unit;
+};
+
+/// `what` names order and robot.
+Result<> check_limits(const std::string& what, std::initializer_list<Bounded> numbers) {
+    for (const Bounded& n : numbers)
+        if (std::fabs(n.value) > n.limit)
+            return Error{what + ": a " + n.name + " of " + text(n.value) + " " + n.unit +
+                             " is beyond the limit of " + text(n.limit) + " " + n.unit,
+                         "give at most that; docs/physics.md lists the limits of orders"};
+    return Ok{};
+}
+
+double largest(const Vec3& v) {
+    const double sizes[] = {v.x, v.y, v.z};
+    return *std::max_element(std::begin(sizes), std::end(sizes),
+                             [](double a, double b) { return std::fabs(a) < std::fabs(b); });
 }
 
 /// Checks one action against the robot's type.
@@ -33,7 +66,8 @@ struct Check {
             return Error{"set_pose of " + called(model, order) + " has a quaternion of norm " +
                              std::to_string(std::sqrt(n)),
                          "give a unit quaternion [w, x, y, z]"};
-        return Ok{};
+        return check_limits("set_pose of " + called(model, order),
+                            {{"position", largest(a.X_WR.p), kOrderLimits.position, "m"}});
     }
     Result<> operator()(const SetVelocity& a) const {
         if (!is_finite(a.linear) || !is_finite(a.angular))
@@ -41,7 +75,9 @@ struct Check {
         if (!type.free_base)
             return Error{"set_velocity: the base of " + called(model, order) + " is fixed to the world",
                          "order its joints instead"};
-        return Ok{};
+        return check_limits("set_velocity of " + called(model, order),
+                            {{"linear velocity", largest(a.linear), kOrderLimits.speed, "m/s"},
+                             {"angular velocity", largest(a.angular), kOrderLimits.turn_rate, "rad/s"}});
     }
     Result<> operator()(const ApplyWrench& a) const {
         if (a.link.index() >= type.links.size())
@@ -55,7 +91,9 @@ struct Check {
         if (a.duration < 1)
             return Error{"wrench on " + called(model, order) + " lasts less than one tick",
                          "give a duration > 0"};
-        return Ok{};
+        return check_limits("wrench on " + called(model, order),
+                            {{"force", largest(a.force), kOrderLimits.force, "N"},
+                             {"torque", largest(a.torque), kOrderLimits.torque, "N m"}});
     }
     Result<> operator()(const SetJoint& a) const {
         if (a.joint.index() >= type.joints.size())
@@ -73,7 +111,21 @@ struct Check {
         if (!std::isfinite(a.target) || std::isnan(a.max_effort))
             return Error{"order for joint '" + joint.name + "' of " + called(model, order) + " is not finite",
                          kFiniteRemedy};
-        return Ok{};
+        return check_target("order for joint '" + joint.name + "' of " + called(model, order), a);
+    }
+    static Result<> check_target(const std::string& what, const SetJoint& a) {
+        switch (a.mode) {
+            case MotorMode::kPassive:
+                return Ok{};
+            case MotorMode::kVelocity:
+                return check_limits(what, {{"velocity", a.target, kOrderLimits.speed, "rad/s or m/s"}});
+            case MotorMode::kPosition:
+                return check_limits(what, {{"position", a.target, kOrderLimits.position, "rad or m"}});
+            case MotorMode::kEffort:
+                return check_limits(what, {{"effort", a.target, kOrderLimits.force, "N m or N"}});
+        }
+        return Error{what + " names a motor mode that does not exist",
+                     "give passive, velocity, position or effort"};
     }
 };
 

@@ -13,11 +13,13 @@ namespace roboss {
 /// Level 1: puts the robot (SDF model) frame at X_WR; joints keep their coordinates, velocities are kept.
 struct SetPose {
     Pose X_WR;
+    friend bool operator==(const SetPose&, const SetPose&) = default;
 };
 
 /// Level 2: base velocity in world axes (of the base origin). Only for free bases.
 struct SetVelocity {
     Vec3 linear, angular;
+    friend bool operator==(const SetVelocity&, const SetVelocity&) = default;
 };
 
 /// Level 3: force at the link's centre of mass and torque, world axes, for `duration` ticks (at least 1).
@@ -25,6 +27,7 @@ struct ApplyWrench {
     LinkId link;
     Vec3 force, torque;
     Tick duration = 1;
+    friend bool operator==(const ApplyWrench&, const ApplyWrench&) = default;
 };
 
 /// Level 4: latches a setpoint of one degree of freedom of a joint. A negative max_effort means the joint's
@@ -35,6 +38,7 @@ struct SetJoint {
     MotorMode mode = MotorMode::kVelocity;
     double target = 0;
     double max_effort = -1;
+    friend bool operator==(const SetJoint&, const SetJoint&) = default;
 };
 
 using Action = std::variant<SetPose, SetVelocity, ApplyWrench, SetJoint>;
@@ -45,13 +49,26 @@ struct Order {
     std::uint64_t sequence = 0;  // per Client, ascending
     RobotId robot;
     Action action;
+    friend bool operator==(const Order&, const Order&) = default;
 };
+
+/// What an order may ask for at most, in size (docs/physics.md, "Ranges"): more than any robot does, and so
+/// little that sums and products of a step stay numbers. One order beyond them would end the run for
+/// everybody.
+struct OrderLimits {
+    double position = 1e9;   // m: coordinates of a pose; rad or m: target of a joint's position
+    double speed = 1e5;      // m/s: of a base; m/s or rad/s: target of a joint's velocity
+    double turn_rate = 1e5;  // rad/s, of a base
+    double force = 1e9;      // N: on a link; N or N m: target of a joint's effort
+    double torque = 1e9;     // N m, on a link
+};
+inline constexpr OrderLimits kOrderLimits;
 
 /// Canonical order: (apply_at, client, sequence).
 bool comes_before(const Order& a, const Order& b);
 
-/// What is wrong with the order for this Model (unknown robot, link or joint, number that is not finite,
-/// velocity of a fixed base ...), in words, or Ok.
+/// What is wrong with the order for this Model (unknown robot, link or joint, number that is not finite or
+/// beyond kOrderLimits, velocity of a fixed base ...), in words, or Ok.
 Result<> check_order(const Model& model, const Order& order);
 
 /// Applies a checked order to the robot's state, and wakes it.

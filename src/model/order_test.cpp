@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <limits>
 
 #include <support/robots.h>
@@ -71,6 +72,58 @@ TEST_F(CheckOrder, RefusesNumbersThatAreNotFinite) {
     }
     expect_refused(kCar, SetJoint{joint(kCar, "wheel_2"), 0, MotorMode::kVelocity, 1, kNan},
                    {"wheel_2", "finite"});
+}
+
+/// One order with 1e308 must not end a run for everybody.
+TEST_F(CheckOrder, RefusesNumbersBeyondTheLimitsByNameAndAcceptsThoseAtThem) {
+    const OrderLimits& most = kOrderLimits;
+    const double more = 1 + 1e-12;
+    const JointId wheel = joint(kCar, "wheel_2");
+    const LinkId link(0u);
+    const auto expect_limit = [&](double limit, const std::function<Action(double)>& action,
+                                  const std::vector<std::string>& words) {
+        for (const double sign : {1.0, -1.0}) {
+            EXPECT_EQ(refusal(kCar, action(sign * limit)), "") << words[0];
+            for (const double beyond : {sign * limit * more, sign * 1e308}) {
+                expect_refused(kCar, action(beyond), words);
+                expect_refused(kCar, action(beyond), {"car_7", "beyond the limit"});
+            }
+        }
+    };
+    expect_limit(most.position,
+                 [](double x) {
+                     return SetPose{{{0, 0, x}, {}}};
+                 },
+                 {"set_pose", "position", "1e+09 m"});
+    expect_limit(most.speed,
+                 [](double x) {
+                     return SetVelocity{{0, x, 0}, {}};
+                 },
+                 {"set_velocity", "linear velocity", "m/s"});
+    expect_limit(most.turn_rate,
+                 [](double x) {
+                     return SetVelocity{{}, {x, 0, 0}};
+                 },
+                 {"set_velocity", "angular velocity", "rad/s"});
+    expect_limit(most.force,
+                 [&](double x) {
+                     return ApplyWrench{link, {x, 0, 0}, {}, 1};
+                 },
+                 {"wrench", "force", " N"});
+    expect_limit(most.torque,
+                 [&](double x) {
+                     return ApplyWrench{link, {}, {0, 0, x}, 1};
+                 },
+                 {"wrench", "torque", "N m"});
+    const auto target = [&](MotorMode mode) {
+        return [=](double x) { return SetJoint{wheel, 0, mode, x, -1}; };
+    };
+    expect_limit(most.speed, target(MotorMode::kVelocity), {"wheel_2", "velocity", "rad/s"});
+    expect_limit(most.position, target(MotorMode::kPosition), {"wheel_2", "position", "rad"});
+    expect_limit(most.force, target(MotorMode::kEffort), {"wheel_2", "effort", "N m"});
+    EXPECT_EQ(refusal(kCar, SetJoint{wheel, 0, MotorMode::kPassive, 1e308, -1}), "") << "it is not used";
+    EXPECT_EQ(refusal(kCar, SetJoint{wheel, 0, MotorMode::kVelocity, 1, kInfinity}), "")
+        << "the joint's own bound";
 }
 
 TEST_F(CheckOrder, RefusesAQuaternionThatIsNoRotation) {

@@ -1,7 +1,11 @@
 // Start, hash and bytes of a robot's state.
 #include "model/robot_state.h"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
+#include <type_traits>
+#include <utility>
 
 namespace roboss {
 
@@ -28,31 +32,163 @@ void set_base_pose(RobotState& s, const Pose& X) {
     for (std::size_t i = 0; i < 7; ++i) s.q[i] = numbers[i];
 }
 
+namespace {
+
+/// A state is a sequence of 64-bit words: those that it is hashed by, and those that travel. Told one by one.
+template <class Put>
+class Teller {
+  public:
+    static constexpr bool kReading = false;
+    explicit Teller(Put put) : put_(std::move(put)) {}
+    void word(std::uint64_t w) { put_(w); }
+    void number(double x) { word(std::bit_cast<std::uint64_t>(x)); }
+    void tick(Tick t) { word(static_cast<std::uint64_t>(t)); }
+    void id(std::uint32_t i) { word(i); }
+    void pair(std::uint32_t a, std::uint32_t b) { word(static_cast<std::uint64_t>(a) << 32 | b); }
+    void flagged(std::uint32_t n, bool flag) { pair(n, flag ? 1 : 0); }
+    void mode(MotorMode m) { word(static_cast<std::uint64_t>(m)); }
+    template <class T>
+    void length(const std::vector<T>& list) {
+        word(list.size());
+    }
+
+  private:
+    Put put_;
+};
+
+class Reader {
+  public:
+    static constexpr bool kReading = true;
+    explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+    std::uint64_t word() {
+        if (left() < 1) return fail(), 0;
+        std::uint64_t w = 0;
+        for (std::size_t i = 0; i < 8; ++i) w |= static_cast<std::uint64_t>(bytes_[at_ + i]) << (8 * i);
+        at_ += 8;
+        return w;
+    }
+    void number(double& x) { x = std::bit_cast<double>(word()); }
+    void tick(Tick& t) { t = static_cast<Tick>(word()); }
+    void id(std::uint32_t& i) {
+        const std::uint64_t wide = word();
+        i = static_cast<std::uint32_t>(wide);
+        if (i != wide) fail();
+    }
+    void pair(std::uint32_t& a, std::uint32_t& b) {
+        const std::uint64_t w = word();
+        a = static_cast<std::uint32_t>(w >> 32), b = static_cast<std::uint32_t>(w);
+    }
+    void flagged(std::uint32_t& n, bool& flag) {
+        std::uint32_t one = 0;
+        pair(n, one);
+        flag = one == 1;
+        if (one > 1) fail();
+    }
+    void mode(MotorMode& m) {
+        const std::uint64_t w = word();
+        if (w > static_cast<std::uint64_t>(MotorMode::kEffort)) return fail();
+        m = static_cast<MotorMode>(w);
+    }
+    template <class T>
+    void length(std::vector<T>& list) {
+        const std::uint64_t n = word();
+        if (n > left()) return fail();  // an item takes a word at least
+        list.resize(n);
+    }
+    void fail() { failed_ = true; }
+    std::size_t left() const { return (bytes_.size() - at_) / 8; }  // whole words
+    bool failed() const { return failed_; }
+    bool complete() const { return !failed_ && at_ == bytes_.size(); }
+
+  private:
+    std::span<const std::uint8_t> bytes_;
+    std::size_t at_ = 0;
+    bool failed_ = false;
+};
+
+/// T as the archive needs it: const where it is told.
+template <class A, class T>
+using Of = std::conditional_t<A::kReading, T, const T>;
+
+// The one description of a state's fields, for its hash, its bytes and back. Each function names all members
+// of its struct: who adds one is stopped here by the compiler.
+
+template <class A>
+void fields(A& a, Of<A, Vec3>& v) {
+    auto& [x, y, z] = v;
+    a.number(x), a.number(y), a.number(z);
+}
+
+template <class A>
+void fields(A& a, Of<A, MotorSetpoint>& motor) {
+    auto& [mode, target, max_effort, impulse, load] = motor;
+    a.mode(mode), a.number(target), a.number(max_effort), a.number(impulse), a.number(load);
+}
+
+template <class A>
+void fields(A& a, Of<A, TimedWrench>& wrench) {
+    auto& [link, force, torque, until] = wrench;
+    a.id(link.value), fields(a, force), fields(a, torque), a.tick(until);
+}
+
+template <class A>
+void fields(A& a, Of<A, ContactMemory>& contact) {
+    auto& [other_robot, shape, other_shape, feature, impulse, load, friction] = contact;
+    a.pair(other_robot, shape), a.pair(other_shape, feature);
+    a.number(impulse), a.number(load), fields(a, friction);
+}
+
+/// Who is awake has no bound.
+template <class A>
+void fields(A& a, Of<A, Rest>& rest) {
+    auto& [still_ticks, asleep, neighbours, bound] = rest;
+    a.flagged(still_ticks, asleep);
+    a.length(neighbours);
+    for (auto& id : neighbours) a.id(id);
+    auto& [min, max] = bound;
+    if (asleep) fields(a, min), fields(a, max);
+}
+
+template <class A>
+void fields(A& a, Of<A, RobotState>& state) {
+    auto& [q, v, motors, wrenches, contacts, rest] = state;
+    a.length(q), a.length(v), a.length(motors), a.length(wrenches), a.length(contacts);
+    for (auto& x : q) a.number(x);
+    for (auto& x : v) a.number(x);
+    for (auto& motor : motors) fields(a, motor);
+    for (auto& wrench : wrenches) fields(a, wrench);
+    for (auto& contact : contacts) fields(a, contact);
+    fields(a, rest);
+}
+
+/// What is wrong with a state of which every field was read; nullptr: nothing.
+const char* inconsistency_of(const RobotState& state, const RobotType& type, std::size_t robots) {
+    if (state.q.size() != static_cast<std::size_t>(type.nq) ||
+        state.v.size() != static_cast<std::size_t>(type.nv) || state.motors.size() != type.motor_count())
+        return "has not as many coordinates, velocities or motors as that";
+    const auto has_link = [&](const TimedWrench& w) { return w.link.index() < type.links.size(); };
+    if (!std::all_of(state.wrenches.begin(), state.wrenches.end(), has_link))
+        return "names a link that does not exist";
+    const auto finite = [](double x) { return std::isfinite(x); };
+    if (!std::all_of(state.q.begin(), state.q.end(), finite) ||
+        !std::all_of(state.v.begin(), state.v.end(), finite))
+        return "is not finite";
+    const auto known = [robots](std::uint32_t id) { return id < robots; };
+    const bool knows_contacts = std::all_of(
+        state.contacts.begin(), state.contacts.end(),
+        [&](const ContactMemory& c) { return c.other_robot == RobotId::kNone || known(c.other_robot); });
+    if (!knows_contacts || !std::all_of(state.rest.neighbours.begin(), state.rest.neighbours.end(), known))
+        return "names a robot that does not exist";
+    return nullptr;
+}
+
+}  // namespace
+
 std::uint64_t state_hash(RobotId robot, Tick tick, const RobotState& state) {
     Hash hash;
-    hash.add(static_cast<std::uint64_t>(robot.value));
-    hash.add(static_cast<std::uint64_t>(tick));
-    hash.add(std::span<const double>(state.q));
-    hash.add(std::span<const double>(state.v));
-    for (const MotorSetpoint& m : state.motors) {
-        hash.add(static_cast<std::uint64_t>(m.mode));
-        for (double x : {m.target, m.max_effort, m.impulse, m.load}) hash.add(x);
-    }
-    for (const TimedWrench& w : state.wrenches) {
-        hash.add(static_cast<std::uint64_t>(w.link.value));
-        for (double x : {w.force.x, w.force.y, w.force.z, w.torque.x, w.torque.y, w.torque.z}) hash.add(x);
-        hash.add(static_cast<std::uint64_t>(w.until));
-    }
-    for (const ContactMemory& c : state.contacts) {
-        hash.add(static_cast<std::uint64_t>(c.other_robot) << 32 | c.shape);
-        hash.add(static_cast<std::uint64_t>(c.other_shape) << 32 | c.feature);
-        for (double x : {c.impulse, c.load, c.friction.x, c.friction.y, c.friction.z}) hash.add(x);
-    }
-    hash.add(static_cast<std::uint64_t>(state.rest.still_ticks) << 1 | (state.rest.asleep ? 1 : 0));
-    for (const std::uint32_t id : state.rest.neighbours) hash.add(static_cast<std::uint64_t>(id));
-    if (state.rest.asleep)
-        for (const Vec3& p : {state.rest.bound.min, state.rest.bound.max})
-            hash.add(p.x), hash.add(p.y), hash.add(p.z);
+    Teller words([&hash](std::uint64_t w) { hash.add(w); });
+    words.id(robot.value), words.tick(tick);
+    fields(words, state);
     return hash.value();
 }
 
@@ -63,138 +199,23 @@ std::uint64_t world_hash(std::uint64_t model_hash, std::span<const std::uint64_t
     return hash.value();
 }
 
-namespace {
-
-class Writer {
-  public:
-    explicit Writer(std::vector<std::uint8_t>& out) : out_(out) {}
-    void word(std::uint64_t w) {
-        for (int i = 0; i < 8; ++i) out_.push_back(static_cast<std::uint8_t>(w >> (8 * i)));
-    }
-    void number(double x) { word(std::bit_cast<std::uint64_t>(x)); }
-    void vector(const Vec3& v) { number(v.x), number(v.y), number(v.z); }
-    void rest(const Rest& r) {
-        pair(r.still_ticks, r.asleep ? 1 : 0);
-        word(r.neighbours.size());
-        for (const std::uint32_t id : r.neighbours) word(id);
-        if (r.asleep) vector(r.bound.min), vector(r.bound.max);
-    }
-    void pair(std::uint32_t a, std::uint32_t b) { word(static_cast<std::uint64_t>(a) << 32 | b); }
-
-  private:
-    std::vector<std::uint8_t>& out_;
-};
-
-class Reader {
-  public:
-    explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
-    std::uint64_t word() {
-        if (left() < 1) {
-            short_ = true;
-            return 0;
-        }
-        std::uint64_t w = 0;
-        for (std::size_t i = 0; i < 8; ++i) w |= static_cast<std::uint64_t>(bytes_[at_ + i]) << (8 * i);
-        at_ += 8;
-        return w;
-    }
-    double number() { return std::bit_cast<double>(word()); }
-    Vec3 vector() {
-        const double x = number(), y = number(), z = number();
-        return {x, y, z};
-    }
-    Rest rest() {
-        Rest r;
-        const std::uint64_t first = word();
-        r.still_ticks = static_cast<std::uint32_t>(first >> 32);
-        r.asleep = (first & 1) != 0;
-        const std::uint64_t edges = word();
-        if ((first & 0xFFFFFFFEu) != 0 || edges > left()) short_ = true;
-        if (short_) return r;
-        r.neighbours.resize(edges);
-        for (std::uint32_t& id : r.neighbours) {
-            const std::uint64_t wide = word();
-            id = static_cast<std::uint32_t>(wide);
-            if (id != wide) short_ = true;
-        }
-        if (r.asleep) r.bound.min = vector(), r.bound.max = vector();
-        return r;
-    }
-    std::size_t left() const { return (bytes_.size() - at_) / 8; }  // whole words
-    bool complete() const { return !short_ && at_ == bytes_.size(); }
-
-  private:
-    std::span<const std::uint8_t> bytes_;
-    std::size_t at_ = 0;
-    bool short_ = false;
-};
-
-constexpr std::size_t kWrenchWords = 8;
-constexpr std::size_t kContactWords = 7;
-
-}  // namespace
-
 void encode(const RobotState& state, std::vector<std::uint8_t>& out) {
-    Writer w(out);
-    for (std::size_t n :
-         {state.q.size(), state.v.size(), state.motors.size(), state.wrenches.size(), state.contacts.size()})
-        w.word(n);
-    for (double x : state.q) w.number(x);
-    for (double x : state.v) w.number(x);
-    for (const MotorSetpoint& m : state.motors)
-        w.word(static_cast<std::uint64_t>(m.mode)), w.number(m.target), w.number(m.max_effort),
-            w.number(m.impulse), w.number(m.load);
-    for (const TimedWrench& t : state.wrenches)
-        w.word(t.link.value), w.vector(t.force), w.vector(t.torque),
-            w.word(static_cast<std::uint64_t>(t.until));
-    for (const ContactMemory& c : state.contacts)
-        w.pair(c.other_robot, c.shape), w.pair(c.other_shape, c.feature), w.number(c.impulse),
-            w.number(c.load), w.vector(c.friction);
-    w.rest(state.rest);
+    Teller words([&out](std::uint64_t w) {
+        for (int i = 0; i < 8; ++i) out.push_back(static_cast<std::uint8_t>(w >> (8 * i)));
+    });
+    fields(words, state);
 }
 
-Result<RobotState> decode_state(std::span<const std::uint8_t> bytes, const RobotType& type) {
-    Reader r(bytes);
-    const std::uint64_t nq = r.word(), nv = r.word(), motors = r.word(), wrenches = r.word(),
-                        contacts = r.word();
-    if (nq != static_cast<std::uint64_t>(type.nq) || nv != static_cast<std::uint64_t>(type.nv) ||
-        motors != type.motor_count())
-        return Error{"the bytes of a state do not fit robot type '" + type.name + "'",
-                     "they belong to another world or version"};
-    if (wrenches > r.left() / kWrenchWords || contacts > r.left() / kContactWords)
-        return Error{"the bytes of a state of type '" + type.name + "' are truncated",
-                     "fetch or save the state again"};
+Result<RobotState> decode_state(std::span<const std::uint8_t> bytes, const RobotType& type,
+                                std::size_t robots) {
+    Reader words(bytes);
     RobotState state;
-    state.q.resize(nq), state.v.resize(nv), state.motors.resize(motors);
-    state.wrenches.resize(wrenches), state.contacts.resize(contacts);
-    for (double& x : state.q) x = r.number();
-    for (double& x : state.v) x = r.number();
-    for (MotorSetpoint& m : state.motors) {
-        const std::uint64_t mode = r.word();
-        m.mode = static_cast<MotorMode>(mode);
-        if (mode > static_cast<std::uint64_t>(MotorMode::kEffort))
-            return Error{"a state names a motor mode that does not exist", "the bytes are damaged"};
-        m.target = r.number(), m.max_effort = r.number();
-        m.impulse = r.number(), m.load = r.number();
-    }
-    for (TimedWrench& t : state.wrenches) {
-        const std::uint64_t link = r.word();
-        t.link = LinkId(static_cast<std::uint32_t>(link));
-        if (link >= type.links.size())
-            return Error{"a state names a link that does not exist", "the bytes are damaged"};
-        t.force = r.vector(), t.torque = r.vector(), t.until = static_cast<Tick>(r.word());
-    }
-    for (ContactMemory& c : state.contacts) {
-        const std::uint64_t a = r.word(), b = r.word();
-        c.other_robot = static_cast<std::uint32_t>(a >> 32), c.shape = static_cast<std::uint32_t>(a);
-        c.other_shape = static_cast<std::uint32_t>(b >> 32), c.feature = static_cast<std::uint32_t>(b);
-        c.impulse = r.number(), c.load = r.number(), c.friction = r.vector();
-    }
-    state.rest = r.rest();
-    if (!r.complete())
-        return Error{"the bytes of a state of type '" + type.name + "' have the wrong length",
-                     "fetch or save it again"};
-    return state;
+    fields(words, state);
+    const char* wrong =
+        words.complete() ? inconsistency_of(state, type, robots) : "is damaged, or bytes of it are missing";
+    if (wrong == nullptr) return state;
+    return Error{"a state of type '" + type.name + "' " + wrong,
+                 "its bytes are damaged, or belong to another world or version; fetch or save it again"};
 }
 
 }  // namespace roboss

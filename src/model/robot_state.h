@@ -83,6 +83,9 @@ std::uint64_t world_hash(std::uint64_t model_hash, std::span<const std::uint64_t
 
 /// The state as bytes (little-endian, versioned by the Model hash that travels beside it) and back.
 void encode(const RobotState& state, std::vector<std::uint8_t>& out);
-Result<RobotState> decode_state(std::span<const std::uint8_t> bytes, const RobotType& type);
+/// `robots`: how many the world has; a state that names another one is refused, and so are coordinates and
+/// velocities that are not finite.
+Result<RobotState> decode_state(std::span<const std::uint8_t> bytes, const RobotType& type,
+                                std::size_t robots = RobotId::kNone);
 
 }  // namespace roboss

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -68,6 +69,28 @@ TEST_F(StateBytes, EveryTruncationIsRefused) {
     for (std::size_t n = 0; n < bytes_.size(); ++n)
         EXPECT_FALSE(accepts({bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(n)}))
             << n << " bytes";
+}
+
+TEST_F(StateBytes, NumbersThatAreNotFiniteAreRefused) {
+    for (const double bad :
+         {std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity()})
+        for (const std::size_t word : {std::size_t{5}, 5 + state_.q.size() - 1, 5 + state_.q.size()}) {
+            const std::vector<std::uint8_t> good = bytes_;
+            put_word(word, std::bit_cast<std::uint64_t>(bad));
+            EXPECT_FALSE(accepts(bytes_)) << word;
+            bytes_ = good;
+            EXPECT_TRUE(accepts(bytes_));
+        }
+}
+
+TEST_F(StateBytes, RobotsThatDoNotExistAreRefused) {
+    EXPECT_TRUE(decode_state(bytes_, type(), 10).ok());
+    EXPECT_FALSE(decode_state(bytes_, type(), 9).ok()) << "it sleeps beside robot 9";
+    state_.rest.neighbours = {3};
+    std::vector<std::uint8_t> bytes;
+    encode(state_, bytes);
+    EXPECT_TRUE(decode_state(bytes, type(), 5).ok());
+    EXPECT_FALSE(decode_state(bytes, type(), 4).ok()) << "it remembers a contact with robot 4";
 }
 
 TEST_F(StateBytes, TrailingBytesAreRefused) {

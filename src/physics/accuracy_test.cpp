@@ -2,6 +2,9 @@
 // setting that is allowed.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string_view>
+
 #include <support/robots.h>
 #include <support/simulation.h>
 
@@ -77,14 +80,8 @@ TEST(AccuracySettings, StrongMotorsTurnItAtTheAnalyticRate) {
     }
 }
 
-struct Pile {
-    double iterations = 0, creep = 0, residual = 0;
-};
-
-/// Six cars driving into each other and a dozen boxes falling on a heap: half a second of hard work; then the
-/// creep of a braked car on a slope.
-Pile measure(const AccuracySpec& accuracy) {
-    Pile pile;
+/// Six cars driving into each other and a dozen boxes falling on a heap.
+World pile(const AccuracySpec& accuracy) {
     World world = empty_world(2e-3);
     world.accuracy.push_back(accuracy);
     place(world, ground(surface(0.9)), "ground");
@@ -94,37 +91,89 @@ Pile measure(const AccuracySpec& accuracy) {
     for (int i = 0; i < 12; ++i)
         place(world, solid_box(1.0, {0.2, 0.2, 0.2}, surface(0.6)), "box_" + std::to_string(i),
               {{8 + 0.13 * (i % 4), 0.11 * (i / 4 % 3), 0.12 + 0.21 * (i / 12)}, {}});
-    Simulation sim(world);
-    for (std::size_t c = 0; c < 6; ++c)
-        for (std::size_t wheel = 0; wheel < 4; ++wheel) sim.set_motor(c, wheel, MotorMode::kVelocity, 6);
-    for (int i = 0; i < 250; ++i) pile.iterations += sim.step().iterations;
-    pile.residual = sim.residual_max;
-
-    World slope = empty_world(2e-3);
-    slope.accuracy.push_back(accuracy);
-    const Quat tilt = from_rpy(0, 15 * kPi / 180, 0);
-    place(slope, ground(surface(0.9)), "slope", {{}, tilt});
-    place(slope, car(), "car", {{}, tilt});
-    Simulation braked(slope);
-    for (std::size_t wheel = 0; wheel < 4; ++wheel) braked.set_motor(0, wheel, MotorMode::kVelocity, 0);
-    braked.run(1);
-    const Vec3 before = base_pose(braked.states[0]).p;
-    braked.run(4);
-    pile.creep = norm(base_pose(braked.states[0]).p - before) / 4;
-    return pile;
+    return world;
 }
 
-TEST(AccuracySettings, MoreAccuracyIsMoreTruth) {
-    const Pile fast = measure(named("fast")), standard = measure(named("standard")),
-               high = measure(named("high"));
-    for (const auto& [name, pile] : {std::pair{"fast", fast}, {"standard", standard}, {"high", high}}) {
-        tell(std::string(name) + ": Newton iterations a tick", pile.iterations / 250);
-        tell(std::string(name) + ": worst residual", pile.residual);
-        tell(std::string(name) + ": creep of the braked car, m/s", pile.creep);
-        EXPECT_LT(pile.creep, 1e-6);
+/// The same softness, solved as strictly as is allowed.
+AccuracySpec strictly(AccuracySpec spec) {
+    for (const AccuracyNumber& n : accuracy_numbers())
+        if (!std::string_view(n.name).ends_with("compliance"))
+            spec.numbers.push_back({n.name, n.whole != nullptr ? n.high : n.low});
+    return spec;
+}
+
+/// As hard and as strict as is allowed.
+AccuracySpec hardest() {
+    AccuracySpec spec = strictly(named("high"));
+    for (const AccuracyNumber& n : accuracy_numbers())
+        if (std::string_view(n.name).ends_with("compliance")) spec.numbers.push_back({n.name, n.low});
+    return spec;
+}
+
+/// One tick of the pile from each of a series of states, which are the same for all.
+class Trial {
+  public:
+    /// Velocities after the tick, one after the other.
+    explicit Trial(const AccuracySpec& accuracy) {
+        constexpr int kTicks = 250, kEvery = 10;
+        Simulation path(pile(named("standard"))), tried(pile(accuracy));
+        for (std::size_t c = 0; c < 6; ++c)
+            for (std::size_t wheel = 0; wheel < 4; ++wheel) path.set_motor(c, wheel, MotorMode::kVelocity, 6);
+        for (int i = 0; i < kTicks; ++i) {
+            if (i % kEvery == 0) {
+                tried.states = path.states;
+                iterations += static_cast<double>(tried.step().iterations) * kEvery / kTicks;
+                for (const RobotState& state : tried.states)
+                    velocities.insert(velocities.end(), state.v.begin(), state.v.end());
+            }
+            path.step();
+        }
     }
-    EXPECT_LE(high.creep, standard.creep);
-    EXPECT_LE(standard.creep, fast.creep * 1.01);
+    /// Root mean square.
+    double off(const Trial& truth) const {
+        double squares = 0;
+        for (std::size_t i = 0; i < velocities.size(); ++i)
+            squares += std::pow(velocities[i] - truth.velocities[i], 2);
+        return std::sqrt(squares / static_cast<double>(velocities.size()));
+    }
+    double iterations = 0;  // Newton's, a tick
+    std::vector<double> velocities;
+};
+
+/// What tolerances leave, against the same problem solved strictly; what softness makes, against hard
+/// contacts.
+TEST(AccuracySettings, MoreAccuracyIsMoreTruth) {
+    const Trial fast(named("fast")), standard(named("standard")), high(named("high")), hard(hardest());
+    const double fast_left = fast.off(Trial(strictly(named("fast")))),
+                 standard_left = standard.off(Trial(strictly(named("standard"))));
+    tell("fast: error left by the tolerances", fast_left);
+    tell("standard: error left by the tolerances", standard_left);
+    EXPECT_LT(30 * standard_left, fast_left);
+    tell("standard: error by softness", standard.off(hard));
+    tell("high: error by softness", high.off(hard));
+    EXPECT_LT(1.3 * high.off(hard), standard.off(hard));
+    EXPECT_GT(high.off(hard), 0) << "the truth would be compared with itself";
+    for (const Trial* trial : {&fast, &standard, &high}) tell("Newton iterations a tick", trial->iterations);
+    EXPECT_LT(fast.iterations, standard.iterations);
+    EXPECT_LT(standard.iterations, high.iterations);
+}
+
+TEST(AccuracySettings, ABrakedCarOnASlopeStandsAtEverySetting) {
+    for (const char* setting : {"fast", "standard", "high"}) {
+        World slope = empty_world(2e-3);
+        slope.accuracy.push_back(named(setting));
+        const Quat tilt = from_rpy(0, 15 * kPi / 180, 0);
+        place(slope, ground(surface(0.9)), "slope", {{}, tilt});
+        place(slope, car(), "car", {{}, tilt});
+        Simulation braked(slope);
+        for (std::size_t wheel = 0; wheel < 4; ++wheel) braked.set_motor(0, wheel, MotorMode::kVelocity, 0);
+        braked.run(1);
+        const Vec3 before = base_pose(braked.states[0]).p;
+        braked.run(4);
+        const double creep = norm(base_pose(braked.states[0]).p - before) / 4;
+        tell(std::string(setting) + ": creep of the braked car, m/s", creep);
+        EXPECT_LT(creep, 1e-6) << setting;
+    }
 }
 
 TEST(AccuracySettings, NumbersOutOfRangeAreRefusedByName) {

@@ -239,56 +239,5 @@ TEST(Invariance, FlushToZeroAndRoundingOfTheCallerChangeNoBit) {
 }
 #endif
 
-/// Flips every bit of a number in turn and expects another hash each time.
-template <class Number>
-void expect_every_bit_counts(const RobotState& state, Number& number) {
-    using Bits = std::conditional_t<sizeof(Number) == 8, std::uint64_t, std::uint32_t>;
-    const RobotId id(std::size_t{0});
-    const Bits original = std::bit_cast<Bits>(number);
-    const std::uint64_t hash = state_hash(id, 5, state);
-    for (unsigned bit = 0; bit < 8 * sizeof(Number); ++bit) {
-        number = std::bit_cast<Number>(original ^ Bits{1} << bit);
-        EXPECT_NE(state_hash(id, 5, state), hash) << "bit " << bit;
-    }
-    number = std::bit_cast<Number>(original);
-}
-
-TEST(StateHash, ChangesWithEveryBitOfTheState) {
-    Simulation sim(random_crowd(17, 8));
-    stir(sim, 17);
-    sim.run(0.5);
-    for (RobotState& state : sim.states) {
-        state.wrenches.push_back({LinkId(std::size_t{0}), {1, 2, 3}, {4, 5, 6}, 1000});
-        for (double& x : state.q) expect_every_bit_counts(state, x);
-        for (double& x : state.v) expect_every_bit_counts(state, x);
-        for (MotorSetpoint& m : state.motors) {
-            expect_every_bit_counts(state, m.mode);
-            for (double* x : {&m.target, &m.max_effort, &m.impulse, &m.load})
-                expect_every_bit_counts(state, *x);
-        }
-        TimedWrench& w = state.wrenches[0];
-        for (double* x : {&w.force.x, &w.force.y, &w.force.z, &w.torque.x, &w.torque.y, &w.torque.z})
-            expect_every_bit_counts(state, *x);
-        expect_every_bit_counts(state, w.until);
-        expect_every_bit_counts(state, w.link.value);
-        for (ContactMemory& c : state.contacts) {
-            for (std::uint32_t* x : {&c.other_robot, &c.shape, &c.other_shape, &c.feature})
-                expect_every_bit_counts(state, *x);
-            expect_every_bit_counts(state, c.impulse);
-        }
-    }
-}
-
-TEST(StateHash, ChangesWithTickRobotAndLength) {
-    Simulation sim(random_crowd(17, 4));
-    const RobotState& state = sim.states[0];
-    const std::uint64_t hash = state_hash(sim.ids[0], 5, state);
-    EXPECT_NE(state_hash(sim.ids[0], 6, state), hash);
-    EXPECT_NE(state_hash(sim.ids[1], 5, state), hash);
-    RobotState longer = state;
-    longer.wrenches.emplace_back();
-    EXPECT_NE(state_hash(sim.ids[0], 5, longer), hash);
-}
-
 }  // namespace
 }  // namespace roboss::test

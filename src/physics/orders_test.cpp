@@ -1,6 +1,8 @@
 // The four levels of orders in a step: pose, velocity, force and torque, joint setpoint.
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include <support/robots.h>
 #include <support/simulation.h>
 
@@ -140,6 +142,38 @@ TEST(Orders, OrdersForRobotsOutsideTheIslandAreLeftAlone) {
     other.robot = RobotId(std::size_t{7});
     sim.step({&other, 1});
     EXPECT_EQ(sim.states[0].v[3], 0);
+}
+
+/// The step tells whose state is not finite: the lowest robot, and the joint or the base.
+TEST(NotFinite, NamesTheLowestRobotAndItsJoint) {
+    World world = empty_world(1e-3);
+    for (int i = 0; i < 4; ++i) place(world, car(), "car_" + std::to_string(i), {{10.0 * i, 0, 5}, {}});
+    const auto report_of = [&](const std::function<void(Simulation&)>& spoil) {
+        Simulation sim(world);
+        spoil(sim);
+        return sim.step();
+    };
+    constexpr std::size_t kWheel = 2, kBase = 6;
+    StepReport report =
+        report_of([](Simulation& sim) { sim.states[3].v[5] = sim.states[1].v[kBase + kWheel] = 1e308; });
+    EXPECT_EQ(report.not_finite, RobotId(1u));
+    EXPECT_EQ(report.not_finite_joint, JointId(kWheel));
+    EXPECT_TRUE(report.beyond_numbers);
+    report = report_of([](Simulation& sim) { sim.states[3].v[5] = 1e308; });
+    EXPECT_EQ(report.not_finite, RobotId(3u));
+    EXPECT_FALSE(report.not_finite_joint.valid()) << "its base";
+    EXPECT_FALSE(report_of([](Simulation&) {}).not_finite.valid());
+}
+
+TEST(NotFinite, NamesTheFirstJointWhereTheStepItselfLeadsToInfinity) {
+    World world = empty_world(1e-3);
+    place(world, arm(), "arm");
+    Simulation sim(world);
+    sim.states[0].v[2] = 1e200;  // it has no shapes, so nothing shows before the step
+    const StepReport& report = sim.step();
+    EXPECT_EQ(report.not_finite, RobotId(0u));
+    EXPECT_EQ(report.not_finite_joint, JointId(0u)) << "all its joints are coupled";
+    EXPECT_FALSE(report.beyond_numbers);
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "core/float_env.h"
 #include "core/make_room.h"
@@ -85,16 +87,51 @@ void expire_wrenches(Tick tick, RobotState& state) {
     std::erase_if(state.wrenches, [&](const TimedWrench& w) { return w.until <= tick + 1; });
 }
 
-/// The lowest robot that failed is told.
-void note_failure(RobotId robot, StepReport& report) {
-    if (!report.not_finite.valid() || robot < report.not_finite) report.not_finite = robot;
+/// The joint of the tree that moves a body; none: the base.
+JointId joint_of_body(const RobotType& type, int body) {
+    for (std::size_t j = 0; j < type.joints.size(); ++j)
+        if (type.joints[j].body == body && type.joints[j].loop < 0) return JointId(j);
+    return JointId();
 }
 
-/// A robot so fast that its way in one tick is no number: it would meet everybody, and spoil them.
-bool is_beyond_numbers(const RobotWork& work) {
-    for (const ShapeWork& shape : work.shapes)
-        if (!std::isfinite(shape.margin)) return true;
-    return !is_finite(work.origin);
+/// Of the first body whose coordinates or velocities are not finite.
+JointId broken_joint(const RobotType& type, const RobotState& state) {
+    const auto broken = [](const std::vector<double>& values, int first, std::size_t count) {
+        const auto begin = values.begin() + first;
+        return !std::all_of(begin, begin + static_cast<std::ptrdiff_t>(count),
+                            [](double x) { return std::isfinite(x); });
+    };
+    if (broken(state.q, 0, 7) || broken(state.v, 0, static_cast<std::size_t>(type.base_nv())))
+        return JointId();
+    for (std::size_t b = 0; b < type.bodies.size(); ++b) {
+        const Body& body = type.bodies[b];
+        if (body.joint == JointKind::kFree) continue;
+        const std::size_t width = body.joint == JointKind::kBall ? 4 : 1;
+        if (broken(state.q, body.q_index, width) ||
+            broken(state.v, body.v_index, static_cast<std::size_t>(body.nv)))
+            return joint_of_body(type, static_cast<int>(b));
+    }
+    return JointId();
+}
+
+/// See StepReport::not_finite.
+void note_failure(const RobotWork& work, bool beyond_numbers, JointId joint, StepReport& report) {
+    const bool is_first =
+        !report.not_finite.valid() ||
+        std::pair(!beyond_numbers, work.id) < std::pair(!report.beyond_numbers, report.not_finite);
+    if (!is_first) return;
+    report.not_finite = work.id;
+    report.not_finite_joint = joint;
+    report.beyond_numbers = beyond_numbers;
+}
+
+/// A robot so fast that its way in one tick is no number: it would meet everybody, and spoil them. The body
+/// of its first such part, -1: the base; none: it is not so fast.
+std::optional<int> body_beyond_numbers(const RobotWork& work) {
+    if (!is_finite(work.origin)) return -1;
+    for (std::size_t i = 0; i < work.shapes.size(); ++i)
+        if (!std::isfinite(work.shapes[i].margin)) return work.type->shapes[i].body;
+    return std::nullopt;
 }
 
 constexpr float kEffort = 2;  // of a step beside its Newton iterations
@@ -194,18 +231,22 @@ struct Call {
             works[k].ordered = s.ordered[i] != 0;
             bounds[i] = works[k].box;
         }
+        bool fine = true;
         for (const RobotWork& work : works) {
-            if (work.asleep || !is_beyond_numbers(work)) continue;
-            note_failure(work.id, report);
-            return false;
+            if (work.asleep) continue;
+            const std::optional<int> body = body_beyond_numbers(work);
+            if (!body) continue;
+            note_failure(work, true, joint_of_body(*work.type, *body), report);
+            fine = false;
         }
-        return true;
+        return fine;
     }
 
-    /// Steps the chosen robots, which may meet each other and nobody else.
-    bool step(std::span<const std::uint32_t> chosen, std::span<RobotWork> works, Impl& s,
+    /// Steps the chosen robots, which may meet each other and nobody else; not if one of them is beyond
+    /// numbers.
+    void step(std::span<const std::uint32_t> chosen, std::span<RobotWork> works, Impl& s,
               StepReport& report) const {
-        if (!place_all(chosen, works, s, report)) return false;
+        if (!place_all(chosen, works, s, report)) return;
         const int before = report.iterations;
         s.group.tried_alone = works.data() == s.alone.data();
         step_group(model, works, s.group, report);
@@ -216,40 +257,41 @@ struct Call {
             if (works[k].asleep) continue;
             RobotState& state = *states[chosen[k]];
             expire_wrenches(tick, state);
-            if (!is_finite(state)) note_failure(works[k].id, report);
+            if (!is_finite(state)) note_failure(works[k], false, broken_joint(*works[k].type, state), report);
         }
         if (s.group.keep_loads) keep_contacts(works, s.group.contacts, s.contacts);
-        return true;
     }
 
     /// Steps a robot that meets nobody, or lets it wait until there are enough of its type.
-    bool step_alone(std::uint32_t i, Impl& s, StepReport& report) const {
+    void step_alone(std::uint32_t i, Impl& s, StepReport& report) const {
         const std::size_t type = model.robots[robots[i].index()].type.index();
         if (!s.group.lanes || s.group.keep_loads || !fits_lanes(model.types[type], *states[i]))
             return step({&i, 1}, s.alone, s, report);
-        return s.queue.add(type, i, s.group.lanes.width(),
-                           [&](auto& batch) { return step_in_lanes(batch, s, report); });
+        s.queue.add(type, i, s.group.lanes.width(),
+                    [&](auto& batch) { return step_in_lanes(batch, s, report); });
     }
 
+    /// True: the batch that comes next is to be stepped too.
     bool step_in_lanes(std::vector<std::uint32_t>& batch, Impl& s, StepReport& report) const {
         const int before = report.iterations;
         s.batch = batch;
-        const bool fine = step_batch(
+        step_batch(
             s.group.lanes, model, batch, report,
             [&](std::uint32_t i) {
                 return LaneRobot{robots[i], states[i], &bounds[i], false, {}};
             },
             [&](std::uint32_t i, bool stepped) {
                 report.placed += stepped ? 1 : 0;
-                return stepped || step({&i, 1}, s.alone, s, report);
+                if (!stepped) step({&i, 1}, s.alone, s, report);
+                return true;
             });
         share_effort(s.batch, report.iterations - before, s.efforts);
-        return fine;
+        return true;
     }
 
     /// Steps those who may meet, some sets at a time: so few that what is computed of them stays in the
     /// cache, so many that lanes are filled.
-    bool step_near(Impl& s, StepReport& report) const {
+    void step_near(Impl& s, StepReport& report) const {
         constexpr std::size_t kTogether = 16;
         std::size_t first = 0, last = 0;
         const auto step_some = [&] {
@@ -258,21 +300,20 @@ struct Call {
             make_room(s.works, some.size());
             if (s.works.size() < some.size()) s.works.resize(some.size());
             first = last;
-            return some.empty() || step(some, std::span(s.works).first(some.size()), s, report);
+            if (!some.empty()) step(some, std::span(s.works).first(some.size()), s, report);
         };
-        bool fine = true;
         s.joined.for_each_set(s.near, [&](std::span<const std::uint32_t> set) {
             last += set.size();
-            if (fine && last - first >= kTogether) fine = step_some();
+            if (last - first >= kTogether) step_some();
         });
-        return fine && step_some();
+        step_some();
     }
 
-    bool step_all_alone(Impl& s, StepReport& report) const {
+    void step_all_alone(Impl& s, StepReport& report) const {
         s.queue.start(model.types.size());
         for (std::uint32_t i = 0; i < robots.size(); ++i)
-            if (!s.is_near[i] && !step_alone(i, s, report)) return false;
-        return s.queue.finish([&](auto& batch) { return step_in_lanes(batch, s, report); });
+            if (!s.is_near[i]) step_alone(i, s, report);
+        s.queue.finish([&](auto& batch) { return step_in_lanes(batch, s, report); });
     }
 };
 
@@ -299,7 +340,8 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
     apply_orders(model, robots, states, orders, s.ordered);
     find_near(model, robots, states, s);
     const Call call{model, tick, robots, states, bounds};
-    if (!call.step_near(s, report) || !call.step_all_alone(s, report)) return report;
+    call.step_near(s, report);
+    call.step_all_alone(s, report);
     if (s.group.keep_loads)
         std::stable_sort(
             s.contacts.begin(), s.contacts.end(),

@@ -27,7 +27,12 @@ struct StepReport {
     int placed = 0;           // robots of which any work was done: all but sleepers that nothing comes near
     int iterations = 0;       // Newton iterations, summed over contact islands
     double residual = 0;      // worst relative residual of the contact islands
-    RobotId not_finite;       // first robot whose state is not finite; the run must stop
+    /// A robot whose state is not finite after the step, or so far that nothing can be computed of it before
+    /// (`beyond_numbers`); the run must stop. Of several the lowest; those beyond numbers come first, for
+    /// they keep others of the call from being stepped. So it does not depend on who shares the call.
+    RobotId not_finite;
+    JointId not_finite_joint;  // whose coordinate or velocity it is; not valid: the base's
+    bool beyond_numbers = false;
 };
 
 inline constexpr std::size_t kMostLanes = 16;  // robots that any processor steps at once

@@ -113,6 +113,7 @@ void Controller::handle(Bus& bus, Envelope& envelope) {
 }
 
 void Controller::take_hello(Bus& bus, const Address& from, const Hello& hello) {
+    if (from.role != Role::kSimulator) return note_dropped("Hello", "who sends it is not a Simulator");
     if (is_earlier_model(hello.model_hash))
         return bus.send(kControllerAddress, from, ModelChanged{model_->hash});
     if (hello.model_hash != model_->hash)
@@ -246,6 +247,10 @@ Result<> Controller::submit(const Order& order) {
     const Tick said = std::max(tick_, logged_until_) - 1;
     if (book_.add(order, said) && options_.log != nullptr) options_.log->order(order, said);
     return Ok{};
+}
+
+void Controller::note_dropped(const char* message, const std::string& why) {
+    notice(std::string("dropped=") + message + " tick=" + std::to_string(tick_) + " reason=\"" + why + "\"");
 }
 
 void Controller::fail(Error error) {

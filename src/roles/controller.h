@@ -86,6 +86,7 @@ struct Counters {
     std::uint64_t contacts = 0, static_contacts = 0;  // summed over ticks
     double step_cpu_s = 0;                            // all stepping, repeats included
     double critical_cpu_s = 0;  // of the busiest Simulator of each attempt: what many machines would wait for
+    std::uint64_t silences = 0;  // of the losses, those noticed by silence alone
     std::uint64_t losses = 0, recoveries = 0, migrations = 0, checkpoints = 0, orders_refused = 0;
     std::uint64_t orders_ahead = 0;  // told before the plan of their window
     std::uint64_t cuts = 0;          // plans that were late and of which others took a part over
@@ -217,6 +218,8 @@ class Controller {
     void serve_model(Bus& bus, const Address& from, const ModelRequest& request);
     const WholeBytes& whole(Whole what);
     void fail(Error error);
+    /// A message that makes no sense.
+    void note_dropped(const char* message, const std::string& why);
     void notice(std::string text) { notices_.push_back(std::move(text)); }
 
     // controller_clients.cpp
@@ -255,7 +258,10 @@ class Controller {
     void commit();
     void learn_costs();
     void learn_rates(std::span<const double> expected_ns, std::span<const double> spent_ns);
-    std::optional<Error> failed_island() const;
+    const IslandFrame* first_failure() const;
+    void end_before(const IslandFrame& failure);
+    void drop_round();
+    std::string part_of(RobotId robot, JointId joint) const;
 
     // controller_help.cpp: who is done takes over from who is late
     void expect_work();
@@ -307,6 +313,7 @@ class Controller {
     std::optional<Tick> log_tick_;  // of the checkpoint for the log that is under way
     Tick log_tried_ = -1;           // tick of the last one, whatever came of it
     std::optional<RunCheckpoint> log_checkpoint_;
+    std::optional<Tick> ends_at_;  // in this tick a state ceases to be finite
     bool started_ = false;
     std::vector<std::uint64_t> hashes_, next_hashes_;  // by RobotId: committed; of the round
     std::vector<std::uint32_t> holder_;                // by RobotId: place of its state at tick_

@@ -7,6 +7,7 @@
 namespace roboss {
 
 void Controller::take_client_hello(Bus& bus, const Address& from, const ClientHello& hello) {
+    if (from.role != Role::kClient) return note_dropped("ClientHello", "who sends it is not a Client");
     if (is_earlier_model(hello.model_hash))
         return bus.send(kControllerAddress, from, ModelChanged{model_->hash});
     if (hello.model_hash != model_->hash)

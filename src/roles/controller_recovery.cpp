@@ -103,8 +103,9 @@ void Controller::notice_losses(Bus& bus) {
     if (options_.loss_ms <= 0) return;
     for (std::uint32_t place = 0; place < roster_.size(); ++place) {
         const SimulatorSeat& seat = roster_.seat(place);
-        if (seat.alive && now - seat.heard_ms > options_.loss_ms)
-            give_up(place, "was silent for " + std::to_string(now - seat.heard_ms) + " ms");
+        if (!seat.alive || now - seat.heard_ms <= options_.loss_ms) continue;
+        ++counters_.silences;
+        give_up(place, "was silent for " + std::to_string(now - seat.heard_ms) + " ms");
     }
 }
 

@@ -2,6 +2,7 @@
 // commit.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "plan/assign.h"
@@ -69,6 +70,7 @@ bool Controller::may_plan() const {
 Tick Controller::window_end(Tick from, Tick length, bool all_answered) const {
     length = std::min(length, views_.window_max().value_or(length));
     if (options_.window_max > 0) length = std::min(length, options_.window_max);
+    if (ends_at_ && *ends_at_ > from) length = std::min(length, *ends_at_ - from);
     return std::min({from + length, target_, desk_.limit(from, all_answered), next_log_tick(from)});
 }
 
@@ -136,7 +138,10 @@ double Controller::largest_share() const {
 
 void Controller::take_frame(std::uint32_t place, const Frame& frame) {
     if (!round_) return;
-    const std::optional<Round::Answered> answered = round_->answered_by(place, frame);
+    bool fits = true;
+    const std::optional<Round::Answered> answered = round_->answered_by(place, frame, fits);
+    if (!fits)
+        note_dropped("Frame", "what simulator " + std::to_string(place) + " answers does not fit its plan");
     if (!answered) return;
     const Plan& plan = answered->plan;
     take_costs(*answered, frame);
@@ -184,10 +189,7 @@ void Controller::finish_round() {
     counters_.critical_cpu_s += 1e-9 * round_->busiest_ns();
     if (round_->span().recovery) return finish_leg();
     if (merge_touching()) return;
-    if (std::optional<Error> error = failed_island()) {
-        round_.reset();
-        return fail(std::move(*error));
-    }
+    if (const IslandFrame* failure = first_failure()) return end_before(*failure);
     commit();
 }
 
@@ -208,6 +210,7 @@ bool Controller::merge_touching() {
     for (const EarlierBox& e : round_->earlier) boxes_.push_back({e.swept, e.robot.value});
     if (sweep_.unite_overlapping(boxes_, sets_) == 0) return false;
 
+    if (roster_.workers().empty()) return drop_round(), true;  // all want to leave
     forecast_.forget();
     Islands all, again;
     collect_islands(sets_, all);
@@ -229,21 +232,52 @@ bool Controller::merge_touching() {
     return true;
 }
 
-std::optional<Error> Controller::failed_island() const {
+/// Of all robots whose states ceased to be finite in the window, the one that every other grouping would
+/// tell, too.
+const IslandFrame* Controller::first_failure() const {
+    const auto key = [](const IslandFrame& f) {
+        return std::tuple(f.failed_at, !f.beyond_numbers, f.failed);
+    };
     const IslandFrame* first = nullptr;
     for (std::size_t i = 0; i < round_->islands.count(); ++i) {
         const IslandFrame& outcome = round_->outcome[round_->islands.of(i).front().index()];
-        if (!outcome.failed.valid()) continue;
-        if (first == nullptr ||
-            std::pair(outcome.failed_at, outcome.failed) < std::pair(first->failed_at, first->failed))
-            first = &outcome;
+        if (outcome.failed.valid() && (first == nullptr || key(outcome) < key(*first))) first = &outcome;
     }
-    if (first == nullptr) return std::nullopt;
-    return Error{"the state of robot '" + model_->robots[first->failed.index()].name +
-                     "' is no longer finite after tick " + std::to_string(first->failed_at) + " (" +
-                     std::to_string(static_cast<double>(first->failed_at) * model_->dt_s) + " s)",
-                 "look for extreme orders or masses, or take a shorter step; the world up to tick " +
-                     std::to_string(tick_) + " is intact and can be saved"};
+    return first;
+}
+
+/// "joint 'wheel_0' of robot 'car_7'"
+std::string Controller::part_of(RobotId robot, JointId joint) const {
+    const RobotType& type = model_->type_of(robot);
+    const std::string part =
+        joint.index() < type.joints.size() ? "joint '" + type.joints[joint.index()].name + "'" : "the base";
+    return part + " of robot '" + model_->robots[robot.index()].name + "'";
+}
+
+/// What comes before the tick in which a state ceases to be finite is committed first, in a window that ends
+/// there. So the run ends with the same tick and state whatever windows it had.
+void Controller::end_before(const IslandFrame& failure) {
+    const Tick tick = failure.failed_at;
+    if (tick > round_->span().from) {
+        ends_at_ = tick;
+        return drop_round();
+    }
+    Error error{
+        "the state is not finite after tick " + std::to_string(tick) + " (" +
+            std::to_string(static_cast<double>(tick) * model_->dt_s) +
+            " s): " + part_of(failure.failed, failure.failed_joint) +
+            (failure.beyond_numbers ? " moves faster than can be computed" : " is infinite or no number"),
+        "look for extreme orders or masses, or take a shorter step; the world up to tick " +
+            std::to_string(tick_) + " is intact and can be saved"};
+    drop_round();
+    fail(std::move(error));
+}
+
+/// Nothing of it is committed; the window is stepped again from its start, if at all.
+void Controller::drop_round() {
+    watch_.stop();
+    forecast_.forget();
+    round_.reset();
 }
 
 void Controller::commit() {

@@ -137,19 +137,21 @@ void Round::send(Bus& bus, const Roster& roster, std::int64_t resend_ms,
     }
 }
 
-std::optional<Round::Answered> Round::answered_by(std::uint32_t place, const Frame& frame) {
+std::optional<Round::Answered> Round::answered_by(std::uint32_t place, const Frame& frame, bool& fits) {
+    fits = true;
     if (frame.epoch != span_.epoch || frame.window != span_.window) return std::nullopt;
     const auto sent = std::find_if(sent_.begin(), sent_.end(), [&](const Sent& s) {
         return s.place == place && s.plan.attempt == frame.attempt;
     });
-    if (sent == sent_.end() || (frame.left > 0 && !sent->cut) || !fits(sent->plan, frame))
-        return std::nullopt;
+    if (sent == sent_.end()) return std::nullopt;
+    fits = (frame.left == 0 || sent->cut) && suits(sent->plan, frame);
+    if (!fits) return std::nullopt;
     std::optional<Answered> answered({sent->place, std::move(sent->plan), std::move(sent->helpers)});
     sent_.erase(sent);
     return answered;
 }
 
-bool Round::fits(const Plan& plan, const Frame& frame) const {
+bool Round::suits(const Plan& plan, const Frame& frame) const {
     const auto known = [this](RobotId robot) { return robot.index() < seat_.size(); };
     const bool told =
         frame.left > 0
@@ -159,8 +161,10 @@ bool Round::fits(const Plan& plan, const Frame& frame) const {
     return told && frame.islands.size() + 1 == plan.island_offsets.size() &&
            std::all_of(frame.earlier.begin(), frame.earlier.end(),
                        [&](const EarlierBox& e) { return known(e.robot); }) &&
-           std::all_of(frame.islands.begin(), frame.islands.end(),
-                       [&](const IslandFrame& i) { return !i.failed.valid() || known(i.failed); });
+           std::all_of(frame.islands.begin(), frame.islands.end(), [&](const IslandFrame& i) {
+               return !i.failed.valid() ||
+                      (known(i.failed) && plan.from <= i.failed_at && i.failed_at < plan.until);
+           });
 }
 
 void Round::spend(std::uint32_t place, std::uint64_t cost_ns) {

@@ -55,7 +55,8 @@ class Round {
         std::vector<std::uint32_t> helpers;  // that wait for what a Cut leaves
     };
     /// The plan that this frame of a seat answers, removed from those unanswered; nothing if it answers none.
-    std::optional<Answered> answered_by(std::uint32_t place, const Frame& frame);
+    /// `fits`: false if it is meant for one and says what cannot be true of it.
+    std::optional<Answered> answered_by(std::uint32_t place, const Frame& frame, bool& fits);
     bool all_answered() const { return sent_.empty(); }
 
     /// What a seat's stepping cost; in the whole window; the most of one seat since islands were planned for
@@ -105,7 +106,7 @@ class Round {
         std::vector<std::uint32_t> helpers;
     };
     Plan& plan_for(std::uint32_t place);
-    bool fits(const Plan& plan, const Frame& frame) const;
+    bool suits(const Plan& plan, const Frame& frame) const;
     void write(const Islands& part, std::span<const std::uint32_t> place,
                std::span<const std::uint32_t> source, const Roster& roster);
 

@@ -40,20 +40,27 @@ bool good_orders(const Model& model, const std::vector<Order>& orders) {
                        [&](const Order& o) { return check_order(model, o).ok(); });
 }
 
-/// Whether the plan makes sense for this Model: robots that exist, none twice, ascending in their islands;
-/// good orders.
-bool plausible(const Model& model, const Plan& plan) {
-    const std::size_t n = model.robots.size();
-    std::vector<bool> seen(n, false);
-    for (std::size_t i = 0; i + 1 < plan.island_offsets.size(); ++i)
-        for (std::size_t k = plan.island_offsets[i]; k < plan.island_offsets[i + 1]; ++k) {
+/// Whether robots exist, none twice, ascending in their islands, as islands are by their first.
+bool good_islands(const Model& model, const Plan& plan) {
+    std::vector<bool> seen(model.robots.size(), false);
+    std::optional<RobotId> root;
+    for (std::size_t i = 0; i + 1 < plan.island_offsets.size(); ++i) {
+        const std::size_t first = plan.island_offsets[i];
+        if (root && plan.robots[first] <= *root) return false;
+        root = plan.robots[first];
+        for (std::size_t k = first; k < plan.island_offsets[i + 1]; ++k) {
             const RobotId robot = plan.robots[k];
-            if (robot.index() >= n || seen[robot.index()]) return false;
-            if (k > plan.island_offsets[i] && robot < plan.robots[k - 1]) return false;
+            if (robot.index() >= seen.size() || seen[robot.index()]) return false;
+            if (k > first && robot < plan.robots[k - 1]) return false;
             seen[robot.index()] = true;
         }
-    return std::all_of(plan.keep.begin(), plan.keep.end(), [&](RobotId r) { return r.index() < n; }) &&
-           good_orders(model, plan.orders);
+    }
+    return true;
+}
+
+bool all_known(const Model& model, std::span<const RobotId> robots) {
+    return std::all_of(robots.begin(), robots.end(),
+                       [&](RobotId robot) { return robot.index() < model.robots.size(); });
 }
 
 }  // namespace
@@ -129,8 +136,8 @@ void Simulator::take_plan(Bus& bus, Plan& plan) {
     if (answer_ && same_attempt(plan, *answer_)) return bus.send(self_, kControllerAddress, *answer_);
     if ((answer_ && !is_newer(plan, *answer_)) || (plan_ && !is_newer(plan, *plan_))) return;
     if (unfed_ && is_newer(*unfed_, plan)) return;
+    if (const std::string flaw = flaw_of(plan); !flaw.empty()) return note_dropped("Plan", plan.window, flaw);
     unfed_.reset();
-    if (!plausible(*model_, plan)) return;
     if (plan.ahead != 0) {
         if (!ahead_ || ahead_->window != plan.ahead) return void(unfed_ = std::move(plan));
         add_ahead(plan);
@@ -138,9 +145,33 @@ void Simulator::take_plan(Bus& bus, Plan& plan) {
     adopt(bus, plan);
 }
 
+/// What makes it a plan that cannot be stepped here; empty: nothing.
+std::string Simulator::flaw_of(const Plan& plan) const {
+    if (!good_islands(*model_, plan) || !all_known(*model_, plan.keep)) return "its robots make no sense";
+    if (!good_orders(*model_, plan.orders)) return "its orders make no sense";
+    std::vector<bool> comes(model_->robots.size(), false);
+    for (const Holding& holding : plan.hand_offs) {
+        if (!all_known(*model_, holding.robots)) return "its robots make no sense";
+        for (const RobotId robot : holding.robots) comes[robot.index()] = true;
+    }
+    for (const RobotId robot : plan.robots)
+        if (!comes[robot.index()] && !store_.has(robot, plan.from))
+            return "robot " + std::to_string(robot.value) + " is not here at tick " +
+                   std::to_string(plan.from);
+    return {};
+}
+
+void Simulator::note_dropped(const char* message, std::uint64_t window, const std::string& why) {
+    constexpr std::size_t kMost = 100;  // until somebody reads them
+    if (notices_.size() < kMost)
+        notices_.push_back(std::string("dropped=") + message + " simulator=" + std::to_string(id_.value) +
+                           " window=" + std::to_string(window) + " reason=\"" + why + "\"");
+}
+
 void Simulator::take_ahead(Bus& bus, OrdersAhead& ahead) {
     if (ahead.simulator != id_ || (ahead_ && ahead.window <= ahead_->window)) return;
-    if (!good_orders(*model_, ahead.orders)) return;
+    if (!good_orders(*model_, ahead.orders))
+        return note_dropped("OrdersAhead", ahead.window, "its orders make no sense");
     ahead_ = std::move(ahead);
     if (std::optional<Plan> plan = std::exchange(unfed_, std::nullopt)) take_plan(bus, *plan);
 }
@@ -213,14 +244,7 @@ void Simulator::adopt(Bus& bus, Plan& plan) {
     store_.release_before(plan.release_before);
     store_.forget_aside_before(plan.window_from);
     if (plan.midst() != 0) store_.set_aside(plan.robots, plan.window_from);
-    std::vector<bool> comes(model_->robots.size(), false);
-    for (const Holding& holding : plan.hand_offs)
-        for (const RobotId robot : holding.robots)
-            if (robot.index() < comes.size()) comes[robot.index()] = true;
-    for (const RobotId robot : plan.robots)
-        ROBOSS_CHECK(comes[robot.index()] || store_.start(robot, plan.from),
-                     "simulator " + std::to_string(id_.value) + " lacks robot " +
-                         std::to_string(robot.value) + " at tick " + std::to_string(plan.from));
+    for (const RobotId robot : plan.robots) (void)store_.start(robot, plan.from);  // or it comes
     const bool all_given = std::all_of(plan.hand_offs.begin(), plan.hand_offs.end(),
                                        [](const Holding& h) { return h.source.role == Role::kSimulator; });
     pull_.begin(*model_, plan.from, plan.hand_offs, all_given ? std::optional(bus.now_ms()) : std::nullopt,

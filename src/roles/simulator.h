@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bus/bus.h"
@@ -51,10 +52,14 @@ class Simulator {
     bool sent_home() const { return sent_home_; }
     /// Why the run is over; empty: it is not.
     const std::string& over() const { return over_; }
+    /// Messages that made no sense and were dropped since the last call: one line each, key=value.
+    std::vector<std::string> take_notices() { return std::exchange(notices_, {}); }
 
   private:
     void handle(Bus& bus, Envelope& envelope);
     void take_plan(Bus& bus, Plan& plan);
+    std::string flaw_of(const Plan& plan) const;
+    void note_dropped(const char* message, std::uint64_t window, const std::string& why);
     void adopt(Bus& bus, Plan& plan);
     void give(Bus& bus, const Plan& plan) const;
     void take_ahead(Bus& bus, OrdersAhead& ahead);
@@ -91,6 +96,7 @@ class Simulator {
     std::optional<Frame> answer_;    // to the last plan worked on
     WindowStepper stepper_;
     std::optional<ViewLayout> view_layout_;  // made by the first view
+    std::vector<std::string> notices_;
     std::vector<Envelope> inbox_;
 
     static constexpr std::int64_t kLongAgo = -1'000'000'000;

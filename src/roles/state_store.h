@@ -22,6 +22,8 @@ class StateStore {
     void put(RobotId robot, Tick tick, RobotState&& state);
     /// Makes the robot's state at `tick` the start of a window. False: it is not here.
     bool start(RobotId robot, Tick tick);
+    /// Whether start() would find it.
+    bool has(RobotId robot, Tick tick) const { return find(robot, tick) != nullptr; }
     const RobotState& start_of(RobotId robot) const { return slots_[robot.index()].start; }
     /// The state to step on: a copy of the start, which becomes the state at `until`.
     RobotState& begin_window(RobotId robot, Tick until);

@@ -149,7 +149,7 @@ bool WindowStepper::step_tick(Job& job, std::size_t island, Tick tick, std::span
     IslandFrame& outcome = job.frame.islands[island];
     outcome.contacts += static_cast<std::uint64_t>(report.contacts);
     outcome.static_contacts += static_cast<std::uint64_t>(report.static_contacts);
-    if (report.not_finite.valid()) give_up(job, island, report.not_finite, tick);
+    if (report.not_finite.valid()) give_up(job, island, report, tick);
     return !report.not_finite.valid();
 }
 
@@ -175,9 +175,12 @@ void WindowStepper::sweep(const Job& job, std::size_t island, std::span<const Or
 }
 
 /// The bounds so far must still be compared with others'.
-void WindowStepper::give_up(Job& job, std::size_t island, RobotId failed, Tick tick) {
-    job.frame.islands[island].failed = failed;
-    job.frame.islands[island].failed_at = tick;
+void WindowStepper::give_up(Job& job, std::size_t island, const StepReport& report, Tick tick) {
+    IslandFrame& outcome = job.frame.islands[island];
+    outcome.failed = report.not_finite;
+    outcome.failed_at = tick;
+    outcome.failed_joint = report.not_finite_joint;
+    outcome.beyond_numbers = report.beyond_numbers;
     for (std::size_t k = job.plan.island_offsets[island]; k < job.plan.island_offsets[island + 1]; ++k) {
         job.frame.robots[k].robot = job.plan.robots[k];
         job.frame.robots[k].swept = outward(swept_[k]);

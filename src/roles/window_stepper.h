@@ -75,7 +75,7 @@ class WindowStepper {
     void step_apart(Job& job, std::span<const std::uint32_t> islands, std::size_t worker);
     void count(std::size_t island, float effort);
     void sweep(const Job& job, std::size_t island, std::span<const Order> orders);
-    void give_up(Job& job, std::size_t island, RobotId failed, Tick tick);
+    void give_up(Job& job, std::size_t island, const StepReport& report, Tick tick);
     void report_robots(Job& job, std::size_t island);
     // window_cut.cpp
     bool abreast(const Plan& plan) const;

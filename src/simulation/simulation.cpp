@@ -205,7 +205,10 @@ void Simulation::start_log(RunLog* log, Tick log_ticks) {
 }
 
 std::vector<std::string> Simulation::take_notices() {
-    return controller_.take_notices();
+    std::vector<std::string> notices = controller_.take_notices();
+    for (auto& simulator : simulators_)
+        for (std::string& line : simulator->take_notices()) notices.push_back(std::move(line));
+    return notices;
 }
 
 }  // namespace roboss

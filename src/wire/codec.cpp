@@ -1,6 +1,8 @@
 // One description of every message's fields, used by the encoder and by the decoder.
 #include "wire/codec.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "wire/archive.h"
@@ -52,11 +54,11 @@ template <class... T>
 void field(Reader& a, std::variant<T...>& value);
 
 /// What small messages about a plan begin with.
-template <class A, class M>
-void head(A& a, M& m) {
-    compact(a, m.epoch);
-    compact(a, m.window);
-    compact(a, m.attempt);
+template <class A, class Epoch, class Window, class Attempt>
+void head(A& a, Epoch& epoch, Window& window, Attempt& attempt) {
+    compact(a, epoch);
+    compact(a, window);
+    compact(a, attempt);
 }
 
 /// A list that is mostly short.
@@ -89,9 +91,10 @@ inline void next_robot(Reader& a, RobotId& robot, std::uint32_t& last) {
 
 /// The Controller is alone in its role, so its number, 0, need not be told.
 inline void field(Writer& a, const Address& m) {
-    const bool alone = m.instance == 0;
-    a.scalar(static_cast<std::uint8_t>(static_cast<std::uint8_t>(m.role) | (alone ? kAlone : 0)));
-    if (!alone) a.scalar(m.instance);
+    const auto& [role, instance] = m;
+    const bool alone = instance == 0;
+    a.scalar(static_cast<std::uint8_t>(static_cast<std::uint8_t>(role) | (alone ? kAlone : 0)));
+    if (!alone) a.scalar(instance);
 }
 inline void field(Reader& a, Address& m) {
     std::uint8_t role = 0;
@@ -103,79 +106,89 @@ inline void field(Reader& a, Address& m) {
     if (m.instance == 0) a.fail("an address has no number");
 }
 
+// Each description names all members of its struct, in their order, before it says how they travel: a new
+// member breaks the build here, so that it is not forgotten.
 // clang-format off
-template <class A> void field(A& a, Of<A, Vec3>& m) { fields(a, m.x, m.y, m.z); }
-template <class A> void field(A& a, Of<A, Quat>& m) { fields(a, m.w, m.x, m.y, m.z); }
-template <class A> void field(A& a, Of<A, StateBlock>& m) { fields(a, m.tick, m.robots, m.sizes, m.bytes); }
-template <class A> void field(A& a, Of<A, Holding>& m) { fields(a, m.source, m.robots); }
-template <class A> void field(A& a, Of<A, HandOver>& m) { fields(a, m.to, m.robots); }
-template <class A> void field(A& a, Of<A, SetPose>& m) { fields(a, m.X_WR.p, m.X_WR.q); }
-template <class A> void field(A& a, Of<A, SetVelocity>& m) { fields(a, m.linear, m.angular); }
-template <class A> void field(A& a, Of<A, ApplyWrench>& m) { fields(a, m.link, m.force, m.torque, m.duration); }
+template <class A> void field(A& a, Of<A, Vec3>& m) { auto& [x, y, z] = m; fields(a, x, y, z); }
+template <class A> void field(A& a, Of<A, Quat>& m) { auto& [w, x, y, z] = m; fields(a, w, x, y, z); }
+template <class A> void field(A& a, Of<A, StateBlock>& m) { auto& [tick, robots, sizes, bytes] = m; fields(a, tick, robots, sizes, bytes); }
+template <class A> void field(A& a, Of<A, Holding>& m) { auto& [source, robots] = m; fields(a, source, robots); }
+template <class A> void field(A& a, Of<A, HandOver>& m) { auto& [to, robots] = m; fields(a, to, robots); }
+template <class A> void field(A& a, Of<A, SetPose>& m) { auto& [X_WR] = m; auto& [p, q] = X_WR; fields(a, p, q); }
+template <class A> void field(A& a, Of<A, SetVelocity>& m) { auto& [linear, angular] = m; fields(a, linear, angular); }
+template <class A> void field(A& a, Of<A, ApplyWrench>& m) { auto& [link, force, torque, duration] = m; fields(a, link, force, torque, duration); }
 template <class A> void field(A& a, Of<A, SetJoint>& m) {
-    fields(a, m.joint, m.axis, m.mode, m.target, m.max_effort);
-    if constexpr (A::kReading) if (m.mode > MotorMode::kEffort) a.fail("a motor mode is unknown");
+    auto& [joint, axis, mode, target, max_effort] = m;
+    fields(a, joint, axis, mode, target, max_effort);
+    if constexpr (A::kReading) if (mode > MotorMode::kEffort) a.fail("a motor mode is unknown");
 }
-template <class A> void field(A& a, Of<A, Order>& m) { fields(a, m.apply_at, m.client, m.sequence, m.robot, m.action); }
-template <class A> void field(A& a, Of<A, Hello>& m) { fields(a, m.model_hash, m.threads, m.name); }
-template <class A> void field(A& a, Of<A, Welcome>& m) { fields(a, m.simulator); }
-template <class A> void field(A& a, Of<A, Refused>& m) { fields(a, m.reason); }
-template <class A> void field(A& a, Of<A, Expelled>& m) { fields(a, m.simulator); }
-template <class A> void field(A& a, Of<A, Alive>& m) { fields(a, m.simulator); }
-template <class A> void field(A& a, Of<A, LeaveRequest>& m) { fields(a, m.simulator); }
-template <class A> void field(A& a, Of<A, Goodbye>& m) { fields(a, m.simulator); }
+template <class A> void field(A& a, Of<A, Order>& m) { auto& [apply_at, client, sequence, robot, action] = m; fields(a, apply_at, client, sequence, robot, action); }
+template <class A> void field(A& a, Of<A, Hello>& m) { auto& [model_hash, threads, name] = m; fields(a, model_hash, threads, name); }
+template <class A> void field(A& a, Of<A, Welcome>& m) { auto& [simulator] = m; fields(a, simulator); }
+template <class A> void field(A& a, Of<A, Refused>& m) { auto& [reason] = m; fields(a, reason); }
+template <class A> void field(A& a, Of<A, Expelled>& m) { auto& [simulator] = m; fields(a, simulator); }
+template <class A> void field(A& a, Of<A, Alive>& m) { auto& [simulator] = m; fields(a, simulator); }
+template <class A> void field(A& a, Of<A, LeaveRequest>& m) { auto& [simulator] = m; fields(a, simulator); }
+template <class A> void field(A& a, Of<A, Goodbye>& m) { auto& [simulator] = m; fields(a, simulator); }
 template <class A> void field(A& a, Of<A, Plan>& m) {
-    fields(a, m.epoch, m.window, m.attempt, m.simulator, m.window_from, m.from, m.until, m.island_offsets, m.robots, m.hand_offs, m.gives, m.orders,
-           m.ahead, m.keep, m.release_before, m.due_ns);
+    auto& [epoch, window, attempt, simulator, window_from, from, until, island_offsets, robots, hand_offs, gives, orders, ahead, keep,
+           release_before, due_ns] = m;
+    fields(a, epoch, window, attempt, simulator, window_from, from, until, island_offsets, robots, hand_offs, gives, orders, ahead, keep,
+           release_before, due_ns);
 }
-template <class A> void field(A& a, Of<A, OrdersAhead>& m) { fields(a, m.window, m.simulator, m.orders); }
-template <class A> void field(A& a, Of<A, Late>& m) { head(a, m); compact(a, m.needs_ns); }
-template <class A> void field(A& a, Of<A, Cut>& m) { head(a, m); field(a, m.simulator); }
-template <class A> void field(A& a, Of<A, Box32>& m) { fields(a, m.min, m.max); }
+template <class A> void field(A& a, Of<A, OrdersAhead>& m) { auto& [window, simulator, orders] = m; fields(a, window, simulator, orders); }
+template <class A> void field(A& a, Of<A, Late>& m) { auto& [epoch, window, attempt, needs_ns] = m; head(a, epoch, window, attempt); compact(a, needs_ns); }
+template <class A> void field(A& a, Of<A, Cut>& m) { auto& [epoch, window, attempt, simulator] = m; head(a, epoch, window, attempt); field(a, simulator); }
+template <class A> void field(A& a, Of<A, Box32>& m) { auto& [min, max] = m; fields(a, min, max); }
 template <class A> void field(A& a, Of<A, IslandFrame>& m) {
+    auto& [cost_ns, contacts, static_contacts, failed, failed_at, failed_joint, beyond_numbers] = m;
     std::uint8_t told = told_of(m);
     field(a, told);
-    compact(a, m.cost_ns);
-    if ((told & kContacts) != 0) compact(a, m.contacts);
-    if ((told & kStaticContacts) != 0) compact(a, m.static_contacts);
-    if ((told & kFailure) != 0) fields(a, m.failed, m.failed_at);
+    compact(a, cost_ns);
+    if ((told & kContacts) != 0) compact(a, contacts);
+    if ((told & kStaticContacts) != 0) compact(a, static_contacts);
+    if ((told & kFailure) != 0) fields(a, failed, failed_at, failed_joint, beyond_numbers);
     if constexpr (A::kReading) if (told != told_of(m)) a.fail("an island does not have what it tells of");
 }
 template <class A> void field(A& a, Of<A, Frame>& m) {
-    head(a, m);
-    compact(a, m.left);
+    auto& [epoch, window, attempt, left, robots, earlier, islands] = m;
+    head(a, epoch, window, attempt);
+    compact(a, left);
     std::uint32_t last = 0;
-    short_list(a, m.robots, [&](auto& r) {
-        next_robot(a, r.robot, last);
-        fields(a, r.swept, r.place, r.velocity, r.hash);
+    short_list(a, robots, [&](auto& r) {
+        auto& [robot, swept, place, velocity, hash] = r;
+        next_robot(a, robot, last);
+        fields(a, swept, place, velocity, hash);
     });
-    short_list(a, m.earlier, [&](auto& e) { next_robot(a, e.robot, last); field(a, e.swept); });
-    short_list(a, m.islands, [&](auto& i) { field(a, i); });
+    short_list(a, earlier, [&](auto& e) { auto& [robot, swept] = e; next_robot(a, robot, last); field(a, swept); });
+    short_list(a, islands, [&](auto& i) { field(a, i); });
 }
-template <class A> void field(A& a, Of<A, StateRequest>& m) { fields(a, m.tick, m.window, m.robots); }
-template <class A> void field(A& a, Of<A, StateReply>& m) { fields(a, m.window, m.states); }
+template <class A> void field(A& a, Of<A, StateRequest>& m) { auto& [tick, robots, window] = m; fields(a, tick, window, robots); }
+template <class A> void field(A& a, Of<A, StateReply>& m) { auto& [states, window] = m; fields(a, window, states); }
 template <class A> void field(A& a, Of<A, ClientHello>& m) {
-    fields(a, m.name, m.model_hash, m.period, m.latency, m.synchronous, m.guest, m.expected, m.acknowledged, m.said);
+    auto& [name, model_hash, period, latency, synchronous, guest, expected, acknowledged, said] = m;
+    fields(a, name, model_hash, period, latency, synchronous, guest, expected, acknowledged, said);
 }
-template <class A> void field(A& a, Of<A, ClientWelcome>& m) { fields(a, m.client, m.first, m.seed); }
-template <class A> void field(A& a, Of<A, Observation>& m) { fields(a, m.tick, m.last_word, m.holders); }
-template <class A> void field(A& a, Of<A, ClientOrder>& m) { fields(a, m.sequence, m.robot, m.action); }
-template <class A> void field(A& a, Of<A, ClientWord>& m) { fields(a, m.client, m.word, m.observed, m.orders); }
-template <class A> void field(A& a, Of<A, RefusedOrder>& m) { fields(a, m.sequence, m.reason); }
-template <class A> void field(A& a, Of<A, WordAck>& m) { fields(a, m.client, m.word, m.refused); }
-template <class A> void field(A& a, Of<A, ClientBye>& m) { fields(a, m.client, m.word, m.failed, m.reason); }
-template <class A> void field(A& a, Of<A, RunOver>& m) { fields(a, m.reason); }
-template <class A> void field(A& a, Of<A, ClientUnknown>& m) { fields(a, m.client); }
-template <class A> void field(A& a, Of<A, ControlRequest>& m) { fields(a, m.number, m.words); }
-template <class A> void field(A& a, Of<A, ControlReply>& m) { fields(a, m.number, m.done, m.text); }
-template <class A> void field(A& a, Of<A, ModelChanged>& m) { fields(a, m.model_hash); }
-template <class A> void field(A& a, Of<A, ModelRequest>& m) { fields(a, m.what, m.offset); }
-template <class A> void field(A& a, Of<A, ModelPart>& m) { fields(a, m.what, m.bytes_hash, m.total, m.offset, m.bytes); }
+template <class A> void field(A& a, Of<A, ClientWelcome>& m) { auto& [client, first, seed] = m; fields(a, client, first, seed); }
+template <class A> void field(A& a, Of<A, Observation>& m) { auto& [tick, last_word, holders] = m; fields(a, tick, last_word, holders); }
+template <class A> void field(A& a, Of<A, ClientOrder>& m) { auto& [sequence, robot, action] = m; fields(a, sequence, robot, action); }
+template <class A> void field(A& a, Of<A, ClientWord>& m) { auto& [client, word, observed, orders] = m; fields(a, client, word, observed, orders); }
+template <class A> void field(A& a, Of<A, RefusedOrder>& m) { auto& [sequence, reason] = m; fields(a, sequence, reason); }
+template <class A> void field(A& a, Of<A, WordAck>& m) { auto& [client, word, refused] = m; fields(a, client, word, refused); }
+template <class A> void field(A& a, Of<A, ClientBye>& m) { auto& [client, word, failed, reason] = m; fields(a, client, word, failed, reason); }
+template <class A> void field(A& a, Of<A, RunOver>& m) { auto& [reason] = m; fields(a, reason); }
+template <class A> void field(A& a, Of<A, ClientUnknown>& m) { auto& [client] = m; fields(a, client); }
+template <class A> void field(A& a, Of<A, ControlRequest>& m) { auto& [number, words] = m; fields(a, number, words); }
+template <class A> void field(A& a, Of<A, ControlReply>& m) { auto& [number, done, text] = m; fields(a, number, done, text); }
+template <class A> void field(A& a, Of<A, ModelChanged>& m) { auto& [model_hash] = m; fields(a, model_hash); }
+template <class A> void field(A& a, Of<A, ModelRequest>& m) { auto& [what, offset] = m; fields(a, what, offset); }
+template <class A> void field(A& a, Of<A, ModelPart>& m) { auto& [what, bytes_hash, total, offset, bytes] = m; fields(a, what, bytes_hash, total, offset, bytes); }
 template <class A> void field(A& a, Of<A, ViewRequest>& m) {
-    fields(a, m.model_hash, m.interval_ms, m.exact_interval_ms, m.exact_all, m.exact);
+    auto& [model_hash, interval_ms, exact_interval_ms, exact_all, exact] = m;
+    fields(a, model_hash, interval_ms, exact_interval_ms, exact_all, exact);
 }
-template <class A> void field(A& a, Of<A, ViewDue>& m) { fields(a, m.epoch, m.serial, m.tick, m.viewer, m.robots, m.exact); }
-template <class A> void field(A& a, Of<A, ViewStates>& m) { fields(a, m.model_hash, m.epoch, m.serial, m.tick, m.entries); }
+template <class A> void field(A& a, Of<A, ViewDue>& m) { auto& [epoch, serial, tick, viewer, robots, exact] = m; fields(a, epoch, serial, tick, viewer, robots, exact); }
+template <class A> void field(A& a, Of<A, ViewStates>& m) { auto& [model_hash, epoch, serial, tick, entries] = m; fields(a, model_hash, epoch, serial, tick, entries); }
 // clang-format on
 
 template <class A, class... Fields>
@@ -230,13 +243,36 @@ void field(Reader& a, std::variant<T...>& value) {
     if (!a.failed()) read_alternative(a, index, value);
 }
 
-/// What the fields' types alone cannot say and every receiver relies on.
+// What the fields' types alone cannot say and every receiver relies on. A rule needs no Model; what does is
+// checked by the role that receives the message.
+
+/// So far that sums of two ticks do not overflow. -1: before the first.
+bool in_range(Tick tick) {
+    constexpr Tick kFarthest = Tick{1} << 60;
+    return tick >= -1 && tick <= kFarthest;
+}
+constexpr const char* kTickOutOfRange = "a tick is out of range";
+
+template <class Orders>
+const char* broken_rule_of(const Orders& orders) {
+    const bool fine =
+        std::all_of(orders.begin(), orders.end(), [](const auto& o) { return in_range(o.apply_at); });
+    return fine ? nullptr : kTickOutOfRange;
+}
+
+/// Sorting and comparing boxes relies on numbers.
+bool is_number(const Box32& box) {
+    const auto number = [](float x) { return !std::isnan(x); };
+    return std::all_of(box.min.begin(), box.min.end(), number) &&
+           std::all_of(box.max.begin(), box.max.end(), number);
+}
+
 const char* broken_rule(const StateBlock& block) {
     std::uint64_t bytes = 0;
     for (const std::uint32_t size : block.sizes) bytes += size;
     if (block.sizes.size() != block.robots.size()) return "it has not one size a robot";
     if (bytes != block.bytes.size()) return "the sizes do not add up to its bytes";
-    return nullptr;
+    return in_range(block.tick) ? nullptr : kTickOutOfRange;
 }
 
 const char* broken_rule(const Plan& plan) {
@@ -245,22 +281,70 @@ const char* broken_rule(const Plan& plan) {
         return "its islands do not cover its robots";
     for (std::size_t i = 1; i < offsets.size(); ++i)
         if (offsets[i] <= offsets[i - 1]) return "one of its islands is empty";
-    return plan.until < plan.from || plan.from < plan.window_from ? "it ends before it starts" : nullptr;
+    for (const Tick tick : {plan.window_from, plan.from, plan.until, plan.release_before})
+        if (!in_range(tick)) return kTickOutOfRange;
+    if (plan.window_from < 0 || plan.until < plan.from || plan.from < plan.window_from)
+        return "it ends before it starts";
+    const bool inside = std::all_of(plan.orders.begin(), plan.orders.end(), [&](const Order& order) {
+        return plan.from <= order.apply_at && order.apply_at < plan.until;
+    });
+    return inside ? nullptr : "one of its orders is for a tick that it does not step";
+}
+
+const char* broken_rule(const OrdersAhead& ahead) {
+    return broken_rule_of(ahead.orders);
 }
 
 const char* broken_rule(const Frame& frame) {
     const bool told = frame.left == 0 || (frame.robots.empty() && frame.earlier.empty());
-    return told ? nullptr : "it was cut short and tells of robots";
+    if (!told) return "it was cut short and tells of robots";
+    const auto numbers = [](const auto& entry) { return is_number(entry.swept); };
+    if (!std::all_of(frame.robots.begin(), frame.robots.end(), numbers) ||
+        !std::all_of(frame.earlier.begin(), frame.earlier.end(), numbers))
+        return "a robot's bound is not a number";
+    const bool known = std::all_of(frame.islands.begin(), frame.islands.end(),
+                                   [](const IslandFrame& island) { return in_range(island.failed_at); });
+    return known ? nullptr : kTickOutOfRange;
 }
 
 const char* broken_rule(const StateReply& reply) {
     return broken_rule(reply.states);
 }
 
+const char* broken_rule(const StateRequest& request) {
+    return in_range(request.tick) ? nullptr : kTickOutOfRange;
+}
+
+const char* broken_rule(const Observation& observation) {
+    return in_range(observation.tick) ? nullptr : kTickOutOfRange;
+}
+
+const char* broken_rule(const ClientWelcome& welcome) {
+    return in_range(welcome.first) ? nullptr : kTickOutOfRange;
+}
+
+const char* broken_rule(const ClientWord& word) {
+    return in_range(word.observed) ? nullptr : kTickOutOfRange;
+}
+
+const char* broken_rule(const ViewDue& due) {
+    return in_range(due.tick) ? nullptr : kTickOutOfRange;
+}
+
+const char* broken_rule(const ViewStates& views) {
+    return in_range(views.tick) ? nullptr : kTickOutOfRange;
+}
+
+const char* broken_rule(const Hello& hello) {
+    constexpr std::uint32_t kThreadsMost = 1u << 16;
+    return hello.threads >= 1 && hello.threads <= kThreadsMost ? nullptr
+                                                               : "its number of threads is out of range";
+}
+
 const char* broken_rule(const ClientHello& hello) {
     constexpr Tick kLongest = Tick{1} << 50;
     return hello.period < 1 || hello.period > kLongest || hello.latency < 0 || hello.latency > kLongest ||
-                   hello.expected > kLongest || hello.said < hello.acknowledged
+                   hello.expected < -1 || hello.expected > kLongest || hello.said < hello.acknowledged
                ? "its period or latency is out of range"
                : nullptr;
 }
@@ -335,13 +419,6 @@ Result<std::vector<Order>> decode_orders(std::span<const std::uint8_t> bytes) {
     if (a.left() > 0) a.fail("bytes are left over behind them");
     if (a.failed()) return Error{"damaged orders: " + a.failure(), ""};
     return orders;
-}
-
-bool operator==(const Plan& a, const Plan& b) {
-    wire::Writer wa, wb;
-    wire::fields(wa, a);
-    wire::fields(wb, b);
-    return wa.take() == wb.take();
 }
 
 }  // namespace roboss

@@ -57,29 +57,37 @@ struct Hello {  // Simulator -> Controller
     std::uint64_t model_hash = 0;
     std::uint32_t threads = 1;
     std::string name;  // for people: where it runs
+    friend bool operator==(const Hello&, const Hello&) = default;
 };
 struct Welcome {  // Controller -> Simulator
     SimulatorId simulator;
+    friend bool operator==(const Welcome&, const Welcome&) = default;
 };
 struct Refused {  // Controller -> Simulator or Client that cannot take part
     std::string reason;
+    friend bool operator==(const Refused&, const Refused&) = default;
 };
 struct Expelled {  // Controller -> Simulator that was given up; it may say Hello again
     SimulatorId simulator;
+    friend bool operator==(const Expelled&, const Expelled&) = default;
 };
 struct RunOver {  // Controller -> everybody: the run has ended
     std::string reason;
+    friend bool operator==(const RunOver&, const RunOver&) = default;
 };
 /// Simulator -> Controller, every 50 ms, also from within a long step; and Controller -> all others now and
 /// then, so that who hears nothing knows that the line is dead.
 struct Alive {
     SimulatorId simulator;
+    friend bool operator==(const Alive&, const Alive&) = default;
 };
 struct LeaveRequest {  // Simulator -> Controller
     SimulatorId simulator;
+    friend bool operator==(const LeaveRequest&, const LeaveRequest&) = default;
 };
 struct Goodbye {  // Controller -> Simulator: nothing depends on it any more
     SimulatorId simulator;
+    friend bool operator==(const Goodbye&, const Goodbye&) = default;
 };
 
 // --- windows
@@ -110,7 +118,7 @@ struct Plan {
     std::uint64_t due_ns = 0;
     /// The window in whose midst this begins; 0: it begins at a window's start.
     std::uint64_t midst() const { return from > window_from ? window : 0; }
-    friend bool operator==(const Plan&, const Plan&);
+    friend bool operator==(const Plan&, const Plan&) = default;
 };
 
 /// Controller -> Simulator while it steps a window: orders for the ticks after it, of the robots that it has
@@ -119,6 +127,7 @@ struct OrdersAhead {
     std::uint64_t window = 0;  // that is being stepped
     SimulatorId simulator;
     std::vector<Order> orders;  // canonical order
+    friend bool operator==(const OrdersAhead&, const OrdersAhead&) = default;
 };
 
 /// Simulator -> Controller while it steps: it will need so much CPU time for this plan, more than was due.
@@ -127,6 +136,7 @@ struct Late {
     std::uint64_t window = 0;
     std::uint32_t attempt = 0;
     std::uint64_t needs_ns = 0;
+    friend bool operator==(const Late&, const Late&) = default;
 };
 
 /// Controller -> Simulator that is late, when others have nothing to do: to stop where it is; what is left of
@@ -136,6 +146,7 @@ struct Cut {
     std::uint64_t window = 0;
     std::uint32_t attempt = 0;
     SimulatorId simulator;
+    friend bool operator==(const Cut&, const Cut&) = default;
 };
 
 /// Interaction bounds from earlier in the window: from before a teleport, or of a robot that somebody else
@@ -150,8 +161,12 @@ struct IslandFrame {
     /// Thread CPU time of the stepping; for balance and telemetry, never for results.
     std::uint64_t cost_ns = 0;
     std::uint64_t contacts = 0, static_contacts = 0;  // summed over the ticks
-    RobotId failed;  // valid: this robot's state was not finite after the step from tick `failed_at`
+    /// Valid: this robot's state was not finite after the step from tick `failed_at`, the first in which one
+    /// of the island's was (StepReport::not_finite, not_finite_joint, beyond_numbers).
+    RobotId failed;
     Tick failed_at = 0;
+    JointId failed_joint;
+    bool beyond_numbers = false;
     friend bool operator==(const IslandFrame&, const IslandFrame&) = default;
 };
 
@@ -177,12 +192,14 @@ enum class Whole : std::uint8_t { kModel, kScene };
 struct ModelRequest {  // anyone -> Controller, before anything else: who joins needs no file
     Whole what = Whole::kModel;
     std::uint64_t offset = 0;
+    friend bool operator==(const ModelRequest&, const ModelRequest&) = default;
 };
 /// Controller -> who asked: some of its bytes. Equal hashes: of the same whole.
 struct ModelPart {
     Whole what = Whole::kModel;
     std::uint64_t bytes_hash = 0, total = 0, offset = 0;
     std::vector<std::uint8_t> bytes;
+    friend bool operator==(const ModelPart&, const ModelPart&) = default;
 };
 
 // --- states
@@ -194,10 +211,12 @@ struct StateRequest {  // anyone -> whoever holds the robots
     /// Of states in the midst of a window (where a Cut ended it), for such may be of no account tomorrow: the
     /// window's number. 0: of states at a window's start, which are committed.
     std::uint64_t window = 0;
+    friend bool operator==(const StateRequest&, const StateRequest&) = default;
 };
 struct StateReply {
     StateBlock states;         // may lack robots that are not here (yet)
     std::uint64_t window = 0;  // the request's
+    friend bool operator==(const StateReply&, const StateReply&) = default;
 };
 
 // --- views: what is shown of the world; nothing is computed from them, and none is missed
@@ -210,6 +229,7 @@ struct ViewRequest {
     std::uint32_t exact_interval_ms = 0;  // and exact states of these (StateReply)
     bool exact_all = false;
     std::vector<RobotId> exact;
+    friend bool operator==(const ViewRequest&, const ViewRequest&) = default;
 };
 /// Controller -> who holds the robots: send these to the viewer, if they are still here.
 struct ViewDue {
@@ -218,6 +238,7 @@ struct ViewDue {
     Tick tick = 0;             // committed
     Address viewer;
     std::vector<RobotId> robots, exact;
+    friend bool operator==(const ViewDue&, const ViewDue&) = default;
 };
 struct ViewStates {  // -> viewer: entries of wire/view_state.h
     std::uint64_t model_hash = 0;
@@ -225,6 +246,7 @@ struct ViewStates {  // -> viewer: entries of wire/view_state.h
     std::uint64_t serial = 0;
     Tick tick = 0;
     std::vector<std::uint8_t> entries;
+    friend bool operator==(const ViewStates&, const ViewStates&) = default;
 };
 
 // --- Clients
@@ -241,11 +263,13 @@ struct ClientHello {
     Tick expected = -1;              // its next observation; negative: it is new
     std::uint64_t acknowledged = 0;  // its last word that a Controller has acknowledged
     std::uint64_t said = 0;          // its last word; those between are on their way
+    friend bool operator==(const ClientHello&, const ClientHello&) = default;
 };
 struct ClientWelcome {
     ClientId client;
     Tick first = 0;  // tick of its first observation
     std::uint64_t seed = 0;
+    friend bool operator==(const ClientWelcome&, const ClientWelcome&) = default;
 };
 /// Controller -> Client: the world at `tick` is committed and may be fetched. Sent again until the Client's
 /// word comes.
@@ -253,11 +277,13 @@ struct Observation {
     Tick tick = 0;
     std::uint64_t last_word = 0;  // the Client's last word that the Controller has
     std::vector<Holding> holders;
+    friend bool operator==(const Observation&, const Observation&) = default;
 };
 struct ClientOrder {
     std::uint64_t sequence = 0;
     RobotId robot;
     Action action;
+    friend bool operator==(const ClientOrder&, const ClientOrder&) = default;
 };
 /// Client -> Controller, numbered 1, 2, 3 ...; accepted in this order. One for each observation, with its
 /// orders.
@@ -266,18 +292,22 @@ struct ClientWord {
     std::uint64_t word = 0;
     Tick observed = 0;
     std::vector<ClientOrder> orders;
+    friend bool operator==(const ClientWord&, const ClientWord&) = default;
 };
 struct ClientUnknown {  // Controller -> Client whose seat it does not have: it may say ClientHello again
     ClientId client;
+    friend bool operator==(const ClientUnknown&, const ClientUnknown&) = default;
 };
 struct RefusedOrder {
     std::uint64_t sequence = 0;
     std::string reason;
+    friend bool operator==(const RefusedOrder&, const RefusedOrder&) = default;
 };
 struct WordAck {
     ClientId client;
     std::uint64_t word = 0;             // the last word accepted
     std::vector<RefusedOrder> refused;  // orders of that word that were refused
+    friend bool operator==(const WordAck&, const WordAck&) = default;
 };
 /// Client -> Controller: its last word; it takes no part any more. A failure ends the run.
 struct ClientBye {
@@ -285,6 +315,7 @@ struct ClientBye {
     std::uint64_t word = 0;
     bool failed = false;
     std::string reason;
+    friend bool operator==(const ClientBye&, const ClientBye&) = default;
 };
 
 // --- control of the run
@@ -294,15 +325,18 @@ struct ClientBye {
 struct ControlRequest {
     std::uint64_t number = 0;  // of the sender's requests, ascending
     std::vector<std::string> words;
+    friend bool operator==(const ControlRequest&, const ControlRequest&) = default;
 };
 struct ControlReply {  // Controller -> who asked
     std::uint64_t number = 0;
     bool done = false;
     std::string text;
+    friend bool operator==(const ControlReply&, const ControlReply&) = default;
 };
 /// Controller -> member that has an earlier Model of this run: fetch it again and join again.
 struct ModelChanged {
     std::uint64_t model_hash = 0;
+    friend bool operator==(const ModelChanged&, const ModelChanged&) = default;
 };
 
 using Message =
@@ -314,6 +348,7 @@ using Message =
 struct Envelope {
     Address from, to;
     Message message;
+    friend bool operator==(const Envelope&, const Envelope&) = default;
 };
 
 }  // namespace roboss

@@ -139,28 +139,6 @@ TEST(Windows, BadAndLateOrdersAreRefusedInWordsAndDisturbNothing) {
     EXPECT_EQ(simulation->hash(), reference->hash());
 }
 
-TEST(Windows, AStateThatIsNotFiniteStopsTheRunAndNamesRobotAndTick) {
-    const auto model = pair_world();
-    for (const std::size_t simulators : {1u, 2u}) {
-        SimulationOptions options;
-        options.simulators = simulators;
-        options.controller.window = 16;
-        auto simulation = make(model, options);
-        ASSERT_TRUE(
-            simulation->submit({25, ClientId(), 1, RobotId(3u), SetVelocity{{0, 0, 1.7e308}, {1e300, 0, 0}}})
-                .ok());
-        const Result<> ran = simulation->run_until(100);
-        ASSERT_FALSE(ran.ok());
-        EXPECT_NE(ran.error().message.find("lone_ball"), std::string::npos) << ran.error().text();
-        EXPECT_NE(ran.error().message.find("tick 25"), std::string::npos) << ran.error().text();
-        EXPECT_EQ(simulation->tick(), 16);
-        auto reference = make(model, merged());
-        ASSERT_TRUE(reference->run_until(16).ok());
-        EXPECT_EQ(simulation->hash(), reference->hash()) << "what was committed before stays";
-        EXPECT_EQ(simulation->states(), reference->states()) << "and can still be fetched";
-    }
-}
-
 TEST(Windows, AnEmptyWorldRunsToo) {
     auto model = std::make_shared<Model>();
     auto simulation = make(model, {});

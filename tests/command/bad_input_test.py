@@ -1,10 +1,15 @@
 """Bad input: clear words with the file's name, the documented exit code, and nothing lost."""
 import json
+import re
 import unittest
 
 from running import DRIVER, FOLDER, WORLDS, RobossTest, roboss, summary
 
 HEAP = WORLDS / "heap.sdf"
+FRAGILE = """<sdf version="1.9"><world name="fragile"><physics name="p" type="ode"><max_step_size>0.001</max_step_size></physics>
+<model name="dust"><pose>0 0 9 0 0 0</pose><link name="body"><inertial><mass>1e-300</mass>
+<inertia><ixx>1e-302</ixx><iyy>1e-302</iyy><izz>1e-302</izz></inertia></inertial>
+<collision name="c"><geometry><sphere><radius>.1</radius></sphere></geometry></collision></link></model></world></sdf>"""
 
 
 def written(name, text):
@@ -56,12 +61,21 @@ class BadInput(RobossTest):
         done = self.refused(["run", HEAP, "--duration", "0.1", "--quiet", "--save", "no/such/folder/x.roboss"], 3, "no/such/folder")
         self.assertIn("state hash", done.stdout, "the summary is there all the same")
 
-    def test_a_run_that_blows_up_says_who_and_keeps_what_was(self):
-        orders = written("boom.jsonl", '{"t":0.05,"robot":"arm","wrench":{"link":"lower","force":[1e300,0,0],"duration":0.1}}\n')
-        saved = FOLDER / "before.roboss"
-        self.refused(["run", HEAP, "--duration", "1", "--quiet", "--orders", orders, "--save", saved], 3, "arm")
-        again = summary(HEAP, "--duration", 0.0, "--from", saved)
-        self.assertGreater(again["sim_time_s"], 0.04)
+    def test_an_order_beyond_the_limits_is_refused_by_name(self):
+        orders = written("boom.jsonl", '{"t":0.05,"robot":"arm","wrench":{"link":"lower","force":[1e308,0,0],"duration":0.1}}\n')
+        self.refused(["run", HEAP, "--duration", "1", "--orders", orders], 1, "boom.jsonl:1", "arm", "force", "limit")
+
+    def test_a_run_that_blows_up_says_who_and_when_and_keeps_what_was(self):
+        world = written("fragile.sdf", FRAGILE)
+        orders = written("push.jsonl", '{"t":0.05,"robot":"dust","wrench":{"link":"body","force":[1e9,0,0],"duration":0.1}}\n')
+        said, saved = set(), FOLDER / "before.roboss"
+        for window in ("1", "7", "auto"):
+            saved.unlink(missing_ok=True)
+            done = self.refused(["run", world, "--duration", "1", "--quiet", "--orders", orders, "--save", saved, "--window", window],
+                                3, "the base of robot 'dust'", "tick 50")
+            said.add((done.stderr, re.search("[0-9a-f]{16}", done.stdout).group(0)))
+            self.assertAlmostEqual(summary(world, "--duration", 0.0, "--from", saved)["sim_time_s"], 0.05)
+        self.assertEqual(len(said), 1, "whatever the window")
 
     def test_check_tells_programs_the_same(self):
         done = roboss("check", WORLDS / "city.sdf", "--json")

@@ -74,6 +74,15 @@ class Journal(RobossTest):
                 self.assertEqual(summary(*RUNS[name], "--until", UNTIL, "--from", f"{kept(name)}@{at}")["state_hash"],
                                  undisturbed(name))
 
+    def test_replay_and_save_serve_no_viewer_unless_asked(self):
+        file = kept("city")
+        for arguments in (["replay", file, "--until", 0.1], ["replay", file, "--until", 0.1, "--headless"],
+                          ["save", FOLDER / "unseen.roboss", "--from", f"{file}@0.1"]):
+            done = roboss(*arguments)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertNotIn("viewer", done.stderr + done.stdout)
+        self.assertIn("viewer at http://127.0.0.1:", roboss("replay", file, "--until", 0.1, "--view", 0).stderr)
+
     def test_a_state_saved_out_of_a_journal_goes_on_to_the_same_end(self):
         saved = FOLDER / "out.roboss"
         self.assertEqual(roboss("save", saved, "--from", f"{kept('city')}@0.611").returncode, 0)

@@ -59,6 +59,18 @@ HttpAnswer http_get(const ViewerUrl& url, const std::string& target, const std::
     return answer;
 }
 
+int http_raw(const ViewerUrl& url, const std::string& request) {
+    asio::io_context io;
+    tcp::socket socket(io);
+    beast::error_code error;
+    socket.connect(endpoint_of(url), error);
+    asio::write(socket, asio::buffer(request), error);
+    beast::flat_buffer buffer;
+    http::response_parser<http::string_body> parser;
+    http::read_header(socket, buffer, parser, error);
+    return error ? 0 : static_cast<int>(parser.get().result_int());
+}
+
 Browser::Browser(const ViewerUrl& url, const SocketHeaders& headers) : socket_(io_) {
     beast::error_code error;
     auto& tcp_socket = beast::get_lowest_layer(socket_).socket();
@@ -69,8 +81,11 @@ Browser::Browser(const ViewerUrl& url, const SocketHeaders& headers) : socket_(i
     if (error) return;
     socket_.read_message_max(64u << 20);
     socket_.set_option(beast::websocket::stream_base::decorator([&](beast::websocket::request_type& request) {
-        request.set(http::field::sec_websocket_protocol, protocol::kSubprotocol);
-        if (!headers.origin.empty()) request.set(http::field::origin, headers.origin);
+        if (headers.subprotocol != kLeftOut)
+            request.set(http::field::sec_websocket_protocol, headers.subprotocol);
+        if (headers.origin != kLeftOut)
+            request.set(http::field::origin,
+                        headers.origin.empty() ? "http://" + url.authority() : headers.origin);
     }));
     const std::string host = headers.host.empty() ? url.authority() : headers.host;
     socket_.handshake(host, headers.target, error);

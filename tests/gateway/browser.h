@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "wire/viewer_protocol.h"
+
 namespace roboss::test {
 
 struct HttpAnswer {
@@ -32,10 +34,17 @@ struct ViewerUrl {
 HttpAnswer http_get(const ViewerUrl& url, const std::string& target, const std::string& host_header = {},
                     const std::string& cookie = {});
 
+/// The status line's number for a request that is sent as it is; 0: no answer.
+int http_raw(const ViewerUrl& url, const std::string& request);
+
+/// In `origin` and `subprotocol`: the header is left out.
+inline constexpr char kLeftOut[] = "-";
+
 struct SocketHeaders {
     std::string target = "/ws";
-    std::string origin, host;  // empty: none; the right one
-    int receive_bytes = 0;     // of the socket's buffer; 0: as usual
+    std::string origin, host;  // empty: the right one
+    std::string subprotocol = viewer_protocol::kSubprotocol;
+    int receive_bytes = 0;  // of the socket's buffer; 0: as usual
 };
 
 class Browser {

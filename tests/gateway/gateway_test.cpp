@@ -248,6 +248,40 @@ TEST_F(Viewed, WrongHostsOriginsTokensAndPathsAreRefusedWithALine) {
     EXPECT_EQ(page.headers.at("X-Content-Type-Options"), "nosniff");
 }
 
+TEST_F(Viewed, APageOfANameThatIsMadeToPointHereIsRefused) {
+    const auto run = begin();
+    const ViewerUrl url(run->url());
+    for (const std::string name :
+         {"127.evil.com", "127.0.0.1.evil.com", "localhost.evil.com", "localhost."}) {
+        const std::string host = name + ":" + url.port;
+        EXPECT_EQ(http_get(url, "/", host).status, 403) << host;
+        EXPECT_EQ(http_get(url, "/scene", host).status, 403) << host;
+        EXPECT_FALSE(Browser(url, {"/ws", "http://" + host, host}).connected()) << host;
+    }
+    EXPECT_TRUE(run->says("names another host, '127.evil.com"));
+    const std::string own = "Host: " + url.authority() + "\r\n";
+    const auto get = [&](const std::string& headers) {
+        return http_raw(url, "GET / HTTP/1.1\r\n" + headers + "Connection: close\r\n\r\n");
+    };
+    EXPECT_EQ(get(own), 200);
+    EXPECT_EQ(get(""), 403);
+    EXPECT_EQ(get(own + "Host: 127.evil.com\r\n"), 403);
+    EXPECT_EQ(get("Host: 127.evil.com\r\n" + own), 403);
+    EXPECT_EQ(http_raw(url, "GET / HTTP/1.0\r\n\r\n"), 403);
+    EXPECT_NE(http_raw(url, "GET http://127.evil.com/ HTTP/1.1\r\n" + own + "\r\n"), 200);
+}
+
+TEST_F(Viewed, AWebSocketNamesItsOriginAndTheSubprotocol) {
+    const auto run = begin();
+    const ViewerUrl url(run->url());
+    EXPECT_TRUE(Browser(url, {"/ws", "", "", "other, roboss.1"}).connected());
+    EXPECT_FALSE(Browser(url, {"/ws", kLeftOut, ""}).connected());
+    EXPECT_TRUE(run->says("does not name its Origin"));
+    for (const char* subprotocol : {kLeftOut, "roboss.2", "roboss", "roboss.10", "Xroboss.1"})
+        EXPECT_FALSE(Browser(url, {"/ws", "", "", subprotocol}).connected()) << subprotocol;
+    EXPECT_TRUE(run->says("does not offer the subprotocol roboss.1"));
+}
+
 TEST_F(Viewed, BeyondLoopbackATokenIsNeeded) {
     LiveRunOptions options;
     options.listen = "0.0.0.0:0";

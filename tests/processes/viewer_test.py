@@ -28,7 +28,7 @@ class Browser:
         host, port = re.match(r"http://([^:/]+):(\d+)/", url).groups()
         self.socket = socket.create_connection((host, int(port)), timeout=timeout_s)
         key = base64.b64encode(os.urandom(16)).decode()
-        self.socket.sendall(f"GET /ws HTTP/1.1\r\nHost: {host}:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+        self.socket.sendall(f"GET /ws HTTP/1.1\r\nHost: {host}:{port}\r\nOrigin: http://{host}:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
                             f"Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: {key}\r\nSec-WebSocket-Protocol: roboss.1\r\n\r\n".encode())
         self.bytes = b""
         while b"\r\n\r\n" not in self.bytes:
