@@ -92,6 +92,7 @@ class Run {
     void collect_paths();
 
     const RunOptions& o_;
+    const Clock::time_point began_ = Clock::now();
     Progress progress_;
     std::shared_ptr<const Model> model_;
     Looks looks_;                       // for the viewer; none: of a replay
@@ -119,7 +120,7 @@ class Run {
     std::vector<ControlCall> calls_;  // requests to be served
     std::vector<std::string> notices_;
     Tick busy_until_ = 0;     // to which requests wait: the run is being brought to its start
-    bool abandoned_ = false;  // nobody is left who has the states
+    bool abandoned_ = false;  // Simulator processes of the run's own failed: nobody is left who has the states
 };
 
 void print(const Error& error);
