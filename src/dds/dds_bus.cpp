@@ -163,9 +163,17 @@ struct DdsBus::Network {
         return relay.connected() ? relay : direct;
     }
 
-    void relay(const Address& self, const Address& to, std::span<const std::uint8_t> bytes) {
-        if (self != kControllerAddress || to.role == Role::kController || homes.contains(to)) return;
-        outbox(to, Channel::kWords).send(bytes, monotonic_ms());
+    /// A message for somebody else: in this process, or known to the Controller only.
+    void relay(const Address& self, Envelope envelope, std::span<const std::uint8_t> bytes) {
+        if (self != kControllerAddress || envelope.to.role == Role::kController) return;
+        const auto home = homes.find(envelope.to);
+        if (home == homes.end()) {
+            outbox(envelope.to, Channel::kWords).send(bytes, monotonic_ms());
+        } else {
+            heard_ms[envelope.from] = monotonic_ms();
+            count.add(envelope.from, envelope.to, bytes.size());
+            home->second.local.push_back(std::move(envelope));
+        }
     }
 
     /// False: something waits for others to take what is under way.
@@ -191,7 +199,7 @@ struct DdsBus::Network {
                 decode_envelope(std::span(bytes).subspan(std::min(kRunBytes, bytes.size())));
             if (!envelope) return complaints->add(envelope.error().message);
             if (!belongs_here(its_run, envelope.value().from)) return;
-            if (envelope.value().to != self) return relay(self, envelope.value().to, bytes);
+            if (envelope.value().to != self) return relay(self, std::move(envelope).value(), bytes);
             heard_ms[envelope.value().from] = monotonic_ms();
             count.add(envelope.value().from, self, bytes.size());
             if (&from == home.words.get()) home.note_writer(writer, envelope.value().from);
