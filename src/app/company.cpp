@@ -120,7 +120,7 @@ Result<> Company::watch_start(const Controller& controller) {
     }
     std::uint64_t fetched = 0;
     for (const Flow& flow : open_bus_->flows())
-        if (!known.contains(flow.to)) fetched += flow.bytes;
+        if (flow.from == kControllerAddress && !known.contains(flow.to)) fetched += flow.bytes;
     return processes_.watch_start(joined, fetched, monotonic_ms(), patience_ms_);
 }
 

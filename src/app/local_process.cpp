@@ -121,7 +121,7 @@ std::string LocalProcess::doing() const {
 
 std::string LocalProcess::last_lines(std::size_t count) const {
     const off_t end = lseek(log_, 0, SEEK_END), from = std::max<off_t>(end - kLogRead, 0);
-    if (end <= 0) return {};
+    if (end <= 0 || count == 0) return {};
     std::string text(static_cast<std::size_t>(end - from), '\0');
     const ssize_t got = pread(log_, text.data(), text.size(), from);
     text.resize(got > 0 ? static_cast<std::size_t>(got) : 0);

@@ -22,6 +22,12 @@ Result<> SimulatorProcesses::start(const std::vector<std::string>& arguments) {
     return Ok{};
 }
 
+std::vector<std::string> SimulatorProcesses::names() const {
+    std::vector<std::string> names;
+    for (const Member& member : processes_) names.push_back(place_name(member.process.id()));
+    return names;
+}
+
 bool SimulatorProcesses::kill(const std::string& name) {
     for (Member& member : processes_) {
         if (name != place_name(member.process.id())) continue;
@@ -54,10 +60,11 @@ std::vector<std::string> SimulatorProcesses::take_ended() {
     std::vector<std::string> lines;
     std::erase_if(processes_, [&](Member& member) {
         const auto ended = member.process.ended();
-        if (ended) lines.push_back(words_for(member) + " " + *ended);
-        if (const std::string log = member.process.last_lines(kLinesShown); ended && !log.empty())
+        if (!ended) return false;
+        lines.push_back(words_for(member) + " " + *ended);
+        if (const std::string log = member.process.last_lines(kLinesShown); !log.empty())
             lines.back() += "; its last words:\n" + log;
-        return ended.has_value();
+        return true;
     });
     return lines;
 }

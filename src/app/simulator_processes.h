@@ -16,6 +16,8 @@ class SimulatorProcesses {
     /// `arguments`: of `roboss`.
     Result<> start(const std::vector<std::string>& arguments);
     std::size_t count() const { return processes_.size(); }
+    /// By which their Simulators will join.
+    std::vector<std::string> names() const;
     /// Ends the one whose Simulator has this name, without a word to it; false: there is none.
     bool kill(const std::string& name);
 
