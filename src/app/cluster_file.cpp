@@ -152,7 +152,7 @@ void add_simulators(Reading& read, const toml::table& root, ClusterFile& file) {
         const std::string host = read.text(*table, "host", "local");
         const std::int64_t count = read.number(*table, "count", 1, kMostPerHost),
                            // By themselves on a host they take all of its cores.
-                           threads = read.number(*table, "threads", count > 1 ? 1 : 0, kMostPerHost);
+            threads = read.number(*table, "threads", count > 1 ? 1 : 0, kMostPerHost);
         for (std::int64_t i = 1; i <= count; ++i) {
             ClusterProcess process{"simulator", "", host, {"simulator"}, network_options(read, *table, root)};
             if (threads > 0) append(process.arguments, {"--threads", std::to_string(threads)});

@@ -72,12 +72,26 @@ Result<> Company::open_network() {
 /// square of their number (decision 0021).
 Result<> Company::start_process() {
     const int threads = threads_of_each(o_.threads, o_.processes);
-    return processes_.start({"roboss", "simulator", "--simulation", network_.simulation, "--domain",
-                             std::to_string(network_.domain), "--interface", network_.interface,
-                             "--no-multicast", "--peer",
-                             fmt::format("{}:{}", network_.interface, network_.port), "--through-controller",
-                             "--liveliness-ms", std::to_string(network_.liveliness_ms), "--threads",
-                             std::to_string(threads), "--lanes", std::to_string(o_.lanes), "--patience", "10",
+    return processes_.start({"roboss",
+                             "simulator",
+                             "--simulation",
+                             network_.simulation,
+                             "--domain",
+                             std::to_string(network_.domain),
+                             "--interface",
+                             network_.interface,
+                             "--no-multicast",
+                             "--peer",
+                             fmt::format("{}:{}", network_.interface, network_.port),
+                             "--through-controller",
+                             "--liveliness-ms",
+                             std::to_string(network_.liveliness_ms),
+                             "--threads",
+                             std::to_string(threads),
+                             "--lanes",
+                             std::to_string(o_.lanes),
+                             "--patience",
+                             "10",
                              "--quiet"});
 }
 

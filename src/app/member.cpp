@@ -16,7 +16,8 @@ constexpr std::int64_t kTurn_ms = 10;
 constexpr std::int64_t kResend_ms = 250;
 constexpr std::int64_t kTellWaiting_ms = 3'000;
 constexpr std::int64_t kSilence_ms = 1'500, kSilenceLongest_ms = 60'000;
-constexpr std::int64_t kSilentLeases = 6;  // where a lease is long: processes are many and get their turns late
+constexpr std::int64_t kSilentLeases =
+    6;  // where a lease is long: processes are many and get their turns late
 
 }  // namespace
 

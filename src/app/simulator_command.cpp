@@ -33,7 +33,9 @@ struct SimulatorProcessOptions {
 class SimulatorProcess {
   public:
     explicit SimulatorProcess(const SimulatorProcessOptions& options)
-        : o_(options), member_("simulator", options.member), pool_(static_cast<unsigned>(threads_of_each(options.threads, 1))) {}
+        : o_(options),
+          member_("simulator", options.member),
+          pool_(static_cast<unsigned>(threads_of_each(options.threads, 1))) {}
 
     int go() {
         if (!member_.open()) return kBadInput;

@@ -91,7 +91,8 @@ Error SimulatorProcesses::have_not_joined(std::int64_t silent_ms) const {
         if (const std::string log = member.process.last_lines(kLinesShown); !log.empty())
             message += "its last words:\n" + log + "\n";
     }
-    if (absent > kMembersShown) message += fmt::format("and {} others have not joined\n", absent - kMembersShown);
+    if (absent > kMembersShown)
+        message += fmt::format("and {} others have not joined\n", absent - kMembersShown);
     message += fmt::format("nobody has joined for {:.1f} s", 1e-3 * static_cast<double>(silent_ms));
     return {message, "see what holds them up; fewer --processes need less memory and time"};
 }

@@ -1,5 +1,5 @@
-// SimulatorProcesses: the Simulators of `roboss run --processes`. Started as processes of this computer, watched
-// until all have joined, and ended. Who dies or does not come is told in words.
+// SimulatorProcesses: the Simulators of `roboss run --processes`. Started as processes of this computer,
+// watched until all have joined, and ended. Who dies or does not come is told in words.
 #pragma once
 
 #include <cstdint>

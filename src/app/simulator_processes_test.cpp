@@ -1,5 +1,5 @@
-// What is said of processes that die, hang or come late. The processes are this test program itself, with one of
-// the cases of SimulatorProcessesChild.
+// What is said of processes that die, hang or come late. The processes are this test program itself, with one
+// of the cases of SimulatorProcessesChild.
 #include "app/simulator_processes.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // A pool of threads that runs a batch of independent items. Which thread runs an item is open, so no result
 // may depend on it; items are claimed in ascending order, so put the largest first. The calling thread works
-// too: a pool of one thread starts none. Only as many workers wake as there are items for, and one that wakes when
-// the items are done is not waited for; so many threads cost a small batch nothing.
+// too: a pool of one thread starts none. Only as many workers wake as there are items for, and one that wakes
+// when the items are done is not waited for; so many threads cost a small batch nothing.
 #pragma once
 
 #include <atomic>

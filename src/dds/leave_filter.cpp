@@ -54,7 +54,8 @@ bool announces_leave(std::span<const std::uint8_t> datagram) {
         const std::size_t rest = datagram.size() - at;
         if (bytes == 0 && kind != kPad && kind != kTimestamp) bytes = rest;  // the last one
         const auto body = datagram.subspan(at, std::min(bytes, rest));
-        if (kind == kData && (flags & kHasData) == 0 && body.size() >= kWriterAt + kParticipantWriter.size() &&
+        if (kind == kData && (flags & kHasData) == 0 &&
+            body.size() >= kWriterAt + kParticipantWriter.size() &&
             std::equal(kParticipantWriter.begin(), kParticipantWriter.end(), body.begin() + kWriterAt))
             return true;
         at += body.size();

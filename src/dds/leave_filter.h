@@ -1,6 +1,7 @@
-// A transport that keeps word of leaves from Fast DDS: members are removed by their lease alone, in one thread.
-// In Fast DDS 2.9 such a word, taken while a lease check of the same member waits for a mutex, aborts the process
-// (decision 0021). Endpoints of a member that ends are removed at once all the same, by messages of their own.
+// A transport that keeps word of leaves from Fast DDS: members are removed by their lease alone, in one
+// thread. In Fast DDS 2.9 such a word, taken while a lease check of the same member waits for a mutex, aborts
+// the process (decision 0021). Endpoints of a member that ends are removed at once all the same, by messages
+// of their own.
 #pragma once
 
 #include <fastdds/rtps/transport/ChainingTransport.h>

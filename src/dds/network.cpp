@@ -74,7 +74,8 @@ Result<std::uint16_t> free_udp_port(const std::string& address) {
                        bind(fd, reinterpret_cast<sockaddr*>(&at), bytes) == 0 &&
                        getsockname(fd, reinterpret_cast<sockaddr*>(&at), &bytes) == 0;
     if (fd >= 0) close(fd);
-    if (!found) return Error{"there is no free UDP port at " + address, "see the limits (ulimit -n) and `ss -u -a`"};
+    if (!found)
+        return Error{"there is no free UDP port at " + address, "see the limits (ulimit -n) and `ss -u -a`"};
     return ntohs(at.sin_port);
 }
 

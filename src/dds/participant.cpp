@@ -66,7 +66,8 @@ std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> transport
     udp->receiveBufferSize = possible > 0 ? std::min(kSocketBuffer, possible) : kSocketBuffer;
     udp->sendBufferSize = udp->receiveBufferSize;
     udp->maxInitialPeersRange = options.peer_range;
-    // A discovery server's word is the only sign that a member has left, and leases of members are not checked.
+    // A discovery server's word is the only sign that a member has left, and leases of members are not
+    // checked.
     if (!options.discovery_server.empty()) return udp;
     return without_leaves(udp);
 }
