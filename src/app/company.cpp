@@ -21,7 +21,8 @@ constexpr double kCheckpointEvery_s = 0.2;      // of stepping: what a loss may 
 constexpr std::int64_t kLookAround_ms = 500;    // for another Controller of the same name
 constexpr int kStartedAgainMax = 3;
 constexpr std::uint32_t kOnOneComputer_ms = 5'000;  // no cable to be cut: what is slow is only busy
-constexpr std::int64_t kJoin_ms = 8'000;            // for a process, when no other one joins either
+constexpr std::int64_t kJoin_ms = 7'000;            // for a process, when no other one joins either
+constexpr std::int64_t kLinked_ms = 100;            // CPU time of any start, whatever the world
 constexpr std::int64_t kFarewell_ms = 3'000;        // for all processes, to end by themselves
 
 }  // namespace
@@ -38,8 +39,8 @@ Result<std::unique_ptr<Company>> Company::gather(const RunOptions& options, std:
         const Result<std::uint16_t> port = free_udp_port(company->network_.interface);
         if (!port) return port.error();
         company->network_.port = port.value();
-        const int at_once = options.processes / cores() + 1;
-        company->patience_ms_ = kJoin_ms + 2 * prepared_ms * at_once;
+        company->patience_ms_ = kJoin_ms + std::max<std::int64_t>(prepared_ms - kLinked_ms, 0) *
+                                               std::max(1, options.processes / cores());
     }
     if (options.processes > 0 || options.is_controller)
         if (Result<> open = company->open_network(); !open) return open.error();

@@ -16,7 +16,7 @@ namespace roboss {
 class Company {
   public:
     /// Opens the network and starts the processes that the options ask for; with neither, there is nobody.
-    /// `prepared_ms`: what the Model took here; a process needs as much for it.
+    /// `prepared_ms`: CPU time that the Model took here; a process needs as much for it.
     static Result<std::unique_ptr<Company>> gather(const RunOptions& options, std::int64_t prepared_ms);
 
     /// Says whom the run waits for and how members are missed.

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <ctime>
 #include <random>
 
 #include "app/exit_codes.h"
@@ -106,8 +107,9 @@ bool Run::create() {
     names.insert(names.end(), o_.clients_awaited.begin(), o_.clients_awaited.end());
     const Result<std::vector<std::string>> others = journal_->awaited(names, o_.is_controller);
     if (!others) return print(others.error()), false;
-    const auto prepared = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - began_);
-    Result<std::unique_ptr<Company>> company = Company::gather(o_, prepared.count());
+    const auto prepared_ms =
+        static_cast<std::int64_t>(1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC);
+    Result<std::unique_ptr<Company>> company = Company::gather(o_, prepared_ms);
     if (!company) return print(company.error()), false;
     company_ = std::move(company.value());
     if (!open_gateway()) return false;

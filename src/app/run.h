@@ -92,7 +92,6 @@ class Run {
     void collect_paths();
 
     const RunOptions& o_;
-    const Clock::time_point began_ = Clock::now();
     Progress progress_;
     std::shared_ptr<const Model> model_;
     Looks looks_;                       // for the viewer; none: of a replay
