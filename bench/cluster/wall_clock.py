@@ -42,7 +42,7 @@ def main():
         summary, hashes = folder / "summary.json", set()
 
         def told(processes, until):
-            run(roboss, "run", world, "--orders", orders, "--until", until, "--processes", processes, "--headless", "--quiet", "--json", summary)
+            run(roboss, "run", world, "--orders", orders, "--until", until, "--processes", processes, "--threads", 1, "--headless", "--quiet", "--json", summary)
             return json.loads(summary.read_text())
 
         for _ in range(a.rounds):

@@ -42,7 +42,7 @@ const char* const kFooter =
   [[simulators]]
   host = "node2"
   count = 4                        # processes there
-  threads = 2                      # of each
+  threads = 2                      # of each; default: all cores of the host, with a count above 1 one
   [[clients]]
   host = "node1"
   program = "driver.so"

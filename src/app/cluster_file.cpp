@@ -151,14 +151,11 @@ void add_simulators(Reading& read, const toml::table& root, ClusterFile& file) {
         read.only(*table, {"host", "count", "threads", "interface", "peers", "options"});
         const std::string host = read.text(*table, "host", "local");
         const std::int64_t count = read.number(*table, "count", 1, kMostPerHost),
-                           threads = read.number(*table, "threads", 1, kMostPerHost);
+                           // By themselves on a host they take all of its cores.
+            threads = read.number(*table, "threads", count > 1 ? 1 : 0, kMostPerHost);
         for (std::int64_t i = 1; i <= count; ++i) {
-            ClusterProcess process{
-                "simulator",
-                "",
-                host,
-                {"simulator", "--threads", std::to_string(std::max<std::int64_t>(threads, 1))},
-                network_options(read, *table, root)};
+            ClusterProcess process{"simulator", "", host, {"simulator"}, network_options(read, *table, root)};
+            if (threads > 0) append(process.arguments, {"--threads", std::to_string(threads)});
             append(process.arguments, read.texts(*table, "options"));
             file.processes.push_back(std::move(process));
         }

@@ -4,9 +4,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <random>
+#include <set>
 
 #include "app/network_options.h"
+#include "app/threads.h"
+#include "dds/network.h"
 
 namespace roboss {
 namespace {
@@ -16,11 +20,14 @@ constexpr std::int64_t kClientGone_ms = 5'000;  // a Client whose process is gon
 constexpr double kCheckpointEvery_s = 0.2;      // of stepping: what a loss may cost
 constexpr std::int64_t kLookAround_ms = 500;    // for another Controller of the same name
 constexpr int kStartedAgainMax = 3;
-constexpr std::uint32_t kOnOneComputer_ms = 1'000;  // no cable to be cut: what is slow is only busy
+constexpr std::uint32_t kOnOneComputer_ms = 5'000;  // no cable to be cut: what is slow is only busy
+constexpr std::int64_t kJoin_ms = 7'000;            // for a process, when no other one joins either
+constexpr std::int64_t kLinked_ms = 100;            // CPU time of any start, whatever the world
+constexpr std::int64_t kFarewell_ms = 3'000;        // for all processes, to end by themselves
 
 }  // namespace
 
-Result<std::unique_ptr<Company>> Company::gather(const RunOptions& options) {
+Result<std::unique_ptr<Company>> Company::gather(const RunOptions& options, std::int64_t prepared_ms) {
     std::unique_ptr<Company> company(new Company(options));
     company->network_ = options.network;
     if (options.processes > 0) {
@@ -29,13 +36,16 @@ Result<std::unique_ptr<Company>> Company::gather(const RunOptions& options) {
         company->network_.interface = "127.0.0.1";
         company->network_.multicast = false;
         company->network_.liveliness_ms = kOnOneComputer_ms;
-        company->network_.peers = {"127.0.0.1"};
-        company->network_.peer_range = static_cast<std::uint32_t>(std::min(120, 16 + options.processes));
-        for (int i = 0; i < options.processes; ++i)
-            if (Result<> started = company->start_process(); !started) return started.error();
+        const Result<std::uint16_t> port = free_udp_port(company->network_.interface);
+        if (!port) return port.error();
+        company->network_.port = port.value();
+        company->patience_ms_ = kJoin_ms + std::max<std::int64_t>(prepared_ms - kLinked_ms, 0) *
+                                               std::max(1, options.processes / cores());
     }
     if (options.processes > 0 || options.is_controller)
         if (Result<> open = company->open_network(); !open) return open.error();
+    for (int i = 0; i < options.processes; ++i)
+        if (Result<> started = company->start_process(); !started) return started.error();
     return company;
 }
 
@@ -59,32 +69,31 @@ Result<> Company::open_network() {
     return Ok{};
 }
 
+/// It finds this process only, at its port, and no other one: what members find of each other grows with the
+/// square of their number (decision 0021).
 Result<> Company::start_process() {
-    Result<LocalProcess> process = LocalProcess::start({"roboss",
-                                                        "simulator",
-                                                        "--simulation",
-                                                        network_.simulation,
-                                                        "--domain",
-                                                        std::to_string(network_.domain),
-                                                        "--interface",
-                                                        network_.interface,
-                                                        "--no-multicast",
-                                                        "--peer",
-                                                        network_.peers.front(),
-                                                        "--peer-range",
-                                                        std::to_string(network_.peer_range),
-                                                        "--liveliness-ms",
-                                                        std::to_string(network_.liveliness_ms),
-                                                        "--threads",
-                                                        std::to_string(o_.threads),
-                                                        "--lanes",
-                                                        std::to_string(o_.lanes),
-                                                        "--patience",
-                                                        "10",
-                                                        "--quiet"});
-    if (!process) return process.error();
-    processes_.push_back(std::move(process).value());
-    return Ok{};
+    const int threads = threads_of_each(o_.threads, o_.processes);
+    return processes_.start({"roboss",
+                             "simulator",
+                             "--simulation",
+                             network_.simulation,
+                             "--domain",
+                             std::to_string(network_.domain),
+                             "--interface",
+                             network_.interface,
+                             "--no-multicast",
+                             "--peer",
+                             fmt::format("{}:{}", network_.interface, network_.port),
+                             "--through-controller",
+                             "--liveliness-ms",
+                             std::to_string(network_.liveliness_ms),
+                             "--threads",
+                             std::to_string(threads),
+                             "--lanes",
+                             std::to_string(o_.lanes),
+                             "--patience",
+                             "10",
+                             "--quiet"});
 }
 
 void Company::brief(SimulationOptions& options) const {
@@ -92,7 +101,8 @@ void Company::brief(SimulationOptions& options) const {
     options.simulators = static_cast<std::size_t>(o_.local);
     options.simulators_awaited = static_cast<std::size_t>(o_.processes > 0 ? o_.processes : o_.simulators);
     options.clients_awaited = o_.clients_awaited;
-    options.controller.loss_ms = std::max<std::int64_t>(kSilence_ms, network_.liveliness_ms);
+    options.controller.loss_ms =
+        o_.processes > 0 ? kSilence_ms : std::max<std::int64_t>(kSilence_ms, network_.liveliness_ms);
     options.controller.client_gone_ms = kClientGone_ms;
     options.controller.checkpoint_work_s = kCheckpointEvery_s;
 }
@@ -105,29 +115,35 @@ Result<bool> Company::add_simulator() {
     if (o_.is_controller && o_.local == 0)
         return Error{"this run takes its Simulators from anywhere",
                      "start `roboss simulator` where you want it"};
-    if (processes_.empty()) return false;
+    if (o_.processes == 0) return false;
     if (Result<> started = start_process(); !started) return started.error();
     return true;
 }
 
 Result<> Company::kill(const std::string& name) {
-    for (LocalProcess& process : processes_) {
-        if (name != place_name(process.id())) continue;
-        process.kill();
-        return Ok{};
-    }
+    if (processes_.kill(name)) return Ok{};
     return Error{"Simulator '" + name + "' is no process of this run's own",
                  "end it where it runs; runs started with --processes have processes of their own"};
 }
 
-Result<> Company::look_after() {
-    if (processes_.empty()) return Ok{};
-    std::erase_if(processes_, [&](LocalProcess& process) {
-        const auto ended = process.ended();
-        if (ended) notices_.push_back(fmt::format("Simulator process {} {}", process.id(), *ended));
-        return ended.has_value();
-    });
-    if (!processes_.empty()) return Ok{};
+Result<> Company::watch_start(const Controller& controller) {
+    std::vector<std::string> joined;
+    std::set<Address> known;
+    for (const MemberReport& member : controller.members()) {
+        joined.push_back(member.name);
+        known.insert(member.address);
+    }
+    std::uint64_t fetched = 0;
+    for (const Flow& flow : open_bus_->flows())
+        if (flow.from == kControllerAddress && !known.contains(flow.to)) fetched += flow.bytes;
+    return processes_.watch_start(joined, fetched, monotonic_ms(), patience_ms_);
+}
+
+Result<> Company::look_after(const Controller& controller) {
+    if (o_.processes == 0) return Ok{};
+    if (processes_.starting()) return watch_start(controller);
+    for (std::string& line : processes_.take_ended()) notices_.push_back(std::move(line));
+    if (processes_.count() > 0) return Ok{};
     if (++started_again_ > kStartedAgainMax)
         return Error{"all Simulator processes have ended, again and again", "see why in the lines above"};
     notices_.push_back("no Simulator process is left, starting one");
@@ -140,11 +156,10 @@ std::vector<std::string> Company::take_notices() {
     return std::exchange(notices_, {});
 }
 
-void Company::see_off() {
+void Company::see_off(bool failed) {
     if (open_bus_ == nullptr) return;
-    open_bus_->flush(1'000);
-    for (LocalProcess& process : processes_) process.wait(3'000);
-    processes_.clear();
+    if (!failed) open_bus_->flush(1'000);
+    processes_.see_off(failed ? 0 : kFarewell_ms);
 }
 
 }  // namespace roboss

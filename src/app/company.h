@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/local_process.h"
 #include "app/run_options.h"
+#include "app/simulator_processes.h"
 #include "dds/dds_bus.h"
 #include "simulation/simulation.h"
 
@@ -16,7 +16,8 @@ namespace roboss {
 class Company {
   public:
     /// Opens the network and starts the processes that the options ask for; with neither, there is nobody.
-    static Result<std::unique_ptr<Company>> gather(const RunOptions& options);
+    /// `prepared_ms`: CPU time that the Model took here; a process needs as much for it.
+    static Result<std::unique_ptr<Company>> gather(const RunOptions& options, std::int64_t prepared_ms);
 
     /// Says whom the run waits for and how members are missed.
     void brief(SimulationOptions& options) const;
@@ -28,23 +29,27 @@ class Company {
     Result<bool> add_simulator();
     /// Ends this process of the run's own, by the name that its Simulator gave, without a word to it.
     Result<> kill(const std::string& name);
-    /// To be called now and then. An Error: the run cannot go on.
-    Result<> look_after();
+    /// To be called now and then. An Error: processes of the run's own died or never joined, and it cannot go
+    /// on.
+    Result<> look_after(const Controller& controller);
     /// What happened since the last call, one line each.
     std::vector<std::string> take_notices();
-    /// Once the Controller has dismissed everybody: sees them off, at most for some seconds.
-    void see_off();
+    /// Once the Controller has dismissed everybody: sees them off, at most for some seconds; none where they
+    /// have failed.
+    void see_off(bool failed);
 
   private:
     explicit Company(const RunOptions& options) : o_(options) {}
     Result<> open_network();
     Result<> start_process();
+    Result<> watch_start(const Controller& controller);
 
     const RunOptions& o_;
     DdsOptions network_;
     std::unique_ptr<DdsBus> bus_;
     DdsBus* open_bus_ = nullptr;  // the same; the Simulation owns it then
-    std::vector<LocalProcess> processes_;
+    SimulatorProcesses processes_;
+    std::int64_t patience_ms_ = 0;  // with processes that do not join
     std::vector<std::string> notices_;
     int started_again_ = 0;
 };

@@ -3,6 +3,12 @@
 
 namespace roboss {
 
-enum ExitCode { kDone = 0, kBadInput = 1, kRunFailed = 3, kInterrupted = 130 };
+enum ExitCode {
+    kDone = 0,
+    kBadInput = 1,
+    kRunFailed = 3,
+    kProcessesFailed = 4,  // Simulator processes of this run's own died or never joined
+    kInterrupted = 130
+};
 
 }  // namespace roboss

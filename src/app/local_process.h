@@ -16,6 +16,7 @@ std::string place_name(pid_t process);
 
 class LocalProcess {
   public:
+    /// What it prints goes to a log in memory.
     static Result<LocalProcess> start(const std::vector<std::string>& arguments);
     LocalProcess(LocalProcess&& other) noexcept;
     LocalProcess& operator=(LocalProcess&& other) noexcept;
@@ -29,10 +30,15 @@ class LocalProcess {
     std::optional<std::string> ended();
     /// Waits for its end, at most so long. False: it still runs.
     bool wait(int ms_max);
+    /// What it does while it runs, in words: "runs", "is stopped by a signal" ...
+    std::string doing() const;
+    /// The end of its log, at most so many lines.
+    std::string last_lines(std::size_t count) const;
 
   private:
-    explicit LocalProcess(pid_t id) : id_(id) {}
+    LocalProcess(pid_t id, int log) : id_(id), log_(log) {}
     pid_t id_ = -1;
+    int log_ = -1;
     std::optional<std::string> ended_;
 };
 

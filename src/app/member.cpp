@@ -16,6 +16,8 @@ constexpr std::int64_t kTurn_ms = 10;
 constexpr std::int64_t kResend_ms = 250;
 constexpr std::int64_t kTellWaiting_ms = 3'000;
 constexpr std::int64_t kSilence_ms = 1'500, kSilenceLongest_ms = 60'000;
+constexpr std::int64_t kSilentLeases =
+    6;  // where a lease is long: processes are many and get their turns late
 
 }  // namespace
 
@@ -33,7 +35,7 @@ bool Member::open() {
     if (!bus) return complain(bus.error()), false;
     bus_ = std::move(bus).value();
     seen_ms_ = connected_ms_ = bus_->now_ms();
-    silence_ms_max_ = kSilence_ms;
+    silence_ms_max_ = first_silence_ms();
     watch_for_interrupts();
     return true;
 }
@@ -73,9 +75,13 @@ bool Member::wait() {
     return false;
 }
 
+std::int64_t Member::first_silence_ms() const {
+    return std::max(kSilence_ms, kSilentLeases * o_.network.liveliness_ms);
+}
+
 void Member::mend_silence(std::int64_t now_ms) {
     const std::int64_t heard_ms = bus_->heard_ms(kControllerAddress).value_or(0);
-    if (heard_ms > connected_ms_) silence_ms_max_ = kSilence_ms;
+    if (heard_ms > connected_ms_) silence_ms_max_ = first_silence_ms();
     if (now_ms - std::max(heard_ms, connected_ms_) < silence_ms_max_) return;
     connected_ms_ = now_ms;
     if (const Result<> again = bus_->reconnect(); !again) {

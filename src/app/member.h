@@ -38,6 +38,7 @@ class Member {
   private:
     /// Joins the network afresh when it has heard nothing of a Controller for long, less and less often.
     void mend_silence(std::int64_t now_ms);
+    std::int64_t first_silence_ms() const;
 
     const char* what_;
     const MemberOptions& o_;

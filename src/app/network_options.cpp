@@ -41,6 +41,9 @@ void add_network_options(CLI::App& command, DdsOptions& o) {
                         "a process silent for so long counts as lost; the same for all members")
             ->check(CLI::Range(20, 60'000)),
         "ROBOSS_LIVELINESS_MS");
+    add(command.add_flag("--through-controller", o.through_controller,
+                         "the Controller passes on what is for other members: for members that find only it"),
+        "ROBOSS_THROUGH_CONTROLLER");
     command.add_flag("!--no-multicast", o.multicast, "find members by --peer only")->group(group);
 }
 

@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <ctime>
 #include <random>
 
 #include "app/exit_codes.h"
 #include "app/interrupt.h"
 #include "app/orders_file.h"
+#include "app/threads.h"
 #include "client/plugin.h"
 #include "core/hash.h"
 #include "scene/scene_file.h"
@@ -105,7 +107,9 @@ bool Run::create() {
     names.insert(names.end(), o_.clients_awaited.begin(), o_.clients_awaited.end());
     const Result<std::vector<std::string>> others = journal_->awaited(names, o_.is_controller);
     if (!others) return print(others.error()), false;
-    Result<std::unique_ptr<Company>> company = Company::gather(o_);
+    const auto prepared_ms =
+        static_cast<std::int64_t>(1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC);
+    Result<std::unique_ptr<Company>> company = Company::gather(o_, prepared_ms);
     if (!company) return print(company.error()), false;
     company_ = std::move(company.value());
     if (!open_gateway()) return false;
@@ -135,7 +139,7 @@ bool Run::open_gateway() {
 SimulationOptions Run::simulation_options(const SavedRun* from) const {
     SimulationOptions options;
     options.simulators = static_cast<std::size_t>(o_.simulators);
-    options.threads = static_cast<unsigned>(o_.threads);
+    options.threads = static_cast<unsigned>(threads_of_each(o_.threads, 1));
     options.lanes = o_.lanes;
     options.world_file = o_.world;
     options.controller.seed = o_.seed.value_or(from != nullptr ? from->seed : 0);
@@ -261,8 +265,9 @@ int Run::finish(bool fine, double wall_s) {
         log_->event(simulation_->tick(), fine ? "the run has ended" : "the run has failed");
     }
     simulation_->controller().dismiss(simulation_->bus(), fine ? "the run has ended" : "the run has failed");
-    company_->see_off();
+    company_->see_off(abandoned_);
     fmt::print("{}", to_text(s));
+    if (abandoned_) return kProcessesFailed;
     if (!fine || !written) return kRunFailed;
     return interrupted() ? kInterrupted : kDone;
 }

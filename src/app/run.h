@@ -118,8 +118,9 @@ class Run {
     TrafficMeter traffic_;
     std::vector<ControlCall> calls_;  // requests to be served
     std::vector<std::string> notices_;
-    Tick busy_until_ = 0;     // to which requests wait: the run is being brought to its start
-    bool abandoned_ = false;  // nobody is left who has the states
+    Tick busy_until_ = 0;  // to which requests wait: the run is being brought to its start
+    bool abandoned_ =
+        false;  // Simulator processes of the run's own failed: nobody is left who has the states
 };
 
 void print(const Error& error);

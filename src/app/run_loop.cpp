@@ -44,7 +44,7 @@ bool Run::advance_to(Tick target) {
     Result<> looked_after = Ok{};
     const Result<> stepped = simulation_->run_until(target, [&] {
         show_progress();
-        looked_after = company_->look_after();
+        looked_after = company_->look_after(simulation_->controller());
         for (ControlCall& call : simulation_->controller().control().take_calls())
             calls_.push_back(std::move(call));
         return looked_after.ok() && !interrupted() && (calls_.empty() || simulation_->tick() < busy_until_);
@@ -59,7 +59,7 @@ bool Run::rest() {
     simulation_->serve();
     if (!company_->reaches_others()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     show_progress();
-    const Result<> looked_after = company_->look_after();
+    const Result<> looked_after = company_->look_after(simulation_->controller());
     if (!looked_after) return abandoned_ = true, print(looked_after.error()), false;
     return true;
 }

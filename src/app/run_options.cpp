@@ -52,7 +52,8 @@ written, 130 ended by Ctrl-C.)";
 
 const char* const kExitCodes =
     R"(Exit codes: 0 done, 1 the world, orders or saved state have errors, 2 wrong usage, 3 the run failed (a Client threw,
-a state became infinite, a file could not be written), 130 ended by Ctrl-C (with the summary).)";
+a state became infinite, a file could not be written), 4 processes of --processes died at the start or did not join
+(those that die later are done without), 130 ended by Ctrl-C (with the summary).)";
 
 /// Accepts a positive number or one of the given words.
 CLI::Validator number_or(const std::vector<std::string>& words) {
@@ -109,9 +110,11 @@ void add_pace_options(CLI::App& command, RunOptions& o) {
         ->check(number_or({"max", "world"}))
         ->capture_default_str();
     command.add_flag("--paused", o.paused, "wait for `roboss control resume` at the start");
-    command.add_option("--threads", o.threads, "threads a Simulator steps its islands with")
-        ->check(CLI::Range(1, 1024))
-        ->capture_default_str();
+    command
+        .add_option("--threads", o.threads,
+                    "threads a Simulator steps its islands with; the same result (default: one for each core "
+                    "of this computer, with --processes an equal share, at least 1)")
+        ->check(CLI::Range(1, 1024));
     command
         .add_option("--lanes", o.lanes,
                     "robots of a type stepped at once, at most: 1, 4 (AVX2) or 8 (AVX-512), with floats 1, 8 "
@@ -220,7 +223,8 @@ void add_run_options(CLI::App& command, RunOptions& o) {
             ->capture_default_str();
     command
         .add_option("--processes", o.processes,
-                    "Simulators as processes of their own on this computer, started and ended by this one")
+                    "Simulators as processes of their own on this computer, started and ended by this one; "
+                    "what they say is shown if they fail")
         ->check(CLI::Range(1, 100))
         ->excludes(simulators);
 }

@@ -27,7 +27,7 @@ struct RunOptions {
     std::string speed = "max";    // "max", "world" or a factor of real time
     bool paused = false;          // at the start
     std::string window = "auto";  // "auto" or a number of ticks
-    int threads = 1;
+    int threads = 0;              // 0: the cores of this computer, shared by `processes`
     std::size_t lanes = kMostLanes;
     int simulators = 1;
     int processes = 0;           // Simulators as processes of their own; 0: in this one

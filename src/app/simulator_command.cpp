@@ -8,6 +8,7 @@
 #include "app/interrupt.h"
 #include "app/local_process.h"
 #include "app/member.h"
+#include "app/threads.h"
 #include "core/hash.h"
 #include "roles/simulator.h"
 
@@ -24,7 +25,7 @@ Exit codes: 0 the run is over or it has left, 1 an option is wrong, no Controlle
 
 struct SimulatorProcessOptions {
     MemberOptions member;
-    int threads = 1;
+    int threads = 0;  // 0: the cores of this computer
     std::size_t lanes = kMostLanes;
     bool stay = false;
 };
@@ -32,7 +33,9 @@ struct SimulatorProcessOptions {
 class SimulatorProcess {
   public:
     explicit SimulatorProcess(const SimulatorProcessOptions& options)
-        : o_(options), member_("simulator", options.member), pool_(static_cast<unsigned>(options.threads)) {}
+        : o_(options),
+          member_("simulator", options.member),
+          pool_(static_cast<unsigned>(threads_of_each(options.threads, 1))) {}
 
     int go() {
         if (!member_.open()) return kBadInput;
@@ -92,9 +95,11 @@ void add_simulator_command(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("simulator", "step robots for a Controller anywhere");
     command->footer(kFooter);
     auto options = std::make_shared<SimulatorProcessOptions>();
-    command->add_option("--threads", options->threads, "threads it steps its islands with")
-        ->check(CLI::Range(1, 1024))
-        ->capture_default_str();
+    command
+        ->add_option("--threads", options->threads,
+                     "threads it steps its islands with; the same result (default: one for each core of this "
+                     "computer; where several Simulators share it, give each its part)")
+        ->check(CLI::Range(1, 1024));
     command
         ->add_option("--lanes", options->lanes,
                      "robots of a type stepped at once, at most: 1, 4 (AVX2) or 8 (AVX-512), with floats 1, "

@@ -1,6 +1,7 @@
 // The pool: workers sleep between batches and claim items with one atomic counter.
 #include "core/thread_pool.h"
 
+#include <algorithm>
 #include <chrono>
 
 namespace roboss {
@@ -33,12 +34,13 @@ void ThreadPool::run(std::size_t count, const Work& work, const std::function<vo
         work_ = &work;
         count_ = count;
         next_ = 0;
-        busy_ = workers_.size();
+        open_ = true;
         ++batch_;
     }
-    start_.notify_all();
+    for (std::size_t i = 0; i < std::min(count - 1, workers_.size()); ++i) start_.notify_one();
     claim_all(0);
     std::unique_lock lock(mutex_);
+    open_ = false;
     const auto all_done = [this] { return busy_ == 0; };
     while (idle && !done_.wait_for(lock, std::chrono::milliseconds(10), all_done)) {
         lock.unlock();
@@ -53,9 +55,10 @@ void ThreadPool::serve(std::size_t worker) {
     while (true) {
         {
             std::unique_lock lock(mutex_);
-            start_.wait(lock, [&] { return ending_ || batch_ != served; });
+            start_.wait(lock, [&] { return ending_ || (open_ && batch_ != served); });
             if (ending_) return;
             served = batch_;
+            ++busy_;
         }
         claim_all(worker);
         const std::lock_guard lock(mutex_);

@@ -1,6 +1,7 @@
 // A pool of threads that runs a batch of independent items. Which thread runs an item is open, so no result
 // may depend on it; items are claimed in ascending order, so put the largest first. The calling thread works
-// too: a pool of one thread starts none.
+// too: a pool of one thread starts none. Only as many workers wake as there are items for, and one that wakes
+// when the items are done is not waited for; so many threads cost a small batch nothing.
 #pragma once
 
 #include <atomic>
@@ -40,8 +41,9 @@ class ThreadPool {
     const Work* work_ = nullptr;
     std::size_t count_ = 0;
     std::atomic<std::size_t> next_{0};
-    std::size_t busy_ = 0;     // workers that have not finished this batch
-    std::uint64_t batch_ = 0;  // number of the batch, so that no worker serves one twice
+    bool open_ = false;        // workers may join this batch
+    std::size_t busy_ = 0;     // workers that have joined it and not finished
+    std::uint64_t batch_ = 0;  // its number, so that no worker serves one twice
     bool ending_ = false;
 };
 

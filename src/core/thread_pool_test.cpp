@@ -22,6 +22,15 @@ TEST(ThreadPool, RunsEveryItemOnceInEveryBatch) {
     }
 }
 
+TEST(ThreadPool, BatchesSmallerThanThePoolMixWithLargeOnes) {
+    ThreadPool pool(9);
+    for (std::size_t batch = 0; batch < 2'000; ++batch) {
+        std::vector<int> hits(batch % 7 == 0 ? 40 : 2 + batch % 3, 0);
+        pool.run(hits.size(), [&](std::size_t item, std::size_t) { ++hits[item]; });
+        for (const int hit : hits) ASSERT_EQ(hit, 1) << "batch " << batch;
+    }
+}
+
 TEST(ThreadPool, ShowsSignsOfLifeWhileTheCallerWaitsForOthers) {
     using namespace std::chrono;
     ThreadPool pool(2);

@@ -92,6 +92,14 @@ struct DdsBus::Network {
         std::deque<Envelope> local;
         std::map<Inbox::Writer, Address> writers;  // known from their words
         std::vector<Address> vanished;
+
+        /// A writer of the Controller's process also brings words of those for whom it passes them on.
+        void note_writer(const Inbox::Writer& writer, const Address& from) {
+            if (from == kControllerAddress)
+                writers[writer] = from;
+            else
+                writers.try_emplace(writer, from);
+        }
     };
 
     std::string topic(const Address& address, Channel channel) const {
@@ -143,20 +151,29 @@ struct DdsBus::Network {
         return *outbox;
     }
 
-    /// The outbox by which a message gets there: mostly the direct one; by the Controller where two members
-    /// see it and not each other (peers that name the Controller only, a firewall).
+    /// The outbox by which a message gets there: mostly the direct one; by the Controller where members are
+    /// told to, or where two see it and not each other (peers that name the Controller only, a firewall).
     Outbox& way_to(const Address& from, const Address& to, Channel channel) {
-        Outbox& direct = outbox(to, channel);
         const bool may_relay = from.role != Role::kController && to.role != Role::kController;
+        if (may_relay && options.through_controller) return outbox(kControllerAddress, Channel::kWords);
+        Outbox& direct = outbox(to, channel);
         if (direct.connected() || !may_relay || monotonic_ms() - direct.opened_ms() < kFound_ms)
             return direct;
         Outbox& relay = outbox(kControllerAddress, Channel::kWords);
         return relay.connected() ? relay : direct;
     }
 
-    void relay(const Address& self, const Address& to, std::span<const std::uint8_t> bytes) {
-        if (self != kControllerAddress || to.role == Role::kController || homes.contains(to)) return;
-        outbox(to, Channel::kWords).send(bytes, monotonic_ms());
+    /// A message for somebody else: in this process, or known to the Controller only.
+    void relay(const Address& self, Envelope envelope, std::span<const std::uint8_t> bytes) {
+        if (self != kControllerAddress || envelope.to.role == Role::kController) return;
+        const auto home = homes.find(envelope.to);
+        if (home == homes.end()) {
+            outbox(envelope.to, Channel::kWords).send(bytes, monotonic_ms());
+        } else {
+            heard_ms[envelope.from] = monotonic_ms();
+            count.add(envelope.from, envelope.to, bytes.size());
+            home->second.local.push_back(std::move(envelope));
+        }
     }
 
     /// False: something waits for others to take what is under way.
@@ -182,10 +199,10 @@ struct DdsBus::Network {
                 decode_envelope(std::span(bytes).subspan(std::min(kRunBytes, bytes.size())));
             if (!envelope) return complaints->add(envelope.error().message);
             if (!belongs_here(its_run, envelope.value().from)) return;
-            if (envelope.value().to != self) return relay(self, envelope.value().to, bytes);
+            if (envelope.value().to != self) return relay(self, std::move(envelope).value(), bytes);
             heard_ms[envelope.value().from] = monotonic_ms();
             count.add(envelope.value().from, self, bytes.size());
-            if (&from == home.words.get()) home.writers[writer] = envelope.value().from;
+            if (&from == home.words.get()) home.note_writer(writer, envelope.value().from);
             inbox.push_back(std::move(envelope).value());
         });
     }

@@ -217,6 +217,35 @@ TEST(DdsBus, MembersThatSeeOnlyTheControllerReachEachOtherThroughIt) {
     EXPECT_FALSE(a->present(kTwo)) << "else this test did not test";
 }
 
+TEST(DdsBus, MembersToldSoReachOthersThroughTheControllerFromTheFirstMessageOn) {
+    DdsOptions options = loopback("through");
+    options.peers.clear();
+    options.port = static_cast<std::uint16_t>(40'000 + getpid() % 10'000);
+    const auto controller = bus_of(options);
+    options.peers = {"127.0.0.1:" + std::to_string(std::exchange(options.port, std::uint16_t{0}))};
+    options.through_controller = true;
+    const auto a = bus_of(options), b = bus_of(options);
+    const Address client{Role::kClient, 3};  // in the Controller's process
+    std::vector<Envelope> inbox;
+    a->drain(kOne, inbox);
+    b->drain(kTwo, inbox);
+    controller->drain(client, inbox);
+    a->send(kOne, kTwo, Expelled{SimulatorId(1u)});
+    a->send(kOne, client, Expelled{SimulatorId(2u)});
+    std::vector<SimulatorId> at_b, at_client;
+    for (int turn = 0; turn < 1'000 && (at_b.empty() || at_client.empty()); ++turn) {
+        a->wait(5);
+        controller->drain(kControllerAddress, inbox);
+        EXPECT_TRUE(inbox.empty()) << "it was for others";
+        b->drain(kTwo, inbox);
+        for (const Envelope& e : inbox) at_b.push_back(std::get<Expelled>(e.message).simulator);
+        controller->drain(client, inbox);
+        for (const Envelope& e : inbox) at_client.push_back(std::get<Expelled>(e.message).simulator);
+    }
+    EXPECT_EQ(at_b, std::vector<SimulatorId>{SimulatorId(1u)});
+    EXPECT_EQ(at_client, std::vector<SimulatorId>{SimulatorId(2u)});
+}
+
 TEST(DdsBus, WrongOptionsAreRefusedInWords) {
     DdsOptions options = loopback("bad");
     options.interface = "no-such-interface";

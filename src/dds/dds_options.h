@@ -19,6 +19,9 @@ struct DdsOptions {
     std::uint16_t port = 0;         // to be found at as HOST:PORT; 0: one by the rules of RTPS, by the domain
     std::uint32_t peer_range = 32;  // a HOST without a port: so many members may run there
     std::string discovery_server;   // HOST:PORT of one that runs already; then neither of the others is used
+    /// The Controller passes on all messages for other members, from the first one on. Members that find the
+    /// Controller only (one peer) need it: discovery then grows with their number, not with its square.
+    bool through_controller = false;
     /// A process silent for so long is told to be gone (take_vanished()).
     std::uint32_t liveliness_ms = 250;
 };

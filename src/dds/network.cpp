@@ -5,6 +5,8 @@
 #include <ifaddrs.h>
 #include <net/if.h>
 #include <netdb.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -61,6 +63,20 @@ Result<HostPort> host_port(const std::string& text) {
     const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owner(found, &freeaddrinfo);
     result.address = text_of(found->ai_addr);
     return result;
+}
+
+Result<std::uint16_t> free_udp_port(const std::string& address) {
+    sockaddr_in at{};
+    at.sin_family = AF_INET;
+    socklen_t bytes = sizeof at;
+    const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    const bool found = fd >= 0 && inet_pton(AF_INET, address.c_str(), &at.sin_addr) == 1 &&
+                       bind(fd, reinterpret_cast<sockaddr*>(&at), bytes) == 0 &&
+                       getsockname(fd, reinterpret_cast<sockaddr*>(&at), &bytes) == 0;
+    if (fd >= 0) close(fd);
+    if (!found)
+        return Error{"there is no free UDP port at " + address, "see the limits (ulimit -n) and `ss -u -a`"};
+    return ntohs(at.sin_port);
 }
 
 std::uint32_t socket_buffer_max() {

@@ -19,6 +19,9 @@ struct HostPort {
 /// "HOST" (port 0) or "HOST:PORT".
 Result<HostPort> host_port(const std::string& text);
 
+/// A UDP port of this IPv4 address that nobody uses at the moment.
+Result<std::uint16_t> free_udp_port(const std::string& address);
+
 /// Largest receive buffer a socket may ask for (net.core.rmem_max), bytes; 0: not known.
 std::uint32_t socket_buffer_max();
 

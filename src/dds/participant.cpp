@@ -11,6 +11,7 @@
 
 #include "dds/byte_sample.h"
 #include "dds/fragments.h"
+#include "dds/leave_filter.h"
 #include "dds/network.h"
 
 namespace roboss {
@@ -24,6 +25,7 @@ constexpr const char* kLoopback = "127.0.0.1";
 constexpr std::uint32_t kSocketBuffer = 4u << 20;
 constexpr std::uint32_t kLeaseByServer_ms = 10'000;
 constexpr std::uint32_t kSignsPerLease = 3;
+constexpr std::uint32_t kPortsTried = 1'000;
 
 eprosima::fastrtps::Duration_t from_ms(std::uint32_t ms) {
     return {static_cast<std::int32_t>(ms / 1000), ms % 1000 * 1'000'000};
@@ -52,8 +54,8 @@ HostPort multicast_group(const DdsOptions& options) {
     return {"239.255.0.1", static_cast<std::uint16_t>(7400 + 250 * options.domain)};
 }
 
-std::shared_ptr<eprosima::fastdds::rtps::UDPv4TransportDescriptor> transport(const DdsOptions& options,
-                                                                             const std::string& address) {
+std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> transport(const DdsOptions& options,
+                                                                                 const std::string& address) {
     auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
     udp->interfaceWhiteList = {address};
     // Fast DDS speaks to who is on the same computer by loopback, and so does a discovery server that knows
@@ -64,7 +66,10 @@ std::shared_ptr<eprosima::fastdds::rtps::UDPv4TransportDescriptor> transport(con
     udp->receiveBufferSize = possible > 0 ? std::min(kSocketBuffer, possible) : kSocketBuffer;
     udp->sendBufferSize = udp->receiveBufferSize;
     udp->maxInitialPeersRange = options.peer_range;
-    return udp;
+    // A discovery server's word is the only sign that a member has left, and leases of members are not
+    // checked.
+    if (!options.discovery_server.empty()) return udp;
+    return without_leaves(udp);
 }
 
 Result<> set_discovery(const DdsOptions& options, const std::string& address,
@@ -80,6 +85,8 @@ Result<> set_discovery(const DdsOptions& options, const std::string& address,
     // The liveliness of single writers is of no use: in Fast DDS 2.9 any living participant keeps the
     // AUTOMATIC writers of all others alive (issue 4373 there).
     builtin.use_WriterLivelinessProtocol = false;
+    // Members of one computer take the next free ports, one after the other.
+    builtin.mutation_tries = kPortsTried;
     builtin.discovery_config.initial_announcements.count = 20;
     builtin.discovery_config.initial_announcements.period = {0, 50'000'000};
     if (!options.discovery_server.empty()) {

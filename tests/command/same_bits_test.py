@@ -21,6 +21,7 @@ WAYS = [
     ["--lanes", "1"],
     ["--lanes", "4", "--merge-islands"],
     ["--lanes", "8"],
+    ["--threads", "1"],
     ["--threads", "2"],
     ["--simulators", "2"],
     ["--simulators", "5", "--threads", "2"],

@@ -1,0 +1,52 @@
+// SimulatorProcesses: the Simulators of `roboss run --processes`. Started as processes of this computer,
+// watched until all have joined, and ended. Who dies or does not come is told in words.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/local_process.h"
+#include "core/result.h"
+
+namespace roboss {
+
+class SimulatorProcesses {
+  public:
+    /// `arguments`: of `roboss`.
+    Result<> start(const std::vector<std::string>& arguments);
+    std::size_t count() const { return processes_.size(); }
+    /// By which their Simulators will join.
+    std::vector<std::string> names() const;
+    /// Ends the one whose Simulator has this name, without a word to it; false: there is none.
+    bool kill(const std::string& name);
+
+    /// The beginning of a run, until every process has joined. An Error names those that have ended, or that
+    /// have not joined though for `patience_ms` none joined and nothing was fetched. `joined`: names of all
+    /// Simulators so far; `fetched`: a count that grows while somebody fetches the Model.
+    Result<> watch_start(const std::vector<std::string>& joined, std::uint64_t fetched, std::int64_t now_ms,
+                         std::int64_t patience_ms);
+    bool starting() const { return starting_; }
+    /// Takes out those that have ended; one line for each.
+    std::vector<std::string> take_ended();
+    /// Waits until all have ended, at most so long; then kills them.
+    void see_off(std::int64_t ms_max);
+
+  private:
+    struct Member {
+        std::size_t number;  // from 1
+        LocalProcess process;
+        bool joined = false;
+    };
+    Error have_ended(const std::vector<std::string>& lines) const;
+    Error have_not_joined(std::int64_t silent_ms) const;
+    std::string words_for(const Member& member) const;
+
+    std::vector<Member> processes_;
+    std::size_t started_ = 0;
+    bool starting_ = true;
+    std::uint64_t fetched_ = 0;
+    std::int64_t moved_ms_ = 0;  // when somebody joined or fetched last; 0: not yet watched
+};
+
+}  // namespace roboss

@@ -1,0 +1,113 @@
+// What is said of processes that die, hang or come late. The processes are this test program itself, with one
+// of the cases of SimulatorProcessesChild.
+#include "app/simulator_processes.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <cstdio>
+#include <thread>
+
+#include "app/threads.h"
+
+namespace roboss {
+namespace {
+
+constexpr std::int64_t kPatience_ms = 1'000;
+
+std::vector<std::string> child(const std::string& does) {
+    return {"child", "--gtest_also_run_disabled_tests", "--gtest_brief=1",
+            "--gtest_filter=SimulatorProcessesChild.DISABLED_" + does};
+}
+
+TEST(SimulatorProcessesChild, DISABLED_Complains) {
+    for (int i = 0; i < 9; ++i) std::fprintf(stderr, "complaint %d\n", i);
+    std::fflush(stderr);
+    _exit(7);
+}
+
+TEST(SimulatorProcessesChild, DISABLED_Sleeps) {
+    std::this_thread::sleep_for(std::chrono::seconds(60));
+}
+
+LocalProcess started(const std::string& does) {
+    Result<LocalProcess> process = LocalProcess::start(child(does));
+    EXPECT_TRUE(process.ok());
+    return std::move(process).value();
+}
+
+TEST(LocalProcess, KeepsTheEndOfWhatItsProcessSaid) {
+    LocalProcess process = started("Complains");
+    ASSERT_TRUE(process.wait(20'000));
+    EXPECT_EQ(process.ended(), "ended with exit code 7");
+    EXPECT_EQ(process.last_lines(2), "complaint 7\ncomplaint 8");
+    EXPECT_EQ(process.last_lines(0), "");
+    EXPECT_NE(process.last_lines(1'000).find("complaint 0\n"), std::string::npos);
+}
+
+TEST(LocalProcess, SaysWhatItsProcessDoes) {
+    LocalProcess process = started("Sleeps");
+    EXPECT_EQ(process.doing(), "runs");
+    ::kill(process.id(), SIGSTOP);
+    for (int i = 0; i < 500 && process.doing() == "runs"; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_EQ(process.doing(), "is stopped (SIGSTOP or a debugger)");
+    process.kill();
+    ASSERT_TRUE(process.wait(20'000));
+    EXPECT_EQ(process.ended(), "was killed by SIGKILL");
+}
+
+TEST(SimulatorProcesses, OneThatEndsBeforeTheRunIsNamedWithItsLastWords) {
+    SimulatorProcesses processes;
+    ASSERT_TRUE(processes.start(child("Sleeps")).ok());
+    ASSERT_TRUE(processes.start(child("Complains")).ok());
+    Result<> watched = Ok{};
+    for (int i = 0; i < 2'000 && watched.ok(); ++i) {
+        watched = processes.watch_start({}, 0, 1, kPatience_ms);
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    ASSERT_FALSE(watched.ok());
+    const std::string& said = watched.error().message;
+    EXPECT_NE(said.find("Simulator process 2 of 2 (pid "), std::string::npos) << said;
+    EXPECT_NE(said.find("ended with exit code 7; its last words:\ncomplaint 4"), std::string::npos) << said;
+    EXPECT_NE(said.find("before the run began"), std::string::npos) << said;
+    EXPECT_EQ(said.find("process 1 of 2"), std::string::npos) << said;
+}
+
+TEST(SimulatorProcesses, PatienceLastsAsLongAsSomebodyJoinsOrFetches) {
+    SimulatorProcesses processes;
+    for (int i = 0; i < 6; ++i) ASSERT_TRUE(processes.start(child("Sleeps")).ok());
+    std::int64_t now = 1;
+    EXPECT_TRUE(processes.watch_start({}, 0, now, kPatience_ms).ok());
+    EXPECT_TRUE(processes.watch_start({}, 5, now += 900, kPatience_ms).ok()) << "something was fetched";
+    EXPECT_TRUE(processes.watch_start({}, 5, now += 900, kPatience_ms).ok());
+    const Result<> failed = processes.watch_start({}, 5, now += 100, kPatience_ms);
+    ASSERT_FALSE(failed.ok());
+    const std::string& said = failed.error().message;
+    EXPECT_NE(said.find("Simulator process 1 of 6 (pid "), std::string::npos) << said;
+    EXPECT_NE(said.find("has not joined: it runs"), std::string::npos) << said;
+    EXPECT_NE(said.find("and 2 others have not joined"), std::string::npos) << said;
+    EXPECT_NE(said.find("nobody has joined for 1.0 s"), std::string::npos) << said;
+}
+
+TEST(SimulatorProcesses, TheStartIsOverWhenAllHaveJoined) {
+    SimulatorProcesses processes;
+    ASSERT_TRUE(processes.start(child("Sleeps")).ok());
+    EXPECT_TRUE(processes.starting());
+    EXPECT_TRUE(processes.watch_start({"elsewhere/1"}, 0, 1, kPatience_ms).ok());
+    EXPECT_TRUE(processes.starting());
+    EXPECT_TRUE(processes.watch_start(processes.names(), 0, 2, kPatience_ms).ok());
+    EXPECT_FALSE(processes.starting());
+    EXPECT_TRUE(processes.watch_start({}, 0, 60'000, kPatience_ms).ok()) << "later losses are done without";
+}
+
+TEST(Threads, AreSharedByProcessesAndAtLeastOneEach) {
+    EXPECT_GE(cores(), 1);
+    EXPECT_EQ(threads_of_each(3, 64), 3);
+    EXPECT_EQ(threads_of_each(0, 1), cores());
+    EXPECT_EQ(threads_of_each(0, cores()), 1);
+    EXPECT_EQ(threads_of_each(0, 100 * cores()), 1);
+}
+
+}  // namespace
+}  // namespace roboss
