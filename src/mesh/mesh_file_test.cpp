@@ -134,6 +134,15 @@ TEST(MeshFile, ColladaKeepsItsAxesAndAppliesUnitAndNodes) {
     }
 }
 
+TEST(MeshFile, ColladaWithSpaceBeforeItsNumbersIsRead) {
+    const Folder folder;
+    std::string text = dae("1", "Z_UP");
+    const std::size_t array = text.find('>', text.find("<float_array"));
+    ASSERT_NE(array, std::string::npos);
+    text.insert(array + 1, "\n     ");
+    expect_tetrahedron(read_mesh({folder.write("space.dae", text), {1, 1, 1}, "", false}), 1.0 / 6);
+}
+
 TEST(MeshFile, ASubmeshIsTakenByNameAndCentred) {
     const Folder folder;
     const std::string path = folder.write("a.dae", dae("1", "Z_UP"));
@@ -218,6 +227,13 @@ TEST(ImageFile, EightAndSixteenBitGreysComeAsTheyStandInTheFile) {
     const auto deep = read_png(write_png(folder, "b.png", PNG_FORMAT_LINEAR_Y, 2, 2, wide));
     ASSERT_TRUE(deep.ok());
     for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(deep.value().values[i], wide[i] / 65535.0, 1e-12);
+}
+
+TEST(ImageFile, ATiffIsAnErrorWithTheWayToConvertIt) {
+    const Folder folder;
+    const auto picture = read_png(folder.write("height.tif", std::string("II*\0\x08\0\0\0", 8)));
+    ASSERT_FALSE(picture.ok());
+    EXPECT_NE(picture.error().remedy.find("gdal_translate"), std::string::npos);
 }
 
 TEST(ImageFile, WhatIsNoPictureIsAnError) {

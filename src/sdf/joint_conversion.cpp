@@ -223,15 +223,18 @@ void report_unused(JointSpec& spec, const Element& source, const Import& import)
     }
 }
 
-void read_gearbox(const Element& source, const std::string& scope, const Import& import, JointSpec& spec) {
+/// false: it couples nothing.
+bool read_gearbox(const Element& source, const std::string& scope, const Import& import, JointSpec& spec) {
     spec.gearbox_ratio = import.reader.number(source, "gearbox_ratio", 1);
     const std::string reference = source.child("gearbox_reference_body").node.text().get();
     spec.gearbox_reference = reference == "world" ? reference : scope + reference;
     if (reference.empty()) {
-        import.diagnostics().error(source.where(), "gearbox-reference",
-                                   "gearbox '" + spec.name + "' has no <gearbox_reference_body>",
-                                   "Name the link that carries the hinges of both wheels.");
+        import.diagnostics().warning(
+            source.where(), "gearbox-reference",
+            "gearbox '" + spec.name + "' has no <gearbox_reference_body>; it is left out, as in Gazebo",
+            "Name the link that carries the hinges of both wheels.");
     }
+    return !reference.empty();
 }
 
 /// The link that libsdformat found for a parent or child frame, else the name as written, for validate() to
@@ -261,7 +264,7 @@ std::optional<JointSpec> convert_joint(const sdf::Joint& joint, const Element& s
     for (unsigned i = 0; i < axes_of(*kind); ++i)
         spec.axes.push_back(read_axis(joint, source, i, *kind, scope, import));
     if (*kind == JointSpecKind::kScrew) spec.screw_pitch = screw_pitch(source, import);
-    if (*kind == JointSpecKind::kGearbox) read_gearbox(source, scope, import, spec);
+    if (*kind == JointSpecKind::kGearbox && !read_gearbox(source, scope, import, spec)) return std::nullopt;
     report_unused(spec, source, import);
     return spec;
 }

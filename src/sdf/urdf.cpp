@@ -89,7 +89,8 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
     }
     constexpr const char* kRemedy = "Correct the URDF (check_urdf FILE tells more).";
     for (const ConsoleLine& line : printed) {
-        if (line.is_error) {
+        // What urdfdom leaves out (a visual, an inertia) is an error only where nothing is left.
+        if (line.is_error && text.empty()) {
             diagnostics.error(where_of(line.text, urdf), "urdf", line.text, kRemedy);
         } else {
             diagnostics.warning(where_of(line.text, urdf), "urdf", line.text);
