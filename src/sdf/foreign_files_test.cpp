@@ -107,6 +107,13 @@ TEST(ForeignFiles, APackageIsFoundByTheNameInItsPackageXml) {
     expect_mesh(load_with(folder, "away/world.sdf", "AMENT_PREFIX_PATH", folder.path("install")), "ament");
 }
 
+TEST(ForeignFiles, NamesInAnotherCaseAreFoundLast) {
+    const TestFolder folder;
+    folder.write("Models/Part/Part.OBJ", kFace);
+    folder.write("world.sdf", world_file(model_with_mesh("models/part/part.obj")));
+    expect_mesh(folder.load("world.sdf"), "another case");
+}
+
 TEST(ForeignFiles, PercentSignsStandForCharacters) {
     const TestFolder folder;
     folder.write("my models/part.obj", kFace);
@@ -198,6 +205,22 @@ TEST(ForeignFiles, WhatUrdfdomLeavesOutIsAWarning) {
     EXPECT_NE(loaded.find("urdf"), nullptr);
     ASSERT_TRUE(loaded.world);
     EXPECT_EQ(loaded.world->instances.size(), 1u);
+}
+
+TEST(ForeignFiles, InertialsThatUrdfdomWouldDropKeepTheirLinks) {
+    const auto robot = [](const std::string& inertia) {
+        return load_text("<robot name='r'><link name='a'><inertial><mass value='2'/>" + inertia +
+                             "</inertial></link></robot>",
+                         "r.urdf");
+    };
+    const Loaded broken_line = robot("<inertia ixx='1' iyy='2' izz='2.5\n' ixy='0' ixz='0' iyz='0'/>");
+    EXPECT_FALSE(broken_line.diagnostics.has_errors()) << broken_line.text();
+    ASSERT_TRUE(broken_line.world);
+    EXPECT_EQ(broken_line.world->prototypes.at(0).links.at(0).inertia_C(2, 2), 2.5);
+    const Loaded no_moments = robot("");
+    EXPECT_FALSE(no_moments.diagnostics.has_errors()) << no_moments.text();
+    ASSERT_TRUE(no_moments.world);
+    EXPECT_EQ(no_moments.world->prototypes.at(0).links.at(0).mass, 2);
 }
 
 TEST(ForeignFiles, AModelWithErrorsIsLeftOutAndNamed) {

@@ -75,6 +75,21 @@ std::vector<fs::path> folders_above(const std::string& base) {
     return result;
 }
 
+/// As path under the folder, in upper or lower case as the folder has it: for files of systems where both are one.
+void try_any_case(fs::path folder, const fs::path& path, Resolved& result) {
+    if (result.path) return;
+    for (const fs::path& part : path) {
+        if (part == "." || part == "..") {
+            folder /= part;
+        } else if (const auto entry = entry_named(folder, part.string())) {
+            folder = *entry;
+        } else {
+            return;
+        }
+    }
+    try_quietly(folder, result);
+}
+
 std::string package_name(const fs::path& folder) {
     pugi::xml_document package;
     if (!package.load_file((folder / "package.xml").c_str())) return {};
@@ -157,6 +172,10 @@ void ResourcePaths::look(const fs::path& path, const std::string& base, bool has
         if (own.filename() == *path.begin()) try_path(own.parent_path() / path, result);
     }
     if (has_scheme) try_above(base, path, result);
+    try_any_case(base, path, result);
+    for (const std::string& folder : folders_) try_any_case(folder, path, result);
+    if (has_scheme)
+        for (const fs::path& folder : folders_above(base)) try_any_case(folder, path, result);
 }
 
 Resolved ResourcePaths::resolve_remote(const std::string& uri, const std::string& base) const {

@@ -6,14 +6,24 @@
 #include <sstream>
 
 #include "sdf/console_capture.h"
+#include "sdf/urdf_inertials.h"
 
 namespace roboss::sdf_import {
 namespace {
 
-std::string text_of(const SourceFile& file) {
+/// What libsdformat gets to read.
+std::string text_of(const SourceFile& file, Diagnostics& diagnostics) {
+    pugi::xml_document copy;
+    copy.append_copy(file.root());
+    mend_inertials(copy.document_element(), file, diagnostics);
     std::ostringstream text;
-    file.root().print(text, "", pugi::format_raw);
+    copy.document_element().print(text, "", pugi::format_raw);
     return text.str();
+}
+
+/// Without its inertial, a link would be left out with all that hangs on it.
+bool loses_a_link(const std::string& message) {
+    return message.find("Could not parse inertial") != std::string::npos;
 }
 
 /// Errors name links and joints as "[name]": the line of that element, else the robot's.
@@ -71,6 +81,7 @@ std::vector<int> map_lines(const SourceFile& urdf, const std::string& sdf) {
 
 std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& diagnostics) {
     const SourceLocation where = urdf.where(urdf.root());
+    const std::string given = text_of(urdf, diagnostics);
     sdf::Errors errors;
     std::string text;
     std::vector<ConsoleLine> printed;
@@ -80,7 +91,7 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
             const sdf::SDFPtr document = std::make_shared<sdf::SDF>();
             sdf::init(document);
             sdf::ParserConfig config;
-            if (sdf::readString(text_of(urdf), config, document, errors))
+            if (sdf::readString(given, config, document, errors))
                 text = document->Root()->ToString("");
         } catch (const std::exception& exception) {
             errors.emplace_back(sdf::ErrorCode::STRING_READ, exception.what());
@@ -89,8 +100,8 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
     }
     constexpr const char* kRemedy = "Correct the URDF (check_urdf FILE tells more).";
     for (const ConsoleLine& line : printed) {
-        // What urdfdom leaves out (a visual, an inertia) is an error only where nothing is left.
-        if (line.is_error && text.empty()) {
+        // urdfdom goes on without what it cannot read, a visual for instance.
+        if (line.is_error && (text.empty() || loses_a_link(line.text))) {
             diagnostics.error(where_of(line.text, urdf), "urdf", line.text, kRemedy);
         } else {
             diagnostics.warning(where_of(line.text, urdf), "urdf", line.text);
