@@ -103,8 +103,9 @@ int check(const CheckOptions& options) {
         if (world) print_text(*world, take_census(*world));
         print_text(diagnostics);
         if (diagnostics.has_errors())
-            fmt::print("{}\n", runs ? "`roboss run` leaves out the models with errors, or refuses with --strict"
-                                    : "`roboss run` refuses this world");
+            fmt::print("{}\n",
+                       runs ? "`roboss run` leaves out the models with errors, or refuses with --strict"
+                            : "`roboss run` refuses this world");
     }
     if (!world) return 2;
     return diagnostics.has_errors() ? 1 : 0;

@@ -51,9 +51,8 @@ bool Diagnostics::has_errors() const {
 
 bool Diagnostics::refuses_since(std::size_t first) const {
     const auto from = items_.begin() + static_cast<std::ptrdiff_t>(std::min(first, items_.size()));
-    return std::any_of(from, items_.end(), [](const Diagnostic& d) {
-        return d.severity == Severity::kError && !d.left_out;
-    });
+    return std::any_of(from, items_.end(),
+                       [](const Diagnostic& d) { return d.severity == Severity::kError && !d.left_out; });
 }
 
 bool Diagnostics::leave_out_since(std::size_t first) {

@@ -35,7 +35,8 @@ Vec3 across(const Vec3& u) {
     return normalized(cross(u, axis));
 }
 
-/// Three directions at right angles: the longest way in the set, the longest across it, and the normal of both.
+/// Three directions at right angles: the longest way in the set, the longest across it, and the normal of
+/// both.
 std::vector<Vec3> main_directions(std::span<const Vec3> points) {
     const Vec3 first = points.front();
     const auto further = [&](const auto& measure) {
@@ -46,9 +47,8 @@ std::vector<Vec3> main_directions(std::span<const Vec3> points) {
     const Vec3 u = direction_of(far - first, {1, 0, 0});
     const auto sideways = [&](const Vec3& p) { return (p - first) - u * dot(p - first, u); };
     const Vec3 wide = further([&](const Vec3& p) { return norm(sideways(p)); });
-    const Vec3 v = norm(sideways(wide)) > 1e-9 * norm(far - first)
-                       ? direction_of(sideways(wide), across(u))
-                       : across(u);
+    const Vec3 v =
+        norm(sideways(wide)) > 1e-9 * norm(far - first) ? direction_of(sideways(wide), across(u)) : across(u);
     return {u, v, cross(u, v)};
 }
 

@@ -28,9 +28,10 @@ bool is_tiff(const std::string& path) {
 
 Result<GreyImage> read_png(const std::string& path) {
     if (is_tiff(path))
-        return Error{"is a TIFF file, which is not read",
-                     "Convert it: gdal_translate -of PNG -ot UInt16 -scale FILE.tif FILE.png; heights then run from 0 "
-                     "to the z of <size>."};
+        return Error{
+            "is a TIFF file, which is not read",
+            "Convert it: gdal_translate -of PNG -ot UInt16 -scale FILE.tif FILE.png; heights then run from 0 "
+            "to the z of <size>."};
     png_image image;
     std::memset(&image, 0, sizeof image);
     image.version = PNG_IMAGE_VERSION;

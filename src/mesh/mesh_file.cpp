@@ -208,8 +208,7 @@ Result<const aiScene*> open_scene(Assimp::Importer& importer, const std::string&
         const std::string repaired = repaired_collada(text_of(path));
         scene = importer.ReadFileFromMemory(repaired.data(), repaired.size(), aiProcess_Triangulate, "dae");
     }
-    if (scene == nullptr)
-        return Error{"is no mesh that can be read: " + why, "Export it anew."};
+    if (scene == nullptr) return Error{"is no mesh that can be read: " + why, "Export it anew."};
     return scene;
 }
 

@@ -137,9 +137,12 @@ TEST(MeshFile, ColladaKeepsItsAxesAndAppliesUnitAndNodes) {
 TEST(MeshFile, ColladaWithSpaceBeforeItsNumbersIsRead) {
     const Folder folder;
     std::string text = dae("1", "Z_UP");
-    const std::size_t array = text.find('>', text.find("<float_array"));
-    ASSERT_NE(array, std::string::npos);
-    text.insert(array + 1, "\n     ");
+    const std::size_t geometries = text.find("<library_geometries>");
+    ASSERT_NE(geometries, std::string::npos);
+    text.insert(
+        geometries,
+        "<library_effects><effect id='e'><profile_COMMON><technique sid='t'><phong><diffuse><color> 0.3 "
+        "0.3 0.3 1</color></diffuse></phong></technique></profile_COMMON></effect></library_effects>");
     expect_tetrahedron(read_mesh({folder.write("space.dae", text), {1, 1, 1}, "", false}), 1.0 / 6);
 }
 

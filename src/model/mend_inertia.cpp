@@ -1,6 +1,6 @@
-// Dummy frames of URDF, casters and sensor mounts often have no mass, or moments of inertia of zero. Welded to a link
-// with mass they do no harm. A body that moves must have some: a gram, and moments as of a ball of one centimetre at
-// least, too little to matter to what it hangs on.
+// Dummy frames of URDF, casters and sensor mounts often have no mass, or moments of inertia of zero. Welded
+// to a link with mass they do no harm. A body that moves must have some: a gram, and moments as of a ball of
+// one centimetre at least, too little to matter to what it hangs on.
 #include <algorithm>
 #include <cmath>
 
@@ -9,8 +9,8 @@
 namespace roboss {
 namespace {
 
-constexpr double kSmallMass = 1e-3;     // kg
-constexpr double kSmallRadius = 0.01;   // m
+constexpr double kSmallMass = 1e-3;      // kg
+constexpr double kSmallRadius = 0.01;    // m
 constexpr double kSmallestShare = 1e-3;  // of the greatest moment
 
 bool positive_definite(const Mat3& m) {
@@ -60,10 +60,11 @@ void mend_inertia(RobotType& type, const ModelSpec& spec, const std::vector<std:
             const double moment = 0.4 * kSmallMass * kSmallRadius * kSmallRadius;
             link.inertia_C = Mat3::diagonal(moment, moment, moment);
             add_mass(body, link);
-            diagnostics.warning(source.where, "massless",
-                                "link '" + link.name + "' of model '" + spec.name +
-                                    "' can move and has no mass; it gets 1 g and the inertia of a ball of 1 cm",
-                                "Write its <inertial>, or join it to its parent with a fixed joint.");
+            diagnostics.warning(
+                source.where, "massless",
+                "link '" + link.name + "' of model '" + spec.name +
+                    "' can move and has no mass; it gets 1 g and the inertia of a ball of 1 cm",
+                "Write its <inertial>, or join it to its parent with a fixed joint.");
         } else if (!positive_definite(body.inertia_C)) {
             const double moment = missing_moment(body.inertia_C, body.mass);
             const Mat3 more = Mat3::diagonal(moment, moment, moment);

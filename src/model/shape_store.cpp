@@ -100,8 +100,8 @@ Result<ConvexHull> ShapeStore::mended_hull(const CollisionSpec& collision) {
     std::vector<Vec3> points = extreme_points(mesh.vertices);
     if (auto hull = build_hull(points)) {
         diagnostics_.note(collision.where, "coarse-hull",
-                          "the convex hull of '" + mesh.source + "' is built of " + std::to_string(points.size()) +
-                              " of its corners: all together make none",
+                          "the convex hull of '" + mesh.source + "' is built of " +
+                              std::to_string(points.size()) + " of its corners: all together make none",
                           "A collision mesh of a few dozen corners is enough for most bodies.");
         return hull;
     }

@@ -84,7 +84,8 @@ TEST(ShapeStore, AMeshWithTooManyCornersForAHullGetsACoarserOne) {
 
 TEST(ShapeStore, AModelWithABadShapeIsLeftOutOfTheModel) {
     World world = empty_world(1e-3);
-    place(world, box_like(1, {1, 1, 1}, polyline_shape({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, 0, surface(1))), "bad");
+    place(world, box_like(1, {1, 1, 1}, polyline_shape({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, 0, surface(1))),
+          "bad");
     place(world, box_like(1, {1, 1, 1}, box_shape({1, 1, 1}, surface(1))), "good", {{9, 0, 0}, {}});
     Diagnostics diagnostics;
     const auto model = compile_quietly(world, diagnostics);

@@ -1,8 +1,8 @@
 // Parses numbers with from_chars: no locale, and the same double for the same text everywhere.
 #include "sdf/element_reader.h"
 
-#include <charconv>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 
 namespace roboss::sdf_import {

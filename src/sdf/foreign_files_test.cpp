@@ -1,5 +1,6 @@
-// What files of other people hold, one small file for each cause that refused them once: lights as models, Gazebo's
-// and ROS's ways to name files, Fuel's caches, sizes of 0, stray characters, and models with errors among good ones.
+// What files of other people hold, one small file for each cause that refused them once: lights as models,
+// Gazebo's and ROS's ways to name files, Fuel's caches, sizes of 0, stray characters, and models with errors
+// among good ones.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -19,7 +20,8 @@ std::string world_file(const std::string& elements) {
 
 std::string model_with_mesh(const std::string& uri) {
     return "<model name='m'>" +
-           link("a", "<collision name='c'><geometry><mesh><uri>" + uri + "</uri></mesh></geometry></collision>") +
+           link("a",
+                "<collision name='c'><geometry><mesh><uri>" + uri + "</uri></mesh></geometry></collision>") +
            "</model>";
 }
 
@@ -49,8 +51,8 @@ void expect_mesh(const Loaded& loaded, const std::string& what) {
 TEST(ForeignFiles, AnIncludedLightIsANote) {
     const TestFolder folder;
     folder.write("models/sun/model.sdf", model_file("<light name='sun' type='directional'/>"));
-    folder.write("world.sdf", world_file("<include><uri>model://sun</uri></include><model name='m'>" + link("a") +
-                                         "</model>"));
+    folder.write("world.sdf", world_file("<include><uri>model://sun</uri></include><model name='m'>" +
+                                         link("a") + "</model>"));
     const Loaded loaded = folder.load("world.sdf");
     EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
     ASSERT_TRUE(loaded.world);
@@ -75,7 +77,8 @@ TEST(ForeignFiles, FileUrisAreLookedForInEveryResourceFolder) {
     EXPECT_NE(folder.load("world/world.sdf").find("file-not-found"), nullptr);
     for (const char* variable : {"GAZEBO_RESOURCE_PATH", "GAZEBO_MODEL_PATH", "GZ_SIM_RESOURCE_PATH",
                                  "IGN_GAZEBO_RESOURCE_PATH", "GZ_FILE_PATH", "IGN_FILE_PATH", "SDF_PATH"})
-        expect_mesh(load_with(folder, "world/world.sdf", variable, "/nowhere:" + folder.path("share")), variable);
+        expect_mesh(load_with(folder, "world/world.sdf", variable, "/nowhere:" + folder.path("share")),
+                    variable);
 }
 
 TEST(ForeignFiles, FilesAreFoundInFoldersAboveTheModel) {
@@ -100,7 +103,8 @@ TEST(ForeignFiles, APackageIsFoundByTheNameInItsPackageXml) {
     const TestFolder folder;
     folder.write("some_folder/package.xml", "<package><name>arm_description</name></package>");
     folder.write("some_folder/meshes/part.obj", kFace);
-    folder.write("some_folder/urdf/world.sdf", world_file(model_with_mesh("package://arm_description/meshes/part.obj")));
+    folder.write("some_folder/urdf/world.sdf",
+                 world_file(model_with_mesh("package://arm_description/meshes/part.obj")));
     expect_mesh(folder.load("some_folder/urdf/world.sdf"), "package.xml");
     folder.write("install/share/arm_description/meshes/part.obj", kFace);
     folder.write("away/world.sdf", world_file(model_with_mesh("package://arm_description/meshes/part.obj")));
@@ -128,16 +132,19 @@ TEST(ForeignFiles, FuelModelsAreFoundInWhateverCaseAndVersion) {
     folder.write(model + "3/model.sdf", model_file("<model name='new'>" + link("a") + "</model>"));
     folder.write(model + "3/meshes/part.obj", kFace);
     const std::string address = "https://fuel.ignitionrobotics.org/1.0/OpenRobotics/models/Red Ball";
-    for (const auto& [ending, name] : {std::pair<std::string, std::string>{"", "new"}, {"/tip", "new"}, {"/2", "old"},
-                                       {"/3/", "new"}, {"/tip/files", "new"}}) {
+    for (const auto& [ending, name] : {std::pair<std::string, std::string>{"", "new"},
+                                       {"/tip", "new"},
+                                       {"/2", "old"},
+                                       {"/3/", "new"},
+                                       {"/tip/files", "new"}}) {
         folder.write("world.sdf", world_file("<include><uri>" + address + ending + "</uri></include>"));
         const Loaded loaded = load_with(folder, "world.sdf", "GZ_FUEL_CACHE_PATH", folder.path("fuel"));
         ASSERT_TRUE(loaded.world && loaded.world->instances.size() == 1) << ending << "\n" << loaded.text();
         EXPECT_EQ(loaded.world->instances[0].name, name) << ending;
     }
-    folder.write("world.sdf",
-                 world_file(model_with_mesh("https://fuel.gazebosim.org/1.0/OpenRobotics/models/Red%20Ball/tip/"
-                                            "files/meshes/part.obj")));
+    folder.write("world.sdf", world_file(model_with_mesh(
+                                  "https://fuel.gazebosim.org/1.0/OpenRobotics/models/Red%20Ball/tip/"
+                                  "files/meshes/part.obj")));
     expect_mesh(load_with(folder, "world.sdf", "GZ_FUEL_CACHE_PATH", folder.path("fuel")), "file of a model");
 }
 
@@ -224,7 +231,8 @@ TEST(ForeignFiles, InertialsThatUrdfdomWouldDropKeepTheirLinks) {
 }
 
 TEST(ForeignFiles, AModelWithErrorsIsLeftOutAndNamed) {
-    const std::string broken = "<model name='broken'><link name='a'><inertial><mass>-1</mass></inertial></link></model>";
+    const std::string broken =
+        "<model name='broken'><link name='a'><inertial><mass>-1</mass></inertial></link></model>";
     const std::string good = "<model name='good'>" + link("a") + "</model>";
     const Loaded both = load_elements(broken + "\n" + good);
     ASSERT_TRUE(both.world);
@@ -245,9 +253,11 @@ TEST(ForeignFiles, AModelWithErrorsIsLeftOutAndNamed) {
 TEST(ForeignFiles, EveryModelWithABadFileIsLeftOut) {
     const TestFolder folder;
     folder.write("bad.obj", "");
-    const std::string mesh = "<collision name='c'><geometry><mesh><uri>bad.obj</uri></mesh></geometry></collision>";
-    folder.write("world.sdf", world_file("<model name='a'>" + link("l", mesh) + "</model><model name='b'>" +
-                                         link("other", mesh) + "</model><model name='c'>" + link("l") + "</model>"));
+    const std::string mesh =
+        "<collision name='c'><geometry><mesh><uri>bad.obj</uri></mesh></geometry></collision>";
+    folder.write("world.sdf",
+                 world_file("<model name='a'>" + link("l", mesh) + "</model><model name='b'>" +
+                            link("other", mesh) + "</model><model name='c'>" + link("l") + "</model>"));
     const Loaded loaded = folder.load("world.sdf");
     ASSERT_TRUE(loaded.world);
     ASSERT_EQ(loaded.world->instances.size(), 1u) << loaded.text();

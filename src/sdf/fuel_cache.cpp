@@ -80,7 +80,8 @@ std::optional<FuelUri> FuelUri::parse(const std::string& uri) {
     if (models - words.begin() < 2 || words.end() - models < 2) return std::nullopt;
     FuelUri result;
     result.server = words.front();
-    const auto owner = *(models - 1) == "fuel" ? models - 2 : models - 1;  // app.gazebosim.org/OWNER/fuel/models
+    const auto owner =
+        *(models - 1) == "fuel" ? models - 2 : models - 1;  // app.gazebosim.org/OWNER/fuel/models
     result.owner = *owner;
     auto next = models + 1;
     result.name = *next++;

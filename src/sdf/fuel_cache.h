@@ -1,4 +1,5 @@
-// FuelUri: the address of a model on Gazebo Fuel, and where its copy may lie on this machine. Nothing is fetched.
+// FuelUri: the address of a model on Gazebo Fuel, and where its copy may lie on this machine. Nothing is
+// fetched.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +13,8 @@ namespace roboss::sdf_import {
 std::string percent_decoded(const std::string& text);
 
 /// The entry of `folder` with this name: the exact one, else one that differs in case only. nullopt: none.
-std::optional<std::filesystem::path> entry_named(const std::filesystem::path& folder, const std::string& name);
+std::optional<std::filesystem::path> entry_named(const std::filesystem::path& folder,
+                                                 const std::string& name);
 
 /// https://SERVER/1.0/OWNER/models/NAME[/VERSION][/files/FILE], all decoded.
 struct FuelUri {
@@ -23,8 +25,9 @@ struct FuelUri {
     /// nullopt: not the address of a model.
     static std::optional<FuelUri> parse(const std::string& uri);
 
-    /// Where the model's copy lies under a cache folder, or would lie if it were there. Fuel's tools keep it as
-    /// SERVER/OWNER/models/NAME/VERSION, owner and name in lower case, the server under its old or new name.
+    /// Where the model's copy lies under a cache folder, or would lie if it were there. Fuel's tools keep it
+    /// as SERVER/OWNER/models/NAME/VERSION, owner and name in lower case, the server under its old or new
+    /// name.
     std::filesystem::path model_in(const std::filesystem::path& cache) const;
 };
 

@@ -61,7 +61,8 @@ const SourceFile* IncludeStore::file_of(const Element& include) {
         } else {
             diagnostics_.error(
                 include.where(), "include-not-found",
-                "<include> of '" + uri + "' leads to no file; the model is left out; searched: " + list_of(found.searched),
+                "<include> of '" + uri +
+                    "' leads to no file; the model is left out; searched: " + list_of(found.searched),
                 "Give the folder that holds it with --path, or in GZ_SIM_RESOURCE_PATH.");
         }
         return nullptr;

@@ -24,9 +24,9 @@ struct LoadOptions {
 };
 
 /// The world of `file` (its first one; a file with a model only becomes a world with that model), checked as
-/// validate() does. nullopt if the file cannot be read as a world at all. A model with errors is left out of the
-/// World, with an error "left-out" that names it: ask diagnostics.refuses() whether anything else is wrong, or
-/// has_errors() to refuse such worlds too. Never throws and never prints.
+/// validate() does. nullopt if the file cannot be read as a world at all. A model with errors is left out of
+/// the World, with an error "left-out" that names it: ask diagnostics.refuses() whether anything else is
+/// wrong, or has_errors() to refuse such worlds too. Never throws and never prints.
 std::optional<World> load_world(const std::string& file, const LoadOptions& options,
                                 Diagnostics& diagnostics);
 

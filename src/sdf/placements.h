@@ -21,8 +21,8 @@ struct Placement {
     bool left_out = false;  // something in it is wrong (reported)
 };
 
-/// All models under `world` (a <world>, or the <sdf> of a file with a model only). What is wrong is reported, as
-/// errors of models that are left out.
+/// All models under `world` (a <world>, or the <sdf> of a file with a model only). What is wrong is reported,
+/// as errors of models that are left out.
 std::vector<Placement> collect_placements(const Element& world, IncludeStore& includes, const Import& import);
 
 /// The placement of a <model> or <include>; nothing if an include leads nowhere.

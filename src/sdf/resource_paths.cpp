@@ -75,7 +75,8 @@ std::vector<fs::path> folders_above(const std::string& base) {
     return result;
 }
 
-/// As path under the folder, in upper or lower case as the folder has it: for files of systems where both are one.
+/// As path under the folder, in upper or lower case as the folder has it: for files of systems where both are
+/// one.
 void try_any_case(fs::path folder, const fs::path& path, Resolved& result) {
     if (result.path) return;
     for (const fs::path& part : path) {
@@ -96,8 +97,8 @@ std::string package_name(const fs::path& folder) {
     return package.document_element().child("name").text().get();
 }
 
-/// Where a model of a checked-out project names its neighbours, or a robot its own package: in a folder above the
-/// file, in `models` of one, or in the ROS package around it whatever its folder is called.
+/// Where a model of a checked-out project names its neighbours, or a robot its own package: in a folder above
+/// the file, in `models` of one, or in the ROS package around it whatever its folder is called.
 void try_above(const std::string& base, const fs::path& path, Resolved& result) {
     if (result.path || path.empty()) return;
     result.searched.push_back("the folders above '" + base + "'");

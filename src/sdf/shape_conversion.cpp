@@ -109,7 +109,8 @@ void give_size(CollisionSpec& spec, const Import& import) {
     }
     if (given)
         import.diagnostics().warning(
-            spec.where, "no-size", "collision '" + spec.name + "' has a size of 0; it collides with 1 mm instead",
+            spec.where, "no-size",
+            "collision '" + spec.name + "' has a size of 0; it collides with 1 mm instead",
             "Write its size, or remove it.");
 }
 

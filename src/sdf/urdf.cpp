@@ -91,8 +91,7 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
             const sdf::SDFPtr document = std::make_shared<sdf::SDF>();
             sdf::init(document);
             sdf::ParserConfig config;
-            if (sdf::readString(given, config, document, errors))
-                text = document->Root()->ToString("");
+            if (sdf::readString(given, config, document, errors)) text = document->Root()->ToString("");
         } catch (const std::exception& exception) {
             errors.emplace_back(sdf::ErrorCode::STRING_READ, exception.what());
         }

@@ -1,4 +1,5 @@
-// Works on the XML before libsdformat sees it. Findings are at the link, which the copy has in the same place.
+// Works on the XML before libsdformat sees it. Findings are at the link, which the copy has in the same
+// place.
 #include "sdf/urdf_inertials.h"
 
 #include <string>
@@ -18,9 +19,10 @@ void mend_number(pugi::xml_attribute attribute, const SourceLocation& where, Dia
     std::size_t length = word.size();
     while (length > 0 && !parse_number(word.substr(0, length))) --length;
     attribute.set_value(std::string(word.substr(0, length)).c_str());
-    diagnostics.warning(where, "trailing-text",
-                        std::string(attribute.name()) + "=\"" + text + "\" of an <inertial>: only the number counts",
-                        "Write the number alone.");
+    diagnostics.warning(
+        where, "trailing-text",
+        std::string(attribute.name()) + "=\"" + text + "\" of an <inertial>: only the number counts",
+        "Write the number alone.");
 }
 
 void mend_inertial(pugi::xml_node inertial, const SourceLocation& where, Diagnostics& diagnostics) {
@@ -28,9 +30,10 @@ void mend_inertial(pugi::xml_node inertial, const SourceLocation& where, Diagnos
         for (const auto attribute : child.attributes()) mend_number(attribute, where, diagnostics);
     if (!inertial.child("mass") || inertial.child("inertia")) return;
     auto inertia = inertial.append_child("inertia");
-    for (const char* moment : {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}) inertia.append_attribute(moment) = "0";
-    diagnostics.warning(where, "missing-inertia", "an <inertial> has no <inertia>; its moments are taken as 0",
-                        "Write its moments.");
+    for (const char* moment : {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"})
+        inertia.append_attribute(moment) = "0";
+    diagnostics.warning(where, "missing-inertia",
+                        "an <inertial> has no <inertia>; its moments are taken as 0", "Write its moments.");
 }
 
 }  // namespace
