@@ -52,6 +52,18 @@ std::vector<Vec3> main_directions(std::span<const Vec3> points) {
     return {u, v, cross(u, v)};
 }
 
+/// Marks the first of the points furthest along the direction, and of those furthest against it.
+void take_extremes(std::span<const Vec3> points, const Vec3& direction, std::vector<char>& taken) {
+    std::size_t most = 0, least = 0;
+    double high = -INFINITY, low = INFINITY;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const double x = dot(points[k], direction);
+        if (x > high) high = x, most = k;
+        if (x < low) low = x, least = k;
+    }
+    taken[most] = taken[least] = 1;
+}
+
 }  // namespace
 
 std::vector<Vec3> thickened(std::span<const Vec3> points, double thickness) {
@@ -67,6 +79,7 @@ std::vector<Vec3> thickened(std::span<const Vec3> points, double thickness) {
 }
 
 std::vector<Vec3> extreme_points(std::span<const Vec3> points) {
+    if (points.empty()) return {};
     std::vector<char> taken(points.size(), 0);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         for (int i = 0; i <= kSteps; ++i) {
@@ -75,13 +88,7 @@ std::vector<Vec3> extreme_points(std::span<const Vec3> points) {
                 direction[axis] = 1;
                 direction[(axis + 1) % 3] = 2.0 * i / kSteps - 1;
                 direction[(axis + 2) % 3] = 2.0 * j / kSteps - 1;
-                std::size_t most = 0, least = 0;
-                for (std::size_t k = 0; k < points.size(); ++k) {
-                    const double x = dot(points[k], direction);
-                    if (x > dot(points[most], direction)) most = k;
-                    if (x < dot(points[least], direction)) least = k;
-                }
-                taken[most] = taken[least] = 1;
+                take_extremes(points, direction, taken);
             }
         }
     }

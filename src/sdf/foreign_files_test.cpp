@@ -230,6 +230,56 @@ TEST(ForeignFiles, InertialsThatUrdfdomWouldDropKeepTheirLinks) {
     EXPECT_EQ(no_moments.world->prototypes.at(0).links.at(0).mass, 2);
 }
 
+TEST(ForeignFiles, ANestedStaticModelDoesNotMove) {
+    const std::string inner = "<model name='inner'><static>true</static>" + link("a") + "</model>";
+    const Loaded alone = load_elements("<model name='m'>" + inner + "</model>");
+    EXPECT_FALSE(alone.diagnostics.has_errors()) << alone.text();
+    ASSERT_TRUE(alone.world && alone.world->prototypes.size() == 1);
+    EXPECT_TRUE(alone.world->prototypes[0].is_static);
+    const Loaded beside = load_elements("<model name='m'>" + inner + link("b") + "</model>");
+    EXPECT_FALSE(beside.diagnostics.has_errors()) << beside.text();
+    ASSERT_TRUE(beside.world && beside.world->prototypes.size() == 1);
+    const ModelSpec& model = beside.world->prototypes[0];
+    EXPECT_FALSE(model.is_static);
+    ASSERT_EQ(model.joints.size(), 1u);
+    EXPECT_EQ(model.joints[0].parent, "world");
+    EXPECT_EQ(model.joints[0].child, "inner::a");
+    EXPECT_NE(beside.find("nested-static"), nullptr);
+}
+
+TEST(ForeignFiles, TwoAxesOfAJointAreNeverParallel) {
+    const Loaded loaded =
+        load_elements("<model name='m'>" + link("a") + link("b") +
+                      "<joint name='j' type='universal'><parent>a</parent><child>b</child></joint></model>");
+    EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
+    EXPECT_NE(loaded.find("parallel-axes"), nullptr);
+    const auto& axes = loaded.world->prototypes.at(0).joints.at(0).axes;
+    EXPECT_NEAR(dot(axes.at(0).xyz, axes.at(1).xyz), 0, 1e-12);
+}
+
+TEST(ForeignFiles, AJointOfUrdfMayHaveTheNameOfALink) {
+    const std::string inertial =
+        "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>";
+    const Loaded loaded =
+        load_text("<robot name='r'><link name='base'>" + inertial + "</link><link name='arm'>" + inertial +
+                      "</link><link name='tip'>" + inertial +
+                      "</link><joint name='arm' type='continuous'><parent link='base'/><child link='arm'/>"
+                      "<axis xyz='0 0 1'/></joint><joint name='follow' type='continuous'><parent link='arm'/>"
+                      "<child link='tip'/><axis xyz='0 0 1'/><mimic joint='arm'/></joint></robot>",
+                  "r.urdf");
+    EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
+    EXPECT_NE(loaded.find("renamed-joint"), nullptr);
+    ASSERT_TRUE(loaded.world && loaded.world->prototypes.size() == 1);
+    ASSERT_EQ(loaded.world->prototypes[0].joints.size(), 2u);
+    for (const JointSpec& joint : loaded.world->prototypes[0].joints) {
+        EXPECT_TRUE(joint.name == "arm_joint" || joint.name == "follow") << joint.name;
+        if (joint.name == "follow") {
+            ASSERT_TRUE(joint.axes.at(0).mimic);
+            EXPECT_EQ(joint.axes[0].mimic->joint, "arm_joint");
+        }
+    }
+}
+
 TEST(ForeignFiles, AModelWithErrorsIsLeftOutAndNamed) {
     const std::string broken =
         "<model name='broken'><link name='a'><inertial><mass>-1</mass></inertial></link></model>";

@@ -223,6 +223,19 @@ void report_unused(JointSpec& spec, const Element& source, const Import& import)
     }
 }
 
+/// Two axes along one line are one: often both were left out, so both are z.
+void turn_parallel_axis(JointSpec& spec, const Import& import) {
+    const Vec3& first = spec.axes[0].xyz;
+    if (norm(cross(first, spec.axes[1].xyz)) > 1e-6) return;
+    const Vec3 other = std::fabs(first.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    spec.axes[1].xyz = normalized(other - first * dot(other, first));
+    import.diagnostics().warning(
+        spec.where, "parallel-axes",
+        "the two axes of joint '" + spec.name +
+            "' are parallel; the second is turned to be at right angles to the first",
+        "Write <axis2><xyz>.");
+}
+
 /// false: it couples nothing.
 bool read_gearbox(const Element& source, const std::string& scope, const Import& import, JointSpec& spec) {
     spec.gearbox_ratio = import.reader.number(source, "gearbox_ratio", 1);
@@ -263,6 +276,7 @@ std::optional<JointSpec> convert_joint(const sdf::Joint& joint, const Element& s
                            [&](std::string& name) { return joint.ResolveChildLink(name); });
     for (unsigned i = 0; i < axes_of(*kind); ++i)
         spec.axes.push_back(read_axis(joint, source, i, *kind, scope, import));
+    if (axes_of(*kind) == 2 && *kind != JointSpecKind::kGearbox) turn_parallel_axis(spec, import);
     if (*kind == JointSpecKind::kScrew) spec.screw_pitch = screw_pitch(source, import);
     if (*kind == JointSpecKind::kGearbox && !read_gearbox(source, scope, import, spec)) return std::nullopt;
     report_unused(spec, source, import);

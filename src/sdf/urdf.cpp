@@ -6,18 +6,14 @@
 #include <sstream>
 
 #include "sdf/console_capture.h"
-#include "sdf/urdf_inertials.h"
+#include "sdf/urdf_repairs.h"
 
 namespace roboss::sdf_import {
 namespace {
 
-/// What libsdformat gets to read.
-std::string text_of(const SourceFile& file, Diagnostics& diagnostics) {
-    pugi::xml_document copy;
-    copy.append_copy(file.root());
-    mend_inertials(copy.document_element(), file, diagnostics);
+std::string text_of(pugi::xml_node robot) {
     std::ostringstream text;
-    copy.document_element().print(text, "", pugi::format_raw);
+    robot.print(text, "", pugi::format_raw);
     return text.str();
 }
 
@@ -37,8 +33,8 @@ SourceLocation where_of(const std::string& message, const SourceFile& urdf) {
 
 /// libsdformat 12 leaves <mimic> out of a URDF without a word: writes it into the joint's <axis>, on the same
 /// line, for the importer to read.
-void add_mimics(const SourceFile& urdf, std::string& sdf) {
-    for (const auto joint : urdf.root().children("joint")) {
+void add_mimics(pugi::xml_node robot, std::string& sdf) {
+    for (const auto joint : robot.children("joint")) {
         const auto mimic = joint.child("mimic");
         if (!mimic) continue;
         const std::size_t at = sdf.find("<joint name='" + std::string(joint.attribute("name").value()) + "'");
@@ -81,7 +77,10 @@ std::vector<int> map_lines(const SourceFile& urdf, const std::string& sdf) {
 
 std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& diagnostics) {
     const SourceLocation where = urdf.where(urdf.root());
-    const std::string given = text_of(urdf, diagnostics);
+    pugi::xml_document repaired;
+    repaired.append_copy(urdf.root());
+    const pugi::xml_node robot = repaired.document_element();
+    repair_urdf(robot, urdf, diagnostics);
     sdf::Errors errors;
     std::string text;
     std::vector<ConsoleLine> printed;
@@ -91,7 +90,8 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
             const sdf::SDFPtr document = std::make_shared<sdf::SDF>();
             sdf::init(document);
             sdf::ParserConfig config;
-            if (sdf::readString(given, config, document, errors)) text = document->Root()->ToString("");
+            if (sdf::readString(text_of(robot), config, document, errors))
+                text = document->Root()->ToString("");
         } catch (const std::exception& exception) {
             errors.emplace_back(sdf::ErrorCode::STRING_READ, exception.what());
         }
@@ -114,7 +114,7 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
         }
         return nullptr;
     }
-    add_mimics(urdf, text);
+    add_mimics(robot, text);
     std::vector<int> lines = map_lines(urdf, text);
     return SourceFile::from_text(urdf.path(), std::move(text), std::move(lines), diagnostics);
 }

@@ -1,7 +1,8 @@
 // Works on the XML before libsdformat sees it. Findings are at the link, which the copy has in the same
 // place.
-#include "sdf/urdf_inertials.h"
+#include "sdf/urdf_repairs.h"
 
+#include <set>
 #include <string>
 
 #include "sdf/element_reader.h"
@@ -36,8 +37,6 @@ void mend_inertial(pugi::xml_node inertial, const SourceLocation& where, Diagnos
                         "an <inertial> has no <inertia>; its moments are taken as 0", "Write its moments.");
 }
 
-}  // namespace
-
 void mend_inertials(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
     auto source = urdf.root().child("link");
     for (auto link = robot.child("link"); link; link = link.next_sibling("link")) {
@@ -45,6 +44,34 @@ void mend_inertials(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& d
             mend_inertial(inertial, urdf.where(source), diagnostics);
         source = source.next_sibling("link");
     }
+}
+
+void rename_joints(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
+    std::set<std::string> taken;
+    for (const auto part : robot.children()) taken.insert(part.attribute("name").value());
+    auto source = urdf.root().child("joint");
+    for (auto joint = robot.child("joint"); joint; joint = joint.next_sibling("joint")) {
+        const std::string name = joint.attribute("name").value();
+        if (robot.find_child_by_attribute("link", "name", name.c_str())) {
+            std::string other = name + "_joint";
+            while (!taken.insert(other).second) other += "_";
+            joint.attribute("name").set_value(other.c_str());
+            for (auto follower : robot.children("joint"))
+                if (auto leader = follower.child("mimic").attribute("joint"); name == leader.value())
+                    leader.set_value(other.c_str());
+            diagnostics.warning(urdf.where(source), "renamed-joint",
+                                "joint '" + name + "' has the name of a link; here it is '" + other + "'",
+                                "Give it a name of its own.");
+        }
+        source = source.next_sibling("joint");
+    }
+}
+
+}  // namespace
+
+void repair_urdf(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
+    mend_inertials(robot, urdf, diagnostics);
+    rename_joints(robot, urdf, diagnostics);
 }
 
 }  // namespace roboss::sdf_import
