@@ -21,8 +21,9 @@ constexpr const char* kHelp =
     "everything\n"
     "that is wrong, unsupported or suspicious in it, each with file, line and what to do.\n"
     "WORLD is an SDFormat file (1.4 to 1.12) or a URDF file.\n\n"
-    "Exit codes: 0 fine (warnings and notes allowed), 1 errors in the world, 2 the file cannot be read or "
-    "wrong usage.\n"
+    "Exit codes: 0 fine (warnings and notes allowed), 1 errors: `roboss run` leaves out the models that have "
+    "them, or\n"
+    "refuses the world if nothing else is left, 2 the file cannot be read or wrong usage.\n"
     "Example: roboss check worlds/city.sdf --path ~/models";
 
 struct CheckOptions {
@@ -80,7 +81,8 @@ nlohmann::json to_json(const Diagnostics& diagnostics) {
                         {"line", d.where.line},
                         {"code", d.code},
                         {"message", d.message},
-                        {"remedy", d.remedy}});
+                        {"remedy", d.remedy},
+                        {"left_out", d.left_out}});
     }
     return list;
 }
@@ -89,9 +91,10 @@ int check(const CheckOptions& options) {
     Diagnostics diagnostics;
     const std::optional<World> world = load_world(options.world, {options.paths}, diagnostics);
     // Compiling finds what only the joint graph shows: loops, parts that nothing connects.
-    if (world && !diagnostics.has_errors()) (void)compile(*world, {}, diagnostics);
+    const bool runs = world && !diagnostics.refuses() && compile(*world, {}, diagnostics) != nullptr;
     if (options.json) {
         nlohmann::json report = world ? to_json(take_census(*world), *world) : nlohmann::json::object();
+        report["runs"] = runs;
         report["errors"] = diagnostics.count(Severity::kError);
         report["warnings"] = diagnostics.count(Severity::kWarning);
         report["diagnostics"] = to_json(diagnostics);
@@ -99,6 +102,10 @@ int check(const CheckOptions& options) {
     } else {
         if (world) print_text(*world, take_census(*world));
         print_text(diagnostics);
+        if (diagnostics.has_errors())
+            fmt::print("{}\n",
+                       runs ? "`roboss run` leaves out the models with errors, or refuses with --strict"
+                            : "`roboss run` refuses this world");
     }
     if (!world) return 2;
     return diagnostics.has_errors() ? 1 : 0;

@@ -60,7 +60,7 @@ TEST(CheckCommand, ASoundWorldGivesZeroAndItsCensus) {
 }
 
 TEST(CheckCommand, AnErrorInTheWorldGivesOne) {
-    const Outcome outcome = check(world("0"));
+    const Outcome outcome = check(world("-1"));
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_NE(outcome.printed.find("error: link 'a'"), std::string::npos) << outcome.printed;
 }
@@ -70,14 +70,19 @@ TEST(CheckCommand, AFileThatCannotBeReadGivesTwo) {
 }
 
 TEST(CheckCommand, JsonHoldsTheSame) {
-    const Outcome outcome = check(world("0"), {"--json"});
-    const auto report = nlohmann::json::parse(outcome.printed);
-    EXPECT_EQ(report.at("robots"), 2);
-    EXPECT_EQ(report.at("robot_types"), 1);
-    EXPECT_EQ(report.at("sensors").at("gps"), 2);
-    EXPECT_EQ(report.at("errors"), 1);
+    const auto sound = nlohmann::json::parse(check(world("1"), {"--json"}).printed);
+    EXPECT_EQ(sound.at("robots"), 2);
+    EXPECT_EQ(sound.at("robot_types"), 1);
+    EXPECT_EQ(sound.at("sensors").at("gps"), 2);
+    EXPECT_EQ(sound.at("errors"), 0);
+    EXPECT_EQ(sound.at("runs"), true);
+    const auto report = nlohmann::json::parse(check(world("-1"), {"--json"}).printed);
+    EXPECT_EQ(report.at("robots"), 0) << "left out";
+    EXPECT_EQ(report.at("errors"), 2) << "what is wrong, and who is left out";
+    EXPECT_EQ(report.at("runs"), true) << "the floor is left";
     EXPECT_EQ(report.at("diagnostics").at(0).at("code"), "bad-mass");
     EXPECT_EQ(report.at("diagnostics").at(0).at("line"), 1);
+    EXPECT_EQ(report.at("diagnostics").at(0).at("left_out"), true);
 }
 
 TEST(CheckCommand, AWrongOptionIsRefused) {

@@ -54,11 +54,12 @@ bool Run::prepare() {
     if (!o_.replay.empty()) return prepare_replay();
     Diagnostics diagnostics;
     std::optional<World> world = load_world(o_.world, {o_.paths, o_.profile, is_shown()}, diagnostics);
-    if (world && !diagnostics.has_errors()) model_ = compile(*world, compile_options(), diagnostics);
+    const auto refused = [&] { return o_.strict ? diagnostics.has_errors() : diagnostics.refuses(); };
+    if (world && !refused()) model_ = compile(*world, compile_options(), diagnostics);
     if (world) world_speed_ = world->real_time_factor;
     if (model_ && !o_.orders.empty()) orders_ = load_orders(o_.orders, *model_, diagnostics);
     print(diagnostics, o_.world);
-    if (!model_ || diagnostics.has_errors()) return false;
+    if (!model_ || refused()) return false;
     if (is_shown()) looks_.begin(*model_, std::move(*world));
     Result<std::unique_ptr<RunJournal>> journal = RunJournal::open(o_, *model_);
     if (!journal) return print(journal.error()), false;

@@ -51,9 +51,10 @@ Exit codes: 0 all states equal, 1 the journal cannot be read, 2 wrong usage, 3 a
 written, 130 ended by Ctrl-C.)";
 
 const char* const kExitCodes =
-    R"(Exit codes: 0 done, 1 the world, orders or saved state have errors, 2 wrong usage, 3 the run failed (a Client threw,
-a state became infinite, a file could not be written), 4 processes of --processes died at the start or did not join
-(those that die later are done without), 130 ended by Ctrl-C (with the summary).)";
+    R"(Exit codes: 0 done (also where models with errors were left out), 1 the world, orders or saved state have errors
+(with --strict: any model has one), 2 wrong usage, 3 the run failed (a Client threw, a state became infinite, a file could
+not be written), 4 processes of --processes died at the start or did not join (those that die later are done without),
+130 ended by Ctrl-C (with the summary).)";
 
 /// Accepts a positive number or one of the given words.
 CLI::Validator number_or(const std::vector<std::string>& words) {
@@ -178,6 +179,9 @@ void add_common_options(CLI::App& command, RunOptions& o) {
     command.add_option("world", o.world, "the world: an SDF or URDF file")->required();
     command.add_option("--path", o.paths,
                        "folder to look up model:// and package:// URIs in (may be given again)");
+    command.add_flag("--strict", o.strict,
+                     "refuse a world with any error (default: a model with errors is left out, with an error "
+                     "that names it, and the rest runs)");
     command.add_option("--dt", o.dt_s, "time step, s (default: the world's max_step_size)")
         ->check(CLI::PositiveNumber);
     command.add_option(

@@ -21,6 +21,7 @@ struct RunOptions {
     std::optional<double> duration_s;
     std::optional<double> dt_s;
     std::string profile;  // of <physics>
+    bool strict = false;  // a model with errors refuses the world; else it is left out
     bool no_sleep = false;
     std::optional<Precision> precision;
     AccuracySpec accuracy;        // --accuracy and each number by itself

@@ -49,4 +49,23 @@ bool Diagnostics::has_errors() const {
     return count(Severity::kError) > 0;
 }
 
+bool Diagnostics::refuses_since(std::size_t first) const {
+    const auto from = items_.begin() + static_cast<std::ptrdiff_t>(std::min(first, items_.size()));
+    return std::any_of(from, items_.end(),
+                       [](const Diagnostic& d) { return d.severity == Severity::kError && !d.left_out; });
+}
+
+bool Diagnostics::leave_out_since(std::size_t first) {
+    bool any = false;
+    for (std::size_t i = first; i < items_.size(); ++i) {
+        if (items_[i].severity != Severity::kError) continue;
+        items_[i].left_out = any = true;
+    }
+    return any;
+}
+
+void Diagnostics::refuse_since(std::size_t first) {
+    for (std::size_t i = first; i < items_.size(); ++i) items_[i].left_out = false;
+}
+
 }  // namespace roboss

@@ -20,6 +20,7 @@ struct Diagnostic {
     std::string code;     // stable short name for programs, e.g. "missing-inertia"
     std::string message;  // what was found, naming the element
     std::string remedy;   // what to do
+    bool left_out = false;  // an error of a model that is left out: the rest of the world can run without it
 };
 
 /// "file:line: warning: message [code]\n    remedy"
@@ -33,6 +34,13 @@ class Diagnostics {
     void warning(SourceLocation where, std::string code, std::string message, std::string remedy = {});
     void error(SourceLocation where, std::string code, std::string message, std::string remedy = {});
     bool has_errors() const;
+    /// Whether any error concerns more than models that are left out.
+    bool refuses() const { return refuses_since(0); }
+    bool refuses_since(std::size_t first) const;
+    /// Marks the errors from items()[first] on as those of a model that is left out; false: there are none.
+    bool leave_out_since(std::size_t first);
+    /// Takes the marks back from items()[first] on: nothing is left that could run.
+    void refuse_since(std::size_t first);
     std::size_t count(Severity severity) const;
     const std::vector<Diagnostic>& items() const { return items_; }
 

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 
 namespace roboss {
 namespace {
@@ -16,9 +17,21 @@ Error unreadable(const std::string& why) {
     return {"is no picture that can be read: " + why, "Save it as PNG, grey, 8 or 16 bits."};
 }
 
+/// Digital elevation models of geography come as TIFF, of either byte order.
+bool is_tiff(const std::string& path) {
+    char magic[4] = {};
+    std::ifstream(path, std::ios::binary).read(magic, sizeof magic);
+    return std::memcmp(magic, "II*\0", 4) == 0 || std::memcmp(magic, "MM\0*", 4) == 0;
+}
+
 }  // namespace
 
 Result<GreyImage> read_png(const std::string& path) {
+    if (is_tiff(path))
+        return Error{
+            "is a TIFF file, which is not read",
+            "Convert it: gdal_translate -of PNG -ot UInt16 -scale FILE.tif FILE.png; heights then run from 0 "
+            "to the z of <size>."};
     png_image image;
     std::memset(&image, 0, sizeof image);
     image.version = PNG_IMAGE_VERSION;

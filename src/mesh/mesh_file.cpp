@@ -9,11 +9,14 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <map>
+#include <sstream>
 #include <tuple>
 
 #include "math/aabb.h"
+#include "mesh/repair_collada.h"
 
 namespace roboss {
 namespace {
@@ -181,6 +184,12 @@ void describe(const aiMaterial& material, bool collada, MeshPart& part) {
         part.alpha = static_cast<double>(opacity);
 }
 
+std::string text_of(const std::string& path) {
+    std::ostringstream text;
+    text << std::ifstream(path, std::ios::binary).rdbuf();
+    return std::move(text).str();
+}
+
 Result<const aiScene*> open_scene(Assimp::Importer& importer, const std::string& path) {
     std::error_code error;
     const auto bytes = std::filesystem::file_size(path, error);
@@ -194,9 +203,12 @@ Result<const aiScene*> open_scene(Assimp::Importer& importer, const std::string&
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
     const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
-    if (scene == nullptr)
-        return Error{"is no mesh that can be read: " + std::string(importer.GetErrorString()),
-                     "Export it anew."};
+    const std::string why = importer.GetErrorString();
+    if (scene == nullptr && extension == ".dae") {
+        const std::string repaired = repaired_collada(text_of(path));
+        scene = importer.ReadFileFromMemory(repaired.data(), repaired.size(), aiProcess_Triangulate, "dae");
+    }
+    if (scene == nullptr) return Error{"is no mesh that can be read: " + why, "Export it anew."};
     return scene;
 }
 

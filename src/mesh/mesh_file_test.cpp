@@ -134,6 +134,18 @@ TEST(MeshFile, ColladaKeepsItsAxesAndAppliesUnitAndNodes) {
     }
 }
 
+TEST(MeshFile, ColladaWithSpaceBeforeItsNumbersIsRead) {
+    const Folder folder;
+    std::string text = dae("1", "Z_UP");
+    const std::size_t geometries = text.find("<library_geometries>");
+    ASSERT_NE(geometries, std::string::npos);
+    text.insert(
+        geometries,
+        "<library_effects><effect id='e'><profile_COMMON><technique sid='t'><phong><diffuse><color> 0.3 "
+        "0.3 0.3 1</color></diffuse></phong></technique></profile_COMMON></effect></library_effects>");
+    expect_tetrahedron(read_mesh({folder.write("space.dae", text), {1, 1, 1}, "", false}), 1.0 / 6);
+}
+
 TEST(MeshFile, ASubmeshIsTakenByNameAndCentred) {
     const Folder folder;
     const std::string path = folder.write("a.dae", dae("1", "Z_UP"));
@@ -218,6 +230,13 @@ TEST(ImageFile, EightAndSixteenBitGreysComeAsTheyStandInTheFile) {
     const auto deep = read_png(write_png(folder, "b.png", PNG_FORMAT_LINEAR_Y, 2, 2, wide));
     ASSERT_TRUE(deep.ok());
     for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(deep.value().values[i], wide[i] / 65535.0, 1e-12);
+}
+
+TEST(ImageFile, ATiffIsAnErrorWithTheWayToConvertIt) {
+    const Folder folder;
+    const auto picture = read_png(folder.write("height.tif", std::string("II*\0\x08\0\0\0", 8)));
+    ASSERT_FALSE(picture.ok());
+    EXPECT_NE(picture.error().remedy.find("gdal_translate"), std::string::npos);
 }
 
 TEST(ImageFile, WhatIsNoPictureIsAnError) {

@@ -6,6 +6,7 @@
 #include "model/accuracy.h"
 #include "model/compile_type.h"
 #include "model/seal.h"
+#include "world/left_out.h"
 
 namespace roboss {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 struct CompiledPrototype {
     std::vector<CompiledPart> parts;
     std::vector<TypeId> types;
+    bool left_out = false;  // it has errors
 };
 
 bool has_sensors(const ModelSpec& spec) {
@@ -57,22 +59,40 @@ std::vector<CompiledPrototype> compile_prototypes(const World& world, ShapeStore
     std::map<std::uint64_t, TypeId> known;
     for (std::size_t p = 0; p < world.prototypes.size(); ++p) {
         const ModelSpec& spec = world.prototypes[p];
+        const std::size_t first = diagnostics.items().size();
         if (!spec.is_static) {
             prototypes[p].parts = compile_parts(spec, shapes, diagnostics);
         } else if (has_sensors(spec)) {
             prototypes[p].parts = {{sensor_stand(spec), "", Pose{}}};
         }
+        prototypes[p].left_out = diagnostics.leave_out_since(first);
+        if (prototypes[p].left_out) continue;
         for (const CompiledPart& part : prototypes[p].parts)
             prototypes[p].types.push_back(intern_type(part.type, model, known));
     }
     return prototypes;
 }
 
+/// Instance `index` of the world: its robots, or its shapes among the scenery (bad ones are reported).
+void place(const World& world, std::size_t index, const CompiledPrototype& prototype, ShapeStore& shapes,
+           Model& model) {
+    const ModelInstance& instance = world.instances[index];
+    const ModelSpec& spec = world.prototypes[instance.prototype];
+    if (spec.is_static)
+        add_statics(spec, instance, prototype.parts.empty() ? RobotId() : RobotId(model.robots.size()),
+                    shapes, model);
+    for (std::size_t p = 0; p < prototype.parts.size(); ++p) {
+        const CompiledPart& part = prototype.parts[p];
+        model.robots.push_back({instance.name + part.suffix, prototype.types[p], instance.X_WM * part.X_MR,
+                                static_cast<std::uint32_t>(index)});
+    }
+}
+
 }  // namespace
 
 std::shared_ptr<const Model> compile(const World& world, const CompileOptions& options,
                                      Diagnostics& diagnostics) {
-    const std::size_t errors = diagnostics.count(Severity::kError);
+    const std::size_t first = diagnostics.items().size();
     auto model = std::make_shared<Model>();
     model->name = world.name;
     model->dt_s = options.dt_s.value_or(world.dt_s);
@@ -92,22 +112,24 @@ std::shared_ptr<const Model> compile(const World& world, const CompileOptions& o
 
     ShapeStore shapes(*model, diagnostics);
     const std::vector<CompiledPrototype> prototypes = compile_prototypes(world, shapes, *model, diagnostics);
+    std::map<std::size_t, std::vector<std::size_t>> left_out;  // instances by prototype
+    std::size_t left = world.instances.size();
     for (std::size_t i = 0; i < world.instances.size(); ++i) {
-        const ModelInstance& instance = world.instances[i];
-        const ModelSpec& spec = world.prototypes[instance.prototype];
-        const CompiledPrototype& prototype = prototypes[instance.prototype];
-        if (spec.is_static)
-            add_statics(spec, instance, prototype.parts.empty() ? RobotId() : RobotId(model->robots.size()),
-                        shapes, *model);
-        for (std::size_t p = 0; p < prototype.parts.size(); ++p) {
-            const CompiledPart& part = prototype.parts[p];
-            model->robots.push_back({instance.name + part.suffix, prototype.types[p],
-                                     instance.X_WM * part.X_MR, static_cast<std::uint32_t>(i)});
-        }
+        const CompiledPrototype& prototype = prototypes[world.instances[i].prototype];
+        const std::size_t found = diagnostics.items().size(), statics = model->statics.size();
+        if (!prototype.left_out) place(world, i, prototype, shapes, *model);
+        if (!diagnostics.leave_out_since(found) && !prototype.left_out) continue;
+        model->statics.resize(statics);
+        left_out[world.instances[i].prototype].push_back(i);
+        --left;
+    }
+    if (left == 0) diagnostics.refuse_since(first);
+    for (const auto& [prototype, alike] : left_out) {
+        const ModelInstance& instance = world.instances[alike.front()];
+        if (left > 0) report_left_out(instance.name, alike.size(), instance.where, diagnostics);
     }
     seal(*model);
-    if (diagnostics.count(Severity::kError) > errors) return nullptr;
-    return model;
+    return diagnostics.refuses_since(first) ? nullptr : model;
 }
 
 }  // namespace roboss

@@ -77,6 +77,7 @@ class PartBuilder {
         for (std::size_t j : graph_.cut) add_loop(j);
         add_couplings(couplings_, type, diagnostics_);
         add_links();
+        mend_inertia(part_.type, spec_, links, diagnostics_);
         finish();
         return std::move(part_);
     }

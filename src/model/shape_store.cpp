@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/height_field.h"
+#include "geometry/hull_points.h"
 #include "geometry/polygon_pieces.h"
 #include "geometry/triangle_mesh.h"
 
@@ -12,6 +13,7 @@ namespace roboss {
 namespace {
 
 constexpr std::size_t kCostlyCorners = 500;
+constexpr double kThinnest = 1e-3;  // m, of the hull of a flat mesh
 
 Shape primitive(ShapeKind kind, const GeometrySpec& geometry) {
     Shape shape;
@@ -66,6 +68,7 @@ std::vector<PlacedShape> ShapeStore::hull_of(const CollisionSpec& collision, boo
     const MeshSpec& mesh = *collision.geometry.mesh;
     if (const auto known = hulls_.find(&mesh); known != hulls_.end()) return {known->second};
     auto hull = build_hull(mesh.vertices);
+    if (!hull) hull = mended_hull(collision);
     if (!hull) {
         diagnostics_.error(collision.where, "bad-mesh",
                            "the mesh '" + mesh.source + "' of collision '" + collision.name +
@@ -89,6 +92,26 @@ std::vector<PlacedShape> ShapeStore::hull_of(const CollisionSpec& collision, boo
                           "A collision mesh of a few dozen corners is enough for most bodies.");
     }
     return {hulls_.emplace(&mesh, keep(std::move(hull).value())).first->second};
+}
+
+/// Of a mesh that has no hull as it is: flat, or with more corners than a hull may have.
+Result<ConvexHull> ShapeStore::mended_hull(const CollisionSpec& collision) {
+    const MeshSpec& mesh = *collision.geometry.mesh;
+    std::vector<Vec3> points = extreme_points(mesh.vertices);
+    if (auto hull = build_hull(points)) {
+        diagnostics_.note(collision.where, "coarse-hull",
+                          "the convex hull of '" + mesh.source + "' is built of " +
+                              std::to_string(points.size()) + " of its corners: all together make none",
+                          "A collision mesh of a few dozen corners is enough for most bodies.");
+        return hull;
+    }
+    auto hull = build_hull(thickened(points, kThinnest));
+    if (hull)
+        diagnostics_.note(collision.where, "flat-mesh",
+                          "the mesh '" + mesh.source + "' of collision '" + collision.name +
+                              "' is flat; it collides as if it were 1 mm thick",
+                          "Give it a box or a mesh with a volume.");
+    return hull;
 }
 
 std::vector<PlacedShape> ShapeStore::surface_of(const CollisionSpec& collision) {

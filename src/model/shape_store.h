@@ -28,6 +28,7 @@ class ShapeStore {
     std::vector<PlacedShape> surface_of(const CollisionSpec& collision);
     std::vector<PlacedShape> height_field_of(const CollisionSpec& collision, bool is_static);
     std::vector<PlacedShape> prisms_of(const CollisionSpec& collision);
+    Result<ConvexHull> mended_hull(const CollisionSpec& collision);
     PlacedShape keep(ConvexHull hull);
 
     Model& model_;

@@ -4,6 +4,8 @@
 
 #include <support/meshes.h>
 
+#include <cmath>
+
 #include "model/model.h"
 
 namespace roboss::test {
@@ -52,7 +54,51 @@ TEST(ShapeStore, AHollowMeshThatMovesIsNamedOnce) {
     EXPECT_EQ(count, 1);
 }
 
-TEST(ShapeStore, AFlatMeshThatMovesAMovableHeightmapAndABadPolylineAreErrors) {
+TEST(ShapeStore, AFlatMeshThatMovesIsAMillimetreThick) {
+    World world = empty_world(1e-3);
+    const MeshSpec flat = sheet_mesh(1, 1, 2, 2, [](double, double) { return 0.0; });
+    place(world, box_like(1, {1, 1, 1}, mesh_shape(flat, surface(1))), "a");
+    Diagnostics diagnostics;
+    const auto model = compile_quietly(world, diagnostics);
+    ASSERT_NE(model, nullptr);
+    EXPECT_NE(find(diagnostics, "flat-mesh"), nullptr);
+    EXPECT_NEAR(model->hulls.at(0)->volume, 1e-3, 1e-9);
+}
+
+TEST(ShapeStore, AMeshWithTooManyCornersForAHullGetsACoarserOne) {
+    MeshSpec ball;  // on a spiral over the sphere, more corners than a hull may have
+    constexpr int kCorners = 6000;
+    for (int i = 0; i < kCorners; ++i) {
+        const double z = 1 - (2.0 * i + 1) / kCorners, angle = 2.399963 * i, r = std::sqrt(1 - z * z);
+        ball.vertices.push_back({r * std::cos(angle), r * std::sin(angle), z});
+    }
+    ball.triangles.push_back({0, 1, 2});
+    World world = empty_world(1e-3);
+    place(world, box_like(1, {1, 1, 1}, mesh_shape(ball, surface(1))), "a");
+    Diagnostics diagnostics;
+    const auto model = compile_quietly(world, diagnostics);
+    ASSERT_NE(model, nullptr);
+    EXPECT_NE(find(diagnostics, "coarse-hull"), nullptr);
+    EXPECT_NEAR(model->hulls.at(0)->volume, 4.0 / 3.0 * kPi, 0.02 * 4.0 / 3.0 * kPi);
+}
+
+TEST(ShapeStore, AModelWithABadShapeIsLeftOutOfTheModel) {
+    World world = empty_world(1e-3);
+    place(world, box_like(1, {1, 1, 1}, polyline_shape({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, 0, surface(1))),
+          "bad");
+    place(world, box_like(1, {1, 1, 1}, box_shape({1, 1, 1}, surface(1))), "good", {{9, 0, 0}, {}});
+    Diagnostics diagnostics;
+    const auto model = compile_quietly(world, diagnostics);
+    ASSERT_NE(model, nullptr);
+    ASSERT_EQ(model->robots.size(), 1u);
+    EXPECT_EQ(model->robots[0].name, "good");
+    EXPECT_TRUE(diagnostics.has_errors());
+    EXPECT_FALSE(diagnostics.refuses());
+    ASSERT_NE(find(diagnostics, "left-out"), nullptr);
+    EXPECT_NE(find(diagnostics, "left-out")->message.find("'bad'"), std::string::npos);
+}
+
+TEST(ShapeStore, AMovableHeightmapAndABadPolylineAreErrors) {
     const auto expect_error = [](const ModelSpec& model, const std::string& code) {
         World world = empty_world(1e-3);
         place(world, model, "a");
@@ -63,8 +109,6 @@ TEST(ShapeStore, AFlatMeshThatMovesAMovableHeightmapAndABadPolylineAreErrors) {
         EXPECT_NE(found->message.find("'collision'"), std::string::npos);
         EXPECT_FALSE(found->remedy.empty());
     };
-    const auto level = [](double, double) { return 0.0; };
-    expect_error(box_like(1, {1, 1, 1}, mesh_shape(sheet_mesh(1, 1, 2, 2, level), surface(1))), "bad-mesh");
     expect_error(box_like(1, {1, 1, 1}, heightmap_shape(2, 2, {0, 0, 0, 0}, 1, 1, surface(1))),
                  "movable-heightmap");
     expect_error(

@@ -62,12 +62,12 @@ TEST(BadInput, AJointToNowhereIsReportedOnce) {
     EXPECT_EQ(loaded.diagnostics.count(Severity::kError), 1u) << loaded.text();
 }
 
-TEST(BadInput, ZeroMassIsAnError) {
+TEST(BadInput, NegativeMassIsAnError) {
     expect_error(
         "<model name='m'>\n\n<link "
-        "name='a'><inertial><mass>0</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></"
+        "name='a'><inertial><mass>-1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></"
         "inertial></link></model>",
-        "bad-mass", 4, "mass of 0");
+        "bad-mass", 4, "mass of -1");
 }
 
 TEST(BadInput, NotANumberIsAnError) {

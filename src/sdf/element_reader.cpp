@@ -1,6 +1,7 @@
 // Parses numbers with from_chars: no locale, and the same double for the same text everywhere.
 #include "sdf/element_reader.h"
 
+#include <cctype>
 #include <charconv>
 #include <cmath>
 
@@ -38,6 +39,20 @@ std::vector<std::string_view> words_of(std::string_view text) {
     return words;
 }
 
+/// libsdformat takes the number at the start of a word and leaves the rest.
+std::optional<double> number_at_start(std::string_view text) {
+    while (!text.empty() && !std::isdigit(static_cast<unsigned char>(text.back())) && text.back() != '.')
+        text.remove_suffix(1);
+    return parse_number(text);
+}
+
+void ElementReader::report_rest(const Element& element, std::string_view word) const {
+    diagnostics_.warning(element.where(), "trailing-text",
+                         "<" + std::string(element.node.name()) + "> is '" + std::string(word) +
+                             "'; what follows the number is ignored",
+                         "Write the number alone.");
+}
+
 void ElementReader::bad_value(const Element& element, const std::string& expected) const {
     const std::string name = element.node.name();
     diagnostics_.error(element.where(), "bad-value",
@@ -55,7 +70,8 @@ bool ElementReader::numbers(const Element& element, std::span<double> values, Fi
     if (words.size() != values.size()) return bad_value(element, expected), false;
     std::vector<double> parsed;
     for (const auto word : words) {
-        const auto value = parse_number(word);
+        auto value = parse_number(word);
+        if (!value && (value = number_at_start(word))) report_rest(element, word);
         const bool good =
             value && !std::isnan(*value) && (finite == Finite::kInfinityAllowed || std::isfinite(*value));
         if (!good) return bad_value(element, expected), false;

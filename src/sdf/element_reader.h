@@ -19,6 +19,9 @@ enum class Finite { kRequired, kInfinityAllowed };
 /// The whole text as one number; nullopt if it is none. Accepts what SDFormat accepts: "+1", "1e-3", "inf".
 std::optional<double> parse_number(std::string_view text);
 
+/// The number that a text begins with, whatever follows it; nullopt: none.
+std::optional<double> number_at_start(std::string_view text);
+
 /// The words of a text between white space.
 std::vector<std::string_view> words_of(std::string_view text);
 inline std::vector<std::string_view> words_of(const char* text) {
@@ -48,6 +51,7 @@ class ElementReader {
   private:
     /// Fills all of `values` from the element's text, or reports and leaves them as they are.
     bool numbers(const Element& element, std::span<double> values, Finite finite) const;
+    void report_rest(const Element& element, std::string_view word) const;
     void bad_value(const Element& element, const std::string& expected) const;
 
     Diagnostics& diagnostics_;

@@ -16,6 +16,30 @@ Element first_model(const SourceFile& file) {
     return {&file, file.root().child("world").child("model")};
 }
 
+bool holds_scenery_only(const SourceFile& file) {
+    const pugi::xml_node root = file.root();
+    return std::string_view(root.name()) == "sdf" && !first_model(file) && !root.child("world") &&
+           (root.child("light") || root.child("actor"));
+}
+
+namespace {
+
+/// model://sun is in nearly every world of Gazebo's older version: a file with a light.
+void report_no_model(const SourceFile& file, Diagnostics& diagnostics) {
+    const SourceLocation where = file.where(file.root());
+    if (!holds_scenery_only(file)) {
+        diagnostics.error(where, "no-model", "the file is included, but holds no <model>",
+                          "Include a file with a <model>.");
+    } else if (file.root().child("actor")) {
+        diagnostics.warning(where, "actor", "the file is included and holds an actor; actors are left out");
+    } else {
+        diagnostics.note(where, "light",
+                         "the file is included and holds a light; lights are left out, nothing here is lit");
+    }
+}
+
+}  // namespace
+
 IncludeStore::IncludeStore(const ResourcePaths& paths, Diagnostics& diagnostics)
     : paths_(paths), diagnostics_(diagnostics) {}
 
@@ -29,7 +53,6 @@ const SourceFile* IncludeStore::file_of(const Element& include) {
     const std::string base = include.source->folder();
     const Resolved found = paths_.resolve_model(uri, base);
     if (!found.path) {
-        if (!unresolved_.emplace(base + "\n" + uri, true).second) return nullptr;
         if (found.remote) {
             diagnostics_.warning(
                 include.where(), "remote-uri",
@@ -38,7 +61,8 @@ const SourceFile* IncludeStore::file_of(const Element& include) {
         } else {
             diagnostics_.error(
                 include.where(), "include-not-found",
-                "<include> of '" + uri + "' leads to no file; searched: " + list_of(found.searched),
+                "<include> of '" + uri +
+                    "' leads to no file; the model is left out; searched: " + list_of(found.searched),
                 "Give the folder that holds it with --path, or in GZ_SIM_RESOURCE_PATH.");
         }
         return nullptr;
@@ -48,9 +72,7 @@ const SourceFile* IncludeStore::file_of(const Element& include) {
         auto file = SourceFile::read(*found.path, diagnostics_);
         if (file && std::string(file->root().name()) == "robot") file = urdf_to_sdf(*file, diagnostics_);
         if (file && !first_model(*file)) {
-            diagnostics_.error(file->where(file->root()), "no-model",
-                               "the file is included, but holds no <model>",
-                               "Include a file with a <model>.");
+            report_no_model(*file, diagnostics_);
             file = nullptr;
         }
         if (file) check_version(*file, diagnostics_);

@@ -21,8 +21,7 @@ class IncludeStore : public SkeletonIncludes {
     IncludeStore(const IncludeStore&) = delete;
     IncludeStore& operator=(const IncludeStore&) = delete;
 
-    /// The model that an <include> names, or nothing (reported, once a URI and folder). URDF files are
-    /// converted.
+    /// The model that an <include> names, or nothing (reported). URDF files are converted.
     Element model_of(const Element& include);
 
     /// For a nested include: the file with the skeleton of the included model, for libsdformat to read.
@@ -38,7 +37,6 @@ class IncludeStore : public SkeletonIncludes {
     const ResourcePaths& paths_;
     Diagnostics& diagnostics_;
     std::map<std::string, std::unique_ptr<SourceFile>> files_;  // by path; nullptr: cannot be read
-    std::map<std::string, bool> unresolved_;                    // by folder and URI: reported
     std::map<std::string, std::string> written_;                // source path to skeleton file
     std::map<std::string, Skeleton> skeletons_;                 // by skeleton file
     std::vector<std::string> open_;  // sources whose skeletons are being written: cycles
@@ -47,5 +45,8 @@ class IncludeStore : public SkeletonIncludes {
 
 /// The first <model> of a file: under the root, or in its first world.
 Element first_model(const SourceFile& file);
+
+/// Whether a file has no model but lights or actors, which are left out.
+bool holds_scenery_only(const SourceFile& file);
 
 }  // namespace roboss::sdf_import

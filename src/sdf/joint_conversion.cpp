@@ -223,15 +223,31 @@ void report_unused(JointSpec& spec, const Element& source, const Import& import)
     }
 }
 
-void read_gearbox(const Element& source, const std::string& scope, const Import& import, JointSpec& spec) {
+/// Two axes along one line are one: often both were left out, so both are z.
+void turn_parallel_axis(JointSpec& spec, const Import& import) {
+    const Vec3& first = spec.axes[0].xyz;
+    if (norm(cross(first, spec.axes[1].xyz)) > 1e-6) return;
+    const Vec3 other = std::fabs(first.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    spec.axes[1].xyz = normalized(other - first * dot(other, first));
+    import.diagnostics().warning(
+        spec.where, "parallel-axes",
+        "the two axes of joint '" + spec.name +
+            "' are parallel; the second is turned to be at right angles to the first",
+        "Write <axis2><xyz>.");
+}
+
+/// false: it couples nothing.
+bool read_gearbox(const Element& source, const std::string& scope, const Import& import, JointSpec& spec) {
     spec.gearbox_ratio = import.reader.number(source, "gearbox_ratio", 1);
     const std::string reference = source.child("gearbox_reference_body").node.text().get();
     spec.gearbox_reference = reference == "world" ? reference : scope + reference;
     if (reference.empty()) {
-        import.diagnostics().error(source.where(), "gearbox-reference",
-                                   "gearbox '" + spec.name + "' has no <gearbox_reference_body>",
-                                   "Name the link that carries the hinges of both wheels.");
+        import.diagnostics().warning(
+            source.where(), "gearbox-reference",
+            "gearbox '" + spec.name + "' has no <gearbox_reference_body>; it is left out, as in Gazebo",
+            "Name the link that carries the hinges of both wheels.");
     }
+    return !reference.empty();
 }
 
 /// The link that libsdformat found for a parent or child frame, else the name as written, for validate() to
@@ -260,8 +276,9 @@ std::optional<JointSpec> convert_joint(const sdf::Joint& joint, const Element& s
                            [&](std::string& name) { return joint.ResolveChildLink(name); });
     for (unsigned i = 0; i < axes_of(*kind); ++i)
         spec.axes.push_back(read_axis(joint, source, i, *kind, scope, import));
+    if (axes_of(*kind) == 2 && *kind != JointSpecKind::kGearbox) turn_parallel_axis(spec, import);
     if (*kind == JointSpecKind::kScrew) spec.screw_pitch = screw_pitch(source, import);
-    if (*kind == JointSpecKind::kGearbox) read_gearbox(source, scope, import, spec);
+    if (*kind == JointSpecKind::kGearbox && !read_gearbox(source, scope, import, spec)) return std::nullopt;
     report_unused(spec, source, import);
     return spec;
 }

@@ -33,8 +33,9 @@ LibsdformatReader::LibsdformatReader(const IncludeStore& includes, Diagnostics& 
 std::unique_ptr<ReadModel> LibsdformatReader::read(Skeleton skeleton) {
     const auto [entry, is_new] = read_.try_emplace(skeleton.body);
     if (is_new) entry->second = parse(skeleton);
-    if (!entry->second) return nullptr;
-    return std::make_unique<ReadModel>(entry->second, std::move(skeleton), includes_);
+    for (const Diagnostic& found : entry->second.found.items()) diagnostics_.add(found);
+    if (!entry->second.root) return nullptr;
+    return std::make_unique<ReadModel>(entry->second.root, std::move(skeleton), includes_);
 }
 
 struct LibsdformatReader::Heard {
@@ -42,7 +43,7 @@ struct LibsdformatReader::Heard {
     std::vector<ConsoleLine> printed;
 };
 
-std::shared_ptr<const sdf::Root> LibsdformatReader::parse(const Skeleton& skeleton) {
+LibsdformatReader::Known LibsdformatReader::parse(const Skeleton& skeleton) {
     auto root = std::make_shared<sdf::Root>();
     Heard heard;
     sdf::Errors& errors = heard.errors;
@@ -69,28 +70,30 @@ std::shared_ptr<const sdf::Root> LibsdformatReader::parse(const Skeleton& skelet
         heard.printed = capture.lines();
     }
     const bool readable = root->Model() != nullptr;
-    report(heard, skeleton, readable);
-    return readable ? root : nullptr;
+    Known known{readable ? root : nullptr, {}};
+    report(heard, skeleton, readable, known.found);
+    return known;
 }
 
-void LibsdformatReader::report(const Heard& heard, const Skeleton& skeleton, bool readable) {
+void LibsdformatReader::report(const Heard& heard, const Skeleton& skeleton, bool readable,
+                               Diagnostics& out) const {
     const Element model = skeleton.lines.front();
     const auto locate = [&](const sdf::Error& error) {
         if (!error.LineNumber()) return Element{};
         const Skeleton* included = includes_.skeleton_of(error.FilePath().value_or(""));
         return element_at(included ? *included : skeleton, *error.LineNumber());
     };
-    const std::size_t reported = report_libsdformat_errors(heard.errors, model, locate, diagnostics_);
+    const std::size_t reported = report_libsdformat_errors(heard.errors, model, locate, out);
     // What it prints beside its errors: repetitions of them, or warnings that have no other way out.
     if (readable) {
         for (const ConsoleLine& line : heard.printed) {
             if (!line.is_error)
-                diagnostics_.warning(model.where(), "sdf", "model '" + model.name() + "': " + line.text);
+                out.warning(model.where(), "sdf", "model '" + model.name() + "': " + line.text);
         }
     }
     if (!readable && reported == 0) {
-        diagnostics_.error(model.where(), "sdf", "model '" + model.name() + "' cannot be read by libsdformat",
-                           "Check it with: gz sdf --check FILE.");
+        out.error(model.where(), "sdf", "model '" + model.name() + "' cannot be read by libsdformat",
+                  "Check it with: gz sdf --check FILE.");
     }
 }
 

@@ -39,14 +39,18 @@ class LibsdformatReader {
     std::unique_ptr<ReadModel> read(Skeleton skeleton);
 
   private:
-    std::shared_ptr<const sdf::Root> parse(const Skeleton& skeleton);
+    struct Known {
+        std::shared_ptr<const sdf::Root> root;  // nullptr: unreadable
+        Diagnostics found;                      // told again with each model of this skeleton
+    };
+    Known parse(const Skeleton& skeleton);
     struct Heard;  // what libsdformat said
-    void report(const Heard& heard, const Skeleton& skeleton, bool readable);
+    void report(const Heard& heard, const Skeleton& skeleton, bool readable, Diagnostics& out) const;
 
     const IncludeStore& includes_;
     Diagnostics& diagnostics_;
     sdf::SDFPtr document_;  // with the descriptions of all elements, which take 25 ms to make
-    std::unordered_map<std::string, std::shared_ptr<const sdf::Root>> read_;  // by body; nullptr: unreadable
+    std::unordered_map<std::string, Known> read_;  // by body
 };
 
 }  // namespace roboss::sdf_import

@@ -14,6 +14,7 @@
 #include "sdf/urdf.h"
 #include "sdf/world_frames.h"
 #include "sdf/world_settings.h"
+#include "world/left_out.h"
 
 namespace roboss {
 namespace {
@@ -26,6 +27,7 @@ struct Distinct {
     bool is_static = false;
     std::unique_ptr<ReadModel> read;       // nullptr: libsdformat refused it
     std::optional<std::size_t> prototype;  // in World::prototypes
+    bool left_out = false;                 // it has errors
 };
 
 class WorldLoader {
@@ -48,16 +50,22 @@ class WorldLoader {
         World result;
         result.file = path;
         read_world_settings(*world, profile_, import_, result);
-        if (result.name.empty()) result.name = first_model(*file_).name();
+        if (result.name.empty()) result.name = name_of_file();
         const auto placements = collect_placements(*world, includes_, import_);
         for (const Placement& placement : placements) distinct_of_.push_back(find_distinct(placement));
         for (Distinct& distinct : distinct_) read_distinct(distinct, result);
         place(*world, placements, result);
+        validate_settings(result, diagnostics_);
         return result;
     }
 
   private:
-    /// The <world>, or the <sdf> of a file that holds a model only.
+    std::string name_of_file() const {
+        if (const Element model = first_model(*file_)) return model.name();
+        return file_->root().child("light").attribute("name").as_string("world");
+    }
+
+    /// The <world>, or the <sdf> of a file that holds a model only, or lights and actors.
     std::optional<Element> find_world() {
         const Element root{file_.get(), file_->root()};
         if (std::string(root.node.name()) != "sdf") {
@@ -78,6 +86,12 @@ class WorldLoader {
             return world;
         }
         if (first_model(*file_)) return root;
+        if (holds_scenery_only(*file_)) {
+            diagnostics_.note(root.where(), "no-model",
+                              "the file holds lights or actors only; they are left out, nothing moves",
+                              "Include it in a world with models.");
+            return root;
+        }
         diagnostics_.error(root.where(), "no-world", "the file holds neither a <world> nor a <model>",
                            "Add one.");
         return std::nullopt;
@@ -90,23 +104,32 @@ class WorldLoader {
             if (known.is_static == placement.is_static && same_model(known.model, placement.model))
                 return at->second;
         }
-        distinct_.push_back({placement.model, placement.is_static, nullptr, std::nullopt});
+        distinct_.push_back({placement.model, placement.is_static, nullptr, std::nullopt, false});
         by_hash_.emplace(hash, distinct_.size() - 1);
         return distinct_.size() - 1;
     }
 
     void read_distinct(Distinct& distinct, World& world) {
-        distinct.read = libsdformat_.read(make_skeleton(distinct.model, TopPose::kLeftOut, includes_));
-        if (!distinct.read) return;
-        ModelSpec spec = convert_model(*distinct.read, distinct.is_static, import_);
-        if (spec.links.empty()) {
-            diagnostics_.warning(spec.where, "no-links",
-                                 "model '" + spec.name + "' has no links; it is left out",
-                                 "Give it a link, or remove it.");
-            return;
+        const std::size_t first = diagnostics_.items().size();
+        if (auto spec = read_spec(distinct)) {
+            validate(*spec, diagnostics_);
+            distinct.left_out = diagnostics_.leave_out_since(first);
+            if (distinct.left_out) return;
+            world.prototypes.push_back(std::move(*spec));
+            distinct.prototype = world.prototypes.size() - 1;
+        } else {
+            distinct.left_out = diagnostics_.leave_out_since(first);
         }
-        world.prototypes.push_back(std::move(spec));
-        distinct.prototype = world.prototypes.size() - 1;
+    }
+
+    std::optional<ModelSpec> read_spec(Distinct& distinct) {
+        distinct.read = libsdformat_.read(make_skeleton(distinct.model, TopPose::kLeftOut, includes_));
+        if (!distinct.read) return std::nullopt;
+        ModelSpec spec = convert_model(*distinct.read, distinct.is_static, import_);
+        if (!spec.links.empty()) return spec;
+        diagnostics_.warning(spec.where, "no-links", "model '" + spec.name + "' has no links; it is left out",
+                             "Give it a link, or remove it.");
+        return std::nullopt;
     }
 
     void place(const Element& world, const std::vector<Placement>& placements, World& result) {
@@ -115,13 +138,25 @@ class WorldLoader {
             return read ? pose_in_model(*read, name) : std::nullopt;
         };
         WorldFrames frames(world, placements, in_model, import_);
+        InstanceCheck check;
+        std::map<std::size_t, std::vector<const Placement*>> left_out;  // by distinct model
         for (std::size_t i = 0; i < placements.size(); ++i) {
-            const Pose X_WM = frames.pose_of(i);
+            const Placement& placement = placements[i];
             const Distinct& distinct = distinct_[distinct_of_[i]];
-            if (!distinct.prototype) continue;
-            result.instances.push_back(
-                {placements[i].name, *distinct.prototype, X_WM, placements[i].where.where()});
+            const std::size_t first = diagnostics_.items().size();
+            ModelInstance instance{placement.name, distinct.prototype.value_or(0), frames.pose_of(i),
+                                   placement.where.where()};
+            const bool spoilt = placement.left_out || distinct.left_out;
+            if (!spoilt && distinct.prototype) check.check(instance, diagnostics_);
+            if (diagnostics_.leave_out_since(first) || spoilt) {
+                left_out[distinct_of_[i]].push_back(&placement);
+            } else if (distinct.prototype) {
+                result.instances.push_back(std::move(instance));
+            }
         }
+        if (result.instances.empty()) return diagnostics_.refuse_since(0);  // nothing is left
+        for (const auto& [model, alike] : left_out)
+            report_left_out(alike.front()->name, alike.size(), alike.front()->where.where(), diagnostics_);
     }
 
     ResourcePaths paths_;
@@ -140,9 +175,9 @@ class WorldLoader {
 
 /// Findings that say the same in the same file become one, with their number and the first line.
 void add_grouped(const Diagnostics& found, Diagnostics& out) {
-    std::map<std::tuple<Severity, std::string, std::string, std::string>, std::size_t> count;
+    std::map<std::tuple<Severity, std::string, std::string, std::string, bool>, std::size_t> count;
     const auto key = [](const Diagnostic& d) {
-        return std::tuple(d.severity, d.where.file, d.code, d.message);
+        return std::tuple(d.severity, d.where.file, d.code, d.message, d.left_out);
     };
     for (const Diagnostic& d : found.items()) ++count[key(d)];
     for (const Diagnostic& d : found.items()) {
@@ -161,7 +196,6 @@ std::optional<World> load_world(const std::string& file, const LoadOptions& opti
                                 Diagnostics& diagnostics) {
     Diagnostics found;
     auto world = WorldLoader(options, found).load(file);
-    if (world) validate(*world, found);
     add_grouped(found, diagnostics);
     return world;
 }

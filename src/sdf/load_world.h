@@ -13,8 +13,8 @@
 namespace roboss {
 
 struct LoadOptions {
-    /// Folders in which model://, package:// and relative URIs are looked for, before those of the
-    /// environment (SDF_PATH, GZ_SIM_RESOURCE_PATH, IGN_GAZEBO_RESOURCE_PATH).
+    /// Folders in which model://, package://, file:// and relative URIs are looked for, before those of the
+    /// environment (docs/worlds.md).
     std::vector<std::string> search_paths;
     /// Name of the <physics> profile to use; empty: the one with default="true", else the first.
     std::string profile{};
@@ -23,9 +23,10 @@ struct LoadOptions {
     bool looks = true;
 };
 
-/// The world of `file` (its first one; a file with a model only becomes a world with that model), checked
-/// with validate(). nullopt if the file cannot be read as a world at all; otherwise the World may still have
-/// errors: ask diagnostics.has_errors(). Never throws and never prints.
+/// The world of `file` (its first one; a file with a model only becomes a world with that model), checked as
+/// validate() does. nullopt if the file cannot be read as a world at all. A model with errors is left out of
+/// the World, with an error "left-out" that names it: ask diagnostics.refuses() whether anything else is
+/// wrong, or has_errors() to refuse such worlds too. Never throws and never prints.
 std::optional<World> load_world(const std::string& file, const LoadOptions& options,
                                 Diagnostics& diagnostics);
 

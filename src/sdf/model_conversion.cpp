@@ -2,6 +2,7 @@
 #include "sdf/model_conversion.h"
 
 #include <cstring>
+#include <set>
 
 #include "sdf/ignored_elements.h"
 #include "sdf/joint_conversion.h"
@@ -48,18 +49,40 @@ class ModelConverter {
             convert_nested(*scope.model.ModelByIndex(i), scope);
     }
 
+    /// Links of nested static models do not move: with no others the model is static, else they are welded to
+    /// the world.
+    void fix_static_links() {
+        if (static_.empty() || spec_.is_static) return;
+        spec_.is_static = static_.size() == spec_.links.size();
+        if (spec_.is_static) return;
+        std::erase_if(spec_.joints, [&](const JointSpec& joint) {
+            return static_.count(joint.child) > 0 &&
+                   (joint.parent == "world" || static_.count(joint.parent) > 0);
+        });
+        for (const LinkSpec& link : spec_.links) {
+            if (static_.count(link.name) == 0) continue;
+            JointSpec weld;
+            weld.name = link.name + "::static";
+            weld.parent = "world";
+            weld.child = link.name;
+            weld.X_MJ = link.X_ML;
+            weld.where = link.where;
+            spec_.joints.push_back(std::move(weld));
+        }
+        import_.diagnostics().note(spec_.where, "nested-static",
+                                   "model '" + spec_.name +
+                                       "' has nested static models: " + std::to_string(static_.size()) +
+                                       " of its links are welded to the world");
+    }
+
   private:
     void convert_nested(const sdf::Model& nested, const Scope& outer) {
         const Element source = read_.source_of(nested.Element());
-        if (nested.Static() && !spec_.is_static) {
-            import_.diagnostics().warning(
-                source.where(), "nested-static",
-                "the nested model '" + nested.Name() +
-                    "' is static, but the model around it is not; it is taken as movable",
-                "Make it a model of the world, or weld it to the world with a fixed joint.");
-        }
+        const std::size_t first = spec_.links.size();
         convert({nested, outer.prefix + nested.Name() + "::", outer.X_MS * resolved(nested, "__model__"),
                  import_.reader.boolean(source, "enable_wind", outer.wind)});
+        if (nested.Static())
+            for (std::size_t l = first; l < spec_.links.size(); ++l) static_.insert(spec_.links[l].name);
         report_nested_flags(source);
     }
 
@@ -162,6 +185,7 @@ class ModelConverter {
     const ReadModel& read_;
     const Import& import_;
     ModelSpec& spec_;
+    std::set<std::string> static_;  // links of nested static models
 };
 
 }  // namespace
@@ -177,8 +201,9 @@ ModelSpec convert_model(const ReadModel& read, bool is_static, const Import& imp
     spec.canonical_link = read.model().CanonicalLinkAndRelativeName().second;
     report_newer_elements(source, import.diagnostics());
     report_ignored_elements(source, import.diagnostics());
-    ModelConverter(read, import, spec)
-        .convert({read.model(), "", {}, import.reader.boolean(source, "enable_wind", false)});
+    ModelConverter converter(read, import, spec);
+    converter.convert({read.model(), "", {}, import.reader.boolean(source, "enable_wind", false)});
+    converter.fix_static_links();
     return spec;
 }
 

@@ -74,12 +74,15 @@ std::vector<Placement> collect_placements(const Element& world, IncludeStore& in
     std::vector<Placement> placements;
     for (const auto node : world.node.children()) {
         const Element element{world.source, node};
+        const std::size_t first = import.diagnostics().items().size(), placed = placements.size();
         if (std::strcmp(node.name(), "model") == 0 || std::strcmp(node.name(), "include") == 0) {
             if (auto placement = placement_of(element, includes, import))
                 placements.push_back(std::move(*placement));
         } else if (std::strcmp(node.name(), "population") == 0) {
             add_population(element, includes, import, placements);
         }
+        if (!import.diagnostics().leave_out_since(first)) continue;
+        for (std::size_t i = placed; i < placements.size(); ++i) placements[i].left_out = true;
     }
     return placements;
 }

@@ -18,10 +18,11 @@ struct Placement {
     std::string placement_frame;  // empty: the model frame
     bool is_static = false;
     Element where;
+    bool left_out = false;  // something in it is wrong (reported)
 };
 
-/// All models under `world` (a <world>, or the <sdf> of a file with a model only). Includes that lead nowhere
-/// are reported.
+/// All models under `world` (a <world>, or the <sdf> of a file with a model only). What is wrong is reported,
+/// as errors of models that are left out.
 std::vector<Placement> collect_placements(const Element& world, IncludeStore& includes, const Import& import);
 
 /// The placement of a <model> or <include>; nothing if an include leads nowhere.

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <pugixml.hpp>
 
+#include "sdf/fuel_cache.h"
 #include "sdf/source_file.h"
 
 namespace roboss::sdf_import {
@@ -12,8 +13,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kVariables[] = {"SDF_PATH", "GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH",
-                                      "GAZEBO_MODEL_PATH", "ROS_PACKAGE_PATH"};
+/// Folders, separated by colons. AMENT_PREFIX_PATH holds packages in PREFIX/share.
+struct Variable {
+    const char* name;
+    const char* within = "";
+};
+constexpr Variable kVariables[] = {{"SDF_PATH"},
+                                   {"GZ_SIM_RESOURCE_PATH"},
+                                   {"IGN_GAZEBO_RESOURCE_PATH"},
+                                   {"GZ_FILE_PATH"},
+                                   {"IGN_FILE_PATH"},
+                                   {"GAZEBO_MODEL_PATH"},
+                                   {"GAZEBO_RESOURCE_PATH"},
+                                   {"ROS_PACKAGE_PATH"},
+                                   {"AMENT_PREFIX_PATH", "share"}};
+constexpr int kFoldersAbove = 6;  // of the file that holds the URI
 
 bool starts_with(const std::string& text, const std::string& prefix) {
     return text.compare(0, prefix.size(), prefix) == 0;
@@ -24,13 +38,13 @@ bool is_there(const fs::path& path) {
     return fs::exists(path, ignored);
 }
 
-void append_variable(const char* name, std::vector<std::string>& folders) {
-    const char* value = std::getenv(name);
+void append_variable(const Variable& variable, std::vector<std::string>& folders) {
+    const char* value = std::getenv(variable.name);
     if (value == nullptr) return;
     std::string rest = value;
     while (!rest.empty()) {
         const std::size_t colon = rest.find(':');
-        if (colon != 0) folders.push_back(rest.substr(0, colon));
+        if (colon != 0) folders.push_back((fs::path(rest.substr(0, colon)) / variable.within).string());
         rest = colon == std::string::npos ? "" : rest.substr(colon + 1);
     }
 }
@@ -43,19 +57,58 @@ void try_path(const fs::path& candidate, Resolved& result) {
     if (is_there(candidate)) result.path = text;
 }
 
-/// Fuel's cache keeps a model as .../models/NAME/VERSION/: the highest version there.
-std::optional<fs::path> newest_version(const fs::path& model) {
-    std::optional<fs::path> newest;
-    int highest = -1;
-    std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(model, ignored)) {
-        const int number = std::atoi(entry.path().filename().c_str());
-        if (entry.is_directory(ignored) && number > highest) {
-            highest = number;
-            newest = entry.path();
+/// As try_path, for one of many places that the diagnostic does not list.
+void try_quietly(const fs::path& candidate, Resolved& result) {
+    if (!result.path && is_there(candidate)) result.path = candidate.lexically_normal().string();
+}
+
+/// `base` and the folders above it, up to a repository's or six, the root never.
+std::vector<fs::path> folders_above(const std::string& base) {
+    std::error_code error;
+    fs::path at = fs::absolute(base.empty() ? "." : base, error).lexically_normal();
+    if (!at.has_filename()) at = at.parent_path();
+    std::vector<fs::path> result;
+    for (int i = 0; i <= kFoldersAbove && at.has_relative_path(); ++i, at = at.parent_path()) {
+        result.push_back(at);
+        if (is_there(at / ".git")) break;
+    }
+    return result;
+}
+
+/// As path under the folder, in upper or lower case as the folder has it: for files of systems where both are
+/// one.
+void try_any_case(fs::path folder, const fs::path& path, Resolved& result) {
+    if (result.path) return;
+    for (const fs::path& part : path) {
+        if (part == "." || part == "..") {
+            folder /= part;
+        } else if (const auto entry = entry_named(folder, part.string())) {
+            folder = *entry;
+        } else {
+            return;
         }
     }
-    return newest;
+    try_quietly(folder, result);
+}
+
+std::string package_name(const fs::path& folder) {
+    pugi::xml_document package;
+    if (!package.load_file((folder / "package.xml").c_str())) return {};
+    return package.document_element().child("name").text().get();
+}
+
+/// Where a model of a checked-out project names its neighbours, or a robot its own package: in a folder above
+/// the file, in `models` of one, or in the ROS package around it whatever its folder is called.
+void try_above(const std::string& base, const fs::path& path, Resolved& result) {
+    if (result.path || path.empty()) return;
+    result.searched.push_back("the folders above '" + base + "'");
+    const fs::path inner = path.lexically_relative(*path.begin());
+    for (const fs::path& folder : folders_above(base)) {
+        try_quietly(folder / path, result);
+        try_quietly(folder / "models" / path, result);
+        if (!result.path && package_name(folder) == path.begin()->string())
+            try_quietly(folder / inner, result);
+    }
 }
 
 /// The model file that model.config names for the highest SDF version, else model.sdf.
@@ -86,57 +139,59 @@ std::string list_of(const std::vector<std::string>& paths) {
 }
 
 ResourcePaths::ResourcePaths(std::vector<std::string> first) : folders_(std::move(first)) {
-    for (const char* name : kVariables) append_variable(name, folders_);
+    for (const Variable& variable : kVariables) append_variable(variable, folders_);
 }
 
 Resolved ResourcePaths::resolve(const std::string& uri, const std::string& base) const {
     Resolved result;
-    if (starts_with(uri, "http://") || starts_with(uri, "https://")) return resolve_remote(uri);
-    if (starts_with(uri, "file://")) {
-        const fs::path path = uri.substr(7);
-        try_path(path.is_absolute() ? path : fs::path(base) / path, result);
-        return result;
-    }
+    if (starts_with(uri, "http://") || starts_with(uri, "https://")) return resolve_remote(uri, base);
     const std::size_t scheme = uri.find("://");
-    const std::string rest = scheme == std::string::npos ? uri : uri.substr(scheme + 3);
-    const fs::path path = rest;
-    if (scheme == std::string::npos && path.is_absolute()) {
+    const bool is_file = starts_with(uri, "file://");
+    fs::path path = scheme == std::string::npos ? uri : uri.substr(scheme + 3);
+    if (path.is_absolute() && (is_file || scheme == std::string::npos)) {
         try_path(path, result);
+        try_path(percent_decoded(path.string()), result);
         return result;
     }
+    path = path.relative_path();  // model:///car is meant as model://car
+    if (path.empty()) return result;
+    look(path, base, scheme != std::string::npos, result);
+    const fs::path decoded = percent_decoded(path.string());
+    if (decoded != path) look(decoded, base, scheme != std::string::npos, result);
+    return result;
+}
+
+void ResourcePaths::look(const fs::path& path, const std::string& base, bool has_scheme,
+                         Resolved& result) const {
     try_path(fs::path(base) / path, result);
     // A folder "models" beside the world is where most projects keep them.
-    if (scheme != std::string::npos) try_path(fs::path(base) / "models" / path, result);
+    if (has_scheme) try_path(fs::path(base) / "models" / path, result);
     for (const std::string& folder : folders_) try_path(fs::path(folder) / path, result);
     // --path may name the model's own folder: model://car/meshes/a.stl is then <folder>/meshes/a.stl.
     for (const std::string& folder : folders_) {
         const fs::path own = (fs::path(folder) / ".").lexically_normal().parent_path();
-        if (!path.empty() && own.filename() == *path.begin()) try_path(own.parent_path() / path, result);
+        if (own.filename() == *path.begin()) try_path(own.parent_path() / path, result);
     }
-    return result;
+    if (has_scheme) try_above(base, path, result);
+    try_any_case(base, path, result);
+    for (const std::string& folder : folders_) try_any_case(folder, path, result);
+    if (has_scheme)
+        for (const fs::path& folder : folders_above(base)) try_any_case(folder, path, result);
 }
 
-Resolved ResourcePaths::resolve_remote(const std::string& uri) const {
+Resolved ResourcePaths::resolve_remote(const std::string& uri, const std::string& base) const {
     Resolved result;
-    const fs::path rest = uri.substr(uri.find("://") + 3);
-    // .../OWNER/models/NAME[/VERSION][/files/...]
-    std::vector<std::string> parts(rest.begin(), rest.end());
-    while (!parts.empty() && parts.back().empty()) parts.pop_back();
-    std::size_t models = 0;
-    while (models < parts.size() && parts[models] != "models") ++models;
-    if (models >= 1 && models + 1 < parts.size()) {
-        const std::string owner = parts[models - 1], name = parts[models + 1];
-        std::vector<fs::path> caches;
-        if (const char* cache = std::getenv("GZ_FUEL_CACHE_PATH")) caches.emplace_back(cache);
-        if (const char* home = std::getenv("HOME")) {
-            caches.push_back(fs::path(home) / ".gz" / "fuel");
-            caches.push_back(fs::path(home) / ".ignition" / "fuel");
+    const auto fuel = FuelUri::parse(uri);
+    if (fuel) {
+        for (const fs::path& cache : fuel_caches()) try_path(fuel->model_in(cache) / fuel->file, result);
+        for (const std::string& folder : folders_)
+            if (const auto model = entry_named(folder, fuel->name)) try_path(*model / fuel->file, result);
+        // A model often names its own files by their addresses.
+        if (!fuel->file.empty()) {
+            for (const fs::path& folder : folders_above(base))
+                if (const auto model = entry_named(folder.parent_path(), fuel->name); model == folder)
+                    try_path(folder / fuel->file, result);
         }
-        for (const fs::path& cache : caches) {
-            const fs::path model = cache / parts.front() / owner / "models" / name;
-            try_path(newest_version(model).value_or(model), result);
-        }
-        for (const std::string& folder : folders_) try_path(fs::path(folder) / name, result);
     }
     result.remote = !result.path;
     return result;

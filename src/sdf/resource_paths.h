@@ -1,7 +1,8 @@
 // ResourcePaths: URIs of models and meshes to files: model://, package://, file://, plain paths, and what of
-// Gazebo Fuel is already on this machine. Nothing is fetched from the network.
+// Gazebo Fuel is already on this machine. Nothing is fetched from the network. docs/worlds.md has the order.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,7 +27,10 @@ class ResourcePaths {
     Resolved resolve_model(const std::string& uri, const std::string& base) const;
 
   private:
-    Resolved resolve_remote(const std::string& uri) const;
+    /// A relative path; `has_scheme`: it was written as model://, package:// or file://.
+    void look(const std::filesystem::path& path, const std::string& base, bool has_scheme,
+              Resolved& result) const;
+    Resolved resolve_remote(const std::string& uri, const std::string& base) const;
     std::vector<std::string> folders_;
 };
 

@@ -92,6 +92,28 @@ Element shape_of(const Element& geometry) {
     return {};
 }
 
+/// Contact points of URDF are spheres of radius 0, plates boxes of height 0.
+void give_size(CollisionSpec& spec, const Import& import) {
+    constexpr double kLeast = 1e-3;  // m
+    GeometrySpec& g = spec.geometry;
+    std::vector<double*> sizes;
+    if (g.kind == GeometryKind::kBox || g.kind == GeometryKind::kEllipsoid)
+        sizes = {&g.size.x, &g.size.y, &g.size.z};
+    if (g.kind == GeometryKind::kSphere) sizes = {&g.radius};
+    if (g.kind == GeometryKind::kCylinder || g.kind == GeometryKind::kCapsule) sizes = {&g.radius, &g.length};
+    bool given = false;
+    for (double* size : sizes) {
+        if (*size != 0) continue;
+        *size = kLeast;
+        given = true;
+    }
+    if (given)
+        import.diagnostics().warning(
+            spec.where, "no-size",
+            "collision '" + spec.name + "' has a size of 0; it collides with 1 mm instead",
+            "Write its size, or remove it.");
+}
+
 void does_not_collide(const Element& shape, const Import& import) {
     import.diagnostics().warning(shape.where(), "unknown-shape",
                                  "shapes of kind <" + std::string(shape.node.name()) + "> do not collide",
@@ -128,6 +150,7 @@ std::optional<CollisionSpec> convert_collision(const Element& collision, const P
         return std::nullopt;
     }
     spec.geometry = *known;
+    give_size(spec, import);
     spec.surface = convert_surface(collision, import);
     return spec;
 }

@@ -73,18 +73,20 @@ void ShapeFiles::read_mesh(const Element& mesh, Diagnostics& diagnostics, Geomet
     if (is_new) {
         auto file = roboss::read_mesh(request);
         if (!file) {
-            diagnostics.error(mesh.where(), "bad-mesh", "the mesh '" + spec.uri + "' " + file.error().message,
-                              file.error().remedy);
+            entry->second.error = file.error();
         } else {
             if (file.value().dropped > 0) {
                 diagnostics.note(mesh.where(), "flat-triangles",
                                  std::to_string(file.value().dropped) + " triangles without area in '" +
                                      spec.uri + "' are left out");
             }
-            entry->second = std::make_shared<const MeshSpec>(std::move(file.value().mesh));
+            entry->second.content = std::make_shared<const MeshSpec>(std::move(file.value().mesh));
         }
     }
-    spec.mesh = entry->second;
+    if (const auto& error = entry->second.error)
+        diagnostics.error(mesh.where(), "bad-mesh", "the mesh '" + spec.uri + "' " + error->message,
+                          error->remedy);
+    spec.mesh = entry->second.content;
 }
 
 void ShapeFiles::read_heightmap(const Element& heightmap, const ElementReader& reader, GeometryUse use,
@@ -108,16 +110,17 @@ void ShapeFiles::read_heightmap(const Element& heightmap, const ElementReader& r
     if (is_new) {
         const auto image = read_png(spec.uri);
         if (!image) {
-            report("bad-heightmap", "the heightmap '" + spec.uri + "' " + image.error().message,
-                   image.error().remedy);
+            entry->second.error = image.error();
         } else {
             HeightGridSpec grid = grid_of(image.value(), sampling, size);
             grid.source = spec.uri;
             grid.centre = centre;
-            entry->second = std::make_shared<const HeightGridSpec>(std::move(grid));
+            entry->second.content = std::make_shared<const HeightGridSpec>(std::move(grid));
         }
     }
-    spec.heights = entry->second;
+    if (const auto& error = entry->second.error)
+        report("bad-heightmap", "the heightmap '" + spec.uri + "' " + error->message, error->remedy);
+    spec.heights = entry->second.content;
 }
 
 void read_polyline(const Element& polyline, const ElementReader& reader, GeometrySpec& spec) {

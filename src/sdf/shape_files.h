@@ -1,9 +1,10 @@
 // ShapeFiles: the files behind <mesh> and <heightmap>, each read once however many elements name it with the
-// same scale and part; findings about a file are reported at the first element that names it.
+// same scale and part. A file that cannot be read is an error at each.
 #pragma once
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "mesh/mesh_file.h"
@@ -29,8 +30,14 @@ class ShapeFiles {
                         GeometrySpec& spec);
 
   private:
-    std::map<std::string, std::shared_ptr<const MeshSpec>> meshes_;
-    std::map<std::string, std::shared_ptr<const HeightGridSpec>> heights_;
+    /// What a file holds, or why it cannot be read: told at each element that names it.
+    template <class Spec>
+    struct Read {
+        std::shared_ptr<const Spec> content;
+        std::optional<Error> error;
+    };
+    std::map<std::string, Read<MeshSpec>> meshes_;
+    std::map<std::string, Read<HeightGridSpec>> heights_;
 };
 
 /// The corners of a <polyline>.

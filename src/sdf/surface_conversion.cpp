@@ -71,11 +71,11 @@ std::optional<unsigned> read_bitmask(const Element& contact, const char* name, c
     const std::string text = contact.text(name);
     char* end = nullptr;
     const unsigned long mask = std::strtoul(text.c_str(), &end, 0);
-    if (!text.empty() && end != nullptr && *end == '\0' && mask <= 0xFFFFul)
+    if (!text.empty() && end != nullptr && *end == '\0' && mask <= 0xFFFFFFFFul)
         return static_cast<unsigned>(mask);
     import.diagnostics().error(
         contact.child(name).where(), "bad-value",
-        "<" + std::string(name) + "> is '" + text + "', which is not a number from 0 to 65535",
+        "<" + std::string(name) + "> is '" + text + "', which is not a number from 0 to 0xffffffff",
         "Write for instance 65535 or 0xffff.");
     return std::nullopt;
 }

@@ -6,14 +6,20 @@
 #include <sstream>
 
 #include "sdf/console_capture.h"
+#include "sdf/urdf_repairs.h"
 
 namespace roboss::sdf_import {
 namespace {
 
-std::string text_of(const SourceFile& file) {
+std::string text_of(pugi::xml_node robot) {
     std::ostringstream text;
-    file.root().print(text, "", pugi::format_raw);
+    robot.print(text, "", pugi::format_raw);
     return text.str();
+}
+
+/// Without its inertial, a link would be left out with all that hangs on it.
+bool loses_a_link(const std::string& message) {
+    return message.find("Could not parse inertial") != std::string::npos;
 }
 
 /// Errors name links and joints as "[name]": the line of that element, else the robot's.
@@ -27,8 +33,8 @@ SourceLocation where_of(const std::string& message, const SourceFile& urdf) {
 
 /// libsdformat 12 leaves <mimic> out of a URDF without a word: writes it into the joint's <axis>, on the same
 /// line, for the importer to read.
-void add_mimics(const SourceFile& urdf, std::string& sdf) {
-    for (const auto joint : urdf.root().children("joint")) {
+void add_mimics(pugi::xml_node robot, std::string& sdf) {
+    for (const auto joint : robot.children("joint")) {
         const auto mimic = joint.child("mimic");
         if (!mimic) continue;
         const std::size_t at = sdf.find("<joint name='" + std::string(joint.attribute("name").value()) + "'");
@@ -71,6 +77,10 @@ std::vector<int> map_lines(const SourceFile& urdf, const std::string& sdf) {
 
 std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& diagnostics) {
     const SourceLocation where = urdf.where(urdf.root());
+    pugi::xml_document repaired;
+    repaired.append_copy(urdf.root());
+    const pugi::xml_node robot = repaired.document_element();
+    repair_urdf(robot, urdf, diagnostics);
     sdf::Errors errors;
     std::string text;
     std::vector<ConsoleLine> printed;
@@ -80,7 +90,7 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
             const sdf::SDFPtr document = std::make_shared<sdf::SDF>();
             sdf::init(document);
             sdf::ParserConfig config;
-            if (sdf::readString(text_of(urdf), config, document, errors))
+            if (sdf::readString(text_of(robot), config, document, errors))
                 text = document->Root()->ToString("");
         } catch (const std::exception& exception) {
             errors.emplace_back(sdf::ErrorCode::STRING_READ, exception.what());
@@ -89,7 +99,8 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
     }
     constexpr const char* kRemedy = "Correct the URDF (check_urdf FILE tells more).";
     for (const ConsoleLine& line : printed) {
-        if (line.is_error) {
+        // urdfdom goes on without what it cannot read, a visual for instance.
+        if (line.is_error && (text.empty() || loses_a_link(line.text))) {
             diagnostics.error(where_of(line.text, urdf), "urdf", line.text, kRemedy);
         } else {
             diagnostics.warning(where_of(line.text, urdf), "urdf", line.text);
@@ -103,7 +114,7 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
         }
         return nullptr;
     }
-    add_mimics(urdf, text);
+    add_mimics(robot, text);
     std::vector<int> lines = map_lines(urdf, text);
     return SourceFile::from_text(urdf.path(), std::move(text), std::move(lines), diagnostics);
 }

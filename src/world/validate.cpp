@@ -1,7 +1,6 @@
 // Judges a World: what no physics could make sense of is an error, what looks like a slip is a warning.
 #include <cmath>
 #include <set>
-#include <unordered_map>
 
 #include "world/world.h"
 
@@ -69,19 +68,20 @@ class ModelCheck {
     }
 
     void check_mass(const LinkSpec& link, const std::string& name) {
-        if (!(link.mass > 0) || !std::isfinite(link.mass)) {
+        // Without mass a link can still be a frame that others carry; compile() says what becomes of it.
+        if (!(link.mass >= 0) || !std::isfinite(link.mass)) {
             diagnostics_.error(link.where, "bad-mass", name + " has a mass of " + text(link.mass) + " kg",
                                "Give it a mass greater than 0, or make the model static.");
         }
         if (!is_finite(link.inertia_C) || !is_finite(link.p_LC)) {
             diagnostics_.error(link.where, "not-finite", name + " has an inertia that is not finite",
                                "Correct its <inertial>.");
-        } else if (!positive_definite(link.inertia_C)) {
-            diagnostics_.error(
+        } else if (link.mass > 0 && !positive_definite(link.inertia_C)) {
+            diagnostics_.warning(
                 link.where, "bad-inertia",
                 name + " has an inertia that is not positive definite: " + numbers(link.inertia_C),
                 "Write the moments of inertia about the centre of mass; all must be greater than 0.");
-        } else if (!obeys_triangle_inequality(link.inertia_C)) {
+        } else if (link.mass > 0 && !obeys_triangle_inequality(link.inertia_C)) {
             diagnostics_.warning(
                 link.where, "unreal-inertia",
                 name +
@@ -208,26 +208,6 @@ class ModelCheck {
     std::set<std::string> names_, links_, joints_;
 };
 
-void check_instances(const World& world, Diagnostics& diagnostics) {
-    std::unordered_map<std::string, const ModelInstance*> names;
-    for (const ModelInstance& instance : world.instances) {
-        const auto [known, is_new] = names.try_emplace(instance.name, &instance);
-        if (!is_new) {
-            diagnostics.error(instance.where, "duplicate-name",
-                              "two models are named '" + instance.name + "' (the other: line " +
-                                  std::to_string(known->second->where.line) + ")",
-                              "Give each a name of its own.");
-        }
-        if (instance.name.empty())
-            diagnostics.error(instance.where, "no-name", "a model has no name", "Give it one.");
-        if (!is_finite(instance.X_WM)) {
-            diagnostics.error(instance.where, "not-finite",
-                              "model '" + instance.name + "' has a pose that is not finite",
-                              "Correct its <pose>.");
-        }
-    }
-}
-
 void check_air(const World& world, Diagnostics& diagnostics) {
     if (!is_finite(world.wind) || !(world.air_density >= 0) || !std::isfinite(world.air_density))
         diagnostics.error({world.file, 0}, "not-finite", "wind or air are not finite",
@@ -242,16 +222,42 @@ void check_air(const World& world, Diagnostics& diagnostics) {
 
 }  // namespace
 
-void validate(const World& world, Diagnostics& diagnostics) {
+void InstanceCheck::check(const ModelInstance& instance, Diagnostics& diagnostics) {
+    const auto [known, is_new] = names_.try_emplace(instance.name, instance.where);
+    if (!is_new) {
+        diagnostics.error(instance.where, "duplicate-name",
+                          "two models are named '" + instance.name + "' (the other: line " +
+                              std::to_string(known->second.line) + ")",
+                          "Give each a name of its own.");
+    }
+    if (instance.name.empty())
+        diagnostics.error(instance.where, "no-name", "a model has no name", "Give it one.");
+    if (!is_finite(instance.X_WM)) {
+        diagnostics.error(instance.where, "not-finite",
+                          "model '" + instance.name + "' has a pose that is not finite",
+                          "Correct its <pose>.");
+    }
+}
+
+void validate(const ModelSpec& model, Diagnostics& diagnostics) {
+    ModelCheck(model, diagnostics).run();
+}
+
+void validate_settings(const World& world, Diagnostics& diagnostics) {
     if (!is_finite(world.gravity))
         diagnostics.error({world.file, 0}, "not-finite", "gravity is not finite", "Correct <gravity>.");
     if (!(world.dt_s > 0) || !std::isfinite(world.dt_s)) {
         diagnostics.error({world.file, 0}, "bad-step", "the time step is " + text(world.dt_s) + " s",
                           "Write <max_step_size> greater than 0.");
     }
-    for (const ModelSpec& model : world.prototypes) ModelCheck(model, diagnostics).run();
     check_air(world, diagnostics);
-    check_instances(world, diagnostics);
+}
+
+void validate(const World& world, Diagnostics& diagnostics) {
+    validate_settings(world, diagnostics);
+    for (const ModelSpec& model : world.prototypes) validate(model, diagnostics);
+    InstanceCheck instances;
+    for (const ModelInstance& instance : world.instances) instances.check(instance, diagnostics);
 }
 
 }  // namespace roboss

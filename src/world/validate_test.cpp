@@ -69,10 +69,19 @@ TEST(Validate, ASoundWorldHasNoFindings) {
     EXPECT_TRUE(findings([](World&) {}).items().empty());
 }
 
-TEST(Validate, MassesMustBePositiveAndFinite) {
-    for (const double mass : {0.0, -1.0, kNan, std::numeric_limits<double>::infinity()}) {
+TEST(Validate, MassesMustBeFiniteAndNotNegative) {
+    for (const double mass : {-1.0, kNan, std::numeric_limits<double>::infinity()}) {
         expect_one("bad-mass", Severity::kError, 7, [&](World& w) { link_a(w).mass = mass; });
     }
+}
+
+TEST(Validate, ALinkWithoutMassIsLeftToTheCompiler) {
+    EXPECT_TRUE(findings([](World& w) {
+                    link_a(w).mass = 0;
+                    link_a(w).inertia_C = Mat3::diagonal(0, 0, 0);
+                })
+                    .items()
+                    .empty());
 }
 
 TEST(Validate, AStaticModelNeedsNoMass) {
@@ -85,10 +94,10 @@ TEST(Validate, AStaticModelNeedsNoMass) {
                     .empty());
 }
 
-TEST(Validate, InertiasMustBePositiveDefinite) {
-    expect_one("bad-inertia", Severity::kError, 7,
+TEST(Validate, InertiasShouldBePositiveDefinite) {
+    expect_one("bad-inertia", Severity::kWarning, 7,
                [](World& w) { link_a(w).inertia_C = Mat3::diagonal(1, 0, 1); });
-    expect_one("bad-inertia", Severity::kError, 7, [](World& w) {
+    expect_one("bad-inertia", Severity::kWarning, 7, [](World& w) {
         link_a(w).inertia_C = {{1, 2, 0}, {2, 1, 0}, {0, 0, 1}};
     });
     expect_one("not-finite", Severity::kError, 7, [](World& w) { link_a(w).inertia_C(1, 1) = kNan; });

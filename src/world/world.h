@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -294,8 +295,23 @@ struct World {
     std::vector<ExtensionElement> extensions;
 };
 
-/// Everything about a World that needs no XML to be judged: finite numbers, positive masses, inertias that a
-/// real body can have, unique names, joints between links that exist. All findings at once.
+/// Everything about a World that needs no XML to be judged: finite numbers, masses that are not negative,
+/// inertias that a real body can have, unique names, joints between links that exist. All findings at once.
 void validate(const World& world, Diagnostics& diagnostics);
+
+/// The same of one model.
+void validate(const ModelSpec& model, Diagnostics& diagnostics);
+
+/// The same of what a World says beside its models.
+void validate_settings(const World& world, Diagnostics& diagnostics);
+
+/// The same of instances, one after the other: their names must differ.
+class InstanceCheck {
+  public:
+    void check(const ModelInstance& instance, Diagnostics& diagnostics);
+
+  private:
+    std::unordered_map<std::string, SourceLocation> names_;
+};
 
 }  // namespace roboss

@@ -25,14 +25,22 @@ class BadInput(RobossTest):
         self.refused(["run", broken, "--duration", "1"], 1, "broken.sdf:4")
 
     def test_every_fault_of_a_world_is_told_at_once_with_its_line(self):
-        text = HEAP.read_text().replace("<mass>2</mass>", "<mass>0</mass>").replace("<child>upper</child>", "<child>uper</child>")
+        text = HEAP.read_text().replace("<mass>2</mass>", "<mass>-1</mass>").replace("<child>upper</child>", "<child>uper</child>")
         bad = written("bad.sdf", text)
-        done = self.refused(["run", bad, "--duration", "1"], 1, "bad.sdf:", "uper", "mass")
+        done = self.refused(["run", bad, "--duration", "1", "--strict"], 1, "bad.sdf:", "uper", "mass")
         self.assertGreaterEqual(done.stderr.count("error:"), 2)
+
+    def test_a_model_with_errors_is_left_out_unless_strict(self):
+        bad = written("one_bad.sdf", HEAP.read_text().replace("<child>upper</child>", "<child>uper</child>"))
+        done = roboss("run", bad, "--duration", "0.1", "--headless", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("model 'arm' is left out", done.stderr)
+        self.refused(["run", bad, "--duration", "0.1", "--headless", "--strict"], 1, "uper")
+        self.refused(["check", bad], 1, "left-out", "--strict")
 
     def test_nan_in_a_world(self):
         bad = written("nan.sdf", HEAP.read_text().replace("<radius>0.09</radius>", "<radius>nan</radius>"))
-        self.refused(["run", bad, "--duration", "1"], 1, "nan.sdf:")
+        self.refused(["run", bad, "--duration", "1", "--strict"], 1, "nan.sdf:")
 
     def test_wrong_usage(self):
         self.refused(["run"], 2, "world")

@@ -1,0 +1,12 @@
+// COLLADA as some exporters write it and assimp refuses it, made into what assimp reads.
+#pragma once
+
+#include <string>
+
+namespace roboss {
+
+/// The text without white space before the first number of an element, and without references to pictures:
+/// what is drawn over such a mesh is lost, its triangles are not.
+std::string repaired_collada(const std::string& text);
+
+}  // namespace roboss

@@ -1,0 +1,82 @@
+// Dummy frames of URDF, casters and sensor mounts often have no mass, or moments of inertia of zero. Welded
+// to a link with mass they do no harm. A body that moves must have some: a gram, and moments as of a ball of
+// one centimetre at least, too little to matter to what it hangs on.
+#include <algorithm>
+#include <cmath>
+
+#include "model/compile_type.h"
+
+namespace roboss {
+namespace {
+
+constexpr double kSmallMass = 1e-3;      // kg
+constexpr double kSmallRadius = 0.01;    // m
+constexpr double kSmallestShare = 1e-3;  // of the greatest moment
+
+bool positive_definite(const Mat3& m) {
+    const double minor2 = m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0);
+    return m(0, 0) > 0 && minor2 > 0 && dot(m.r0, cross(m.r1, m.r2)) > 0;
+}
+
+/// No principal moment is below this (Gershgorin).
+double least_moment(const Mat3& m) {
+    double least = INFINITY;
+    for (std::size_t i = 0; i < 3; ++i) {
+        double row = m(i, i);
+        for (std::size_t j = 0; j < 3; ++j)
+            if (j != i) row -= std::fabs(m(i, j));
+        least = std::min(least, row);
+    }
+    return least;
+}
+
+/// What must be added about each axis so that all principal moments are at least that of a small ball, and a
+/// thousandth of the greatest.
+double missing_moment(const Mat3& m, double mass) {
+    const double greatest = std::max({m(0, 0), m(1, 1), m(2, 2), 0.0});
+    const double floor = std::max(0.4 * mass * kSmallRadius * kSmallRadius, kSmallestShare * greatest);
+    return floor - std::min(0.0, least_moment(m));
+}
+
+std::string text(double value) {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.3g", value);
+    return buffer;
+}
+
+}  // namespace
+
+void mend_inertia(RobotType& type, const ModelSpec& spec, const std::vector<std::size_t>& links,
+                  Diagnostics& diagnostics) {
+    std::vector<char> seen(type.bodies.size(), 0);
+    for (std::size_t l = 0; l < type.links.size(); ++l) {
+        Link& link = type.links[l];
+        if (link.body < 0) continue;
+        Body& body = type.bodies[static_cast<std::size_t>(link.body)];
+        if (seen[static_cast<std::size_t>(link.body)]++ != 0) continue;
+        const LinkSpec& source = spec.links[links[l]];
+        if (!(body.mass > 0)) {
+            link.mass = kSmallMass;
+            const double moment = 0.4 * kSmallMass * kSmallRadius * kSmallRadius;
+            link.inertia_C = Mat3::diagonal(moment, moment, moment);
+            add_mass(body, link);
+            diagnostics.warning(
+                source.where, "massless",
+                "link '" + link.name + "' of model '" + spec.name +
+                    "' can move and has no mass; it gets 1 g and the inertia of a ball of 1 cm",
+                "Write its <inertial>, or join it to its parent with a fixed joint.");
+        } else if (!positive_definite(body.inertia_C)) {
+            const double moment = missing_moment(body.inertia_C, body.mass);
+            const Mat3 more = Mat3::diagonal(moment, moment, moment);
+            link.inertia_C = link.inertia_C + more;
+            body.inertia_C = body.inertia_C + more;
+            diagnostics.warning(source.where, "small-inertia",
+                                "link '" + link.name + "' of model '" + spec.name +
+                                    "' can turn and has no inertia about some axis; " + text(moment) +
+                                    " kg m^2 are added about each",
+                                "Write its moments of inertia about the centre of mass.");
+        }
+    }
+}
+
+}  // namespace roboss

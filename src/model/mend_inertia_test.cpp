@@ -1,0 +1,65 @@
+// Links without mass or inertia, as URDF's dummy frames and casters have them.
+#include <gtest/gtest.h>
+
+#include <support/compiling.h>
+
+namespace roboss::test {
+namespace {
+
+/// A link `a` and what hangs on it by a joint of this kind.
+ModelSpec pair_of(JointSpecKind kind, double mass, const Mat3& inertia) {
+    ModelSpec model = row_of_three();
+    model.links.resize(2);
+    model.links[1].mass = mass;
+    model.links[1].inertia_C = inertia;
+    model.joints.push_back(joint(kind, "ab", "a", "b", at_x(0.5), {0, 0, 1}));
+    return model;
+}
+
+TEST(MendInertia, AMasslessLinkWeldedToAnotherIsPartOfIt) {
+    const Compiled c = compile_one(pair_of(JointSpecKind::kFixed, 0, {}));
+    ASSERT_NE(c.model, nullptr);
+    EXPECT_TRUE(c.diagnostics.items().empty());
+    EXPECT_EQ(c.type().mass, row_of_three().links[0].mass);
+}
+
+TEST(MendInertia, AMasslessLinkThatMovesGetsAGramWithAWarning) {
+    const Compiled c = compile_one(pair_of(JointSpecKind::kRevolute, 0, {}));
+    ASSERT_NE(c.model, nullptr);
+    EXPECT_TRUE(has(c.diagnostics, "massless"));
+    EXPECT_FALSE(c.diagnostics.has_errors());
+    EXPECT_NEAR(c.type().mass, row_of_three().links[0].mass + 1e-3, 1e-12);
+    EXPECT_NEAR(c.type().bodies[1].inertia_C(0, 0), 4e-8, 1e-15);
+}
+
+TEST(MendInertia, AnInertiaOfZeroIsThatOfASmallBallAtLeast) {
+    const Compiled c = compile_one(pair_of(JointSpecKind::kRevolute, 2, {}));
+    ASSERT_NE(c.model, nullptr);
+    EXPECT_TRUE(has(c.diagnostics, "small-inertia"));
+    EXPECT_NEAR(c.type().bodies[1].inertia_C(2, 2), 0.4 * 2 * 1e-4, 1e-12);
+}
+
+TEST(MendInertia, ARodGetsAThousandthAboutItsAxis) {
+    const Compiled c = compile_one(pair_of(JointSpecKind::kRevolute, 0.1, Mat3::diagonal(1, 1, 0)));
+    ASSERT_NE(c.model, nullptr);
+    EXPECT_TRUE(has(c.diagnostics, "small-inertia"));
+    EXPECT_NEAR(c.type().bodies[1].inertia_C(2, 2), 1e-3, 1e-12);
+}
+
+TEST(MendInertia, ASoundInertiaStaysAsItIs) {
+    const Mat3 inertia = Mat3::diagonal(1e-9, 1e-9, 1e-9);
+    const Compiled c = compile_one(pair_of(JointSpecKind::kRevolute, 1e-6, inertia));
+    ASSERT_NE(c.model, nullptr);
+    EXPECT_TRUE(c.diagnostics.items().empty());
+    EXPECT_EQ(c.type().bodies[1].inertia_C(2, 2), 1e-9);
+}
+
+TEST(MendInertia, ANegativeMomentBecomesPositive) {
+    const Compiled c = compile_one(pair_of(JointSpecKind::kRevolute, 1, {{1, 2, 0}, {2, 1, 0}, {0, 0, 1}}));
+    ASSERT_NE(c.model, nullptr);
+    const Mat3& m = c.type().bodies[1].inertia_C;
+    EXPECT_GT(m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0), 0);
+}
+
+}  // namespace
+}  // namespace roboss::test

@@ -1,0 +1,77 @@
+// Works on the XML before libsdformat sees it. Findings are at the link, which the copy has in the same
+// place.
+#include "sdf/urdf_repairs.h"
+
+#include <set>
+#include <string>
+
+#include "sdf/element_reader.h"
+
+namespace roboss::sdf_import {
+namespace {
+
+/// As urdfdom wants it: the number alone. What has no number at its start stays, for urdfdom to refuse.
+void mend_number(pugi::xml_attribute attribute, const SourceLocation& where, Diagnostics& diagnostics) {
+    const std::string text = attribute.value();
+    const auto words = words_of(std::string_view(text));
+    if (words.empty() || parse_number(text)) return;
+    if (!parse_number(words[0]) && !number_at_start(words[0])) return;
+    const std::string_view word = words[0];
+    std::size_t length = word.size();
+    while (length > 0 && !parse_number(word.substr(0, length))) --length;
+    attribute.set_value(std::string(word.substr(0, length)).c_str());
+    diagnostics.warning(
+        where, "trailing-text",
+        std::string(attribute.name()) + "=\"" + text + "\" of an <inertial>: only the number counts",
+        "Write the number alone.");
+}
+
+void mend_inertial(pugi::xml_node inertial, const SourceLocation& where, Diagnostics& diagnostics) {
+    for (const auto child : {inertial.child("mass"), inertial.child("inertia")})
+        for (const auto attribute : child.attributes()) mend_number(attribute, where, diagnostics);
+    if (!inertial.child("mass") || inertial.child("inertia")) return;
+    auto inertia = inertial.append_child("inertia");
+    for (const char* moment : {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"})
+        inertia.append_attribute(moment) = "0";
+    diagnostics.warning(where, "missing-inertia",
+                        "an <inertial> has no <inertia>; its moments are taken as 0", "Write its moments.");
+}
+
+void mend_inertials(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
+    auto source = urdf.root().child("link");
+    for (auto link = robot.child("link"); link; link = link.next_sibling("link")) {
+        if (const auto inertial = link.child("inertial"))
+            mend_inertial(inertial, urdf.where(source), diagnostics);
+        source = source.next_sibling("link");
+    }
+}
+
+void rename_joints(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
+    std::set<std::string> taken;
+    for (const auto part : robot.children()) taken.insert(part.attribute("name").value());
+    auto source = urdf.root().child("joint");
+    for (auto joint = robot.child("joint"); joint; joint = joint.next_sibling("joint")) {
+        const std::string name = joint.attribute("name").value();
+        if (robot.find_child_by_attribute("link", "name", name.c_str())) {
+            std::string other = name + "_joint";
+            while (!taken.insert(other).second) other += "_";
+            joint.attribute("name").set_value(other.c_str());
+            for (auto follower : robot.children("joint"))
+                if (auto leader = follower.child("mimic").attribute("joint"); name == leader.value())
+                    leader.set_value(other.c_str());
+            diagnostics.warning(urdf.where(source), "renamed-joint",
+                                "joint '" + name + "' has the name of a link; here it is '" + other + "'",
+                                "Give it a name of its own.");
+        }
+        source = source.next_sibling("joint");
+    }
+}
+
+}  // namespace
+
+void repair_urdf(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
+    mend_inertials(robot, urdf, diagnostics);
+    rename_joints(robot, urdf, diagnostics);
+}
+
+}  // namespace roboss::sdf_import
