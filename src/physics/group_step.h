@@ -10,6 +10,7 @@
 #include "physics/integrate.h"
 #include "physics/joint_rows.h"
 #include "physics/lane_stepper.h"
+#include "physics/second_look.h"
 #include "physics/sleep.h"
 #include "physics/solver.h"
 #include "physics/step.h"
@@ -34,6 +35,7 @@ struct GroupScratch {
     IslandRows rows;
     std::vector<double> v, v_before;
     std::vector<double> way;  // of the tick, over dt
+    SecondLook look;
     IslandSolver solver;
     RowBuffer buffer;
     FreeBuffer free_buffer;
