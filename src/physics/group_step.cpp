@@ -246,6 +246,7 @@ void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch&
     mark_pushed(robots, s);
     stop_late_hits(model, robots, s, members, split, report);
     finish_island(model, robots, s, members, s.way);
+    s.look.push_out(robots, model);
 }
 
 void count_contacts(const Model& model, std::span<const Contact> contacts, StepReport& report) {

@@ -35,6 +35,18 @@ double speed_of(const Course& c) {
     return norm(c.velocity(c.X.p, 0)) + c.turning;
 }
 
+/// 1/kg: how easily a robot is moved as a whole; 0 if it stands on a fixed base.
+double ease_of(const RobotWork& robot) {
+    if (!robot.type->free_base) return 0;
+    double mass = 0;
+    for (const Body& body : robot.type->bodies) mass += body.mass;
+    return mass > 0 ? 1 / mass : 0;
+}
+
+void shift_base(const Vec3& by, RobotState& state) {
+    state.q[0] += by.x, state.q[1] += by.y, state.q[2] += by.z;
+}
+
 }  // namespace
 
 /// The robot with the velocities of its displacement.
@@ -123,6 +135,7 @@ void SecondLook::find_turned(const SolvedIsland& island, std::span<const Contact
     const Course b = course(island, pair.robot_b, pair.shape_b);
     const auto turns = [&](const Course& c) { return turns_far<double>(*c.shape, c.X.R, c.angular, dt); };
     if (!turns(a) && !turns(b)) return;
+    if (first_) turned_.push_back({pair, least});
     const auto see = [&](const Vec3& normal, const Vec3& p_W, double gap) {
         if (gap < least - kDeep) add(island, pair, a, b, dt, normal, p_W, gap - least);
     };
@@ -153,8 +166,8 @@ bool SecondLook::start(const SolvedIsland& island) {
 }
 
 bool SecondLook::find(const SolvedIsland& island, bool first) {
-    if (first) hits_.clear();
-    known_ = hits_.size();
+    if (first) hits_.clear(), turned_.clear();
+    known_ = hits_.size(), first_ = first;
     if (!start(island)) return false;
     for (const std::uint32_t m : island.members)
         for (const NearMiss& pair : misses_of(m, island.near_misses)) find_missed(island, pair);
@@ -174,6 +187,52 @@ double SecondLook::first_time() const {
     double first = hits_[known_].time;
     for (std::size_t h = known_; h < hits_.size(); ++h) first = std::min(first, hits_[h].time);
     return first;
+}
+
+const ShapeWork& SecondLook::placed(const RobotWork& robot, std::uint32_t shape) {
+    place_bodies<double>(*robot.type, robot.state->q, placed_);
+    place_shapes<double>(*robot.type, 0, robot.state->q, placed_);
+    return placed_.shapes[shape];
+}
+
+/// True if something was moved. Of two robots that are free the lighter one gives way more.
+bool SecondLook::push_out(std::span<RobotWork> robots, const Model& model, const Turned& turned) {
+    const NearMiss& pair = turned.pair;
+    RobotWork& a = robots[static_cast<std::size_t>(pair.robot_a)];
+    const Shape& shape = a.type->shapes[pair.shape_a].shape;
+    const Transform X = placed(a, pair.shape_a).X_WS;
+    Vec3 normal;
+    double deepest = turned.least - kDeep;
+    const auto see = [&](const Vec3& n, double gap) {
+        if (gap < deepest) deepest = gap, normal = n;
+    };
+    RobotWork* b = pair.robot_b < 0 ? nullptr : &robots[static_cast<std::size_t>(pair.robot_b)];
+    const Shape& other =
+        b == nullptr ? model.statics[pair.shape_b].shape : b->type->shapes[pair.shape_b].shape;
+    if (other.kind == ShapeKind::kSurface) {
+        collide_surface(shape, X, *other.surface, model.statics[pair.shape_b].X_WS, 0, buffers_.there);
+        for (const SurfaceContact& c : buffers_.there.points) see(c.n_W, c.gap);
+    } else {
+        const Transform X_other =
+            b == nullptr ? model.statics[pair.shape_b].X_WS : placed(*b, pair.shape_b).X_WS;
+        const Manifold m = collide(shape, X, other, X_other, 0);
+        see(m.n_W, least_gap(m));
+    }
+    const double ease_a = ease_of(a), ease_b = b == nullptr || b == &a ? 0 : ease_of(*b);
+    if (normal == Vec3{} || ease_a + ease_b == 0 || b == &a) return false;
+    const Vec3 push = normal * ((turned.least - deepest) / (ease_a + ease_b));
+    shift_base(push * ease_a, *a.state);
+    if (b != nullptr) shift_base(push * -ease_b, *b->state);
+    return true;
+}
+
+void SecondLook::push_out(std::span<RobotWork> robots, const Model& model) {
+    constexpr int kRounds = 4;
+    for (int round = 0; round < kRounds; ++round) {
+        bool any = false;
+        for (const Turned& turned : turned_) any |= push_out(robots, model, turned);
+        if (!any) return;
+    }
 }
 
 void SecondLook::add_rows(const SolvedIsland& island, IslandRows& rows, std::vector<SurfacePair>& surfaces) {

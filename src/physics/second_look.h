@@ -31,12 +31,22 @@ class SecondLook {
     bool find(const SolvedIsland& island, bool first);
     /// Adds the rows of what was found last to the island's. Contacts stay until the next island.
     void add_rows(const SolvedIsland& island, IslandRows& rows, std::vector<SurfacePair>& surfaces);
+    /// Once the island has moved: bodies that turned far and sank in by that are put back, as far as their
+    /// robots are free to be moved.
+    void push_out(std::span<RobotWork> robots, const Model& model);
     /// All hits of the island, in the order of their rows.
     std::span<Contact> hits() { return hits_; }
     /// When the first of those found last happens, s.
     double first_time() const;
 
   private:
+    /// A pair in contact of which one turns far.
+    struct Turned {
+        NearMiss pair;
+        double least = 0;  // m: its least gap at the beginning of the tick, at most 0
+    };
+    bool push_out(std::span<RobotWork> robots, const Model& model, const Turned& turned);
+    const ShapeWork& placed(const RobotWork& robot, std::uint32_t shape);
     void find_missed(const SolvedIsland& island, const NearMiss& pair);
     void find_turned(const SolvedIsland& island, std::span<const Contact* const> contacts);
     void hold_planes(const SolvedIsland& island, const NearMiss& pair);
@@ -50,6 +60,9 @@ class SecondLook {
     std::vector<char> is_moved_, turns_;    // by robot
     std::vector<Contact> hits_;
     std::size_t known_ = 0;  // hits that have rows
+    bool first_ = false;     // round
+    std::vector<Turned> turned_;
+    Mechanics<double> placed_;  // where a robot is after the tick
     SweepBuffers buffers_;
 };
 
