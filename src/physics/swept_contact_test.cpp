@@ -13,11 +13,11 @@
 namespace roboss::test {
 namespace {
 
-constexpr double kTick = 2e-3;      // s
-constexpr double kFlight = 1.2;     // m: from one side to the other
-constexpr double kSpacing = 50;     // m between the shots of one world
-constexpr double kClear = 1e-4;     // m: what is clear by more must not be pushed
-constexpr double kHit = 2e-3;       // m: what would sink in deeper must be
+constexpr double kTick = 2e-3;   // s
+constexpr double kFlight = 1.2;  // m: from one side to the other
+constexpr double kSpacing = 50;  // m between the shots of one world
+constexpr double kClear = 1e-4;  // m: what is clear by more must not be pushed
+constexpr double kHit = 2e-3;    // m: what would sink in deeper must be
 constexpr int kShots = 32;
 
 struct Body {
@@ -48,7 +48,8 @@ const Body kEgg{"egg", [](const SurfaceSpec& s) { return ellipsoid({0.02, 0.03, 
 const Body kHull{"hull", [](const SurfaceSpec& s) { return mesh_shape(ball_mesh(0.03, 1), s); }, 0.03};
 
 ModelSpec body_of(const Body& body, bool is_static, double mu) {
-    LinkSpec l = link("body", 0.1, sphere_inertia(0.1, 0.05));  // round, so that it spins as it was set spinning
+    LinkSpec l =
+        link("body", 0.1, sphere_inertia(0.1, 0.05));  // round, so that it spins as it was set spinning
     l.collisions.push_back(body.shape(surface(mu)));
     ModelSpec m = one_link(l);
     m.is_static = is_static;
@@ -149,8 +150,7 @@ class Shooting {
                 truth_.half = body.shape(surface(0)).geometry.size * 0.5;
                 model.links[0].collisions[0] = mesh_shape(box_mesh(truth_.half * 2), surface(0.5));
             }
-            place(world_, model, body.name + std::to_string(world_.instances.size()),
-                  {p, random.rotation()});
+            place(world_, model, body.name + std::to_string(world_.instances.size()), {p, random.rotation()});
             const Vec3 w = random.vector(range_.spin);
             velocities_.push_back({w.x, w.y, w.z, velocity.x, velocity.y, velocity.z});
         };
@@ -163,7 +163,8 @@ class Shooting {
         put_body();
         put_target();
         if (!range_.swapped) return;
-        std::swap(world_.instances[world_.instances.size() - 1], world_.instances[world_.instances.size() - 2]);
+        std::swap(world_.instances[world_.instances.size() - 1],
+                  world_.instances[world_.instances.size() - 2]);
     }
 
     Range range_;
@@ -201,12 +202,12 @@ void count(const Range& range, Count& sum) {
 constexpr double kSpeeds[] = {2, 5, 20, 100, 1000};
 
 void tell(const std::string& what, const Count& sum) {
-    std::printf("    measured: %s: %d shots, %d clear, %d hits, %d ghosts, %d not felt\n", what.c_str(), sum.shots,
-                sum.clear, sum.hits, sum.ghosts, sum.missed);
+    std::printf("    measured: %s: %d shots, %d clear, %d hits, %d ghosts, %d not felt\n", what.c_str(),
+                sum.shots, sum.clear, sum.hits, sum.ghosts, sum.missed);
 }
 
 TEST(SweptContact, WhatPassesSceneryIsNotPushedAndWhatHitsItIsFelt) {
-    const std::pair<Body, Body> pairs[] = {{kBall, kCube}, {kCube, kCube},  {kRod, kCan},   {kBlock, kRod},
+    const std::pair<Body, Body> pairs[] = {{kBall, kCube},  {kCube, kCube}, {kRod, kCan},    {kBlock, kRod},
                                            {kPill, kBlock}, {kEgg, kBlock}, {kHull, kBlock}, {kCan, kPill}};
     Count sum;
     std::uint64_t seed = 1;
@@ -216,7 +217,7 @@ TEST(SweptContact, WhatPassesSceneryIsNotPushedAndWhatHitsItIsFelt) {
 }
 
 TEST(SweptContact, RobotsThatPassEachOtherAreNotPushedAndThoseThatHitAre) {
-    const std::pair<Body, Body> pairs[] = {{kBall, kBall},  {kCube, kBlock}, {kRod, kRod},  {kHull, kHull},
+    const std::pair<Body, Body> pairs[] = {{kBall, kBall},  {kCube, kBlock}, {kRod, kRod},   {kHull, kHull},
                                            {kPill, kBlock}, {kEgg, kCan},    {kBall, kBlock}};
     Count sum;
     std::uint64_t seed = 101;
