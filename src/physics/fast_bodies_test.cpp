@@ -115,6 +115,31 @@ TEST(FastBodies, ABallBouncesOffAWallOntoAThinWallWithinOneTick) {
     }
 }
 
+TEST(FastBodies, ABallStruckBeforeAThinWallDoesNotGoThroughIt) {
+    for (int seed = 0; seed < 100; ++seed) {
+        Random random(static_cast<std::uint64_t>(seed));
+        for (const bool is_mesh : {false, true}) {
+            World world = empty_world(kTick, {});
+            const Vec3 size{0.005, 1, 1};
+            place(world,
+                  scenery(is_mesh ? mesh_shape(box_mesh(size), surface(0.5, 0.5))
+                                  : box_shape(size, surface(0.5, 0.5))),
+                  "wall", {{0, 0, 0}, {}});
+            const double gap = random.uniform(0.006, 0.05);
+            place(world, solid_sphere(0.05, 0.02, surface(0.5, 0.5)), "ball", {{-0.0225 - gap, 0, 0}, {}});
+            place(world, solid_box(2, {0.1, 0.2, 0.2}, surface(0.5)), "bat",
+                  {{-0.8 + random.uniform(0, 0.05), random.uniform(-0.05, 0.05), 0}, {}});
+            Simulation sim(world);
+            sim.states[1].v[3] = random.uniform(5, 60);
+            for (int i = 0; i < 150; ++i) {
+                sim.step();
+                if (std::fabs(sim.states[0].q[1]) > 0.4 || std::fabs(sim.states[0].q[2]) > 0.4) break;
+                ASSERT_LT(sim.states[0].q[0], 0) << "seed " << seed << ", mesh " << is_mesh << ", tick " << i;
+            }
+        }
+    }
+}
+
 TEST(FastBodies, AClearEdgeBesideTheWayToAWallChangesNoBit) {
     for (int seed = 0; seed < 50; ++seed) {
         Random random(static_cast<std::uint64_t>(seed));

@@ -31,6 +31,18 @@ bool may_turn_far(const RobotType& type, std::span<const double> way, double dt)
     return 0.5 * turning * turning * dt * dt * type.reach > kArc;
 }
 
+/// Whether the robot's points may move further than their speeds before the tick say, by more than is allowed
+/// for anyhow.
+bool is_struck(const RobotWork& robot, std::span<const double> way, double dt) {
+    double change = 0;
+    for (std::size_t i = 0; i < way.size(); ++i) {
+        const bool is_linear = robot.type->free_base && i >= 3 && i < 6;
+        change +=
+            std::fabs(way[i] - robot.state->v[i]) * (is_linear ? 1.0 : std::max(1.0, robot.type->reach));
+    }
+    return robot.pushed && change * dt > kBaseMargin;
+}
+
 double speed_of(const Course& c) {
     return norm(c.velocity(c.X.p, 0)) + c.turning;
 }
@@ -124,6 +136,30 @@ void SecondLook::find_missed(const SolvedIsland& island, const NearMiss& pair) {
     }
 }
 
+/// A robot that another one strikes may move further than contacts were searched for. So far only scenery is
+/// looked for: another robot there may be none of the group.
+void SecondLook::find_struck(const SolvedIsland& island, std::uint32_t robot) {
+    const RobotWork& work = island.robots[robot];
+    const Model& model = island.model;
+    const Mechanics<double>& to = moved(island, static_cast<int>(robot));
+    for (std::size_t s = 0; s < work.shapes.size(); ++s) {
+        const BodyShape& shape = work.type->shapes[s];
+        if (shape.body < 0) continue;
+        const double reach = speed_of(course_of(to, s)) * model.dt_s + kBaseMargin;
+        if (reach <= work.shapes[s].margin) continue;
+        model.static_bvh.query(bounds(shape.shape, work.shapes[s].X_WS).inflated(reach), scenery_);
+        for (const std::uint32_t i : scenery_) {
+            const StaticShape& scenery = model.statics[i];
+            const NearMiss pair{static_cast<int>(robot), -1, static_cast<std::uint32_t>(s), i};
+            const bool is_known =
+                std::ranges::binary_search(island.near_misses, pair) ||
+                std::ranges::any_of(island.contacts, [&](const Contact* c) { return pair_of(*c) == pair; });
+            if (is_known || scenery.shape.kind == ShapeKind::kPlane) continue;
+            if (may_collide(shape.material, scenery.material)) find_missed(island, pair);
+        }
+    }
+}
+
 /// `contacts`: of one pair of shapes. At the end of the tick no point may be deeper than it was at its
 /// beginning.
 void SecondLook::find_turned(const SolvedIsland& island, std::span<const Contact* const> contacts) {
@@ -154,15 +190,17 @@ bool SecondLook::start(const SolvedIsland& island) {
     const std::size_t count = island.robots.size();
     if (moved_.size() < count) moved_.resize(count), is_moved_.resize(count), turns_.resize(count);
     bool any = false;
+    strikes_ = false;
     for (const std::uint32_t m : island.members) {
         const RobotType& type = *island.robots[m].type;
         const auto nv = static_cast<std::size_t>(type.nv);
         const auto way = island.way.subspan(static_cast<std::size_t>(island.offsets[m]), nv);
         is_moved_[m] = 0;
         turns_[m] = may_turn_far(type, way, island.model.dt_s);
+        strikes_ |= island.members.size() > 1 && is_struck(island.robots[m], way, island.model.dt_s);
         any |= turns_[m] != 0 || !misses_of(m, island.near_misses).empty();
     }
-    return any;
+    return any || strikes_;
 }
 
 bool SecondLook::find(const SolvedIsland& island, bool first) {
@@ -171,6 +209,8 @@ bool SecondLook::find(const SolvedIsland& island, bool first) {
     if (!start(island)) return false;
     for (const std::uint32_t m : island.members)
         for (const NearMiss& pair : misses_of(m, island.near_misses)) find_missed(island, pair);
+    for (const std::uint32_t m : island.members)
+        if (strikes_) find_struck(island, m);
     const auto turns = [&](int robot) { return robot >= 0 && turns_[static_cast<std::size_t>(robot)] != 0; };
     for (std::size_t c = 0; c < island.contacts.size();) {
         const Contact& contact = *island.contacts[c];

@@ -48,6 +48,7 @@ class SecondLook {
     bool push_out(std::span<RobotWork> robots, const Model& model, const Turned& turned);
     const ShapeWork& placed(const RobotWork& robot, std::uint32_t shape);
     void find_missed(const SolvedIsland& island, const NearMiss& pair);
+    void find_struck(const SolvedIsland& island, std::uint32_t robot);
     void find_turned(const SolvedIsland& island, std::span<const Contact* const> contacts);
     void hold_planes(const SolvedIsland& island, const NearMiss& pair);
     bool start(const SolvedIsland& island);
@@ -61,7 +62,9 @@ class SecondLook {
     std::vector<Contact> hits_;
     std::size_t known_ = 0;  // hits that have rows
     bool first_ = false;     // round
+    bool strikes_ = false;   // a robot may move further than contacts were searched for
     std::vector<Turned> turned_;
+    std::vector<std::uint32_t> scenery_;
     Mechanics<double> placed_;  // where a robot is after the tick
     SweepBuffers buffers_;
 };
