@@ -11,9 +11,9 @@ namespace {
 
 using namespace narrow;
 
-constexpr int kStepsMax = 400;
-constexpr double kLeastStep = 1.0 / 256;  // of the tick
-constexpr double kWaiting = 1.0 / 32;     // of the tick: from touch to touch, where nothing sinks in
+constexpr int kStepsMax = 2000;
+constexpr double kLeastWay = 2e-4;  // m: no step is shorter, what sinks in less deep may be missed
+constexpr double kGlide = 2e-3;     // m: from touch to touch, where nothing sinks in
 constexpr int kHalvings = 10;
 constexpr double kSameNormal = 0.98;                   // cosine
 constexpr double kSameSlope = 0.2, kSamePlane = 1e-4;  // m
@@ -44,9 +44,9 @@ std::optional<double> advance(const Course& a, const Course& b, double dt, doubl
         double step = (gap - 0.5 * kImpactGap) / closing;
         if (gap <= kImpactGap) {
             if (sinking(a, b, m, t, dt) > deep) return t;
-            step = kWaiting * dt;
+            step = kGlide / closing;
         }
-        const double next = std::min(t + std::max(step, kLeastStep * dt), dt);
+        const double next = std::min(t + std::max(step, kLeastWay / closing), dt);
         Manifold there = find(next);
         if (there.count > 0 && least_gap(there) < -kImpactGap && gap > kImpactGap) {
             // The least step went too far: the impact lies between.

@@ -8,7 +8,7 @@ namespace roboss {
 namespace {
 
 constexpr double kFast = 4e-3;         // m in a tick: less, and the plane of the beginning is near enough
-constexpr double kNearly = 2e-4;       // m: what is nearer and not fast along the normal touches
+constexpr double kNearly = 1e-4;       // m: what is nearer and not fast along the normal touches
 constexpr double kBlow = 1e-3;         // m in a tick, along the normal: fast
 constexpr double kSamePlane = 0.9999;  // cosine
 
