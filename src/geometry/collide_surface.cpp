@@ -14,6 +14,7 @@ using namespace narrow;
 
 constexpr double kRidge = -1e-6;                 // fold below which an edge sticks out
 constexpr double kTops = 1e-6;                   // sine by which a neighbour may rise along a normal
+constexpr double kUpright = 0.9;                 // cosine
 constexpr double kShallow = 0.05;                // of the body's size: deeper, a face may not be the way out
 constexpr double kBorder = 2e-6, kMerge = 1e-4;  // of the body's size
 constexpr double kSameDirection = 0.98;          // cosine within which contacts are reduced together
@@ -73,8 +74,11 @@ class SurfaceCollider {
         const ConvexBody sheet(triangle_.v, triangle_.n);
         const Separation best = best_separation(body_, sheet, margin_ + body_.ball());
         if (best.s > margin_ + body_.ball()) return;
-        if (!is_own_normal(sheet, best.n))
-            return add_face(over, shallow || surface_.is_ground() ? found_ : deep_);
+        if (!is_own_normal(sheet, best.n)) {
+            // Near the face's normal: the body is only deeper over a neighbour, it has not gone through.
+            const bool held = shallow || surface_.is_ground() || dot(best.n, triangle_.n) > kUpright;
+            return add_face(over, held ? found_ : deep_);
+        }
         Manifold manifold;
         write_general(body_, sheet, best, margin_, manifold);
         for (int i = 0; i < manifold.count; ++i) {

@@ -197,6 +197,14 @@ TEST(Compile, MobilityIsTheInverseMassWhereNothingElseMoves) {
     EXPECT_NEAR(hinge.type().dofs[0].inverse_inertia, 1 / inertia, 1e-12);
 }
 
+TEST(Compile, ABodyOnAHubAtItsCentreIsMobileWhereItsSurfaceIs) {
+    ModelSpec m = solid_box(1.0, {1, 0.05, 0.01}, surface(0.5));
+    m.joints.push_back(joint(JointSpecKind::kContinuous, "hub", "world", "box", {}, {0, 0, 1}));
+    const Mat3 I = box_inertia(1.0, {1, 0.05, 0.01});
+    const double gyration2 = 0.5 * (I(0, 0) + I(1, 1) + I(2, 2));
+    EXPECT_NEAR(compile_one(m).type().bodies[0].inverse_mass_linear, gyration2 / I(2, 2) / 3, 1e-12);
+}
+
 TEST(Compile, LimitsOfTheAxisReachTheDof) {
     ModelSpec m = pendulum();
     AxisSpec& axis = m.joints[0].axes[0];

@@ -29,7 +29,7 @@ class Mobility {
                 linear += quadratic(b, axis, true);
                 angular += quadratic(b, axis, false);
             }
-            body.inverse_mass_linear = linear / 3;
+            body.inverse_mass_linear = surface_mobility(body, linear / 3, angular / 3);
             body.inverse_inertia_angular = angular / 3;
         }
         for (std::size_t d = 0; d < type_.dofs.size(); ++d) {
@@ -48,6 +48,16 @@ class Mobility {
     }
 
   private:
+    /// A body on a hub at its centre of mass (a fan, a turntable) is pushed at its surface all the same: what
+    /// turning gives there then stands for the mobility of the centre, which is none.
+    static double surface_mobility(const Body& body, double linear, double angular) {
+        constexpr double kLeast = 1e-2;
+        if (!(body.mass > 0)) return linear;
+        const Mat3& I = body.inertia_C;
+        const double turning = angular * (I.r0.x + I.r1.y + I.r2.z) / (2 * body.mass);
+        return linear < kLeast * turning ? turning : linear;
+    }
+
     /// Mobility of B against A under a wrench on B and its opposite on A.
     double between(const LoopJoint& loop, const Spatial& wrench) const {
         std::vector<double> row(n_, 0.0);

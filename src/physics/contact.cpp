@@ -9,8 +9,17 @@
 
 #include "core/make_room.h"
 #include "geometry/collide.h"
+#include "physics/swept_contact.h"
 
 namespace roboss {
+
+/// Who meets whom; of a Contact, what is known before it is found.
+struct ContactFinder::Pair {
+    int robot_a = 0, robot_b = -1;
+    std::size_t shape_a = 0, shape_b = 0;
+    int body_a = -1, body_b = -1;
+};
+
 namespace {
 
 constexpr std::uint32_t kStatic = RobotId::kNone;
@@ -33,14 +42,7 @@ std::uint32_t points_to_keep(const Manifold& manifold, std::uint32_t keep) {
     return kept;
 }
 
-/// Who meets whom; of a Contact, what is known before it is found.
-struct Pair {
-    int robot_a = 0, robot_b = -1;
-    std::size_t shape_a = 0, shape_b = 0;
-    int body_a = -1, body_b = -1;
-};
-
-void add_point(const Pair& pair, const Vec3& normal, const auto& point, std::vector<Contact>& contacts) {
+void add_point(const auto& pair, const Vec3& normal, const auto& point, std::vector<Contact>& contacts) {
     Contact& contact = contacts.emplace_back();
     contact.robot_a = pair.robot_a, contact.robot_b = pair.robot_b;
     contact.shape_a = static_cast<std::uint32_t>(pair.shape_a);
@@ -51,7 +53,7 @@ void add_point(const Pair& pair, const Vec3& normal, const auto& point, std::vec
 }
 
 /// Points of a triangle surface, each with a normal of its own; all but the deepest are dropped.
-void add_points(std::vector<SurfaceContact>& points, const Pair& pair, std::size_t keep,
+void add_points(std::vector<SurfaceContact>& points, const auto& pair, std::size_t keep,
                 std::vector<Contact>& contacts) {
     while (points.size() > keep) {
         const auto shallowest = std::max_element(points.rbegin(), points.rend(),
@@ -62,7 +64,7 @@ void add_points(std::vector<SurfaceContact>& points, const Pair& pair, std::size
     for (const SurfaceContact& point : points) add_point(pair, point.n_W, point, contacts);
 }
 
-void add_points(const Manifold& manifold, const Pair& pair, std::uint32_t keep,
+void add_points(const Manifold& manifold, const auto& pair, std::uint32_t keep,
                 std::vector<Contact>& contacts) {
     if (manifold.count == 0) return;
     const std::uint32_t kept = points_to_keep(manifold, keep);
@@ -74,15 +76,6 @@ void add_points(const Manifold& manifold, const Pair& pair, std::uint32_t keep,
 
 std::uint32_t points_max(const Material& a, const Material& b) {
     return std::min(a.contacts_max, b.contacts_max);
-}
-
-/// Collides two placed shapes of robots.
-void collide_shapes(const BodyShape& a, const ShapeWork& wa, const BodyShape& b, const ShapeWork& wb,
-                    Pair pair, std::vector<Contact>& contacts) {
-    if (!overlaps(wa.box, wb.box) || !may_collide(a.material, b.material)) return;
-    pair.body_a = a.body, pair.body_b = b.body;
-    const Manifold manifold = collide(a.shape, wa.X_WS, b.shape, wb.X_WS, wa.margin + wb.margin);
-    add_points(manifold, pair, points_max(a.material, b.material), contacts);
 }
 
 std::uint32_t other_id(std::span<const RobotWork> robots, const Contact& c) {
@@ -100,6 +93,11 @@ void sort_contacts(std::span<const RobotWork> robots, std::span<Contact> contact
 
 }  // namespace
 
+ContactFinder::ContactFinder() : buffers_(std::make_unique<SweepBuffers>()) {}
+ContactFinder::~ContactFinder() = default;
+ContactFinder::ContactFinder(ContactFinder&&) noexcept = default;
+ContactFinder& ContactFinder::operator=(ContactFinder&&) noexcept = default;
+
 SurfacePair surface_of(const Model& model, std::span<const RobotWork> robots, const Contact& contact) {
     const RobotWork& a = robots[static_cast<std::size_t>(contact.robot_a)];
     const Material& of_a = a.type->shapes[contact.shape_a].material;
@@ -114,18 +112,21 @@ SurfacePair surface_of(const Model& model, std::span<const RobotWork> robots, co
 }
 
 void ContactFinder::find(const Model& model, std::span<RobotWork> robots, std::vector<Contact>& contacts) {
-    contacts.clear();
+    contacts.clear(), near_misses_.clear();
     std::size_t pair = 0;
     for (std::size_t a = 0; a < robots.size(); ++a) {
         const std::size_t first = contacts.size();
         const bool awake = !robots[a].asleep;
-        if (awake && !robots[a].type->self_pairs.empty()) with_itself(robots, a, contacts);
+        if (awake && !robots[a].type->self_pairs.empty()) with_itself(model, robots, a, contacts);
         for (; pair < pairs_.size() && pairs_[pair].first == a; ++pair)
             if (awake && !robots[pairs_[pair].second].asleep)
-                with_robot(model, robots, a, pairs_[pair].second, contacts);
+                meet_robot(model, robots, a, pairs_[pair].second, true, contacts);
         if (awake) with_statics(model, robots, a, contacts);
         sort_contacts(robots, std::span(contacts).subspan(first));
     }
+    defer_later(model, robots, contacts);
+    std::ranges::sort(near_misses_);
+    near_misses_.erase(std::unique(near_misses_.begin(), near_misses_.end()), near_misses_.end());
     for (const Contact& c : contacts) {
         RobotWork& a = robots[static_cast<std::size_t>(c.robot_a)];
         ++a.contacts;
@@ -162,28 +163,112 @@ void ContactFinder::with_static(const Model& model, std::span<const RobotWork> r
     if (!may_collide(shape.material, scenery.material)) return;
     const Pair pair{static_cast<int>(a), -1, s, i, shape.body, -1};
     const std::uint32_t keep = points_max(shape.material, scenery.material);
-    if (scenery.shape.kind == ShapeKind::kSurface) {
-        collide_surface(shape.shape, placed.X_WS, *scenery.shape.surface, scenery.X_WS, placed.margin,
-                        surface_contacts_);
-        add_points(surface_contacts_.points, pair, keep, contacts);
-        return;
-    }
-    const Manifold manifold = collide(shape.shape, placed.X_WS, scenery.shape, scenery.X_WS, placed.margin);
+    if (scenery.shape.kind == ShapeKind::kSurface)
+        return with_surface(model, robots[a], pair, keep, contacts);
+    Manifold manifold = collide(shape.shape, placed.X_WS, scenery.shape, scenery.X_WS, placed.margin);
+    if (scenery.shape.kind != ShapeKind::kPlane && may_pass(manifold))
+        return add_judged(pair, course_of(robots[a], s), resting_course(scenery.shape, scenery.X_WS),
+                          model.dt_s, placed.margin + kBaseMargin, keep, manifold, contacts);
     add_points(manifold, pair, keep, contacts);
 }
 
-void ContactFinder::with_itself(std::span<RobotWork> robots, std::size_t a, std::vector<Contact>& contacts) {
-    const RobotWork& work = robots[a];
-    const auto robot = static_cast<int>(a);
-    for (const auto& [s, t] : work.type->self_pairs) {
-        const auto i = static_cast<std::size_t>(s), j = static_cast<std::size_t>(t);
-        collide_shapes(work.type->shapes[i], work.shapes[i], work.type->shapes[j], work.shapes[j],
-                       {robot, robot, i, j}, contacts);
+void ContactFinder::with_surface(const Model& model, const RobotWork& robot, const Pair& pair,
+                                 std::uint32_t keep, std::vector<Contact>& contacts) {
+    const StaticShape& scenery = model.statics[pair.shape_b];
+    const TriangleSurface& surface = *scenery.shape.surface;
+    const Course course = course_of(robot, pair.shape_a), still{};
+    const double margin = robot.shapes[pair.shape_a].margin;
+    SweepBuffers& b = *buffers_;
+    collide_surface(*course.shape, course.X, surface, scenery.X_WS, margin, b.found);
+    const Sweep judged = sweep(course, surface, scenery.X_WS, model.dt_s, margin, b);
+    if (judged.meeting == Meeting::kNone) miss(pair);
+    const std::size_t first = contacts.size();
+    add_points(b.found.points, pair, keep, contacts);
+    const std::size_t middle = contacts.size();
+    if (judged.meeting != Meeting::kInTick) return;
+    add_points(b.met, pair, keep, contacts);
+    for (std::size_t c = middle; c < contacts.size(); ++c) {
+        const auto is_taken = [&](const Contact& other) { return other.feature == contacts[c].feature; };
+        const std::span<const Contact> before = std::span(contacts).subspan(first, c - first);
+        while (std::ranges::any_of(before, is_taken)) ++contacts[c].feature;
+        take_back(course, still, judged.time, contacts[c]);
     }
+}
+
+void ContactFinder::miss(const Pair& pair) {
+    near_misses_.push_back({pair.robot_a, pair.robot_b, static_cast<std::uint32_t>(pair.shape_a),
+                            static_cast<std::uint32_t>(pair.shape_b)});
+}
+
+void ContactFinder::add_judged(const Pair& pair, const Course& a, const Course& b, double dt, double margin,
+                               std::uint32_t keep, Manifold& manifold, std::vector<Contact>& contacts) {
+    const Sweep judged = sweep(a, b, dt, margin, manifold);
+    if (judged.meeting == Meeting::kNone) return miss(pair);
+    const std::size_t first = contacts.size();
+    add_points(manifold, pair, keep, contacts);
+    if (judged.meeting == Meeting::kInTick)
+        for (Contact& contact : std::span(contacts).subspan(first)) take_back(a, b, judged.time, contact);
+}
+
+/// What a robot meets well after its first impact in the tick it may not meet at all.
+void ContactFinder::defer_later(const Model& model, std::span<const RobotWork> robots,
+                                std::vector<Contact>& contacts) {
+    constexpr double kTogether = 0.1;  // of the tick
+    const double dt = model.dt_s;
+    if (std::ranges::none_of(contacts, [](const Contact& c) { return c.time > 0; })) return;
+    first_hits_.assign(robots.size(), dt);
+    const auto first_hit = [&](const Contact& c) {
+        const double a = first_hits_[static_cast<std::size_t>(c.robot_a)];
+        return c.robot_b < 0 ? a : std::min(a, first_hits_[static_cast<std::size_t>(c.robot_b)]);
+    };
+    for (const Contact& c : contacts) {
+        if (c.time == 0 && !is_blow(robots, c, dt)) continue;
+        for (const int robot : {c.robot_a, c.robot_b}) {
+            if (robot < 0) continue;
+            double& first = first_hits_[static_cast<std::size_t>(robot)];
+            first = std::min(first, c.time);
+        }
+    }
+    const auto is_later = [&](const Contact& c) { return c.time > first_hit(c) + kTogether * dt; };
+    for (const Contact& c : contacts)
+        if (is_later(c)) near_misses_.push_back({c.robot_a, c.robot_b, c.shape_a, c.shape_b});
+    std::erase_if(contacts, is_later);
+}
+
+void ContactFinder::collide_shapes(const Model& model, std::span<const RobotWork> robots, Pair pair,
+                                   bool sweeps, std::vector<Contact>& contacts) {
+    const RobotWork& ra = robots[static_cast<std::size_t>(pair.robot_a)];
+    const RobotWork& rb = robots[static_cast<std::size_t>(pair.robot_b)];
+    const BodyShape &a = ra.type->shapes[pair.shape_a], &b = rb.type->shapes[pair.shape_b];
+    const ShapeWork &wa = ra.shapes[pair.shape_a], &wb = rb.shapes[pair.shape_b];
+    if (!overlaps(wa.box, wb.box) || !may_collide(a.material, b.material)) return;
+    pair.body_a = a.body, pair.body_b = b.body;
+    const double margin = wa.margin + wb.margin;
+    const std::uint32_t keep = points_max(a.material, b.material);
+    Manifold manifold = collide(a.shape, wa.X_WS, b.shape, wb.X_WS, margin);
+    const bool has_plane = a.shape.kind == ShapeKind::kPlane || b.shape.kind == ShapeKind::kPlane;
+    if (sweeps && !has_plane && may_pass(manifold))
+        return add_judged(pair, course_of(ra, pair.shape_a), course_of(rb, pair.shape_b), model.dt_s, margin,
+                          keep, manifold, contacts);
+    add_points(manifold, pair, keep, contacts);
+}
+
+void ContactFinder::with_itself(const Model& model, std::span<const RobotWork> robots, std::size_t a,
+                                std::vector<Contact>& contacts) {
+    const auto robot = static_cast<int>(a);
+    for (const auto& [s, t] : robots[a].type->self_pairs)
+        collide_shapes(model, robots,
+                       {robot, robot, static_cast<std::size_t>(s), static_cast<std::size_t>(t)}, true,
+                       contacts);
 }
 
 void ContactFinder::with_robot(const Model& model, std::span<const RobotWork> robots, std::size_t a,
                                std::size_t b, std::vector<Contact>& contacts) {
+    meet_robot(model, robots, a, b, false, contacts);
+}
+
+void ContactFinder::meet_robot(const Model& model, std::span<const RobotWork> robots, std::size_t a,
+                               std::size_t b, bool sweeps, std::vector<Contact>& contacts) {
     const RobotWork& wa = robots[a];
     const RobotWork& wb = robots[b];
     if (model.robots[wa.id.index()].family == model.robots[wb.id.index()].family && !wa.type->self_collide)
@@ -192,8 +277,7 @@ void ContactFinder::with_robot(const Model& model, std::span<const RobotWork> ro
         if (!overlaps(wa.shapes[s].box, wb.box)) continue;
         for (std::size_t t = 0; t < wb.shapes.size(); ++t) {
             if (wa.type->shapes[s].body < 0 && wb.type->shapes[t].body < 0) continue;  // neither can move
-            collide_shapes(wa.type->shapes[s], wa.shapes[s], wb.type->shapes[t], wb.shapes[t],
-                           {static_cast<int>(a), static_cast<int>(b), s, t}, contacts);
+            collide_shapes(model, robots, {static_cast<int>(a), static_cast<int>(b), s, t}, sweeps, contacts);
         }
     }
 }
@@ -212,13 +296,13 @@ void ContactFinder::find_pairs(std::span<const RobotWork> robots) {
                 if ((robots[j].asleep || j > i) && overlaps(robots[i].box, robots[j].box))
                     pairs_.push_back(std::minmax(i, j));
     } else {
-        sweep(robots);
+        sweep_along_x(robots);
     }
     std::sort(pairs_.begin(), pairs_.end());
 }
 
 /// Sweep along x.
-void ContactFinder::sweep(std::span<const RobotWork> robots) {
+void ContactFinder::sweep_along_x(std::span<const RobotWork> robots) {
     by_x_.resize(robots.size());
     for (std::size_t i = 0; i < robots.size(); ++i) by_x_[i] = static_cast<std::uint32_t>(i);
     std::sort(by_x_.begin(), by_x_.end(), [&](std::uint32_t i, std::uint32_t j) {

@@ -1,11 +1,13 @@
 // Contacts of one tick: found pair by pair, in canonical order; where they are and what they carried.
 #pragma once
 
+#include <algorithm>
+#include <compare>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "geometry/collide_surface.h"
 #include "physics/robot_work.h"
 #include "physics/surface_pair.h"
 
@@ -26,8 +28,28 @@ struct ContactT {
     Vec3T<T> friction;  // tangential, N s, world axes: likewise
     T load{};           // normal, N s: the smaller of the impulses of the last two ticks, so not a blow
     Vec3T<T> moment;    // N m s, world axes: torsional and rolling friction, solved
+    Vec3T<T> shift_b;   // from p_W to where side B is pushed: met in the tick, both move until then
+    double time = 0;    // s, of the impact if they meet in the tick, else 0
 };
 using Contact = ContactT<double>;
+
+/// Two shapes that may come together within the tick, but not by the motion known before solving: see
+/// swept_contact.h.
+struct NearMiss {
+    int robot_a = 0, robot_b = -1;
+    std::uint32_t shape_a = 0, shape_b = 0;
+    friend auto operator<=>(const NearMiss&, const NearMiss&) = default;
+};
+
+/// Those of which the robot is the first, of sorted ones.
+inline std::span<const NearMiss> misses_of(std::uint32_t robot, std::span<const NearMiss> sorted) {
+    const auto range = std::ranges::equal_range(sorted, static_cast<int>(robot), {}, &NearMiss::robot_a);
+    return {range.begin(), range.end()};
+}
+
+struct Course;
+struct Manifold;
+struct SweepBuffers;
 
 /// What the materials make of a contact of the island.
 SurfacePair surface_of(const Model& model, std::span<const RobotWork> robots, const Contact& contact);
@@ -36,27 +58,48 @@ SurfacePair surface_of(const Model& model, std::span<const RobotWork> robots, co
 /// feature).
 class ContactFinder {
   public:
+    ContactFinder();
+    ~ContactFinder();
+    ContactFinder(ContactFinder&&) noexcept;
+    ContactFinder& operator=(ContactFinder&&) noexcept;
+
     /// Pairs of robots whose interaction bounds overlap, at least one of them awake.
     void find_pairs(std::span<const RobotWork> robots);
     std::span<const std::pair<std::uint32_t, std::uint32_t>> pairs() const { return pairs_; }
 
     /// Contacts of these pairs, of robots with themselves and with the scenery. Sleepers are left out.
     void find(const Model& model, std::span<RobotWork> robots, std::vector<Contact>& contacts);
+    /// What find() left out of the contacts, sorted.
+    std::span<const NearMiss> near_misses() const { return near_misses_; }
 
-    /// Contacts of robots a < b, asleep or not (but placed).
+    /// Contacts of robots a < b, asleep or not (but placed), as if the planes of the beginning were walls.
     void with_robot(const Model& model, std::span<const RobotWork> robots, std::size_t a, std::size_t b,
                     std::vector<Contact>& contacts);
 
   private:
-    void sweep(std::span<const RobotWork> robots);
+    struct Pair;
+    void sweep_along_x(std::span<const RobotWork> robots);
+    void meet_robot(const Model& model, std::span<const RobotWork> robots, std::size_t a, std::size_t b,
+                    bool sweeps, std::vector<Contact>& contacts);
+    void collide_shapes(const Model& model, std::span<const RobotWork> robots, Pair pair, bool sweeps,
+                        std::vector<Contact>& contacts);
+    void add_judged(const Pair& pair, const Course& a, const Course& b, double dt, double margin,
+                    std::uint32_t keep, Manifold& manifold, std::vector<Contact>& contacts);
+    void with_surface(const Model& model, const RobotWork& robot, const Pair& pair, std::uint32_t keep,
+                      std::vector<Contact>& contacts);
+    void miss(const Pair& pair);
+    void defer_later(const Model& model, std::span<const RobotWork> robots, std::vector<Contact>& contacts);
     void with_statics(const Model& model, std::span<RobotWork> robots, std::size_t a,
                       std::vector<Contact>& contacts);
     /// Shape s of robot a with scenery i.
     void with_static(const Model& model, std::span<const RobotWork> robots, std::size_t a, std::size_t s,
                      std::size_t i, std::vector<Contact>& contacts);
-    void with_itself(std::span<RobotWork> robots, std::size_t a, std::vector<Contact>& contacts);
+    void with_itself(const Model& model, std::span<const RobotWork> robots, std::size_t a,
+                     std::vector<Contact>& contacts);
 
-    SurfaceContacts surface_contacts_;
+    std::unique_ptr<SweepBuffers> buffers_;
+    std::vector<NearMiss> near_misses_;
+    std::vector<double> first_hits_;         // by robot, s
     std::vector<std::uint32_t> candidates_;  // scenery near a robot, and its boxes
     std::vector<Aabb> candidate_boxes_;
     std::vector<std::uint32_t> by_x_, awake_;

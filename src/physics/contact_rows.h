@@ -236,9 +236,9 @@ MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const Surfac
     T approach = -contact::normal_velocity(a, c.p_W, c.normal);
     T gravity_n = contact::gravity_along(model, a, c.normal);
     if (b != nullptr) {
-        contact::add_columns(*b, -1.0, c.p_W, frame, rows.columns);
+        contact::add_columns(*b, -1.0, c.p_W + c.shift_b, frame, rows.columns);
         ease += contact::mobility(*b);
-        approach += contact::normal_velocity(*b, c.p_W, c.normal);
+        approach += contact::normal_velocity(*b, c.p_W + c.shift_b, c.normal);
         gravity_n -= contact::gravity_along(model, *b, c.normal);
         if (b->robot == a.robot) rows.columns.merge(row.first, middle);
     }

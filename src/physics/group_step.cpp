@@ -7,18 +7,24 @@
 #include "core/make_room.h"
 #include "physics/drag.h"
 #include "physics/loads.h"
+#include "physics/row_math.h"
 #include "physics/stirring.h"
 #include "physics/velocity_forces.h"
 
 namespace roboss {
 namespace {
 
-/// Joins robots in contact; `members` are the robots that are awake, contact island by contact island.
+/// Joins robots in contact, or that may come into contact; `members` are the robots that are awake, contact
+/// island by contact island.
 void build_contact_islands(GroupScratch& s, std::span<const RobotWork> robots) {
     s.islands.reset(robots.size());
     for (const Contact& c : s.contacts)
         if (c.robot_b >= 0)
             s.islands.unite(static_cast<std::uint32_t>(c.robot_a), static_cast<std::uint32_t>(c.robot_b));
+    for (const NearMiss& miss : s.finder.near_misses())
+        if (miss.robot_b >= 0)
+            s.islands.unite(static_cast<std::uint32_t>(miss.robot_a),
+                            static_cast<std::uint32_t>(miss.robot_b));
     s.members.clear();
     for (std::uint32_t i = 0; i < robots.size(); ++i)
         if (!robots[i].asleep) s.members.push_back(i);
@@ -232,9 +238,45 @@ bool contacts_are_steady(const GroupScratch& s, double dt) {
 /// does (whatever rocks, swings or hangs on a spring) this way would feed the motion energy in each tick.
 void take_mean_way(std::span<const RobotWork> robots, GroupScratch& s, std::span<const std::uint32_t> members,
                    double dt) {
-    const bool even = slides_only(robots, s, members) && contacts_are_steady(s, dt);
+    const bool drifts = std::ranges::find(s.drifts, 1) != s.drifts.end();
+    const bool even = !drifts && slides_only(robots, s, members) && contacts_are_steady(s, dt);
     s.way.resize(s.v.size());
     for (std::size_t i = 0; i < s.v.size(); ++i) s.way[i] = even ? 0.5 * (s.v_before[i] + s.v[i]) : s.v[i];
+}
+
+/// From now on no contact asks for more than the displacement gives, and friction is that of the velocities.
+void hold_displacement(GroupScratch& s, bool split) {
+    for (ContactRow& row : s.rows.contacts) {
+        const jacobian::Along<double> u = jacobian::along(s.rows.columns, row.first, row.last, s.way);
+        row.normal.position_target = std::min(row.normal.position_target, u.n);
+        if (!split) row.slip.bound = row.slip.coefficient * row.normal.impulse;
+    }
+}
+
+/// Keeps the displacement from what it would hit beyond the contacts that it was solved for. What a few
+/// rounds do not settle stops at the first hit.
+void stop_late_hits(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
+                    std::span<const std::uint32_t> members, bool split, StepReport& report) {
+    constexpr int kRounds = 4;
+    const std::size_t found = s.island_contacts.size();
+    for (int round = 0; round <= kRounds; ++round) {
+        const SolvedIsland island{
+            model, robots, members, s.offsets, s.finder.near_misses(), {s.island_contacts.data(), found},
+            s.way};
+        if (!s.look.find(island, round == 0)) break;
+        if (round == kRounds) {
+            for (double& x : s.way) x *= s.look.first_time() / model.dt_s;
+            break;
+        }
+        if (round == 0) hold_displacement(s, split);
+        s.look.add_rows(island, s.rows, s.island_surfaces);
+        report.iterations +=
+            s.solver.solve({model.accuracy, s.island_robots, s.island_offsets, s.rows, true}, s.way)
+                .iterations;
+    }
+    s.island_contacts.resize(found);
+    for (Contact& hit : s.look.hits()) s.island_contacts.push_back(&hit);
+    if (s.island_contacts.size() > found) mark_pushed(robots, s);
 }
 
 void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
@@ -253,6 +295,7 @@ void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch&
     report.residual = std::max(report.residual, solved.residual);
     take_impulses(s);
     choose_drifting(model, robots, s, members);
+    const bool bounces = throws_back(s.rows);
     if (split) {
         s.way = s.v;
         for (ContactRow& row : s.rows.contacts) row.slip.bound = row.slip.coefficient * row.normal.impulse;
@@ -260,15 +303,18 @@ void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch&
             s.solver.solve({model.accuracy, s.island_robots, s.island_offsets, s.rows, true}, s.way)
                 .iterations;
         limit_mending(robots, s, members);
-        mark_touched(robots, s);
     } else {
         take_mean_way(robots, s, members, model.dt_s);
     }
     mark_pushed(robots, s);
+    stop_late_hits(model, robots, s, members, split, report);
+    mark_touched(robots, s);
     const auto is_touched = [&](std::uint32_t m) { return s.touched[m] != 0; };
-    const bool guards = std::ranges::any_of(members, is_touched) &&
-                        s.guard.start(model, robots, members, s.anchored, s.rows, s.free_buffer.work);
+    const bool guards =
+        std::ranges::any_of(members, is_touched) &&
+        s.guard.start(model, robots, members, s.anchored, bounces, s.rows, s.free_buffer.work);
     finish_island(model, robots, s, members, s.way);
+    s.look.push_out(robots, model);
     if (guards) s.guard.finish(model, robots, members, s.free_buffer.work);
 }
 
@@ -305,6 +351,7 @@ struct IslandStepper {
         const RobotWork& work = robots[members[0]];
         if (!s.lanes || s.tried_alone || s.keep_loads || members.size() > 1 || work.touches_robot)
             return false;
+        if (!misses_of(members[0], s.finder.near_misses()).empty()) return false;
         if (!fits_lanes(*work.type, *work.state)) return false;
         return s.lanes.in_floats() ||
                (robots.size() > 1 && touches_one_thing(contacts_of(members[0], s.contacts)));

@@ -12,6 +12,7 @@
 #include "physics/joint_rows.h"
 #include "physics/lane_stepper.h"
 #include "physics/row_split.h"
+#include "physics/second_look.h"
 #include "physics/sleep.h"
 #include "physics/solver.h"
 #include "physics/step.h"
@@ -41,6 +42,7 @@ struct GroupScratch {
     bool anchored = false;      // the island: pushed by something that does not move freely
     RowSplit split;             // if anyone drifts
     IslandGuard guard;
+    SecondLook look;
     IslandSolver solver;
     RowBuffer buffer;
     FreeBuffer free_buffer;

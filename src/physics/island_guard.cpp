@@ -8,14 +8,6 @@ namespace {
 
 constexpr double kSlow = 0.005;  // rad in a tick: less turning of a lone body adds nothing that counts
 
-/// True if a rigid contact throws what hits it back.
-bool bounces(const IslandRows& rows) {
-    return std::ranges::any_of(rows.contacts, [](const ContactRow& row) {
-        return !row.soft && row.normal.impulse > 0 &&
-               row.normal.target > row.normal.compliance * row.normal.impulse;
-    });
-}
-
 bool has_soft_contacts(const IslandRows& rows) {
     return std::ranges::any_of(rows.contacts,
                                [](const ContactRow& row) { return row.soft && row.normal.impulse > 0; });
@@ -35,15 +27,22 @@ BodySums IslandGuard::sums(const Model& model, std::span<RobotWork> robots,
     return all;
 }
 
+bool throws_back(const IslandRows& rows) {
+    return std::ranges::any_of(rows.contacts, [](const ContactRow& row) {
+        return !row.soft && row.normal.impulse > 0 &&
+               row.normal.target > row.normal.compliance * row.normal.impulse;
+    });
+}
+
 bool IslandGuard::start(const Model& model, std::span<RobotWork> robots,
-                        std::span<const std::uint32_t> members, bool anchored, const IslandRows& rows,
-                        RobotWork& buffer) {
+                        std::span<const std::uint32_t> members, bool anchored, bool bounces,
+                        const IslandRows& rows, RobotWork& buffer) {
     const auto bends = [&](std::uint32_t m) {
         return !robots[m].type->dofs.empty() ||
                fastest_turn(robots[m]) * model.dt_s * model.dt_s > kSlow * kSlow;
     };
     const auto passive = [&](std::uint32_t m) { return is_passive(robots[m]); };
-    if (!std::ranges::any_of(members, bends) && !bounces(rows)) return false;
+    if (!std::ranges::any_of(members, bends) && !bounces) return false;
     if (!std::ranges::all_of(members, passive) || has_soft_contacts(rows)) return false;
     anchored_ = anchored;
     origin_ = robots[members[0]].origin;

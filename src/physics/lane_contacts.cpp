@@ -20,7 +20,7 @@ unsigned bit(std::size_t lane) {
 LaneContacts::LaneContacts(std::size_t lanes) : works_(lanes), contacts_(lanes), spans_(lanes) {}
 LaneContacts::~LaneContacts() = default;
 
-ShapeWork* LaneContacts::start(const Model& model, std::size_t lane, const LaneRobot& robot,
+RobotWork& LaneContacts::start(const Model& model, std::size_t lane, const LaneRobot& robot,
                                const Aabb& box) {
     RobotWork& work = works_[lane];
     work.id = robot.id;
@@ -29,14 +29,16 @@ ShapeWork* LaneContacts::start(const Model& model, std::size_t lane, const LaneR
     work.asleep = false;
     work.box = box;
     work.shapes.resize(work.type->shapes.size());
-    return work.shapes.data();
+    work.bodies.resize(work.type->bodies.size());
+    return work;
 }
 
-void LaneContacts::find(const Model& model, std::size_t lane) {
+bool LaneContacts::find(const Model& model, std::size_t lane) {
     RobotWork& work = works_[lane];
     finder_.find(model, {&work, 1}, contacts_[lane]);
     recall_impulses({&work, 1}, contacts_[lane]);
     spans_[lane] = contacts_[lane];
+    return finder_.near_misses().empty();
 }
 
 std::optional<std::uint32_t> LaneContacts::only_plane(const Model& model, const Aabb& box) {

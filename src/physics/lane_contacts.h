@@ -17,10 +17,12 @@ class LaneContacts {
     LaneContacts(const LaneContacts&) = delete;
     LaneContacts& operator=(const LaneContacts&) = delete;
 
-    /// Room for the placed shapes of a lane's robot, to be filled in before find(); `box` holds them all.
-    ShapeWork* start(const Model& model, std::size_t lane, const LaneRobot& robot, const Aabb& box);
-    /// The contacts of a lane with the scenery, with what the last tick remembers.
-    void find(const Model& model, std::size_t lane);
+    /// A lane's robot. Before find(), its origin, its shapes and the origins, velocities and bias of its
+    /// bodies are to be filled in; `box` holds all shapes.
+    RobotWork& start(const Model& model, std::size_t lane, const LaneRobot& robot, const Aabb& box);
+    /// The contacts of a lane with the scenery, with what the last tick remembers. False if it has near
+    /// misses, which lanes do not know.
+    bool find(const Model& model, std::size_t lane);
     /// If all the scenery near `box` is one plane: its number.
     std::optional<std::uint32_t> only_plane(const Model& model, const Aabb& box);
     /// Whether lanes know what the materials make of a shape on scenery `i`: no friction axes, torsion,

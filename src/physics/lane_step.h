@@ -17,6 +17,7 @@
 #include "physics/sleep.h"
 #include "physics/stirring.h"
 #include "physics/tree_hessian.h"
+#include "physics/turns_far.h"
 
 namespace roboss {
 
@@ -35,6 +36,7 @@ class LaneStep final : public LaneStepper {
         add_rows(model, together);
         solve(model, together);
         leave_the_free(together);
+        leave_the_turning(model, together);
         state_.advance(*work_.type, model.dt_s, way_, solution_);
         leave(state_.not_finite(), together);
         for (std::size_t i = 0; i < robots.size(); ++i)
@@ -80,8 +82,8 @@ class LaneStep final : public LaneStepper {
             if (has_contacts) {
                 found_.take(lane, robots[lane].contacts);
             } else {
-                put_shapes(lane, found_.start(model, lane, robots[lane], box_of(lane)));
-                found_.find(model, lane);
+                put_placed(lane, found_.start(model, lane, robots[lane], box_of(lane)));
+                if (!found_.find(model, lane)) together.leave(lane);
             }
         }
         leave(~found_.alike(model, type, together.present()), together);
@@ -204,9 +206,21 @@ class LaneStep final : public LaneStepper {
     }
     Aabb box_of(std::size_t i) const { return box_of(placed().box, i); }
 
-    void put_shapes(std::size_t i, ShapeWork* shapes) const {
-        for (const ShapeWorkT<Wide>& from : placed().shapes) {
-            ShapeWork& to = *shapes++;
+    static Spatial spatial_of(const SpatialT<Wide>& x, std::size_t i) {
+        return {vector_of(x.angular, i), vector_of(x.linear, i)};
+    }
+    /// What contacts are found from.
+    void put_placed(std::size_t i, RobotWork& work) const {
+        work.origin = vector_of(placed().origin, i);
+        for (std::size_t b = 0; b < work.bodies.size(); ++b) {
+            const BodyWorkT<Wide>& from = placed().bodies[b];
+            BodyWork& to = work.bodies[b];
+            to.X_WB.p = vector_of(from.X_WB.p, i);
+            to.velocity = spatial_of(from.velocity, i), to.bias = spatial_of(from.bias, i);
+        }
+        for (std::size_t s = 0; s < work.shapes.size(); ++s) {
+            const ShapeWorkT<Wide>& from = placed().shapes[s];
+            ShapeWork& to = work.shapes[s];
             const Mat3T<Wide>& R = from.X_WS.R;
             to.X_WS = {{vector_of(R.r0, i), vector_of(R.r1, i), vector_of(R.r2, i)},
                        vector_of(from.X_WS.p, i)};
@@ -349,6 +363,43 @@ class LaneStep final : public LaneStepper {
     /// What nothing holds moves by the method for free motion.
     void leave_the_free(Lockstep<T>& together) { leave_where(free_ & !pushed_, together); }
 
+    /// Contacts of bodies that turn far get a second look, one by one.
+    void leave_the_turning(const Model& model, Lockstep<T>& together) {
+        if (on_plane_ || !together.any()) return;
+        const auto first = static_cast<std::size_t>(std::countr_zero(together.present()));
+        bool is_known = false;
+        for (std::size_t c = 0; c < contacts_.size(); ++c) {
+            const Contact& contact = found_.contact(first, c);
+            if (model.statics[contact.shape_b].shape.kind == ShapeKind::kPlane) continue;
+            if (!is_known) turn_bodies();
+            is_known = true;
+            const BodyShape& shape = work_.type->shapes[contact.shape_a];
+            const auto body = static_cast<std::size_t>(shape.body);
+            const Mat3T<T> R = work_.bodies[body].X_WB.R * broadcast<T>(shape.X_BS.R);
+            leave_where(turns_far<T>(shape.shape, R, turning_[body], model.dt_s), together);
+        }
+    }
+
+    /// How the bodies turn on their way.
+    void turn_bodies() {
+        const RobotType& type = *work_.type;
+        turning_.resize(type.bodies.size());
+        const std::span<const T> before = state_.joints().v;
+        const auto rate = [&](std::size_t i) { return kIsFloat<T> ? before[i] + way_[i] : way_[i]; };
+        for (std::size_t b = 0; b < type.bodies.size(); ++b) {
+            const Body& body = type.bodies[b];
+            const auto first = static_cast<std::size_t>(body.v_index);
+            if (body.joint == JointKind::kFree) {
+                turning_[b] = {rate(first), rate(first + 1), rate(first + 2)};
+                continue;
+            }
+            Vec3T<T> joint = work_.axes[first].angular * rate(first);
+            for (std::size_t k = 1; k < static_cast<std::size_t>(body.nv); ++k)
+                joint += work_.axes[first + k].angular * rate(first + k);
+            turning_[b] = body.parent < 0 ? joint : turning_[static_cast<std::size_t>(body.parent)] + joint;
+        }
+    }
+
     void scatter(const Model& model, std::size_t i, const LaneRobot& robot, StepReport& report) {
         RobotState& state = *robot.state;
         state_.scatter(i, state);
@@ -391,6 +442,7 @@ class LaneStep final : public LaneStepper {
     LaneState<T> state_;
     std::vector<T> solution_, way_;              // of floats, what is added to the velocities before
     std::vector<T> whole_solution_, whole_way_;  // of floats, in all
+    std::vector<Vec3T<T>> turning_;              // of the bodies, rad/s
     std::vector<ContactT<T>> contacts_;
     std::vector<SurfacePair> surfaces_;  // of these, the same in all lanes
     IslandRowsT<T> rows_;

@@ -5,6 +5,7 @@
 #include <bit>
 #include <functional>
 
+#include <support/meshes.h>
 #include <support/robots.h>
 #include <support/scenes.h>
 #include <support/simulation.h>
@@ -228,6 +229,29 @@ double share_in_lanes(Precision precision, std::size_t width) {
     for (int i = 0; i < kTicks; ++i) stepped += std::popcount(stepper->step(*sim.model, robots, report));
     EXPECT_GE(report.contacts, stepped * 4);
     return stepped / (static_cast<double>(kTicks) * static_cast<double>(width));
+}
+
+/// Past, against and over boxes and meshes, fast enough to be swept and to turn far.
+TEST(Lanes, FastCarsPassAndHitSceneryAlike) {
+    World world = scattered(car(), 13, 0.02);
+    for (int i = 0; i < 13; ++i) {
+        const Vec3 p{5.0 * i + 0.8 * fixed_cos(0.4 * i), 0.3 * i + 0.8 * fixed_sin(0.4 * i) + 0.02 * i - 0.1,
+                     0.2};
+        const Vec3 size{0.2, 0.4, 0.4};
+        place(world,
+              scenery(i % 2 == 0 ? box_shape(size, surface(0.5)) : mesh_shape(box_mesh(size), surface(0.5))),
+              "block_" + std::to_string(i), {p, from_rpy(0, 0, 0.3 * i)});
+    }
+    const Drive drive = [](Simulation& sim) {
+        if (sim.tick % 60 != 0) return;
+        for (std::size_t r = 0; r < sim.states.size(); ++r) {
+            RobotState& s = sim.states[r];
+            const double speed = 4.0 + 4.0 * static_cast<double>(r), yaw = 0.4 * static_cast<double>(r);
+            s.v[2] = 10.0 * static_cast<double>(r % 4);
+            s.v[3] = speed * fixed_cos(yaw), s.v[4] = speed * fixed_sin(yaw);
+        }
+    };
+    compare(world, drive, 150);
 }
 
 /// They are of use at all: most of the cars' steps are taken in lanes.

@@ -64,10 +64,10 @@ std::vector<Spatial> demands(const Model& model, const RobotWork& work, std::spa
 }
 
 /// Adds `scale` times a contact's impulses to what its link takes.
-void take_contact(const ContactReport& c, LinkId link, double scale, const RobotWork& work,
+void take_contact(const ContactReport& c, LinkId link, const Vec3& p_W, double scale, const RobotWork& work,
                   std::span<Spatial> taken) {
     const Vec3 impulse = c.normal * c.impulse + c.friction;
-    taken[link.index()] += Spatial{c.moment + cross(c.p_W - work.origin, impulse), impulse} * scale;
+    taken[link.index()] += Spatial{c.moment + cross(p_W - work.origin, impulse), impulse} * scale;
 }
 
 void take_loop(const LoopJoint& loop, const Spatial& force, std::span<Spatial> taken) {
@@ -155,8 +155,8 @@ std::vector<JointReaction> StepProbe::joint_reactions(RobotId robot) const {
     std::vector<Spatial> taken = demands(model_, work, rate);
     for (const ContactReport& c : contacts_) {
         const double per_s = 1.0 / model_.dt_s;
-        if (c.robot_a == robot) take_contact(c, c.link_a, -per_s, work, taken);
-        if (c.robot_b == robot) take_contact(c, c.link_b, per_s, work, taken);
+        if (c.robot_a == robot) take_contact(c, c.link_a, c.p_W, -per_s, work, taken);
+        if (c.robot_b == robot) take_contact(c, c.link_b, c.p_W + c.shift_b, per_s, work, taken);
     }
     const std::vector<Spatial> loops = forces_of_loops(robot, type);
     for (std::size_t l = 0; l < loops.size(); ++l) take_loop(type.loops[l], loops[l], taken);

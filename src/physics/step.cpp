@@ -208,7 +208,7 @@ void keep_contacts(std::span<const RobotWork> robots, std::span<const Contact> c
         } else {
             report.scenery = c.shape_b;
         }
-        report.p_W = c.p_W, report.normal = c.normal, report.gap = c.gap;
+        report.p_W = c.p_W, report.shift_b = c.shift_b, report.normal = c.normal, report.gap = c.gap;
         report.impulse = c.impulse, report.friction = c.friction, report.moment = c.moment;
         reports.push_back(report);
     }

@@ -65,7 +65,8 @@ struct ContactReport {
     RobotId robot_a, robot_b;   // robot_b not valid: static scenery
     LinkId link_a, link_b;      // link_b not valid: static scenery
     std::uint32_t scenery = 0;  // index in Model::statics, if it is that
-    Vec3 p_W;                   // m, at the beginning of the tick
+    Vec3 p_W;                   // m, where A is pushed, at the beginning of the tick
+    Vec3 shift_b;               // m, from there to where B is: not zero if they come together in the tick
     Vec3 normal;                // unit, from B towards A, world axes
     double gap = 0;             // m, negative: penetration
     double impulse = 0;         // N s along the normal, on A; divided by dt the mean force

@@ -1,0 +1,153 @@
+// See time_of_impact.h.
+#include "geometry/time_of_impact.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "geometry/collide_general.h"
+
+namespace roboss {
+namespace {
+
+using namespace narrow;
+
+constexpr int kStepsMax = 2000;
+constexpr double kLeastWay = 2e-4;  // m: no step is shorter, what sinks in less deep may be missed
+constexpr double kGlide = 2e-3;     // m: from touch to touch, where nothing sinks in
+constexpr int kHalvings = 10;
+constexpr double kSameNormal = 0.98;                   // cosine
+constexpr double kSameSlope = 0.2, kSamePlane = 1e-4;  // m
+
+bool is_held(const Manifold& m, std::span<const TouchedPlane> held, const Transform& X_WS) {
+    const Vec3 n = X_WS.R * m.n_W, p = X_WS * m.points[0].p_W;
+    return std::ranges::any_of(held, [&](const TouchedPlane& plane) {
+        const Vec3 d = p - plane.p;
+        return dot(n, plane.n) > kSameNormal &&
+               std::fabs(dot(plane.n, d)) <= kSameSlope * norm(d) + kSamePlane;
+    });
+}
+
+/// Upper bound of the speed at which the shapes approach each other along n between t and dt.
+double closing_speed(const Course& a, const Course& b, const Vec3& n, double t, double dt) {
+    const Vec3 va = a.velocity(a.at(t).p, t), vb = b.velocity(b.at(t).p, t);
+    return -dot(n, va - vb) + a.turning + b.turning + 0.5 * (a.bend() + b.bend()) * (dt - t);
+}
+
+/// `find(t)` gives the manifold at time t; `m` is that of the beginning, with points.
+template <class Find>
+std::optional<double> advance(const Course& a, const Course& b, double dt, double deep, Manifold& m,
+                              Find&& find) {
+    double t = 0;
+    for (int i = 0; i < kStepsMax && m.count > 0; ++i) {
+        const double gap = least_gap(m), closing = closing_speed(a, b, m.n_W, t, dt);
+        if (closing * (dt - t) <= gap + deep) return {};
+        double step = (gap - 0.5 * kImpactGap) / closing;
+        if (gap <= kImpactGap) {
+            if (sinking(a, b, m, t, dt) > deep) return t;
+            step = kGlide / closing;
+        }
+        const double next = std::min(t + std::max(step, kLeastWay / closing), dt);
+        Manifold there = find(next);
+        if (there.count > 0 && least_gap(there) < -kImpactGap && gap > kImpactGap) {
+            // The least step went too far: the impact lies between.
+            double low = t, high = next;
+            for (int k = 0; k < kHalvings; ++k) {
+                const double middle = 0.5 * (low + high);
+                const Manifold between = find(middle);
+                const bool apart = between.count == 0 || least_gap(between) > 0;
+                (apart ? low : high) = middle;
+                if (apart && between.count > 0) m = between;
+            }
+            if (sinking(a, b, m, low, dt) > deep) return low;
+        }
+        if (next >= dt) return {};
+        t = next;
+        m = there;
+    }
+    return {};
+}
+
+/// Conservative advancement against single triangles, all in the surface's frame.
+class TriangleSweep {
+  public:
+    TriangleSweep(const Course& course, const TriangleSurface& surface, double dt, double deep, double margin)
+        : course_(course), surface_(surface), dt_(dt), deep_(deep), margin_(margin) {}
+
+    /// `m` becomes the manifold of the impact.
+    std::optional<double> impact(std::uint32_t number, Manifold& m) const {
+        SurfaceTriangle triangle = surface_.triangle(number);
+        const Posed posed{*course_.shape, course_.X};
+        const ConvexBody body(posed);
+        double height = dot(triangle.n, body.centre() - triangle.v[0]);
+        if (height < 0) {
+            if (surface_.sides() == SurfaceSides::kSolid || surface_.is_ground()) return {};
+            triangle.n = -triangle.n, height = -height;
+            std::swap(triangle.v[1], triangle.v[2]);
+        }
+        const Course still{};
+        const double over = height - body.reach(-triangle.n) - body.ball();
+        if (over > closing_speed(course_, still, triangle.n, 0, dt_) * dt_) return {};
+        const ConvexBody sheet(triangle.v, triangle.n);
+        const auto find = [&](double t) { return manifold(sheet, course_.at(t)); };
+        m = find(0);
+        if (m.count == 0 || least_gap(m) <= kImpactGap) return {};
+        const auto met = advance(course_, still, dt_, deep_, m, find);
+        return met && dot(m.n_W, triangle.n) >= 0 ? met : std::nullopt;
+    }
+
+  private:
+    Manifold manifold(const ConvexBody& sheet, const Transform& X) const {
+        const Posed posed{*course_.shape, X};
+        const ConvexBody body(posed);
+        Manifold m;
+        const Separation best = best_separation(body, sheet, margin_ + body.ball());
+        if (best.s <= margin_ + body.ball()) write_general(body, sheet, best, margin_, m);
+        return m;
+    }
+
+    const Course& course_;
+    const TriangleSurface& surface_;
+    double dt_, deep_, margin_;
+};
+
+}  // namespace
+
+double least_gap(const Manifold& m) {
+    double gap = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < m.count; ++i) gap = std::min(gap, m.points[static_cast<std::size_t>(i)].gap);
+    return gap;
+}
+
+double sinking(const Course& a, const Course& b, const Manifold& m, double t, double dt) {
+    double deepest = -std::numeric_limits<double>::infinity();
+    for (int i = 0; i < m.count; ++i) {
+        const ContactPoint& p = m.points[static_cast<std::size_t>(i)];
+        const double approach = -dot(m.n_W, a.velocity(p.p_W, t) - b.velocity(p.p_W, t));
+        deepest = std::max(deepest, approach * (dt - t) - p.gap);
+    }
+    return deepest;
+}
+
+std::optional<double> time_of_impact(const Course& a, const Course& b, double dt, double deep, double margin,
+                                     Manifold& m) {
+    return advance(a, b, dt, deep, m,
+                   [&](double t) { return collide(*a.shape, a.at(t), *b.shape, b.at(t), margin); });
+}
+
+std::optional<double> time_of_impact(const Course& course, const TriangleSurface& surface,
+                                     const Transform& X_WS, double dt, double deep, double margin,
+                                     std::span<const TouchedPlane> held,
+                                     std::vector<std::uint32_t>& triangles) {
+    const Course local = course.seen_from(X_WS);
+    surface.query(bounds(*course.shape, local.X).inflated(margin), triangles);
+    const TriangleSweep sweep(local, surface, dt, deep, margin);
+    std::optional<double> first;
+    for (const std::uint32_t number : triangles) {
+        Manifold m;
+        const auto met = sweep.impact(number, m);
+        if (met && (!first || *met < *first) && !is_held(m, held, X_WS)) first = met;
+    }
+    return first;
+}
+
+}  // namespace roboss

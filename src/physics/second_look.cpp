@@ -1,0 +1,291 @@
+// See second_look.h.
+#include "physics/second_look.h"
+
+#include <algorithm>
+
+#include "core/make_room.h"
+#include "geometry/collide.h"
+
+namespace roboss {
+namespace {
+
+NearMiss pair_of(const Contact& c) {
+    return {c.robot_a, c.robot_b, c.shape_a, c.shape_b};
+}
+
+bool is_plane(const Model& model, const Contact& c) {
+    return c.robot_b < 0 && model.statics[c.shape_b].shape.kind == ShapeKind::kPlane;
+}
+
+/// Whether what happens to the robot in this tick may differ from what its velocities before it say.
+bool is_bent(const RobotWork& robot) {
+    return robot.pushed || robot.type->nv != 6 || !robot.type->free_base;
+}
+
+/// Upper bound of what turns_far asks, from the joints' velocities alone.
+bool may_turn_far(const RobotType& type, std::span<const double> way, double dt) {
+    constexpr double kArc = 2e-4;  // m
+    double turning = 0;
+    for (std::size_t i = 0; i < way.size(); ++i)
+        if (!type.free_base || i < 3 || i > 5) turning += std::fabs(way[i]);
+    return 0.5 * turning * turning * dt * dt * type.reach > kArc;
+}
+
+/// Whether the robot's points may move further than their speeds before the tick say, by more than is allowed
+/// for anyhow.
+bool is_struck(const RobotWork& robot, std::span<const double> way, double dt) {
+    double change = 0;
+    for (std::size_t i = 0; i < way.size(); ++i) {
+        const bool is_linear = robot.type->free_base && i >= 3 && i < 6;
+        change +=
+            std::fabs(way[i] - robot.state->v[i]) * (is_linear ? 1.0 : std::max(1.0, robot.type->reach));
+    }
+    return robot.pushed && change * dt > kBaseMargin;
+}
+
+double speed_of(const Course& c) {
+    return norm(c.velocity(c.X.p, 0)) + c.turning;
+}
+
+/// 1/kg: how easily a robot is moved as a whole; 0 if it stands on a fixed base.
+double ease_of(const RobotWork& robot) {
+    if (!robot.type->free_base) return 0;
+    double mass = 0;
+    for (const Body& body : robot.type->bodies) mass += body.mass;
+    return mass > 0 ? 1 / mass : 0;
+}
+
+void shift_base(const Vec3& by, RobotState& state) {
+    state.q[0] += by.x, state.q[1] += by.y, state.q[2] += by.z;
+}
+
+}  // namespace
+
+/// The robot with the velocities of its displacement.
+const Mechanics<double>& SecondLook::moved(const SolvedIsland& island, int robot) {
+    const auto i = static_cast<std::size_t>(robot);
+    const RobotWork& work = island.robots[i];
+    Mechanics<double>& to = moved_[i];
+    if (is_moved_[i]) return to;
+    is_moved_[i] = 1;
+    to.type = work.type, to.origin = work.origin;
+    to.bodies = work.bodies, to.axes = work.axes, to.shapes = work.shapes;
+    const auto first = static_cast<std::size_t>(island.offsets[i]);
+    if (work.type->nv > 0)
+        move_bodies<double>(*work.type, island.way.subspan(first, static_cast<std::size_t>(work.type->nv)),
+                            to);
+    return to;
+}
+
+Course SecondLook::course(const SolvedIsland& island, int robot, std::uint32_t shape) {
+    if (robot < 0) {
+        const StaticShape& scenery = island.model.statics[shape];
+        return resting_course(scenery.shape, scenery.X_WS);
+    }
+    return course_of(moved(island, robot), shape);
+}
+
+void SecondLook::add(const SolvedIsland& island, const NearMiss& pair, const Course& a, const Course& b,
+                     double t, const Vec3& normal, const Vec3& p_W, double gap) {
+    const auto body = [&](int robot, std::uint32_t shape) {
+        return robot < 0 ? -1 : island.robots[static_cast<std::size_t>(robot)].type->shapes[shape].body;
+    };
+    make_room(hits_, hits_.size() + 1);
+    Contact& c = hits_.emplace_back();
+    c.robot_a = pair.robot_a, c.robot_b = pair.robot_b;
+    c.shape_a = pair.shape_a, c.shape_b = pair.shape_b;
+    c.body_a = body(pair.robot_a, pair.shape_a), c.body_b = body(pair.robot_b, pair.shape_b);
+    c.normal = normal, c.p_W = p_W, c.gap = gap;
+    take_back(a, b, t, c);
+}
+
+/// The planes of a surface that hold a shape already.
+void SecondLook::hold_planes(const SolvedIsland& island, const NearMiss& pair) {
+    buffers_.held.clear();
+    const Course before = course_of(island.robots[static_cast<std::size_t>(pair.robot_a)], pair.shape_a);
+    for (const Contact* c : island.contacts)
+        if (pair_of(*c) == pair) buffers_.held.push_back({c->normal, c->p_W + before.shift(c->time)});
+}
+
+void SecondLook::find_missed(const SolvedIsland& island, const NearMiss& pair) {
+    const Model& model = island.model;
+    const auto bent = [&](int robot) {
+        return robot >= 0 && is_bent(island.robots[static_cast<std::size_t>(robot)]);
+    };
+    if (!bent(pair.robot_a) && !bent(pair.robot_b)) return;
+    const Course a = course(island, pair.robot_a, pair.shape_a);
+    const Course b = course(island, pair.robot_b, pair.shape_b);
+    const double margin = (speed_of(a) + speed_of(b)) * model.dt_s + 2 * kBaseMargin;
+    if (b.shape->kind == ShapeKind::kSurface) {
+        hold_planes(island, pair);
+        const TriangleSurface& surface = *b.shape->surface;
+        const auto t = time_of_impact(a, surface, b.X, model.dt_s, kDeep, margin, buffers_.held,
+                                      buffers_.there.triangles);
+        if (!t) return;
+        find_met(*a.shape, a.at(*t), surface, b.X, margin, buffers_);
+        for (const SurfaceContact& c : buffers_.met) add(island, pair, a, b, *t, c.n_W, c.p_W, c.gap);
+        return;
+    }
+    Manifold m = collide(*a.shape, a.X, *b.shape, b.X, margin);
+    if (m.count == 0) return;
+    const auto t = time_of_impact(a, b, model.dt_s, kDeep, margin, m);
+    if (!t) return;
+    for (int i = 0; i < m.count; ++i) {
+        const ContactPoint& p = m.points[static_cast<std::size_t>(i)];
+        add(island, pair, a, b, *t, m.n_W, p.p_W, p.gap);
+    }
+}
+
+/// A robot that another one strikes may move further than contacts were searched for. So far only scenery is
+/// looked for: another robot there may be none of the group.
+void SecondLook::find_struck(const SolvedIsland& island, std::uint32_t robot) {
+    const RobotWork& work = island.robots[robot];
+    const Model& model = island.model;
+    const Mechanics<double>& to = moved(island, static_cast<int>(robot));
+    for (std::size_t s = 0; s < work.shapes.size(); ++s) {
+        const BodyShape& shape = work.type->shapes[s];
+        if (shape.body < 0) continue;
+        const double reach = speed_of(course_of(to, s)) * model.dt_s + kBaseMargin;
+        if (reach <= work.shapes[s].margin) continue;
+        model.static_bvh.query(bounds(shape.shape, work.shapes[s].X_WS).inflated(reach), scenery_);
+        for (const std::uint32_t i : scenery_) {
+            const StaticShape& scenery = model.statics[i];
+            const NearMiss pair{static_cast<int>(robot), -1, static_cast<std::uint32_t>(s), i};
+            const bool is_known =
+                std::ranges::binary_search(island.near_misses, pair) ||
+                std::ranges::any_of(island.contacts, [&](const Contact* c) { return pair_of(*c) == pair; });
+            if (is_known || scenery.shape.kind == ShapeKind::kPlane) continue;
+            if (may_collide(shape.material, scenery.material)) find_missed(island, pair);
+        }
+    }
+}
+
+/// `contacts`: of one pair of shapes. At the end of the tick no point may be deeper than it was at its
+/// beginning.
+void SecondLook::find_turned(const SolvedIsland& island, std::span<const Contact* const> contacts) {
+    const NearMiss pair = pair_of(*contacts.front());
+    const double dt = island.model.dt_s;
+    double least = 0;
+    for (const Contact* c : contacts) least = std::min(least, c->gap);
+    const Course a = course(island, pair.robot_a, pair.shape_a);
+    const Course b = course(island, pair.robot_b, pair.shape_b);
+    const auto turns = [&](const Course& c) { return turns_far<double>(*c.shape, c.X.R, c.angular, dt); };
+    if (!turns(a) && !turns(b)) return;
+    if (first_) turned_.push_back({pair, least});
+    const auto see = [&](const Vec3& normal, const Vec3& p_W, double gap) {
+        if (gap < least - kDeep) add(island, pair, a, b, dt, normal, p_W, gap - least);
+    };
+    if (b.shape->kind == ShapeKind::kSurface) {
+        collide_surface(*a.shape, a.at(dt), *b.shape->surface, b.X, 0, buffers_.there);
+        for (const SurfaceContact& c : buffers_.there.points) see(c.n_W, c.p_W, c.gap);
+        return;
+    }
+    const Manifold m = collide(*a.shape, a.at(dt), *b.shape, b.at(dt), 0);
+    for (int i = 0; i < m.count; ++i)
+        see(m.n_W, m.points[static_cast<std::size_t>(i)].p_W, m.points[static_cast<std::size_t>(i)].gap);
+}
+
+/// False if there is nothing to look at.
+bool SecondLook::start(const SolvedIsland& island) {
+    const std::size_t count = island.robots.size();
+    if (moved_.size() < count) moved_.resize(count), is_moved_.resize(count), turns_.resize(count);
+    bool any = false;
+    strikes_ = false;
+    for (const std::uint32_t m : island.members) {
+        const RobotType& type = *island.robots[m].type;
+        const auto nv = static_cast<std::size_t>(type.nv);
+        const auto way = island.way.subspan(static_cast<std::size_t>(island.offsets[m]), nv);
+        is_moved_[m] = 0;
+        turns_[m] = may_turn_far(type, way, island.model.dt_s);
+        strikes_ |= island.members.size() > 1 && is_struck(island.robots[m], way, island.model.dt_s);
+        any |= turns_[m] != 0 || !misses_of(m, island.near_misses).empty();
+    }
+    return any || strikes_;
+}
+
+bool SecondLook::find(const SolvedIsland& island, bool first) {
+    if (first) hits_.clear(), turned_.clear();
+    known_ = hits_.size(), first_ = first;
+    if (!start(island)) return false;
+    for (const std::uint32_t m : island.members)
+        for (const NearMiss& pair : misses_of(m, island.near_misses)) find_missed(island, pair);
+    for (const std::uint32_t m : island.members)
+        if (strikes_) find_struck(island, m);
+    const auto turns = [&](int robot) { return robot >= 0 && turns_[static_cast<std::size_t>(robot)] != 0; };
+    for (std::size_t c = 0; c < island.contacts.size();) {
+        const Contact& contact = *island.contacts[c];
+        std::size_t end = c + 1;
+        while (end < island.contacts.size() && pair_of(*island.contacts[end]) == pair_of(contact)) ++end;
+        if (!is_plane(island.model, contact) && (turns(contact.robot_a) || turns(contact.robot_b)))
+            find_turned(island, island.contacts.subspan(c, end - c));
+        c = end;
+    }
+    return hits_.size() > known_;
+}
+
+double SecondLook::first_time() const {
+    double first = hits_[known_].time;
+    for (std::size_t h = known_; h < hits_.size(); ++h) first = std::min(first, hits_[h].time);
+    return first;
+}
+
+const ShapeWork& SecondLook::placed(const RobotWork& robot, std::uint32_t shape) {
+    place_bodies<double>(*robot.type, robot.state->q, placed_);
+    place_shapes<double>(*robot.type, 0, robot.state->q, placed_);
+    return placed_.shapes[shape];
+}
+
+/// True if something was moved. Of two robots that are free the lighter one gives way more.
+bool SecondLook::push_out(std::span<RobotWork> robots, const Model& model, const Turned& turned) {
+    const NearMiss& pair = turned.pair;
+    RobotWork& a = robots[static_cast<std::size_t>(pair.robot_a)];
+    const Shape& shape = a.type->shapes[pair.shape_a].shape;
+    const Transform X = placed(a, pair.shape_a).X_WS;
+    Vec3 normal;
+    double deepest = turned.least - kDeep;
+    const auto see = [&](const Vec3& n, double gap) {
+        if (gap < deepest) deepest = gap, normal = n;
+    };
+    RobotWork* b = pair.robot_b < 0 ? nullptr : &robots[static_cast<std::size_t>(pair.robot_b)];
+    const Shape& other =
+        b == nullptr ? model.statics[pair.shape_b].shape : b->type->shapes[pair.shape_b].shape;
+    if (other.kind == ShapeKind::kSurface) {
+        collide_surface(shape, X, *other.surface, model.statics[pair.shape_b].X_WS, 0, buffers_.there);
+        for (const SurfaceContact& c : buffers_.there.points) see(c.n_W, c.gap);
+    } else {
+        const Transform X_other =
+            b == nullptr ? model.statics[pair.shape_b].X_WS : placed(*b, pair.shape_b).X_WS;
+        const Manifold m = collide(shape, X, other, X_other, 0);
+        see(m.n_W, least_gap(m));
+    }
+    const double ease_a = ease_of(a), ease_b = b == nullptr || b == &a ? 0 : ease_of(*b);
+    if (normal == Vec3{} || ease_a + ease_b == 0 || b == &a) return false;
+    const Vec3 push = normal * ((turned.least - deepest) / (ease_a + ease_b));
+    shift_base(push * ease_a, *a.state);
+    if (b != nullptr) shift_base(push * -ease_b, *b->state);
+    return true;
+}
+
+void SecondLook::push_out(std::span<RobotWork> robots, const Model& model) {
+    constexpr int kRounds = 4;
+    for (int round = 0; round < kRounds; ++round) {
+        bool any = false;
+        for (const Turned& turned : turned_) any |= push_out(robots, model, turned);
+        if (!any) return;
+    }
+}
+
+void SecondLook::add_rows(const SolvedIsland& island, IslandRows& rows, std::vector<SurfacePair>& surfaces) {
+    make_room(rows.contacts, rows.contacts.size() + hits_.size() - known_);
+    make_room(surfaces, surfaces.size() + hits_.size() - known_);
+    for (std::size_t h = known_; h < hits_.size(); ++h) {
+        const Contact& c = hits_[h];
+        const SurfacePair& surface = surfaces.emplace_back(surface_of(island.model, island.robots, c));
+        add_contact_row(island.model, c, surface, island.robots, island.offsets, rows);
+        ContactRow& row = rows.contacts.back();
+        row.normal.target = row.normal.position_target = -c.gap / island.model.dt_s;
+        row.normal.compliance = row.ease * new_compliance<double>(island.model.accuracy);
+    }
+}
+
+}  // namespace roboss
