@@ -166,7 +166,7 @@ void ContactFinder::with_static(const Model& model, std::span<const RobotWork> r
     if (scenery.shape.kind == ShapeKind::kSurface)
         return with_surface(model, robots[a], pair, keep, contacts);
     Manifold manifold = collide(shape.shape, placed.X_WS, scenery.shape, scenery.X_WS, placed.margin);
-    if (scenery.shape.kind != ShapeKind::kPlane && may_pass(manifold))
+    if (scenery.shape.kind != ShapeKind::kPlane && may_pass(manifold, placed.margin - kBaseMargin))
         return add_judged(pair, course_of(robots[a], s), resting_course(scenery.shape, scenery.X_WS),
                           model.dt_s, placed.margin + kBaseMargin, keep, manifold, contacts);
     add_points(manifold, pair, keep, contacts);
@@ -176,10 +176,15 @@ void ContactFinder::with_surface(const Model& model, const RobotWork& robot, con
                                  std::uint32_t keep, std::vector<Contact>& contacts) {
     const StaticShape& scenery = model.statics[pair.shape_b];
     const TriangleSurface& surface = *scenery.shape.surface;
-    const Course course = course_of(robot, pair.shape_a), still{};
-    const double margin = robot.shapes[pair.shape_a].margin;
+    const ShapeWork& placed = robot.shapes[pair.shape_a];
+    const double margin = placed.margin, way = margin - kBaseMargin;
     SweepBuffers& b = *buffers_;
-    collide_surface(*course.shape, course.X, surface, scenery.X_WS, margin, b.found);
+    collide_surface(robot.type->shapes[pair.shape_a].shape, placed.X_WS, surface, scenery.X_WS, margin,
+                    b.found);
+    const auto passes = [&](const SurfaceContact& c) { return may_pass(c.gap, way); };
+    if (way <= kFastWay && std::ranges::none_of(b.found.points, passes))
+        return add_points(b.found.points, pair, keep, contacts);
+    const Course course = course_of(robot, pair.shape_a), still{};
     const Sweep judged = sweep(course, surface, scenery.X_WS, model.dt_s, margin, b);
     if (judged.meeting == Meeting::kNone) miss(pair);
     const std::size_t first = contacts.size();
@@ -247,7 +252,7 @@ void ContactFinder::collide_shapes(const Model& model, std::span<const RobotWork
     const std::uint32_t keep = points_max(a.material, b.material);
     Manifold manifold = collide(a.shape, wa.X_WS, b.shape, wb.X_WS, margin);
     const bool has_plane = a.shape.kind == ShapeKind::kPlane || b.shape.kind == ShapeKind::kPlane;
-    if (sweeps && !has_plane && may_pass(manifold))
+    if (sweeps && !has_plane && may_pass(manifold, margin - 2 * kBaseMargin))
         return add_judged(pair, course_of(ra, pair.shape_a), course_of(rb, pair.shape_b), model.dt_s, margin,
                           keep, manifold, contacts);
     add_points(manifold, pair, keep, contacts);

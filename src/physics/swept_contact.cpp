@@ -7,9 +7,6 @@
 namespace roboss {
 namespace {
 
-constexpr double kFast = 4e-3;         // m in a tick: less, and the plane of the beginning is near enough
-constexpr double kNearly = 1e-4;       // m: what is nearer and not fast along the normal touches
-constexpr double kBlow = 1e-3;         // m in a tick, along the normal: fast
 constexpr double kSamePlane = 0.9999;  // cosine
 
 double approach_of(const Course& a, const Course& b, const Vec3& n, const Vec3& p) {
@@ -18,7 +15,7 @@ double approach_of(const Course& a, const Course& b, const Vec3& n, const Vec3& 
 
 bool is_fast(const Course& a, const Course& b, double dt) {
     const Vec3 v = a.velocity(a.X.p, 0) - b.velocity(b.X.p, 0);
-    return (norm(v) + a.turning + b.turning) * dt > kFast;
+    return (norm(v) + a.turning + b.turning) * dt > kFastWay;
 }
 
 }  // namespace

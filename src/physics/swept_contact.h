@@ -13,6 +13,10 @@ namespace roboss {
 
 constexpr double kDeep = 1e-4;  // m: shapes that sink deeper within a tick than its rows say are stopped
 
+constexpr double kFastWay = 4e-3;  // m in a tick: less, and the plane of the beginning is near enough
+constexpr double kNearly = 1e-4;   // m: what is nearer and not fast along the normal touches
+constexpr double kBlow = 1e-3;     // m in a tick, along the normal: fast
+
 /// The motion of a shape of a robot by the velocities in `robot`.
 Course course_of(const Mechanics<double>& robot, std::size_t shape);
 
@@ -27,9 +31,14 @@ struct Sweep {
     double time = 0;  // s
 };
 
-/// Whether the manifold at the beginning says that the shapes do not touch: then sweep() has to judge.
-inline bool may_pass(const Manifold& manifold) {
-    return manifold.count > 0 && least_gap(manifold) > kImpactGap;
+/// Whether shapes `gap` apart, which approach each other by at most `way` in the tick, may pass: then sweep()
+/// has to judge. Quick, for most pairs are slow or touch.
+inline bool may_pass(double gap, double way) {
+    return gap > kImpactGap && (way > kFastWay || (way > gap && (gap > kNearly || way > kBlow)));
+}
+
+inline bool may_pass(const Manifold& manifold, double way) {
+    return manifold.count > 0 && may_pass(least_gap(manifold), way);
 }
 
 /// Judges a pair from its manifold at the beginning, which becomes that of the impact.
