@@ -17,9 +17,9 @@ struct SourceLocation {
 struct Diagnostic {
     Severity severity = Severity::kNote;
     SourceLocation where;
-    std::string code;     // stable short name for programs, e.g. "missing-inertia"
-    std::string message;  // what was found, naming the element
-    std::string remedy;   // what to do
+    std::string code;       // stable short name for programs, e.g. "missing-inertia"
+    std::string message;    // what was found, naming the element
+    std::string remedy;     // what to do
     bool left_out = false;  // an error of a model that is left out: the rest of the world can run without it
 };
 

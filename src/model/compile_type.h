@@ -31,8 +31,8 @@ Vec3 drag_area(const LinkSpec& link);
 /// Adds a link's inertia to its body: common centre of mass, parallel-axis theorem for both.
 void add_mass(Body& body, const Link& link);
 
-/// Gives bodies that can move and have no mass, or no inertia about some axis, a little of it, with a warning.
-/// `links`: of type.links in `spec`.
+/// Gives bodies that can move and have no mass, or no inertia about some axis, a little of it, with a
+/// warning. `links`: of type.links in `spec`.
 void mend_inertia(RobotType& type, const ModelSpec& spec, const std::vector<std::size_t>& links,
                   Diagnostics& diagnostics);
 

@@ -267,8 +267,8 @@ struct CompileOptions {
     std::optional<Precision> precision{};  // overrides the world's
 };
 
-/// World to Model. Findings go to `diagnostics`. A model with errors is left out, with an error "left-out" that names
-/// it; nullptr if an error concerns the whole world, or if nothing is left.
+/// World to Model. Findings go to `diagnostics`. A model with errors is left out, with an error "left-out"
+/// that names it; nullptr if an error concerns the whole world, or if nothing is left.
 std::shared_ptr<const Model> compile(const World& world, const CompileOptions& options,
                                      Diagnostics& diagnostics);
 
