@@ -67,6 +67,12 @@ bool ElementReader::numbers(const Element& element, std::span<double> values, Fi
     const auto words = words_of(element.node.text().get());
     const std::string expected =
         values.size() == 1 ? "a finite number" : std::to_string(values.size()) + " finite numbers";
+    if (words.empty()) {  // as libsdformat; its conversion of URDF writes such elements
+        diagnostics_.warning(element.where(), "empty-value",
+                             "<" + std::string(element.node.name()) + "> is empty; its default is used",
+                             "Write " + expected + ", or leave it out.");
+        return false;
+    }
     if (words.size() != values.size()) return bad_value(element, expected), false;
     std::vector<double> parsed;
     for (const auto word : words) {

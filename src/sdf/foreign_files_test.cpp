@@ -181,6 +181,18 @@ TEST(ForeignFiles, TextBehindANumberIsIgnoredWithAWarning) {
     EXPECT_EQ(loaded.world->prototypes[0].joints[0].axes[0].max_velocity, 2.5);
 }
 
+TEST(ForeignFiles, AnEmptyElementIsItsDefaultWithAWarning) {
+    const Loaded loaded = load_elements(
+        "<model name='m'>" +
+        link("a",
+             "<collision name='c'><geometry><sphere><radius>1</radius></sphere></geometry><surface><bounce>"
+             "<restitution_coefficient/></bounce></surface></collision>") +
+        "</model>");
+    EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
+    EXPECT_NE(loaded.find("empty-value"), nullptr);
+    EXPECT_EQ(loaded.world->prototypes[0].links[0].collisions[0].surface.restitution, 0);
+}
+
 TEST(ForeignFiles, BitmasksHaveThirtyTwoBits) {
     const Loaded loaded = load_elements(
         "<model name='m'>" +
