@@ -26,7 +26,11 @@ void add_viewer_options(CLI::App& command, ViewerOptions& o, ViewerDefault by_de
     if (by_default == ViewerDefault::kOn)
         command.add_flag("--headless", o.headless, "no viewer")->group(group);
     else if (on_demand)  // as scripts may say for `run`, too
-        command.add_flag("--headless", "no viewer (the default)")->excludes(view)->group(group);
+        command
+            .add_flag_callback(
+                "--headless", [] {}, "no viewer (the default)")
+            ->excludes(view)
+            ->group(group);
 }
 
 Result<std::unique_ptr<Gateway>> open_viewer(const ViewerOptions& o, bool journal) {

@@ -76,7 +76,7 @@ void HttpSession::serve() {
                           view_of(request_[http::field::origin]),
                           view_of(request_.target()),
                           view_of(request_[http::field::cookie]),
-                          socket,
+                          socket && beast::websocket::is_upgrade(request_),
                           request_.count(http::field::host),
                           request_.count(http::field::origin)};
     if (const std::string refusal = core_.access().refusal(visitor); !refusal.empty())

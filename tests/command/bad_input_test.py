@@ -8,7 +8,7 @@ from running import DRIVER, FOLDER, WORLDS, RobossTest, roboss, summary
 HEAP = WORLDS / "heap.sdf"
 FRAGILE = """<sdf version="1.9"><world name="fragile"><physics name="p" type="ode"><max_step_size>0.001</max_step_size></physics>
 <model name="dust"><pose>0 0 9 0 0 0</pose><link name="body"><inertial><mass>1e-300</mass>
-<inertia><ixx>1e-302</ixx><iyy>1e-302</iyy><izz>1e-302</izz></inertia></inertial>
+<inertia><ixx>1e-100</ixx><iyy>1e-100</iyy><izz>1e-100</izz></inertia></inertial>
 <collision name="c"><geometry><sphere><radius>.1</radius></sphere></geometry></collision></link></model></world></sdf>"""
 
 
