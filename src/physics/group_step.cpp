@@ -86,17 +86,52 @@ void choose_drifting(const Model& model, std::span<const RobotWork> robots, Grou
                    s.split);
 }
 
+/// What swept contacts give a robot of angular momentum about its origin beyond what their rows say: the rows
+/// have the arms of the impact from where the bodies are at the beginning, but both robots are pushed at one
+/// place.
+Vec3 late_moment(const RobotWork& work, std::uint32_t robot, const GroupScratch& s) {
+    Vec3 moment;
+    for (const Contact* c : s.island_contacts) {
+        if (c->time == 0 || c->impulse <= 0 || c->robot_a == c->robot_b) continue;
+        const Vec3 push = c->normal * c->impulse + c->friction;
+        if (c->robot_a == static_cast<int>(robot))
+            moment += cross(course_of(work, c->shape_a).shift(c->time), push);
+        else if (c->robot_b == static_cast<int>(robot))
+            moment -= cross(course_of(work, c->shape_b).shift(c->time), push);
+    }
+    return moment;
+}
+
 /// Moves one member by the kick-drift step.
-void drift(const Model& model, RobotWork& work, std::size_t member, bool touched, std::span<const double> way,
-           GroupScratch& s) {
+void drift(const Model& model, RobotWork& work, std::size_t member, std::uint32_t robot, bool touched,
+           std::span<const double> way, GroupScratch& s) {
     const auto offset = static_cast<std::size_t>(s.island_offsets[member]);
     const auto nv = static_cast<std::size_t>(work.type->nv);
     const auto own = [&](const auto& array) { return std::span(array).subspan(offset, nv); };
-    SolvedTick solved{own(s.v), way.subspan(offset, nv), own(s.split.kick), own(s.split.load),
-                      own(s.split.locked)};
+    SolvedTick solved;
+    solved.velocity = own(s.v), solved.displacement = way.subspan(offset, nv);
+    solved.kick = own(s.split.kick), solved.load = own(s.split.load), solved.locked = own(s.split.locked);
     solved.isolated = !touched;
+    solved.late_moment = late_moment(work, robot, s);
     solved.passive = is_passive(work);
+    if (!s.anchored) solved.common_velocity = s.common_velocity;
     advance_kick_drift(model, work, solved, s.free_buffer);
+}
+
+/// Mean of the bases' velocities, m/s, weighed by the robots' masses.
+Vec3 common_velocity(std::span<const RobotWork> robots, const GroupScratch& s,
+                     std::span<const std::uint32_t> members) {
+    Vec3 momentum;
+    double all = 0;
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        const RobotType& type = *robots[members[m]].type;
+        if (!type.free_base) continue;
+        double mass = 0;
+        for (const Body& body : type.bodies) mass += body.mass;
+        const auto i = static_cast<std::size_t>(s.island_offsets[m]) + 3;
+        momentum += Vec3{s.v[i], s.v[i + 1], s.v[i + 2]} * mass, all += mass;
+    }
+    return all > 0 ? momentum * (1.0 / all) : Vec3{};
 }
 
 /// Writes the solved velocities into the states and moves the coordinates. A robot that is near something but
@@ -113,7 +148,7 @@ void finish_island(const Model& model, std::span<RobotWork> robots, GroupScratch
         }
         work.held = true;
         if (s.drifts[m]) {
-            drift(model, work, m, s.touched[members[m]] != 0, way, s);
+            drift(model, work, m, members[m], s.touched[members[m]] != 0, way, s);
             continue;
         }
         std::copy_n(s.v.begin() + static_cast<std::ptrdiff_t>(offset), nv, work.state->v.begin());
@@ -244,6 +279,12 @@ void take_mean_way(std::span<const RobotWork> robots, GroupScratch& s, std::span
     for (std::size_t i = 0; i < s.v.size(); ++i) s.way[i] = even ? 0.5 * (s.v_before[i] + s.v[i]) : s.v[i];
 }
 
+/// False for what the second look cannot compute with: it ends the run, or soon will.
+bool is_sane(std::span<const double> x) {
+    constexpr double kMost = 1e7;  // m, rad, m/s, rad/s
+    return std::ranges::all_of(x, [](double each) { return std::fabs(each) < kMost; });
+}
+
 /// From now on no contact asks for more than the displacement gives, and friction is that of the velocities.
 void hold_displacement(GroupScratch& s, bool split) {
     for (ContactRow& row : s.rows.contacts) {
@@ -258,6 +299,8 @@ void hold_displacement(GroupScratch& s, bool split) {
 void stop_late_hits(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
                     std::span<const std::uint32_t> members, bool split, StepReport& report) {
     constexpr int kRounds = 4;
+    s.look.clear();
+    if (!is_sane(s.way)) return;
     const std::size_t found = s.island_contacts.size();
     for (int round = 0; round <= kRounds; ++round) {
         const SolvedIsland island{
@@ -269,6 +312,11 @@ void stop_late_hits(const Model& model, std::span<RobotWork> robots, GroupScratc
             break;
         }
         if (round == 0) hold_displacement(s, split);
+        for (const Contact& hit : s.look.hits()) {
+            if (hit.robot_b < 0) continue;
+            robots[static_cast<std::size_t>(hit.robot_a)].touches_robot = true;
+            robots[static_cast<std::size_t>(hit.robot_b)].touches_robot = true;
+        }
         s.look.add_rows(island, s.rows, s.island_surfaces);
         report.iterations +=
             s.solver.solve({model.accuracy, s.island_robots, s.island_offsets, s.rows, true}, s.way)
@@ -277,6 +325,24 @@ void stop_late_hits(const Model& model, std::span<RobotWork> robots, GroupScratc
     s.island_contacts.resize(found);
     for (Contact& hit : s.look.hits()) s.island_contacts.push_back(&hit);
     if (s.island_contacts.size() > found) mark_pushed(robots, s);
+}
+
+/// True if the island's energy is to be guarded.
+bool start_guard(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
+                 std::span<const std::uint32_t> members, bool bounces) {
+    const auto is_touched = [&](std::uint32_t m) { return s.touched[m] != 0; };
+    if (std::ranges::none_of(members, is_touched) ||
+        !s.guard.start(model, robots, members, s.anchored, bounces, s.rows, s.free_buffer.work))
+        return false;
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        const RobotWork& work = robots[members[m]];
+        const auto own = [&](const std::vector<double>& x) {
+            return std::span(x).subspan(static_cast<std::size_t>(s.island_offsets[m]),
+                                        static_cast<std::size_t>(work.type->nv));
+        };
+        s.guard.allow_mending(model, work, own(s.v), own(s.way));
+    }
+    return true;
 }
 
 void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
@@ -309,12 +375,13 @@ void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch&
     mark_pushed(robots, s);
     stop_late_hits(model, robots, s, members, split, report);
     mark_touched(robots, s);
-    const auto is_touched = [&](std::uint32_t m) { return s.touched[m] != 0; };
-    const bool guards =
-        std::ranges::any_of(members, is_touched) &&
-        s.guard.start(model, robots, members, s.anchored, bounces, s.rows, s.free_buffer.work);
+    s.common_velocity = common_velocity(robots, s, members);
+    const bool guards = start_guard(model, robots, s, members, bounces);
     finish_island(model, robots, s, members, s.way);
-    s.look.push_out(robots, model);
+    const auto moved_well = [&](std::uint32_t m) {
+        return is_sane(robots[m].state->q) && is_sane(robots[m].state->v);
+    };
+    if (std::ranges::all_of(members, moved_well)) s.look.push_out(robots, model);
     if (guards) s.guard.finish(model, robots, members, s.free_buffer.work);
 }
 

@@ -41,6 +41,7 @@ struct GroupScratch {
     std::vector<char> touched;  // by robot: pushed by another or by scenery
     bool anchored = false;      // the island: pushed by something that does not move freely
     RowSplit split;             // if anyone drifts
+    Vec3 common_velocity;       // of the island
     IslandGuard guard;
     SecondLook look;
     IslandSolver solver;

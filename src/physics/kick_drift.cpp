@@ -227,9 +227,13 @@ class KickDrift {
         advance_coordinates<double>(type_, extra, model_.dt_s, state_.q);
         if (type_.has_equalities()) buffer_.projection.close_coordinates(type_, state_.q);
         if (!type_.free_base) return;
-        const Spatial pushed = displaced();
+        const Vec3 way = displaced().linear * (model_.dt_s / before.inertia.mass);
+        const Vec3 own_velocity = before.momentum.linear * (1.0 / before.inertia.mass);
+        const Vec3 along = solved_.common_velocity.value_or(own_velocity) * before.inertia.mass;
+        Spatial momentum = before.momentum;
+        momentum.angular += cross(way, along);
         BodySums now = sums();
-        put_on({before.centre() + pushed.linear * (model_.dt_s / before.inertia.mass), before.momentum}, now);
+        put_on({before.centre() + way, momentum}, now);
         if (solved_.isolated && solved_.passive) limit(before.energy(), now);
     }
 
@@ -271,7 +275,7 @@ class KickDrift {
         const Vec3 centre = before.centre();
         const Vec3 arm = centre * dt + velocity * (0.5 * dt * dt);
         Spatial momentum = before.momentum + kick + load;
-        momentum += Spatial{cross(arm, weight), weight * dt};
+        momentum += Spatial{cross(arm, weight) + solved_.late_moment, weight * dt};
         return Course{centre + velocity * dt + acceleration * (0.5 * dt * dt), momentum};
     }
 

@@ -8,6 +8,7 @@
 // relative size (turn in a tick)^2. docs/decisions/0015-kick-drift.md.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "physics/integrate.h"
@@ -26,8 +27,11 @@ struct SolvedTick {
     std::span<const double> kick,
         load;                      // generalised impulses of rows, N s; those of locked joints are left out
     std::span<const char> locked;  // held at `velocity`
-    bool isolated = false;         // nothing from outside pushes
-    bool passive = false;          // and is_passive
+    Vec3 late_moment;  // N m s about the origin: of contacts met later in the tick, beyond that in `kick`
+    // m/s: of the contact island's members together; none where momentum goes to scenery.
+    std::optional<Vec3> common_velocity;
+    bool isolated = false;  // nothing from outside pushes
+    bool passive = false;   // and is_passive
 };
 
 /// Moves the placed robot by one tick. Its momentum changes by the contacts' impulses and gravity alone.

@@ -29,6 +29,8 @@ class SecondLook {
   public:
     /// Looks for hits; false if there are none. A new island starts with `first`.
     bool find(const SolvedIsland& island, bool first);
+    /// Forgets the last island.
+    void clear() { hits_.clear(), turned_.clear(); }
     /// Adds the rows of what was found last to the island's. Contacts stay until the next island.
     void add_rows(const SolvedIsland& island, IslandRows& rows, std::vector<SurfacePair>& surfaces);
     /// Once the island has moved: bodies that turned far and sank in by that are put back, as far as their
