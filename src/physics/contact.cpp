@@ -185,7 +185,7 @@ void ContactFinder::with_surface(const Model& model, const RobotWork& robot, con
     if (way <= kFastWay && std::ranges::none_of(b.found.points, passes))
         return add_points(b.found.points, pair, keep, contacts);
     const Course course = course_of(robot, pair.shape_a), still{};
-    const Sweep judged = sweep(course, surface, scenery.X_WS, model.dt_s, margin, b);
+    const SweptPair judged = sweep(course, surface, scenery.X_WS, model.dt_s, margin, b);
     if (judged.meeting == Meeting::kNone) miss(pair);
     const std::size_t first = contacts.size();
     add_points(b.found.points, pair, keep, contacts);
@@ -207,7 +207,7 @@ void ContactFinder::miss(const Pair& pair) {
 
 void ContactFinder::add_judged(const Pair& pair, const Course& a, const Course& b, double dt, double margin,
                                std::uint32_t keep, Manifold& manifold, std::vector<Contact>& contacts) {
-    const Sweep judged = sweep(a, b, dt, margin, manifold);
+    const SweptPair judged = sweep(a, b, dt, margin, manifold);
     if (judged.meeting == Meeting::kNone) return miss(pair);
     const std::size_t first = contacts.size();
     add_points(manifold, pair, keep, contacts);

@@ -111,6 +111,7 @@ void drift(const Model& model, RobotWork& work, std::size_t member, std::uint32_
     SolvedTick solved;
     solved.velocity = own(s.v), solved.displacement = way.subspan(offset, nv);
     solved.kick = own(s.split.kick), solved.load = own(s.split.load), solved.locked = own(s.split.locked);
+    solved.held = own(s.split.held);
     solved.isolated = !touched;
     solved.late_moment = late_moment(work, robot, s);
     solved.passive = is_passive(work);
@@ -359,8 +360,8 @@ void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch&
         s.solver.solve({model.accuracy, s.island_robots, s.island_offsets, s.rows}, s.v);
     report.iterations += solved.iterations;
     report.residual = std::max(report.residual, solved.residual);
-    take_impulses(s);
     choose_drifting(model, robots, s, members);
+    take_impulses(s);
     const bool bounces = throws_back(s.rows);
     if (split) {
         s.way = s.v;

@@ -42,7 +42,7 @@ class KickDrift {
     void advance() {
         HeldJoints& held = buffer_.held;
         held.locked.assign(solved_.locked.begin(), solved_.locked.end());
-        held.velocity.assign(solved_.velocity.begin(), solved_.velocity.end());
+        held.velocity.assign(solved_.held.begin(), solved_.held.end());
         held.q_start = state_.q, held.v_start = state_.v;
         const BodySums before = sums();
         attempt();

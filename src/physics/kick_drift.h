@@ -26,7 +26,8 @@ struct SolvedTick {
     std::span<const double> displacement;  // of the tick, over dt
     std::span<const double> kick,
         load;                      // generalised impulses of rows, N s; those of locked joints are left out
-    std::span<const char> locked;  // held at `velocity`
+    std::span<const char> locked;  // held at `held`
+    std::span<const double> held;
     Vec3 late_moment;  // N m s about the origin: of contacts met later in the tick, beyond that in `kick`
     // m/s: of the contact island's members together; none where momentum goes to scenery.
     std::optional<Vec3> common_velocity;

@@ -12,6 +12,11 @@ bool is_at_bound(const BoundedRow& row) {
     return row.impulse <= row.low || row.impulse >= row.high;
 }
 
+/// What a hard row would give if it did not give way by its compliance.
+double speed_of(const JointRow& row) {
+    return row.target - (row.motor != nullptr ? row.compliance * row.motor->load : 0.0);
+}
+
 /// A joint is held where what the solver takes implicitly (hard rows, stiff springs, dampings and servos)
 /// outweighs its inertia: then it moves as solved, and nothing else does to it within the tick.
 void find_locked(const IslandSolver::Problem& p, double dt, RowSplit& split) {
@@ -21,9 +26,15 @@ void find_locked(const IslandSolver::Problem& p, double dt, RowSplit& split) {
         const auto first = static_cast<std::size_t>(p.offsets[r] + type.base_nv());
         for (std::size_t d = 0; d < type.dofs.size(); ++d) {
             const Dof& dof = type.dofs[d];
+            const double hard = hard_compliance<double>(p.accuracy) * dof.inverse_inertia;
             double stiffness = dt * dof.damping + dt * dt * dof.spring_stiffness;
-            for (; row < p.rows.joints.size() && p.rows.joints[row].dof == static_cast<int>(first + d); ++row)
-                if (!is_at_bound(p.rows.joints[row])) stiffness += p.rows.joints[row].stiffness;
+            for (; row < p.rows.joints.size() && p.rows.joints[row].dof == static_cast<int>(first + d);
+                 ++row) {
+                const JointRow& joint = p.rows.joints[row];
+                if (is_at_bound(joint)) continue;
+                stiffness += joint.stiffness;
+                if (joint.compliance <= hard) split.held[first + d] = speed_of(joint);
+            }
             split.locked[first + d] = stiffness * dof.inverse_inertia > 1;
         }
     }
@@ -71,6 +82,7 @@ bool is_soft(const ContactRow& row) {
 void split_rows(const IslandSolver::Problem& p, std::span<const double> v_before, std::span<const double> v,
                 double dt, RowSplit& split) {
     split.locked.assign(v.size(), 0);
+    split.held.assign(v.begin(), v.end());
     split.kick.assign(v.size(), 0.0), split.load.assign(v.size(), 0.0);
     find_locked(p, dt, split);
     for (const JointRow& row : p.rows.joints)

@@ -11,6 +11,7 @@ namespace roboss {
 /// By degree of freedom of the contact island.
 struct RowSplit {
     std::vector<char> locked;        // held by the rows of its joint; then these are in neither array
+    std::vector<double> held;        // velocity of what is locked
     std::vector<double> kick, load;  // generalised impulses, N s
 };
 

@@ -31,7 +31,7 @@ Course course_of(const Mechanics<double>& robot, std::size_t number) {
     return {&shape.shape, X, body.X_WB.p, w, linear, accelerated, turning_speed<double>(shape.shape, X.R, w)};
 }
 
-Sweep sweep(const Course& a, const Course& b, double dt, double margin, Manifold& m) {
+SweptPair sweep(const Course& a, const Course& b, double dt, double margin, Manifold& m) {
     const double gap = least_gap(m);
     double blow = 0;
     bool reaches = false;
@@ -71,8 +71,8 @@ void find_met(const Shape& shape, const Transform& X_WA, const TriangleSurface& 
                          [&](const SurfaceContact& c) { return is_met(c) && !is_held(c); });
 }
 
-Sweep sweep(const Course& course, const TriangleSurface& surface, const Transform& X_WS, double dt,
-            double margin, SweepBuffers& buffers) {
+SweptPair sweep(const Course& course, const TriangleSurface& surface, const Transform& X_WS, double dt,
+                double margin, SweepBuffers& buffers) {
     buffers.met.clear();
     std::vector<SurfaceContact>& points = buffers.found.points;
     const Course still{};
@@ -97,7 +97,7 @@ Sweep sweep(const Course& course, const TriangleSurface& surface, const Transfor
         const auto same = [&](const TouchedPlane& plane) { return dot(plane.n, c.n_W) > kSamePlane; };
         return !touches(c) && std::ranges::none_of(buffers.held, same);
     });
-    return t ? Sweep{Meeting::kInTick, *t} : Sweep{Meeting::kNone, 0};
+    return t ? SweptPair{Meeting::kInTick, *t} : SweptPair{Meeting::kNone, 0};
 }
 
 bool is_blow(std::span<const RobotWork> robots, const Contact& c, double dt) {

@@ -26,7 +26,7 @@ enum class Meeting {
     kNone     // not by the motion that is known before solving
 };
 
-struct Sweep {
+struct SweptPair {
     Meeting meeting = Meeting::kAtOnce;
     double time = 0;  // s
 };
@@ -42,7 +42,7 @@ inline bool may_pass(const Manifold& manifold, double way) {
 }
 
 /// Judges a pair from its manifold at the beginning, which becomes that of the impact.
-Sweep sweep(const Course& a, const Course& b, double dt, double margin, Manifold& manifold);
+SweptPair sweep(const Course& a, const Course& b, double dt, double margin, Manifold& manifold);
 
 struct SweepBuffers {
     SurfaceContacts found;            // at the beginning of the tick
@@ -53,8 +53,8 @@ struct SweepBuffers {
 
 /// Judges a shape near a surface from its contacts at the beginning, `buffers.found`. Afterwards these are
 /// those that hold from the beginning on, and `buffers.met` those of the impact at time t, if there is one.
-Sweep sweep(const Course& course, const TriangleSurface& surface, const Transform& X_WS, double dt,
-            double margin, SweepBuffers& buffers);
+SweptPair sweep(const Course& course, const TriangleSurface& surface, const Transform& X_WS, double dt,
+                double margin, SweepBuffers& buffers);
 
 /// Whether a contact of the beginning of the tick changes velocities at once.
 bool is_blow(std::span<const RobotWork> robots, const Contact& contact, double dt);

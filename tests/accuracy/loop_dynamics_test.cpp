@@ -50,6 +50,20 @@ class LoopDynamics : public testing::TestWithParam<Mechanism> {
     Random random_{11};
 };
 
+class FixedLoops : public LoopDynamics {};
+class FloatingLoops : public LoopDynamics {};
+
+/// Those that float freely, or those on a fixed base.
+std::vector<Mechanism> mechanisms(bool floats) {
+    std::vector<Mechanism> chosen;
+    for (Mechanism& mechanism : constrained_mechanisms()) {
+        World world = empty_world(1e-3);
+        place(world, mechanism.model, "robot");
+        if (compiled(world)->types[0].free_base == floats) chosen.push_back(mechanism);
+    }
+    return chosen;
+}
+
 TEST_P(LoopDynamics, AccelerationsAgreeWithADenseSolve) {
     const auto model = compiled(world_);
     double worst = 0;
@@ -79,7 +93,7 @@ std::vector<double> tick_acceleration(const Model& model, RobotState state,
 
 /// The solver's hard rows give way in proportion to Accuracy::compliance: from two small ones follows what
 /// none would give, and that is the dense solve. Without damping and springs, which a tick takes implicitly.
-TEST_P(LoopDynamics, OneTickOfTheSolverGivesTheSameBesideItsCompliance) {
+TEST_P(FixedLoops, OneTickOfTheSolverGivesTheSameBesideItsCompliance) {
     world_.dt_s = 1e-5;
     for (JointSpec& j : world_.prototypes[0].joints)
         for (AxisSpec& axis : j.axes) axis.damping = axis.spring_stiffness = 0;
@@ -105,8 +119,34 @@ TEST_P(LoopDynamics, OneTickOfTheSolverGivesTheSameBesideItsCompliance) {
     EXPECT_LE(worst, kRelative);
 }
 
-INSTANTIATE_TEST_SUITE_P(Mechanisms, LoopDynamics, testing::ValuesIn(constrained_mechanisms()),
-                         [](const auto& mechanism) { return mechanism.param.name; });
+/// Mechanisms that float freely take the kick-drift step, of high order: from a tick forward and one backward
+/// follows the acceleration in between, to the second order.
+TEST_P(FloatingLoops, TicksForwardAndBackwardGiveTheSame) {
+    world_.dt_s = 1e-5;
+    for (JointSpec& j : world_.prototypes[0].joints)
+        for (AxisSpec& axis : j.axes) axis.damping = axis.spring_stiffness = 0;
+    const auto model = compiled(world_);
+    double worst = 0;
+    for (int i = 0; i < 20; ++i) {
+        RobotState state = random_state_on_loops(*model, random_, GetParam().spread);
+        const std::vector<double> forces = random_forces(model->types[0], random_);
+        const std::vector<double> theirs = dense_acceleration(*model, world_.prototypes[0], state, forces);
+        std::vector<double> ours = tick_acceleration(*model, state, forces);
+        for (double& v : state.v) v = -v;
+        const std::vector<double> back = tick_acceleration(*model, state, forces);
+        for (std::size_t k = 0; k < ours.size(); ++k) ours[k] = 0.5 * (ours[k] + back[k]);
+        worst = std::fmax(worst, relative_error(ours, theirs));
+    }
+    std::printf("%s: worst relative error %.2e\n", GetParam().name.c_str(), worst);
+    EXPECT_LE(worst, 1e-8);  // the difference of two velocities loses digits
+}
+
+std::string name_of(const testing::TestParamInfo<Mechanism>& mechanism) {
+    return mechanism.param.name;
+}
+INSTANTIATE_TEST_SUITE_P(Mechanisms, LoopDynamics, testing::ValuesIn(constrained_mechanisms()), name_of);
+INSTANTIATE_TEST_SUITE_P(Mechanisms, FixedLoops, testing::ValuesIn(mechanisms(false)), name_of);
+INSTANTIATE_TEST_SUITE_P(Mechanisms, FloatingLoops, testing::ValuesIn(mechanisms(true)), name_of);
 
 }  // namespace
 }  // namespace roboss::test
