@@ -332,18 +332,8 @@ void stop_late_hits(const Model& model, std::span<RobotWork> robots, GroupScratc
 bool start_guard(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
                  std::span<const std::uint32_t> members, bool bounces) {
     const auto is_touched = [&](std::uint32_t m) { return s.touched[m] != 0; };
-    if (std::ranges::none_of(members, is_touched) ||
-        !s.guard.start(model, robots, members, s.anchored, bounces, s.rows, s.free_buffer.work))
-        return false;
-    for (std::size_t m = 0; m < members.size(); ++m) {
-        const RobotWork& work = robots[members[m]];
-        const auto own = [&](const std::vector<double>& x) {
-            return std::span(x).subspan(static_cast<std::size_t>(s.island_offsets[m]),
-                                        static_cast<std::size_t>(work.type->nv));
-        };
-        s.guard.allow_mending(model, work, own(s.v), own(s.way));
-    }
-    return true;
+    return std::ranges::any_of(members, is_touched) &&
+           s.guard.start(model, robots, members, s.anchored, bounces, s.rows, s.free_buffer.work);
 }
 
 void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch& s,

@@ -47,24 +47,15 @@ bool IslandGuard::start(const Model& model, std::span<RobotWork> robots,
     if (!std::ranges::any_of(members, bends) && !bounces) return false;
     if (!std::ranges::all_of(members, passive) || has_soft_contacts(rows)) return false;
     anchored_ = anchored;
-    lifted_ = 0;
     origin_ = robots[members[0]].origin;
     energy_ = sums(model, robots, members, buffer).energy();
     return true;
 }
 
-void IslandGuard::allow_mending(const Model& model, const RobotWork& robot, std::span<const double> velocity,
-                                std::span<const double> displacement) {
-    if (!robot.type->free_base) return;
-    const auto extra = [&](std::size_t i) { return displacement[i] - velocity[i]; };
-    const double lift = -model.dt_s * dot(model.gravity, Vec3{extra(3), extra(4), extra(5)});
-    for (const Body& body : robot.type->bodies) lifted_ += std::max(lift, 0.0) * body.gravity_mass;
-}
-
 void IslandGuard::finish(const Model& model, std::span<RobotWork> robots,
                          std::span<const std::uint32_t> members, RobotWork& buffer) const {
     const BodySums now = sums(model, robots, members, buffer);
-    const Slowdown slowdown = slowdown_to(energy_ + lifted_ - now.potential, now, anchored_);
+    const Slowdown slowdown = slowdown_to(energy_ - now.potential, now, anchored_);
     for (const std::uint32_t m : members)
         if (robots[m].type->nv > 0) slowdown.apply(*robots[m].type, origin_, *robots[m].state);
 }

@@ -20,9 +20,6 @@ class IslandGuard {
     /// not. `anchored`: something pushes it that does not move freely.
     bool start(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
                bool anchored, bool bounces, const IslandRows& rows, RobotWork& buffer);
-    /// Allows for what the mending of penetrations lifts a member by: displacement over dt against velocity.
-    void allow_mending(const Model& model, const RobotWork& robot, std::span<const double> velocity,
-                       std::span<const double> displacement);
     /// After it: slows the motion of the members against each other (where anchored: all motion) as far as
     /// the energy grew.
     void finish(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
@@ -33,7 +30,7 @@ class IslandGuard {
                   RobotWork& buffer) const;
 
     bool anchored_ = false;
-    double energy_ = 0, lifted_ = 0;
+    double energy_ = 0;
     Vec3 origin_;
 };
 
