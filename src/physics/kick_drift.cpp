@@ -32,7 +32,9 @@ class KickDrift {
     /// Where no row acts.
     void fly() {
         const BodySums before = sums();
-        advance_steadily(model_, work_, {}, fastest_turn(work_), buffer_);
+        const double fastest = fastest_turn(work_);
+        if (is_too_fast(fastest)) return spin_on(before);
+        advance_steadily(model_, work_, {}, fastest, buffer_);
         guard(before);
     }
 
@@ -47,7 +49,7 @@ class KickDrift {
         const BodySums before = sums();
         attempt();
         for (int i = 0; i < kLimitRounds && stop_at_limits(); ++i) attempt_again();
-        if (!(solved_.passive && solved_.isolated) && is_far_off(before)) return take_solution();
+        if (is_far_off(before)) return take_solution();
         bool kept = guard(before);
         if (!kept && hold_still()) {
             attempt_again();
@@ -134,11 +136,25 @@ class KickDrift {
         }
     }
 
+    /// True where a body turns further than the method can follow.
+    bool is_too_fast(double fastest) const {
+        return !(fastest * model_.dt_s * model_.dt_s < kTurnMost * kTurnMost);
+    }
+
+    /// Velocities stay but for what gravity adds: about its axis of rotation a body keeps its energy.
+    void spin_on(const BodySums& before) {
+        if (type_.free_base) add_rigid_motion({{}, model_.gravity * model_.dt_s}, origin_, 1.0, state_);
+        advance_coordinates<double>(type_, state_.v, model_.dt_s, state_.q);
+        if (type_.has_equalities()) buffer_.projection.close_coordinates(type_, state_.q);
+        if (!type_.dofs.empty()) guard(before);
+    }
+
     /// True where the drift is no better than the solution: a body turns further than the method can follow,
     /// or large loads or kicks (jammed limbs between strong motors) have carried it away.
     bool is_far_off(const BodySums& before) {
         constexpr double kMoreByKick = 2, kMoreByDrift = 1.2;  // times the kinetic energy
-        if (!(fastest_ * model_.dt_s * model_.dt_s < kTurnMost * kTurnMost)) return true;
+        if (is_too_fast(fastest_)) return true;
+        if (solved_.passive && solved_.isolated) return false;
         const double solution =
             sum_bodies(model_, buffer_.held.q_start, solved_.velocity, origin_, buffer_.work).kinetic;
         if (!(kicked_.kinetic <= kMoreByKick * std::max(before.kinetic, solution))) return true;

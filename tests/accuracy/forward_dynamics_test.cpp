@@ -80,7 +80,7 @@ std::vector<double> tick_acceleration(const Model& model, RobotState state) {
 /// the middle between a tick forward and one backward. Without damping and springs, which a tick takes
 /// implicitly.
 TEST_P(ForwardDynamics, TicksWithEffortMotorsGiveMujocosAcceleration) {
-    world_.dt_s = 1e-5;
+    world_.dt_s = 1e-6;
     for (JointSpec& j : world_.prototypes[0].joints)
         for (AxisSpec& axis : j.axes) axis.damping = axis.spring_stiffness = 0;
     compile_and_load();
