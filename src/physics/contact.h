@@ -43,8 +43,12 @@ struct NearMiss {
 
 /// Those of which the robot is the first, of sorted ones.
 inline std::span<const NearMiss> misses_of(std::uint32_t robot, std::span<const NearMiss> sorted) {
-    const auto range = std::ranges::equal_range(sorted, static_cast<int>(robot), {}, &NearMiss::robot_a);
-    return {range.begin(), range.end()};
+    const int own = static_cast<int>(robot);
+    const auto first = std::lower_bound(sorted.begin(), sorted.end(), own,
+                                        [](const NearMiss& miss, int r) { return miss.robot_a < r; });
+    auto last = first;
+    while (last != sorted.end() && last->robot_a == own) ++last;
+    return {first, last};
 }
 
 struct Course;

@@ -65,7 +65,7 @@ class KickDrift {
 
   private:
     static constexpr int kLimitRounds = 3;
-    static constexpr double kTurnMost = 8;  // rad in a tick
+    static constexpr double kTurnMost = 16;  // rad in a tick
 
     BodySums sums() { return sum_bodies(model_, state_.q, state_.v, origin_, buffer_.work); }
     std::size_t dof_index(std::size_t d) const { return d + static_cast<std::size_t>(type_.base_nv()); }

@@ -169,7 +169,8 @@ TEST(NotFinite, NamesTheFirstJointWhereTheStepItselfLeadsToInfinity) {
     World world = empty_world(1e-3);
     place(world, arm(), "arm");
     Simulation sim(world);
-    sim.states[0].v[2] = 1e200;  // it has no shapes, so nothing shows before the step
+    sim.set_motor(0, 0, MotorMode::kEffort, 1);  // without a row it would spin on
+    sim.states[0].v[2] = 1e200;                  // it has no shapes, so nothing shows before the step
     const StepReport& report = sim.step();
     EXPECT_EQ(report.not_finite, RobotId(0u));
     EXPECT_EQ(report.not_finite_joint, JointId(0u)) << "all its joints are coupled";
