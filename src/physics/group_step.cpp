@@ -366,13 +366,14 @@ void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch&
     mark_pushed(robots, s);
     stop_late_hits(model, robots, s, members, split, report);
     mark_touched(robots, s);
-    s.common_velocity = common_velocity(robots, s, members);
+    const bool drifts = std::ranges::find(s.drifts, 1) != s.drifts.end();
+    if (drifts && !s.anchored) s.common_velocity = common_velocity(robots, s, members);
     const bool guards = start_guard(model, robots, s, members, bounces);
     finish_island(model, robots, s, members, s.way);
     const auto moved_well = [&](std::uint32_t m) {
         return is_sane(robots[m].state->q) && is_sane(robots[m].state->v);
     };
-    if (std::ranges::all_of(members, moved_well)) s.look.push_out(robots, model);
+    if (s.look.may_push_out() && std::ranges::all_of(members, moved_well)) s.look.push_out(robots, model);
     if (guards) s.guard.finish(model, robots, members, s.free_buffer.work);
 }
 

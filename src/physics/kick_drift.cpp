@@ -15,7 +15,7 @@ namespace {
 constexpr double kGrowth = 2e-5;  // 1/s: of the kinetic energy, left to the method's errors of either sign
 
 /// Where the centre of mass comes to (from the origin), and the momentum about the origin.
-struct Course {
+struct FreeCourse {
     Vec3 centre;
     Spatial momentum;
 };
@@ -67,12 +67,14 @@ class KickDrift {
     static constexpr int kLimitRounds = 3;
     static constexpr double kTurnMost = 16;  // rad in a tick
 
+    /// True where nothing may add to the robot's energy.
+    bool keeps_energy() const { return solved_.isolated && solved_.passive; }
     BodySums sums() { return sum_bodies(model_, state_.q, state_.v, origin_, buffer_.work); }
     std::size_t dof_index(std::size_t d) const { return d + static_cast<std::size_t>(type_.base_nv()); }
 
     void attempt() {
         kick();
-        kicked_ = sums();
+        if (!keeps_energy()) kicked_ = sums();
         drift();
     }
     void attempt_again() {
@@ -154,7 +156,7 @@ class KickDrift {
     bool is_far_off(const BodySums& before) {
         constexpr double kMoreByKick = 2, kMoreByDrift = 1.2;  // times the kinetic energy
         if (is_too_fast(fastest_)) return true;
-        if (solved_.passive && solved_.isolated) return false;
+        if (keeps_energy()) return false;
         const double solution =
             sum_bodies(model_, buffer_.held.q_start, solved_.velocity, origin_, buffer_.work).kinetic;
         if (!(kicked_.kinetic <= kMoreByKick * std::max(before.kinetic, solution))) return true;
@@ -199,7 +201,7 @@ class KickDrift {
     }
 
     /// Locked joints that moved go to where they were to come at once, momentum unchanged, and stay there.
-    /// Quasi- static motion of a stiff spring takes energy then. False if none moved.
+    /// Quasi-static motion of a stiff spring takes energy then. False if none moved.
     bool hold_still() {
         HeldJoints& held = buffer_.held;
         bool any = false;
@@ -250,7 +252,7 @@ class KickDrift {
         momentum.angular += cross(way, along);
         BodySums now = sums();
         put_on({before.centre() + way, momentum}, now);
-        if (solved_.isolated && solved_.passive) limit(before.energy(), now);
+        if (keeps_energy()) limit(before.energy(), now);
     }
 
     /// The momentum that the extra displacement over dt would have as a velocity, at the beginning of the
@@ -262,12 +264,11 @@ class KickDrift {
 
     /// What the drift loses of momentum, and gains of energy, is put right. False if too much energy remains.
     bool guard(const BodySums& before) {
-        const std::optional<Course> course = course_of(before);
-        const bool limits = solved_.isolated && solved_.passive;
-        if (!course && !limits) return true;
+        const std::optional<FreeCourse> course = course_of(before);
+        if (!course && !keeps_energy()) return true;
         BodySums now = sums();
         if (course) put_on(*course, now);
-        return !limits || limit(before.energy() + kGrowth * model_.dt_s * before.kinetic, now);
+        return !keeps_energy() || limit(before.energy() + kGrowth * model_.dt_s * before.kinetic, now);
     }
 
     /// The base's part of a generalised impulse of rows: what they push from outside, about the origin.
@@ -278,7 +279,7 @@ class KickDrift {
 
     /// The course of a robot on which contacts and gravity are all that acts from outside: kicks act at the
     /// beginning, loads evenly, and the torque of the weight is integrated along the parabola.
-    std::optional<Course> course_of(const BodySums& before) const {
+    std::optional<FreeCourse> course_of(const BodySums& before) const {
         if (!type_.free_base || !state_.wrenches.empty() || !type_.drags.empty()) return std::nullopt;
         if (model_.gravity != Vec3{})
             for (const Body& body : type_.bodies)
@@ -292,11 +293,11 @@ class KickDrift {
         const Vec3 arm = centre * dt + velocity * (0.5 * dt * dt);
         Spatial momentum = before.momentum + kick + load;
         momentum += Spatial{cross(arm, weight) + solved_.late_moment, weight * dt};
-        return Course{centre + velocity * dt + acceleration * (0.5 * dt * dt), momentum};
+        return FreeCourse{centre + velocity * dt + acceleration * (0.5 * dt * dt), momentum};
     }
 
     /// Moves the robot as a whole onto the course; `now` are its sums.
-    void put_on(const Course& course, BodySums& now) {
+    void put_on(const FreeCourse& course, BodySums& now) {
         const Vec3 off = course.centre - now.centre();
         for (std::size_t i = 0; i < 3; ++i) state_.q[i] += off[i];
         translate(off, model_.gravity, now);

@@ -36,6 +36,8 @@ class SecondLook {
     /// Once the island has moved: bodies that turned far and sank in by that are put back, as far as their
     /// robots are free to be moved.
     void push_out(std::span<RobotWork> robots, const Model& model);
+    /// False if push_out would look at nothing.
+    bool may_push_out() const { return !turned_.empty(); }
     /// All hits of the island, in the order of their rows.
     std::span<Contact> hits() { return hits_; }
     /// When the first of those found last happens, s.
