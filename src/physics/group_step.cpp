@@ -86,25 +86,22 @@ void choose_drifting(const Model& model, std::span<const RobotWork> robots, Grou
                    s.split);
 }
 
-/// What swept contacts give a robot of angular momentum about its origin beyond what their rows say: the rows
-/// have the arms of the impact from where the bodies are at the beginning, but both robots are pushed at one
-/// place.
-Vec3 late_moment(const RobotWork& work, std::uint32_t robot, const GroupScratch& s) {
+/// N m s: what the rows of swept contacts between robots lack of conserving angular momentum. They push both
+/// robots at the place of the impact, but with the arms that it has from where the bodies are at the
+/// beginning.
+Vec3 late_moment(const GroupScratch& s) {
     Vec3 moment;
     for (const Contact* c : s.island_contacts) {
-        if (c->time == 0 || c->impulse <= 0 || c->robot_a == c->robot_b) continue;
+        if (c->time == 0 || c->robot_a == c->robot_b || c->robot_b < 0) continue;
         const Vec3 push = c->normal * c->impulse + c->friction;
-        if (c->robot_a == static_cast<int>(robot))
-            moment += cross(course_of(work, c->shape_a).shift(c->time), push);
-        else if (c->robot_b == static_cast<int>(robot))
-            moment -= cross(course_of(work, c->shape_b).shift(c->time), push);
+        moment += cross(c->shift_b, push);
     }
     return moment;
 }
 
 /// Moves one member by the kick-drift step.
-void drift(const Model& model, RobotWork& work, std::size_t member, std::uint32_t robot, bool touched,
-           std::span<const double> way, GroupScratch& s) {
+void drift(const Model& model, RobotWork& work, std::size_t member, bool touched, std::span<const double> way,
+           GroupScratch& s) {
     const auto offset = static_cast<std::size_t>(s.island_offsets[member]);
     const auto nv = static_cast<std::size_t>(work.type->nv);
     const auto own = [&](const auto& array) { return std::span(array).subspan(offset, nv); };
@@ -113,26 +110,8 @@ void drift(const Model& model, RobotWork& work, std::size_t member, std::uint32_
     solved.kick = own(s.split.kick), solved.load = own(s.split.load), solved.locked = own(s.split.locked);
     solved.held = own(s.split.held);
     solved.isolated = !touched;
-    solved.late_moment = late_moment(work, robot, s);
     solved.passive = is_passive(work);
-    if (!s.anchored) solved.common_velocity = s.common_velocity;
-    advance_kick_drift(model, work, solved, s.free_buffer);
-}
-
-/// Mean of the bases' velocities, m/s, weighed by the robots' masses.
-Vec3 common_velocity(std::span<const RobotWork> robots, const GroupScratch& s,
-                     std::span<const std::uint32_t> members) {
-    Vec3 momentum;
-    double all = 0;
-    for (std::size_t m = 0; m < members.size(); ++m) {
-        const RobotType& type = *robots[members[m]].type;
-        if (!type.free_base) continue;
-        double mass = 0;
-        for (const Body& body : type.bodies) mass += body.mass;
-        const auto i = static_cast<std::size_t>(s.island_offsets[m]) + 3;
-        momentum += Vec3{s.v[i], s.v[i + 1], s.v[i + 2]} * mass, all += mass;
-    }
-    return all > 0 ? momentum * (1.0 / all) : Vec3{};
+    s.gained_moment += advance_kick_drift(model, work, solved, s.free_buffer);
 }
 
 /// Writes the solved velocities into the states and moves the coordinates. A robot that is near something but
@@ -149,7 +128,7 @@ void finish_island(const Model& model, std::span<RobotWork> robots, GroupScratch
         }
         work.held = true;
         if (s.drifts[m]) {
-            drift(model, work, m, members[m], s.touched[members[m]] != 0, way, s);
+            drift(model, work, m, s.touched[members[m]] != 0, way, s);
             continue;
         }
         std::copy_n(s.v.begin() + static_cast<std::ptrdiff_t>(offset), nv, work.state->v.begin());
@@ -295,6 +274,35 @@ void hold_displacement(GroupScratch& s, bool split) {
     }
 }
 
+/// Stops the displacement at the first hit. Where robots hit only each other, their centre of mass goes on:
+/// it is their motion relative to it that stops.
+void stop_at_first_hit(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
+                       std::span<const std::uint32_t> members) {
+    const double share = s.look.first_time() / model.dt_s;
+    const auto flies = [&](int robot) {
+        return robot >= 0 && robots[static_cast<std::size_t>(robot)].type->free_base;
+    };
+    const bool free = !s.anchored && std::ranges::all_of(s.look.hits(), [&](const Contact& hit) {
+        return flies(hit.robot_a) && flies(hit.robot_b);
+    });
+    BodySums all;
+    for (std::size_t m = 0; free && m < members.size(); ++m) {
+        const RobotWork& robot = robots[members[m]];
+        if (!robot.type->free_base) continue;
+        const auto own = std::span(s.way).subspan(static_cast<std::size_t>(s.island_offsets[m]),
+                                                  static_cast<std::size_t>(robot.type->nv));
+        s.free_buffer.work.type = robot.type, s.free_buffer.work.state = robot.state;
+        all += sum_bodies(model, robot.state->q, own, robot.origin, s.free_buffer.work);
+    }
+    const Vec3 common = all.inertia.mass > 0 ? all.momentum.linear * (1.0 / all.inertia.mass) : Vec3{};
+    for (double& x : s.way) x *= share;
+    for (std::size_t m = 0; free && m < members.size(); ++m) {
+        if (!robots[members[m]].type->free_base) continue;
+        const auto linear = static_cast<std::size_t>(s.island_offsets[m]) + 3;
+        for (std::size_t i = 0; i < 3; ++i) s.way[linear + i] += (1 - share) * common[i];
+    }
+}
+
 /// Keeps the displacement from what it would hit beyond the contacts that it was solved for. What a few
 /// rounds do not settle stops at the first hit.
 void stop_late_hits(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
@@ -309,7 +317,7 @@ void stop_late_hits(const Model& model, std::span<RobotWork> robots, GroupScratc
             s.way};
         if (!s.look.find(island, round == 0)) break;
         if (round == kRounds) {
-            for (double& x : s.way) x *= s.look.first_time() / model.dt_s;
+            stop_at_first_hit(model, robots, s, members);
             break;
         }
         if (round == 0) hold_displacement(s, split);
@@ -330,10 +338,12 @@ void stop_late_hits(const Model& model, std::span<RobotWork> robots, GroupScratc
 
 /// True if the island's energy is to be guarded.
 bool start_guard(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
-                 std::span<const std::uint32_t> members, bool bounces) {
-    const auto is_touched = [&](std::uint32_t m) { return s.touched[m] != 0; };
-    return std::ranges::any_of(members, is_touched) &&
-           s.guard.start(model, robots, members, s.anchored, bounces, s.rows, s.free_buffer.work);
+                 std::span<const std::uint32_t> members, bool bounces, bool drifts) {
+    IslandGuard::Island island{members,           s.island_offsets,  s.v_before,
+                               s.island_surfaces, s.island_contacts, s.rows};
+    island.touched = std::ranges::any_of(members, [&](std::uint32_t m) { return s.touched[m] != 0; });
+    island.anchored = s.anchored, island.bounces = bounces, island.drifts = drifts;
+    return s.guard.start(model, robots, island, s.free_buffer.work);
 }
 
 void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
@@ -367,13 +377,15 @@ void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch&
     stop_late_hits(model, robots, s, members, split, report);
     mark_touched(robots, s);
     const bool drifts = std::ranges::find(s.drifts, 1) != s.drifts.end();
-    if (drifts && !s.anchored) s.common_velocity = common_velocity(robots, s, members);
-    const bool guards = start_guard(model, robots, s, members, bounces);
+    s.gained_moment = {};
+    const bool guards = start_guard(model, robots, s, members, bounces, drifts);
     finish_island(model, robots, s, members, s.way);
     const auto moved_well = [&](std::uint32_t m) {
         return is_sane(robots[m].state->q) && is_sane(robots[m].state->v);
     };
     if (s.look.may_push_out() && std::ranges::all_of(members, moved_well)) s.look.push_out(robots, model);
+    if (const Vec3 moment = late_moment(s) - s.gained_moment; !s.anchored && moment != Vec3{})
+        turn_island(model, robots, members, moment, s.free_buffer.work);
     if (guards) s.guard.finish(model, robots, members, s.free_buffer.work);
 }
 

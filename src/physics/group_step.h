@@ -41,7 +41,7 @@ struct GroupScratch {
     std::vector<char> touched;  // by robot: pushed by another or by scenery
     bool anchored = false;      // the island: pushed by something that does not move freely
     RowSplit split;             // if anyone drifts
-    Vec3 common_velocity;       // of the island
+    Vec3 gained_moment;         // of the island: returned by advance_kick_drift
     IslandGuard guard;
     SecondLook look;
     IslandSolver solver;

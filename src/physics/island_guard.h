@@ -1,6 +1,6 @@
-// Keeps passive contact islands from gaining energy. Newton's law of restitution at several contacts at once,
-// and contacts with limbs that turn far in a tick, can add some by themselves (Stronge, Rigid body collisions
-// with friction, 1990).
+// Keeps contact islands from gaining energy beyond what motors and springs of soft contacts can give.
+// Newton's law of restitution at several contacts at once, and contacts with limbs that turn far in a tick,
+// can add some by themselves (Stronge, Rigid body collisions with friction, 1990).
 #pragma once
 
 #include <span>
@@ -14,23 +14,38 @@ namespace roboss {
 bool throws_back(const IslandRows& rows);
 
 /// One contact island's tick. `members` index `robots`.
+/// Adds angular momentum, N m s, to an island of robots with free bases: it turns about its centre of mass as
+/// if it were one rigid body.
+void turn_island(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
+                 const Vec3& moment, RobotWork& buffer);
+
 class IslandGuard {
   public:
-    /// Before the states are moved: notes the energy, if the island is passive and at risk. False if it is
-    /// not. `anchored`: something pushes it that does not move freely.
-    bool start(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
-               bool anchored, bool bounces, const IslandRows& rows, RobotWork& buffer);
+    /// What is known of the island besides its robots.
+    struct Island {
+        std::span<const std::uint32_t> members;
+        std::span<const int> offsets;           // by member: its first degree of freedom in the island
+        std::span<const double> v_before;       // by degree of freedom
+        std::span<const SurfacePair> surfaces;  // by contact row
+        std::span<const Contact* const> contacts;
+        const IslandRows& rows;
+        bool touched = false;   // a robot touches another or scenery
+        bool anchored = false;  // something pushes it that does not move freely
+        bool bounces = false;   // throws_back
+        bool drifts = false;    // a member takes the kick-drift step
+    };
+
+    /// Before the states are moved: notes the energy that the island may have after the tick. False where it
+    /// is not at risk, or where more than motors and contact springs can give it energy.
+    bool start(const Model& model, std::span<RobotWork> robots, const Island& island, RobotWork& buffer);
     /// After it: slows the motion of the members against each other (where anchored: all motion) as far as
     /// the energy grew.
     void finish(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
                 RobotWork& buffer) const;
 
   private:
-    BodySums sums(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
-                  RobotWork& buffer) const;
-
     bool anchored_ = false;
-    double energy_ = 0;
+    double energy_ = 0;  // J, at most
     Vec3 origin_;
 };
 

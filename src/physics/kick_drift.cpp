@@ -29,48 +29,67 @@ class KickDrift {
         buffer_.work.state = work.state;
     }
 
-    /// Where no row acts.
+    /// Where no row acts at the beginning.
     void fly() {
         const BodySums before = sums();
-        const double fastest = fastest_turn(work_);
-        if (is_too_fast(fastest)) return spin_on(before);
-        advance_steadily(model_, work_, {}, fastest, buffer_);
-        guard(before);
+        fastest_ = fastest_turn(work_);
+        if (is_too_fast(fastest_)) return spin_on(before);
+        start();
+        advance_steadily(model_, work_, {}, fastest_, buffer_);
+        stop_at_passed_limits();
+        finish(before);
     }
 
     /// Where rows act. The first attempt may pass a limit, which the solver did not know of, or may gain
     /// energy, because a joint that moves as solved works against forces that the solver took at the
     /// beginning.
-    void advance() {
+    Vec3 advance() {
+        const BodySums before = sums();
+        start();
+        attempt();
+        stop_at_passed_limits();
+        if (is_far_off(before)) {
+            take_solution();
+        } else {
+            finish(before);
+            shift();
+        }
+        return gained_;
+    }
+
+  private:
+    static constexpr int kLimitRounds = 3;
+    static constexpr double kTurnMost = 16;       // rad in a tick
+    static constexpr double kMoreByShift = 1.01;  // times the kinetic energy about the centre of mass
+
+    /// True where nothing may add to the robot's energy.
+    bool keeps_energy() const { return solved_.isolated && solved_.passive; }
+    bool rows_act() const { return !solved_.velocity.empty(); }
+    BodySums sums() { return sum_bodies(model_, state_.q, state_.v, origin_, buffer_.work); }
+    std::size_t dof_index(std::size_t d) const { return d + static_cast<std::size_t>(type_.base_nv()); }
+
+    void start() {
         HeldJoints& held = buffer_.held;
         held.locked.assign(solved_.locked.begin(), solved_.locked.end());
         held.velocity.assign(solved_.held.begin(), solved_.held.end());
+        held.locked.resize(state_.v.size()), held.velocity.resize(state_.v.size());
         held.q_start = state_.q, held.v_start = state_.v;
-        const BodySums before = sums();
-        attempt();
+    }
+    void stop_at_passed_limits() {
         for (int i = 0; i < kLimitRounds && stop_at_limits(); ++i) attempt_again();
-        if (is_far_off(before)) return take_solution();
+    }
+    /// Keeps momentum and energy as they have to be; the last resorts cost relative motion of the links.
+    void finish(const BodySums& before) {
         bool kept = guard(before);
         if (!kept && hold_still()) {
             attempt_again();
             kept = guard(before);
         }
-        if (!kept) {
-            hold_all();
-            attempt_again();
-            guard(before);
-        }
-        shift();
+        if (kept) return;
+        hold_all();
+        attempt_again();
+        guard(before);
     }
-
-  private:
-    static constexpr int kLimitRounds = 3;
-    static constexpr double kTurnMost = 16;  // rad in a tick
-
-    /// True where nothing may add to the robot's energy.
-    bool keeps_energy() const { return solved_.isolated && solved_.passive; }
-    BodySums sums() { return sum_bodies(model_, state_.q, state_.v, origin_, buffer_.work); }
-    std::size_t dof_index(std::size_t d) const { return d + static_cast<std::size_t>(type_.base_nv()); }
 
     void attempt() {
         kick();
@@ -100,7 +119,7 @@ class KickDrift {
             if (held.locked[i]) jump[i] = held.velocity[i] - state_.v[i];
         tree_times(paths, mass_matrix.data(), jump.data(), by_locked.data());
         for (std::size_t i = 0; i < nv; ++i)
-            change[i] = held.locked[i] ? jump[i] : solved_.kick[i] - by_locked[i];
+            change[i] = held.locked[i] ? jump[i] : (rows_act() ? solved_.kick[i] : 0.0) - by_locked[i];
         lock_rows(paths, held.locked, mass_matrix.data());
         tree_factor(paths, mass_matrix.data());
         tree_solve(paths, mass_matrix.data(), change.data());
@@ -114,13 +133,14 @@ class KickDrift {
         fastest_ = 0;
         const std::vector<double>& before = buffer_.held.v_start;
         for (const std::span<const double> v :
-             {std::span(before), solved_.velocity, std::span<const double>(state_.v)}) {
+             {std::span(before), rows_act() ? solved_.velocity : std::span(before),
+              std::span<const double>(state_.v)}) {
             move_bodies<double>(type_, v, work_);
             fastest_ = std::max(fastest_, fastest_turn(work_));
         }
         buffer_.force.assign(solved_.load.begin(), solved_.load.end());
         for (double& x : buffer_.force) x /= model_.dt_s;
-        add_stiff_forces();
+        if (rows_act()) add_stiff_forces();
         advance_steadily(model_, work_, {buffer_.force, buffer_.held.locked, true}, fastest_, buffer_);
     }
 
@@ -231,7 +251,7 @@ class KickDrift {
     }
 
     /// The mending of penetrations and what impacts inside the tick change in the displacement. Momentum
-    /// stays.
+    /// stays, so a slender body that is turned would have to spin faster about its axis: such a turn is cut.
     void shift() {
         std::vector<double>& extra = buffer_.wanted;
         extra.resize(state_.v.size());
@@ -241,18 +261,28 @@ class KickDrift {
             any |= extra[i] != 0;
         }
         if (!any) return;
+        if (!type_.free_base) return displace(1);
         const BodySums before = sums();
-        advance_coordinates<double>(type_, extra, model_.dt_s, state_.q);
-        if (type_.has_equalities()) buffer_.projection.close_coordinates(type_, state_.q);
-        if (!type_.free_base) return;
         const Vec3 way = displaced().linear * (model_.dt_s / before.inertia.mass);
-        const Vec3 own_velocity = before.momentum.linear * (1.0 / before.inertia.mass);
-        const Vec3 along = solved_.common_velocity.value_or(own_velocity) * before.inertia.mass;
+        gained_ = cross(way, before.momentum.linear);
         Spatial momentum = before.momentum;
-        momentum.angular += cross(way, along);
-        BodySums now = sums();
-        put_on({before.centre() + way, momentum}, now);
-        if (keeps_energy()) limit(before.energy(), now);
+        momentum.angular += gained_;
+        HeldJoints& held = buffer_.held;
+        held.q_start = state_.q, held.v_start = state_.v;
+        for (const double share : {1.0, 0.25, 0.0}) {
+            state_.q = held.q_start, state_.v = held.v_start;
+            displace(share);
+            BodySums now = sums();
+            put_on({before.centre() + way, momentum}, now);
+            if (keeps_energy()) limit(before.energy(), now);
+            if (now.inner_kinetic() <= kMoreByShift * before.inner_kinetic()) return;
+        }
+    }
+
+    /// Turns and bends the robot by a share of the extra displacement.
+    void displace(double share) {
+        advance_coordinates<double>(type_, buffer_.wanted, share * model_.dt_s, state_.q);
+        if (type_.has_equalities()) buffer_.projection.close_coordinates(type_, state_.q);
     }
 
     /// The momentum that the extra displacement over dt would have as a velocity, at the beginning of the
@@ -267,6 +297,7 @@ class KickDrift {
         const std::optional<FreeCourse> course = course_of(before);
         if (!course && !keeps_energy()) return true;
         BodySums now = sums();
+        if (!std::isfinite(now.energy())) return false;  // joints held through a dead point of a loop
         if (course) put_on(*course, now);
         return !keeps_energy() || limit(before.energy() + kGrowth * model_.dt_s * before.kinetic, now);
     }
@@ -292,7 +323,7 @@ class KickDrift {
         const Vec3 centre = before.centre();
         const Vec3 arm = centre * dt + velocity * (0.5 * dt * dt);
         Spatial momentum = before.momentum + kick + load;
-        momentum += Spatial{cross(arm, weight) + solved_.late_moment, weight * dt};
+        momentum += Spatial{cross(arm, weight), weight * dt};
         return FreeCourse{centre + velocity * dt + acceleration * (0.5 * dt * dt), momentum};
     }
 
@@ -327,13 +358,18 @@ class KickDrift {
     const Vec3 origin_ = work_.origin;
     BodySums kicked_;     // right after the kick
     double fastest_ = 0;  // (rad/s)^2
+    Vec3 gained_;         // N m s, about any fixed point: by moving the centre of mass at once
 };
 
 }  // namespace
 
 bool is_passive(const RobotWork& work) {
+    return !is_driven<double>(work.state->motors) && only_motors_drive(work);
+}
+
+bool only_motors_drive(const RobotWork& work) {
     const RobotType& type = *work.type;
-    if (is_driven<double>(work.state->motors) || !work.state->wrenches.empty()) return false;
+    if (!work.state->wrenches.empty()) return false;
     for (const LinkDrag& drag : type.drags)
         if (drag.wind) return false;
     for (const LoopJoint& loop : type.loops)
@@ -342,8 +378,8 @@ bool is_passive(const RobotWork& work) {
     return true;
 }
 
-void advance_kick_drift(const Model& model, RobotWork& work, const SolvedTick& solved, FreeBuffer& buffer) {
-    KickDrift(model, solved, work, buffer).advance();
+Vec3 advance_kick_drift(const Model& model, RobotWork& work, const SolvedTick& solved, FreeBuffer& buffer) {
+    return KickDrift(model, solved, work, buffer).advance();
 }
 
 void advance_freely(const Model& model, RobotWork& work, FreeBuffer& buffer) {

@@ -8,7 +8,6 @@
 // relative size (turn in a tick)^2. docs/decisions/0015-kick-drift.md.
 #pragma once
 
-#include <optional>
 #include <span>
 
 #include "physics/integrate.h"
@@ -19,6 +18,8 @@ namespace roboss {
 /// True if no motor, wrench, wind or spring of a loop joint can give the robot energy that BodySums does not
 /// count.
 bool is_passive(const RobotWork& work);
+/// The same of all but motors.
+bool only_motors_drive(const RobotWork& work);
 
 /// What the solver found for one robot; all spans have its nv entries, or none where no row acts.
 struct SolvedTick {
@@ -28,17 +29,15 @@ struct SolvedTick {
         load;                      // generalised impulses of rows, N s; those of locked joints are left out
     std::span<const char> locked;  // held at `held`
     std::span<const double> held;
-    Vec3 late_moment;  // N m s about the origin: of contacts met later in the tick, beyond that in `kick`
-    // m/s: of the contact island's members together; none where momentum goes to scenery.
-    std::optional<Vec3> common_velocity;
     bool isolated = false;  // nothing from outside pushes
     bool passive = false;   // and is_passive
 };
 
-/// Moves the placed robot by one tick. Its momentum changes by the contacts' impulses and gravity alone.
-/// Where it is isolated and passive, the sum of kinetic and potential energy grows by no more than 2e-5 of
-/// the kinetic a second.
-void advance_kick_drift(const Model& model, RobotWork& work, const SolvedTick& solved, FreeBuffer& buffer);
+/// Moves the placed robot by one tick. Its momentum changes by the contacts' impulses and gravity alone, and
+/// by what is returned: angular momentum, N m s, about any fixed point, that comes of a displacement other
+/// than that of the velocity. Where it is isolated and passive, the sum of kinetic and potential energy grows
+/// by no more than 2e-5 of the kinetic a second.
+Vec3 advance_kick_drift(const Model& model, RobotWork& work, const SolvedTick& solved, FreeBuffer& buffer);
 
 /// Moves the placed robot, which nothing pushes and no row acts on, by one tick of the Runge-Kutta method
 /// (advance_steadily). Where it turns fast, momentum and energy are guarded as in advance_kick_drift.

@@ -20,6 +20,8 @@ struct BodySums {
     bool rigid_motion(Spatial& motion) const;
     Vec3 centre() const { return inertia.moment * (1.0 / inertia.mass); }
     double energy() const { return kinetic + potential; }
+    /// J: of the motion about the centre of mass.
+    double inner_kinetic() const { return kinetic - 0.5 * norm_squared(momentum.linear) / inertia.mass; }
     BodySums& operator+=(const BodySums& b) {
         kinetic += b.kinetic, potential += b.potential, momentum += b.momentum, inertia += b.inertia;
         return *this;

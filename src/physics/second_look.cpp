@@ -5,6 +5,7 @@
 
 #include "core/make_room.h"
 #include "geometry/collide.h"
+#include "physics/robot_energy.h"
 
 namespace roboss {
 namespace {
@@ -115,8 +116,8 @@ void SecondLook::find_missed(const SolvedIsland& island, const NearMiss& pair) {
     if (!bent(pair.robot_a) && !bent(pair.robot_b)) return;
     const Course a = course(island, pair.robot_a, pair.shape_a);
     const Course b = course(island, pair.robot_b, pair.shape_b);
-    const double margin = (speed_of(a) + speed_of(b)) * model.dt_s + 2 * kBaseMargin;
     if (b.shape->kind == ShapeKind::kSurface) {
+        const double margin = speed_of(a) * model.dt_s + 2 * kBaseMargin;
         hold_planes(island, pair);
         const TriangleSurface& surface = *b.shape->surface;
         const auto t = time_of_impact(a, surface, b.X, model.dt_s, kDeep, margin, buffers_.held,
@@ -126,14 +127,22 @@ void SecondLook::find_missed(const SolvedIsland& island, const NearMiss& pair) {
         for (const SurfaceContact& c : buffers_.met) add(island, pair, a, b, *t, c.n_W, c.p_W, c.gap);
         return;
     }
+    add_first_hit(island, pair, a, b);
+}
+
+/// Where two convex shapes meet first. False if they do not.
+bool SecondLook::add_first_hit(const SolvedIsland& island, const NearMiss& pair, const Course& a,
+                               const Course& b) {
+    const double dt = island.model.dt_s, margin = (speed_of(a) + speed_of(b)) * dt + 2 * kBaseMargin;
     Manifold m = collide(*a.shape, a.X, *b.shape, b.X, margin);
-    if (m.count == 0) return;
-    const auto t = time_of_impact(a, b, model.dt_s, kDeep, margin, m);
-    if (!t) return;
+    if (m.count == 0) return false;
+    const auto t = time_of_impact(a, b, dt, kDeep, margin, m);
+    if (!t) return false;
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& p = m.points[static_cast<std::size_t>(i)];
         add(island, pair, a, b, *t, m.n_W, p.p_W, p.gap);
     }
+    return true;
 }
 
 /// A robot that another one strikes may move further than contacts were searched for. So far only scenery is
@@ -161,7 +170,7 @@ void SecondLook::find_struck(const SolvedIsland& island, std::uint32_t robot) {
 }
 
 /// `contacts`: of one pair of shapes. At the end of the tick no point may be deeper than it was at its
-/// beginning.
+/// beginning. Where a thin shape has come out behind the other, the end says nothing of where it went in.
 void SecondLook::find_turned(const SolvedIsland& island, std::span<const Contact* const> contacts) {
     const NearMiss pair = pair_of(*contacts.front());
     const double dt = island.model.dt_s;
@@ -181,6 +190,9 @@ void SecondLook::find_turned(const SolvedIsland& island, std::span<const Contact
         return;
     }
     const Manifold m = collide(*a.shape, a.at(dt), *b.shape, b.at(dt), 0);
+    const bool is_behind =
+        std::ranges::all_of(contacts, [&](const Contact* c) { return dot(c->normal, m.n_W) < 0; });
+    if (m.count > 0 && is_behind && add_first_hit(island, pair, a, b)) return;
     for (int i = 0; i < m.count; ++i)
         see(m.n_W, m.points[static_cast<std::size_t>(i)].p_W, m.points[static_cast<std::size_t>(i)].gap);
 }
@@ -261,9 +273,35 @@ bool SecondLook::push_out(std::span<RobotWork> robots, const Model& model, const
     const double ease_a = ease_of(a), ease_b = b == nullptr || b == &a ? 0 : ease_of(*b);
     if (normal == Vec3{} || ease_a + ease_b == 0 || b == &a) return false;
     const Vec3 push = normal * ((turned.least - deepest) / (ease_a + ease_b));
-    shift_base(push * ease_a, *a.state);
-    if (b != nullptr) shift_base(push * -ease_b, *b->state);
+    if (ease_a == 0 || ease_b == 0) {
+        shift_base(push * ease_a, *a.state);
+        if (ease_b > 0) shift_base(push * -ease_b, *b->state);
+    } else {
+        move_apart(model, a, push * ease_a, *b, push * -ease_b);
+    }
     return true;
+}
+
+/// Moves two free robots and keeps their common angular momentum: it would change by move x momentum.
+void SecondLook::move_apart(const Model& model, RobotWork& a, const Vec3& move_a, RobotWork& b,
+                            const Vec3& move_b) {
+    const Vec3 origin = a.origin;
+    const auto both = [&] {
+        BodySums sums;
+        for (const RobotWork* robot : {&a, &b}) {
+            placed_.type = robot->type, placed_.state = robot->state;
+            sums += sum_bodies(model, robot->state->q, robot->state->v, origin, placed_);
+        }
+        return sums;
+    };
+    const BodySums before = both();
+    shift_base(move_a, *a.state), shift_base(move_b, *b.state);
+    BodySums lacks = both();
+    lacks.momentum = {before.momentum.angular - lacks.momentum.angular,
+                      before.momentum.linear - lacks.momentum.linear};
+    Spatial missing;
+    if (!lacks.rigid_motion(missing)) return;
+    add_rigid_motion(missing, origin, 1.0, *a.state), add_rigid_motion(missing, origin, 1.0, *b.state);
 }
 
 void SecondLook::push_out(std::span<RobotWork> robots, const Model& model) {

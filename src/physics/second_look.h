@@ -50,8 +50,10 @@ class SecondLook {
         double least = 0;  // m: its least gap at the beginning of the tick, at most 0
     };
     bool push_out(std::span<RobotWork> robots, const Model& model, const Turned& turned);
+    void move_apart(const Model& model, RobotWork& a, const Vec3& move_a, RobotWork& b, const Vec3& move_b);
     const ShapeWork& placed(const RobotWork& robot, std::uint32_t shape);
     void find_missed(const SolvedIsland& island, const NearMiss& pair);
+    bool add_first_hit(const SolvedIsland& island, const NearMiss& pair, const Course& a, const Course& b);
     void find_struck(const SolvedIsland& island, std::uint32_t robot);
     void find_turned(const SolvedIsland& island, std::span<const Contact* const> contacts);
     void hold_planes(const SolvedIsland& island, const NearMiss& pair);
@@ -69,7 +71,7 @@ class SecondLook {
     bool strikes_ = false;   // a robot may move further than contacts were searched for
     std::vector<Turned> turned_;
     std::vector<std::uint32_t> scenery_;
-    Mechanics<double> placed_;  // where a robot is after the tick
+    RobotWork placed_;  // where a robot is after the tick
     SweepBuffers buffers_;
 };
 

@@ -13,6 +13,42 @@ double approach_of(const Course& a, const Course& b, const Vec3& n, const Vec3& 
     return -dot(n, a.velocity(p, 0) - b.velocity(p, 0));
 }
 
+/// A lone body whose angular velocity changes by itself.
+bool turns_freely(const Mechanics<double>& robot) {
+    constexpr double kSlow = 1;  // rad/s
+    const RobotType& type = *robot.type;
+    return type.free_base && type.nv == 6 && type.bodies[0].mass > 0 &&
+           norm_squared(robot.bodies[0].velocity.angular) > kSlow * kSlow;
+}
+
+/// I^-1 b by Cramer's rule; 0 if I is singular.
+Vec3 solve(const Mat3& I, const Vec3& b) {
+    const Vec3 c0 = cross(I.r1, I.r2), c1 = cross(I.r2, I.r0), c2 = cross(I.r0, I.r1);
+    const double determinant = dot(I.r0, c0);
+    return determinant > 0 ? (c0 * b.x + c1 * b.y + c2 * b.z) * (1.0 / determinant) : Vec3{};
+}
+
+/// The centre of mass flies straight; w' = I^-1 (I w x w) in the body's axes (Euler).
+Course free_course(const Mechanics<double>& robot, std::size_t number) {
+    const BodyShape& shape = robot.type->shapes[number];
+    const Transform& X = robot.shapes[number].X_WS;
+    const BodyWork& body = robot.bodies[0];
+    const Mat3 &R = body.X_WB.R, &I = robot.type->bodies[0].inertia_C;
+    const Vec3& w_W = body.velocity.angular;
+    const Vec3 w = transpose_times(R, w_W), centre = body.X_WB * robot.type->bodies[0].p_BC;
+    const Vec3 rate = solve(I, cross(I * w, w));
+    const Vec3 curve = solve(I, cross(I * rate, w) + cross(I * w, rate)) + cross(w, rate);
+    return {&shape.shape,
+            X,
+            centre,
+            w_W,
+            body.velocity.linear + cross(w_W, centre - robot.origin),
+            {},
+            turning_speed<double>(shape.shape, X.R, w_W),
+            R * rate,
+            R * curve};
+}
+
 bool is_fast(const Course& a, const Course& b, double dt) {
     const Vec3 v = a.velocity(a.X.p, 0) - b.velocity(b.X.p, 0);
     return (norm(v) + a.turning + b.turning) * dt > kFastWay;
@@ -25,10 +61,12 @@ Course course_of(const Mechanics<double>& robot, std::size_t number) {
     const Transform& X = robot.shapes[number].X_WS;
     if (shape.body < 0 || robot.bodies.empty()) return resting_course(shape.shape, X);
     const BodyWork& body = robot.bodies[static_cast<std::size_t>(shape.body)];
+    if (turns_freely(robot)) return free_course(robot, number);
     const Vec3 arm = body.X_WB.p - robot.origin, &w = body.velocity.angular;
     const Vec3 linear = body.velocity.linear + cross(w, arm);
     const Vec3 accelerated = body.bias.linear + cross(body.bias.angular, arm) + cross(w, linear);
-    return {&shape.shape, X, body.X_WB.p, w, linear, accelerated, turning_speed<double>(shape.shape, X.R, w)};
+    return {&shape.shape, X, body.X_WB.p, w, linear, accelerated, turning_speed<double>(shape.shape, X.R, w),
+            {},           {}};
 }
 
 SweptPair sweep(const Course& a, const Course& b, double dt, double margin, Manifold& m) {

@@ -19,13 +19,21 @@ void add_up_forces_at_rest(const Model& model, const RobotWork& work, FreeBuffer
     compute_impulse(model, model.dt_s, 0.0, work.state->q, buffer.v, buffer.work);
 }
 
+void leave_out_gyroscopic_torque(const Model& model, RobotWork& work, FreeBuffer& buffer) {
+    add_up_forces_at_rest(model, work, buffer);
+    tree_times(work.type->paths, work.mass_matrix.data(), work.state->v.data(), work.impulse.data());
+    for (std::size_t i = 0; i < work.impulse.size(); ++i) work.impulse[i] += buffer.work.impulse[i];
+}
+
 }  // namespace
 
 void tame_velocity_forces(const Model& model, RobotWork& work, FreeBuffer& buffer) {
     constexpr double kShare = 0.002;  // of the kinetic energy
     constexpr double kTurn = 0.5;     // rad
-    if (!(fastest_turn(work) * model.dt_s * model.dt_s > kTurn * kTurn) || !stirs<double>(work, model.dt_s))
-        return;
+    const bool lone = work.type->free_base && work.type->nv == 6;
+    const bool turns = lone || fastest_turn(work) * model.dt_s * model.dt_s > kTurn * kTurn;
+    if (!turns || !stirs<double>(work, model.dt_s)) return;
+    if (lone) return leave_out_gyroscopic_torque(model, work, buffer);
     add_up_forces_at_rest(model, work, buffer);
     const DofPaths& paths = work.type->paths;
     const std::vector<double>&v = work.state->v, &at_rest = buffer.work.impulse;
