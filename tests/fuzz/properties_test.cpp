@@ -60,7 +60,7 @@ TEST(Property, StatesStayFinite) {
 }
 
 TEST(Property, WhoPassesClearIsNotPushed) {
-    expect_holds({"ghost", 900});
+    expect_holds({"ghost", 900, 0});
 }
 
 TEST(Property, NothingPassesThroughAnything) {
