@@ -22,7 +22,7 @@ constexpr std::size_t kFew = 500, kVeryMany = 10'000;  // cars
 struct Wishes {
     std::vector<std::size_t> cars{50, 500, 2000, 10'000}, simulators{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
     std::vector<std::size_t> crowd{1000, 10'000, 100'000};
-    std::string driver, heap, json;
+    std::string driver, pile, json;
     double seconds = 20, detach_s = 20;
     ClusterSettings settings;
     double send_us = -1, way_us = -1;
@@ -30,7 +30,7 @@ struct Wishes {
 
 void add_options(CLI::App& app, Wishes& w) {
     app.add_option("--driver", w.driver, "shared library of the cars' control program")->required();
-    app.add_option("--heap", w.heap, "world in which all robots lie on one heap");
+    app.add_option("--pile", w.pile, "world in which all robots lie in one pile");
     app.add_option("--cars", w.cars, "sizes of the city")->capture_default_str();
     app.add_option("--simulators", w.simulators, "numbers of Simulators")->capture_default_str();
     app.add_option("--crowd", w.crowd, "robots of the made-up load on the Controller")->capture_default_str();
@@ -76,9 +76,9 @@ void measure_cities(const Wishes& w, Json& rows) {
     }
 }
 
-void measure_heap(const Wishes& w, Json& rows) {
-    if (w.heap.empty()) return;
-    const Work work = record("heap", w.heap, "", kSettle, 2 * kSettle, w.settings.lanes);
+void measure_pile(const Wishes& w, Json& rows) {
+    if (w.pile.empty()) return;
+    const Work work = record("pile", w.pile, "", kSettle, 2 * kSettle, w.settings.lanes);
     for (const std::size_t n : {w.simulators.front(), w.simulators.back()})
         rows.push_back(tell(measure(work, n, w.settings)));
 }
@@ -128,7 +128,7 @@ int main(int argc, char** argv) try {
                 w.settings.network.send_us, w.settings.network.way_us);
     Json rows = Json::array();
     measure_cities(w, rows);
-    measure_heap(w, rows);
+    measure_pile(w, rows);
     const Json crowd = measure_crowds(w), detaching = measure_detaching(w);
     if (!w.json.empty())
         std::ofstream(w.json) << Json{

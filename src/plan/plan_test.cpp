@@ -204,7 +204,7 @@ TEST(Assign, MovesWhatIsWorthIt) {
     EXPECT_EQ(with_price(3), here) << "7 is later";
 }
 
-TEST(WindowLength, IsLongForAHeapThatShortWindowsDoNotPartAndLooksNowAndThen) {
+TEST(WindowLength, IsLongForAPileThatShortWindowsDoNotPartAndLooksNowAndThen) {
     WindowLength length(0);
     int shortest = 0;
     for (int i = 0; i < 400; ++i) {

@@ -32,24 +32,24 @@ class WindowLength {
 
     /// A window of `ticks` was committed: whether islands had to be merged and repeated, and how much of the
     /// world the largest island was, as a share of what one worker should have (1: just even). The next ones
-    /// have at most `longest` ticks, twice as many for a heap that nothing parts.
+    /// have at most `longest` ticks, twice as many for a pile that nothing separates.
     void committed(Tick ticks, bool repeated, double largest_share, Tick longest) {
         const bool probed = std::exchange(probing_, false);
         if (largest_share <= 1) {
             if (probed) ticks_ = kShort;  // it does fall apart
-            one_heap_ = false, short_windows_ = 0;
+            one_pile_ = false, short_windows_ = 0;
         }
         if (repeated) {
             ticks_ = std::max<Tick>(1, std::min(ticks_, ticks) / 2);
             calm_ = 0, in_haste_ = false;
-        } else if (largest_share <= 1 || one_heap_) {
-            grow_when_calm(one_heap_ ? 2 * longest : longest);
-            probing_ = one_heap_ && ++since_probe_ % kProbeEvery == 0;
+        } else if (largest_share <= 1 || one_pile_) {
+            grow_when_calm(one_pile_ ? 2 * longest : longest);
+            probing_ = one_pile_ && ++since_probe_ % kProbeEvery == 0;
         } else if (ticks_ > kShort) {
             ticks_ = std::max(kShort, ticks_ - ticks_ / 4);  // it may fall apart when looked at for less long
             calm_ = 0, in_haste_ = false;
         } else {
-            one_heap_ = in_haste_ = ++short_windows_ >= kTries;
+            one_pile_ = in_haste_ = ++short_windows_ >= kTries;
         }
     }
 
@@ -67,7 +67,7 @@ class WindowLength {
 
     Tick fixed_, ticks_ = 8;
     int calm_ = 0, short_windows_ = 0, since_probe_ = 0;
-    bool one_heap_ = false, probing_ = false;  // a large island that short windows do not part
+    bool one_pile_ = false, probing_ = false;  // a large island that short windows do not part
     bool in_haste_ = true;                     // to double with every window, until one went too far
 };
 

@@ -1,5 +1,5 @@
 // Shapes of both kinds, those that a file describes and those that the Model collides with, as shapes of a
-// scene; each mesh and each picture is kept once, however many shapes show it. Internal to the scene floor.
+// scene; each mesh and each picture is kept once, however many shapes show it. Internal to the scene layer.
 #pragma once
 
 #include <map>

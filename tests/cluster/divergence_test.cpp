@@ -54,7 +54,7 @@ class Divergences : public ::testing::Test {
     }
 
     fs::path folder_;
-    std::shared_ptr<const Model> model_ = heaps_world(2);
+    std::shared_ptr<const Model> model_ = piles_world(2);
 };
 
 TEST_F(Divergences, AreFoundToTheTickRobotAndField) {

@@ -1,5 +1,5 @@
-# roboss_floor(name DEPENDS floors...): src/name/*.cpp becomes the static library roboss_name; every src/name/*_test.cpp goes into one
-# test program, roboss_name_test. A floor with external libraries adds them in src/name/floor.cmake (included after the target exists);
+# roboss_layer(name DEPENDS layers...): src/name/*.cpp becomes the static library roboss_name; every src/name/*_test.cpp goes into one
+# test program, roboss_name_test. A layer with external libraries adds them in src/name/layer.cmake (included after the target exists);
 # cmake/install.cmake must know each such library, so that an installed RoBOSS finds it again.
 add_library(roboss_options INTERFACE)
 target_compile_options(roboss_options INTERFACE
@@ -21,7 +21,7 @@ if(ROBOSS_TESTS)
   include(GoogleTest)
 endif()
 
-function(roboss_floor name)
+function(roboss_layer name)
   cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/*.cpp)
   file(GLOB tests CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/*_test.cpp)
@@ -45,10 +45,10 @@ function(roboss_floor name)
   foreach(dep ${ARG_DEPENDS})
     target_link_libraries(${target} ${scope} roboss_${dep})
   endforeach()
-  if(EXISTS ${CMAKE_SOURCE_DIR}/src/${name}/floor.cmake)
-    include(${CMAKE_SOURCE_DIR}/src/${name}/floor.cmake)
+  if(EXISTS ${CMAKE_SOURCE_DIR}/src/${name}/layer.cmake)
+    include(${CMAKE_SOURCE_DIR}/src/${name}/layer.cmake)
   endif()
-  set_property(GLOBAL APPEND PROPERTY ROBOSS_FLOORS ${name})
+  set_property(GLOBAL APPEND PROPERTY ROBOSS_LAYERS ${name})
   if(ROBOSS_TESTS AND tests)
     add_executable(${target}_test ${tests})
     target_link_libraries(${target}_test PRIVATE ${target} roboss_options GTest::gtest_main)
