@@ -23,7 +23,7 @@ namespace roboss {
 
 /// What became of a request to the run.
 struct ControlAnswer {
-    std::vector<std::string> words;  // as they were asked
+    std::vector<std::string> arguments;  // of the request
     bool done = false;
     std::string text;  // what was done, or why not
 };
@@ -60,7 +60,7 @@ class Client {
 
     // --- control of the run itself, in the words of `roboss control`: {"pause"}, {"speed", "2"}, {"add",
     // ...}. A request takes effect at the end of the window under way; answers come some time later.
-    virtual void control(std::vector<std::string> words) = 0;
+    virtual void control(std::vector<std::string> arguments) = 0;
     virtual std::vector<ControlAnswer> take_control_answers() = 0;
 
     // --- sensors: `sensor` is an index into RobotType::sensors

@@ -30,7 +30,7 @@ struct Branch {
     std::uint64_t bytes = 0;  // of checkpoints and log
 };
 
-struct CheckpointPlace {
+struct CheckpointEntry {
     BranchId branch = 0;
     Tick tick = 0;
     std::uint64_t hash = 0;  // of the world there
@@ -56,9 +56,9 @@ class Journal {
     Result<std::shared_ptr<const Model>> model(const Branch& branch) const;
 
     /// Those of the branch, ascending by tick.
-    std::vector<CheckpointPlace> checkpoints(const Branch& branch) const;
-    Result<StoredCheckpoint> checkpoint(const CheckpointPlace& place, const Model& model) const;
-    /// Orders that apply at `from` or later and were said before `until`, in canonical order; words for
+    std::vector<CheckpointEntry> checkpoints(const Branch& branch) const;
+    Result<StoredCheckpoint> checkpoint(const CheckpointEntry& entry, const Model& model) const;
+    /// Orders that apply at `from` or later and were given before `until`, in canonical order; replies for
     /// observations, and notes, of the ticks between; all Clients.
     Result<LogBatch> log(const Branch& branch, Tick from, Tick until) const;
 
@@ -66,12 +66,12 @@ class Journal {
     /// `tick`.
     Result<SavedRun> run_at(const Branch& branch, const Model& model, Tick tick) const;
     /// run_at() from a given checkpoint.
-    Result<SavedRun> run_from(const Branch& branch, const CheckpointPlace& place, const Model& model,
+    Result<SavedRun> run_from(const Branch& branch, const CheckpointEntry& entry, const Model& model,
                               Tick until) const;
     /// To go on with the branch from a checkpoint, after a crash: besides the log up to its end, what Clients
     /// said after that. Their words were acknowledged, so they do not say them again, and the ticks that they
     /// have seen come again as they were.
-    Result<SavedRun> resume_from(const Branch& branch, const CheckpointPlace& place,
+    Result<SavedRun> resume_from(const Branch& branch, const CheckpointEntry& entry,
                                  const Model& model) const;
 
     /// The last number of its log, and the hash that ties the next entry to it; for the writer.
@@ -84,18 +84,18 @@ class Journal {
     Result<> inspect() const;
 
   private:
-    Result<SavedRun> run_with(const Branch& branch, const CheckpointPlace& place, const Model& model,
+    Result<SavedRun> run_with(const Branch& branch, const CheckpointEntry& entry, const Model& model,
                               Tick until, Tick said_until) const;
     Error damaged(const std::string& what) const;
     Result<> read_meta();
     Result<> read_branches();
     Result<> read_log_heads();
-    Result<> read_checkpoint_places();
+    Result<> read_checkpoint_entries();
 
     std::string path_, version_;
     std::optional<Database> db_;
     std::vector<Branch> branches_;
-    std::vector<CheckpointPlace> checkpoints_;  // of all branches, by (branch, tick)
+    std::vector<CheckpointEntry> checkpoints_;  // of all branches, by (branch, tick)
     std::map<BranchId, Tail> tails_;
 };
 

@@ -25,11 +25,11 @@ BatchRow to_batch_row(const LogBatch& entries);  // low, high, orders, bytes
 /// Ties a row to those before it: a row that is missing or changed breaks the chain.
 std::uint64_t chain_of(std::uint64_t before, const BatchRow& row);
 std::uint64_t check_of(const Branch& branch);
-std::uint64_t check_of(const CheckpointPlace& place, const Blob& memory, const Blob& states);
+std::uint64_t check_of(const CheckpointEntry& entry, const Blob& memory, const Blob& states);
 
 Row to_row(const BatchRow& row, std::uint64_t chain);
 Row to_row(const Branch& branch);
-Row to_row(const CheckpointPlace& place, Blob memory, Blob states);
+Row to_row(const CheckpointEntry& entry, Blob memory, Blob states);
 
 inline constexpr const char* kInsertModel = "INSERT OR IGNORE INTO models VALUES(?,?,?)";
 inline constexpr const char* kInsertBranch = "INSERT INTO branches VALUES(?,?,?,?,?,?,?,?)";

@@ -23,7 +23,7 @@ std::chrono::milliseconds ms(std::int64_t n) {
 }
 
 std::size_t bytes_about(const LogBatch& entries) {
-    return 160 * entries.orders.size() + 16 * entries.words.size() + 80 * entries.notes.size();
+    return 160 * entries.orders.size() + 16 * entries.replies.size() + 80 * entries.notes.size();
 }
 
 Result<int> lock(const std::string& path) {
@@ -181,9 +181,9 @@ Result<> JournalWriter::write_rows(const Pending& pending) {
         std::vector<std::uint64_t> hashes;
         for (std::size_t i = 0; i < c.states->size(); ++i)
             hashes.push_back(state_hash(RobotId(i), c.tick, (*c.states)[i]));
-        const CheckpointPlace place{branch_, c.tick, world_hash(model_hash_, hashes)};
+        const CheckpointEntry entry{branch_, c.tick, world_hash(model_hash_, hashes)};
         if (Result<> r = db_->insert(kInsertCheckpoint,
-                                     {to_row(place, encode_memory(c.memory), encode_states(*c.states))});
+                                     {to_row(entry, encode_memory(c.memory), encode_states(*c.states))});
             !r)
             return r;
     }
@@ -234,20 +234,20 @@ void JournalWriter::joined(ClientId client, const std::string& name) {
     wake_.notify_one();
 }
 
-void JournalWriter::order(const Order& order, Tick said) {
+void JournalWriter::order(const Order& order, Tick given_at) {
     const std::lock_guard guard(mutex_);
     ++given_;
     if (lost_) return;
-    waiting_.entries.orders.push_back({order, said});
+    waiting_.entries.orders.push_back({order, given_at});
     waiting_.given = given_;
     wake_.notify_one();
 }
 
-void JournalWriter::word(ClientId client, Tick observed) {
+void JournalWriter::reply(ClientId client, Tick observed) {
     const std::lock_guard guard(mutex_);
     ++given_;
     if (lost_) return;
-    waiting_.entries.words.push_back({client, observed});
+    waiting_.entries.replies.push_back({client, observed});
     waiting_.given = given_;
     wake_.notify_one();
 }

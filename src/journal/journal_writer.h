@@ -49,8 +49,8 @@ class JournalWriter : public RunLog {
     std::vector<std::string> take_notices();
 
     void joined(ClientId client, const std::string& name) override;
-    void order(const Order& order, Tick said) override;
-    void word(ClientId client, Tick observed) override;
+    void order(const Order& order, Tick given_at) override;
+    void reply(ClientId client, Tick observed) override;
     void note(Tick tick, const std::string& text) override;
     void planned(Tick until) override;
     void committed(Tick tick, std::uint64_t world_hash) override;

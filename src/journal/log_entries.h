@@ -14,19 +14,19 @@
 
 namespace roboss {
 
-/// An order with its place in the run's own history: `said` is the tick that it answers (a Client's order) or
-/// that the world had reached when it was given. A branch that leaves at a tick takes along what was said
-/// before it.
-struct SaidOrder {
+/// An order with its place in the run's own history: `given_at` is the tick that it answers (a Client's
+/// order) or that the world had reached when it was given. A branch that leaves at a tick takes along what
+/// was said before it.
+struct LoggedOrder {
     Order order;
-    Tick said = 0;
+    Tick given_at = 0;
 };
 
 /// A Client has answered an observation, with or without orders.
-struct SaidWord {
+struct LoggedReply {
     ClientId client;
     Tick observed = 0;
-    friend bool operator==(const SaidWord&, const SaidWord&) = default;
+    friend bool operator==(const LoggedReply&, const LoggedReply&) = default;
 };
 
 /// What a Client that leaves has answered: everything.
@@ -41,12 +41,12 @@ struct LogNote {
 
 /// What is written at once.
 struct LogBatch {
-    std::vector<SaidOrder> orders;
-    std::vector<SaidWord> words;
+    std::vector<LoggedOrder> orders;
+    std::vector<LoggedReply> replies;
     std::vector<LogNote> notes;
     std::map<std::uint32_t, std::string> clients;  // who joined: ClientId, name
 
-    bool empty() const { return orders.empty() && words.empty() && notes.empty() && clients.empty(); }
+    bool empty() const { return orders.empty() && replies.empty() && notes.empty() && clients.empty(); }
     void append(LogBatch&& later);
 };
 

@@ -21,8 +21,8 @@ class RunLog {
   public:
     virtual ~RunLog() = default;
     virtual void joined(ClientId client, const std::string& name) = 0;
-    virtual void order(const Order& order, Tick said) = 0;
-    virtual void word(ClientId client, Tick observed) = 0;
+    virtual void order(const Order& order, Tick given_at) = 0;
+    virtual void reply(ClientId client, Tick observed) = 0;
     virtual void note(Tick tick, const std::string& text) = 0;
     /// No order will ever be given an earlier tick than this.
     virtual void planned(Tick until) = 0;
@@ -31,7 +31,7 @@ class RunLog {
     virtual bool takes_checkpoint() const = 0;
     virtual void checkpoint(RunCheckpoint checkpoint) = 0;
 
-    /// Number of orders and words handed over so far.
+    /// Number of orders and replies handed over so far.
     virtual std::uint64_t given() const = 0;
     /// Whether the first `count` of them are safe. A log that cannot be written holds nobody up: then it
     /// says yes, and its owner hears of it otherwise.

@@ -16,9 +16,9 @@ struct SavedRun {
     std::string world_file;  // as it was given; for messages
     std::uint64_t seed = 0;
     Tick tick = 0;
-    std::vector<RobotState> states;  // by RobotId
-    std::vector<SaidOrder> orders;   // that take effect at `tick` or later
-    ClientMemory memory;             // what each control program remembers
+    std::vector<RobotState> states;   // by RobotId
+    std::vector<LoggedOrder> orders;  // that take effect at `tick` or later
+    ClientMemory memory;              // what each control program remembers
     /// The run goes by `orders` alone up to here, and Clients' words that are in them already are not asked
     /// again. Equal to `tick`: nothing of the kind.
     Tick logged_until = 0;

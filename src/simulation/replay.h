@@ -16,7 +16,7 @@ struct ReplayOptions {
 
 /// A Simulation at this checkpoint, whose orders are those of the branch up to `until`.
 Result<std::unique_ptr<Simulation>> replay_from(const Journal& journal, const Branch& branch,
-                                                const CheckpointPlace& place,
+                                                const CheckpointEntry& entry,
                                                 const std::shared_ptr<const Model>& model, Tick until,
                                                 const ReplayOptions& options);
 
@@ -25,7 +25,7 @@ Result<std::unique_ptr<Simulation>> replay_at(const Journal& journal, const Bran
                                               const std::shared_ptr<const Model>& model, Tick tick,
                                               Tick until, const ReplayOptions& options);
 
-/// From one place where a branch's hash is known to the next.
+/// From one checkpoint where a branch's hash is known to the next.
 struct Stretch {
     BranchId branch = 0;
     Tick from = 0, until = 0;

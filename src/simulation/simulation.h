@@ -33,14 +33,14 @@ struct SimulationOptions {
     std::size_t lanes = kMostLanes;  // robots of a type stepped at once, as far as the processor can
     std::string world_file;          // for saved runs
     /// Whoever else has its turns in this process, a viewer say; no result may depend on it.
-    std::function<void(Bus&)> guest;
+    std::function<void(Bus&)> observer;
     ControllerOptions controller;  // its `simulators` and `clients` are set from here
 };
 
 class Simulation {
   public:
     /// At the world's beginning, or where `from` was saved. Orders with equal ticks sort by the programs'
-    /// places, awaited Clients last. `bus`: none, and everybody is in this process.
+    /// positions, awaited Clients last. `bus`: none, and everybody is in this process.
     static Result<std::unique_ptr<Simulation>> create(std::shared_ptr<const Model> model,
                                                       const SimulationOptions& options,
                                                       std::vector<NamedProgram> programs = {},
@@ -107,7 +107,7 @@ class Simulation {
     std::unique_ptr<Bus> bus_;
     ThreadPool pool_;
     std::size_t lanes_;  // robots of a type stepped at once
-    std::function<void(Bus&)> guest_;
+    std::function<void(Bus&)> observer_;
     std::uint64_t instance_ = 0;  // of the last role made here
     Controller controller_;
     std::vector<std::unique_ptr<ProgramHost>> hosts_;
