@@ -40,7 +40,7 @@ TEST(LocalProcess, KeepsTheEndOfWhatItsProcessSaid) {
     LocalProcess process = started("Complains");
     ASSERT_TRUE(process.wait(20'000));
     EXPECT_EQ(process.ended(), "ended with exit code 7");
-    EXPECT_EQ(process.last_lines(2), "message 7\ncomplaint 8");
+    EXPECT_EQ(process.last_lines(2), "message 7\nmessage 8");
     EXPECT_EQ(process.last_lines(0), "");
     EXPECT_NE(process.last_lines(1'000).find("message 0\n"), std::string::npos);
 }
@@ -69,7 +69,7 @@ TEST(SimulatorProcesses, OneThatEndsBeforeTheRunIsNamedWithItsLastWords) {
     ASSERT_FALSE(watched.ok());
     const std::string& said = watched.error().message;
     EXPECT_NE(said.find("Simulator process 2 of 2 (pid "), std::string::npos) << said;
-    EXPECT_NE(said.find("ended with exit code 7; its last words:\ncomplaint 4"), std::string::npos) << said;
+    EXPECT_NE(said.find("ended with exit code 7; its last words:\nmessage 4"), std::string::npos) << said;
     EXPECT_NE(said.find("before the run began"), std::string::npos) << said;
     EXPECT_EQ(said.find("process 1 of 2"), std::string::npos) << said;
 }

@@ -1,4 +1,4 @@
-// Joining, observing and answering over a Bus.
+// Joins, observes and replies over a Bus.
 #include "client/bus_client.h"
 
 #include <algorithm>
@@ -50,7 +50,7 @@ void BusClient::handle(Envelope& envelope) {
         if (id_.valid()) return;
         id_ = welcome->client;
         seed_ = welcome->seed;
-        if (was_here_ && welcome->first < expected_) {  // the world was set back
+        if (was_here_ && welcome->first < expected_) {  // a rewind
             replies_.clear();
             orders_.clear();
             observing_ = false;
@@ -75,8 +75,8 @@ void BusClient::handle(Envelope& envelope) {
     }
 }
 
-/// The Controller was started again: what it has not acknowledged is said again, and what it has not shown
-/// is awaited.
+/// The Controller was restarted: resends the replies that it has not acknowledged, and waits for the
+/// observations not shown yet.
 void BusClient::join_again() {
     id_ = ClientId();
     was_here_ = true;
@@ -97,7 +97,8 @@ void BusClient::take_observation(Observation& observation) {
     offers_[observation.tick] = std::move(observation.holders);
 }
 
-/// A synchronous Client sees every observation in turn; a free-running one what it is told, one at a time.
+/// A synchronous Client sees every observation in turn; a free-running one those that are sent, one at a
+/// time.
 void BusClient::pull_next() {
     if (offers_.empty()) return;
     auto next = options_.synchronous ? offers_.find(expected_) : std::prev(offers_.end());
@@ -125,7 +126,7 @@ void BusClient::answer(Bus& bus) {
 }
 
 void BusClient::send(Bus& bus, Tick observed) {
-    ROBOSS_CHECK(!options_.synchronous, "only a free-running Client speaks unasked");
+    ROBOSS_CHECK(!options_.synchronous, "only a free-running Client sends without an observation");
     replies_.push_back({id_, ++reply_number_, observed, std::exchange(orders_, {})});
     if (!id_.valid()) return;  // it is sent once it has joined
     bus.send(self_, kControllerAddress, replies_.back());

@@ -36,7 +36,7 @@ class BusClient : public Client {
     void control(std::vector<std::string> arguments) override;
     std::vector<ControlAnswer> take_control_answers() override { return std::exchange(answers_, {}); }
 
-    /// Handles what has come and asks for what is missing. Never waits.
+    /// Handles the messages received and requests what is missing. Never waits.
     void advance(Bus& bus);
     /// A new observation is shown and waits for an answer().
     bool observing() const { return observing_; }
@@ -45,7 +45,7 @@ class BusClient : public Client {
     /// A free-running Client sends the orders given so far at once, having seen the world at
     /// `observed`.
     void send(Bus& bus, Tick observed);
-    /// Takes leave. `failure`: why, if something broke; it ends the run.
+    /// Leaves the run. `failure`: why, if the program failed; it ends the run.
     void leave(Bus& bus, const std::string& failure = {});
 
     bool joined() const { return id_.valid(); }
@@ -54,7 +54,7 @@ class BusClient : public Client {
     Tick expected() const { return expected_; }
     /// The Controller has acknowledged every reply.
     bool heard() const { return replies_.empty() && !bye_; }
-    /// Why the run is over; empty: it is not.
+    /// Why the run has ended; empty: it has not.
     const std::string& over() const { return over_; }
     /// The run has another Model than this one: make another BusClient with that.
     bool outdated() const { return outdated_; }

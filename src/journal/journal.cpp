@@ -1,4 +1,4 @@
-// Reading a journal with distrust.
+// Reads a journal and verifies everything.
 #include "journal/journal.h"
 
 #include <algorithm>
@@ -16,9 +16,10 @@ namespace roboss {
 namespace {
 
 constexpr const char* kAnother = "take another copy of the file, or start without it";
-constexpr std::uintmax_t kLookedThrough_bytes = 64u << 20;  // a file up to this size is always looked through
+constexpr std::uintmax_t kLookedThrough_bytes = 64u
+                                                << 20;  // a file up to this size is always checked completely
 
-/// The columns of a row, by type; anything else than expected is a fault that is remembered.
+/// The columns of a row, by type; remembers a fault if one is not as expected.
 class Columns {
   public:
     explicit Columns(const Row& row) : row_(row) {}
@@ -90,7 +91,7 @@ Result<> Journal::read_meta() {
         if (key != nullptr && *key == "version" && std::holds_alternative<std::string>(row[1]))
             version_ = std::get<std::string>(row[1]);
     }
-    if (format == 0) return damaged("it does not say its format");
+    if (format == 0) return damaged("its format is missing");
     if (format != kJournalFormat)
         return Error{path_ + " has journal format " + std::to_string(format) + " (written by RoBOSS " +
                          (version_.empty() ? "of long ago" : version_) + "), this program reads " +
@@ -119,7 +120,7 @@ Result<> Journal::read_branches() {
         b.committed = b.end = b.tick;
         branches_.push_back(std::move(b));
     }
-    if (branches_.empty()) return Error{path_ + " holds nothing yet: its run never began", kAnother};
+    if (branches_.empty()) return Error{path_ + " is empty: its run never began", kAnother};
     return Ok{};
 }
 
@@ -202,8 +203,7 @@ Result<std::shared_ptr<const Model>> Journal::model(const Branch& branch) const 
     if (!c.good() || hash_of_bytes(bytes) != hash) return damaged("a Model was changed");
     Result<std::shared_ptr<const Model>> model = decode_model(bytes);
     if (!model) return damaged(model.error().message);
-    if (model.value()->hash != branch.model_hash)
-        return damaged("a Model is not the one that it is said to be");
+    if (model.value()->hash != branch.model_hash) return damaged("a Model does not have its recorded hash");
     return model;
 }
 
@@ -351,7 +351,7 @@ Result<> Journal::inspect() const {
 
 Result<> check_world(const Journal& journal, const Branch& branch, const Model& model) {
     if (branch.model_hash == model.hash) return Ok{};
-    return Error{journal.path() + " was written of another world: " + branch.world_file + ", model hash " +
+    return Error{journal.path() + " was written for another world: " + branch.world_file + ", model hash " +
                      to_hex(branch.model_hash) + "; this one has model hash " + to_hex(model.hash),
                  "give the world file, the step, the accuracy and the version of RoBOSS (" +
                      journal.version() + ") that it was written with"};

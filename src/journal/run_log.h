@@ -1,5 +1,5 @@
-// RunLog: what the Controller tells of a run while it goes on. Nothing here waits: entries are handed over,
-// and become safe (they outlive this process) a little later.
+// RunLog: where the Controller logs a run. Nothing here waits but wait_safe(): entries are handed over, and
+// become safe (they survive this process) a little later.
 #pragma once
 
 #include <memory>
@@ -33,10 +33,10 @@ class RunLog {
 
     /// Number of orders and replies handed over so far.
     virtual std::uint64_t given() const = 0;
-    /// Whether the first `count` of them are safe. A log that cannot be written holds nobody up: then it
-    /// says yes, and its owner hears of it otherwise.
+    /// Whether the first `count` of them are safe. True if the log cannot be written, so that nobody waits
+    /// forever; the log reports this to its owner.
     virtual bool safe(std::uint64_t count) const = 0;
-    /// Somebody waits for safe().
+    /// Asks to write soon, since somebody waits for safe().
     virtual void hurry() = 0;
     /// Waits until safe(count), at most so long.
     virtual void wait_safe(std::uint64_t count, std::int64_t ms_max) = 0;

@@ -60,7 +60,7 @@ class Side {
     std::vector<CheckpointEntry> entries_;
 };
 
-/// Fills in who differs and in what; false if nobody does.
+/// Fills in the robots and fields that differ; false if there are none.
 bool describe(const Model& model, const States& a, const States& b, Divergence& result) {
     result.robots = 0;
     for (std::size_t r = 0; r < a.size(); ++r) {
@@ -164,7 +164,7 @@ std::size_t first_kept_apart(const Side& a, const Side& b, const std::vector<Tic
     return ticks.size() - 1;
 }
 
-/// The first tick of `ticks` that differs, by halving; ticks.size() if none does.
+/// The first tick of `ticks` that differs, by bisection; ticks.size() if none does.
 Result<std::size_t> first_that_differs(const Side& a, const Side& b, const std::vector<Tick>& ticks,
                                        Divergence& found) {
     std::size_t low = 0, high = first_kept_apart(a, b, ticks);  // equal before low; different from high on

@@ -1,4 +1,4 @@
-// Replay: what a journal says, stepped again without its Clients, and compared with what was kept.
+// Replay: steps a journal's run again without its Clients, and compares it with the checkpoints.
 #pragma once
 
 #include <functional>
@@ -34,7 +34,7 @@ struct Stretch {
 };
 
 /// Steps every stretch of the branch again, from its first checkpoint to the last tick whose hash is known;
-/// each from what was kept, so that one fault does not hide the next. `tell` hears of each as it is done.
+/// each from its checkpoint, so that one fault does not hide the next. Calls `tell` after each.
 Result<std::vector<Stretch>> verify(const Journal& journal, const Branch& branch,
                                     const ReplayOptions& options,
                                     const std::function<void(const Stretch&)>& tell = {});

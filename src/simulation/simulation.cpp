@@ -110,7 +110,7 @@ void Simulation::turn() {
     if (observer_) observer_(*bus_);
 }
 
-/// Puts what control programs remember at its tick into a checkpoint for the log.
+/// Adds the memory of control programs at its tick to a checkpoint for the log.
 void Simulation::serve_log() {
     if (log_ == nullptr) return;
     if (controller_.log_tick() && controller_.log_tick() != noting_) {
@@ -136,7 +136,7 @@ void Simulation::serve_log() {
 }
 
 void Simulation::wait() {
-    constexpr std::int64_t kLongestWait_ms = 10;  // roles send again and notice losses by the clock
+    constexpr std::int64_t kLongestWait_ms = 10;  // roles resend and detect losses by the clock
     if (controller_.waits_for_log()) return log_->wait_safe(controller_.log_needed(), kLongestWait_ms);
     bus_->wait(kLongestWait_ms);
 }
