@@ -268,7 +268,7 @@ TEST_F(Journals, OnAFullDiskWaitForRoomAndLoseNothing) {
         EXPECT_TRUE(writer->safe(writer->given())) << "a journal that cannot be written holds nobody up";
         const std::vector<std::string> notices = writer->take_notices();
         ASSERT_EQ(notices.size(), 1u);
-        EXPECT_NE(notices[0].find("run goes on"), std::string::npos) << notices[0];
+        EXPECT_NE(notices[0].find("run continues"), std::string::npos) << notices[0];
     }
     EXPECT_TRUE(writer->close().ok()) << "there is room again";
     EXPECT_EQ(Journal::open(file(), true).value().branch().value().orders, 20'000u);

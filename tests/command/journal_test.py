@@ -165,7 +165,7 @@ class Journal(RobossTest):
         limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (400_000, resource.RLIM_INFINITY))
         done = subprocess.run(arguments, capture_output=True, text=True, preexec_fn=limit, timeout=120)
         self.assertEqual(done.returncode, 3, done.stderr)
-        self.assertIn("the run goes on", done.stderr)
+        self.assertIn("the run continues", done.stderr)
         self.assertIn(undisturbed("city"), done.stdout, "the result is what it would have been")
         self.assertTrue(as_json("journal", "verify", file)["good"], "what was written is whole")
         self.assertEqual(summary(*RUNS["city"], "--until", UNTIL, "--journal", file)["state_hash"], undisturbed("city"),
