@@ -46,7 +46,7 @@ table1() {
     tools/setup.sh build bench peers
     tools/build.sh release -DROBOSS_BENCHMARKS=ON roboss-table1 roboss roboss-world roboss_city_driver
     local rows=build/bench/table1.json wall=build/bench/wall_clock.json driver=build/release/lib/roboss_city_driver.so
-    build/release/bin/roboss-table1 --driver "$driver" --heap worlds/heap.sdf --json "$rows" "$@"
+    build/release/bin/roboss-table1 --driver "$driver" --pile worlds/pile.sdf --json "$rows" "$@"
     if [[ $# -eq 0 ]]; then
         bench/cluster/wall_clock.py build/release/bin "$driver" "$wall"
         tools/table1_report "$rows" --wall "$wall" --page docs/cluster-efficiency.md --plot docs/images/table1.svg

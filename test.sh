@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Sets up, builds, and runs all tests: ./test.sh [ctest arguments, e.g. -R physics]. The checks of floors, sizes and
+# Sets up, builds, and runs all tests: ./test.sh [ctest arguments, e.g. -R physics]. The checks of layers, sizes and
 # format and the install test are tests like the others. Ends with "N passed, N failed".
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"

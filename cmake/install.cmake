@@ -1,10 +1,10 @@
-# cmake --install: the floors as roboss::NAME with their headers, the programs, and what find_package(roboss) reads.
+# cmake --install: the layers as roboss::NAME with their headers, the programs, and what find_package(roboss) reads.
 # Included last, when every target exists.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/roboss)
 
-# The external libraries that a static floor hands on to whoever links it: pattern of the linked name, and how to find it.
+# The external libraries that a static layer hands on to whoever links it: pattern of the linked name, and how to find it.
 set(ROBOSS_EXTERNALS
   "^sdformat12::|^sdformat12" "find_dependency(sdformat12)\nset(CMAKE_MODULE_PATH \${roboss_module_path})"
   "^pugixml" "find_dependency(pugixml)"
@@ -22,7 +22,7 @@ set(ROBOSS_EXTERNALS
   "^(dl|m|rt|atomic)$|^$" "")
 
 # Sets `result` to the find_dependency line of one linked library; ends the configuration where none is known.
-function(roboss_dependency_line floor library result)
+function(roboss_dependency_line layer library result)
   set(patterns ${ROBOSS_EXTERNALS})
   while(patterns)
     list(POP_FRONT patterns pattern line)
@@ -31,16 +31,16 @@ function(roboss_dependency_line floor library result)
       return()
     endif()
   endwhile()
-  message(FATAL_ERROR "floor ${floor} links ${library}, and cmake/install.cmake does not know how an installed RoBOSS finds it: "
+  message(FATAL_ERROR "layer ${layer} links ${library}, and cmake/install.cmake does not know how an installed RoBOSS finds it: "
     "add it to ROBOSS_EXTERNALS")
 endfunction()
 
-get_property(floors GLOBAL PROPERTY ROBOSS_FLOORS)
+get_property(layers GLOBAL PROPERTY ROBOSS_LAYERS)
 set(ROBOSS_FIND_DEPENDENCIES "")
-foreach(floor ${floors})
+foreach(layer ${layers})
   set(linked "")
   foreach(property LINK_LIBRARIES INTERFACE_LINK_LIBRARIES)
-    get_target_property(more roboss_${floor} ${property})
+    get_target_property(more roboss_${layer} ${property})
     if(more)
       list(APPEND linked ${more})
     endif()
@@ -50,11 +50,11 @@ foreach(floor ${floors})
   list(TRANSFORM linked REPLACE "^.<LINK_ONLY:(.*)>$" "\\1")
   list(TRANSFORM linked STRIP)
   foreach(library ${linked})
-    roboss_dependency_line(${floor} "${library}" line)
+    roboss_dependency_line(${layer} "${library}" line)
     list(APPEND ROBOSS_FIND_DEPENDENCIES "${line}")
   endforeach()
-  install(TARGETS roboss_${floor} EXPORT roboss ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(DIRECTORY ${CMAKE_SOURCE_DIR}/src/${floor} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/roboss
+  install(TARGETS roboss_${layer} EXPORT roboss ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/src/${layer} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/roboss
     FILES_MATCHING PATTERN "*.h" PATTERN "*_session.h" EXCLUDE)  # Boost shows in these
 endforeach()
 list(REMOVE_DUPLICATES ROBOSS_FIND_DEPENDENCIES)

@@ -41,7 +41,7 @@ std::shared_ptr<const Model> field(std::size_t robots) {
     return model;
 }
 
-/// Answers plans as a Simulator would whose stepping takes no time.
+/// Answers assignments as a Simulator would whose stepping takes no time.
 class Answerer {
   public:
     Answerer(const Model& model, const Address& self) : model_(model), self_(self) {}
@@ -54,36 +54,36 @@ class Answerer {
         }
         for (const Envelope& envelope : inbox_) {
             joined_ = joined_ || std::holds_alternative<Welcome>(envelope.message);
-            if (const auto* plan = std::get_if<Plan>(&envelope.message))
-                bus.send(self_, kControllerAddress, answer(*plan));
+            if (const auto* assignment = std::get_if<Assignment>(&envelope.message))
+                bus.send(self_, kControllerAddress, answer(*assignment));
         }
     }
 
   private:
-    Frame answer(const Plan& plan) const {
-        Frame frame{plan.epoch, plan.window, plan.attempt, 0, {}, {}, {}};
-        for (const RobotId robot : plan.robots) frame.robots.push_back(frame_of(robot, plan));
-        for (std::size_t i = 0; i + 1 < plan.island_offsets.size(); ++i)
-            frame.islands.push_back(
-                {5'000u * static_cast<std::uint64_t>(plan.until - plan.from), 4, 4, {}, 0});
-        return frame;
+    WindowResult answer(const Assignment& assignment) const {
+        WindowResult result{assignment.epoch, assignment.window, assignment.attempt, 0, {}, {}, {}};
+        for (const RobotId robot : assignment.robots) result.robots.push_back(result_of(robot, assignment));
+        for (std::size_t i = 0; i + 1 < assignment.island_offsets.size(); ++i)
+            result.islands.push_back(
+                {5'000u * static_cast<std::uint64_t>(assignment.until - assignment.from), 4, 4, {}, 0});
+        return result;
     }
 
-    RobotFrame frame_of(RobotId robot, const Plan& plan) const {
+    RobotResult result_of(RobotId robot, const Assignment& assignment) const {
         const double dt = model_.dt_s, phase = 0.7 * static_cast<double>(robot.value);
         const Vec3 home = model_.robots[robot.index()].X_WR.p;
         Aabb swept;
         Vec3 centre;
-        for (const Tick tick : {plan.from, plan.until}) {
+        for (const Tick tick : {assignment.from, assignment.until}) {
             centre = home + Vec3{0.2 * std::sin(phase + kSpeed / 0.2 * dt * static_cast<double>(tick)), 0, 0};
             swept.include(Aabb{centre - Vec3{kReach, kReach, kReach}, centre + Vec3{kReach, kReach, kReach}});
         }
-        RobotFrame f;
+        RobotResult f;
         f.robot = robot;
         f.swept = outward(swept);
-        f.place = pack_place({centre.x, centre.y, centre.z}, f.swept);
+        f.position = pack_position({centre.x, centre.y, centre.z}, f.swept);
         f.velocity = pack_velocity({kSpeed, 0, 0});
-        f.hash = 0x9E3779B97F4A7C15ull * (robot.value + 1u) ^ static_cast<std::uint64_t>(plan.until);
+        f.hash = 0x9E3779B97F4A7C15ull * (robot.value + 1u) ^ static_cast<std::uint64_t>(assignment.until);
         return f;
     }
 
@@ -131,12 +131,12 @@ CrowdCosts measure_crowd(std::size_t robots, std::size_t simulators, std::size_t
         if (controller.counters().windows == kSettle)
             begin_ns = network.spent_ns(0), network.received.clear();
         if (controller.counters().windows > kSettle)
-            costs.last_frame_us += 1e-3 * static_cast<double>(network.spent_ns(0) - spent_ns);
+            costs.last_result_us += 1e-3 * static_cast<double>(network.spent_ns(0) - spent_ns);
     }
     const auto counted = static_cast<double>(windows);
     costs.windows = windows;
     costs.window_us = 1e-3 * static_cast<double>(network.spent_ns(0) - begin_ns) / counted;
-    costs.last_frame_us /= counted;
+    costs.last_result_us /= counted;
     for (const auto& [name, traffic] : network.received)
         costs.bytes_to_controller += static_cast<double>(traffic.bytes) / counted;
     return costs;

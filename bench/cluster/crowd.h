@@ -1,5 +1,5 @@
-// Crowd: a Controller under a made-up load. Members that step nothing answer every plan at once with frames
-// of robots that drive over a field; what it costs the Controller is measured, for more robots than a
+// Crowd: a Controller under a made-up load. Members that step nothing answer every assignment at once with
+// results of robots that drive over a field; what it costs the Controller is measured, for more robots than a
 // computer could step.
 #pragma once
 
@@ -8,8 +8,8 @@
 namespace roboss::bench {
 
 struct CrowdCosts {
-    double window_us = 0;      // CPU time of the Controller for a window
-    double last_frame_us = 0;  // of it, from the last frame until the next plans are on their way
+    double window_us = 0;       // CPU time of the Controller for a window
+    double last_result_us = 0;  // of it, from the last result until the next assignments are on their way
     double bytes_to_controller = 0, bytes_from_controller = 0;  // a window
     std::size_t windows = 0;
 };

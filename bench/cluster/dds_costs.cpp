@@ -29,17 +29,17 @@ std::unique_ptr<DdsBus> open(const std::string& name) {
     return std::move(bus).value();
 }
 
-/// A plan of fifty robots.
-Plan letter() {
-    Plan plan;
-    plan.simulator = SimulatorId(std::size_t{0});
-    plan.until = 8;
-    plan.island_offsets = {0};
+/// An assignment of fifty robots.
+Assignment letter() {
+    Assignment assignment;
+    assignment.simulator = SimulatorId(std::size_t{0});
+    assignment.until = 8;
+    assignment.island_offsets = {0};
     for (std::uint32_t i = 0; i < 50; ++i) {
-        plan.robots.emplace_back(i);
-        plan.island_offsets.push_back(i + 1);
+        assignment.robots.emplace_back(i);
+        assignment.island_offsets.push_back(i + 1);
     }
-    return plan;
+    return assignment;
 }
 
 double wall_us() {
@@ -88,7 +88,7 @@ NetworkCosts measure_dds(int rounds) {
     done = true;
     echo.join();
     if (send_us.empty()) throw std::runtime_error("Fast DDS carries no message on the loopback interface");
-    // Encoding a plan is in send_us and is measured again as it happens; that is on the safe side.
+    // Encoding an assignment is in send_us and is measured again as it happens; that is on the safe side.
     return {median(send_us), std::max(0.0, median(way_us))};
 }
 

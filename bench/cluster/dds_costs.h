@@ -1,5 +1,5 @@
 // What a message costs over the real Bus: two members of a run on this computer, a thread each, send each
-// other messages of a plan's size over Fast DDS and UDP on the loopback interface.
+// other messages of an assignment's size over Fast DDS and UDP on the loopback interface.
 #pragma once
 
 #include "cluster/virtual_network.h"

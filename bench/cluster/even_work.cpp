@@ -28,33 +28,34 @@ struct Seat {
     WindowStepper stepper;
 };
 
-Plan plan_of(const Work& work, std::size_t robots) {
-    Plan plan;
-    plan.window_from = plan.from = work.before;
-    plan.until = plan.from + kWindow;
-    for (std::size_t r = 0; r < robots; ++r) plan.robots.push_back(RobotId(r));
-    plan.island_offsets = {0, static_cast<std::uint32_t>(robots)};  // whether they meet or not
-    for (const SaidOrder& said : work.orders)
-        if (said.order.robot.index() < robots && said.order.apply_at >= plan.from &&
-            said.order.apply_at < plan.until)
-            plan.orders.push_back(said.order);
-    return plan;
+Assignment assignment_of(const Work& work, std::size_t robots) {
+    Assignment assignment;
+    assignment.window_from = assignment.from = work.before;
+    assignment.until = assignment.from + kWindow;
+    for (std::size_t r = 0; r < robots; ++r) assignment.robots.push_back(RobotId(r));
+    assignment.island_offsets = {0, static_cast<std::uint32_t>(robots)};  // whether they meet or not
+    for (const LoggedOrder& logged : work.orders)
+        if (logged.order.robot.index() < robots && logged.order.apply_at >= assignment.from &&
+            logged.order.apply_at < assignment.until)
+            assignment.orders.push_back(logged.order);
+    return assignment;
 }
 
-double stepping_ns(const Work& work, const Plan& plan, Seat& seat) {
-    for (const RobotId robot : plan.robots) {
-        seat.store.put(robot, plan.from, RobotState(work.states[robot.index()]));
-        seat.store.start(robot, plan.from);
+double stepping_ns(const Work& work, const Assignment& assignment, Seat& seat) {
+    for (const RobotId robot : assignment.robots) {
+        seat.store.put(robot, assignment.from, RobotState(work.states[robot.index()]));
+        seat.store.start(robot, assignment.from);
     }
-    const Frame frame =
-        seat.stepper.step(plan, seat.store, [](const StepProgress&) { return WindowStepper::Next::kGoOn; });
-    return static_cast<double>(frame.islands[0].cost_ns);
+    const WindowResult result = seat.stepper.step(
+        assignment, seat.store, [](const StepProgress&) { return WindowStepper::Next::kContinue; });
+    return static_cast<double>(result.islands[0].cost_ns);
 }
 
 }  // namespace
 
 double even_efficiency(const Work& work, std::size_t simulators, std::size_t lanes) {
-    const Plan plan = plan_of(work, std::max<std::size_t>(work.model->robots.size() / simulators, 1));
+    const Assignment assignment =
+        assignment_of(work, std::max<std::size_t>(work.model->robots.size() / simulators, 1));
     std::vector<std::unique_ptr<Seat>> seats;
     for (std::size_t i = 0; i < simulators; ++i) seats.push_back(std::make_unique<Seat>(work, lanes));
     double all_ns = 0, largest_ns = 0;
@@ -62,7 +63,7 @@ double even_efficiency(const Work& work, std::size_t simulators, std::size_t lan
     for (std::size_t round = 0; round <= rounds; ++round) {
         double largest = 0, sum = 0;
         for (const std::unique_ptr<Seat>& seat : seats) {
-            const double ns = stepping_ns(work, plan, *seat);
+            const double ns = stepping_ns(work, assignment, *seat);
             largest = std::max(largest, ns);
             sum += ns;
         }

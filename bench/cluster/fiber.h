@@ -1,4 +1,4 @@
-// Fiber: work that can stop in its midst and be gone on with later, on one thread.
+// Fiber: work that can stop halfway and be resumed later, on one thread.
 #pragma once
 
 #include <ucontext.h>

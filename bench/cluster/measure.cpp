@@ -29,11 +29,12 @@ VirtualCluster::Options options_for(const Work& work, std::size_t simulators,
     options.lanes = settings.lanes;
     options.network = settings.network;
     // Who cannot be cut short misses nothing, and keeps its cache to itself as on a computer of its own.
-    options.network.in_midst = work.model->robots.size() <= simulators * kAbreastMost;
+    options.network.mid_turn = work.model->robots.size() <= simulators * kLockstepMost;
     options.controller.seed = 7;
     options.controller.window_max = settings.window_max;
     options.controller.loss_ms = options.controller.resend_ms = 60'000;  // nothing is lost here
-    if (!settings.help) options.controller.help_least_ns = std::numeric_limits<double>::infinity();
+    if (!settings.work_stealing)
+        options.controller.stealing_least_ns = std::numeric_limits<double>::infinity();
     options.controller.checkpoint_work_s = 0.2;  // as `roboss controller` has it
     return options;
 }
@@ -60,7 +61,7 @@ void run_by_turns(const Work& work, VirtualCluster& cluster, OneProcess& alone) 
 /// Bytes of what Simulators tell of windows, so far.
 double window_bytes(const VirtualCluster& cluster) {
     double bytes = 0;
-    for (const char* name : {"Frame", "Late"}) {
+    for (const char* name : {"WindowResult", "Late"}) {
         const auto found = cluster.network().received.find(name);
         if (found != cluster.network().received.end()) bytes += static_cast<double>(found->second.bytes);
     }
@@ -68,10 +69,10 @@ double window_bytes(const VirtualCluster& cluster) {
 }
 
 /// The efficiency before messages if what islands cost is counted (Newton iterations) instead of measured, by
-/// the Simulators and here: how well plans share out the work, whatever the machine's moods.
+/// the Simulators and here: how well assignments share out the work, whatever the machine's moods.
 double counted_efficiency(const Work& work, std::size_t simulators, VirtualCluster::Options options) {
     options.measure_cpu = false;
-    options.network = {0, 0, 1e9, options.network.in_midst};
+    options.network = {0, 0, 1e9, options.network.mid_turn};
     VirtualCluster cluster(work.model, options, work.start());
     cluster.run_until(work.settle);
     const Counters before = cluster.controller().counters();
@@ -145,7 +146,7 @@ Json detach(const Work& work, std::size_t simulators, Tick every, const ClusterS
             bin_began_s = time_s, bin_tick = tick;
         }
         if (tick < leaves_at || leaves_at >= every * static_cast<Tick>(simulators)) return;
-        cluster.controller().send_one_home();
+        cluster.controller().dismiss_simulator();
         leaves_at += every;
     });
     check_hash(work, cluster.controller().hash(), "the cluster");

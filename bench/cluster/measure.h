@@ -14,8 +14,8 @@ struct ClusterSettings {
     NetworkCosts network;
     Tick window_max = 0;  // 0: by the number of robots
     std::size_t lanes = 1;
-    bool help = true;         // who is done takes over from who is late
-    bool count_work = false;  // also the efficiency by counted work, and what the clock makes of equal work
+    bool work_stealing = true;  // who is done takes over from who is late
+    bool count_work = false;    // also the efficiency by counted work, and what the clock makes of equal work
 };
 
 /// Efficiencies (docs/cluster-efficiency.md says how each is meant; "counted" and "even" where it is asked

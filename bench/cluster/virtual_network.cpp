@@ -31,7 +31,7 @@ void VirtualNetwork::drain(const Address&, std::vector<Envelope>& inbox) {
     const std::size_t self = at_work_;
     Member& member = members_[self];
     end();  // what is done for the model of a network is nobody's work
-    if (costs_.in_midst && looked_ && others_may_write()) member.turn->pause();
+    if (costs_.mid_turn && looked_ && others_may_write()) member.turn->pause();
     looked_ = true;
     std::vector<std::vector<std::uint8_t>> letters;
     for (; !member.inbox.empty() && member.inbox.top().arrival_ns <= member.clock_ns; member.inbox.pop())

@@ -24,7 +24,7 @@ struct NetworkCosts {
     double send_us = 0;          // CPU time that sending costs the sender
     double way_us = 0;           // from there until the receiver can have it
     double bytes_per_us = 1250;  // 10 Gbit/s
-    bool in_midst = true;        // messages reach a member also in the midst of its turn
+    bool mid_turn = true;        // messages reach a member also during its turn
 };
 
 /// Bytes and messages since the beginning.
@@ -60,7 +60,7 @@ class VirtualNetwork : public Bus {
     /// The one that can go on first; size(): nobody can, for nothing is under way.
     std::size_t next() const;
 
-    /// Gives a member its turn: role(bus) is its work, from `start_ns` by its clock. In its midst, where it
+    /// Gives a member its turn: role(bus) is its work, from `start_ns` by its clock. During it, where it
     /// looks for messages, it pauses while others' clocks are behind by more than a message's way, unless
     /// nothing is to reach it there.
     void work(std::size_t i, std::int64_t start_ns, const std::function<void(Bus&)>& role);

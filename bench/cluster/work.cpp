@@ -19,10 +19,10 @@ constexpr Tick kWarmUp = 200;
 /// A log in memory that keeps the orders.
 class OrderRecorder : public RunLog {
   public:
-    std::vector<SaidOrder> orders;
+    std::vector<LoggedOrder> orders;
     void joined(ClientId, const std::string&) override {}
-    void order(const Order& order, Tick said) override { orders.push_back({order, said}); }
-    void word(ClientId, Tick) override {}
+    void order(const Order& order, Tick given_at) override { orders.push_back({order, given_at}); }
+    void reply(ClientId, Tick) override {}
     void note(Tick, const std::string&) override {}
     void planned(Tick) override {}
     void committed(Tick, std::uint64_t) override {}

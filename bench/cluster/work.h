@@ -17,7 +17,7 @@ namespace roboss::bench {
 struct Work {
     std::string name;
     std::shared_ptr<const Model> model;
-    std::vector<SaidOrder> orders;
+    std::vector<LoggedOrder> orders;
     Tick settle = 0, ticks = 0;      // measured are the ticks between
     Tick before = 0;                 // of the settling, when nearly all of it was done
     std::vector<RobotState> states;  // at `before`

@@ -13,7 +13,7 @@ namespace {
 
 using namespace roboss::bench;
 
-struct Wishes {
+struct BenchOptions {
     std::vector<std::string> scenes;
     std::vector<std::size_t> robots;
     ContestOptions contest;
@@ -62,78 +62,79 @@ int run_alone(const SceneKind& kind, std::size_t robots, const EngineKind& engin
     return verdict.good ? 0 : 1;
 }
 
-int run_all_alone(const Wishes& wishes) {
+int run_all_alone(const BenchOptions& options) {
     int result = 0;
     for (const SceneKind& scene : scenes())
         for (const EngineKind& engine : contestants())
-            if (is_wanted(wishes.scenes, scene.name) && is_wanted(wishes.contest.engines, engine.name))
-                for (std::size_t robots : wishes.robots.empty() ? scene.robots : wishes.robots)
-                    result |= run_alone(scene, robots, engine, wishes.contest);
+            if (is_wanted(options.scenes, scene.name) && is_wanted(options.contest.engines, engine.name))
+                for (std::size_t robots : options.robots.empty() ? scene.robots : options.robots)
+                    result |= run_alone(scene, robots, engine, options.contest);
     return result;
 }
 
-std::vector<Row> run_contests(const Wishes& wishes) {
+std::vector<Row> run_contests(const BenchOptions& options) {
     std::vector<Row> rows;
     const auto add = [&](const std::vector<Row>& more) { rows.insert(rows.end(), more.begin(), more.end()); };
     for (const SceneKind& scene : scenes()) {
-        if (!is_wanted(wishes.scenes, scene.name)) continue;
-        for (std::size_t robots : wishes.robots.empty() ? scene.robots : wishes.robots) {
-            if (wishes.quick && wishes.robots.empty() && robots > 500 && scene.robots.size() > 1) continue;
-            const std::size_t size = wishes.quick && robots > 2000 && wishes.robots.empty() ? 300 : robots;
+        if (!is_wanted(options.scenes, scene.name)) continue;
+        for (std::size_t robots : options.robots.empty() ? scene.robots : options.robots) {
+            if (options.quick && options.robots.empty() && robots > 500 && scene.robots.size() > 1) continue;
+            const std::size_t size = options.quick && robots > 2000 && options.robots.empty() ? 300 : robots;
             std::fprintf(stderr, "%s, %zu robots\n", scene.name.c_str(), size);
-            add(hold_contest(scene, size, wishes.contest));
+            add(hold_contest(scene, size, options.contest));
         }
     }
-    if (is_wanted(wishes.scenes, "threads") && is_wanted(wishes.contest.engines, "RoBOSS")) {
+    if (is_wanted(options.scenes, "threads") && is_wanted(options.contest.engines, "RoBOSS")) {
         std::fprintf(stderr, "threads, 2000 cars\n");
-        add(compare_threads(2000, wishes.contest));
+        add(compare_threads(2000, options.contest));
     }
     return rows;
 }
 
-void add_options(CLI::App& app, Wishes& wishes) {
-    app.add_option("--scene", wishes.scenes, "only these scenes");
-    app.add_option("--robots", wishes.robots, "instead of the scenes' own sizes")->check(CLI::PositiveNumber);
-    app.add_option("--engine", wishes.contest.engines, "only these engines; ratios need RoBOSS among them");
-    app.add_option("--steps", wishes.contest.steps,
+void add_options(CLI::App& app, BenchOptions& options) {
+    app.add_option("--scene", options.scenes, "only these scenes");
+    app.add_option("--robots", options.robots, "instead of the scenes' own sizes")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--engine", options.contest.engines, "only these engines; ratios need RoBOSS among them");
+    app.add_option("--steps", options.contest.steps,
                    "counted steps (otherwise a thousand, or 100000 robot-steps if that is more)")
         ->check(CLI::PositiveNumber);
-    app.add_option("--settle", wishes.contest.settle, "steps before")->check(CLI::PositiveNumber);
-    app.add_option("--blocks", wishes.contest.blocks, "in so many blocks, of which the median is told")
+    app.add_option("--settle", options.contest.settle, "steps before")->check(CLI::PositiveNumber);
+    app.add_option("--blocks", options.contest.blocks, "in so many blocks, of which the median is reported")
         ->check(CLI::PositiveNumber);
-    app.add_option("--limit", wishes.contest.limit_s,
+    app.add_option("--limit", options.contest.limit_s,
                    "seconds of counted steps an engine and scene; a slower engine counts fewer steps");
-    app.add_option("--start-limit", wishes.contest.start_limit_s,
+    app.add_option("--start-limit", options.contest.start_limit_s,
                    "seconds of building and settling; a slower engine is left out");
-    app.add_option("--accuracy", wishes.contest.accuracy,
+    app.add_option("--accuracy", options.contest.accuracy,
                    "1: as each engine is set up with care; 10: ten times the iterations or a tenth of the "
                    "tolerance")
         ->check(CLI::PositiveNumber);
-    app.add_flag("--quick", wishes.quick, "about two minutes: small sizes, short limits");
-    app.add_flag("--alone", wishes.alone, "in this process, without turns: for profilers");
-    app.add_flag("--check-engines", wishes.check,
+    app.add_flag("--quick", options.quick, "about two minutes: small sizes, short limits");
+    app.add_flag("--alone", options.alone, "in this process, without turns: for profilers");
+    app.add_flag("--check-engines", options.check,
                  "instead: do small mechanisms move alike in all engines? (signs, frames, units)");
-    app.add_option("--json", wishes.json, "also write the rows to this file");
+    app.add_option("--json", options.json, "also write the rows to this file");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    Wishes wishes;
+    BenchOptions options;
     CLI::App app{help()};
-    add_options(app, wishes);
+    add_options(app, options);
     CLI11_PARSE(app, argc, argv);
-    if (wishes.quick) wishes.contest.limit_s = 2, wishes.contest.start_limit_s = 5;
+    if (options.quick) options.contest.limit_s = 2, options.contest.start_limit_s = 5;
     try {
-        if (wishes.check) return engines_agree() ? 0 : 1;
-        if (wishes.alone) return run_all_alone(wishes);
-        const std::vector<Row> rows = run_contests(wishes);
+        if (options.check) return engines_agree() ? 0 : 1;
+        if (options.alone) return run_all_alone(options);
+        const std::vector<Row> rows = run_contests(options);
         if (rows.empty()) {
             std::fprintf(stderr, "roboss-peers: no such scene or engine; --help lists them\n");
             return 2;
         }
         print_table(rows);
-        if (!wishes.json.empty() && !write_json(wishes.json, rows)) return 2;
+        if (!options.json.empty() && !write_json(options.json, rows)) return 2;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "roboss-peers: %s\n", error.what());
         return 1;

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/exit_codes.h"
-#include "app/journal_place.h"
+#include "app/journal_location.h"
 #include "app/run.h"
 #include "core/hash.h"
 #include "simulation/divergence.h"
@@ -36,12 +36,13 @@ struct Named {
     Branch branch;
 };
 Result<Named> open(const std::string& text) {
-    Result<JournalPlace> place = parse_place(text);
-    if (!place) return place.error();
-    if (place.value().time_s) return Error{text + " names a moment", "name a whole run: FILE or FILE#BRANCH"};
-    Result<Journal> journal = Journal::open(place.value().file);
+    Result<JournalLocation> location = parse_location(text);
+    if (!location) return location.error();
+    if (location.value().time_s)
+        return Error{text + " names a point in time", "name a whole run: FILE or FILE#BRANCH"};
+    Result<Journal> journal = Journal::open(location.value().file);
     if (!journal) return journal.error();
-    Result<Branch> branch = journal.value().branch(place.value().branch);
+    Result<Branch> branch = journal.value().branch(location.value().branch);
     if (!branch) return branch.error();
     return Named{std::move(journal).value(), branch.value()};
 }

@@ -49,22 +49,22 @@ std::vector<std::string> state_lines(const Simulation& simulation) {
     const std::vector<MemberReport> members = controller.members();
     std::vector<std::vector<std::uint32_t>> has(members.size());
     for (std::uint32_t r = 0; r < robots; ++r)
-        if (const std::uint32_t place = controller.place_of(RobotId(r)); place < has.size())
-            has[place].push_back(r);
+        if (const std::uint32_t seat = controller.seat_of(RobotId(r)); seat < has.size())
+            has[seat].push_back(r);
     std::vector<std::string> lines;
     lines.push_back(fmt::format(
         "event=state time_s={:.3f} simulators={} robots={} islands={} window={} windows={} repeated={} "
         "efficiency={:.3f} losses={} recoveries={} migrations={} cuts={}",
         simulation.time_s(), c.simulators, robots, c.islands_now, controller.window_ticks(), c.windows,
         c.windows_repeated, controller.balance(), c.losses, c.recoveries, c.migrations, c.cuts));
-    for (std::size_t place = 0; place < members.size(); ++place) {
-        const MemberReport& member = members[place];
+    for (std::size_t seat = 0; seat < members.size(); ++seat) {
+        const MemberReport& member = members[seat];
         if (!member.alive) continue;
         lines.push_back(fmt::format(
             "event=load simulator={} name={} leaving={} threads={} robots={} islands={} step_us={:.1f} "
             "load={:.3f} has={}",
-            member.number, quoted(member.name), member.leaving, member.threads, has[place].size(),
-            member.islands, member.step_us, member.load, ranges(has[place])));
+            member.number, quoted(member.name), member.leaving, member.threads, has[seat].size(),
+            member.islands, member.step_us, member.load, ranges(has[seat])));
     }
     return lines;
 }

@@ -85,21 +85,21 @@ std::string about(const Started& process, const ClusterFile& file) {
 void take_answer(const ClusterFile& file, const std::string& host, const std::string& said,
                  StartOutcome& outcome) {
     std::istringstream lines(said);
-    Error* complaint = nullptr;
+    Error* failure = nullptr;
     for (std::string line; std::getline(lines, line);) {
         char sign = 0;
         std::size_t i = 0;
         Started started{"", "", host, "", 0};
         std::istringstream words(line);
         if (!(words >> sign >> i) || (sign != '+' && sign != '-') || i >= file.processes.size()) {
-            if (complaint != nullptr) complaint->message += "\n" + line;
+            if (failure != nullptr) failure->message += "\n" + line;
             continue;
         }
         started.name = file.processes[i].name, started.role = file.processes[i].role;
         if (sign == '+' && words >> started.pid >> std::ws && std::getline(words, started.log))
-            outcome.started.push_back(started), complaint = nullptr;
+            outcome.started.push_back(started), failure = nullptr;
         else
-            complaint =
+            failure =
                 &outcome.errors.emplace_back(Error{started.name + " on " + host + ": it ended at once:", ""});
     }
 }

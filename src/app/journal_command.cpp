@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/exit_codes.h"
-#include "app/journal_place.h"
+#include "app/journal_location.h"
 #include "app/orders_file.h"
 #include "app/run.h"
 #include "core/hash.h"
@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 
 const char* const kFooter =
     R"(A journal is written by `roboss run|controller --journal FILE`; a file of --save is a small one.
-FILE#BRANCH names a branch (default: the youngest), FILE@TIME a moment, in s; FILE#2@1.5 both.
+FILE#BRANCH names a branch (default: the youngest), FILE@TIME a point in time, in s; FILE#2@1.5 both.
 
 Exit codes: 0 done, 1 the file is not there, damaged, or of another version, 2 wrong usage, 3 verify found a difference.
 Examples:
@@ -30,7 +30,7 @@ Examples:
   roboss journal export run.journal --orders > orders.jsonl    and   roboss run world.sdf --orders orders.jsonl)";
 
 struct JournalOptions {
-    std::string place;
+    std::string location;
     bool json = false, all = false, orders = false;
     int threads = 1;
 };
@@ -42,14 +42,14 @@ void print_json(const Json& o) {
 /// What the options name, opened; nothing if it cannot be (it has been said).
 struct Opened {
     Journal journal;
-    JournalPlace place;
+    JournalLocation location;
 };
 std::optional<Opened> open(const JournalOptions& o, bool thorough) {
-    Result<JournalPlace> place = parse_place(o.place);
-    if (!place) return print(place.error()), std::nullopt;
-    Result<Journal> journal = Journal::open(place.value().file, thorough);
+    Result<JournalLocation> location = parse_location(o.location);
+    if (!location) return print(location.error()), std::nullopt;
+    Result<Journal> journal = Journal::open(location.value().file, thorough);
     if (!journal) return print(journal.error()), std::nullopt;
-    return Opened{std::move(journal).value(), std::move(place).value()};
+    return Opened{std::move(journal).value(), std::move(location).value()};
 }
 
 Json to_json(const Branch& b, double dt_s) {
@@ -125,7 +125,7 @@ int verify(const JournalOptions& o) {
     Json stretches = Json::array();
     std::size_t bad = 0;
     for (const Branch& b : journal.branches()) {
-        if (opened->place.branch && *opened->place.branch != b.id) continue;
+        if (opened->location.branch && *opened->location.branch != b.id) continue;
         const auto tell = [&](const Stretch& s) {
             bad += s.good() ? 0 : 1;
             stretches.push_back(to_json(s));
@@ -150,22 +150,22 @@ void print_line(const Json& o) {
 }
 
 /// One branch as JSON lines, in the order of time.
-int export_branch(const Journal& journal, const Moment& moment, bool from_here, bool orders_only) {
-    const Model& model = *moment.model;
+int export_branch(const Journal& journal, const JournalTime& time, bool from_here, bool orders_only) {
+    const Model& model = *time.model;
     constexpr Tick kAll = std::numeric_limits<Tick>::max();
-    Result<LogBatch> log = journal.log(moment.branch, from_here ? moment.tick : -1, kAll);
+    Result<LogBatch> log = journal.log(time.branch, from_here ? time.tick : -1, kAll);
     if (!log) return print(log.error()), kBadInput;
-    const auto time = [&](Tick tick) { return static_cast<double>(tick) * model.dt_s; };
+    const auto seconds = [&](Tick tick) { return static_cast<double>(tick) * model.dt_s; };
     if (!orders_only) {
-        print_line(to_json(moment.branch, model.dt_s));
-        for (const CheckpointPlace& c : journal.checkpoints(moment.branch))
-            print_line({{"checkpoint", c.tick}, {"t", time(c.tick)}, {"state_hash", to_hex(c.hash)}});
+        print_line(to_json(time.branch, model.dt_s));
+        for (const CheckpointEntry& c : journal.checkpoints(time.branch))
+            print_line({{"checkpoint", c.tick}, {"t", seconds(c.tick)}, {"state_hash", to_hex(c.hash)}});
         for (const auto& [client, name] : log.value().clients)
             print_line({{"client", client}, {"name", name}});
         for (const LogNote& note : log.value().notes)
-            print_line({{"note", note.text}, {"tick", note.tick}, {"t", time(note.tick)}});
+            print_line({{"note", note.text}, {"tick", note.tick}, {"t", seconds(note.tick)}});
     }
-    for (const SaidOrder& o : log.value().orders) {
+    for (const LoggedOrder& o : log.value().orders) {
         if (Result<> good = check_order(model, o.order); !good) return print(good.error()), kBadInput;
         fmt::print("{}\n", order_line(o.order, model));
     }
@@ -175,9 +175,9 @@ int export_branch(const Journal& journal, const Moment& moment, bool from_here, 
 int export_log(const JournalOptions& o) {
     const std::optional<Opened> opened = open(o, false);
     if (!opened) return kBadInput;
-    Result<Moment> moment = find_moment(opened->journal, opened->place);
-    if (!moment) return print(moment.error()), kBadInput;
-    return export_branch(opened->journal, moment.value(), opened->place.time_s.has_value(), o.orders);
+    Result<JournalTime> time = find_time(opened->journal, opened->location);
+    if (!time) return print(time.error()), kBadInput;
+    return export_branch(opened->journal, time.value(), opened->location.time_s.has_value(), o.orders);
 }
 
 }  // namespace
@@ -190,7 +190,7 @@ void add_journal_command(CLI::App& app, int& exit_code) {
     const auto add = [&](const char* name, const char* what, int (*act)(const JournalOptions&)) {
         CLI::App* sub = command->add_subcommand(name, what);
         sub->footer(kFooter);
-        sub->add_option("file", o->place, "FILE, FILE#BRANCH or FILE@TIME")->required();
+        sub->add_option("file", o->location, "FILE, FILE#BRANCH or FILE@TIME")->required();
         sub->callback([o, act, &exit_code] { exit_code = act(*o); });
         return sub;
     };

@@ -17,7 +17,7 @@
 
 namespace roboss {
 
-std::string place_name(pid_t process) {
+std::string process_name(pid_t process) {
     char host[256] = {};
     gethostname(host, sizeof host - 1);
     return std::string(host) + "/" + std::to_string(process);

@@ -12,7 +12,7 @@
 namespace roboss {
 
 /// "HOST/PID" of a process of this computer, for people.
-std::string place_name(pid_t process);
+std::string process_name(pid_t process);
 
 class LocalProcess {
   public:

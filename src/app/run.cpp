@@ -60,7 +60,7 @@ bool Run::prepare() {
     if (model_ && !o_.orders.empty()) orders_ = load_orders(o_.orders, *model_, diagnostics);
     print(diagnostics, o_.world);
     if (!model_ || refused()) return false;
-    if (is_shown()) looks_.begin(*model_, std::move(*world));
+    if (is_shown()) visuals_.begin(*model_, std::move(*world));
     Result<std::unique_ptr<RunJournal>> journal = RunJournal::open(o_, *model_);
     if (!journal) return print(journal.error()), false;
     journal_ = std::move(journal).value();
@@ -110,18 +110,18 @@ bool Run::create() {
     if (!others) return print(others.error()), false;
     const auto prepared_ms =
         static_cast<std::int64_t>(1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC);
-    Result<std::unique_ptr<Company>> company = Company::gather(o_, prepared_ms);
-    if (!company) return print(company.error()), false;
-    company_ = std::move(company.value());
+    Result<std::unique_ptr<RunMembers>> members = RunMembers::gather(o_, prepared_ms);
+    if (!members) return print(members.error()), false;
+    members_ = std::move(members.value());
     if (!open_gateway()) return false;
     const SavedRun* from = journal_->from();
     SimulationOptions options = simulation_options(from);
     options.controller.log = journal_->resumed();
     options.controller.before.first_id = first_simulator_id();
-    company_->brief(options);
+    members_->configure(options);
     options.clients_awaited.insert(options.clients_awaited.end(), others.value().begin(),
                                    others.value().end());
-    auto simulation = Simulation::create(model_, options, std::move(programs), from, company_->take_bus());
+    auto simulation = Simulation::create(model_, options, std::move(programs), from, members_->take_bus());
     if (!simulation) return print(simulation.error()), false;
     simulation_ = std::move(simulation.value());
     start_ = journal_->start();
@@ -147,10 +147,10 @@ SimulationOptions Run::simulation_options(const SavedRun* from) const {
     options.controller.window = o_.window == "auto" ? 0 : static_cast<Tick>(std::stod(o_.window));
     options.controller.forecast.merge_all = o_.merge_islands;
     options.controller.log_ticks = journal_->log_ticks();
-    if (gateway_) options.guest = [gateway = gateway_.get()](Bus& bus) { gateway->advance(bus); };
+    if (gateway_) options.observer = [gateway = gateway_.get()](Bus& bus) { gateway->advance(bus); };
     if (!is_shown()) return options;
     options.controller.scene = [this, seed = options.controller.seed](const Model& model) {
-        return encode(scene_file(make_scene(model, looks_.of(model)), model, seed));
+        return encode(scene_file(make_scene(model, visuals_.of(model)), model, seed));
     };
     return options;
 }
@@ -160,12 +160,12 @@ Result<> Run::start_again(std::shared_ptr<const Model> model, const SavedRun& fr
     if (!load_programs(programs))
         return Error{"a control program cannot be loaded again", "see the lines above"};
     SimulationOptions options = simulation_options(&from);
-    company_->brief(options);
+    members_->configure(options);
     options.simulators_awaited = options.simulators > 0 ? 0 : 1;
     options.controller.before = simulation_->controller().hand_over();
     options.controller.before.went_back = options.controller.before.went_back || turn.back;
     options.clients_awaited = simulation_->clients_elsewhere();
-    const bool reaches_others = company_->reaches_others();
+    const bool reaches_others = members_->reaches_others();
     simulation_->start_log(nullptr, 0);
     auto made = Simulation::create(model, options, std::move(programs), &from,
                                    reaches_others ? simulation_->release_bus() : nullptr);
@@ -266,7 +266,7 @@ int Run::finish(bool fine, double wall_s) {
         log_->event(simulation_->tick(), fine ? "the run has ended" : "the run has failed");
     }
     simulation_->controller().dismiss(simulation_->bus(), fine ? "the run has ended" : "the run has failed");
-    company_->see_off(abandoned_);
+    members_->await_exit(abandoned_);
     fmt::print("{}", to_text(s));
     if (abandoned_) return kProcessesFailed;
     if (!fine || !written) return kRunFailed;

@@ -6,13 +6,13 @@
 #include <memory>
 #include <optional>
 
-#include "app/company.h"
 #include "app/contacts_file.h"
 #include "app/event_log.h"
-#include "app/looks.h"
+#include "app/model_visuals.h"
 #include "app/path_picture.h"
 #include "app/progress.h"
 #include "app/run_journal.h"
+#include "app/run_members.h"
 #include "app/run_options.h"
 #include "app/summary.h"
 #include "app/trace_file.h"
@@ -78,7 +78,7 @@ class Run {
     Answer change_simulators(const std::vector<std::string>& words);
     Answer kill_simulator(const std::vector<std::string>& words);
     Answer save(const std::string& file);
-    Answer rewind(const std::string& moment);
+    Answer rewind(const std::string& where);
     Answer change_model(const ModelEdit& edit, const std::string& what);
     Answer change_accuracy(const std::vector<std::string>& words);
     Answer add_models(const std::vector<std::string>& words);
@@ -94,11 +94,11 @@ class Run {
     const RunOptions& o_;
     Progress progress_;
     std::shared_ptr<const Model> model_;
-    Looks looks_;                       // for the viewer; none: of a replay
+    ModelVisuals visuals_;              // for the viewer; none: of a replay
     std::unique_ptr<Gateway> gateway_;  // none: headless
     std::vector<Order> orders_;         // of the orders file
     std::unique_ptr<RunJournal> journal_;
-    std::unique_ptr<Company> company_;
+    std::unique_ptr<RunMembers> members_;
     std::unique_ptr<Simulation> simulation_;
     std::optional<TraceFile> trace_;
     std::optional<ContactsFile> contacts_;

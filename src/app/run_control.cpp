@@ -73,13 +73,13 @@ void Run::serve_calls() {
         calls_.push_back(std::move(call));
     for (const ControlCall& call : std::exchange(calls_, {})) {
         const Tick tick = simulation_->tick();
-        const Answer answer = execute(call.request.words);
+        const Answer answer = execute(call.request.arguments);
         const std::string text = answer ? answer.value() : answer.error().text();
-        if (answer && !only_asks(call.request.words)) {
-            notices_.push_back(fmt::format("asked to {}: {}", call.request.words[0], text));
+        if (answer && !only_asks(call.request.arguments)) {
+            notices_.push_back(fmt::format("asked to {}: {}", call.request.arguments[0], text));
             if (journal_->writes()) journal_->writer().note(tick, text);
         }
-        if (journal_->writes() && !only_asks(call.request.words))
+        if (journal_->writes() && !only_asks(call.request.arguments))
             (void)journal_->writer().flush();  // what is answered is kept
         simulation_->controller().control().answer(simulation_->bus(), call, answer.ok(), text);
     }
@@ -151,7 +151,7 @@ Answer Run::change_simulators(const Words& words) {
         return Error{"there is only one Simulator", "a run needs one; add another first"};
     }
     if (words[1] != "add") return wrong(words);
-    if (Result<bool> started = company_->add_simulator(); !started) {
+    if (Result<bool> started = members_->add_simulator(); !started) {
         return started.error();
     } else if (!started.value()) {
         simulation_->add_simulator();
@@ -163,7 +163,7 @@ Answer Run::change_simulators(const Words& words) {
 Answer Run::kill_simulator(const Words& words) {
     for (const MemberReport& member : simulation_->controller().members()) {
         if (std::to_string(member.number) != words[2] || !member.alive) continue;
-        if (Result<> killed = company_->kill(member.name); !killed) return killed.error();
+        if (Result<> killed = members_->kill(member.name); !killed) return killed.error();
         return fmt::format("Simulator {} ({}) is killed", words[2], member.name);
     }
     return Error{"there is no Simulator '" + words[2] + "'", "`roboss control status` lists them"};
@@ -181,19 +181,18 @@ Answer Run::rewind(const std::string& moment_text) {
         o_.journal + (moment_text.find('@') == std::string::npos
                           ? fmt::format("#{}@{}", journal_->writer().branch(), moment_text)
                           : moment_text);
-    Result<JournalPlace> place = parse_place(where);
-    if (!place) return place.error();
+    Result<JournalLocation> location = parse_location(where);
+    if (!location) return location.error();
     Result<Journal> journal = Journal::open(o_.journal);
     if (!journal) return journal.error();
-    Result<Moment> moment = find_moment(journal.value(), place.value());
-    if (!moment) return moment.error();
+    Result<JournalTime> time = find_time(journal.value(), location.value());
+    if (!time) return time.error();
     Result<SavedRun> run =
-        journal.value().run_at(moment.value().branch, *moment.value().model, moment.value().tick);
+        journal.value().run_at(time.value().branch, *time.value().model, time.value().tick);
     if (!run) return run.error();
     const std::string text =
-        fmt::format("rewound from tick {} to tick {}", simulation_->tick(), moment.value().tick);
-    if (Result<> again =
-            start_again(moment.value().model, run.value(), {moment.value().branch.id, text, true});
+        fmt::format("rewound from tick {} to tick {}", simulation_->tick(), time.value().tick);
+    if (Result<> again = start_again(time.value().model, run.value(), {time.value().branch.id, text, true});
         !again)
         return again.error();
     return text + fmt::format(", branch {}", journal_->writer().branch());
@@ -203,8 +202,8 @@ Answer Run::rewind(const std::string& moment_text) {
 Answer Run::change_model(const ModelEdit& edit, const std::string& what) {
     SavedRun run = simulation_->saved_run();
     run.states = carry_over(edit, run.states);
-    std::erase_if(run.orders, [&](SaidOrder& o) { return !carry_over(edit, o.order); });
-    looks_.change(*model_, *edit.model);
+    std::erase_if(run.orders, [&](LoggedOrder& o) { return !carry_over(edit, o.order); });
+    visuals_.change(*model_, *edit.model);
     if (edit.model->robots.size() < model_->robots.size())  // what sensors hold goes by RobotId
         for (auto& [client, memory] : run.memory) memory = without_samples(memory);
     const std::string text = fmt::format("{} at {:.6f} s (tick {})", what, simulation_->time_s(), run.tick);
@@ -252,7 +251,8 @@ Answer Run::add_models(const Words& words) {
         if (d.severity == Severity::kWarning) notices_.push_back(to_text(d));
     Result<ModelEdit> edit = with_models(*model_, *addition, *X_WA, words[4]);
     if (!edit) return edit.error();
-    if (is_shown()) looks_.add({*model_, *edit.value().model, *addition}, std::move(*world), *X_WA, words[4]);
+    if (is_shown())
+        visuals_.add({*model_, *edit.value().model, *addition}, std::move(*world), *X_WA, words[4]);
     return change_model(edit.value(),
                         fmt::format("{} robots of {} added", addition->robots.size(), words[1]));
 }

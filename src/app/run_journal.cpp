@@ -24,14 +24,14 @@ Result<std::unique_ptr<RunJournal>> RunJournal::open(const RunOptions& options, 
 
 Result<std::unique_ptr<RunJournal>> RunJournal::open_replay(const RunOptions& options) {
     std::unique_ptr<RunJournal> result(new RunJournal(options));
-    Result<OpenedMoment> opened = open_moment(options.replay);
+    Result<OpenedJournalTime> opened = open_moment(options.replay);
     if (!opened) return opened.error();
-    const auto& [place, journal, moment] = opened.value();
-    const Branch& branch = moment.branch;
-    Replay replay{moment.model, branch, journal.checkpoints(branch)};
+    const auto& [location, journal, time] = opened.value();
+    const Branch& branch = time.branch;
+    Replay replay{time.model, branch, journal.checkpoints(branch)};
     if (branch.hash != 0 && branch.committed > replay.checks.back().tick)
         replay.checks.push_back({branch.id, branch.committed, branch.hash});
-    result->start_ = place.time_s ? moment.tick : branch.tick;
+    result->start_ = location.time_s ? time.tick : branch.tick;
     Result<SavedRun> to_start = journal.run_at(branch, *replay.model, result->start_);
     if (!to_start) return to_start.error();
     Result<SavedRun> run = journal.run_from(
@@ -45,18 +45,18 @@ Result<std::unique_ptr<RunJournal>> RunJournal::open_replay(const RunOptions& op
 
 Tick RunJournal::next_check(Tick now) const {
     if (replay_)
-        for (const CheckpointPlace& place : replay_->checks)
-            if (place.tick > now) return place.tick;
+        for (const CheckpointEntry& entry : replay_->checks)
+            if (entry.tick > now) return entry.tick;
     return std::numeric_limits<Tick>::max();
 }
 
 Result<> RunJournal::check(Tick now, std::uint64_t hash) const {
     if (!replay_) return Ok{};
-    for (const CheckpointPlace& place : replay_->checks)
-        if (place.tick == now && place.hash != hash)
+    for (const CheckpointEntry& entry : replay_->checks)
+        if (entry.tick == now && entry.hash != hash)
             return Error{
                 fmt::format("at tick {} the replay has another state than the run had: hash {} instead of {}",
-                            now, to_hex(hash), to_hex(place.hash)),
+                            now, to_hex(hash), to_hex(entry.hash)),
                 "one of them was computed with other bits: see `roboss journal verify`, and replay on "
                 "another machine"};
     return Ok{};
@@ -73,18 +73,18 @@ Result<std::shared_ptr<const Model>> RunJournal::model_of(const Journal& journal
 }
 
 Result<> RunJournal::open_from(const Model& model) {
-    Result<OpenedMoment> opened = open_moment(o_.from);
+    Result<OpenedJournalTime> opened = open_moment(o_.from);
     if (!opened) return opened.error();
-    const auto& [place, journal, moment] = opened.value();
-    const Branch& branch = moment.branch;
+    const auto& [location, journal, time] = opened.value();
+    const Branch& branch = time.branch;
     Result<std::shared_ptr<const Model>> its_model = model_of(journal, branch, model);
     if (!its_model) return its_model.error();
-    Result<SavedRun> run = journal.run_at(branch, *its_model.value(), moment.tick);
+    Result<SavedRun> run = journal.run_at(branch, *its_model.value(), time.tick);
     if (!run) return run.error();
     from_ = std::move(run).value();
     start_ = from_->logged_until;
     std::error_code none;
-    if (!o_.journal.empty() && std::filesystem::equivalent(place.file, o_.journal, none)) {
+    if (!o_.journal.empty() && std::filesystem::equivalent(location.file, o_.journal, none)) {
         parent_ = branch.id;
         first_tick_ = journal.holder_of(branch, -1).tick;
     }
@@ -106,9 +106,9 @@ Result<> RunJournal::open_journal(const Model& model) {
 /// From the last checkpoint before which every Client that is still there had answered all that it saw: one
 /// in a process of its own will not see anything earlier again.
 Result<SavedRun> RunJournal::last_run(const Journal& journal, const Branch& branch, const Model& model) {
-    const std::vector<CheckpointPlace> places = journal.checkpoints(branch);
-    for (std::size_t i = places.size(); i-- > 0;) {
-        Result<SavedRun> run = journal.resume_from(branch, places[i], model);
+    const std::vector<CheckpointEntry> entries = journal.checkpoints(branch);
+    for (std::size_t i = entries.size(); i-- > 0;) {
+        Result<SavedRun> run = journal.resume_from(branch, entries[i], model);
         if (!run || i == 0) return run;
         const auto silent = [&](const std::string& name) {
             return run.value().answered[name] < 0 &&

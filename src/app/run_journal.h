@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "app/journal_place.h"
+#include "app/journal_location.h"
 #include "app/run_options.h"
 #include "journal/journal_writer.h"
 #include "simulation/simulation.h"
@@ -21,7 +21,7 @@ class RunJournal {
     struct Replay {
         std::shared_ptr<const Model> model;
         Branch branch;
-        std::vector<CheckpointPlace> checks;  // ascending
+        std::vector<CheckpointEntry> checks;  // ascending
     };
     const std::optional<Replay>& replay() const { return replay_; }
     /// The next tick whose hash is known.

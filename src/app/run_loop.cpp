@@ -44,7 +44,7 @@ bool Run::advance_to(Tick target) {
     Result<> looked_after = Ok{};
     const Result<> stepped = simulation_->run_until(target, [&] {
         show_progress();
-        looked_after = company_->look_after(simulation_->controller());
+        looked_after = members_->look_after(simulation_->controller());
         for (ControlCall& call : simulation_->controller().control().take_calls())
             calls_.push_back(std::move(call));
         return looked_after.ok() && !interrupted() && (calls_.empty() || simulation_->tick() < busy_until_);
@@ -57,9 +57,9 @@ bool Run::advance_to(Tick target) {
 /// A moment of a paused run; false if it cannot go on.
 bool Run::rest() {
     simulation_->serve();
-    if (!company_->reaches_others()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    if (!members_->reaches_others()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     show_progress();
-    const Result<> looked_after = company_->look_after(simulation_->controller());
+    const Result<> looked_after = members_->look_after(simulation_->controller());
     if (!looked_after) return abandoned_ = true, print(looked_after.error()), false;
     return true;
 }
@@ -128,7 +128,7 @@ bool Run::drive() {
 
 void Run::tell_notices() {
     for (const auto& notices :
-         {simulation_->take_notices(), company_->take_notices(), journal_->take_notices(),
+         {simulation_->take_notices(), members_->take_notices(), journal_->take_notices(),
           std::exchange(notices_, {}), gateway_ ? gateway_->take_notices() : std::vector<std::string>()})
         for (const std::string& notice : notices) {
             if (log_) log_->event(simulation_->tick(), notice);

@@ -165,7 +165,7 @@ void add_kept_options(CLI::App& command, RunOptions& o) {
         "with the same file as --journal, as a new branch of it");
     command.add_option(
         "--journal", o.journal,
-        "keep the run in this file, so that any moment of it can be had again; if the file exists, "
+        "keep the run in this file, so that every point in time can be restored; if the file exists, "
         "go on where it ended (after a crash, say)");
     command
         .add_option(

@@ -78,8 +78,8 @@ std::string Run::groups() const {
     const std::size_t seats = controller.members().size();
     std::vector<std::int64_t> simulator, island(model_->robots.size(), -1);
     for (std::size_t r = 0; r < model_->robots.size(); ++r) {
-        const std::uint32_t place = controller.place_of(RobotId(r));
-        simulator.push_back(place < seats ? static_cast<std::int64_t>(place) : -1);
+        const std::uint32_t seat = controller.seat_of(RobotId(r));
+        simulator.push_back(seat < seats ? static_cast<std::int64_t>(seat) : -1);
     }
     const Islands& islands = controller.islands();
     for (std::size_t i = 0; i < islands.count(); ++i)

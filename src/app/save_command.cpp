@@ -7,7 +7,7 @@
 
 #include "app/control_command.h"
 #include "app/exit_codes.h"
-#include "app/journal_place.h"
+#include "app/journal_location.h"
 #include "app/run.h"
 
 namespace roboss {
@@ -29,15 +29,15 @@ struct SaveOptions {
 };
 
 int save_from_journal(const SaveOptions& o) {
-    Result<OpenedMoment> opened = open_moment(o.from);
+    Result<OpenedJournalTime> opened = open_moment(o.from);
     if (!opened) return print(opened.error()), kBadInput;
-    const auto& [place, journal, moment] = opened.value();
-    const Model& model = *moment.model;
-    Result<SavedRun> run = journal.run_at(moment.branch, model, moment.tick);
+    const auto& [location, journal, time] = opened.value();
+    const Model& model = *time.model;
+    Result<SavedRun> run = journal.run_at(time.branch, model, time.tick);
     if (!run) return print(run.error()), kBadInput;
     if (Result<> saved = save_run(o.file, model, run.value()); !saved)
         return print(saved.error()), kRunFailed;
-    fmt::print("saved {:.6f} s (tick {}) in {}\n", static_cast<double>(moment.tick) * model.dt_s, moment.tick,
+    fmt::print("saved {:.6f} s (tick {}) in {}\n", static_cast<double>(time.tick) * model.dt_s, time.tick,
                o.file);
     return kDone;
 }
@@ -45,7 +45,8 @@ int save_from_journal(const SaveOptions& o) {
 }  // namespace
 
 void add_save_command(CLI::App& app, int& exit_code) {
-    CLI::App* command = app.add_subcommand("save", "save a moment of a journal or of a running simulation");
+    CLI::App* command =
+        app.add_subcommand("save", "save one point in time of a journal or of a running simulation");
     command->footer(kFooter);
     auto o = std::make_shared<SaveOptions>();
     command->add_option("file", o->file, "the file to write")->required();

@@ -46,13 +46,13 @@ class SimulatorProcess {
             member_.say(fmt::format("has the world '{}' (model hash {})", model->name, to_hex(model->hash)));
             SimulatorOptions role;
             role.lanes = o_.lanes;
-            role.name = place_name(getpid());
+            role.name = process_name(getpid());
             Simulator simulator(model, self, role, pool_);
             if (!serve(simulator)) return kBadInput;
             if (interrupted()) return kDone;
             if (simulator.outdated()) {
                 member_.say("the world has changed, fetches it again");
-            } else if (simulator.sent_home()) {
+            } else if (simulator.dismissed()) {
                 member_.say("sent home by the Controller");
                 return kDone;
             } else if (!simulator.over().empty()) {

@@ -24,13 +24,13 @@ Result<> SimulatorProcesses::start(const std::vector<std::string>& arguments) {
 
 std::vector<std::string> SimulatorProcesses::names() const {
     std::vector<std::string> names;
-    for (const Member& member : processes_) names.push_back(place_name(member.process.id()));
+    for (const Member& member : processes_) names.push_back(process_name(member.process.id()));
     return names;
 }
 
 bool SimulatorProcesses::kill(const std::string& name) {
     for (Member& member : processes_) {
-        if (name != place_name(member.process.id())) continue;
+        if (name != process_name(member.process.id())) continue;
         member.process.kill();
         return true;
     }
@@ -46,7 +46,7 @@ Result<> SimulatorProcesses::watch_start(const std::vector<std::string>& joined,
     for (Member& member : processes_) {
         const bool was_there = member.joined;
         member.joined = was_there || std::find(joined.begin(), joined.end(),
-                                               place_name(member.process.id())) != joined.end();
+                                               process_name(member.process.id())) != joined.end();
         if (member.joined && !was_there) moved_ms_ = now_ms;
         all = all && member.joined;
     }
@@ -97,7 +97,7 @@ Error SimulatorProcesses::have_not_joined(std::int64_t silent_ms) const {
     return {message, "see what holds them up; fewer --processes need less memory and time"};
 }
 
-void SimulatorProcesses::see_off(std::int64_t ms_max) {
+void SimulatorProcesses::await_exit(std::int64_t ms_max) {
     const std::int64_t end = monotonic_ms() + ms_max;
     for (Member& member : processes_)
         member.process.wait(static_cast<int>(std::max<std::int64_t>(end - monotonic_ms(), 0)));

@@ -30,7 +30,7 @@ class SimulatorProcesses {
     /// Takes out those that have ended; one line for each.
     std::vector<std::string> take_ended();
     /// Waits until all have ended, at most so long; then kills them.
-    void see_off(std::int64_t ms_max);
+    void await_exit(std::int64_t ms_max);
 
   private:
     struct Member {

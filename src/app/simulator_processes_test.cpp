@@ -21,7 +21,7 @@ std::vector<std::string> child(const std::string& does) {
 }
 
 TEST(SimulatorProcessesChild, DISABLED_Complains) {
-    for (int i = 0; i < 9; ++i) std::fprintf(stderr, "complaint %d\n", i);
+    for (int i = 0; i < 9; ++i) std::fprintf(stderr, "message %d\n", i);
     std::fflush(stderr);
     _exit(7);
 }
@@ -40,9 +40,9 @@ TEST(LocalProcess, KeepsTheEndOfWhatItsProcessSaid) {
     LocalProcess process = started("Complains");
     ASSERT_TRUE(process.wait(20'000));
     EXPECT_EQ(process.ended(), "ended with exit code 7");
-    EXPECT_EQ(process.last_lines(2), "complaint 7\ncomplaint 8");
+    EXPECT_EQ(process.last_lines(2), "message 7\nmessage 8");
     EXPECT_EQ(process.last_lines(0), "");
-    EXPECT_NE(process.last_lines(1'000).find("complaint 0\n"), std::string::npos);
+    EXPECT_NE(process.last_lines(1'000).find("message 0\n"), std::string::npos);
 }
 
 TEST(LocalProcess, SaysWhatItsProcessDoes) {
@@ -69,7 +69,7 @@ TEST(SimulatorProcesses, OneThatEndsBeforeTheRunIsNamedWithItsLastWords) {
     ASSERT_FALSE(watched.ok());
     const std::string& said = watched.error().message;
     EXPECT_NE(said.find("Simulator process 2 of 2 (pid "), std::string::npos) << said;
-    EXPECT_NE(said.find("ended with exit code 7; its last words:\ncomplaint 4"), std::string::npos) << said;
+    EXPECT_NE(said.find("ended with exit code 7; its last words:\nmessage 4"), std::string::npos) << said;
     EXPECT_NE(said.find("before the run began"), std::string::npos) << said;
     EXPECT_EQ(said.find("process 1 of 2"), std::string::npos) << said;
 }

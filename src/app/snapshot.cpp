@@ -23,7 +23,7 @@ const char* const kFooter =
     R"(Runs the world to that time and takes the picture, with Chromium without a window.
 
 Examples:
-  roboss snapshot world.sdf --at 2.5 -o heap.png
+  roboss snapshot world.sdf --at 2.5 -o pile.png
   roboss snapshot worlds/city.sdf --client build/release/lib/roboss_city_driver.so --at 12 --camera follow:car_7 --show rays -o car.png
   roboss snapshot worlds/city.sdf --from run.journal@31.2 --at 31.2 --panel inspector --select car_7 --theme dark -o car.png
 

@@ -13,7 +13,7 @@ const Address kA{Role::kSimulator, 1}, kB{Role::kSimulator, 2};
 
 TEST(InProcessBus, DeliversEverythingOnceAndInOrder) {
     InProcessBus bus;
-    for (std::uint32_t i = 0; i < 5; ++i) bus.send(kA, kB, Alive{SimulatorId(i)});
+    for (std::uint32_t i = 0; i < 5; ++i) bus.send(kA, kB, Heartbeat{SimulatorId(i)});
     EXPECT_FALSE(bus.quiet());
     std::vector<Envelope> inbox;
     bus.drain(kA, inbox);
@@ -21,7 +21,7 @@ TEST(InProcessBus, DeliversEverythingOnceAndInOrder) {
     bus.drain(kB, inbox);
     ASSERT_EQ(inbox.size(), 5u);
     for (std::uint32_t i = 0; i < 5; ++i)
-        EXPECT_EQ(std::get<Alive>(inbox[i].message).simulator, SimulatorId(i));
+        EXPECT_EQ(std::get<Heartbeat>(inbox[i].message).simulator, SimulatorId(i));
     bus.drain(kB, inbox);
     EXPECT_TRUE(inbox.empty());
     EXPECT_TRUE(bus.quiet());
@@ -32,10 +32,10 @@ std::vector<std::uint32_t> what_arrives(std::uint64_t seed) {
     std::vector<std::uint32_t> arrived;
     std::vector<Envelope> inbox;
     for (std::uint32_t i = 0; i < 500; ++i) {
-        if (i < 480) bus.send(kA, kB, Alive{SimulatorId(i)});
+        if (i < 480) bus.send(kA, kB, Heartbeat{SimulatorId(i)});
         bus.advance_clock(1);
         bus.drain(kB, inbox);
-        for (const Envelope& e : inbox) arrived.push_back(std::get<Alive>(e.message).simulator.value);
+        for (const Envelope& e : inbox) arrived.push_back(std::get<Heartbeat>(e.message).simulator.value);
     }
     EXPECT_GT(bus.dropped(), 50u);
     EXPECT_GT(bus.doubled(), 50u);
@@ -53,10 +53,10 @@ TEST(FaultyBus, DropsDoublesAndReordersTheSameWayForTheSameSeed) {
 TEST(FaultyBus, CutsOffWhoIsDead) {
     FaultyBus bus({1, 0, 0, 0});
     std::vector<Envelope> inbox;
-    bus.send(kA, kB, Alive{});
+    bus.send(kA, kB, Heartbeat{});
     bus.cut_off(kB);
-    bus.send(kA, kB, Alive{});
-    bus.send(kB, kA, Alive{});
+    bus.send(kA, kB, Heartbeat{});
+    bus.send(kB, kA, Heartbeat{});
     bus.drain(kB, inbox);
     EXPECT_TRUE(inbox.empty());
     bus.drain(kA, inbox);

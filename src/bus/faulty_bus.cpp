@@ -24,7 +24,7 @@ bool FaultyBus::chance(double probability) {
 void FaultyBus::post(const Address& to, std::vector<std::uint8_t> bytes) {
     const auto delay =
         static_cast<std::int64_t>(random(static_cast<std::uint64_t>(options_.delay_ms_max) + 1));
-    // a random serial number breaks ties, so that messages of one moment are reordered too
+    // a random serial number breaks ties, so that messages of the same time are reordered too
     under_way_[to].emplace(std::pair{now_ms_ + delay, random(1u << 20) << 40 | ++serial_}, std::move(bytes));
 }
 
@@ -33,9 +33,9 @@ void FaultyBus::garble(const Address& to, std::vector<std::uint8_t> bytes) {
         bytes[random(bytes.size())] = static_cast<std::uint8_t>(random(4) == 0 ? 0xFF : random(256));
     const Result<Envelope> envelope = decode_envelope(bytes);
     if (!envelope) return void(++refused_);
-    constexpr Tick kLongest = 500;  // a plan of years is stepped for years
-    if (const auto* plan = std::get_if<Plan>(&envelope.value().message);
-        plan && plan->until - plan->from > kLongest)
+    constexpr Tick kLongest = 500;  // longer garbled assignments would take too long to step
+    if (const auto* assignment = std::get_if<Assignment>(&envelope.value().message);
+        assignment && assignment->until - assignment->from > kLongest)
         return;
     ++garbled_[message_name(envelope.value().message)];
     post(to, std::move(bytes));

@@ -1,6 +1,5 @@
-// A Bus that behaves as badly as a network may, by seed: drops, doubles, delays and reorders, on a logical
-// clock that advances when told. It carries encoded bytes, so that every message also passes the codec. For
-// tests.
+// FaultyBus: a Bus with the faults of a network, by seed: it drops, duplicates, delays and reorders, on a
+// logical clock. It carries encoded bytes, so that every message also passes the codec. For tests.
 #pragma once
 
 #include <functional>
@@ -16,7 +15,7 @@ struct FaultOptions {
     std::uint64_t seed = 1;
     double drop = 0.05, duplicate = 0.05;  // probabilities
     std::int64_t delay_ms_max = 8;         // each message is delayed by 0 .. this, so later ones overtake
-    /// Probability that a copy goes along in which some bytes are others, if it can still be decoded.
+    /// Probability that a copy with some changed bytes is sent in addition, if it can still be decoded.
     double garble = 0;
 };
 
@@ -28,20 +27,20 @@ class FaultyBus : public Bus {
     std::int64_t now_ms() override { return now_ms_; }
 
     void advance_clock(std::int64_t ms) { now_ms_ += ms; }
-    /// Everything to and from this address vanishes from now on, and what is under way to it too.
+    /// Drops all messages to and from this address from now on, those in flight included.
     void cut_off(const Address& address) { cut_.insert(address); }
-    /// Says to the Controller that this address has vanished, true or not.
+    /// Reports to the Controller that this address has vanished, true or not.
     void spread_rumour(const Address& address) { rumours_.push_back(address); }
     std::vector<Address> take_vanished(const Address& self) override;
-    /// A uniform number below `limit`, from the same seeded stream; for choosing when to kill whom.
+    /// A uniform number below `limit`, from the same seeded stream; to choose when to kill which member.
     std::uint64_t random(std::uint64_t limit);
-    /// Called when somebody looks for messages, before it gets them: a test's chance to let others go on
+    /// Called when a member polls for messages, before it gets them, so that a test can let others advance
     /// meanwhile.
     std::function<void()> on_drain;
 
     std::uint64_t dropped() const { return dropped_; }
     std::uint64_t doubled() const { return doubled_; }
-    /// By kind of message: copies that went along garbled; garbled ones that the decoder refused.
+    /// By kind of message: garbled copies delivered; garbled copies that the decoder refused.
     const std::map<std::string, std::uint64_t>& garbled() const { return garbled_; }
     std::uint64_t refused() const { return refused_; }
 

@@ -1,4 +1,4 @@
-// FlowCount: how many messages and bytes went each way between two addresses. For people only.
+// FlowCount: how many messages and bytes went each way between two addresses. For status reports only.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// A Bus within one process and one thread: a queue an address; messages are moved, not encoded, and never
+// A Bus within one process and one thread: one queue per address; messages are moved, not encoded, and never
 // lost.
 #pragma once
 
@@ -14,7 +14,7 @@ class InProcessBus : public Bus {
     void drain(const Address& self, std::vector<Envelope>& inbox) override;
     std::int64_t now_ms() override { return monotonic_ms(); }
     std::vector<Flow> flows() const override { return count_.all(); }
-    /// No message is under way.
+    /// No message is in flight.
     bool quiet() const;
 
   private:

@@ -1,4 +1,4 @@
-// Bytes, then a Model of them.
+// Fetches the bytes and decodes the Model.
 #include "bus/model_pull.h"
 
 #include "wire/model_codec.h"

@@ -1,5 +1,5 @@
-// ModelPull: gets the Model from the Controller, so that who joins needs neither file nor compiler. It stands
-// before the role: what else comes for `self` meanwhile will be said again.
+// ModelPull: gets the Model from the Controller, so that a joining process needs neither file nor compiler.
+// It runs before the role: other messages for `self` are dropped meanwhile, and will be sent again.
 #pragma once
 
 #include <optional>
@@ -15,9 +15,9 @@ class ModelPull {
   public:
     using Outcome = Result<std::shared_ptr<const Model>>;
 
-    /// Handles what has come and asks for what is missing. Never waits.
+    /// Handles the messages received and requests what is missing. Never waits.
     void advance(Bus& bus, const Address& self, std::int64_t resend_ms);
-    /// Nothing as long as it is under way; then the Model, or why it cannot be used.
+    /// Empty until it is complete; then the Model, or why it cannot be used.
     const std::optional<Outcome>& model() const { return model_; }
     std::uint64_t bytes_here() const { return pull_.bytes().size(); }
 

@@ -1,4 +1,4 @@
-// Asking for states until all are here.
+// Requests states until all have arrived.
 #include "bus/state_pull.h"
 
 #include "wire/state_block.h"

@@ -1,5 +1,6 @@
-// StatePull: fetches the exact states of some robots at one tick from whoever holds them, asking again until
-// all have come. Simulators use it for hand-offs, Clients for observations, the Controller for checkpoints.
+// StatePull: fetches the exact states of some robots at one tick from their holders, and repeats requests
+// until all have arrived. Simulators use it for hand-offs, Clients for observations, the Controller for
+// checkpoints.
 #pragma once
 
 #include <optional>
@@ -12,14 +13,15 @@ namespace roboss {
 
 class StatePull {
   public:
-    /// Starts to fetch `holders`' robots at `tick`; accept() says where each state goes. `unasked_ms`: they
-    /// are sent without being asked for; who has not done so by then (Bus::now_ms()) is asked. `window`:
-    /// StateRequest's.
+    /// Starts to fetch `holders`' robots at `tick`; accept() receives each state. `unasked_ms`: holders send
+    /// them without a request; one that has not done so by then (Bus::now_ms()) gets a request. `window`: see
+    /// StateRequest.
     void begin(const Model& model, Tick tick, std::vector<Holding> holders,
                std::optional<std::int64_t> unasked_ms = {}, std::uint64_t window = 0);
-    /// Starts to fetch every robot; redirect() says from whom.
+    /// Starts to fetch every robot; redirect() names the holders.
     void begin_all(const Model& model, Tick tick);
-    /// Who has the robots now; what has come stays. Asks at once on the next advance() if this is news.
+    /// Sets the current holders; states received so far stay. If they changed, the next advance() sends
+    /// requests at once.
     void redirect(std::vector<Holding> holders);
     void cancel();
 
@@ -33,7 +35,7 @@ class StatePull {
     /// Sends requests for what is missing, at once and then every resend_ms.
     void advance(Bus& bus, const Address& self, std::int64_t resend_ms);
 
-    /// Calls put(robot, RobotState&&) for every missing robot of the reply. Damaged states count as not come.
+    /// Calls put(robot, RobotState&&) for every missing robot of the reply. Damaged states count as missing.
     template <class Put>
     void accept(const Model& model, const StateReply& reply, Put&& put) {
         if (!is_for(reply)) return;

@@ -1,4 +1,4 @@
-// One request, one part, in order: whatever comes late, twice or from an earlier run does not fit and is
+// One request, one part, in order: late and duplicate parts and those of an earlier run do not match and are
 // dropped.
 #include "bus/whole_pull.h"
 
@@ -19,7 +19,7 @@ void WholePull::advance(Bus& bus, const Address& self, std::int64_t resend_ms) {
 
 void WholePull::take(const ModelPart& part) {
     if (complete_ || part.what != what_) return;
-    if (part.bytes_hash != bytes_hash_ || part.total != total_) {  // another one than the one begun
+    if (part.bytes_hash != bytes_hash_ || part.total != total_) {  // of other bytes than those begun
         bytes_.clear();
         bytes_hash_ = part.bytes_hash;
         total_ = part.total;
@@ -31,7 +31,7 @@ void WholePull::take(const ModelPart& part) {
     if (bytes_.size() < total_) return;
     if (hash_of_bytes(bytes_) == bytes_hash_) {
         complete_ = true;
-    } else {  // damaged on the way: once more
+    } else {  // damaged in transit: start again
         bytes_hash_ = 0;
         bytes_.clear();
     }

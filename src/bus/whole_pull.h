@@ -1,5 +1,5 @@
-// WholePull: gets something big (the Model, the scene) from the Controller, part by part. It stands before a
-// role: what else comes for `self` meanwhile is dropped and will be said again.
+// WholePull: gets something large (the Model, the scene) from the Controller, part by part. It runs before a
+// role: other messages for `self` are dropped meanwhile, and will be sent again.
 #pragma once
 
 #include "bus/bus.h"
@@ -10,10 +10,10 @@ class WholePull {
   public:
     explicit WholePull(Whole what) : what_(what) {}
 
-    /// Handles what has come and asks for what is missing. Never waits.
+    /// Handles the messages received and requests what is missing. Never waits.
     void advance(Bus& bus, const Address& self, std::int64_t resend_ms);
     bool complete() const { return complete_; }
-    /// Whole once it is complete; may be empty then.
+    /// The bytes once they are complete; possibly none.
     const std::vector<std::uint8_t>& bytes() const { return bytes_; }
 
   private:

@@ -1,4 +1,4 @@
-// Joining, observing and answering over a Bus.
+// Joins, observes and replies over a Bus.
 #include "client/bus_client.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ void BusClient::advance(Bus& bus) {
         if (pull_.complete()) show();
     }
     pull_.advance(bus, self_, options_.resend_ms);
-    say_again(bus);
+    resend(bus);
 }
 
 void BusClient::handle(Envelope& envelope) {
@@ -39,25 +39,25 @@ void BusClient::handle(Envelope& envelope) {
     } else if (const auto* reply = std::get_if<StateReply>(&envelope.message)) {
         pull_.accept(*model_, *reply,
                      [&](RobotId robot, RobotState&& s) { coming_[robot.index()] = std::move(s); });
-    } else if (const auto* ack = std::get_if<WordAck>(&envelope.message)) {
+    } else if (const auto* ack = std::get_if<ReplyAck>(&envelope.message)) {
         if (ack->client != id_) return;
-        const bool news = !words_.empty() && words_.front().word <= ack->word;
+        const bool news = !replies_.empty() && replies_.front().number <= ack->number;
         if (news)
             for (const RefusedOrder& r : ack->refused)
                 refusals_.push_back("order " + std::to_string(r.sequence) + ": " + r.reason);
-        heard_up_to(ack->word);
+        heard_up_to(ack->number);
     } else if (const auto* welcome = std::get_if<ClientWelcome>(&envelope.message)) {
         if (id_.valid()) return;
         id_ = welcome->client;
         seed_ = welcome->seed;
-        if (was_here_ && welcome->first < expected_) {  // the world was set back
-            words_.clear();
+        if (was_here_ && welcome->first < expected_) {  // a rewind
+            replies_.clear();
             orders_.clear();
             observing_ = false;
             tick_ = -1;
         }
         expected_ = welcome->first;
-        for (ClientWord& word : words_) word.client = id_;
+        for (ClientReply& sent : replies_) sent.client = id_;
         if (bye_) bye_->client = id_;
     } else if (const auto* unknown = std::get_if<ClientUnknown>(&envelope.message)) {
         if (unknown->client == id_) join_again();
@@ -65,9 +65,9 @@ void BusClient::handle(Envelope& envelope) {
         refusals_.push_back(refused->reason);
     } else if (const auto* answer = std::get_if<ControlReply>(&envelope.message)) {
         if (requests_.empty() || requests_.front().number != answer->number) return;
-        answers_.push_back({requests_.front().words, answer->done, answer->text});
+        answers_.push_back({requests_.front().arguments, answer->done, answer->text});
         requests_.pop_front();
-        said_ms_ = kLongAgo;  // the next one at once
+        sent_ms_ = kLongAgo;  // the next one at once
     } else if (std::holds_alternative<ModelChanged>(envelope.message)) {
         outdated_ = outdated_ || !id_.valid();
     } else if (const auto* over = std::get_if<RunOver>(&envelope.message)) {
@@ -75,8 +75,8 @@ void BusClient::handle(Envelope& envelope) {
     }
 }
 
-/// The Controller was started again: what it has not acknowledged is said again, and what it has not shown
-/// is awaited.
+/// The Controller was restarted: resends the replies that it has not acknowledged, and waits for the
+/// observations not shown yet.
 void BusClient::join_again() {
     id_ = ClientId();
     was_here_ = true;
@@ -84,20 +84,21 @@ void BusClient::join_again() {
     pull_.cancel();
 }
 
-void BusClient::heard_up_to(std::uint64_t word) {
-    while (!words_.empty() && words_.front().word <= word) words_.pop_front();
-    if (bye_ && bye_->word <= word) bye_.reset();
+void BusClient::heard_up_to(std::uint64_t number) {
+    while (!replies_.empty() && replies_.front().number <= number) replies_.pop_front();
+    if (bye_ && bye_->number <= number) bye_.reset();
 }
 
 void BusClient::take_observation(Observation& observation) {
-    heard_up_to(observation.last_word);
+    heard_up_to(observation.last_reply);
     if (!id_.valid() || bye_) return;
-    if (observation.tick <= tick_) return;  // shown already; the word for it will be said again
+    if (observation.tick <= tick_) return;  // shown already; the reply to it is sent again
     if (options_.synchronous && observation.tick < expected_) return;
     offers_[observation.tick] = std::move(observation.holders);
 }
 
-/// A synchronous Client sees every observation in turn; a free-running one what it is told, one at a time.
+/// A synchronous Client sees every observation in turn; a free-running one those that are sent, one at a
+/// time.
 void BusClient::pull_next() {
     if (offers_.empty()) return;
     auto next = options_.synchronous ? offers_.find(expected_) : std::prev(offers_.end());
@@ -119,51 +120,51 @@ void BusClient::show() {
 void BusClient::answer(Bus& bus) {
     ROBOSS_CHECK(observing_, "an answer without an observation");
     observing_ = false;
-    words_.push_back({id_, ++word_, tick_, std::exchange(orders_, {})});
-    bus.send(self_, kControllerAddress, words_.back());
-    said_ms_ = bus.now_ms();
+    replies_.push_back({id_, ++reply_number_, tick_, std::exchange(orders_, {})});
+    bus.send(self_, kControllerAddress, replies_.back());
+    sent_ms_ = bus.now_ms();
 }
 
-void BusClient::say(Bus& bus, Tick observed) {
-    ROBOSS_CHECK(!options_.synchronous, "only a free-running Client speaks unasked");
-    words_.push_back({id_, ++word_, observed, std::exchange(orders_, {})});
-    if (!id_.valid()) return;  // it is said when it has joined
-    bus.send(self_, kControllerAddress, words_.back());
-    said_ms_ = bus.now_ms();
+void BusClient::send(Bus& bus, Tick observed) {
+    ROBOSS_CHECK(!options_.synchronous, "only a free-running Client sends without an observation");
+    replies_.push_back({id_, ++reply_number_, observed, std::exchange(orders_, {})});
+    if (!id_.valid()) return;  // it is sent once it has joined
+    bus.send(self_, kControllerAddress, replies_.back());
+    sent_ms_ = bus.now_ms();
 }
 
 void BusClient::leave(Bus& bus, const std::string& failure) {
-    bye_ = ClientBye{id_, ++word_, !failure.empty(), failure};
+    bye_ = ClientBye{id_, ++reply_number_, !failure.empty(), failure};
     observing_ = false;
     offers_.clear();
     pull_.cancel();
     bus.send(self_, kControllerAddress, *bye_);
-    said_ms_ = bus.now_ms();
+    sent_ms_ = bus.now_ms();
 }
 
-void BusClient::say_again(Bus& bus) {
+void BusClient::resend(Bus& bus) {
     const std::int64_t now = bus.now_ms();
-    if (now - said_ms_ < options_.resend_ms) return;
-    said_ms_ = now;
+    if (now - sent_ms_ < options_.resend_ms) return;
+    sent_ms_ = now;
     if (!requests_.empty()) bus.send(self_, kControllerAddress, requests_.front());
     if (!id_.valid()) {
         ClientHello hello{options_.name,    model_->hash,         options_.period,
-                          options_.latency, options_.synchronous, options_.guest};
-        const std::uint64_t said = word_ - (bye_ ? 1 : 0);
+                          options_.latency, options_.synchronous, options_.observer};
+        const std::uint64_t last = reply_number_ - (bye_ ? 1 : 0);
         if (was_here_) hello.expected = expected_;
-        hello.said = said;
-        hello.acknowledged = said - words_.size();
+        hello.last_reply = last;
+        hello.acknowledged = last - replies_.size();
         return bus.send(self_, kControllerAddress, std::move(hello));
     }
-    for (const ClientWord& word : words_) bus.send(self_, kControllerAddress, word);
-    // Nothing to say: its last word once more now and then, to find out whether it is still known.
-    if (words_.empty() && !bye_ && ++silent_ % kAskEvery == 0)
-        bus.send(self_, kControllerAddress, ClientWord{id_, word_, tick_, {}});
+    for (const ClientReply& reply : replies_) bus.send(self_, kControllerAddress, reply);
+    // Nothing to send: repeats its last reply now and then to find out whether the Controller still knows it.
+    if (replies_.empty() && !bye_ && ++silent_ % kAskEvery == 0)
+        bus.send(self_, kControllerAddress, ClientReply{id_, reply_number_, tick_, {}});
     if (bye_) bus.send(self_, kControllerAddress, *bye_);
 }
 
-void BusClient::control(std::vector<std::string> words) {
-    requests_.push_back({++request_, std::move(words)});
+void BusClient::control(std::vector<std::string> arguments) {
+    requests_.push_back({++request_, std::move(arguments)});
 }
 
 RayScene& BusClient::ray_scene() {

@@ -1,6 +1,6 @@
 // BusClient: a Client over a Bus, the same in this process and elsewhere. It joins, fetches the exact state
-// of each observation from whoever holds it, and says one word for each, again and again until the Controller
-// has it.
+// of each observation from whoever holds it, and sends one reply to each, again and again until the
+// Controller acknowledges it.
 #pragma once
 
 #include <deque>
@@ -17,7 +17,7 @@ struct BusClientOptions {
     std::string name = "client";
     Tick period = 1, latency = 1;  // ticks
     bool synchronous = true;
-    bool guest = false;  // comes and goes: the run never waits for it
+    bool observer = false;  // comes and goes: the run never waits for it
     std::int64_t resend_ms = 100;
 };
 
@@ -33,28 +33,28 @@ class BusClient : public Client {
     }
     std::uint64_t seed() const override { return seed_; }
     Result<> order(RobotId robot, const Action& action) override;
-    void control(std::vector<std::string> words) override;
+    void control(std::vector<std::string> arguments) override;
     std::vector<ControlAnswer> take_control_answers() override { return std::exchange(answers_, {}); }
 
-    /// Handles what has come and asks for what is missing. Never waits.
+    /// Handles the messages received and requests what is missing. Never waits.
     void advance(Bus& bus);
     /// A new observation is shown and waits for an answer().
     bool observing() const { return observing_; }
-    /// Says the word for the observation shown, with the orders given since.
+    /// Sends the reply to the observation shown, with the orders given since.
     void answer(Bus& bus);
-    /// A free-running Client says the orders given so far at once, having seen the world at `observed`, told
-    /// or not.
-    void say(Bus& bus, Tick observed);
-    /// Takes leave. `failure`: why, if something broke; it ends the run.
+    /// A free-running Client sends the orders given so far at once, having seen the world at
+    /// `observed`.
+    void send(Bus& bus, Tick observed);
+    /// Leaves the run. `failure`: why, if the program failed; it ends the run.
     void leave(Bus& bus, const std::string& failure = {});
 
     bool joined() const { return id_.valid(); }
     bool synchronous() const { return options_.synchronous; }
     /// Tick of the next observation of a synchronous Client.
     Tick expected() const { return expected_; }
-    /// Every word has reached the Controller.
-    bool heard() const { return words_.empty() && !bye_; }
-    /// Why the run is over; empty: it is not.
+    /// The Controller has acknowledged every reply.
+    bool heard() const { return replies_.empty() && !bye_; }
+    /// Why the run has ended; empty: it has not.
     const std::string& over() const { return over_; }
     /// The run has another Model than this one: make another BusClient with that.
     bool outdated() const { return outdated_; }
@@ -67,11 +67,11 @@ class BusClient : public Client {
   private:
     void handle(Envelope& envelope);
     void join_again();
-    void heard_up_to(std::uint64_t word);
+    void heard_up_to(std::uint64_t number);
     void take_observation(Observation& observation);
     void pull_next();
     void show();
-    void say_again(Bus& bus);
+    void resend(Bus& bus);
 
     std::shared_ptr<const Model> model_;
     Address self_;
@@ -84,20 +84,20 @@ class BusClient : public Client {
     std::vector<RobotState> states_, coming_;
     bool observing_ = false;
     StatePull pull_;
-    std::map<Tick, std::vector<Holding>> offers_;  // observations told and not shown yet
+    std::map<Tick, std::vector<Holding>> offers_;  // observations announced and not shown yet
     Tick expected_ = 0;                            // the next observation of a synchronous Client
 
-    std::vector<ClientOrder> orders_;  // for the next word
-    std::uint64_t sequence_ = 0, word_ = 0;
-    std::deque<ClientWord> words_;  // not known to have arrived
+    std::vector<ClientOrder> orders_;  // for the next reply
+    std::uint64_t sequence_ = 0, reply_number_ = 0;
+    std::deque<ClientReply> replies_;  // not known to have arrived
     std::optional<ClientBye> bye_;
     static constexpr std::int64_t kLongAgo = -1'000'000'000;
-    std::int64_t said_ms_ = kLongAgo;
+    std::int64_t sent_ms_ = kLongAgo;
     static constexpr std::uint64_t kAskEvery = 5;  // resend times
     std::uint64_t silent_ = 0;
     bool outdated_ = false;
     std::uint64_t request_ = 0;
-    std::deque<ControlRequest> requests_;  // the first is said until it is answered, then the next
+    std::deque<ControlRequest> requests_;  // the first is sent again until it is answered, then the next
     std::vector<ControlAnswer> answers_;
     std::vector<std::string> refusals_;
     std::string over_;

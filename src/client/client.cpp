@@ -1,4 +1,4 @@
-// What every Client offers, in terms of the few things that its implementation provides.
+// The part of Client that all implementations share.
 #include "client/client.h"
 
 #include <algorithm>
@@ -61,7 +61,7 @@ const SensorSpec& Client::known_sensor(RobotId robot, std::size_t sensor) const 
     if (spec.kind == SensorKind::kUnsupported)
         refuse("sensor " + std::to_string(sensor) + " '" + spec.name + "' of " + name +
                    " is of a kind that measures nothing (" + spec.sdf_type + ")",
-               "`roboss check` tells which sensors measure");
+               "`roboss check` lists the sensors that measure");
     return spec;
 }
 

@@ -1,6 +1,6 @@
 // Client: the communication library (the paper's section 4.3). One API whether the world runs in this process
-// or elsewhere: the whole state, orders on four levels, and sensors, which are computed here so that
-// Simulators and network stay free.
+// or elsewhere: the whole state, orders on four levels, and sensors, which are computed here to relieve
+// Simulators and network.
 #pragma once
 
 #include <cstdint>
@@ -21,16 +21,16 @@
 
 namespace roboss {
 
-/// What became of a request to the run.
+/// Answer to a request to the run.
 struct ControlAnswer {
-    std::vector<std::string> words;  // as they were asked
+    std::vector<std::string> arguments;  // of the request
     bool done = false;
     std::string text;  // what was done, or why not
 };
 
-/// Questions about a robot, link, joint or sensor that does not exist throw std::invalid_argument, which
-/// names what was asked and what there is; so does a question to a sensor of another kind. If a
-/// ControlProgram lets it pass, the run ends with that text.
+/// Queries of a robot, link, joint or sensor that does not exist, or of a sensor of another kind, throw
+/// std::invalid_argument, which names what was asked and what there is. If a ControlProgram does not catch
+/// it, the run ends with that text.
 class Client {
   public:
     virtual ~Client() = default;
@@ -58,9 +58,10 @@ class Client {
                        int axis = 0);
     virtual Result<> order(RobotId robot, const Action& action) = 0;
 
-    // --- control of the run itself, in the words of `roboss control`: {"pause"}, {"speed", "2"}, {"add",
-    // ...}. A request takes effect at the end of the window under way; answers come some time later.
-    virtual void control(std::vector<std::string> words) = 0;
+    // --- control of the run itself, with the arguments of `roboss control`: {"pause"}, {"speed", "2"},
+    // {"add",
+    // ...}. A request takes effect at the end of the current window; answers come some time later.
+    virtual void control(std::vector<std::string> arguments) = 0;
     virtual std::vector<ControlAnswer> take_control_answers() = 0;
 
     // --- sensors: `sensor` is an index into RobotType::sensors
@@ -78,7 +79,7 @@ class Client {
     // first question of a tick costs about as much as a step of the whole world.
     /// All contact points of the world that carry an impulse.
     std::span<const ContactReport> contacts();
-    /// What the joints of the robot bear.
+    /// Reactions of the robot's joints.
     std::vector<JointReaction> joint_reactions(RobotId robot);
 
     // --- the held samples of sensors with an <update_rate>, for saved runs
@@ -88,7 +89,7 @@ class Client {
   protected:
     /// The robot; throws if there is none.
     const Robot& known(RobotId robot) const;
-    /// Whoever implements a Client calls it when a new observation is shown.
+    /// Implementations call it when a new observation is shown.
     void renew_samples();
     /// The scene for rays at the observed tick; built when the first laser of a tick asks.
     virtual RayScene& ray_scene() = 0;

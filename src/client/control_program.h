@@ -13,7 +13,7 @@ namespace roboss {
 struct ControlOptions {
     double period_s = 0.02;   // control period: how often control() is called, in simulated time
     double latency_s = -1;    // from observation to effect of its orders; negative: one period
-    bool synchronous = true;  // the world waits for this Client's word each period
+    bool synchronous = true;  // the world waits for this Client's reply each period
 };
 
 class ControlProgram {

@@ -40,7 +40,7 @@ class HeldSamples {
     /// Those that were held before the observation at `tick`, as bytes; empty: none. Goes back by one
     /// observation at most.
     std::string bytes_before(Tick tick) const;
-    /// Replaces all; an Error leaves them as they are.
+    /// Replaces all; an Error changes nothing.
     Result<> restore(const std::string& bytes);
 
   private:

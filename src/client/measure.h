@@ -1,4 +1,4 @@
-// What a sensor reads now, whatever its kind: for those who look at all sensors alike.
+// Reads a sensor of any kind, for code that treats all sensors alike.
 #pragma once
 
 #include <functional>

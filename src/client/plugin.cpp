@@ -46,10 +46,10 @@ Result<std::unique_ptr<ControlProgram>> load_control_program(const std::string& 
         return Error{"control program " + path + ": its entry point gave nothing", kRemedy};
     } catch (const std::exception& e) {
         return Error{"control program " + path + ": its constructor threw: " + e.what(),
-                     "mend the control program"};
+                     "fix the control program"};
     } catch (...) {
         return Error{"control program " + path + ": its constructor threw something",
-                     "mend the control program"};
+                     "fix the control program"};
     }
 }
 

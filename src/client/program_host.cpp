@@ -1,4 +1,4 @@
-// A control program between its observations and its words.
+// Passes observations to a control program, and its orders to the BusClient.
 #include "client/program_host.h"
 
 #include <algorithm>
@@ -70,7 +70,7 @@ bool ProgramHost::guarded(Bus& bus, const char* what, Call&& call) {
     } catch (const std::exception& e) {
         failure_ = std::string(what) + " threw: " + e.what();
     } catch (...) {
-        failure_ = std::string(what) + " threw something that is no std::exception";
+        failure_ = std::string(what) + " threw an object that is not a std::exception";
     }
     client_.leave(bus, failure_);
     return false;

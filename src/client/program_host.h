@@ -1,5 +1,5 @@
-// ProgramHost: runs a control program as a Client. The program's exceptions end here: they become the
-// Client's last word.
+// ProgramHost: runs a control program as a Client. It catches the program's exceptions and sends them as the
+// Client's last reply.
 #pragma once
 
 #include <memory>
@@ -16,9 +16,9 @@ class ProgramHost {
     ProgramHost(const std::shared_ptr<const Model>& model, const Address& self, std::string name,
                 std::unique_ptr<ControlProgram> program);
 
-    /// What a saved run kept of this program; before the first advance().
+    /// Restores the program's memory of a saved run; before the first advance().
     void restore(std::string memory) { restored_ = std::move(memory); }
-    /// Lets the program control whenever there is an observation. Never waits.
+    /// Calls the program's control() for each observation. Never waits.
     void advance(Bus& bus);
 
     const std::string& name() const { return name_; }
@@ -31,7 +31,7 @@ class ProgramHost {
     /// memory_at(), once every observation before `tick` is answered; nothing before. To be asked between any
     /// two advance()s until it answers, while the world waits for this Client.
     std::optional<std::string> settled_memory(Tick tick) const;
-    /// Gives the program back, for another world.
+    /// Returns the program, for another world.
     std::unique_ptr<ControlProgram> take_program() { return std::move(program_); }
 
   private:

@@ -1,5 +1,5 @@
-// ByteSample: the one data type on the wire, in IDL: struct ByteSample { sequence<octet> bytes; }. What the
-// bytes mean is said in wire/codec.h; so no code generator is needed, and any DDS tool can still record it.
+// ByteSample: the one data type on the wire, in IDL: struct ByteSample { sequence<octet> bytes; }.
+// wire/codec.h defines the bytes; so no code generator is needed, and any DDS tool can still record it.
 #pragma once
 
 #include <cstdint>

@@ -22,7 +22,7 @@ constexpr std::int64_t kFound_ms = 400;    // within which two members mostly fi
 constexpr std::int64_t kIdle_ms = 30'000;  // an outbox that nobody reads so long is closed
 
 Channel channel_of(const Message& message) {
-    return std::holds_alternative<Alive>(message) ? Channel::kSigns : Channel::kWords;
+    return std::holds_alternative<Heartbeat>(message) ? Channel::kHeartbeats : Channel::kReliable;
 }
 
 // Before each message: which run it is of, 8 bytes.
@@ -46,8 +46,8 @@ std::uint64_t new_run() {
     return (static_cast<std::uint64_t>(device()) << 32 | device()) | 1;  // never 0
 }
 
-/// What the DDS layer wants to print, kept for who asks.
-class Complaints {
+/// Errors that the DDS layer would print, until they are taken; bounded.
+class NoticeBuffer {
   public:
     void add(std::string line) {
         const std::lock_guard lock(mutex_);
@@ -63,24 +63,24 @@ class Complaints {
     std::vector<std::string> lines_;
 };
 
-class LogToComplaints : public eprosima::fastdds::dds::LogConsumer {
+class DdsLogConsumer : public eprosima::fastdds::dds::LogConsumer {
   public:
-    explicit LogToComplaints(std::shared_ptr<Complaints> complaints) : complaints_(std::move(complaints)) {}
+    explicit DdsLogConsumer(std::shared_ptr<NoticeBuffer> notices) : notices_(std::move(notices)) {}
     void Consume(const eprosima::fastdds::dds::Log::Entry& entry) override {
-        complaints_->add("dds: " + entry.message);
+        notices_->add("dds: " + entry.message);
     }
 
   private:
-    std::shared_ptr<Complaints> complaints_;
+    std::shared_ptr<NoticeBuffer> notices_;
 };
 
-std::shared_ptr<Complaints> collect_complaints() {
-    auto complaints = std::make_shared<Complaints>();
+std::shared_ptr<NoticeBuffer> collect_dds_errors() {
+    auto notices = std::make_shared<NoticeBuffer>();
     using eprosima::fastdds::dds::Log;
     Log::ClearConsumers();
     Log::SetVerbosity(Log::Kind::Error);
-    Log::RegisterConsumer(std::make_unique<LogToComplaints>(complaints));
-    return complaints;
+    Log::RegisterConsumer(std::make_unique<DdsLogConsumer>(notices));
+    return notices;
 }
 
 }  // namespace
@@ -88,12 +88,12 @@ std::shared_ptr<Complaints> collect_complaints() {
 struct DdsBus::Network {
     /// An address of this process.
     struct Home {
-        std::unique_ptr<Inbox> words, signs;
+        std::unique_ptr<Inbox> reliable, heartbeats;
         std::deque<Envelope> local;
-        std::map<Inbox::Writer, Address> writers;  // known from their words
+        std::map<Inbox::Writer, Address> writers;  // known from their messages
         std::vector<Address> vanished;
 
-        /// A writer of the Controller's process also brings words of those for whom it passes them on.
+        /// A writer of the Controller's process also carries messages that it relays for others.
         void note_writer(const Inbox::Writer& writer, const Address& from) {
             if (from == kControllerAddress)
                 writers[writer] = from;
@@ -105,7 +105,7 @@ struct DdsBus::Network {
     std::string topic(const Address& address, Channel channel) const {
         static constexpr const char* kRoles[] = {"controller", "simulator", "client"};
         return "roboss/" + options.simulation + "/" + kRoles[static_cast<int>(address.role)] + "/" +
-               to_hex(address.instance) + (channel == Channel::kSigns ? "/signs" : "/words");
+               to_hex(address.instance) + (channel == Channel::kHeartbeats ? "/heartbeats" : "/reliable");
     }
 
     Home& home(const Address& address) {
@@ -116,19 +116,22 @@ struct DdsBus::Network {
 
     void open(const Address& address, Home& home) {
         if (address.role == Role::kController && run == 0) run = new_run();
-        home.words = Inbox::open(*participant, topic(address, Channel::kWords), Channel::kWords, bell);
-        home.signs = Inbox::open(*participant, topic(address, Channel::kSigns), Channel::kSigns, bell);
-        ROBOSS_CHECK(home.words && home.signs, "DDS made no reader for " + topic(address, Channel::kWords));
+        home.reliable =
+            Inbox::open(*participant, topic(address, Channel::kReliable), Channel::kReliable, bell);
+        home.heartbeats =
+            Inbox::open(*participant, topic(address, Channel::kHeartbeats), Channel::kHeartbeats, bell);
+        ROBOSS_CHECK(home.reliable && home.heartbeats,
+                     "DDS made no reader for " + topic(address, Channel::kReliable));
     }
 
-    /// Everything that hangs on the participant anew; messages between addresses of this process stay.
+    /// Recreates everything that belongs to the participant; messages between addresses of this process stay.
     Result<> reconnect() {
         if (Result<> possible = Participant::possible(options); !possible) return possible.error();
         lose_controller();
         outboxes.clear();
         for (auto& [address, home] : homes) {
-            home.words.reset();
-            home.signs.reset();
+            home.reliable.reset();
+            home.heartbeats.reset();
             home.writers.clear();
         }
         participant.reset();
@@ -139,7 +142,7 @@ struct DdsBus::Network {
         return Ok{};
     }
 
-    /// A member without Controller may join any that comes.
+    /// A member without a Controller may join the next one that appears.
     void lose_controller() {
         if (!homes.contains(kControllerAddress)) run = 0;
     }
@@ -151,24 +154,24 @@ struct DdsBus::Network {
         return *outbox;
     }
 
-    /// The outbox by which a message gets there: mostly the direct one; by the Controller where members are
-    /// told to, or where two see it and not each other (peers that name the Controller only, a firewall).
+    /// The outbox for a message: mostly the direct one; through the Controller if the options say so, or if
+    /// two members see it and not each other (peers that name the Controller only, a firewall).
     Outbox& way_to(const Address& from, const Address& to, Channel channel) {
         const bool may_relay = from.role != Role::kController && to.role != Role::kController;
-        if (may_relay && options.through_controller) return outbox(kControllerAddress, Channel::kWords);
+        if (may_relay && options.through_controller) return outbox(kControllerAddress, Channel::kReliable);
         Outbox& direct = outbox(to, channel);
         if (direct.connected() || !may_relay || monotonic_ms() - direct.opened_ms() < kFound_ms)
             return direct;
-        Outbox& relay = outbox(kControllerAddress, Channel::kWords);
+        Outbox& relay = outbox(kControllerAddress, Channel::kReliable);
         return relay.connected() ? relay : direct;
     }
 
-    /// A message for somebody else: in this process, or known to the Controller only.
+    /// A message to relay: for an address of this process, or for one that only the Controller sees.
     void relay(const Address& self, Envelope envelope, std::span<const std::uint8_t> bytes) {
         if (self != kControllerAddress || envelope.to.role == Role::kController) return;
         const auto home = homes.find(envelope.to);
         if (home == homes.end()) {
-            outbox(envelope.to, Channel::kWords).send(bytes, monotonic_ms());
+            outbox(envelope.to, Channel::kReliable).send(bytes, monotonic_ms());
         } else {
             heard_ms[envelope.from] = monotonic_ms();
             count.add(envelope.from, envelope.to, bytes.size());
@@ -176,7 +179,7 @@ struct DdsBus::Network {
         }
     }
 
-    /// False: something waits for others to take what is under way.
+    /// False: some pieces wait until others have taken those in flight.
     bool pump() {
         const std::int64_t now = monotonic_ms();
         bool done = true;
@@ -197,12 +200,12 @@ struct DdsBus::Network {
             const std::uint64_t its_run = take_run(bytes);
             Result<Envelope> envelope =
                 decode_envelope(std::span(bytes).subspan(std::min(kRunBytes, bytes.size())));
-            if (!envelope) return complaints->add(envelope.error().message);
+            if (!envelope) return notices->add(envelope.error().message);
             if (!belongs_here(its_run, envelope.value().from)) return;
             if (envelope.value().to != self) return relay(self, std::move(envelope).value(), bytes);
             heard_ms[envelope.value().from] = monotonic_ms();
             count.add(envelope.value().from, self, bytes.size());
-            if (&from == home.words.get()) home.note_writer(writer, envelope.value().from);
+            if (&from == home.reliable.get()) home.note_writer(writer, envelope.value().from);
             inbox.push_back(std::move(envelope).value());
         });
     }
@@ -210,7 +213,7 @@ struct DdsBus::Network {
     DdsOptions options;
     std::uint64_t run = 0;  // of this process' Controller or of the one it belongs to; 0: of none
     Bell bell;
-    std::shared_ptr<Complaints> complaints;
+    std::shared_ptr<NoticeBuffer> notices;
     std::unique_ptr<Participant> participant;  // outlives what follows
     std::map<Address, Home> homes;
     std::map<std::pair<Address, Channel>, std::unique_ptr<Outbox>> outboxes;
@@ -221,7 +224,7 @@ struct DdsBus::Network {
 Result<std::unique_ptr<DdsBus>> DdsBus::create(const DdsOptions& options) {
     auto network = std::make_unique<Network>();
     network->options = options;
-    network->complaints = collect_complaints();
+    network->notices = collect_dds_errors();
     Result<std::unique_ptr<Participant>> participant = Participant::create(options);
     if (!participant) return participant.error();
     network->participant = std::move(participant).value();
@@ -242,19 +245,19 @@ void DdsBus::send(const Address& from, const Address& to, Message message) {
         with_run(network_->run, encode(Envelope{from, to, std::move(message)}));
     network_->count.add(from, to, bytes.size());
     if (!network_->way_to(from, to, channel).send(bytes, now_ms()))
-        network_->complaints->add("a message of " + std::to_string(bytes.size()) +
-                                  " bytes is too long to be sent");
+        network_->notices->add("a message of " + std::to_string(bytes.size()) +
+                               " bytes is too long to be sent");
 }
 
 void DdsBus::drain(const Address& self, std::vector<Envelope>& inbox) {
     inbox.clear();
     Network::Home& home = network_->home(self);
-    network_->receive(home, self, *home.signs, inbox);
-    network_->receive(home, self, *home.words, inbox);
+    network_->receive(home, self, *home.heartbeats, inbox);
+    network_->receive(home, self, *home.reliable, inbox);
     for (Envelope& envelope : home.local) inbox.push_back(std::move(envelope));
     home.local.clear();
-    home.signs->take_vanished();
-    for (const Inbox::Writer& writer : home.words->take_vanished()) {
+    home.heartbeats->take_vanished();
+    for (const Inbox::Writer& writer : home.reliable->take_vanished()) {
         const auto known = home.writers.find(writer);
         if (known == home.writers.end()) continue;
         if (known->second == kControllerAddress) network_->lose_controller();
@@ -280,7 +283,7 @@ std::vector<Flow> DdsBus::flows() const {
 }
 
 bool DdsBus::present(const Address& address) {
-    return network_->homes.contains(address) || network_->outbox(address, Channel::kWords).connected();
+    return network_->homes.contains(address) || network_->outbox(address, Channel::kReliable).connected();
 }
 
 std::optional<std::int64_t> DdsBus::heard_ms(const Address& address) const {
@@ -293,7 +296,7 @@ Result<> DdsBus::reconnect() {
 }
 
 bool DdsBus::taken_elsewhere(const Address& address) const {
-    return network_->participant->read_elsewhere(network_->topic(address, Channel::kWords));
+    return network_->participant->read_elsewhere(network_->topic(address, Channel::kReliable));
 }
 
 bool DdsBus::flush(std::int64_t ms_max) {
@@ -306,7 +309,7 @@ bool DdsBus::flush(std::int64_t ms_max) {
 }
 
 std::vector<std::string> DdsBus::take_notices() {
-    return network_->complaints->take();
+    return network_->notices->take();
 }
 
 }  // namespace roboss

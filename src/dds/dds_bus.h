@@ -1,7 +1,7 @@
 // DdsBus: the Bus over DDS (eProsima Fast DDS 2.9), between the processes and machines of one run. Each
-// address has an inbox, a pair of topics named after the simulation and the address; whoever sends to it
-// makes a writer for it on first use. Words go reliably and in order, signs of life as best they can
-// (decision 0009).
+// address has an inbox, a pair of topics named after the simulation and the address; a sender makes a writer
+// for it on first use. Messages are reliable and in order, except heartbeats, which are best effort (decision
+// 0009).
 #pragma once
 
 #include <memory>
@@ -32,18 +32,18 @@ class DdsBus : public Bus {
 
     /// Whether a process that owns this address is connected now. Asking makes the connection.
     bool present(const Address& address);
-    /// When a message from this address came last (now_ms()); nothing: never.
+    /// When the last message from this address arrived (now_ms()); empty: never.
     std::optional<std::int64_t> heard_ms(const Address& address) const;
-    /// Leaves the network and joins it afresh, for one who hears nothing though others are there: when a
-    /// process was stopped for longer than its lease, DDS may find only one direction again. An Error: the
-    /// interface is down or a peer's name unknown at the moment (its container is being made again, say);
-    /// then all stays as it is.
+    /// Leaves the network and joins it again, for a process that receives nothing although others are there:
+    /// after a process was stopped for longer than its lease, DDS may rediscover only one direction. An
+    /// Error: the interface is down or a peer's name is unknown at the moment (its container is being
+    /// recreated, say); then nothing changes.
     Result<> reconnect();
-    /// Another process has opened the inbox of this address: two must not be the same.
+    /// Another process has opened the inbox of this address: an address must have one process only.
     bool taken_elsewhere(const Address& address) const;
-    /// Waits until all that was sent has arrived, at most so long. For the end of a process.
+    /// Waits until all that was sent has arrived, at most so long. To be called before a process ends.
     bool flush(std::int64_t ms_max);
-    /// Damaged messages, complaints of the DDS layer: one line each, for the log.
+    /// Damaged messages, errors of the DDS layer: one line each, for the log.
     std::vector<std::string> take_notices();
 
   private:

@@ -87,10 +87,10 @@ TEST(DdsBus, SignsOfLifeOfManyAllCome) {
     std::vector<bool> heard(12, false);
     while (std::count(heard.begin(), heard.end(), false) > 0 && b->now_ms() < end) {
         for (std::uint32_t i = 0; i < 12; ++i)
-            a->send({Role::kSimulator, i}, kControllerAddress, Alive{SimulatorId(i)});
+            a->send({Role::kSimulator, i}, kControllerAddress, Heartbeat{SimulatorId(i)});
         b->wait(20);
         b->drain(kControllerAddress, inbox);
-        for (const Envelope& e : inbox) heard[std::get<Alive>(e.message).simulator.index()] = true;
+        for (const Envelope& e : inbox) heard[std::get<Heartbeat>(e.message).simulator.index()] = true;
     }
     EXPECT_EQ(std::count(heard.begin(), heard.end(), false), 0);
 }
@@ -99,7 +99,7 @@ TEST(DdsBus, AddressesOfOneProcessTalkWithoutTheNetwork) {
     const auto bus = bus_of(loopback("local"));
     std::vector<Envelope> inbox;
     bus->drain(kOne, inbox);
-    bus->send(kTwo, kOne, Alive{SimulatorId(3u)});
+    bus->send(kTwo, kOne, Heartbeat{SimulatorId(3u)});
     bus->drain(kOne, inbox);
     ASSERT_EQ(inbox.size(), 1u);
     EXPECT_TRUE(bus->present(kOne));
@@ -113,7 +113,7 @@ TEST(DdsBus, RunsOfDifferentNamesNeverMix) {
     std::vector<Envelope> inbox;
     mine->drain(kTwo, inbox);
     other->drain(kTwo, inbox);
-    a->send(kOne, kTwo, Alive{SimulatorId(1u)});
+    a->send(kOne, kTwo, Heartbeat{SimulatorId(1u)});
     a->send(kOne, kTwo, Expelled{SimulatorId(1u)});
     const auto all = receive(*mine, kTwo, 1, a.get());
     EXPECT_GE(all.size(), 1u);

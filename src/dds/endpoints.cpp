@@ -16,9 +16,9 @@ using ReturnCode_t = eprosima::fastrtps::types::ReturnCode_t;
 
 namespace {
 
-constexpr std::int64_t kUnreadFor_ms = 2'000;  // what nobody reads for so long will be asked for again
-constexpr std::int32_t kWordsUnderWay = 4'096;
-constexpr std::int32_t kSignsKept = 256;
+constexpr std::int64_t kUnreadFor_ms = 2'000;  // messages unread for so long will be requested again
+constexpr std::int32_t kReliableUnderWay = 4'096;
+constexpr std::int32_t kHeartbeatsKept = 256;
 
 eprosima::fastrtps::Duration_t from_ms(std::uint32_t ms) {
     return {static_cast<std::int32_t>(ms / 1000), ms % 1000 * 1'000'000};
@@ -26,13 +26,13 @@ eprosima::fastrtps::Duration_t from_ms(std::uint32_t ms) {
 
 template <class Qos>
 void set_common(Qos& qos, Channel channel) {
-    const bool words = channel == Channel::kWords;
+    const bool words = channel == Channel::kReliable;
     qos.reliability().kind = words ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
     qos.reliability().max_blocking_time = {0, 0};
     qos.durability().kind = dds::VOLATILE_DURABILITY_QOS;
     qos.history().kind = words ? dds::KEEP_ALL_HISTORY_QOS : dds::KEEP_LAST_HISTORY_QOS;
-    qos.history().depth = words ? 1 : kSignsKept;
-    qos.resource_limits().max_samples = words ? kWordsUnderWay : kSignsKept;
+    qos.history().depth = words ? 1 : kHeartbeatsKept;
+    qos.resource_limits().max_samples = words ? kReliableUnderWay : kHeartbeatsKept;
     qos.resource_limits().max_instances = 1;
     qos.resource_limits().max_samples_per_instance = qos.resource_limits().max_samples;
     qos.resource_limits().allocated_samples = 16;
@@ -134,10 +134,10 @@ bool Outbox::send(std::span<const std::uint8_t> message, std::int64_t now_ms) {
     return !pieces.empty();
 }
 
-/// A burst that does not fit into the receiver's socket is lost but for its beginning, so only so much is
-/// under way at a time.
+/// A burst that does not fit into the receiver's socket is lost except for its beginning, so the bytes in
+/// flight are limited.
 bool Outbox::has_room(std::size_t bytes) {
-    if (channel_ == Channel::kSigns || under_way_ + bytes <= under_way_max_) return true;
+    if (channel_ == Channel::kHeartbeats || under_way_ + bytes <= under_way_max_) return true;
     if (!acknowledged(0)) return false;
     under_way_ = 0;
     return true;
@@ -146,11 +146,11 @@ bool Outbox::has_room(std::size_t bytes) {
 bool Outbox::pump(std::int64_t now_ms) {
     const bool here = connected();
     if (was_connected_ && !here)
-        waiting_.clear();  // whoever comes to this address next has not heard the beginning
+        waiting_.clear();  // the next process at this address has not got the beginning
     was_connected_ = here;
     if (!here) {
         while (!waiting_.empty() && waiting_.front().sent_ms + kUnreadFor_ms < now_ms) waiting_.pop_front();
-        return true;  // nothing to be done until somebody comes
+        return true;  // nothing to do until there is a reader
     }
     while (!waiting_.empty()) {
         ByteSample& sample = waiting_.front().sample;

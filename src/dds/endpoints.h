@@ -19,11 +19,11 @@
 
 namespace roboss {
 
-/// Words are messages that matter: reliable, in order. Signs are of use only while they are fresh: best
+/// Reliable, in order: all messages but heartbeats. Heartbeats are useful only while they are fresh: best
 /// effort.
-enum class Channel { kWords, kSigns };
+enum class Channel { kReliable, kHeartbeats };
 
-/// What the threads of the DDS layer tell the thread of the roles.
+/// Lets the threads of the DDS layer wake up the thread of the roles.
 class Bell {
   public:
     void ring();
@@ -76,13 +76,13 @@ class Outbox : private eprosima::fastdds::dds::DataWriterListener {
                                         Bell& bell);
     ~Outbox() override;
 
-    /// Cuts the message and sends what the other side can take now. False: it is too long for any Bus.
+    /// Fragments the message and sends what the other side can take now. False: it is too long.
     bool send(std::span<const std::uint8_t> message, std::int64_t now_ms);
-    /// Sends on. False: something waits for the other side to take what is under way.
+    /// Sends more. False: some pieces wait until the other side has taken those in flight.
     bool pump(std::int64_t now_ms);
     bool connected() const { return readers_ > 0; }
     std::int64_t opened_ms() const { return opened_ms_; }
-    /// Nobody reads and nothing is to be sent, for so long.
+    /// No reader and nothing to send for so long.
     bool idle_since(std::int64_t then_ms) const {
         return !connected() && waiting_.empty() && used_ms_ < then_ms;
     }

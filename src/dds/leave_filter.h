@@ -1,7 +1,7 @@
-// A transport that keeps word of leaves from Fast DDS: members are removed by their lease alone, in one
-// thread. In Fast DDS 2.9 such a word, taken while a lease check of the same member waits for a mutex, aborts
-// the process (decision 0021). Endpoints of a member that ends are removed at once all the same, by messages
-// of their own.
+// A transport that hides announced leaves from Fast DDS: members are removed by their lease alone, in one
+// thread. In Fast DDS 2.9 such an announcement, handled while a lease check of the same member waits for a
+// mutex, aborts the process (decision 0021). Endpoints of a member that ends are removed at once all the
+// same, by messages of their own.
 #pragma once
 
 #include <fastdds/rtps/transport/ChainingTransport.h>
@@ -13,8 +13,8 @@
 
 namespace roboss {
 
-/// Whether a datagram says that a participant leaves: RTPS 2.2, a DATA submessage of the built-in participant
-/// writer that carries no data.
+/// Whether a datagram announces that a participant leaves: RTPS 2.2, a DATA submessage of the built-in
+/// participant writer that carries no data.
 bool announces_leave(std::span<const std::uint8_t> datagram);
 
 /// For DomainParticipantQos::transport(); everything but leaves goes through as it is.

@@ -24,7 +24,7 @@ namespace {
 constexpr const char* kLoopback = "127.0.0.1";
 constexpr std::uint32_t kSocketBuffer = 4u << 20;
 constexpr std::uint32_t kLeaseByServer_ms = 10'000;
-constexpr std::uint32_t kSignsPerLease = 3;
+constexpr std::uint32_t kAnnouncementsPerLease = 3;
 constexpr std::uint32_t kPortsTried = 1'000;
 
 eprosima::fastrtps::Duration_t from_ms(std::uint32_t ms) {
@@ -58,30 +58,29 @@ std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> transport
                                                                                  const std::string& address) {
     auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
     udp->interfaceWhiteList = {address};
-    // Fast DDS speaks to who is on the same computer by loopback, and so does a discovery server that knows
-    // nothing of our interface.
+    // Fast DDS uses loopback for members of the same computer, and so does a discovery server that does not
+    // know our interface.
     if (!options.discovery_server.empty() && address != kLoopback)
         udp->interfaceWhiteList.emplace_back(kLoopback);
     const std::uint32_t possible = socket_buffer_max();
     udp->receiveBufferSize = possible > 0 ? std::min(kSocketBuffer, possible) : kSocketBuffer;
     udp->sendBufferSize = udp->receiveBufferSize;
     udp->maxInitialPeersRange = options.peer_range;
-    // A discovery server's word is the only sign that a member has left, and leases of members are not
-    // checked.
+    // Only a discovery server announces that a member has left; leases of members are not checked.
     if (!options.discovery_server.empty()) return udp;
     return without_leaves(udp);
 }
 
 Result<> set_discovery(const DdsOptions& options, const std::string& address,
                        rtps::BuiltinAttributes& builtin) {
-    // A discovery server hands announcements on as it finds time: who is found through it is missed by his
-    // silence only (ControllerOptions::loss_ms).
+    // A discovery server forwards announcements with delay: the loss of members found through it is noticed
+    // by missing heartbeats only (ControllerOptions::loss_ms).
     const std::uint32_t lease_ms = options.discovery_server.empty()
                                        ? options.liveliness_ms
                                        : std::max(options.liveliness_ms, kLeaseByServer_ms);
     builtin.discovery_config.leaseDuration = from_ms(lease_ms);
     builtin.discovery_config.leaseDuration_announcementperiod =
-        from_ms(std::max(lease_ms / kSignsPerLease, 1u));
+        from_ms(std::max(lease_ms / kAnnouncementsPerLease, 1u));
     // The liveliness of single writers is of no use: in Fast DDS 2.9 any living participant keeps the
     // AUTOMATIC writers of all others alive (issue 4373 there).
     builtin.use_WriterLivelinessProtocol = false;

@@ -33,10 +33,10 @@ News Exchange::take_news() {
     return news;
 }
 
-void Exchange::wish(const Wish& wish) {
+void Exchange::watch(const WatchRequest& request) {
     const std::scoped_lock lock(mutex_);
-    if (wish_ == wish) return;
-    wish_ = wish;
+    if (watch_request_ == request) return;
+    watch_request_ = request;
     stirred_.store(true, std::memory_order_release);
 }
 
@@ -48,10 +48,10 @@ bool Exchange::call(PageCall call) {
     return true;
 }
 
-Wish Exchange::take_wish() {
+WatchRequest Exchange::take_watch_request() {
     const std::scoped_lock lock(mutex_);
     stirred_.store(false, std::memory_order_release);
-    return wish_;
+    return watch_request_;
 }
 
 std::vector<PageCall> Exchange::take_calls() {

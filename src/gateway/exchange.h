@@ -20,12 +20,12 @@
 namespace roboss {
 
 /// What all pages together want to see.
-struct Wish {
+struct WatchRequest {
     bool anyone = false;
     std::uint32_t interval_ms = 0;  // between two views; 0: none
     std::vector<RobotId> robots;    // whose exact states are wanted, ascending
     bool contacts = false, bounds = false, groups = false;
-    friend bool operator==(const Wish&, const Wish&) = default;
+    friend bool operator==(const WatchRequest&, const WatchRequest&) = default;
 };
 
 /// Whether everybody's exact state is had when this robot is looked at closely: its lasers see all, and in a
@@ -36,7 +36,7 @@ bool needs_everybody(const Model& model, RobotId robot);
 struct PageCall {
     std::uint64_t page = 0;
     std::int64_t id = 0;
-    std::variant<ControlWords, PageOrder> what;
+    std::variant<ControlArguments, PageOrder> what;
 };
 
 /// A Model and what it looks like; never changed.
@@ -70,14 +70,14 @@ class Exchange {
     /// Called once from the run's thread when there is news after take_news().
     void set_bell(std::function<void()> bell);
     News take_news();
-    void wish(const Wish& wish);
+    void watch(const WatchRequest& request);
     /// False: too many are waiting.
     bool call(PageCall call);
 
     // --- the run's side
     /// Cheap; true if anything was said since the last take.
     bool stirred() const { return stirred_.load(std::memory_order_acquire); }
-    Wish take_wish();
+    WatchRequest take_watch_request();
     std::vector<PageCall> take_calls();
     void show(std::shared_ptr<const ShownScene> scene);
     void show(const Address& sender, ViewStates views);
@@ -91,7 +91,7 @@ class Exchange {
     std::function<void()> bell_;
     bool rung_ = false;
     std::atomic<bool> stirred_ = false;
-    Wish wish_;
+    WatchRequest watch_request_;
     std::vector<PageCall> calls_;
     std::shared_ptr<const ShownScene> scene_;
     std::map<Address, ViewStates> views_;

@@ -1,6 +1,6 @@
 // Gateway: serves the viewer's page to browsers (docs/viewer.md). Its HTTP and WebSocket server has a thread
 // of its own; towards the run it is a guest that is advanced with the roles, watches what is committed, and
-// gives orders as an ordinary Client. No header of this floor shows Boost, but those named *_session.h.
+// gives orders as an ordinary Client. No header of this layer shows Boost, but those named *_session.h.
 #pragma once
 
 #include <cstdint>

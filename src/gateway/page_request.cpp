@@ -71,8 +71,8 @@ class Fields {
     std::string wrong_;
 };
 
-ControlWords control_of(Fields& fields) {
-    ControlWords control;
+ControlArguments control_of(Fields& fields) {
+    ControlArguments control;
     const Json* words = fields.find("words");
     if (words == nullptr || !words->is_array() || words->empty() || words->size() > kWordsMax)
         return fields.fail("words", "a list of 1 to 64 strings"), control;

@@ -13,7 +13,7 @@
 
 namespace roboss {
 
-struct ControlWords {
+struct ControlArguments {
     std::vector<std::string> words;
 };
 /// A wrench as pages give it: its duration in seconds.
@@ -35,7 +35,7 @@ struct PageWhole {};
 
 struct PageRequest {
     std::int64_t id = 0;  // of words and orders, for the answer
-    std::variant<ControlWords, PageOrder, PageWatch, PageWhole> what;
+    std::variant<ControlArguments, PageOrder, PageWatch, PageWhole> what;
 };
 
 Result<PageRequest> parse_page_request(std::string_view text);

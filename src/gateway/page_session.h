@@ -12,7 +12,7 @@
 
 #include "gateway/access.h"
 #include "gateway/page_request.h"
-#include "gateway/state_book.h"
+#include "gateway/view_state_cache.h"
 
 namespace roboss {
 
@@ -60,7 +60,7 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
     std::deque<std::string> lines_;
     std::string line_under_way_;
     std::vector<std::uint8_t> state_under_way_;
-    StateBook::Shelf shelf_;
+    ViewStateCache::Shelf shelf_;
     std::int64_t state_ms_ = 0;
     std::uint64_t sent_bytes_ = 0;
 };

@@ -23,9 +23,9 @@ constexpr std::size_t kQuestionsMax = 200;
 constexpr Tick kNoPeriod = Tick{1} << 49;  // the orders' Client observes nothing, and so holds up no window
 
 /// Contacts need everybody's state too.
-ViewRequest request_of(const Wish& wish, const Model& model) {
-    ViewRequest request{model.hash, wish.interval_ms, 0, wish.contacts, {}};
-    for (const RobotId robot : wish.robots) {
+ViewRequest request_of(const WatchRequest& wanted, const Model& model) {
+    ViewRequest request{model.hash, wanted.interval_ms, 0, wanted.contacts, {}};
+    for (const RobotId robot : wanted.robots) {
         if (robot.index() >= model.robots.size()) continue;
         request.exact.push_back(robot);
         request.exact_all = request.exact_all || needs_everybody(model, robot);
@@ -68,7 +68,7 @@ std::string bounds_line(const std::string& text, Tick tick, const ShownScene& sc
 
 }  // namespace
 
-void RunWatcher::Asker::advance(Bus& bus) {
+void RunWatcher::Requester::advance(Bus& bus) {
     if (questions.empty()) return;
     bus.drain(self, inbox);
     for (const Envelope& envelope : inbox) {
@@ -89,26 +89,26 @@ void RunWatcher::Asker::advance(Bus& bus) {
 
 void RunWatcher::advance(Bus& bus) {
     if (exchange_->stirred()) {
-        Wish wish = exchange_->take_wish();
-        wish_changed_ = wish_changed_ || !(wish == wish_);
-        wish_ = std::move(wish);
+        WatchRequest request = exchange_->take_watch_request();
+        watch_request_changed_ = watch_request_changed_ || !(request == watch_request_);
+        watch_request_ = std::move(request);
         for (PageCall& call : exchange_->take_calls()) serve(bus, call);
     }
-    if (!wish_.anyone) return rest(bus);
-    if (!self_) self_ = new_address_(), polls_.self = new_address_(), words_.self = new_address_();
+    if (!watch_request_.anyone) return rest(bus);
+    if (!self_) self_ = new_address_(), polls_.self = new_address_(), control_.self = new_address_();
     if (outdated_) fetch(bus);
     bus.drain(*self_, inbox_);
     for (Envelope& envelope : inbox_) handle(bus, envelope);
     if (scene_ && !outdated_) look(bus);
     poll(bus.now_ms());
     polls_.advance(bus);
-    words_.advance(bus);
+    control_.advance(bus);
     serve_orders(bus);
 }
 
 /// Nobody watches: what was begun is brought to its end, and nothing else is done.
 void RunWatcher::rest(Bus& bus) {
-    if (!words_.questions.empty()) words_.advance(bus);
+    if (!control_.questions.empty()) control_.advance(bus);
     if (!client_) return;
     serve_orders(bus);
     if (client_ && orders_.empty()) {
@@ -151,7 +151,7 @@ void RunWatcher::finish_fetch(std::int64_t now_ms) {
         std::make_shared<const ShownScene>(ShownScene{++scenes_, model, std::move(file), ViewLayout(*model)});
     outdated_ = false;
     fetch_from_ms_ = now_ms;
-    said_ms_.reset();
+    sent_ms_.reset();
     drop_client();
     exchange_->show(scene_);
 }
@@ -172,10 +172,10 @@ void RunWatcher::handle(Bus&, Envelope& envelope) {
 
 void RunWatcher::look(Bus& bus) {
     const std::int64_t now = bus.now_ms();
-    if (said_ms_ && now - *said_ms_ < kWatchAgain_ms && !wish_changed_) return;
-    wish_changed_ = false;
-    said_ms_ = now;
-    bus.send(*self_, kControllerAddress, request_of(wish_, *scene_->model));
+    if (sent_ms_ && now - *sent_ms_ < kWatchAgain_ms && !watch_request_changed_) return;
+    watch_request_changed_ = false;
+    sent_ms_ = now;
+    bus.send(*self_, kControllerAddress, request_of(watch_request_, *scene_->model));
 }
 
 void RunWatcher::poll(std::int64_t now_ms) {
@@ -198,8 +198,10 @@ void RunWatcher::poll(std::int64_t now_ms) {
                  if (reply.done) tell_by_robot(reply, to, scene);
              }});
     };
-    if (wish_.groups && due(groups_ms_, kGroupsEvery_ms)) ask_for("groups", Line::To::kGroups, groups_ms_);
-    if (wish_.bounds && due(bounds_ms_, kBoundsEvery_ms)) ask_for("bounds", Line::To::kBounds, bounds_ms_);
+    if (watch_request_.groups && due(groups_ms_, kGroupsEvery_ms))
+        ask_for("groups", Line::To::kGroups, groups_ms_);
+    if (watch_request_.bounds && due(bounds_ms_, kBoundsEvery_ms))
+        ask_for("bounds", Line::To::kBounds, bounds_ms_);
 }
 
 /// The status of the run with what only the gateway knows. Names of robots are in the scene.
@@ -238,12 +240,12 @@ void RunWatcher::answer(std::uint64_t page, std::int64_t id, bool done, std::str
 
 void RunWatcher::serve(Bus& bus, PageCall& call) {
     if (const auto* order_said = std::get_if<PageOrder>(&call.what)) return order(bus, call, *order_said);
-    if (words_.questions.size() >= kQuestionsMax)
+    if (control_.questions.size() >= kQuestionsMax)
         return answer(call.page, call.id, false, "too many requests wait for their answers");
-    words_.questions.push_back({std::move(std::get<ControlWords>(call.what).words),
-                                [this, page = call.page, id = call.id](const ControlReply& reply) {
-                                    answer(page, id, reply.done, reply.text);
-                                }});
+    control_.questions.push_back({std::move(std::get<ControlArguments>(call.what).words),
+                                  [this, page = call.page, id = call.id](const ControlReply& reply) {
+                                      answer(page, id, reply.done, reply.text);
+                                  }});
 }
 
 void RunWatcher::order(Bus& bus, const PageCall& call, const PageOrder& said) {
@@ -254,7 +256,7 @@ void RunWatcher::order(Bus& bus, const PageCall& call, const PageOrder& said) {
         options.name = "viewer";
         options.period = options.latency = kNoPeriod;
         options.synchronous = false;
-        options.guest = true;
+        options.observer = true;
         client_ = std::make_unique<BusClient>(scene_->model, new_address_(), options);
         sequence_ = 0;
     }
@@ -272,7 +274,7 @@ void RunWatcher::order(Bus& bus, const PageCall& call, const PageOrder& said) {
     }
     if (!given) return answer(call.page, call.id, false, given.error().text());
     orders_.push_back({call.page, ++sequence_, call.id});
-    client_->say(bus, tick_);
+    client_->send(bus, tick_);
 }
 
 /// It knows a world that is no more; the next order makes another.

@@ -31,7 +31,7 @@ class RunWatcher {
 
   private:
     /// Words to the Controller, one request after the other, each said until it is answered.
-    struct Asker {
+    struct Requester {
         struct Question {
             std::vector<std::string> words;
             std::function<void(const ControlReply&)> answered;
@@ -69,7 +69,7 @@ class RunWatcher {
 
     std::shared_ptr<Exchange> exchange_;
     std::function<Address()> new_address_;
-    Wish wish_;
+    WatchRequest watch_request_;
     std::optional<Address> self_;  // for views
     std::shared_ptr<const ShownScene> scene_;
     std::uint32_t scenes_ = 0;
@@ -78,9 +78,9 @@ class RunWatcher {
     std::int64_t fetch_from_ms_ = std::numeric_limits<std::int64_t>::min();  // not before, after a failure
     Tick tick_ = 0;                                                          // of the last view
 
-    std::optional<std::int64_t> said_ms_;  // when the last ViewRequest was
-    bool wish_changed_ = false;
-    Asker polls_, words_;
+    std::optional<std::int64_t> sent_ms_;  // when the last ViewRequest was
+    bool watch_request_changed_ = false;
+    Requester polls_, control_;
     std::optional<std::int64_t> status_ms_, groups_ms_, bounds_ms_;
     double status_time_s_ = 0;
     std::int64_t status_at_ms_ = 0, status_was_ms_ = 0;

@@ -127,28 +127,28 @@ void ServerCore::dismiss(std::uint64_t page) {
 }
 
 void ServerCore::watch_changed() {
-    Wish wish;
+    WatchRequest request;
     double rate = 0;
     std::set<RobotId> robots;
     for (const auto& [number, page] : pages_) {
         if (!page->open()) continue;
         const PageWatch& watch = page->watch();
-        wish.anyone = true;
-        wish.contacts = wish.contacts || watch.contacts;
-        wish.bounds = wish.bounds || watch.bounds;
-        wish.groups = wish.groups || watch.groups;
+        request.anyone = true;
+        request.contacts = request.contacts || watch.contacts;
+        request.bounds = request.bounds || watch.bounds;
+        request.groups = request.groups || watch.groups;
         rate = std::max(rate, watch.rate);
         robots.insert(watch.robots.begin(), watch.robots.end());
     }
-    wish.anyone = wish.anyone || !scene_waiters_.empty();
-    wish.robots.assign(robots.begin(), robots.end());
-    if (rate > 0) wish.interval_ms = static_cast<std::uint32_t>(std::max(1.0, 1000 / rate));
-    exchange_->wish(wish);
+    request.anyone = request.anyone || !scene_waiters_.empty();
+    request.robots.assign(robots.begin(), robots.end());
+    if (rate > 0) request.interval_ms = static_cast<std::uint32_t>(std::max(1.0, 1000 / rate));
+    exchange_->watch(request);
 }
 
 void ServerCore::call(PageSession& page, PageRequest&& request) {
-    PageCall call{page.number(), request.id, ControlWords{}};
-    if (auto* words = std::get_if<ControlWords>(&request.what)) {
+    PageCall call{page.number(), request.id, ControlArguments{}};
+    if (auto* words = std::get_if<ControlArguments>(&request.what)) {
         call.what = std::move(*words);
     } else {
         call.what = std::get<PageOrder>(std::move(request.what));
@@ -198,7 +198,7 @@ void ServerCore::take_news() {
 }
 
 void ServerCore::tell_scene() {
-    book_.begin(scene_);
+    order_log_.begin(scene_);
     inspector_.begin(scene_);
     for (const auto& waiter : std::exchange(scene_waiters_, {})) (*waiter)();
     const std::string text = nlohmann::json{{"type", "scene"}, {"scene", scene_->number}}.dump();
@@ -212,12 +212,12 @@ void ServerCore::tell_scene() {
 /// Views of several Simulators come in parts: a State waits a moment for the last one.
 void ServerCore::tell_states(const News& news) {
     bool taken = false;
-    for (const ViewStates& views : news.views) taken = book_.take(views, steady_ms()) || taken;
+    for (const ViewStates& views : news.views) taken = order_log_.take(views, steady_ms()) || taken;
     if (!taken) return;
     const auto tell = [this] {
         for (const auto& [number, page] : std::map(pages_)) page->show_state();
     };
-    if (book_.complete()) {
+    if (order_log_.complete()) {
         late_.cancel();
         return tell();
     }

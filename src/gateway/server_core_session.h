@@ -18,7 +18,7 @@
 #include "gateway/gateway.h"
 #include "gateway/inspector.h"
 #include "gateway/page_files.h"
-#include "gateway/state_book.h"
+#include "gateway/view_state_cache.h"
 
 namespace roboss {
 
@@ -39,7 +39,7 @@ class ServerCore {
     const Access& access() const { return access_; }
     const PageFiles& files() const { return files_; }
     const std::shared_ptr<const ShownScene>& scene() const { return scene_; }
-    const StateBook& book() const { return book_; }
+    const ViewStateCache& book() const { return order_log_; }
     std::string hello() const;
     std::uint64_t next_page() { return ++last_page_; }
     /// False: there are too many.
@@ -81,7 +81,7 @@ class ServerCore {
     std::uint64_t last_page_ = 0;
     std::vector<std::shared_ptr<std::function<void()>>> scene_waiters_;
     std::shared_ptr<const ShownScene> scene_;
-    StateBook book_;
+    ViewStateCache order_log_;
     Inspector inspector_;
 
     mutable std::mutex mutex_;

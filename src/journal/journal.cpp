@@ -1,4 +1,4 @@
-// Reading a journal with distrust.
+// Reads a journal and verifies everything.
 #include "journal/journal.h"
 
 #include <algorithm>
@@ -16,9 +16,10 @@ namespace roboss {
 namespace {
 
 constexpr const char* kAnother = "take another copy of the file, or start without it";
-constexpr std::uintmax_t kLookedThrough_bytes = 64u << 20;  // a file up to this size is always looked through
+constexpr std::uintmax_t kLookedThrough_bytes = 64u
+                                                << 20;  // a file up to this size is always checked completely
 
-/// The columns of a row, by type; anything else than expected is a fault that is remembered.
+/// The columns of a row, by type; remembers a fault if one is not as expected.
 class Columns {
   public:
     explicit Columns(const Row& row) : row_(row) {}
@@ -71,7 +72,7 @@ Result<Journal> Journal::open(const std::string& path, bool thorough) {
             return journal.damaged("it is truncated or was changed");
     }
     for (Result<> (Journal::*read)() :
-         {&Journal::read_branches, &Journal::read_checkpoint_places, &Journal::read_log_heads})
+         {&Journal::read_branches, &Journal::read_checkpoint_entries, &Journal::read_log_heads})
         if (Result<> done = (journal.*read)(); !done) return done.error();
     return journal;
 }
@@ -90,7 +91,7 @@ Result<> Journal::read_meta() {
         if (key != nullptr && *key == "version" && std::holds_alternative<std::string>(row[1]))
             version_ = std::get<std::string>(row[1]);
     }
-    if (format == 0) return damaged("it does not say its format");
+    if (format == 0) return damaged("its format is missing");
     if (format != kJournalFormat)
         return Error{path_ + " has journal format " + std::to_string(format) + " (written by RoBOSS " +
                          (version_.empty() ? "of long ago" : version_) + "), this program reads " +
@@ -119,30 +120,30 @@ Result<> Journal::read_branches() {
         b.committed = b.end = b.tick;
         branches_.push_back(std::move(b));
     }
-    if (branches_.empty()) return Error{path_ + " holds nothing yet: its run never began", kAnother};
+    if (branches_.empty()) return Error{path_ + " is empty: its run never began", kAnother};
     return Ok{};
 }
 
-Result<> Journal::read_checkpoint_places() {
+Result<> Journal::read_checkpoint_entries() {
     Result<std::vector<Row>> rows = db_->select(
         "SELECT branch, tick, state_hash, length(memory) + length(states) FROM checkpoints ORDER BY branch, "
         "tick");
     if (!rows) return damaged(rows.error().message);
     for (const Row& row : rows.value()) {
         Columns c(row);
-        CheckpointPlace place;
-        place.branch = c.number(), place.tick = c.number();
-        place.hash = c.hash();
+        CheckpointEntry entry;
+        entry.branch = c.number(), entry.tick = c.number();
+        entry.hash = c.hash();
         const std::int64_t bytes = c.number();
-        if (!c.good() || place.branch < 1 || place.branch > static_cast<BranchId>(branches_.size()) ||
-            place.tick < branches_[static_cast<std::size_t>(place.branch - 1)].tick)
-            return damaged("a checkpoint has no place");
-        Branch& b = branches_[static_cast<std::size_t>(place.branch - 1)];
+        if (!c.good() || entry.branch < 1 || entry.branch > static_cast<BranchId>(branches_.size()) ||
+            entry.tick < branches_[static_cast<std::size_t>(entry.branch - 1)].tick)
+            return damaged("a checkpoint belongs to no branch");
+        Branch& b = branches_[static_cast<std::size_t>(entry.branch - 1)];
         ++b.checkpoints;
         b.bytes += static_cast<std::uint64_t>(bytes);
-        if (place.tick >= b.committed) b.committed = place.tick, b.hash = place.hash;
-        b.end = std::max(b.end, place.tick);
-        checkpoints_.push_back(place);
+        if (entry.tick >= b.committed) b.committed = entry.tick, b.hash = entry.hash;
+        b.end = std::max(b.end, entry.tick);
+        checkpoints_.push_back(entry);
     }
     for (const Branch& b : branches_)
         if (b.checkpoints == 0) return damaged("branch " + std::to_string(b.id) + " has no checkpoint");
@@ -162,7 +163,7 @@ Result<> Journal::read_log_heads() {
         const std::int64_t orders = c.number(), bytes = c.number();
         const std::uint64_t chain = c.hash();
         if (!c.good() || id < 1 || id > static_cast<BranchId>(branches_.size()))
-            return damaged("a row of its log has no place");
+            return damaged("a row of its log belongs to no branch");
         Tail& tail = tails_[id];
         if (serial != ++tail.serial)
             return damaged("row " + std::to_string(tail.serial) + " of its log is missing");
@@ -202,34 +203,33 @@ Result<std::shared_ptr<const Model>> Journal::model(const Branch& branch) const 
     if (!c.good() || hash_of_bytes(bytes) != hash) return damaged("a Model was changed");
     Result<std::shared_ptr<const Model>> model = decode_model(bytes);
     if (!model) return damaged(model.error().message);
-    if (model.value()->hash != branch.model_hash)
-        return damaged("a Model is not the one that it is said to be");
+    if (model.value()->hash != branch.model_hash) return damaged("a Model does not have its recorded hash");
     return model;
 }
 
-std::vector<CheckpointPlace> Journal::checkpoints(const Branch& branch) const {
-    std::vector<CheckpointPlace> places;
-    for (const CheckpointPlace& place : checkpoints_)
-        if (place.branch == branch.id) places.push_back(place);
-    return places;
+std::vector<CheckpointEntry> Journal::checkpoints(const Branch& branch) const {
+    std::vector<CheckpointEntry> entries;
+    for (const CheckpointEntry& entry : checkpoints_)
+        if (entry.branch == branch.id) entries.push_back(entry);
+    return entries;
 }
 
-Result<StoredCheckpoint> Journal::checkpoint(const CheckpointPlace& place, const Model& model) const {
+Result<StoredCheckpoint> Journal::checkpoint(const CheckpointEntry& entry, const Model& model) const {
     Result<std::vector<Row>> rows =
         db_->select("SELECT memory, states, row_hash FROM checkpoints WHERE branch = ? AND tick = ?",
-                    {place.branch, place.tick});
-    const std::string name = "the checkpoint " + at_tick(place.tick);
+                    {entry.branch, entry.tick});
+    const std::string name = "the checkpoint " + at_tick(entry.tick);
     if (!rows) return damaged(rows.error().message);
     if (rows.value().size() != 1) return damaged(name + " is missing");
     Columns c(rows.value()[0]);
     const Blob memory = c.get<Blob>(), states = c.get<Blob>();
     const std::uint64_t check = c.hash();
-    if (!c.good() || check != check_of(place, memory, states)) return damaged(name + " was changed");
+    if (!c.good() || check != check_of(entry, memory, states)) return damaged(name + " was changed");
     Result<std::vector<RobotState>> decoded = decode_states(states, model);
     if (!decoded) return damaged(name + ": " + decoded.error().message);
     Result<ClientMemory> remembered = decode_memory(memory);
     if (!remembered) return damaged(name + ": " + remembered.error().message);
-    if (state_hash_of(model, place.tick, decoded.value()) != place.hash)
+    if (state_hash_of(model, entry.tick, decoded.value()) != entry.hash)
         return damaged(name + " does not have the hash that was saved");
     return StoredCheckpoint{std::move(decoded).value(), std::move(remembered).value()};
 }
@@ -257,23 +257,25 @@ Result<LogBatch> Journal::log(const Branch& branch, Tick from, Tick until) const
         if (!entries) return damaged(name + ": " + entries.error().message);
         log.append(std::move(entries).value());
     }
-    std::erase_if(log.orders, [&](const SaidOrder& o) { return o.order.apply_at < from || o.said >= until; });
-    std::erase_if(log.words, [&](const SaidWord& w) {
+    std::erase_if(log.orders,
+                  [&](const LoggedOrder& o) { return o.order.apply_at < from || o.given_at >= until; });
+    std::erase_if(log.replies, [&](const LoggedReply& w) {
         return w.observed < from || (w.observed >= until && w.observed != kGoneForGood);
     });
     std::erase_if(log.notes, [&](const LogNote& n) { return n.tick < from || n.tick > until; });
-    std::stable_sort(log.orders.begin(), log.orders.end(),
-                     [](const SaidOrder& x, const SaidOrder& y) { return comes_before(x.order, y.order); });
+    std::stable_sort(log.orders.begin(), log.orders.end(), [](const LoggedOrder& x, const LoggedOrder& y) {
+        return comes_before(x.order, y.order);
+    });
     return log;
 }
 
 Result<SavedRun> Journal::run_at(const Branch& branch, const Model& model, Tick tick) const {
-    const std::vector<CheckpointPlace> places = checkpoints(branch);
-    const auto above = std::upper_bound(places.begin(), places.end(), tick,
-                                        [](Tick t, const CheckpointPlace& p) { return t < p.tick; });
+    const std::vector<CheckpointEntry> entries = checkpoints(branch);
+    const auto above = std::upper_bound(entries.begin(), entries.end(), tick,
+                                        [](Tick t, const CheckpointEntry& p) { return t < p.tick; });
     const auto time = [&](Tick t) { return std::to_string(static_cast<double>(t) * model.dt_s) + " s"; };
-    if (above == places.begin() || tick > branch.end) {
-        const Tick first = places.empty() ? branch.tick : places.front().tick;
+    if (above == entries.begin() || tick > branch.end) {
+        const Tick first = entries.empty() ? branch.tick : entries.front().tick;
         return Error{path_ + " has nothing at " + time(tick) + " (tick " + std::to_string(tick) +
                          ") of branch " + std::to_string(branch.id) + ", it has " + time(first) + " to " +
                          time(branch.end) + " (ticks " + std::to_string(first) + " to " +
@@ -283,31 +285,31 @@ Result<SavedRun> Journal::run_at(const Branch& branch, const Model& model, Tick 
     return run_from(branch, *std::prev(above), model, tick);
 }
 
-Result<SavedRun> Journal::run_from(const Branch& branch, const CheckpointPlace& place, const Model& model,
+Result<SavedRun> Journal::run_from(const Branch& branch, const CheckpointEntry& entry, const Model& model,
                                    Tick until) const {
-    return run_with(branch, place, model, until, until);
+    return run_with(branch, entry, model, until, until);
 }
 
-Result<SavedRun> Journal::resume_from(const Branch& branch, const CheckpointPlace& place,
+Result<SavedRun> Journal::resume_from(const Branch& branch, const CheckpointEntry& entry,
                                       const Model& model) const {
-    return run_with(branch, place, model, branch.end, std::numeric_limits<Tick>::max());
+    return run_with(branch, entry, model, branch.end, std::numeric_limits<Tick>::max());
 }
 
-Result<SavedRun> Journal::run_with(const Branch& branch, const CheckpointPlace& place, const Model& model,
+Result<SavedRun> Journal::run_with(const Branch& branch, const CheckpointEntry& entry, const Model& model,
                                    Tick until, Tick said_until) const {
-    Result<StoredCheckpoint> stored = checkpoint(place, model);
+    Result<StoredCheckpoint> stored = checkpoint(entry, model);
     if (!stored) return stored.error();
-    Result<LogBatch> entries = log(branch, place.tick, said_until);
+    Result<LogBatch> entries = log(branch, entry.tick, said_until);
     if (!entries) return entries.error();
     SavedRun run;
     run.world_file = branch.world_file;
     run.seed = branch.seed;
-    run.tick = place.tick;
+    run.tick = entry.tick;
     run.states = std::move(stored.value().states);
     run.memory = std::move(stored.value().memory);
     run.orders = std::move(entries.value().orders);
     run.logged_until = until;
-    for (const SaidOrder& o : run.orders)
+    for (const LoggedOrder& o : run.orders)
         if (Result<> checked = check_order(model, o.order); !checked) return damaged(checked.error().message);
     for (const auto& [client, name] : entries.value().clients) {
         if (client > 1'000'000) return damaged("a Client has an impossible number");
@@ -315,15 +317,15 @@ Result<SavedRun> Journal::run_with(const Branch& branch, const CheckpointPlace& 
         run.clients[client] = name;
         run.answered.try_emplace(name, -1);
     }
-    for (const SaidWord& word : entries.value().words) {
-        if (word.client.index() >= run.clients.size())
-            return damaged("a Client that never came has a word in it");
-        if (word.observed == kGoneForGood) {
-            run.left.push_back(run.clients[word.client.index()]);
+    for (const LoggedReply& reply : entries.value().replies) {
+        if (reply.client.index() >= run.clients.size())
+            return damaged("a Client that never joined has a reply in it");
+        if (reply.observed == kGoneForGood) {
+            run.left.push_back(run.clients[reply.client.index()]);
             continue;
         }
-        Tick& answered = run.answered[run.clients[word.client.index()]];
-        answered = std::max(answered, word.observed);
+        Tick& answered = run.answered[run.clients[reply.client.index()]];
+        answered = std::max(answered, reply.observed);
     }
     return run;
 }
@@ -337,9 +339,9 @@ Result<> Journal::inspect() const {
     for (const Branch& b : branches_) {
         Result<std::shared_ptr<const Model>> model = this->model(b);
         if (!model) return model.error();
-        for (const CheckpointPlace& place : checkpoints_)
-            if (place.branch == b.id)
-                if (Result<StoredCheckpoint> stored = checkpoint(place, *model.value()); !stored)
+        for (const CheckpointEntry& entry : checkpoints_)
+            if (entry.branch == b.id)
+                if (Result<StoredCheckpoint> stored = checkpoint(entry, *model.value()); !stored)
                     return stored.error();
         constexpr Tick kAll = std::numeric_limits<Tick>::max();
         if (Result<LogBatch> entries = log(b, -kAll, kAll); !entries) return entries.error();
@@ -349,7 +351,7 @@ Result<> Journal::inspect() const {
 
 Result<> check_world(const Journal& journal, const Branch& branch, const Model& model) {
     if (branch.model_hash == model.hash) return Ok{};
-    return Error{journal.path() + " was written of another world: " + branch.world_file + ", model hash " +
+    return Error{journal.path() + " was written for another world: " + branch.world_file + ", model hash " +
                      to_hex(branch.model_hash) + "; this one has model hash " + to_hex(model.hash),
                  "give the world file, the step, the accuracy and the version of RoBOSS (" +
                      journal.version() + ") that it was written with"};

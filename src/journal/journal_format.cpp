@@ -43,8 +43,8 @@ BatchRow to_batch_row(const LogBatch& entries) {
         row.low = std::min(row.low, low);
         row.high = std::max(row.high, high);
     };
-    for (const SaidOrder& o : entries.orders) include(o.said, o.order.apply_at);
-    for (const SaidWord& word : entries.words) include(word.observed, word.observed);
+    for (const LoggedOrder& o : entries.orders) include(o.given_at, o.order.apply_at);
+    for (const LoggedReply& reply : entries.replies) include(reply.observed, reply.observed);
     for (const LogNote& note : entries.notes) include(note.tick, note.tick);
     if (!entries.clients.empty()) include(std::numeric_limits<Tick>::min(), kAlways);
     row.orders = static_cast<std::int64_t>(entries.orders.size());
@@ -73,10 +73,10 @@ std::uint64_t check_of(const Branch& b) {
     return hash.value();
 }
 
-std::uint64_t check_of(const CheckpointPlace& place, const Blob& memory, const Blob& states) {
+std::uint64_t check_of(const CheckpointEntry& entry, const Blob& memory, const Blob& states) {
     Hash hash;
-    for (const std::int64_t n : {place.branch, place.tick}) hash.add(static_cast<std::uint64_t>(n));
-    hash.add(place.hash);
+    for (const std::int64_t n : {entry.branch, entry.tick}) hash.add(static_cast<std::uint64_t>(n));
+    hash.add(entry.hash);
     hash.add(text(memory));
     hash.add(text(states));
     return hash.value();
@@ -98,9 +98,9 @@ Row to_row(const Branch& b) {
             to_hex(check_of(b))};
 }
 
-Row to_row(const CheckpointPlace& place, Blob memory, Blob states) {
-    const std::string check = to_hex(check_of(place, memory, states));
-    return {place.branch, place.tick, to_hex(place.hash), std::move(memory), std::move(states), check};
+Row to_row(const CheckpointEntry& entry, Blob memory, Blob states) {
+    const std::string check = to_hex(check_of(entry, memory, states));
+    return {entry.branch, entry.tick, to_hex(entry.hash), std::move(memory), std::move(states), check};
 }
 
 Row model_row(const Model& model) {

@@ -1,4 +1,4 @@
-// The tables of a journal, and the check in every row, by which damage is noticed that SQLite does not see.
+// The tables of a journal, and the check in every row, which detects damage that SQLite does not.
 #pragma once
 
 #include "journal/journal.h"
@@ -22,14 +22,14 @@ struct BatchRow {
     Blob bytes;
 };
 BatchRow to_batch_row(const LogBatch& entries);  // low, high, orders, bytes
-/// Ties a row to those before it: a row that is missing or changed breaks the chain.
+/// Chains a row to those before it: a missing or changed row breaks the chain.
 std::uint64_t chain_of(std::uint64_t before, const BatchRow& row);
 std::uint64_t check_of(const Branch& branch);
-std::uint64_t check_of(const CheckpointPlace& place, const Blob& memory, const Blob& states);
+std::uint64_t check_of(const CheckpointEntry& entry, const Blob& memory, const Blob& states);
 
 Row to_row(const BatchRow& row, std::uint64_t chain);
 Row to_row(const Branch& branch);
-Row to_row(const CheckpointPlace& place, Blob memory, Blob states);
+Row to_row(const CheckpointEntry& entry, Blob memory, Blob states);
 
 inline constexpr const char* kInsertModel = "INSERT OR IGNORE INTO models VALUES(?,?,?)";
 inline constexpr const char* kInsertBranch = "INSERT INTO branches VALUES(?,?,?,?,?,?,?,?)";

@@ -64,9 +64,9 @@ TEST_F(Journals, GiveBackWhatWasSaid) {
         begin(*writer);
         writer->joined(ClientId(0u), "driver");
         writer->order(order(30, 1), 10);
-        writer->word(ClientId(0u), 10);
+        writer->reply(ClientId(0u), 10);
         writer->order(order(40, 2), 20);
-        writer->word(ClientId(0u), 20);
+        writer->reply(ClientId(0u), 20);
         writer->planned(40);
         writer->note(21, "paused");
         writer->committed(30, 77);
@@ -103,14 +103,14 @@ TEST_F(Journals, KeepWhatWasSaidAfterTheirEndForWhoGoesOn) {
         writer->joined(ClientId(0u), "driver");
         writer->committed(20, 77);
         writer->order(order(35, 1), 25);
-        writer->word(ClientId(0u), 25);
+        writer->reply(ClientId(0u), 25);
         ASSERT_TRUE(writer->close().ok());
     }
     const Result<Journal> journal = Journal::open(file(), true);
     ASSERT_TRUE(journal.ok()) << journal.error().text();
     const Branch branch = journal.value().branch().value();
     ASSERT_EQ(branch.end, 20);
-    const CheckpointPlace first = journal.value().checkpoints(branch).front();
+    const CheckpointEntry first = journal.value().checkpoints(branch).front();
     const Result<SavedRun> goes_on = journal.value().resume_from(branch, first, *model_);
     ASSERT_TRUE(goes_on.ok()) << goes_on.error().text();
     EXPECT_EQ(goes_on.value().logged_until, 20);
@@ -268,7 +268,7 @@ TEST_F(Journals, OnAFullDiskWaitForRoomAndLoseNothing) {
         EXPECT_TRUE(writer->safe(writer->given())) << "a journal that cannot be written holds nobody up";
         const std::vector<std::string> notices = writer->take_notices();
         ASSERT_EQ(notices.size(), 1u);
-        EXPECT_NE(notices[0].find("run goes on"), std::string::npos) << notices[0];
+        EXPECT_NE(notices[0].find("run continues"), std::string::npos) << notices[0];
     }
     EXPECT_TRUE(writer->close().ok()) << "there is room again";
     EXPECT_EQ(Journal::open(file(), true).value().branch().value().orders, 20'000u);

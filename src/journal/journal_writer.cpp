@@ -14,7 +14,7 @@ namespace roboss {
 namespace {
 
 // WAL: readers look at a journal that is being written, and a killed process leaves a whole one. NORMAL: the
-// disk is waited for when the WAL is folded in, so only a loss of power can cost the last moments.
+// disk is waited for when the WAL is folded in, so only a power failure can lose the last entries.
 constexpr const char* kPragmas =
     "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; PRAGMA wal_autocheckpoint=2000;";
 
@@ -23,7 +23,7 @@ std::chrono::milliseconds ms(std::int64_t n) {
 }
 
 std::size_t bytes_about(const LogBatch& entries) {
-    return 160 * entries.orders.size() + 16 * entries.words.size() + 80 * entries.notes.size();
+    return 160 * entries.orders.size() + 16 * entries.replies.size() + 80 * entries.notes.size();
 }
 
 Result<int> lock(const std::string& path) {
@@ -66,7 +66,7 @@ Result<std::unique_ptr<JournalWriter>> JournalWriter::open(const std::string& pa
     writer->db_ = std::move(opened).value();
     const std::int64_t tables = count(*writer->db_, "SELECT count(*) FROM sqlite_master");
     const bool began = tables > 0 && count(*writer->db_, "SELECT count(*) FROM branches") != 0;
-    if (tables < 0 || began) {  // something is in it: see what
+    if (tables < 0 || began) {  // it is not empty: check the contents
         Result<Journal> journal = Journal::open(path);
         if (!journal) return journal.error();
         writer->branches_ = static_cast<BranchId>(journal.value().branches().size());
@@ -129,25 +129,25 @@ void JournalWriter::serve() {
     }
 }
 
-/// After a transaction: what is safe now, or back to those that wait.
+/// After a transaction: advances the safe count, or puts the entries back if it failed.
 void JournalWriter::settle(const Result<>& written, Pending& pending) {
     if (written) {
         tail_ = next_tail_;
         waiting_bytes_ = bytes_about(waiting_.entries);
         if (pending.checkpoint) checkpoint_waits_ = false;
         if (failing_.exchange(false) && !lost_)
-            notices_.push_back("journal " + path_ + " can be written again; nothing is missing in it");
+            notices_.push_back("journal " + path_ + " can be written again and is complete");
         trouble_.reset();
         safe_ = pending.given;
         return;
     }
     trouble_ = written.error();
     if (!failing_.exchange(true))
-        notices_.push_back(written.error().message + "; the run goes on, what the journal has stays whole");
+        notices_.push_back(written.error().message + "; the run continues, the journal stays consistent");
     take_in(pending);
 }
 
-/// Puts what could not be written before what has come since; drops it all if that is too much.
+/// Puts entries that could not be written in front of the newer ones; drops all if they are too many.
 void JournalWriter::take_in(Pending& pending) {
     pending.entries.append(std::move(waiting_.entries));
     pending.planned = std::max(pending.planned, waiting_.planned);
@@ -157,7 +157,7 @@ void JournalWriter::take_in(Pending& pending) {
     waiting_ = std::move(pending);
     waiting_bytes_ = bytes_about(waiting_.entries);
     if (waiting_bytes_ <= options_.waiting_bytes_max || lost_) return;
-    lost_ = Error{path_ + ": no room for too long, the journal ends where it is",
+    lost_ = Error{path_ + ": it could not be written for too long, the journal ends here",
                   "free some space, and start again with it"};
     notices_.push_back(lost_->message);
     waiting_ = {};
@@ -181,9 +181,9 @@ Result<> JournalWriter::write_rows(const Pending& pending) {
         std::vector<std::uint64_t> hashes;
         for (std::size_t i = 0; i < c.states->size(); ++i)
             hashes.push_back(state_hash(RobotId(i), c.tick, (*c.states)[i]));
-        const CheckpointPlace place{branch_, c.tick, world_hash(model_hash_, hashes)};
+        const CheckpointEntry entry{branch_, c.tick, world_hash(model_hash_, hashes)};
         if (Result<> r = db_->insert(kInsertCheckpoint,
-                                     {to_row(place, encode_memory(c.memory), encode_states(*c.states))});
+                                     {to_row(entry, encode_memory(c.memory), encode_states(*c.states))});
             !r)
             return r;
     }
@@ -234,20 +234,20 @@ void JournalWriter::joined(ClientId client, const std::string& name) {
     wake_.notify_one();
 }
 
-void JournalWriter::order(const Order& order, Tick said) {
+void JournalWriter::order(const Order& order, Tick given_at) {
     const std::lock_guard guard(mutex_);
     ++given_;
     if (lost_) return;
-    waiting_.entries.orders.push_back({order, said});
+    waiting_.entries.orders.push_back({order, given_at});
     waiting_.given = given_;
     wake_.notify_one();
 }
 
-void JournalWriter::word(ClientId client, Tick observed) {
+void JournalWriter::reply(ClientId client, Tick observed) {
     const std::lock_guard guard(mutex_);
     ++given_;
     if (lost_) return;
-    waiting_.entries.words.push_back({client, observed});
+    waiting_.entries.replies.push_back({client, observed});
     waiting_.given = given_;
     wake_.notify_one();
 }

@@ -1,7 +1,7 @@
-// JournalWriter: a RunLog that appends to a journal's file in a thread of its own. The run never waits for
-// the disk: what is handed over gathers in memory and goes to the file as one transaction at a time, at once
-// when somebody waits for it, else some times a second. When the file cannot be written (disk full), entries
-// wait in memory within a bound and the run goes on; what the file has stays whole.
+// JournalWriter: a RunLog that appends to a journal's file asynchronously, in a background thread. The run
+// never waits for the disk: entries gather in memory and are written as one transaction at a time, at once if
+// somebody waits for them, else several times a second. While the file cannot be written (disk full), entries
+// wait in memory up to a limit and the run continues; the file stays consistent.
 #pragma once
 
 #include <atomic>
@@ -17,7 +17,7 @@
 namespace roboss {
 
 struct JournalWriterOptions {
-    std::int64_t gather_ms = 20;                // between two transactions that nobody waits for
+    std::int64_t gather_ms = 20;                // between two transactions for which nobody waits
     std::int64_t retry_ms = 500;                // after one that failed
     std::size_t waiting_bytes_max = 64u << 20;  // in memory while the file cannot be written
 };
@@ -33,24 +33,24 @@ class JournalWriter : public RunLog {
     JournalWriter& operator=(const JournalWriter&) = delete;
 
     bool is_new() const { return branches_ == 0; }
-    /// A new branch, which begins where `branch` says; its number is set here. What is handed over from now
-    /// on belongs to it. It comes to the file as a whole, by flush(), which has to follow when its first
-    /// checkpoint and the orders still to come were handed over.
+    /// Begins a branch at `branch`.tick; its number is set here. All further entries belong to it. Call
+    /// flush() after its first checkpoint and the orders still to be applied: it writes the beginning of the
+    /// branch as a whole.
     Result<BranchId> start_branch(Branch branch, const Model& model);
-    /// What is handed over from now on goes behind what the branch has.
+    /// Further entries are appended to this branch.
     void continue_branch(const Journal& journal, const Branch& branch);
     BranchId branch() const { return branch_; }
 
-    /// Writes all that was handed over. Waits for the disk.
+    /// Writes all entries. Waits for the disk.
     Result<> flush();
-    /// flush() and the end; an Error if anything that was handed over is not in the file.
+    /// Calls flush() and ends; an Error if any entry is not in the file.
     Result<> close();
     /// What happened since the last call (the disk is full, there is room again), one line each.
     std::vector<std::string> take_notices();
 
     void joined(ClientId client, const std::string& name) override;
-    void order(const Order& order, Tick said) override;
-    void word(ClientId client, Tick observed) override;
+    void order(const Order& order, Tick given_at) override;
+    void reply(ClientId client, Tick observed) override;
     void note(Tick tick, const std::string& text) override;
     void planned(Tick until) override;
     void committed(Tick tick, std::uint64_t world_hash) override;
@@ -62,7 +62,7 @@ class JournalWriter : public RunLog {
     void wait_safe(std::uint64_t count, std::int64_t ms_max) override;
 
   private:
-    /// What waits to be written.
+    /// Entries waiting to be written.
     struct Pending {
         LogBatch entries;
         Tick planned = -1, committed = -1;

@@ -33,7 +33,7 @@ std::vector<std::uint8_t> take_block(Reader& a) {
 
 void LogBatch::append(LogBatch&& later) {
     move_behind(orders, later.orders);
-    move_behind(words, later.words);
+    move_behind(replies, later.replies);
     move_behind(notes, later.notes);
     clients.merge(later.clients);
 }
@@ -41,14 +41,14 @@ void LogBatch::append(LogBatch&& later) {
 std::vector<std::uint8_t> encode(const LogBatch& batch) {
     std::vector<Order> orders;
     orders.reserve(batch.orders.size());
-    for (const SaidOrder& o : batch.orders) orders.push_back(o.order);
+    for (const LoggedOrder& o : batch.orders) orders.push_back(o.order);
     const std::vector<std::uint8_t> block = encode_orders(orders);
     Writer a;
     a.count(block.size());
     a.raw(block.data(), block.size());
-    for (const SaidOrder& o : batch.orders) a.scalar(o.said);
-    a.count(batch.words.size());
-    for (const SaidWord& word : batch.words) a.scalar(word.client.value), a.scalar(word.observed);
+    for (const LoggedOrder& o : batch.orders) a.scalar(o.given_at);
+    a.count(batch.replies.size());
+    for (const LoggedReply& reply : batch.replies) a.scalar(reply.client.value), a.scalar(reply.observed);
     a.count(batch.notes.size());
     for (const LogNote& note : batch.notes) a.scalar(note.tick), field(a, note.text);
     a.count(batch.clients.size());
@@ -62,10 +62,10 @@ Result<LogBatch> decode_batch(std::span<const std::uint8_t> bytes) {
     Result<std::vector<Order>> orders = decode_orders(take_block(a));
     if (a.failed()) return damaged("log entries", a);
     if (!orders) return orders.error();
-    for (Order& order : orders.value()) a.scalar(batch.orders.emplace_back(SaidOrder{order, 0}).said);
+    for (Order& order : orders.value()) a.scalar(batch.orders.emplace_back(LoggedOrder{order, 0}).given_at);
     for (std::size_t n = a.count(12); n > 0 && !a.failed(); --n) {
-        SaidWord& word = batch.words.emplace_back();
-        a.scalar(word.client.value), a.scalar(word.observed);
+        LoggedReply& reply = batch.replies.emplace_back();
+        a.scalar(reply.client.value), a.scalar(reply.observed);
     }
     for (std::size_t n = a.count(12); n > 0 && !a.failed(); --n) {
         LogNote& note = batch.notes.emplace_back();

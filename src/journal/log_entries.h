@@ -1,5 +1,5 @@
-// What a run says to its log, as plain values, and their bytes. Together with a checkpoint these are all that
-// a world needs to be stepped again: who was there, what was ordered, and what the orders answered.
+// Entries of a run's log, as plain values, and their encoding. With a checkpoint they are sufficient to step
+// the world again: the Clients, their orders, and the observations to which the orders reply.
 #pragma once
 
 #include <cstdint>
@@ -14,44 +14,44 @@
 
 namespace roboss {
 
-/// An order with its place in the run's own history: `said` is the tick that it answers (a Client's order) or
-/// that the world had reached when it was given. A branch that leaves at a tick takes along what was said
-/// before it.
-struct SaidOrder {
+/// An order with its place in the run's history: `given_at` is the observed tick to which it replies (a
+/// Client's order), or the tick of the world when it was given. A branch from a tick includes the orders
+/// given before it.
+struct LoggedOrder {
     Order order;
-    Tick said = 0;
+    Tick given_at = 0;
 };
 
-/// A Client has answered an observation, with or without orders.
-struct SaidWord {
+/// A Client has replied to an observation, with or without orders.
+struct LoggedReply {
     ClientId client;
     Tick observed = 0;
-    friend bool operator==(const SaidWord&, const SaidWord&) = default;
+    friend bool operator==(const LoggedReply&, const LoggedReply&) = default;
 };
 
-/// What a Client that leaves has answered: everything.
+/// `observed` of a Client that left: nobody waits for it.
 inline constexpr Tick kGoneForGood = Tick{1} << 61;
 
-/// Something that is no part of the state and worth remembering: pause, speed, a Simulator that came.
+/// An event that is not part of the state: pause, speed, a Simulator that joined.
 struct LogNote {
     Tick tick = 0;
     std::string text;
     friend bool operator==(const LogNote&, const LogNote&) = default;
 };
 
-/// What is written at once.
+/// Entries that are written together.
 struct LogBatch {
-    std::vector<SaidOrder> orders;
-    std::vector<SaidWord> words;
+    std::vector<LoggedOrder> orders;
+    std::vector<LoggedReply> replies;
     std::vector<LogNote> notes;
     std::map<std::uint32_t, std::string> clients;  // who joined: ClientId, name
 
-    bool empty() const { return orders.empty() && words.empty() && notes.empty() && clients.empty(); }
+    bool empty() const { return orders.empty() && replies.empty() && notes.empty() && clients.empty(); }
     void append(LogBatch&& later);
 };
 
 std::vector<std::uint8_t> encode(const LogBatch& batch);
-/// Total: any bytes give a batch or an Error that says what is wrong with them.
+/// Total: any bytes give a batch or an Error that describes the fault.
 Result<LogBatch> decode_batch(std::span<const std::uint8_t> bytes);
 
 /// All robots' states as one sequence of bytes, and back.

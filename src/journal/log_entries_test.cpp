@@ -14,7 +14,7 @@ LogBatch a_batch() {
         {{5, ClientId(0u), 1, RobotId(2u), SetVelocity{{1, 2, 3}, {4, 5, 6}}}, 3},
         {{5, ClientId(), 7, RobotId(0u), ApplyWrench{LinkId(1u), {1, 0, 0}, {}, 9}}, -1},
         {{6, ClientId(1u), 2, RobotId(1u), SetJoint{JointId(0u), 0, MotorMode::kEffort, 2.5, 1}}, 4}};
-    batch.words = {{ClientId(0u), 3}, {ClientId(1u), 4}};
+    batch.replies = {{ClientId(0u), 3}, {ClientId(1u), 4}};
     batch.notes = {{4, "paused"}, {5, ""}};
     batch.clients = {{0, "driver"}, {1, "other"}};
     return batch;
@@ -24,11 +24,11 @@ TEST(LogEntries, GiveBackWhatWasWritten) {
     const std::vector<std::uint8_t> bytes = encode(a_batch());
     const Result<LogBatch> back = decode_batch(bytes);
     ASSERT_TRUE(back.ok()) << back.error().text();
-    EXPECT_EQ(back.value().words, a_batch().words);
+    EXPECT_EQ(back.value().replies, a_batch().replies);
     EXPECT_EQ(back.value().notes, a_batch().notes);
     EXPECT_EQ(back.value().clients, a_batch().clients);
     ASSERT_EQ(back.value().orders.size(), 3u);
-    EXPECT_EQ(back.value().orders[1].said, -1);
+    EXPECT_EQ(back.value().orders[1].given_at, -1);
     EXPECT_EQ(back.value().orders[2].order.robot, RobotId(1u));
     EXPECT_EQ(encode(back.value()), bytes);
     EXPECT_TRUE(decode_batch(encode(LogBatch{})).value().empty());
@@ -38,7 +38,7 @@ TEST(LogEntries, LaterOnesComeBehind) {
     LogBatch batch = a_batch();
     batch.append(a_batch());
     EXPECT_EQ(batch.orders.size(), 6u);
-    EXPECT_EQ(batch.words.size(), 4u);
+    EXPECT_EQ(batch.replies.size(), 4u);
     EXPECT_EQ(batch.clients.size(), 2u);
 }
 

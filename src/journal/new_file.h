@@ -1,6 +1,5 @@
-// NewFile: a file that appears under its name when it is complete, and not before. Until then it has a name
-// of its own in the same folder that nobody can foresee, so that no link laid there in advance leads
-// elsewhere.
+// NewFile: a file that appears under its name only when it is complete. Until then it has a random name in
+// the same folder, so that nobody can place a link there in advance.
 #pragma once
 
 #include <string>
@@ -21,8 +20,8 @@ class NewFile {
 
     /// Where to write.
     const std::string& own_path() const { return own_; }
-    /// Once it is written and closed: brings it to the disk and gives it its name, in place of a file that
-    /// has it.
+    /// Once it is written and closed: syncs it to the disk and gives it its name, replacing a file of this
+    /// name.
     Result<> publish();
 
   private:

@@ -1,5 +1,5 @@
-// RunLog: what the Controller tells of a run while it goes on. Nothing here waits: entries are handed over,
-// and become safe (they outlive this process) a little later.
+// RunLog: where the Controller logs a run. Nothing here waits but wait_safe(): entries are handed over, and
+// become safe (they survive this process) a little later.
 #pragma once
 
 #include <memory>
@@ -21,8 +21,8 @@ class RunLog {
   public:
     virtual ~RunLog() = default;
     virtual void joined(ClientId client, const std::string& name) = 0;
-    virtual void order(const Order& order, Tick said) = 0;
-    virtual void word(ClientId client, Tick observed) = 0;
+    virtual void order(const Order& order, Tick given_at) = 0;
+    virtual void reply(ClientId client, Tick observed) = 0;
     virtual void note(Tick tick, const std::string& text) = 0;
     /// No order will ever be given an earlier tick than this.
     virtual void planned(Tick until) = 0;
@@ -31,12 +31,12 @@ class RunLog {
     virtual bool takes_checkpoint() const = 0;
     virtual void checkpoint(RunCheckpoint checkpoint) = 0;
 
-    /// Number of orders and words handed over so far.
+    /// Number of orders and replies handed over so far.
     virtual std::uint64_t given() const = 0;
-    /// Whether the first `count` of them are safe. A log that cannot be written holds nobody up: then it
-    /// says yes, and its owner hears of it otherwise.
+    /// Whether the first `count` of them are safe. True if the log cannot be written, so that nobody waits
+    /// forever; the log reports this to its owner.
     virtual bool safe(std::uint64_t count) const = 0;
-    /// Somebody waits for safe().
+    /// Asks to write soon, since somebody waits for safe().
     virtual void hurry() = 0;
     /// Waits until safe(count), at most so long.
     virtual void wait_safe(std::uint64_t count, std::int64_t ms_max) = 0;

@@ -22,20 +22,20 @@ Result<> write(const std::string& path, const Model& model, const SavedRun& run)
     branch.seed = run.seed;
     branch.world_file = run.world_file;
     branch.reason = "saved";
-    const CheckpointPlace place{1, run.tick, state_hash_of(model, run)};
+    const CheckpointEntry entry{1, run.tick, state_hash_of(model, run)};
     LogBatch entries;
     entries.orders = run.orders;
     for (std::size_t i = 0; i < run.clients.size(); ++i) {
         entries.clients.emplace(static_cast<std::uint32_t>(i), run.clients[i]);
         const auto answered = run.answered.find(run.clients[i]);
         if (answered != run.answered.end() && answered->second >= run.tick)
-            entries.words.push_back({ClientId(i), answered->second});
+            entries.replies.push_back({ClientId(i), answered->second});
     }
     BatchRow batch = to_batch_row(entries);
     batch.branch = batch.serial = 1;
     batch.planned = std::max(run.tick, run.logged_until);
     batch.committed = run.tick;
-    batch.hash = place.hash;
+    batch.hash = entry.hash;
     const std::vector<Row> meta{{std::string("format"), kJournalFormat},
                                 {std::string("version"), program_version()}};
     if (Result<> r = db.run(std::string("BEGIN;") + kJournalTables); !r) return r;
@@ -43,7 +43,7 @@ Result<> write(const std::string& path, const Model& model, const SavedRun& run)
     if (Result<> r = db.insert(kInsertModel, {model_row(model)}); !r) return r;
     if (Result<> r = db.insert(kInsertBranch, {to_row(branch)}); !r) return r;
     if (Result<> r = db.insert(kInsertCheckpoint,
-                               {to_row(place, encode_memory(run.memory), encode_states(run.states))});
+                               {to_row(entry, encode_memory(run.memory), encode_states(run.states))});
         !r)
         return r;
     if (Result<> r = db.insert(kInsertBatch, {to_row(batch, chain_of(0, batch))}); !r) return r;

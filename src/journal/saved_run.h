@@ -1,6 +1,6 @@
-// SavedRun: all that is needed to go on exactly from a tick. It comes from a journal, or from a file of its
-// own, which is a journal of one checkpoint. A file is written beside its name and then renamed, so there is
-// always a whole one.
+// SavedRun: all that is needed to continue exactly from a tick. It comes from a journal, or from a file of
+// its own, which is a journal of one checkpoint. A file is written under a temporary name and then renamed,
+// so there is always a complete one.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,16 @@ struct SavedRun {
     std::string world_file;  // as it was given; for messages
     std::uint64_t seed = 0;
     Tick tick = 0;
-    std::vector<RobotState> states;  // by RobotId
-    std::vector<SaidOrder> orders;   // that take effect at `tick` or later
-    ClientMemory memory;             // what each control program remembers
-    /// The run goes by `orders` alone up to here, and Clients' words that are in them already are not asked
-    /// again. Equal to `tick`: nothing of the kind.
+    std::vector<RobotState> states;   // by RobotId
+    std::vector<LoggedOrder> orders;  // that take effect at `tick` or later
+    ClientMemory memory;              // memory of each control program
+    /// The run follows `orders` alone up to here, and Clients' replies that are in them are not requested
+    /// again. Equal to `tick`: there are none.
     Tick logged_until = 0;
     /// The last observation that each Client has answered in them, by its name.
     std::map<std::string, Tick> answered;
     std::vector<std::string> clients;  // names by ClientId, as far as they are known
-    std::vector<std::string> left;     // of these, who took leave
+    std::vector<std::string> left;     // of these, those that left
 };
 
 /// Hash of the world in the file: what state_hash a run has at this tick.
@@ -34,7 +34,7 @@ std::uint64_t state_hash_of(const Model& model, const SavedRun& run);
 
 Result<> save_run(const std::string& path, const Model& model, const SavedRun& run);
 
-/// The end of what the file has. Refuses, saying why: no such file, not a journal, another format version,
+/// Loads the end of the file. Errors: no such file, not a journal, another format version,
 /// another world or step, damaged or truncated.
 Result<SavedRun> load_run(const std::string& path, const Model& model);
 

@@ -1,5 +1,5 @@
 // What ties joints together beyond the tree: joints that close loops, gearboxes, mimic joints; and the start
-// configuration in which all of them hold. Internal to the model floor.
+// configuration in which all of them hold. Internal to the model layer.
 #pragma once
 
 #include <string>

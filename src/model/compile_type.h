@@ -1,5 +1,5 @@
 // One ModelSpec becomes one RobotType for each of its connected parts (links that no joint connects are
-// robots of their own: a bigger unit would only make islands larger). Internal to the model floor.
+// robots of their own: a bigger unit would only make islands larger). Internal to the model layer.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // Collision elements to shapes: meshes become hulls (what moves) or triangle surfaces (scenery), a concave
 // polyline several convex prisms. Each mesh is built once, however many elements name it. Internal to the
-// model floor.
+// model layer.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// Lanes of AVX2: four doubles or eight floats. Built for that instruction set alone (floor.cmake): nothing in
+// Lanes of AVX2: four doubles or eight floats. Built for that instruction set alone (layer.cmake): nothing in
 // here may run before the processor has been asked (make_lane_stepper).
 #include "core/lanes_x86.h"
 #include "physics/lane_step.h"

@@ -1,4 +1,4 @@
-// The Controller's outline, and who it talks to.
+// The Controller's main loop and its messages.
 #include "roles/controller.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace roboss {
 
 namespace {
-constexpr float kGuessed_ns = 400;  // of a tick, for a degree of freedom, until it is measured
+constexpr float kGuessed_ns = 400;  // per tick and degree of freedom, until it is measured
 }
 
 StartingPoint beginning_of(const Model& model) {
@@ -26,7 +26,7 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
       options_(options),
       control_(options.before.control),
       roster_(options.before.seats, options.before.first_id),
-      desk_(options.clients),
+      clients_(options.clients),
       tick_(start.tick),
       target_(start.tick),
       logged_until_(std::max(start.tick, start.logged_until)),
@@ -45,7 +45,7 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
     }
     next_hashes_ = hashes_;
     holder_.assign(n, kAtController);
-    for (const SaidOrder& o : start.orders) book_.add(o.order, o.said);
+    for (const LoggedOrder& o : start.orders) order_log_.add(o.order, o.given_at);
     base_.tick = tick_;
     base_.states = std::make_shared<std::vector<RobotState>>(std::move(start.states));
     base_.touched.reset(n);
@@ -54,37 +54,37 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
 void Controller::advance(Bus& bus) {
     bus.drain(kControllerAddress, inbox_);
     for (Envelope& envelope : inbox_) handle(bus, envelope);
-    relieve(bus);
+    steal_work(bus);
     notice_losses(bus);
     notice_client_losses(bus);
     if (round_ && round_->all_answered()) finish_round();
     if (!round_) serve_views(bus);
     if (!round_) at_boundary(bus);
-    if (round_) send_plans(bus);
-    tend_checkpoint(bus);
+    if (round_) send_assignments(bus);
+    advance_checkpoint(bus);
     acknowledge(bus);
-    send_observations(bus, std::exchange(tell_again_, false));
-    say_alive(bus);
+    send_observations(bus, std::exchange(observations_due_, false));
+    send_heartbeats(bus);
 }
 
-void Controller::say_alive(Bus& bus) {
+void Controller::send_heartbeats(Bus& bus) {
     const std::int64_t now = bus.now_ms();
-    if (now - alive_said_ms_ < options_.alive_ms) return;
-    alive_said_ms_ = now;
-    for (std::uint32_t place = 0; place < roster_.size(); ++place)
-        if (roster_.alive(place))
-            bus.send(kControllerAddress, roster_.address_of(place), Alive{roster_.id_of(place)});
-    for (const ClientSeat& seat : desk_.seats())
-        if (seat.serves()) bus.send(kControllerAddress, seat.address, Alive{});
+    if (now - heartbeat_sent_ms_ < options_.heartbeat_ms) return;
+    heartbeat_sent_ms_ = now;
+    for (SeatId seat_id = 0; seat_id < roster_.size(); ++seat_id)
+        if (roster_.alive(seat_id))
+            bus.send(kControllerAddress, roster_.address_of(seat_id), Heartbeat{roster_.id_of(seat_id)});
+    for (const ClientSeat& seat : clients_.seats())
+        if (seat.serves()) bus.send(kControllerAddress, seat.address, Heartbeat{});
 }
 
 void Controller::handle(Bus& bus, Envelope& envelope) {
     const Address& from = envelope.from;
-    if (const auto* frame = std::get_if<Frame>(&envelope.message)) {
-        if (const auto place = heard_from(bus, from)) take_frame(*place, *frame);
+    if (const auto* result = std::get_if<WindowResult>(&envelope.message)) {
+        if (const auto seat_id = heard_from(bus, from)) take_result(*seat_id, *result);
     } else if (const auto* late = std::get_if<Late>(&envelope.message)) {
-        if (const auto place = heard_from(bus, from); place && round_) round_->take_late(*place, *late);
-    } else if (const auto* alive = std::get_if<Alive>(&envelope.message)) {
+        if (const auto seat_id = heard_from(bus, from); seat_id && round_) round_->take_late(*seat_id, *late);
+    } else if (const auto* alive = std::get_if<Heartbeat>(&envelope.message)) {
         heard_from(bus, from, alive->simulator);
     } else if (const auto* request = std::get_if<StateRequest>(&envelope.message)) {
         serve(bus, from, *request);
@@ -93,8 +93,8 @@ void Controller::handle(Bus& bus, Envelope& envelope) {
             pull_.accept(*model_, *reply, [&](RobotId robot, RobotState&& s) {
                 (*next_base_->states)[robot.index()] = std::move(s);
             });
-    } else if (const auto* word = std::get_if<ClientWord>(&envelope.message)) {
-        take_word(bus, from, *word);
+    } else if (const auto* client_reply = std::get_if<ClientReply>(&envelope.message)) {
+        take_reply(bus, from, *client_reply);
     } else if (const auto* hello = std::get_if<Hello>(&envelope.message)) {
         take_hello(bus, from, *hello);
     } else if (const auto* client_hello = std::get_if<ClientHello>(&envelope.message)) {
@@ -113,7 +113,7 @@ void Controller::handle(Bus& bus, Envelope& envelope) {
 }
 
 void Controller::take_hello(Bus& bus, const Address& from, const Hello& hello) {
-    if (from.role != Role::kSimulator) return note_dropped("Hello", "who sends it is not a Simulator");
+    if (from.role != Role::kSimulator) return note_dropped("Hello", "its sender is not a Simulator");
     if (is_earlier_model(hello.model_hash))
         return bus.send(kControllerAddress, from, ModelChanged{model_->hash});
     if (hello.model_hash != model_->hash)
@@ -121,13 +121,13 @@ void Controller::take_hello(Bus& bus, const Address& from, const Hello& hello) {
                         Refused{"its world (model hash " + to_hex(hello.model_hash) +
                                 ") is not this run's (" + to_hex(model_->hash) + ")"});
     bool is_new = false;
-    const auto place = roster_.seat_for(from, hello, bus.now_ms(), is_new);
-    if (!place) return;
+    const auto seat_id = roster_.seat_for(from, hello, bus.now_ms(), is_new);
+    if (!seat_id) return;
     if (is_new)
-        notice("simulator " + std::to_string(*place) + (hello.name.empty() ? "" : " (" + hello.name + ")") +
+        notice("simulator " + std::to_string(*seat_id) + (hello.name.empty() ? "" : " (" + hello.name + ")") +
                " joined at tick " + std::to_string(tick_));
     counters_.simulators = roster_.alive_count();
-    bus.send(kControllerAddress, from, Welcome{roster_.id_of(*place)});
+    bus.send(kControllerAddress, from, Welcome{roster_.id_of(*seat_id)});
 }
 
 bool Controller::is_earlier_model(std::uint64_t hash) const {
@@ -149,27 +149,27 @@ void Controller::set_window(Tick ticks) {
     length_ = WindowLength(ticks);
 }
 
-bool Controller::send_one_home() {
-    const std::vector<std::uint32_t> workers = roster_.workers();
+bool Controller::dismiss_simulator() {
+    const std::vector<SeatId> workers = roster_.workers();
     if (workers.size() < 2) return false;
     roster_.seat(workers.back()).leaving = true;
     return true;
 }
 
-std::optional<std::uint32_t> Controller::heard_from(Bus& bus, const Address& from) {
-    const auto place = roster_.place_at(from);
-    if (place) roster_.seat(*place).heard_ms = bus.now_ms();
-    return place;
+std::optional<SeatId> Controller::heard_from(Bus& bus, const Address& from) {
+    const auto seat_id = roster_.seat_at(from);
+    if (seat_id) roster_.seat(*seat_id).heard_ms = bus.now_ms();
+    return seat_id;
 }
 
-std::optional<std::uint32_t> Controller::heard_from(Bus& bus, const Address& from, SimulatorId id) {
-    // Seats of an earlier Controller's run: who held one is to join afresh.
-    const auto place = roster_.place_of(id);
-    if (!place || roster_.seat(*place).address != from) {
+std::optional<SeatId> Controller::heard_from(Bus& bus, const Address& from, SimulatorId id) {
+    // Seats of an earlier Controller: their holders have to join again.
+    const auto seat_id = roster_.seat_of(id);
+    if (!seat_id || roster_.seat(*seat_id).address != from) {
         bus.send(kControllerAddress, from, Expelled{id});
         return std::nullopt;
     }
-    SimulatorSeat& seat = roster_.seat(*place);
+    SimulatorSeat& seat = roster_.seat(*seat_id);
     if (seat.alive) {
         seat.heard_ms = bus.now_ms();
     } else if (seat.leaving) {
@@ -177,14 +177,14 @@ std::optional<std::uint32_t> Controller::heard_from(Bus& bus, const Address& fro
     } else {
         bus.send(kControllerAddress, from, Expelled{id});
     }
-    return seat.alive ? place : std::nullopt;
+    return seat.alive ? seat_id : std::nullopt;
 }
 
 void Controller::take_leave(Bus& bus, const Address& from, const LeaveRequest& request) {
-    const auto place = heard_from(bus, from, request.simulator);
-    if (!place) return;
-    SimulatorSeat& seat = roster_.seat(*place);
-    if (!seat.leaving) notice("simulator " + std::to_string(*place) + " wants to leave");
+    const auto seat_id = heard_from(bus, from, request.simulator);
+    if (!seat_id) return;
+    SimulatorSeat& seat = roster_.seat(*seat_id);
+    if (!seat.leaving) notice("simulator " + std::to_string(*seat_id) + " wants to leave");
     seat.leaving = true;
 }
 
@@ -219,15 +219,16 @@ void Controller::serve_model(Bus& bus, const Address& from, const ModelRequest& 
 }
 
 void Controller::dismiss(Bus& bus, const std::string& reason) {
-    for (std::uint32_t place = 0; place < roster_.size(); ++place)
-        if (roster_.alive(place)) bus.send(kControllerAddress, roster_.seat(place).address, RunOver{reason});
-    for (const ClientSeat& seat : desk_.seats())
+    for (SeatId seat_id = 0; seat_id < roster_.size(); ++seat_id)
+        if (roster_.alive(seat_id))
+            bus.send(kControllerAddress, roster_.seat(seat_id).address, RunOver{reason});
+    for (const ClientSeat& seat : clients_.seats())
         if (seat.joined) bus.send(kControllerAddress, seat.address, RunOver{reason});
 }
 
 bool Controller::settled() const {
     return (resting() || !started_) &&
-           std::all_of(desk_.seats().begin(), desk_.seats().end(), [this](const ClientSeat& seat) {
+           std::all_of(clients_.seats().begin(), clients_.seats().end(), [this](const ClientSeat& seat) {
                return !seat.synchronous || seat.unanswered.empty() || seat.unanswered.front() >= tick_;
            });
 }
@@ -243,9 +244,9 @@ Result<> Controller::submit(const Order& order) {
         return Error{"an order for tick " + std::to_string(order.apply_at) +
                          " comes too late, the world is at tick " + std::to_string(stampable()),
                      "give a later time"};
-    // given before anything is seen of this tick: a save or a branch at this tick takes it along
-    const Tick said = std::max(tick_, logged_until_) - 1;
-    if (book_.add(order, said) && options_.log != nullptr) options_.log->order(order, said);
+    // given before this tick is observed: a save or a branch at this tick includes it
+    const Tick given_at = std::max(tick_, logged_until_) - 1;
+    if (order_log_.add(order, given_at) && options_.log != nullptr) options_.log->order(order, given_at);
     return Ok{};
 }
 

@@ -1,7 +1,7 @@
-// The Controller role (the paper's section 3): plans windows, validates what came of them, commits, stamps
-// orders, serves observations, and brings back what a lost Simulator had. It steps nothing. The truth is in
-// its committed tick, the robots' hashes there, the last checkpoint and the order log; everything else can be
-// asked for again.
+// The Controller role (the paper's section 3): plans windows, validates their results, commits, gives orders
+// their ticks, serves observations, and restores the states that a lost Simulator held. It steps nothing. The
+// committed tick, the robots' hashes there, the last checkpoint and the order log define the run; everything
+// else can be requested again.
 #pragma once
 
 #include <algorithm>
@@ -15,63 +15,64 @@
 #include "bus/bus.h"
 #include "bus/state_pull.h"
 #include "journal/run_log.h"
-#include "plan/forecast.h"
-#include "plan/touch_watch.h"
-#include "plan/window_length.h"
-#include "roles/client_desk.h"
-#include "roles/control_desk.h"
-#include "roles/order_book.h"
+#include "roles/client_service.h"
+#include "roles/control_service.h"
 #include "roles/order_feed.h"
+#include "roles/order_log.h"
 #include "roles/roster.h"
 #include "roles/round.h"
-#include "roles/view_desk.h"
+#include "roles/view_service.h"
+#include "schedule/forecast.h"
+#include "schedule/touch_watch.h"
+#include "schedule/window_length.h"
 #include "wire/view_state.h"
 
 namespace roboss {
 
 struct ControllerOptions {
     Tick window = 0;      // ticks; 0: adaptive
-    Tick window_max = 0;  // of the adaptive one; 0: by how many robots a worker has (longest_window)
+    Tick window_max = 0;  // limit of the adaptive length; 0: by the robots per worker (longest_window)
     ForecastOptions forecast;
-    std::size_t simulators = 1;        // the first window waits for so many
-    std::vector<std::string> clients;  // and for these; their ids are their places here
-    std::uint64_t seed = 1;            // told to Clients
+    std::size_t simulators = 1;        // the first window waits for this many
+    std::vector<std::string> clients;  // and for these Clients; their ids are their indices here
+    std::uint64_t seed = 1;            // sent to Clients
     std::int64_t resend_ms = 100;
-    std::size_t ahead_least = 500;  // orders of the next window that are worth telling before it
-    /// Of a window's work for each: less of it is not shared out anew, whoever is late.
-    double help_least_ns = 500'000;
-    std::int64_t alive_ms = 250;      // a sign of life to everybody
-    std::int64_t loss_ms = 0;         // a Simulator silent for so long is given up; 0: never
-    std::int64_t client_loss_ms = 0;  // so is a Client that does not answer an observation; 0: never
-    std::int64_t client_gone_ms = 0;  // and one that the Bus says has vanished and that stays away; 0: never
-    Tick checkpoint_ticks = 0;        // recovery checkpoints at most so far apart; 0: none by ticks
+    std::size_t ahead_least = 500;  // orders of the next window that are worth sending ahead of it
+    /// Work stealing only in windows with at least this much work per Simulator.
+    double stealing_least_ns = 500'000;
+    std::int64_t heartbeat_ms = 250;  // heartbeat interval
+    std::int64_t loss_ms = 0;         // a Simulator silent for so long is considered lost; 0: never
+    std::int64_t client_loss_ms = 0;  // so is a Client that does not reply to an observation; 0: never
+    std::int64_t client_gone_ms = 0;  // and a Client that the Bus reports as vanished for so long; 0: never
+    Tick checkpoint_ticks = 0;        // between recovery checkpoints, at most; 0: none by ticks
     double checkpoint_work_s =
-        0;  // and so much stepping CPU time of the busiest Simulator apart; 0: none by work
-    /// Of the Controller that this one takes over from on the same Bus (after a rewind, say).
+        0;  // stepping CPU time of the busiest Simulator between two of them; 0: none by work
+    /// State of the Controller that this one succeeds on the same Bus (after a rewind, say).
     struct Before {
-        std::size_t seats = 0;  // never given again
-        /// Of the first Simulator; a process of its own takes one that no other had.
+        std::size_t seats = 0;  // never used again
+        /// Id of the first Simulator; a process of its own takes one that no other had.
         std::uint32_t first_id = 0;
         std::uint32_t epoch = 0;
         std::uint64_t window = 0;
         std::vector<std::uint64_t> models;  // hashes of earlier Models of the run
-        bool went_back = false;             // Clients may have seen ticks that are no more
-        ControlDesk control;
+        bool went_back = false;             // a rewind: Clients may have seen ticks that were discarded
+        ControlService control;
     } before;
-    /// What the world looks like, in bytes for viewers; asked for when the first viewer asks.
+    /// Makes the scene, in bytes for viewers; called when the first viewer requests it.
     std::function<std::vector<std::uint8_t>(const Model&)> scene;
-    RunLog* log = nullptr;  // outlives the Controller; none: nothing is kept
+    RunLog* log = nullptr;  // outlives the Controller; null: nothing is logged
     Tick log_ticks = 0;     // checkpoints for the log at multiples of so many ticks; 0: none
 };
 
 /// Where a run starts: the world's beginning, a saved run, or a journal.
 struct StartingPoint {
     Tick tick = 0;
-    std::vector<RobotState> states;  // by RobotId
-    std::vector<SaidOrder> orders;   // still to come
-    /// Up to here the run goes by `orders`: nothing new is given an earlier tick.
+    std::vector<RobotState> states;   // by RobotId
+    std::vector<LoggedOrder> orders;  // still to be applied
+    /// Up to here the run follows `orders`: no new order gets an earlier tick.
     Tick logged_until = 0;
-    /// By ClientId: words for observations up to this one are in `orders` already and are not taken again.
+    /// By ClientId: replies to observations up to this one are in `orders` already and are not accepted
+    /// again.
     std::vector<Tick> answered;
 };
 StartingPoint beginning_of(const Model& model);
@@ -85,30 +86,30 @@ struct Counters {
     std::uint64_t island_ticks = 0;      // islands times ticks: islands_mean = island_ticks / ticks
     std::uint64_t contacts = 0, static_contacts = 0;  // summed over ticks
     double step_cpu_s = 0;                            // all stepping, repeats included
-    double critical_cpu_s = 0;  // of the busiest Simulator of each attempt: what many machines would wait for
+    double critical_cpu_s = 0;   // of the busiest Simulator of each attempt: a lower bound for many machines
     std::uint64_t silences = 0;  // of the losses, those noticed by silence alone
     std::uint64_t losses = 0, recoveries = 0, migrations = 0, checkpoints = 0, orders_refused = 0;
-    std::uint64_t orders_ahead = 0;  // told before the plan of their window
-    std::uint64_t cuts = 0;          // plans that were late and of which others took a part over
+    std::uint64_t orders_ahead = 0;  // sent ahead of the assignment of their window
+    std::uint64_t cuts = 0;          // late assignments of which others took a part (work stealing)
     std::size_t simulators = 0, islands_now = 0;
 };
 
-/// A Simulator as people want to see it. Loads and times are running means over windows.
+/// A Simulator for status reports. Loads and times are running means over windows.
 struct MemberReport {
     std::uint32_t number = 0;  // in the order of joining, from 0
     std::string name;
     std::uint32_t threads = 1;
-    bool alive = false, leaving = false;  // neither: it was lost; leaving and not alive: it has left
+    bool alive = false, leaving = false;  // both false: lost; leaving and not alive: it has left
     std::size_t robots = 0, islands = 0;  // that it has now
-    double step_us = 0;                   // CPU time of its stepping a tick and thread
+    double step_us = 0;                   // stepping CPU time per tick and thread
     double load = 0;                      // the same, relative to the busiest
     Address address;
 };
 
-/// A committed tick that somebody still wants to fetch.
+/// A committed tick whose states somebody still needs.
 struct WantedTick {
     Tick tick = 0;
-    std::vector<std::uint32_t> holder;  // by RobotId: place, or kLost
+    std::vector<SeatId> holder;  // by RobotId: seat, or kLost
     std::vector<ClientId> clients;
     bool checkpoint = false;
     bool open() const { return checkpoint || !clients.empty(); }
@@ -117,10 +118,10 @@ struct WantedTick {
 struct RecoveryCheckpoint {
     Tick tick = 0;
     std::shared_ptr<std::vector<RobotState>> states;  // by RobotId; never changed once it is complete
-    UnionFind touched;                                // robots that may have interacted since
+    UnionFind touched;                                // connects robots that may have interacted since
 };
 
-/// Model or scene, as they travel.
+/// Encoded Model or scene.
 struct WholeBytes {
     std::vector<std::uint8_t> bytes;
     std::uint64_t hash = 0;
@@ -130,26 +131,27 @@ class Controller {
   public:
     Controller(std::shared_ptr<const Model> model, const ControllerOptions& options, StartingPoint start);
 
-    /// Handles what has come and starts what is due. Never waits.
+    /// Handles the messages received and starts what is due. Never waits.
     void advance(Bus& bus);
 
-    /// The world goes on until this tick and stops there. An earlier one than tick() pauses at the next
+    /// The world advances to this tick and stops there. A target before tick() pauses at the next window
     /// boundary.
     void run_until(Tick target) { target_ = target; }
     Tick target() const { return target_; }
     Tick tick() const { return tick_; }  // committed
-    /// Everybody whom the first window waits for has come.
+    /// All members for whom the first window waits have joined.
     bool started() const { return started_; }
-    /// At the target with nothing under way.
+    /// At the target with no window in progress.
     bool resting() const { return tick_ >= target_ && !round_ && started_; }
-    /// Resting, and every synchronous Client has answered all it observed before tick(): time for a save.
+    /// Resting, and every synchronous Client has replied to all observations before tick(): the run can be
+    /// saved.
     bool settled() const;
-    /// Nothing under way any more after a failure.
+    /// Failed, with no window in progress.
     bool stopped() const { return failure_ && !round_; }
-    /// Set: the run cannot go on; tick() and states are those before.
+    /// If set, the run cannot continue; tick() and states are those before the failure.
     const std::optional<Error>& failure() const { return failure_; }
 
-    /// Tells everybody that the run is over; nothing is to be expected of them after that.
+    /// Tells everybody that the run is over; nobody answers after that.
     void dismiss(Bus& bus, const std::string& reason);
 
     /// The 64-bit hash of the world at tick().
@@ -163,44 +165,44 @@ class Controller {
     /// An order with a given tick, `apply_at` >= tick().
     Result<> submit(const Order& order);
     /// Orders that a run saved at tick() takes along.
-    std::vector<SaidOrder> pending_orders() { return book_.pending(tick_); }
-    /// Names of all Clients so far, by ClientId.
+    std::vector<LoggedOrder> pending_orders() { return order_log_.pending(tick_); }
+    /// Names of all Clients that ever joined, by ClientId.
     std::vector<std::string> client_names() const;
-    /// Of these, those that are here and no guests.
+    /// Names of those that are here, without observers.
     std::vector<std::string> clients_serving() const;
 
-    /// A checkpoint for the log is being fetched: its tick. What Clients of this process remember there has
-    /// to be noted meanwhile.
+    /// Tick of the checkpoint for the log that is being fetched. The caller adds the memory of its control
+    /// programs.
     std::optional<Tick> log_tick() const { return log_tick_; }
-    /// It is complete: taken once. What is missing in it is the Clients' memory.
+    /// That checkpoint once it is complete, without the Clients' memory. It is handed out once.
     std::optional<RunCheckpoint> take_log_checkpoint();
     /// The next commit waits for the log.
     bool waits_for_log() const;
     std::uint64_t log_needed() const { return log_needed_; }
-    /// From now on all goes to this log, first what is still to come. Only while nothing is under way. None:
-    /// nothing is logged any more.
+    /// Logs to `log` from now on, beginning with the orders still to be applied. Only between windows. Null:
+    /// ends logging.
     void start_log(RunLog* log, Tick log_ticks);
 
-    /// What a Controller that takes over has to know.
+    /// What the succeeding Controller has to know.
     ControllerOptions::Before hand_over();
     /// Requests to the run: pause, rewind ...
-    ControlDesk& control() { return control_; }
-    /// Of the windows to come; 0: adaptive.
+    ControlService& control() { return control_; }
+    /// Length of the next windows; 0: adaptive.
     void set_window(Tick ticks);
-    /// Lets the Simulator with the highest number go, in good order. False: there is none but one.
-    bool send_one_home();
+    /// Makes the Simulator with the highest number leave. False: there is only one.
+    bool dismiss_simulator();
 
     const Counters& counters() const { return counters_; }
     /// What happened since the last call: losses, refusals, joins. One line each.
     std::vector<std::string> take_notices() { return std::exchange(notices_, {}); }
-    /// Index of the Simulator that has the robot; for drawing.
-    std::uint32_t place_of(RobotId robot) const { return holder_[robot.index()]; }
+    /// Seat of the Simulator that holds the robot; for display.
+    std::uint32_t seat_of(RobotId robot) const { return holder_[robot.index()]; }
     const Islands& islands() const { return islands_; }
-    /// Everybody who holds a seat, or held one.
+    /// All Simulators that hold or held a seat.
     std::vector<MemberReport> members() const;
-    /// How evenly the stepping of late windows was spread: 1 is perfect; what messages cost is not in it.
+    /// Load balance of the stepping in recent windows: 1 is perfect. The cost of messages is not included.
     double balance() const;
-    /// What is known of each robot's whereabouts in the last window, by RobotId.
+    /// Each robot's motion in the last window, by RobotId.
     std::span<const RobotMotion> motions() const { return motions_; }
     Tick window_ticks() const { return length_.ticks(); }
 
@@ -209,26 +211,26 @@ class Controller {
     void handle(Bus& bus, Envelope& envelope);
     void take_hello(Bus& bus, const Address& from, const Hello& hello);
     void take_leave(Bus& bus, const Address& from, const LeaveRequest& request);
-    /// The place of the Simulator that lives there.
-    std::optional<std::uint32_t> heard_from(Bus& bus, const Address& from);
-    /// The place of who lives by this id; who does not is told.
-    std::optional<std::uint32_t> heard_from(Bus& bus, const Address& from, SimulatorId id);
+    /// The seat of the Simulator that is alive at this address.
+    std::optional<SeatId> heard_from(Bus& bus, const Address& from);
+    /// The seat of this id. A sender that is not alive there gets Expelled or Goodbye.
+    std::optional<SeatId> heard_from(Bus& bus, const Address& from, SimulatorId id);
     void serve(Bus& bus, const Address& from, const StateRequest& request) const;
     bool is_earlier_model(std::uint64_t hash) const;
     void serve_model(Bus& bus, const Address& from, const ModelRequest& request);
     const WholeBytes& whole(Whole what);
     void fail(Error error);
-    /// A message that makes no sense.
+    /// Logs an invalid message.
     void note_dropped(const char* message, const std::string& why);
     void notice(std::string text) { notices_.push_back(std::move(text)); }
 
     // controller_clients.cpp
     void take_client_hello(Bus& bus, const Address& from, const ClientHello& hello);
-    void take_word(Bus& bus, const Address& from, const ClientWord& word);
-    void take_orders(ClientSeat& seat, const ClientWord& word);
+    void take_reply(Bus& bus, const Address& from, const ClientReply& reply);
+    void take_orders(ClientSeat& seat, const ClientReply& reply);
     void take_bye(Bus& bus, const Address& from, const ClientBye& bye);
-    void tell_observers();
-    void tell_observer(ClientId id, Tick tick);
+    void queue_observations();
+    void queue_observation(ClientId id, Tick tick);
     void forget(ClientId id, Tick tick);
     void drop_client(ClientId id);
     void notice_client_losses(Bus& bus);
@@ -236,51 +238,51 @@ class Controller {
     void send_observations(Bus& bus, bool again_now);
     WantedTick& want_at_this_tick();
     void acknowledge(Bus& bus);
-    Tick plannable() const { return round_ && !round_->span().recovery ? round_->span().until : tick_; }
-    /// The first tick that a new order may be given.
-    Tick stampable() const { return std::max(plannable(), logged_until_); }
-    bool is_in_log(const ClientSeat& seat, const ClientWord& word) const;
+    Tick scheduled_until() const { return round_ && !round_->span().recovery ? round_->span().until : tick_; }
+    /// The first tick at which a new order can apply.
+    Tick stampable() const { return std::max(scheduled_until(), logged_until_); }
+    bool is_in_log(const ClientSeat& seat, const ClientReply& reply) const;
 
     // controller_window.cpp
     void at_boundary(Bus& bus);
-    bool may_plan() const;
-    void plan_window();
+    bool may_start_window() const;
+    void start_window();
     void keep_wanted(Round& round) const;
     Tick window_end(Tick from, Tick length, bool all_answered = false) const;
     Tick window_max() const;
     void look_ahead();
     double largest_share() const;
-    void send_plans(Bus& bus);
-    void take_frame(std::uint32_t place, const Frame& frame);
-    void take_costs(const Round::Answered& answered, const Frame& frame);
+    void send_assignments(Bus& bus);
+    void take_result(SeatId seat_id, const WindowResult& result);
+    void take_costs(const Round::Answered& answered, const WindowResult& result);
     void finish_round();
     bool merge_touching();
     void commit();
     void learn_costs();
     void learn_rates(std::span<const double> expected_ns, std::span<const double> spent_ns);
-    const IslandFrame* first_failure() const;
-    void end_before(const IslandFrame& failure);
+    const IslandResult* first_failure() const;
+    void end_before(const IslandResult& failure);
     void drop_round();
     std::string part_of(RobotId robot, JointId joint) const;
 
-    // controller_help.cpp: who is done takes over from who is late
-    void expect_work();
-    void relieve(Bus& bus);
-    void share_out_rest(const Round::Answered& cut_short, std::span<const IslandFrame> stepped, Tick at);
+    // controller_work_stealing.cpp: idle Simulators take over work of late ones
+    void announce_expected_work();
+    void steal_work(Bus& bus);
+    void share_out_rest(const Round::Answered& cut_short, std::span<const IslandResult> stepped, Tick at);
 
     // controller_views.cpp
     void take_view_request(Bus& bus, const Address& from, const ViewRequest& request);
     void serve_views(Bus& bus);
-    void show(Bus& bus, const ViewDesk::Due& due);
+    void show(Bus& bus, const ViewService::Due& due);
     void show_here(Bus& bus, const ViewDue& part);
 
     // controller_recovery.cpp: checkpoints, leaving, losses
     void notice_losses(Bus& bus);
     void take_vanished(const Address& address, std::int64_t now_ms);
-    void say_alive(Bus& bus);
-    void give_up(std::uint32_t place, const std::string& why);
+    void send_heartbeats(Bus& bus);
+    void give_up(SeatId seat_id, const std::string& why);
     void begin_checkpoint();
-    void tend_checkpoint(Bus& bus);
+    void advance_checkpoint(Bus& bus);
     void finish_checkpoint();
     bool checkpoint_due() const;
 
@@ -289,37 +291,38 @@ class Controller {
     Tick next_log_tick(Tick from) const;
     void log_window(Tick until);
     void log_commit();
-    bool let_leavers_go(Bus& bus);
+    bool release_leaving_members(Bus& bus);
     bool anything_lost() const;
     void begin_recovery();
     std::vector<RobotId> closure_of_lost();
     void begin_leg(Tick from);
     void finish_leg();
-    bool is_lost(std::uint32_t place) const { return place != kAtController && !roster_.alive(place); }
+    bool is_lost(SeatId seat_id) const { return seat_id != kAtController && !roster_.alive(seat_id); }
 
     std::shared_ptr<const Model> model_;
-    std::optional<WholeBytes> model_bytes_, scene_bytes_;  // made for the first who asks
+    std::optional<WholeBytes> model_bytes_, scene_bytes_;  // made at the first request
     ControllerOptions options_;
-    ControlDesk control_;
+    ControlService control_;
     Roster roster_;
-    ClientDesk desk_;
-    OrderBook book_;
+    ClientService clients_;
+    OrderLog order_log_;
     OrderFeed feed_;
 
     Tick tick_ = 0, target_ = 0;
     Tick logged_until_ = 0;
-    std::vector<Tick> answered_;    // by ClientId, in the log that this run started from
+    std::vector<Tick>
+        answered_;  // by ClientId: last observation replied to, in the log that this run started from
     std::uint64_t log_needed_ = 0;  // entries that must be safe before the round is committed
     std::optional<Tick> log_tick_;  // of the checkpoint for the log that is under way
-    Tick log_tried_ = -1;           // tick of the last one, whatever came of it
+    Tick log_tried_ = -1;           // tick of the last attempt
     std::optional<RunCheckpoint> log_checkpoint_;
-    std::optional<Tick> ends_at_;  // in this tick a state ceases to be finite
+    std::optional<Tick> ends_at_;  // in this tick a state becomes non-finite
     bool started_ = false;
     std::vector<std::uint64_t> hashes_, next_hashes_;  // by RobotId: committed; of the round
-    std::vector<std::uint32_t> holder_;                // by RobotId: place of its state at tick_
+    std::vector<SeatId> holder_;                       // by RobotId: seat of its state at tick_
     std::vector<RobotMotion> motions_;                 // by RobotId, for the forecast
     std::vector<float> cost_;                          // by RobotId: ns a tick on the mean Simulator
-    bool costs_known_ = false;                         // measured, not guessed
+    bool costs_known_ = false;                         // measured, no longer guessed
     Forecast forecast_;
     TouchWatch watch_;
     WindowLength length_;
@@ -334,18 +337,18 @@ class Controller {
 
     RecoveryCheckpoint base_;
     std::optional<RecoveryCheckpoint>
-        next_base_;  // being fetched, or waiting until nobody wants an earlier tick
+        next_base_;  // being fetched, or waiting until nobody needs an earlier tick
     StatePull pull_;
     double work_since_s_ = 0;  // of the busiest Simulator since the last checkpoint
     bool states_wanted_ = false;
     std::vector<WantedTick> wants_;
     std::vector<RobotId> recovering_;  // robots of the recovery under way, ascending
-    bool tell_again_ = false;
-    std::int64_t alive_said_ms_ = 0;
+    bool observations_due_ = false;
+    std::int64_t heartbeat_sent_ms_ = 0;
 
-    ViewDesk views_;
+    ViewService views_;
     std::uint64_t view_serial_ = 0;
-    std::optional<ViewLayout> view_layout_;  // made by the first view
+    std::optional<ViewLayout> view_layout_;  // made with the first view
 
     std::optional<Error> failure_;
     Counters counters_;

@@ -1,4 +1,4 @@
-// The Controller towards Clients: words in, observations out.
+// The Controller and its Clients: replies in, observations out.
 #include <algorithm>
 #include <utility>
 
@@ -7,72 +7,73 @@
 namespace roboss {
 
 void Controller::take_client_hello(Bus& bus, const Address& from, const ClientHello& hello) {
-    if (from.role != Role::kClient) return note_dropped("ClientHello", "who sends it is not a Client");
+    if (from.role != Role::kClient) return note_dropped("ClientHello", "its sender is not a Client");
     if (is_earlier_model(hello.model_hash))
         return bus.send(kControllerAddress, from, ModelChanged{model_->hash});
     if (hello.model_hash != model_->hash)
         return bus.send(kControllerAddress, from, Refused{"its world is not this run's"});
     bool is_new = false;
-    const bool goes_on = plannable() < logged_until_;  // by a log, in which its words so far are
+    const bool goes_on = scheduled_until() < logged_until_;  // follows a log that has its replies so far
     ClientHello new_hello = hello;
-    if (options_.before.went_back) {  // what it said was for a time that is no more
+    if (options_.before.went_back) {  // its replies were for a discarded history
         new_hello.expected = -1;
-        new_hello.acknowledged = new_hello.said;
+        new_hello.acknowledged = new_hello.last_reply;
     }
-    const ClientId id = desk_.welcome(from, new_hello, goes_on ? tick_ : plannable(), is_new);
-    ClientSeat& seat = desk_.seats()[id.index()];
+    const ClientId id = clients_.welcome(from, new_hello, goes_on ? tick_ : scheduled_until(), is_new);
+    ClientSeat& seat = clients_.seats()[id.index()];
     seat.vanished_ms.reset();
     bus.send(kControllerAddress, from, ClientWelcome{id, seat.first, options_.seed});
     if (!is_new) return;
     notice("client '" + seat.name + "' joined at tick " + std::to_string(tick_));
     if (options_.log != nullptr) options_.log->joined(id, seat.name);
-    if (options_.log != nullptr && seat.guest) options_.log->word(id, kGoneForGood);  // not to be awaited
+    if (options_.log != nullptr && seat.observer)
+        options_.log->reply(id, kGoneForGood);  // nobody waits for it
     const bool at_rest = !round_ || round_->span().recovery;
-    if (at_rest && ClientDesk::observes(seat, tick_)) tell_observer(id, tick_);
+    if (at_rest && ClientService::observes(seat, tick_)) queue_observation(id, tick_);
 }
 
-void Controller::take_word(Bus& bus, const Address& from, const ClientWord& word) {
-    ClientSeat* seat = desk_.find(word.client);
-    // A seat of an earlier Controller's run: who held it is to join afresh.
+void Controller::take_reply(Bus& bus, const Address& from, const ClientReply& reply) {
+    ClientSeat* seat = clients_.find(reply.client);
+    // A seat of an earlier Controller: its holder has to join again.
     if (seat == nullptr || !seat->joined || seat->address != from)
-        return bus.send(kControllerAddress, from, ClientUnknown{word.client});
+        return bus.send(kControllerAddress, from, ClientUnknown{reply.client});
     if (!seat->serves()) return;
     seat->heard_ms = bus.now_ms();
     seat->vanished_ms.reset();
-    if (word.word == seat->last_word + 1) {
-        seat->last_word = word.word;
-        if (!is_in_log(*seat, word)) take_orders(*seat, word);
-        std::erase_if(seat->unanswered, [&](Tick tick) { return tick == word.observed; });
-        forget(word.client, word.observed);
+    if (reply.number == seat->last_reply + 1) {
+        seat->last_reply = reply.number;
+        if (!is_in_log(*seat, reply)) take_orders(*seat, reply);
+        std::erase_if(seat->unanswered, [&](Tick tick) { return tick == reply.observed; });
+        forget(reply.client, reply.observed);
     }
-    // What is acknowledged is never lost: with a log, it is there first.
+    // An acknowledged reply is never lost: with a log, it is logged first.
     seat->acknowledge_at = options_.log != nullptr ? options_.log->given() : 0;
 }
 
 void Controller::acknowledge(Bus& bus) {
-    for (std::size_t i = 0; i < desk_.seats().size(); ++i) {
-        ClientSeat& seat = desk_.seats()[i];
+    for (std::size_t i = 0; i < clients_.seats().size(); ++i) {
+        ClientSeat& seat = clients_.seats()[i];
         if (!seat.acknowledge_at) continue;
         if (options_.log != nullptr && !options_.log->safe(*seat.acknowledge_at)) continue;
         seat.acknowledge_at.reset();
-        seat.acknowledged = seat.last_word;
-        bus.send(kControllerAddress, seat.address, WordAck{ClientId(i), seat.last_word, seat.refused});
+        seat.acknowledged = seat.last_reply;
+        bus.send(kControllerAddress, seat.address, ReplyAck{ClientId(i), seat.last_reply, seat.refused});
     }
 }
 
-/// A run that goes on from a log asks Clients again what they have answered there.
-bool Controller::is_in_log(const ClientSeat& seat, const ClientWord& word) const {
-    const auto i = static_cast<std::size_t>(&seat - desk_.seats().data());
+/// A run that continues from a log sends Clients observations again to which the log has the replies.
+bool Controller::is_in_log(const ClientSeat& seat, const ClientReply& reply) const {
+    const auto i = static_cast<std::size_t>(&seat - clients_.seats().data());
     const Tick answered = i < answered_.size() ? answered_[i] : logged_until_ - 1;
-    return word.observed <= answered || (!seat.synchronous && word.observed < logged_until_);
+    return reply.observed <= answered || (!seat.synchronous && reply.observed < logged_until_);
 }
 
-void Controller::take_orders(ClientSeat& seat, const ClientWord& word) {
+void Controller::take_orders(ClientSeat& seat, const ClientReply& reply) {
     seat.refused.clear();
     const Tick apply_at =
-        seat.synchronous ? std::max(word.observed + seat.latency, stampable()) : stampable();
-    for (const ClientOrder& given : word.orders) {
-        const Order order{apply_at, word.client, given.sequence, given.robot, given.action};
+        seat.synchronous ? std::max(reply.observed + seat.latency, stampable()) : stampable();
+    for (const ClientOrder& given : reply.orders) {
+        const Order order{apply_at, reply.client, given.sequence, given.robot, given.action};
         if (Result<> checked = check_order(*model_, order); !checked) {
             seat.refused.push_back({given.sequence, checked.error().text()});
             ++counters_.orders_refused;
@@ -80,35 +81,35 @@ void Controller::take_orders(ClientSeat& seat, const ClientWord& word) {
                    "' refused: " + checked.error().message);
             continue;
         }
-        book_.add(order, word.observed);
-        if (options_.log != nullptr) options_.log->order(order, word.observed);
+        order_log_.add(order, reply.observed);
+        if (options_.log != nullptr) options_.log->order(order, reply.observed);
     }
-    if (options_.log != nullptr) options_.log->word(word.client, word.observed);
+    if (options_.log != nullptr) options_.log->reply(reply.client, reply.observed);
 }
 
 void Controller::take_bye(Bus& bus, const Address& from, const ClientBye& bye) {
-    ClientSeat* seat = desk_.find(bye.client);
+    ClientSeat* seat = clients_.find(bye.client);
     if (seat == nullptr || !seat->joined || seat->address != from)
         return bus.send(kControllerAddress, from, ClientUnknown{bye.client});
-    if (bye.word > seat->last_word + 1) return;
-    const bool is_news = !seat->gone && bye.word > seat->last_word;
+    if (bye.number > seat->last_reply + 1) return;
+    const bool is_news = !seat->gone && bye.number > seat->last_reply;
     if (is_news) {
-        seat->last_word = bye.word;
+        seat->last_reply = bye.number;
         drop_client(bye.client);
     }
     seat->acknowledge_at = options_.log != nullptr ? options_.log->given() : 0;
     if (!is_news) return;
     if (bye.failed)
         fail({"client '" + seat->name + "' failed at tick " + std::to_string(tick_) + ": " + bye.reason,
-              "mend the control program; the world up to this tick is intact and can be saved"});
+              "fix the control program; the world up to this tick is intact and can be saved"});
     else
         notice("client '" + seat->name + "' left");
 }
 
 void Controller::drop_client(ClientId id) {
-    ClientSeat& seat = desk_.seats()[id.index()];
+    ClientSeat& seat = clients_.seats()[id.index()];
     seat.gone = true;
-    if (options_.log != nullptr) options_.log->word(id, kGoneForGood);
+    if (options_.log != nullptr) options_.log->reply(id, kGoneForGood);
     for (const Tick tick : std::exchange(seat.unanswered, {})) forget(id, tick);
 }
 
@@ -122,8 +123,8 @@ bool Controller::stays_away(const ClientSeat& seat, std::int64_t now_ms) const {
 
 void Controller::notice_client_losses(Bus& bus) {
     const std::int64_t now = bus.now_ms();
-    for (std::size_t i = 0; i < desk_.seats().size(); ++i) {
-        ClientSeat& seat = desk_.seats()[i];
+    for (std::size_t i = 0; i < clients_.seats().size(); ++i) {
+        ClientSeat& seat = clients_.seats()[i];
         if (seat.unanswered.empty()) seat.heard_ms = now;
         if (!seat.serves() || !stays_away(seat, now)) continue;
         drop_client(ClientId(i));
@@ -148,19 +149,19 @@ WantedTick& Controller::want_at_this_tick() {
     return wants_.back();
 }
 
-void Controller::tell_observers() {
-    for (std::size_t i = 0; i < desk_.seats().size(); ++i)
-        if (ClientDesk::observes(desk_.seats()[i], tick_)) tell_observer(ClientId(i), tick_);
+void Controller::queue_observations() {
+    for (std::size_t i = 0; i < clients_.seats().size(); ++i)
+        if (ClientService::observes(clients_.seats()[i], tick_)) queue_observation(ClientId(i), tick_);
 }
 
-void Controller::tell_observer(ClientId id, Tick tick) {
-    ClientSeat& seat = desk_.seats()[id.index()];
+void Controller::queue_observation(ClientId id, Tick tick) {
+    ClientSeat& seat = clients_.seats()[id.index()];
     if (!seat.synchronous && !seat.unanswered.empty())
-        return;  // it is busy with an earlier one; the world does not wait
+        return;  // it is busy with an earlier observation; the world does not wait
     seat.unanswered.push_back(tick);
-    seat.told_ms = 0;
+    seat.sent_ms = 0;
     want_at_this_tick().clients.push_back(id);
-    tell_again_ = true;
+    observations_due_ = true;
 }
 
 void Controller::forget(ClientId id, Tick tick) {
@@ -171,23 +172,23 @@ void Controller::forget(ClientId id, Tick tick) {
 
 void Controller::send_observations(Bus& bus, bool again_now) {
     const std::int64_t now = bus.now_ms();
-    for (std::size_t i = 0; i < desk_.seats().size(); ++i) {
-        ClientSeat& seat = desk_.seats()[i];
-        if (seat.unanswered.empty() || (!again_now && now - seat.told_ms < options_.resend_ms)) continue;
-        seat.told_ms = now;
+    for (std::size_t i = 0; i < clients_.seats().size(); ++i) {
+        ClientSeat& seat = clients_.seats()[i];
+        if (seat.unanswered.empty() || (!again_now && now - seat.sent_ms < options_.resend_ms)) continue;
+        seat.sent_ms = now;
         for (const WantedTick& want : wants_) {
             if (std::find(want.clients.begin(), want.clients.end(), ClientId(i)) == want.clients.end())
                 continue;
             Observation observation{want.tick, seat.acknowledged, {}};
-            std::vector<std::uint32_t> places;
+            std::vector<SeatId> seats;
             for (std::size_t r = 0; r < want.holder.size(); ++r) {
                 if (is_lost(want.holder[r])) continue;  // told again when it is back
-                auto place = std::find(places.begin(), places.end(), want.holder[r]);
-                if (place == places.end()) {
-                    place = places.insert(places.end(), want.holder[r]);
+                auto seat_id = std::find(seats.begin(), seats.end(), want.holder[r]);
+                if (seat_id == seats.end()) {
+                    seat_id = seats.insert(seats.end(), want.holder[r]);
                     observation.holders.push_back({roster_.address_of(want.holder[r]), {}});
                 }
-                observation.holders[static_cast<std::size_t>(place - places.begin())].robots.emplace_back(r);
+                observation.holders[static_cast<std::size_t>(seat_id - seats.begin())].robots.emplace_back(r);
             }
             bus.send(kControllerAddress, seat.address, std::move(observation));
         }

@@ -1,5 +1,5 @@
-// The Controller and its log: what is told to it, and what waits for it. A window's orders are in the log
-// before the window is committed, so what was committed can always be made again.
+// The Controller and its log. A window's orders are in the log before the window is committed, so everything
+// committed can be recomputed.
 #include <utility>
 
 #include "roles/controller.h"
@@ -12,21 +12,21 @@ void Controller::start_log(RunLog* log, Tick log_ticks) {
     log_tick_.reset();
     log_checkpoint_.reset();
     if (log == nullptr) return;
-    for (std::size_t i = 0; i < desk_.seats().size(); ++i)
-        if (desk_.seats()[i].joined) log->joined(ClientId(i), desk_.seats()[i].name);
-    for (const SaidOrder& o : book_.pending(tick_)) log->order(o.order, o.said);
+    for (std::size_t i = 0; i < clients_.seats().size(); ++i)
+        if (clients_.seats()[i].joined) log->joined(ClientId(i), clients_.seats()[i].name);
+    for (const LoggedOrder& o : order_log_.pending(tick_)) log->order(o.order, o.given_at);
 }
 
 std::vector<std::string> Controller::client_names() const {
     std::vector<std::string> names;
-    for (const ClientSeat& seat : desk_.seats()) names.push_back(seat.name);
+    for (const ClientSeat& seat : clients_.seats()) names.push_back(seat.name);
     return names;
 }
 
 std::vector<std::string> Controller::clients_serving() const {
     std::vector<std::string> names;
-    for (const ClientSeat& seat : desk_.seats())
-        if (seat.serves() && !seat.guest) names.push_back(seat.name);
+    for (const ClientSeat& seat : clients_.seats())
+        if (seat.serves() && !seat.observer) names.push_back(seat.name);
     return names;
 }
 
@@ -35,13 +35,14 @@ bool Controller::waits_for_log() const {
            !options_.log->safe(log_needed_);
 }
 
-/// Windows end at the multiples, so that every run of a world has its checkpoints at the same ticks.
+/// Windows end at multiples of log_ticks, so that every run of a world has its checkpoints at the same ticks.
 Tick Controller::next_log_tick(Tick from) const {
     if (options_.log == nullptr || options_.log_ticks <= 0) return std::numeric_limits<Tick>::max();
     return (from / options_.log_ticks + 1) * options_.log_ticks;
 }
 
-/// A checkpoint for the log at a multiple of log_ticks. One for which the log has no room yet is left out.
+/// Begins a checkpoint for the log at a multiple of log_ticks; skipped while the log is still writing the
+/// last one.
 void Controller::begin_log_checkpoint() {
     if (options_.log == nullptr || options_.log_ticks <= 0 || tick_ % options_.log_ticks != 0) return;
     if (tick_ <= logged_until_ || log_tried_ == tick_) return;

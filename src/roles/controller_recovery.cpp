@@ -1,25 +1,25 @@
-// Checkpoints, leaving, and losses. A lost robot's state is made again: it and every robot that it may have
-// touched since the last checkpoint are stepped from there with the logged orders, and must come to the
+// Checkpoints, leaving, and losses. A lost robot's state is recomputed: the robot and all that it may have
+// touched since the last checkpoint are stepped from there with the logged orders, and must reach the
 // committed hashes.
 #include <algorithm>
 
-#include "plan/assign.h"
 #include "roles/controller.h"
+#include "schedule/assign.h"
 
 namespace roboss {
 
 namespace {
 
-std::vector<Holding> holdings_of(std::span<const std::uint32_t> holder, const Roster& roster) {
+std::vector<Holding> holdings_of(std::span<const SeatId> holder, const Roster& roster) {
     std::vector<Holding> holdings;
-    std::vector<std::uint32_t> places;
+    std::vector<SeatId> seats;
     for (std::size_t r = 0; r < holder.size(); ++r) {
-        auto place = std::find(places.begin(), places.end(), holder[r]);
-        if (place == places.end()) {
-            place = places.insert(places.end(), holder[r]);
+        auto seat_id = std::find(seats.begin(), seats.end(), holder[r]);
+        if (seat_id == seats.end()) {
+            seat_id = seats.insert(seats.end(), holder[r]);
             holdings.push_back({roster.address_of(holder[r]), {}});
         }
-        holdings[static_cast<std::size_t>(place - places.begin())].robots.emplace_back(r);
+        holdings[static_cast<std::size_t>(seat_id - seats.begin())].robots.emplace_back(r);
     }
     return holdings;
 }
@@ -32,7 +32,7 @@ bool Controller::checkpoint_due() const {
     return by_ticks || (options_.checkpoint_work_s > 0 && work_since_s_ >= options_.checkpoint_work_s);
 }
 
-/// Only says which states are wanted, for plans wait for it; tend_checkpoint() fetches them.
+/// Only notes which states are needed, since assignments wait for it; advance_checkpoint() fetches them.
 void Controller::begin_checkpoint() {
     if (next_base_) return;
     states_wanted_ = false;
@@ -43,10 +43,10 @@ void Controller::begin_checkpoint() {
     work_since_s_ = 0;
 }
 
-/// What nobody waits for, in the time in which Simulators step. A recovery steps from the checkpoint that it
+/// Fetches states while Simulators step, so that nobody waits for it. A recovery keeps the checkpoint that it
 /// began with.
-void Controller::tend_checkpoint(Bus& bus) {
-    if (next_base_ && !next_base_->states) {  // begun in this turn: holder_ is still that of its tick
+void Controller::advance_checkpoint(Bus& bus) {
+    if (next_base_ && !next_base_->states) {  // begun in this call: holder_ is still that of its tick
         next_base_->states = std::make_shared<std::vector<RobotState>>(model_->robots.size());
         next_base_->touched.reset(model_->robots.size());
         pull_.begin(*model_, next_base_->tick, holdings_of(holder_, roster_));
@@ -59,41 +59,41 @@ void Controller::finish_checkpoint() {
     for (WantedTick& want : wants_)
         if (want.tick == next_base_->tick) want.checkpoint = false;
     std::erase_if(wants_, [](const WantedTick& want) { return !want.open(); });
-    // An earlier tick that is still wanted could not be made again from the new checkpoint.
+    // A needed earlier tick could not be recomputed from the new checkpoint.
     if (!wants_.empty() && wants_.front().tick < next_base_->tick) return;
     base_ = std::move(*next_base_);
     next_base_.reset();
     pull_.cancel();
-    book_.trim(base_.tick);
+    order_log_.trim(base_.tick);
     ++counters_.checkpoints;
     if (log_tick_ == base_.tick) log_checkpoint_ = RunCheckpoint{base_.tick, base_.states, {}};
 }
 
-/// Nothing is planned while somebody leaves, so the checkpoint taken for it has everything it held.
-bool Controller::let_leavers_go(Bus& bus) {
+/// No window starts while a member leaves, so the checkpoint taken for it has all states that it held.
+bool Controller::release_leaving_members(Bus& bus) {
     bool leaving = false;
-    for (std::uint32_t place = 0; place < roster_.size(); ++place)
-        leaving = leaving || (roster_.alive(place) && roster_.seat(place).leaving);
+    for (SeatId seat_id = 0; seat_id < roster_.size(); ++seat_id)
+        leaving = leaving || (roster_.alive(seat_id) && roster_.seat(seat_id).leaving);
     if (!leaving) return false;
     if (base_.tick != tick_) {
         begin_checkpoint();
         return true;
     }
     if (!wants_.empty() && wants_.front().tick < tick_) return true;
-    for (std::uint32_t place = 0; place < roster_.size(); ++place) {
-        SimulatorSeat& seat = roster_.seat(place);
+    for (SeatId seat_id = 0; seat_id < roster_.size(); ++seat_id) {
+        SimulatorSeat& seat = roster_.seat(seat_id);
         if (!seat.alive || !seat.leaving) continue;
         for (std::uint32_t& holder : holder_)
-            if (holder == place) holder = kAtController;
+            if (holder == seat_id) holder = kAtController;
         for (WantedTick& want : wants_)
             for (std::uint32_t& holder : want.holder)
-                if (holder == place) holder = kAtController;
+                if (holder == seat_id) holder = kAtController;
         seat.alive = false;
-        bus.send(kControllerAddress, seat.address, Goodbye{roster_.id_of(place)});
-        notice("simulator " + std::to_string(place) + " left at tick " + std::to_string(tick_));
+        bus.send(kControllerAddress, seat.address, Goodbye{roster_.id_of(seat_id)});
+        notice("simulator " + std::to_string(seat_id) + " left at tick " + std::to_string(tick_));
     }
     counters_.simulators = roster_.alive_count();
-    tell_again_ = true;
+    observations_due_ = true;
     return false;
 }
 
@@ -101,23 +101,23 @@ void Controller::notice_losses(Bus& bus) {
     const std::int64_t now = bus.now_ms();
     for (const Address& address : bus.take_vanished(kControllerAddress)) take_vanished(address, now);
     if (options_.loss_ms <= 0) return;
-    for (std::uint32_t place = 0; place < roster_.size(); ++place) {
-        const SimulatorSeat& seat = roster_.seat(place);
+    for (SeatId seat_id = 0; seat_id < roster_.size(); ++seat_id) {
+        const SimulatorSeat& seat = roster_.seat(seat_id);
         if (!seat.alive || now - seat.heard_ms <= options_.loss_ms) continue;
         ++counters_.silences;
-        give_up(place, "was silent for " + std::to_string(now - seat.heard_ms) + " ms");
+        give_up(seat_id, "was silent for " + std::to_string(now - seat.heard_ms) + " ms");
     }
 }
 
 void Controller::take_vanished(const Address& address, std::int64_t now_ms) {
-    for (std::uint32_t place = 0; place < roster_.size(); ++place)
-        if (roster_.alive(place) && roster_.seat(place).address == address) give_up(place, "vanished");
-    for (ClientSeat& seat : desk_.seats())
+    for (SeatId seat_id = 0; seat_id < roster_.size(); ++seat_id)
+        if (roster_.alive(seat_id) && roster_.seat(seat_id).address == address) give_up(seat_id, "vanished");
+    for (ClientSeat& seat : clients_.seats())
         if (seat.serves() && seat.address == address && !seat.vanished_ms) seat.vanished_ms = now_ms;
 }
 
-void Controller::give_up(std::uint32_t place, const std::string& why) {
-    SimulatorSeat& seat = roster_.seat(place);
+void Controller::give_up(SeatId seat_id, const std::string& why) {
+    SimulatorSeat& seat = roster_.seat(seat_id);
     seat.alive = false;
     seat.leaving = false;
     ++epoch_;
@@ -131,20 +131,20 @@ void Controller::give_up(std::uint32_t place, const std::string& why) {
         for (WantedTick& want : wants_) want.checkpoint = false;
         std::erase_if(wants_, [](const WantedTick& want) { return !want.open(); });
     }
-    notice("simulator " + std::to_string(place) + " " + why + " and is given up at tick " +
+    notice("simulator " + std::to_string(seat_id) + " " + why + " and is given up at tick " +
            std::to_string(tick_));
 }
 
 bool Controller::anything_lost() const {
-    const auto lost = [this](std::uint32_t place) { return is_lost(place); };
+    const auto lost = [this](SeatId seat_id) { return is_lost(seat_id); };
     return std::any_of(holder_.begin(), holder_.end(), lost) ||
            std::any_of(wants_.begin(), wants_.end(), [&](const WantedTick& want) {
                return std::any_of(want.holder.begin(), want.holder.end(), lost);
            });
 }
 
-/// Robots to be made again: those lost, now or at a tick that is still wanted, and all that they may have
-/// touched since the checkpoint. Ascending.
+/// Robots to recompute: those lost, now or at a tick that is still needed, and all that they may have touched
+/// since the checkpoint. Ascending.
 std::vector<RobotId> Controller::closure_of_lost() {
     const std::size_t n = holder_.size();
     std::vector<bool> root_lost(n, false);
@@ -165,47 +165,47 @@ void Controller::begin_recovery() {
     ++counters_.recoveries;
     notice("bringing back " + std::to_string(recovering_.size()) + " robots from the checkpoint at tick " +
            std::to_string(base_.tick));
-    // Stepping them again overwrites what Simulators have of them; only what the Controller has is certain
-    // until it is done.
-    const std::uint32_t place = base_.tick == tick_ ? kAtController : kLost;
-    for (const RobotId robot : recovering_) holder_[robot.index()] = place;
+    // Stepping them again overwrites the Simulators' states of them; until it is done only the Controller's
+    // are valid.
+    const SeatId seat_id = base_.tick == tick_ ? kAtController : kLost;
+    for (const RobotId robot : recovering_) holder_[robot.index()] = seat_id;
     for (WantedTick& want : wants_)
         for (const RobotId robot : recovering_)
             want.holder[robot.index()] = want.tick == base_.tick ? kAtController : kLost;
-    tell_again_ = true;
+    observations_due_ = true;
     if (base_.tick < tick_) begin_leg(base_.tick);
 }
 
-/// Steps the recovering robots from `from` to the next tick that is wanted, or to the committed one.
+/// Steps the recovering robots from `from` to the next tick that is needed, or to the committed one.
 void Controller::begin_leg(Tick from) {
     Tick until = tick_;
     for (const WantedTick& want : wants_)
         if (want.tick > from) until = std::min(until, want.tick);
-    std::vector<std::uint32_t> source = round_ ? std::vector(round_->seats().begin(), round_->seats().end())
-                                               : std::vector(holder_.size(), kAtController);
+    std::vector<SeatId> source = round_ ? std::vector(round_->seats().begin(), round_->seats().end())
+                                        : std::vector(holder_.size(), kAtController);
     Islands islands;
     collect_islands(base_.touched, recovering_, islands);
     const bool first = from == base_.tick;
     Round round(RoundSpan{epoch_, ++window_, from, until, true}, holder_.size());
-    std::vector<std::uint32_t> place;
+    std::vector<SeatId> seat_of_island;
     if (first) {
-        const std::vector<std::uint32_t> workers = roster_.workers();
+        const std::vector<SeatId> workers = roster_.workers();
         const std::vector<std::uint32_t> nowhere(holder_.size(), kNowhere);
         std::vector<double> speeds;
         speeds.reserve(workers.size());
-        for (const std::uint32_t worker : workers) speeds.push_back(roster_.seat(worker).threads);
-        place = assign({islands, cost_, nowhere, speeds, 0});
-        for (std::uint32_t& seat : place) seat = workers[seat];
+        for (const SeatId worker : workers) speeds.push_back(roster_.seat(worker).threads);
+        seat_of_island = assign({islands, cost_, nowhere, speeds, 0});
+        for (std::uint32_t& seat : seat_of_island) seat = workers[seat];
     } else {
         for (std::size_t i = 0; i < islands.count(); ++i)
-            place.push_back(source[islands.of(i).front().index()]);
+            seat_of_island.push_back(source[islands.of(i).front().index()]);
     }
-    round.plan(islands, place, source, roster_);
-    give_all(book_, round);
+    round.assign(islands, seat_of_island, source, roster_);
+    give_all(order_log_, round);
     if (!first) {
         std::vector<std::vector<RobotId>> robots(roster_.size());
         for (const RobotId robot : recovering_) robots[source[robot.index()]].push_back(robot);
-        for (std::uint32_t seat = 0; seat < robots.size(); ++seat)
+        for (SeatId seat = 0; seat < robots.size(); ++seat)
             if (!robots[seat].empty()) round.keep(seat, std::move(robots[seat]));
     }
     round.release_before(wants_.empty() ? base_.tick : std::min(base_.tick, wants_.front().tick));
@@ -219,7 +219,7 @@ void Controller::finish_leg() {
         if (want.tick == until)
             for (const RobotId robot : recovering_)
                 if (is_lost(want.holder[robot.index()])) want.holder[robot.index()] = round_->seat_of(robot);
-    tell_again_ = true;
+    observations_due_ = true;
     if (until < tick_) return begin_leg(until);
     for (const RobotId robot : recovering_) {
         if (next_hashes_[robot.index()] != hashes_[robot.index()]) {

@@ -1,4 +1,4 @@
-// What the Controller tells people: who has what, and how evenly the work is spread.
+// Status reports: which Simulator has which robots, and the load balance.
 #include <algorithm>
 
 #include "roles/controller.h"
@@ -8,22 +8,22 @@ namespace roboss {
 std::vector<MemberReport> Controller::members() const {
     std::vector<MemberReport> members(roster_.size());
     double busiest_ns = 0;
-    for (const std::uint32_t place : roster_.workers())
-        busiest_ns = std::max(busiest_ns, roster_.seat(place).spent_ns);
-    for (std::uint32_t place = 0; place < roster_.size(); ++place) {
-        const SimulatorSeat& seat = roster_.seat(place);
-        MemberReport& member = members[place];
-        member = {place, seat.name, seat.threads, seat.alive, seat.leaving, 0, 0, 0, 0, seat.address};
+    for (const SeatId seat_id : roster_.workers())
+        busiest_ns = std::max(busiest_ns, roster_.seat(seat_id).spent_ns);
+    for (SeatId seat_id = 0; seat_id < roster_.size(); ++seat_id) {
+        const SimulatorSeat& seat = roster_.seat(seat_id);
+        MemberReport& member = members[seat_id];
+        member = {seat_id, seat.name, seat.threads, seat.alive, seat.leaving, 0, 0, 0, 0, seat.address};
         if (!seat.alive) continue;
         member.step_us = 1e-3 * seat.spent_ns;
         member.load = busiest_ns > 0 ? seat.spent_ns / busiest_ns : 0;
     }
-    for (const std::uint32_t place : holder_)
-        if (place < members.size()) ++members[place].robots;
+    for (const SeatId seat_id : holder_)
+        if (seat_id < members.size()) ++members[seat_id].robots;
     for (std::size_t i = 0; i < islands_.count(); ++i)
-        if (const std::uint32_t place = holder_[islands_.of(i).front().index()]; place < members.size())
-            ++members[place].islands;
-    // seats of the run before a rewind say nothing
+        if (const SeatId seat_id = holder_[islands_.of(i).front().index()]; seat_id < members.size())
+            ++members[seat_id].islands;
+    // seats of the run before a rewind have no address
     std::erase_if(members, [this](const MemberReport& member) {
         return roster_.seat(member.number).address.role != Role::kSimulator;
     });
@@ -32,8 +32,8 @@ std::vector<MemberReport> Controller::members() const {
 
 double Controller::balance() const {
     double sum = 0, busiest = 0, threads = 0;
-    for (const std::uint32_t place : roster_.workers()) {
-        const SimulatorSeat& seat = roster_.seat(place);
+    for (const SeatId seat_id : roster_.workers()) {
+        const SimulatorSeat& seat = roster_.seat(seat_id);
         sum += seat.spent_ns * seat.threads;
         busiest = std::max(busiest, seat.spent_ns);
         threads += seat.threads;

@@ -1,5 +1,5 @@
-// The Controller towards viewers: between two windows it asks those who hold the robots to show them. Nothing
-// of it is kept, awaited or sent again.
+// The Controller and viewers: between two windows it asks the holders of robots to send views. Nothing of
+// this is kept, awaited or sent again.
 #include <algorithm>
 
 #include "roles/controller.h"
@@ -16,13 +16,13 @@ void Controller::take_view_request(Bus& bus, const Address& from, const ViewRequ
 void Controller::serve_views(Bus& bus) {
     if (views_.empty()) return;
     views_.note(tick_, bus.now_ms());
-    const std::vector<ViewDesk::Due> due = views_.take_due(tick_, bus.now_ms());
+    const std::vector<ViewService::Due> due = views_.take_due(tick_, bus.now_ms());
     if (due.empty()) return;
     ++view_serial_;
-    for (const ViewDesk::Due& d : due) show(bus, d);
+    for (const ViewService::Due& d : due) show(bus, d);
 }
 
-void Controller::show(Bus& bus, const ViewDesk::Due& due) {
+void Controller::show(Bus& bus, const ViewService::Due& due) {
     std::vector<ViewDue> parts(roster_.size() + 1);  // the last: what is here
     const auto part_of = [&](std::size_t r) -> ViewDue* {
         if (holder_[r] == kAtController) return base_.tick == tick_ ? &parts.back() : nullptr;
@@ -37,22 +37,22 @@ void Controller::show(Bus& bus, const ViewDesk::Due& due) {
     for (const RobotId robot : due.exact)
         if (!due.exact_all && robot.index() < holder_.size())
             if (ViewDue* part = part_of(robot.index())) part->exact.push_back(robot);
-    for (std::uint32_t place = 0; place < parts.size(); ++place) {
-        ViewDue& part = parts[place];
+    for (SeatId seat_id = 0; seat_id < parts.size(); ++seat_id) {
+        ViewDue& part = parts[seat_id];
         if (part.robots.empty() && part.exact.empty()) continue;
         part.epoch = epoch_;
         part.serial = view_serial_;
         part.tick = tick_;
         part.viewer = due.viewer;
-        if (place < roster_.size()) {
-            bus.send(kControllerAddress, roster_.address_of(place), std::move(part));
+        if (seat_id < roster_.size()) {
+            bus.send(kControllerAddress, roster_.address_of(seat_id), std::move(part));
         } else {
             show_here(bus, part);
         }
     }
 }
 
-/// Of states that no Simulator has: at the beginning, and when one has left.
+/// Views of states that no Simulator holds: at the beginning, and when one has left.
 void Controller::show_here(Bus& bus, const ViewDue& part) {
     if (!view_layout_) view_layout_.emplace(*model_);
     const auto state = [&](RobotId robot) { return &(*base_.states)[robot.index()]; };

@@ -1,46 +1,43 @@
-// The life of a window: forecast, assign, publish; then frames, validation, repeats where islands touched,
-// commit.
+// A window: forecast, assign, send; then results, validation, repetition of islands that touched, commit.
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 #include <utility>
 
-#include "plan/assign.h"
 #include "roles/controller.h"
+#include "schedule/assign.h"
 
 namespace roboss {
 
 namespace {
 
-constexpr double kCostTicks = 64;  // in which a robot's running mean cost forgets half
+constexpr double kCostTicks = 64;  // half-life of a robot's running mean cost
 constexpr double kNewRateShare = 0.03;
 constexpr double kNewSpentShare = 0.1;
-// What it costs a Simulator to have an island's states sent, and the ticks within which that has to be
-// regained.
+// What it costs a Simulator to get an island's states, and the ticks within which the move must pay off.
 constexpr double kMove_ns = 100'000;
 constexpr Tick kMovePays = 64;
-constexpr double kTell_ns = 30'000;  // what it takes the Controller to send one plan
+constexpr double kSend_ns = 30'000;  // the Controller's cost of sending one assignment
 
-std::vector<double> speeds_of(const Roster& roster, std::span<const std::uint32_t> workers) {
+std::vector<double> speeds_of(const Roster& roster, std::span<const SeatId> workers) {
     std::vector<double> speeds;
-    for (const std::uint32_t place : workers) speeds.push_back(roster.seat(place).speed());
+    for (const SeatId seat_id : workers) speeds.push_back(roster.seat(seat_id).speed());
     return speeds;
 }
 
-/// assign() for seats: places in and out are seats, of which only `workers` may get islands.
-std::vector<std::uint32_t> assign_to_seats(const Islands& islands, std::span<const float> cost,
-                                           const Roster& roster, std::span<const std::uint32_t> holder,
-                                           Tick ticks) {
-    const std::vector<std::uint32_t> workers = roster.workers();
-    std::vector<std::uint32_t> index_of(roster.size(), kNowhere), place(holder.size(), kNowhere);
+/// assign() with seats instead of indices; only workers get islands.
+std::vector<SeatId> assign_to_seats(const Islands& islands, std::span<const float> cost, const Roster& roster,
+                                    std::span<const SeatId> holder, Tick ticks) {
+    const std::vector<SeatId> workers = roster.workers();
+    std::vector<std::uint32_t> index_of(roster.size(), kNowhere), simulator_of_robot(holder.size(), kNowhere);
     for (std::uint32_t i = 0; i < workers.size(); ++i) index_of[workers[i]] = i;
     for (std::size_t r = 0; r < holder.size(); ++r)
-        if (holder[r] < roster.size()) place[r] = index_of[holder[r]];
+        if (holder[r] < roster.size()) simulator_of_robot[r] = index_of[holder[r]];
     const std::vector<double> speeds = speeds_of(roster, workers);
-    std::vector<std::uint32_t> result =
-        assign({islands, cost, place, speeds, kMove_ns / static_cast<double>(std::max(ticks, kMovePays)),
-                kTell_ns / static_cast<double>(ticks)});
-    for (std::uint32_t& seat : result) seat = workers[seat];
+    std::vector<SeatId> result = assign({islands, cost, simulator_of_robot, speeds,
+                                         kMove_ns / static_cast<double>(std::max(ticks, kMovePays)),
+                                         kSend_ns / static_cast<double>(ticks)});
+    for (SeatId& seat : result) seat = workers[seat];
     return result;
 }
 
@@ -48,7 +45,7 @@ std::vector<std::uint32_t> assign_to_seats(const Islands& islands, std::span<con
 
 void Controller::at_boundary(Bus& bus) {
     if (!started_) {
-        started_ = roster_.workers().size() >= options_.simulators && desk_.all_joined();
+        started_ = roster_.workers().size() >= options_.simulators && clients_.all_joined();
         if (!started_) return;
     }
     if (pull_.complete()) finish_checkpoint();
@@ -57,21 +54,21 @@ void Controller::at_boundary(Bus& bus) {
         return;
     }
     if (anything_lost()) return begin_recovery();
-    if (let_leavers_go(bus)) return;
+    if (release_leaving_members(bus)) return;
     begin_log_checkpoint();
     if (states_wanted_ || checkpoint_due()) begin_checkpoint();
-    if (may_plan()) plan_window();
+    if (may_start_window()) start_window();
 }
 
-bool Controller::may_plan() const {
-    return tick_ < target_ && !roster_.workers().empty() && desk_.limit(tick_) > tick_;
+bool Controller::may_start_window() const {
+    return tick_ < target_ && !roster_.workers().empty() && clients_.limit(tick_) > tick_;
 }
 
 Tick Controller::window_end(Tick from, Tick length, bool all_answered) const {
     length = std::min(length, views_.window_max().value_or(length));
     if (options_.window_max > 0) length = std::min(length, options_.window_max);
     if (ends_at_ && *ends_at_ > from) length = std::min(length, *ends_at_ - from);
-    return std::min({from + length, target_, desk_.limit(from, all_answered), next_log_tick(from)});
+    return std::min({from + length, target_, clients_.limit(from, all_answered), next_log_tick(from)});
 }
 
 Tick Controller::window_max() const {
@@ -79,17 +76,17 @@ Tick Controller::window_max() const {
                                    : longest_window(model_->robots.size(), roster_.threads());
 }
 
-void Controller::plan_window() {
+void Controller::start_window() {
     const Tick until = window_end(tick_, length_.ticks());
     round_.emplace(RoundSpan{epoch_, ++window_, tick_, until, false}, model_->robots.size());
-    forecast_.islands(motions_, feed_.leaps(book_, tick_, until), until - tick_, options_.forecast,
+    forecast_.islands(motions_, feed_.leaps(order_log_, tick_, until), until - tick_, options_.forecast,
                       round_->islands);
-    const std::vector<std::uint32_t> place =
+    const std::vector<SeatId> seat_of_island =
         assign_to_seats(round_->islands, cost_, roster_, holder_, until - tick_);
-    round_->plan(round_->islands, place, holder_, roster_);
-    feed_.give_rest(book_, *round_);
+    round_->assign(round_->islands, seat_of_island, holder_, roster_);
+    feed_.give_rest(order_log_, *round_);
     round_->send_dearest_first(cost_);
-    expect_work();
+    announce_expected_work();
     for (std::size_t r = 0; r < holder_.size(); ++r)
         if (holder_[r] != kAtController && holder_[r] != round_->seat_of(RobotId(r))) ++counters_.migrations;
     keep_wanted(*round_);
@@ -101,26 +98,26 @@ void Controller::keep_wanted(Round& round) const {
         std::vector<std::vector<RobotId>> robots(roster_.size());
         for (std::size_t r = 0; r < holder_.size(); ++r)
             if (holder_[r] < roster_.size()) robots[holder_[r]].emplace_back(r);
-        for (std::uint32_t place = 0; place < robots.size(); ++place)
-            if (!robots[place].empty()) round.keep(place, std::move(robots[place]));
+        for (SeatId seat_id = 0; seat_id < robots.size(); ++seat_id)
+            if (!robots[seat_id].empty()) round.keep(seat_id, std::move(robots[seat_id]));
     }
     round.release_before(wants_.empty() ? round.span().from : wants_.front().tick);
 }
 
-/// While they are worked on there is time to tell the orders of the next window.
-void Controller::send_plans(Bus& bus) {
-    round_->send(bus, roster_, options_.resend_ms, [this](Plan& plan) {
-        if (plan.ahead != 0) give_all(book_, plan);
+/// While Simulators step there is time to send the orders of the next window.
+void Controller::send_assignments(Bus& bus) {
+    round_->send(bus, roster_, options_.resend_ms, [this](Assignment& assignment) {
+        if (assignment.ahead != 0) give_all(order_log_, assignment);
     });
     const RoundSpan& span = round_->span();
     if (span.recovery || feed_.sent_in(span.window)) return;
     look_ahead();
-    counters_.orders_ahead +=
-        feed_.send_ahead(bus, book_, *round_, roster_, span.until + length_.ticks(), options_.ahead_least);
+    counters_.orders_ahead += feed_.send_ahead(bus, order_log_, *round_, roster_,
+                                               span.until + length_.ticks(), options_.ahead_least);
 }
 
-/// Where frames come from now on, they are compared with each other, and the window after theirs is forecast,
-/// for the length that it will have if nothing is to be repeated and Clients have answered.
+/// Prepares for the results to come: each is compared with the others as it arrives, and the next window is
+/// forecast, with the length that it will have if nothing is repeated and Clients have replied.
 void Controller::look_ahead() {
     const RoundSpan& span = round_->span();
     WindowLength next = length_;
@@ -130,57 +127,56 @@ void Controller::look_ahead() {
     forecast_.expect(model_->robots.size(), std::max<Tick>(until - span.until, 0), options_.forecast);
 }
 
-/// Of the world, as a share of what one worker should have.
+/// Robots of the largest island relative to an even share of one worker.
 double Controller::largest_share() const {
     return static_cast<double>(round_->islands.largest()) * roster_.threads() /
            static_cast<double>(std::max<std::size_t>(model_->robots.size(), 1));
 }
 
-void Controller::take_frame(std::uint32_t place, const Frame& frame) {
+void Controller::take_result(SeatId seat_id, const WindowResult& result) {
     if (!round_) return;
     bool fits = true;
-    const std::optional<Round::Answered> answered = round_->answered_by(place, frame, fits);
+    const std::optional<Round::Answered> answered = round_->answered_by(seat_id, result, fits);
     if (!fits)
-        note_dropped("Frame", "what simulator " + std::to_string(place) + " answers does not fit its plan");
+        note_dropped("WindowResult",
+                     "what simulator " + std::to_string(seat_id) + " answered does not match its assignment");
     if (!answered) return;
-    const Plan& plan = answered->plan;
-    take_costs(*answered, frame);
-    if (frame.left > 0)
-        return share_out_rest(*answered, frame.islands, plan.until - static_cast<Tick>(frame.left));
-    const bool plan_is_recovery = round_->span().recovery,
-               first = !plan_is_recovery && round_->repeats() == 0;
-    for (const RobotFrame& f : frame.robots) {
+    const Assignment& assignment = answered->assignment;
+    take_costs(*answered, result);
+    if (result.left > 0)
+        return share_out_rest(*answered, result.islands, assignment.until - static_cast<Tick>(result.left));
+    const bool is_recovery = round_->span().recovery, first = !is_recovery && round_->repeats() == 0;
+    for (const RobotResult& f : result.robots) {
         next_hashes_[f.robot.index()] = f.hash;
-        if (plan_is_recovery) continue;
+        if (is_recovery) continue;
         const auto span_s =
-            static_cast<float>(static_cast<double>(plan.until - round_->since(f.robot)) * model_->dt_s);
+            static_cast<float>(static_cast<double>(assignment.until - round_->since(f.robot)) * model_->dt_s);
         RobotMotion& motion = motions_[f.robot.index()];
-        motion = {f.swept, unpack_place(f.place, f.swept), unpack_velocity(f.velocity), span_s};
+        motion = {f.swept, unpack_position(f.position, f.swept), unpack_velocity(f.velocity), span_s};
         if (!first) continue;
         watch_.add({f.swept, f.robot.value}, true);
         forecast_.add(f.robot, motion);
     }
     if (first)
-        for (const EarlierBox& e : frame.earlier) watch_.add({e.swept, e.robot.value}, false);
-    round_->earlier.insert(round_->earlier.end(), frame.earlier.begin(), frame.earlier.end());
+        for (const EarlierBox& e : result.earlier) watch_.add({e.swept, e.robot.value}, false);
+    round_->earlier.insert(round_->earlier.end(), result.earlier.begin(), result.earlier.end());
 }
 
-/// What islands cost, and how they fared; where a part of the window was stepped, besides what the parts
-/// before it say.
-void Controller::take_costs(const Round::Answered& answered, const Frame& frame) {
-    const Plan& plan = answered.plan;
+/// Adds costs and outcomes of islands; those of the rest of a window to those before the Cut.
+void Controller::take_costs(const Round::Answered& answered, const WindowResult& result) {
+    const Assignment& assignment = answered.assignment;
     std::uint64_t cost_ns = 0;
-    for (std::size_t i = 0; i < frame.islands.size(); ++i) {
-        const IslandFrame& part = frame.islands[i];
-        IslandFrame& outcome = round_->outcome[plan.robots[plan.island_offsets[i]].index()];
-        const IslandFrame before = plan.midst() != 0 ? outcome : IslandFrame{};
+    for (std::size_t i = 0; i < result.islands.size(); ++i) {
+        const IslandResult& part = result.islands[i];
+        IslandResult& outcome = round_->outcome[assignment.robots[assignment.island_offsets[i]].index()];
+        const IslandResult before = assignment.mid_window() != 0 ? outcome : IslandResult{};
         outcome = part;
         outcome.cost_ns += before.cost_ns;
         outcome.contacts += before.contacts;
         outcome.static_contacts += before.static_contacts;
         cost_ns += part.cost_ns;
     }
-    round_->spend(answered.place, cost_ns);
+    round_->spend(answered.seat_id, cost_ns);
     counters_.step_cpu_s += 1e-9 * static_cast<double>(cost_ns);
 }
 
@@ -189,7 +185,7 @@ void Controller::finish_round() {
     counters_.critical_cpu_s += 1e-9 * round_->busiest_ns();
     if (round_->span().recovery) return finish_leg();
     if (merge_touching()) return;
-    if (const IslandFrame* failure = first_failure()) return end_before(*failure);
+    if (const IslandResult* failure = first_failure()) return end_before(*failure);
     commit();
 }
 
@@ -225,22 +221,22 @@ bool Controller::merge_touching() {
     std::erase_if(round_->earlier, [&](const EarlierBox& e) { return stepped_again[e.robot.index()]; });
     round_->islands = std::move(all);
     counters_.robots_repeated += again.robots.size();
-    const std::vector<std::uint32_t> place =
+    const std::vector<SeatId> seat_of_island =
         assign_to_seats(again, cost_, roster_, round_->seats(), round_->span().until - round_->span().from);
-    round_->plan(again, place, round_->seats(), roster_);
-    give_all(book_, *round_);
+    round_->assign(again, seat_of_island, round_->seats(), roster_);
+    give_all(order_log_, *round_);
     return true;
 }
 
-/// Of all robots whose states ceased to be finite in the window, the one that every other grouping would
-/// tell, too.
-const IslandFrame* Controller::first_failure() const {
-    const auto key = [](const IslandFrame& f) {
+/// Of all robots whose states became non-finite in the window, the one that every other grouping would
+/// report, too.
+const IslandResult* Controller::first_failure() const {
+    const auto key = [](const IslandResult& f) {
         return std::tuple(f.failed_at, !f.beyond_numbers, f.failed);
     };
-    const IslandFrame* first = nullptr;
+    const IslandResult* first = nullptr;
     for (std::size_t i = 0; i < round_->islands.count(); ++i) {
-        const IslandFrame& outcome = round_->outcome[round_->islands.of(i).front().index()];
+        const IslandResult& outcome = round_->outcome[round_->islands.of(i).front().index()];
         if (outcome.failed.valid() && (first == nullptr || key(outcome) < key(*first))) first = &outcome;
     }
     return first;
@@ -254,9 +250,9 @@ std::string Controller::part_of(RobotId robot, JointId joint) const {
     return part + " of robot '" + model_->robots[robot.index()].name + "'";
 }
 
-/// What comes before the tick in which a state ceases to be finite is committed first, in a window that ends
+/// The ticks before the one in which a state becomes non-finite are committed first, in a window that ends
 /// there. So the run ends with the same tick and state whatever windows it had.
-void Controller::end_before(const IslandFrame& failure) {
+void Controller::end_before(const IslandResult& failure) {
     const Tick tick = failure.failed_at;
     if (tick > round_->span().from) {
         ends_at_ = tick;
@@ -273,7 +269,7 @@ void Controller::end_before(const IslandFrame& failure) {
     fail(std::move(error));
 }
 
-/// Nothing of it is committed; the window is stepped again from its start, if at all.
+/// Discards the window; it is stepped again from its start, if at all.
 void Controller::drop_round() {
     watch_.stop();
     forecast_.forget();
@@ -307,12 +303,11 @@ void Controller::commit() {
     islands_ = std::move(round_->islands);
     round_.reset();
     log_commit();
-    tell_observers();
+    queue_observations();
 }
 
-/// A robot's cost is in ns a tick on the mean Simulator; a Simulator's rate is how much faster than the mean
-/// it is: it grows where its islands, taken together, cost less than what their robots lately did, wherever
-/// that was.
+/// A robot's cost is in ns per tick on the mean Simulator. A Simulator's rate is its speed relative to the
+/// mean: it grows if its islands together cost less than their robots did recently on any Simulator.
 void Controller::learn_costs() {
     const Round& round = *round_;
     const auto ticks = static_cast<double>(round.span().until - round.span().from);
@@ -320,16 +315,16 @@ void Controller::learn_costs() {
     std::vector<double> expected_ns(roster_.size(), 0.0), spent_ns(roster_.size(), 0.0);
     for (std::size_t i = 0; i < round.islands.count(); ++i) {
         const auto robots = round.islands.of(i);
-        const std::uint32_t place = round.seat_of(robots.front()),
-                            last = round.last_seats()[robots.front().index()];
+        const SeatId seat_id = round.seat_of(robots.front()),
+                     last = round.last_seats()[robots.front().index()];
         const auto cost_ns = static_cast<double>(round.outcome[robots.front().index()].cost_ns);
         double expected = 0;
         for (const RobotId robot : robots) expected += static_cast<double>(cost_[robot.index()]);
-        const double rate = 0.5 * (roster_.seat(place).rate + roster_.seat(last).rate);
+        const double rate = 0.5 * (roster_.seat(seat_id).rate + roster_.seat(last).rate);
         if (round.since(robots.front()) ==
-            round.span().from) {  // what two have stepped says nothing of either
-            expected_ns[place] += ticks * expected / rate;
-            spent_ns[place] += cost_ns;
+            round.span().from) {  // islands that two have stepped say nothing about either
+            expected_ns[seat_id] += ticks * expected / rate;
+            spent_ns[seat_id] += cost_ns;
         }
         const double each = rate * cost_ns / (ticks * static_cast<double>(robots.size()));
         for (const RobotId robot : robots) {
@@ -339,32 +334,33 @@ void Controller::learn_costs() {
     }
     if (std::exchange(costs_known_, true)) learn_rates(expected_ns, spent_ns);
     double busiest_ns = 0;
-    for (std::uint32_t place = 0; place < roster_.size(); ++place) {
-        SimulatorSeat& seat = roster_.seat(place);
-        const double spent = round.spent_ns(place);
+    for (SeatId seat_id = 0; seat_id < roster_.size(); ++seat_id) {
+        SimulatorSeat& seat = roster_.seat(seat_id);
+        const double spent = round.spent_ns(seat_id);
         seat.spent_ns += kNewSpentShare * (spent / (ticks * seat.threads) - seat.spent_ns);
         busiest_ns = std::max(busiest_ns, spent);
     }
     work_since_s_ += 1e-9 * busiest_ns;
 }
 
-/// Only what sets Simulators apart is learnt of them; what became dearer everywhere is the robots' own.
+/// Rates learn only differences between Simulators; a change that affects all of them belongs to the robots'
+/// costs.
 void Controller::learn_rates(std::span<const double> expected_ns, std::span<const double> spent_ns) {
     double expected = 0, spent = 0;
-    for (std::size_t place = 0; place < spent_ns.size(); ++place)
-        if (spent_ns[place] > 0) expected += expected_ns[place], spent += spent_ns[place];
+    for (std::size_t seat_id = 0; seat_id < spent_ns.size(); ++seat_id)
+        if (spent_ns[seat_id] > 0) expected += expected_ns[seat_id], spent += spent_ns[seat_id];
     if (expected <= 0 || spent <= 0) return;
-    for (std::uint32_t place = 0; place < roster_.size(); ++place) {
-        if (spent_ns[place] <= 0 || expected_ns[place] <= 0) continue;
-        const double faster = expected_ns[place] / spent_ns[place] * spent / expected;
-        double& rate = roster_.seat(place).rate;
+    for (SeatId seat_id = 0; seat_id < roster_.size(); ++seat_id) {
+        if (spent_ns[seat_id] <= 0 || expected_ns[seat_id] <= 0) continue;
+        const double faster = expected_ns[seat_id] / spent_ns[seat_id] * spent / expected;
+        double& rate = roster_.seat(seat_id).rate;
         rate = std::clamp(rate * (1 + kNewRateShare * (std::clamp(faster, 0.5, 2.0) - 1)), 0.01, 100.0);
     }
     double sum = 0;
-    const std::vector<std::uint32_t> workers = roster_.workers();
-    for (const std::uint32_t place : workers) sum += roster_.seat(place).rate;
-    for (const std::uint32_t place : workers)
-        roster_.seat(place).rate *= static_cast<double>(workers.size()) / sum;
+    const std::vector<SeatId> workers = roster_.workers();
+    for (const SeatId seat_id : workers) sum += roster_.seat(seat_id).rate;
+    for (const SeatId seat_id : workers)
+        roster_.seat(seat_id).rate *= static_cast<double>(workers.size()) / sum;
 }
 
 }  // namespace roboss

@@ -7,9 +7,9 @@
 
 namespace roboss {
 
-std::optional<std::uint32_t> Roster::seat_for(const Address& address, const Hello& hello, std::int64_t now_ms,
-                                              bool& is_new) {
-    const std::optional<std::uint32_t> here = place_at(address);
+std::optional<SeatId> Roster::seat_for(const Address& address, const Hello& hello, std::int64_t now_ms,
+                                       bool& is_new) {
+    const std::optional<SeatId> here = seat_at(address);
     is_new = !here;
     if (here) return here;
     const bool has_left = std::any_of(seats_.begin(), seats_.end(), [&](const SimulatorSeat& s) {
@@ -25,16 +25,16 @@ std::optional<std::uint32_t> Roster::seat_for(const Address& address, const Hell
     return static_cast<std::uint32_t>(seats_.size() - 1);
 }
 
-std::optional<std::uint32_t> Roster::place_at(const Address& address) const {
+std::optional<SeatId> Roster::seat_at(const Address& address) const {
     const auto here = std::find_if(seats_.begin(), seats_.end(),
                                    [&](const SimulatorSeat& s) { return s.alive && s.address == address; });
     if (here == seats_.end()) return std::nullopt;
     return static_cast<std::uint32_t>(here - seats_.begin());
 }
 
-std::optional<std::uint32_t> Roster::place_of(SimulatorId id) const {
-    const std::uint32_t place = id.value - first_id_;  // of an id from before it: far too large
-    return place < seats_.size() ? std::optional(place) : std::nullopt;
+std::optional<SeatId> Roster::seat_of(SimulatorId id) const {
+    const SeatId seat_id = id.value - first_id_;  // of an id from before it: far too large
+    return seat_id < seats_.size() ? std::optional(seat_id) : std::nullopt;
 }
 
 std::size_t Roster::alive_count() const {
@@ -43,20 +43,20 @@ std::size_t Roster::alive_count() const {
 }
 
 std::vector<std::uint32_t> Roster::workers() const {
-    std::vector<std::uint32_t> workers;
-    for (std::uint32_t place = 0; place < seats_.size(); ++place)
-        if (seats_[place].alive && !seats_[place].leaving) workers.push_back(place);
+    std::vector<SeatId> workers;
+    for (SeatId seat_id = 0; seat_id < seats_.size(); ++seat_id)
+        if (seats_[seat_id].alive && !seats_[seat_id].leaving) workers.push_back(seat_id);
     return workers;
 }
 
 std::uint32_t Roster::threads() const {
     std::uint32_t threads = 0;
-    for (const std::uint32_t place : workers()) threads += seats_[place].threads;
+    for (const SeatId seat_id : workers()) threads += seats_[seat_id].threads;
     return threads;
 }
 
-Address Roster::address_of(std::uint32_t place) const {
-    return place == kAtController ? kControllerAddress : seats_[place].address;
+Address Roster::address_of(SeatId seat_id) const {
+    return seat_id == kAtController ? kControllerAddress : seats_[seat_id].address;
 }
 
 }  // namespace roboss

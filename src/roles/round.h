@@ -1,6 +1,5 @@
-// Round: one attempt at a window under way: which Simulator has which islands, the plans sent and not
-// answered, and what the answers said so far. Kept by RobotId in flat arrays, so merging islands moves
-// nothing.
+// Round: a window in progress: which Simulator steps which islands, which assignments are unanswered, and the
+// results so far. Flat arrays by RobotId, so merging islands moves nothing.
 #pragma once
 
 #include <deque>
@@ -10,8 +9,8 @@
 #include <vector>
 
 #include "bus/bus.h"
-#include "plan/forecast.h"
 #include "roles/roster.h"
+#include "schedule/forecast.h"
 
 namespace roboss {
 
@@ -27,98 +26,100 @@ class Round {
     Round(const RoundSpan& span, std::size_t robots);
 
     const RoundSpan& span() const { return span_; }
-    /// How often islands of the window were merged and planned again.
+    /// How often islands of the window were merged and stepped again.
     std::uint32_t repeats() const { return repeats_; }
 
-    /// Writes plans: part.of(i) to seat place[i]; `source`[robot]: where its state at `from` is. Later
-    /// calls are further attempts, for those islands only.
-    void plan(const Islands& part, std::span<const std::uint32_t> place,
-              std::span<const std::uint32_t> source, const Roster& roster);
-    /// An order of this span, for whoever steps its robot in this attempt; nobody does: it is passed over.
+    /// Assigns part.of(i) to seat_of_island[i]; source[robot]: where its state at `from` is. Later calls
+    /// begin further attempts, for those islands only.
+    void assign(const Islands& part, std::span<const SeatId> seat_of_island, std::span<const SeatId> source,
+                const Roster& roster);
+    /// Adds an order of this span to the assignment of its robot in this attempt, if there is one.
     void give(const Order& order);
-    /// Besides the orders given, those told in this window before hold for the seats in `told`.
-    void give_ahead(std::uint64_t window, const std::vector<bool>& told);
-    /// To be kept by the Simulator at `place` on receiving the plan; writes an empty plan if it has none.
-    void keep(std::uint32_t place, std::vector<RobotId> robots);
+    /// The seats in `sent_ahead` have also got the orders that were sent ahead in `window`.
+    void give_ahead(std::uint64_t window, const std::vector<bool>& sent_ahead);
+    /// States that this Simulator must keep when it gets its assignment (an empty one is added if it has
+    /// none).
+    void keep(SeatId seat_id, std::vector<RobotId> robots);
     void release_before(Tick tick);
-    /// Who has most to do is told first. `cost`: by RobotId.
+    /// The most expensive assignment is sent first. `cost`: by RobotId.
     void send_dearest_first(std::span<const float> cost);
-    /// Sends plans that were never sent or not answered for resend_ms; these only after `complete`, which
-    /// gives them all their orders.
+    /// Sends new assignments, and those unanswered for resend_ms again; the latter after `complete`, which
+    /// adds all their orders.
     void send(Bus& bus, const Roster& roster, std::int64_t resend_ms,
-              const std::function<void(Plan&)>& complete);
+              const std::function<void(Assignment&)>& complete);
 
-    /// What a frame answers.
+    /// An assignment with its result.
     struct Answered {
-        std::uint32_t place = 0;
-        Plan plan;
-        std::vector<std::uint32_t> helpers;  // that wait for what a Cut leaves
+        SeatId seat_id = 0;
+        Assignment assignment;
+        std::vector<SeatId> helpers;  // idle seats that share the rest after a Cut
     };
-    /// The plan that this frame of a seat answers, removed from those unanswered; nothing if it answers none.
-    /// `fits`: false if it is meant for one and says what cannot be true of it.
-    std::optional<Answered> answered_by(std::uint32_t place, const Frame& frame, bool& fits);
+    /// Removes the assignment that this result answers from the unanswered ones and returns it; nothing if
+    /// there is none. `fits`: false if the result contradicts its assignment.
+    std::optional<Answered> answered_by(SeatId seat_id, const WindowResult& result, bool& fits);
     bool all_answered() const { return sent_.empty(); }
 
-    /// What a seat's stepping cost; in the whole window; the most of one seat since islands were planned for
-    /// all, or again.
-    void spend(std::uint32_t place, std::uint64_t cost_ns);
-    double spent_ns(std::uint32_t place) const { return place < spent_ns_.size() ? spent_ns_[place] : 0; }
+    /// Adds to a seat's stepping cost. spent_ns: in the whole window; busiest_ns: the maximum over the seats
+    /// since the last attempt began.
+    void spend(SeatId seat_id, std::uint64_t cost_ns);
+    double spent_ns(SeatId seat_id) const { return seat_id < spent_ns_.size() ? spent_ns_[seat_id] : 0; }
     double busiest_ns() const;
 
-    // Helping out: who has answered may take over from who is late.
-    /// Everybody is expected to need so much time for the window.
+    // Work stealing: idle Simulators take over a part of a late one's assignment.
+    /// The CPU time that each Simulator is expected to need for the window.
     void expect(std::uint64_t due_ns);
-    void take_late(std::uint32_t place, const Late& late);
+    void take_late(SeatId seat_id, const Late& late);
     struct LateSeat {
-        std::uint32_t place = 0;
+        SeatId seat_id = 0;
         std::size_t islands = 0;
     };
-    /// Who said that it is late, has something to give away and was not cut short yet, the latest first.
+    /// Late seats with several islands that were not cut yet, the latest first.
     std::vector<LateSeat> late() const;
-    /// Whom nothing is to come from.
-    std::vector<std::uint32_t> idle(const Roster& roster) const;
-    void cut(Bus& bus, const Roster& roster, std::uint32_t place, std::vector<std::uint32_t> helpers);
-    /// Writes plans for what is left of a plan from tick `at` on: its island i to seat place[i].
-    /// `complete` gives them their orders.
-    void plan_rest(const Answered& cut_short, Tick at, std::span<const std::uint32_t> place,
-                   std::uint64_t due_ns, const Roster& roster, const std::function<void(Plan&)>& complete);
+    /// Workers from which no result is due.
+    std::vector<SeatId> idle(const Roster& roster) const;
+    void cut(Bus& bus, const Roster& roster, SeatId seat_id, std::vector<SeatId> helpers);
+    /// Writes assignments for the rest of an assignment from tick `at` on, island i to seat_of_island[i].
+    /// `complete` adds their orders.
+    void assign_rest(const Answered& cut_short, Tick at, std::span<const SeatId> seat_of_island,
+                     std::uint64_t due_ns, const Roster& roster,
+                     const std::function<void(Assignment&)>& complete);
 
-    /// The seat that has this robot at the window's start and steps it, to the end or to a Cut.
+    /// The seat that steps this robot from the window's start, to the end or to a Cut.
     std::uint32_t seat_of(RobotId robot) const { return seat_[robot.index()]; }
-    std::span<const std::uint32_t> seats() const { return seat_; }
-    /// The seats that have the robots at the window's end.
-    std::span<const std::uint32_t> last_seats() const { return last_seat_; }
-    /// Since when that seat steps it.
+    std::span<const SeatId> seats() const { return seat_; }
+    /// The seats that hold the robots at the window's end.
+    std::span<const SeatId> last_seats() const { return last_seat_; }
+    /// Since when its last seat steps it.
     Tick since(RobotId robot) const { return since_[robot.index()]; }
 
-    Islands islands;                   // of the whole window so far
-    std::vector<IslandFrame> outcome;  // by the island's root
+    Islands islands;                    // of the whole window so far
+    std::vector<IslandResult> outcome;  // by the island's root
     std::vector<EarlierBox> earlier;
 
   private:
     struct Sent {
-        std::uint32_t place = 0;
-        Plan plan;
+        SeatId seat_id = 0;
+        Assignment assignment;
         std::optional<std::int64_t> sent_ms;
         int times = 0;               // sent again
         std::uint64_t needs_ns = 0;  // it is late and needs so much
         bool cut = false;
-        std::vector<std::uint32_t> helpers;
+        std::vector<SeatId> helpers;
     };
-    Plan& plan_for(std::uint32_t place);
-    bool suits(const Plan& plan, const Frame& frame) const;
-    void write(const Islands& part, std::span<const std::uint32_t> place,
-               std::span<const std::uint32_t> source, const Roster& roster);
+    Assignment& assignment_for(SeatId seat_id);
+    bool suits(const Assignment& assignment, const WindowResult& result) const;
+    void write(const Islands& part, std::span<const SeatId> seat_of_island, std::span<const SeatId> source,
+               const Roster& roster);
 
     RoundSpan span_;
     std::uint32_t attempt_ = 0, repeats_ = 0;
-    bool planned_ = false;
-    std::deque<Sent> sent_;                        // so that a plan stays where it is while others are added
-    std::vector<std::uint32_t> seat_, last_seat_;  // by RobotId
-    std::vector<Tick> since_;                      // by RobotId
-    std::vector<bool> in_attempt_;                 // by RobotId
+    bool assigned_ = false;
+    std::deque<Sent> sent_;                 // so that an assignment stays where it is while others are added
+    std::vector<SeatId> seat_, last_seat_;  // by RobotId
+    std::vector<Tick> since_;               // by RobotId
+    std::vector<bool> in_attempt_;          // by RobotId
     std::vector<double> spent_ns_, spent_before_ns_;  // by seat; before: when islands were planned again
-    std::vector<Plan*> plan_of_seat_;                 // of this attempt; null: has none
+    std::vector<Assignment*> assignment_of_seat_;     // of this attempt; null: has none
 };
 
 }  // namespace roboss

@@ -1,4 +1,4 @@
-// What a holder of robots sends to a viewer: view states of some, exact states of others.
+// Sends view states of some robots and exact states of others to a viewer.
 #pragma once
 
 #include "bus/bus.h"

@@ -1,4 +1,4 @@
-// The Simulator: messages in, frames out.
+// The Simulator: messages in, results out.
 #include "roles/simulator.h"
 
 #include <algorithm>
@@ -11,9 +11,9 @@ namespace roboss {
 
 namespace {
 
-constexpr double kLateFrom = 0.5;       // of a plan's ticks: before, it is hard to say
-constexpr double kLateShare = 0.04;     // of what was due, beyond it
-constexpr std::size_t kEarlyMost = 64;  // more would be another's mistake; what is dropped is asked for
+constexpr double kLateFrom = 0.5;       // of an assignment's ticks; earlier estimates are too rough
+constexpr double kLateShare = 0.04;     // beyond due_ns, relative to it
+constexpr std::size_t kEarlyMost = 64;  // more would be a sender's error; dropped states are requested
 
 template <class A, class B>
 bool same_attempt(const A& a, const B& b) {
@@ -40,18 +40,19 @@ bool good_orders(const Model& model, const std::vector<Order>& orders) {
                        [&](const Order& o) { return check_order(model, o).ok(); });
 }
 
-/// Whether robots exist, none twice, ascending in their islands, as islands are by their first.
-bool good_islands(const Model& model, const Plan& plan) {
+/// Whether all robots exist, none occurs twice, robots ascend within islands, and islands by their first
+/// robot.
+bool good_islands(const Model& model, const Assignment& assignment) {
     std::vector<bool> seen(model.robots.size(), false);
     std::optional<RobotId> root;
-    for (std::size_t i = 0; i + 1 < plan.island_offsets.size(); ++i) {
-        const std::size_t first = plan.island_offsets[i];
-        if (root && plan.robots[first] <= *root) return false;
-        root = plan.robots[first];
-        for (std::size_t k = first; k < plan.island_offsets[i + 1]; ++k) {
-            const RobotId robot = plan.robots[k];
+    for (std::size_t i = 0; i + 1 < assignment.island_offsets.size(); ++i) {
+        const std::size_t first = assignment.island_offsets[i];
+        if (root && assignment.robots[first] <= *root) return false;
+        root = assignment.robots[first];
+        for (std::size_t k = first; k < assignment.island_offsets[i + 1]; ++k) {
+            const RobotId robot = assignment.robots[k];
             if (robot.index() >= seen.size() || seen[robot.index()]) return false;
-            if (k > first && robot < plan.robots[k - 1]) return false;
+            if (k > first && robot < assignment.robots[k - 1]) return false;
             seen[robot.index()] = true;
         }
     }
@@ -78,32 +79,33 @@ void Simulator::advance(Bus& bus) {
     bus.drain(self_, inbox_);
     for (Envelope& envelope : inbox_) handle(bus, envelope);
     keep_in_touch(bus);
-    if (gone_ || !plan_) return;
+    if (gone_ || !assignment_) return;
     if (!pull_.complete()) return pull_.advance(bus, self_, options_.resend_ms);
-    said_late_ = cut_ = false;
-    answer_ =
-        stepper_.step(*plan_, store_, [&](const StepProgress& progress) { return attend(bus, progress); });
-    plan_.reset();
+    reported_late_ = cut_ = false;
+    answer_ = stepper_.step(*assignment_, store_, [&](const StepProgress& progress) {
+        return serve_while_stepping(bus, progress);
+    });
+    assignment_.reset();
     bus.send(self_, kControllerAddress, *answer_);
     catch_up(bus);
 }
 
-/// What could wait until the frame was on its way, for which everybody waits.
+/// Work that can wait until the result is sent: everybody waits for the result.
 void Simulator::catch_up(Bus& bus) {
     keep_wanted();
-    for (const RobotFrame& robot : answer_->robots) store_.copy_ahead(robot.robot);
+    for (const RobotResult& robot : answer_->robots) store_.copy_ahead(robot.robot);
     for (Envelope& envelope : std::exchange(later_, {})) handle(bus, envelope);
 }
 
-/// The slots still have these states: no other plan was adopted since.
+/// The slots still have these states, since no other assignment has begun.
 void Simulator::keep_wanted() {
     store_.keep(to_keep_.robots, to_keep_.tick);
     to_keep_.robots.clear();
 }
 
 void Simulator::handle(Bus& bus, Envelope& envelope) {
-    if (auto* plan = std::get_if<Plan>(&envelope.message)) {
-        take_plan(bus, *plan);
+    if (auto* assignment = std::get_if<Assignment>(&envelope.message)) {
+        take_assignment(bus, *assignment);
     } else if (auto* ahead = std::get_if<OrdersAhead>(&envelope.message)) {
         take_ahead(bus, *ahead);
     } else if (const auto* request = std::get_if<StateRequest>(&envelope.message)) {
@@ -113,13 +115,13 @@ void Simulator::handle(Bus& bus, Envelope& envelope) {
     } else if (auto* reply = std::get_if<StateReply>(&envelope.message)) {
         take_states(*reply);
     } else if (const auto* welcome = std::get_if<Welcome>(&envelope.message)) {
-        if (!id_.valid()) id_ = welcome->simulator;  // if it is an old one, it will be expelled
+        if (!id_.valid()) id_ = welcome->simulator;  // if it is outdated, the Controller will expel it
     } else if (const auto* expelled = std::get_if<Expelled>(&envelope.message)) {
-        if (expelled->simulator == id_) start_over();
+        if (expelled->simulator == id_) reset();
     } else if (const auto* goodbye = std::get_if<Goodbye>(&envelope.message)) {
         if (goodbye->simulator != id_) return;
         gone_ = true;
-        sent_home_ = !leaving_;
+        dismissed_ = !leaving_;
     } else if (std::holds_alternative<ModelChanged>(envelope.message)) {
         if (!id_.valid()) gone_ = outdated_ = true;
     } else if (const auto* refused = std::get_if<Refused>(&envelope.message)) {
@@ -131,38 +133,42 @@ void Simulator::handle(Bus& bus, Envelope& envelope) {
     }
 }
 
-void Simulator::take_plan(Bus& bus, Plan& plan) {
-    if (plan.simulator != id_) return;
-    if (answer_ && same_attempt(plan, *answer_)) return bus.send(self_, kControllerAddress, *answer_);
-    if ((answer_ && !is_newer(plan, *answer_)) || (plan_ && !is_newer(plan, *plan_))) return;
-    if (unfed_ && is_newer(*unfed_, plan)) return;
-    if (const std::string flaw = flaw_of(plan); !flaw.empty()) return note_dropped("Plan", plan.window, flaw);
-    unfed_.reset();
-    if (plan.ahead != 0) {
-        if (!ahead_ || ahead_->window != plan.ahead) return void(unfed_ = std::move(plan));
-        add_ahead(plan);
+void Simulator::take_assignment(Bus& bus, Assignment& assignment) {
+    if (assignment.simulator != id_) return;
+    if (answer_ && same_attempt(assignment, *answer_)) return bus.send(self_, kControllerAddress, *answer_);
+    if ((answer_ && !is_newer(assignment, *answer_)) || (assignment_ && !is_newer(assignment, *assignment_)))
+        return;
+    if (awaiting_orders_ && is_newer(*awaiting_orders_, assignment)) return;
+    if (const std::string flaw = flaw_of(assignment); !flaw.empty())
+        return note_dropped("Assignment", assignment.window, flaw);
+    awaiting_orders_.reset();
+    if (assignment.ahead != 0) {
+        if (!ahead_ || ahead_->window != assignment.ahead)
+            return void(awaiting_orders_ = std::move(assignment));
+        add_ahead(assignment);
     }
-    adopt(bus, plan);
+    begin_assignment(bus, assignment);
 }
 
-/// What makes it a plan that cannot be stepped here; empty: nothing.
-std::string Simulator::flaw_of(const Plan& plan) const {
-    if (!good_islands(*model_, plan) || !all_known(*model_, plan.keep)) return "its robots make no sense";
-    if (!good_orders(*model_, plan.orders)) return "its orders make no sense";
+/// Why this assignment cannot be stepped here; empty: it can.
+std::string Simulator::flaw_of(const Assignment& assignment) const {
+    if (!good_islands(*model_, assignment) || !all_known(*model_, assignment.keep))
+        return "its robots are invalid";
+    if (!good_orders(*model_, assignment.orders)) return "its orders are invalid";
     std::vector<bool> comes(model_->robots.size(), false);
-    for (const Holding& holding : plan.hand_offs) {
-        if (!all_known(*model_, holding.robots)) return "its robots make no sense";
+    for (const Holding& holding : assignment.hand_offs) {
+        if (!all_known(*model_, holding.robots)) return "its robots are invalid";
         for (const RobotId robot : holding.robots) comes[robot.index()] = true;
     }
-    for (const RobotId robot : plan.robots)
-        if (!comes[robot.index()] && !store_.has(robot, plan.from))
+    for (const RobotId robot : assignment.robots)
+        if (!comes[robot.index()] && !store_.has(robot, assignment.from))
             return "robot " + std::to_string(robot.value) + " is not here at tick " +
-                   std::to_string(plan.from);
+                   std::to_string(assignment.from);
     return {};
 }
 
 void Simulator::note_dropped(const char* message, std::uint64_t window, const std::string& why) {
-    constexpr std::size_t kMost = 100;  // until somebody reads them
+    constexpr std::size_t kMost = 100;  // until they are taken
     if (notices_.size() < kMost)
         notices_.push_back(std::string("dropped=") + message + " simulator=" + std::to_string(id_.value) +
                            " window=" + std::to_string(window) + " reason=\"" + why + "\"");
@@ -171,21 +177,24 @@ void Simulator::note_dropped(const char* message, std::uint64_t window, const st
 void Simulator::take_ahead(Bus& bus, OrdersAhead& ahead) {
     if (ahead.simulator != id_ || (ahead_ && ahead.window <= ahead_->window)) return;
     if (!good_orders(*model_, ahead.orders))
-        return note_dropped("OrdersAhead", ahead.window, "its orders make no sense");
+        return note_dropped("OrdersAhead", ahead.window, "its orders are invalid");
     ahead_ = std::move(ahead);
-    if (std::optional<Plan> plan = std::exchange(unfed_, std::nullopt)) take_plan(bus, *plan);
+    if (std::optional<Assignment> assignment = std::exchange(awaiting_orders_, std::nullopt))
+        take_assignment(bus, *assignment);
 }
 
-/// Robots that are no longer here, and ticks after the window, do not matter.
-void Simulator::add_ahead(Plan& plan) const {
+/// Orders for robots that are no longer here, and for ticks after the window, are left out.
+void Simulator::add_ahead(Assignment& assignment) const {
     const auto earlier = [](const Order& order, Tick tick) { return order.apply_at < tick; };
-    const auto first = std::lower_bound(ahead_->orders.begin(), ahead_->orders.end(), plan.from, earlier);
-    const auto last = std::lower_bound(first, ahead_->orders.end(), plan.until, earlier);
+    const auto first =
+        std::lower_bound(ahead_->orders.begin(), ahead_->orders.end(), assignment.from, earlier);
+    const auto last = std::lower_bound(first, ahead_->orders.end(), assignment.until, earlier);
     std::vector<Order> all;
-    all.reserve(plan.orders.size() + static_cast<std::size_t>(last - first));
-    std::merge(first, last, plan.orders.begin(), plan.orders.end(), std::back_inserter(all), comes_before);
-    plan.orders = std::move(all);
-    plan.ahead = 0;
+    all.reserve(assignment.orders.size() + static_cast<std::size_t>(last - first));
+    std::merge(first, last, assignment.orders.begin(), assignment.orders.end(), std::back_inserter(all),
+               comes_before);
+    assignment.orders = std::move(all);
+    assignment.ahead = 0;
 }
 
 void Simulator::take_states(StateReply& reply) {
@@ -197,61 +206,65 @@ void Simulator::take_states(StateReply& reply) {
     if (early_.size() < kEarlyMost) early_.push_back(std::move(reply));
 }
 
-/// In the midst of stepping: others wait for states of the window's start, and want to know that it lives.
-WindowStepper::Next Simulator::attend(Bus& bus, const StepProgress& progress) {
-    say_alive(bus);
+/// Called while stepping: sends heartbeats and the states of the window's start that others wait for.
+WindowStepper::Next Simulator::serve_while_stepping(Bus& bus, const StepProgress& progress) {
+    send_heartbeats(bus);
     bus.drain(self_, inbox_);
     for (Envelope& envelope : inbox_) {
-        if (const auto* plan = std::get_if<Plan>(&envelope.message))
-            if (plan->simulator == id_ && same_attempt(*plan, *plan_)) continue;  // it is being worked on
+        if (const auto* assignment = std::get_if<Assignment>(&envelope.message))
+            if (assignment->simulator == id_ && same_attempt(*assignment, *assignment_))
+                continue;  // it is in progress
         if (const auto* cut = std::get_if<Cut>(&envelope.message)) {
-            cut_ = cut_ || (cut->simulator == id_ && same_attempt(*cut, *plan_));
+            cut_ = cut_ || (cut->simulator == id_ && same_attempt(*cut, *assignment_));
             continue;
         }
         const auto* request = std::get_if<StateRequest>(&envelope.message);
-        if (request != nullptr && request->tick <= plan_->from)
+        if (request != nullptr && request->tick <= assignment_->from)
             serve(bus, envelope.from, *request);
         else
             later_.push_back(std::move(envelope));
     }
-    return whether_late(bus, progress);
+    return check_lateness(bus, progress);
 }
 
-/// Who is late says so, and then may be cut short.
-WindowStepper::Next Simulator::whether_late(Bus& bus, const StepProgress& progress) {
+/// A Simulator that will be late reports it, and may then get a Cut.
+WindowStepper::Next Simulator::check_lateness(Bus& bus, const StepProgress& progress) {
     using Next = WindowStepper::Next;
-    if (progress.done < kLateFrom || plan_->due_ns == 0) return Next::kGoOn;
-    if (said_late_ && !cut_) return Next::kGoOnAlert;
+    if (progress.done < kLateFrom || assignment_->due_ns == 0) return Next::kContinue;
+    if (reported_late_ && !cut_) return Next::kContinueAlert;
     const double spent_ns = progress.spent_ns(), needs_ns = spent_ns / progress.done;
-    if (cut_) return needs_ns - spent_ns < options_.cut_least_ns ? Next::kGoOn : Next::kStop;
-    const auto due_ns = static_cast<double>(plan_->due_ns);
-    if (needs_ns < due_ns + std::max(options_.cut_least_ns, kLateShare * due_ns)) return Next::kGoOn;
-    said_late_ = true;
+    if (cut_) return needs_ns - spent_ns < options_.cut_least_ns ? Next::kContinue : Next::kStop;
+    const auto due_ns = static_cast<double>(assignment_->due_ns);
+    if (needs_ns < due_ns + std::max(options_.cut_least_ns, kLateShare * due_ns)) return Next::kContinue;
+    reported_late_ = true;
     bus.send(self_, kControllerAddress,
-             Late{plan_->epoch, plan_->window, plan_->attempt, static_cast<std::uint64_t>(needs_ns)});
-    return Next::kGoOnAlert;
+             Late{assignment_->epoch, assignment_->window, assignment_->attempt,
+                  static_cast<std::uint64_t>(needs_ns)});
+    return Next::kContinueAlert;
 }
 
-void Simulator::give(Bus& bus, const Plan& plan) const {
-    for (const HandOver& hand_over : plan.gives)
-        serve(bus, hand_over.to, {plan.from, hand_over.robots, plan.midst()});
+void Simulator::send_transfers(Bus& bus, const Assignment& assignment) const {
+    for (const HandOver& hand_over : assignment.transfers)
+        serve(bus, hand_over.to, {assignment.from, hand_over.robots, assignment.mid_window()});
 }
 
-void Simulator::adopt(Bus& bus, Plan& plan) {
-    give(bus, plan);
+void Simulator::begin_assignment(Bus& bus, Assignment& assignment) {
+    send_transfers(bus, assignment);
     keep_wanted();
-    to_keep_ = {plan.from, std::move(plan.keep)};
-    store_.release_before(plan.release_before);
-    store_.forget_aside_before(plan.window_from);
-    if (plan.midst() != 0) store_.set_aside(plan.robots, plan.window_from);
-    for (const RobotId robot : plan.robots) (void)store_.start(robot, plan.from);  // or it comes
-    const bool all_given = std::all_of(plan.hand_offs.begin(), plan.hand_offs.end(),
+    to_keep_ = {assignment.from, std::move(assignment.keep)};
+    store_.release_before(assignment.release_before);
+    store_.forget_aside_before(assignment.window_from);
+    if (assignment.mid_window() != 0) store_.set_aside(assignment.robots, assignment.window_from);
+    for (const RobotId robot : assignment.robots)
+        (void)store_.start(robot, assignment.from);  // the others arrive
+    const bool all_given = std::all_of(assignment.hand_offs.begin(), assignment.hand_offs.end(),
                                        [](const Holding& h) { return h.source.role == Role::kSimulator; });
-    pull_.begin(*model_, plan.from, plan.hand_offs, all_given ? std::optional(bus.now_ms()) : std::nullopt,
-                plan.midst());
-    plan_ = std::move(plan);
+    pull_.begin(*model_, assignment.from, assignment.hand_offs,
+                all_given ? std::optional(bus.now_ms()) : std::nullopt, assignment.mid_window());
+    assignment_ = std::move(assignment);
     for (StateReply& reply : std::exchange(early_, {}))
-        if (reply.states.tick >= plan_->from && (reply.window == 0 || reply.window >= plan_->window))
+        if (reply.states.tick >= assignment_->from &&
+            (reply.window == 0 || reply.window >= assignment_->window))
             take_states(reply);
 }
 
@@ -271,7 +284,7 @@ void Simulator::show(Bus& bus, const ViewDue& due) {
 
 void Simulator::keep_in_touch(Bus& bus) {
     const std::int64_t now = bus.now_ms();
-    if (id_.valid()) say_alive(bus);
+    if (id_.valid()) send_heartbeats(bus);
     if (now - asked_ms_ < options_.resend_ms) return;
     if (!id_.valid())
         bus.send(self_, kControllerAddress,
@@ -280,17 +293,17 @@ void Simulator::keep_in_touch(Bus& bus) {
     asked_ms_ = now;
 }
 
-void Simulator::say_alive(Bus& bus) {
+void Simulator::send_heartbeats(Bus& bus) {
     const std::int64_t now = bus.now_ms();
-    if (now - alive_ms_ < options_.alive_ms) return;
-    alive_ms_ = now;
-    bus.send(self_, kControllerAddress, Alive{id_});
+    if (now - heartbeat_sent_ms_ < options_.heartbeat_ms) return;
+    heartbeat_sent_ms_ = now;
+    bus.send(self_, kControllerAddress, Heartbeat{id_});
 }
 
-void Simulator::start_over() {
+void Simulator::reset() {
     id_ = SimulatorId{};
-    plan_.reset();
-    unfed_.reset();
+    assignment_.reset();
+    awaiting_orders_.reset();
     ahead_.reset();
     answer_.reset();
     pull_.cancel();

@@ -1,4 +1,4 @@
-// A Simulator drops plans that it cannot step, says so, and goes on with those that it can.
+// A Simulator drops assignments that it cannot step, says so, and goes on with those that it can.
 #include "roles/simulator.h"
 
 #include <gtest/gtest.h>
@@ -25,41 +25,41 @@ World three_balls() {
     return world;
 }
 
-class PlansFromTheWire : public testing::Test {
+class AssignmentsFromTheWire : public testing::Test {
   protected:
-    PlansFromTheWire() {
+    AssignmentsFromTheWire() {
         simulator.advance(bus);
         say(Welcome{kId});
     }
 
     /// All robots, each an island of its own, from the Controller.
-    Plan plan(std::uint64_t window, Tick from, Tick until) const {
-        Plan plan;
-        plan.window = window;
-        plan.simulator = kId;
-        plan.window_from = plan.from = from;
-        plan.until = until;
-        plan.island_offsets = {0};
+    Assignment assignment(std::uint64_t window, Tick from, Tick until) const {
+        Assignment assignment;
+        assignment.window = window;
+        assignment.simulator = kId;
+        assignment.window_from = assignment.from = from;
+        assignment.until = until;
+        assignment.island_offsets = {0};
         for (const RobotId robot : sim.ids) {
-            plan.robots.push_back(robot);
-            plan.island_offsets.push_back(static_cast<std::uint32_t>(plan.robots.size()));
+            assignment.robots.push_back(robot);
+            assignment.island_offsets.push_back(static_cast<std::uint32_t>(assignment.robots.size()));
         }
-        if (from == 0) plan.hand_offs = {{kControllerAddress, plan.robots}};
-        return plan;
+        if (from == 0) assignment.hand_offs = {{kControllerAddress, assignment.robots}};
+        return assignment;
     }
     void say(Message message) {
         bus.send(kControllerAddress, kSelf, std::move(message));
         simulator.advance(bus);
     }
-    /// The hash of the frame of this window, once states are given where they are asked for; 0: there is
+    /// The hash of the result of this window, once states are given where they are asked for; 0: there is
     /// none.
     std::uint64_t answer(std::uint64_t window) {
         for (int i = 0; i < 4; ++i) {
             bus.drain(kControllerAddress, inbox);
             for (const Envelope& envelope : inbox) {
-                if (const auto* frame = std::get_if<Frame>(&envelope.message);
-                    frame && frame->window == window)
-                    return frame->robots[0].hash;
+                if (const auto* result = std::get_if<WindowResult>(&envelope.message);
+                    result && result->window == window)
+                    return result->robots[0].hash;
                 if (const auto* request = std::get_if<StateRequest>(&envelope.message)) {
                     StateReply reply;
                     reply.states.tick = request->tick;
@@ -72,12 +72,12 @@ class PlansFromTheWire : public testing::Test {
         }
         return 0;
     }
-    void expect_dropped(const Plan& wrong, const std::string& why) {
+    void expect_dropped(const Assignment& wrong, const std::string& why) {
         say(wrong);
         EXPECT_EQ(answer(wrong.window), 0u) << why;
         const std::vector<std::string> notices = simulator.take_notices();
         ASSERT_EQ(notices.size(), 1u) << why;
-        EXPECT_NE(notices[0].find("dropped=Plan simulator=5"), std::string::npos) << notices[0];
+        EXPECT_NE(notices[0].find("dropped=Assignment simulator=5"), std::string::npos) << notices[0];
         EXPECT_NE(notices[0].find(why), std::string::npos) << notices[0];
     }
 
@@ -88,46 +88,46 @@ class PlansFromTheWire : public testing::Test {
     std::vector<Envelope> inbox;
 };
 
-TEST_F(PlansFromTheWire, OneOfRobotsThatAreNotHereIsDroppedAndTheNextOneIsStepped) {
-    expect_dropped(plan(1, 7, 9), "robot 0 is not here at tick 7");
-    say(plan(2, 0, 4));
+TEST_F(AssignmentsFromTheWire, OneOfRobotsThatAreNotHereIsDroppedAndTheNextOneIsStepped) {
+    expect_dropped(assignment(1, 7, 9), "robot 0 is not here at tick 7");
+    say(assignment(2, 0, 4));
     const std::uint64_t hash = answer(2);
     EXPECT_NE(hash, 0u);
-    expect_dropped(plan(3, 5, 9), "robot 0 is not here at tick 5");
-    say(plan(4, 4, 8));
+    expect_dropped(assignment(3, 5, 9), "robot 0 is not here at tick 5");
+    say(assignment(4, 4, 8));
     const std::uint64_t next = answer(4);
     for (int i = 0; i < 8; ++i) sim.step();
     EXPECT_EQ(next, state_hash(RobotId(0u), 8, sim.states[0]));
     EXPECT_TRUE(simulator.take_notices().empty());
 }
 
-TEST_F(PlansFromTheWire, OneThatMakesNoSenseIsDroppedByReason) {
-    const std::function<void(Plan&)> robots[] = {
-        [](Plan& p) { p.robots[1] = RobotId(3u); },
-        [](Plan& p) { p.robots[1] = RobotId(); },
-        [](Plan& p) { p.robots[1] = p.robots[0]; },
-        [](Plan& p) { std::swap(p.robots[0], p.robots[1]); },
-        [](Plan& p) {
+TEST_F(AssignmentsFromTheWire, OneThatMakesNoSenseIsDroppedByReason) {
+    const std::function<void(Assignment&)> robots[] = {
+        [](Assignment& p) { p.robots[1] = RobotId(3u); },
+        [](Assignment& p) { p.robots[1] = RobotId(); },
+        [](Assignment& p) { p.robots[1] = p.robots[0]; },
+        [](Assignment& p) { std::swap(p.robots[0], p.robots[1]); },
+        [](Assignment& p) {
             p.island_offsets = {0, 3}, std::swap(p.robots[1], p.robots[2]);
         },
-        [](Plan& p) { p.keep = {RobotId(3u)}; },
-        [](Plan& p) { p.hand_offs[0].robots.push_back(RobotId(77u)); },
+        [](Assignment& p) { p.keep = {RobotId(3u)}; },
+        [](Assignment& p) { p.hand_offs[0].robots.push_back(RobotId(77u)); },
     };
     for (const auto& spoil : robots) {
-        Plan wrong = plan(1, 0, 4);
+        Assignment wrong = assignment(1, 0, 4);
         spoil(wrong);
-        expect_dropped(wrong, "its robots make no sense");
+        expect_dropped(wrong, "its robots are invalid");
     }
     const auto order = [](Tick tick, RobotId robot) {
         return Order{tick, ClientId(0u), 1, robot, SetVelocity{}};
     };
     for (const auto& orders : {std::vector<Order>{order(1, RobotId(3u))},
                                std::vector<Order>{order(2, RobotId(0u)), order(1, RobotId(0u))}}) {
-        Plan wrong = plan(1, 0, 4);
+        Assignment wrong = assignment(1, 0, 4);
         wrong.orders = orders;
-        expect_dropped(wrong, "its orders make no sense");
+        expect_dropped(wrong, "its orders are invalid");
     }
-    say(plan(1, 0, 4));
+    say(assignment(1, 0, 4));
     EXPECT_NE(answer(1), 0u) << "the same attempt, without a flaw";
 }
 

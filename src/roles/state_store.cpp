@@ -1,4 +1,4 @@
-// Two states a robot, and shelves of kept ones.
+// Two states per robot, and copies that were kept.
 #include "roles/state_store.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ void StateStore::put(RobotId robot, Tick tick, RobotState&& state) {
     slot.start = std::move(state);
     slot.start_tick = tick;
     slot.end_tick = slot.ahead_tick = kNone;
-    forget_aside(robot, tick);  // that may be of an attempt that was repeated
+    forget_aside(robot, tick);  // it may stem from an attempt that was repeated
 }
 
 bool StateStore::start(RobotId robot, Tick tick) {

@@ -1,8 +1,7 @@
-// A Simulator's states: of each robot that at the window's start and that at its end (and a second copy of
-// it, to be stepped on in the next); those at the start of a window of which only the rest is stepped here;
-// and copies that were kept because somebody still wants an earlier tick.
-// A state is found by (robot, tick), never by "the current one", so late and doubled requests get the right
-// bits or nothing.
+// StateStore: a Simulator's states. Of each robot: the state at the window's start, that at its end, and a
+// copy of the latter to step in the next window. In addition: states at the start of a window of which only
+// the rest is stepped here, and copies of earlier ticks that others still need. A state is found by (robot,
+// tick), never as "the current one", so late and duplicate requests get the right state or nothing.
 #pragma once
 
 #include <memory>
@@ -18,9 +17,9 @@ class StateStore {
   public:
     explicit StateStore(const Model& model) : slots_(model.robots.size()) {}
 
-    /// Takes a state from elsewhere.
+    /// Adds a received state.
     void put(RobotId robot, Tick tick, RobotState&& state);
-    /// Makes the robot's state at `tick` the start of a window. False: it is not here.
+    /// Makes the robot's state at `tick` the start of a window. False: there is none.
     bool start(RobotId robot, Tick tick);
     /// Whether start() would find it.
     bool has(RobotId robot, Tick tick) const { return find(robot, tick) != nullptr; }
@@ -28,21 +27,21 @@ class StateStore {
     /// The state to step on: a copy of the start, which becomes the state at `until`.
     RobotState& begin_window(RobotId robot, Tick until);
     const RobotState& end_of(RobotId robot) const { return slots_[robot.index()].end; }
-    /// The window is left off here: the state that is stepped on is that at `tick`.
+    /// The window ends at `tick` because of a Cut: so does the stepped state.
     void cut_window(RobotId robot, Tick tick);
-    /// Before what is left of a window is stepped: the states at its start, of those that have one here, may
-    /// be asked for again.
+    /// Called before the rest of a window is stepped: keeps the states at the window's start that are here,
+    /// since they may be requested again.
     void set_aside(std::span<const RobotId> robots, Tick tick);
     void forget_aside_before(Tick tick);
-    /// begin_window()'s copy for the next window, made while there is time.
+    /// Makes begin_window()'s copy for the next window in advance, while others are waited for.
     void copy_ahead(RobotId robot);
 
-    /// Copies these robots' states at `tick`, to be found after the slots have moved on.
+    /// Copies these robots' states at `tick`, so that they can be found after the slots have been reused.
     void keep(std::span<const RobotId> robots, Tick tick);
     void release_before(Tick tick);
-    /// Appends the state to `out`; false: not here.
+    /// Appends the state to `out`; false: there is none.
     bool copy_to(StateBlock& out, RobotId robot, Tick tick) const;
-    /// The state, if it is that of a window under way or just done; copies that were kept do not count.
+    /// The state, if it belongs to the window in progress or the last one; kept copies are not searched.
     const RobotState* find(RobotId robot, Tick tick) const;
     void clear();
 

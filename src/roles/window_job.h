@@ -1,4 +1,4 @@
-// What the files of WindowStepper share: one call of step(), and islands that go together.
+// Shared by the files of WindowStepper: one call of step(), and islands that are stepped together.
 #pragma once
 
 #include <algorithm>
@@ -7,28 +7,28 @@
 
 namespace roboss {
 
-inline constexpr std::size_t kSignOfLife = 512;  // robots times ticks, after which there is a sign of life
+inline constexpr std::size_t kHeartbeatWork = 512;  // robots times ticks between two heartbeats
 inline constexpr double kCounted_ns =
-    1'200;  // for an effort (step.h) where no time is measured: a car's, about
+    1'200;  // for a unit of effort (step.h) where no time is measured: about a car's
 
-/// Whether, of so many robots stepped together, something is due after so many ticks.
-inline bool is_due(std::size_t robots, Tick ticks, std::size_t each = kSignOfLife) {
+/// Whether something is due after `ticks` ticks of `robots` robots that are stepped together.
+inline bool is_due(std::size_t robots, Tick ticks, std::size_t each = kHeartbeatWork) {
     return ticks % static_cast<Tick>(std::max<std::size_t>(each / robots, 1)) == 0;
 }
 
 struct WindowStepper::Job {
-    const Plan& plan;
+    const Assignment& assignment;
     StateStore& store;
     const Between& between;
-    Frame frame;
+    WindowResult result;
 
     std::span<const RobotId> robots(std::size_t island) const {
-        const std::size_t first = plan.island_offsets[island];
-        return std::span(plan.robots).subspan(first, plan.island_offsets[island + 1] - first);
+        const std::size_t first = assignment.island_offsets[island];
+        return std::span(assignment.robots).subspan(first, assignment.island_offsets[island + 1] - first);
     }
 };
 
-struct WindowStepper::Convoy {
+struct WindowStepper::LaneGroup {
     std::vector<std::uint32_t> islands;  // ascending, as their robots are
     std::vector<std::size_t> next;       // by island: its next order
     std::vector<RobotId> robots;
@@ -37,9 +37,9 @@ struct WindowStepper::Convoy {
     std::vector<Order> orders;  // of a tick
 };
 
-struct WindowStepper::Abreast {
+struct WindowStepper::Lockstep {
     std::span<const std::uint32_t> larger;  // islands of several robots
-    bool convoy_goes = false;               // of the others
+    bool lane_group_goes = false;           // of the others; false: it failed
     bool intact = true;                     // nothing has failed
 };
 

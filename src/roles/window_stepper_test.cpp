@@ -18,15 +18,15 @@ World lone_balls(int count) {
     return world;
 }
 
-Plan plan_for(const Simulation& sim, Tick until) {
-    Plan plan;
-    plan.until = until;
-    plan.island_offsets = {0};
+Assignment assignment_for(const Simulation& sim, Tick until) {
+    Assignment assignment;
+    assignment.until = until;
+    assignment.island_offsets = {0};
     for (const RobotId robot : sim.ids) {
-        plan.robots.push_back(robot);
-        plan.island_offsets.push_back(static_cast<std::uint32_t>(plan.robots.size()));
+        assignment.robots.push_back(robot);
+        assignment.island_offsets.push_back(static_cast<std::uint32_t>(assignment.robots.size()));
     }
-    return plan;
+    return assignment;
 }
 
 TEST(WindowStepper, StepsTheOthersToTheEndWhenOneFails) {
@@ -39,15 +39,15 @@ TEST(WindowStepper, StepsTheOthersToTheEndWhenOneFails) {
     }
     ThreadPool pool(1);
     WindowStepper stepper(sim.model, pool, {nullptr, nullptr, 1});
-    const Frame frame =
-        stepper.step(plan_for(sim, 8), store, [](const StepProgress&) { return WindowStepper::Next::kGoOn; });
+    const WindowResult result = stepper.step(
+        assignment_for(sim, 8), store, [](const StepProgress&) { return WindowStepper::Next::kContinue; });
     for (int i = 0; i < 8; ++i) sim.step();
-    ASSERT_EQ(frame.islands.size(), 6u);
+    ASSERT_EQ(result.islands.size(), 6u);
     for (std::size_t i = 0; i < 6; ++i) {
-        EXPECT_EQ(frame.islands[i].failed.valid(), i == 2) << i;
+        EXPECT_EQ(result.islands[i].failed.valid(), i == 2) << i;
         if (i == 2) continue;
-        EXPECT_EQ(frame.robots[i].hash, state_hash(RobotId(i), 8, sim.states[i])) << i;
-        EXPECT_EQ(frame.robots[i].robot, RobotId(i));
+        EXPECT_EQ(result.robots[i].hash, state_hash(RobotId(i), 8, sim.states[i])) << i;
+        EXPECT_EQ(result.robots[i].robot, RobotId(i));
     }
 }
 
@@ -58,7 +58,7 @@ TEST(WindowStepper, WhatACutLeavesIsSteppedOnBySomebodyElseToTheSameStates) {
     constexpr std::size_t kBalls = 6, kKept = 4;
     Simulation sim(lone_balls(kBalls));
     ThreadPool pool(1);
-    const auto goes_on = [](const StepProgress&) { return WindowStepper::Next::kGoOn; };
+    const auto goes_on = [](const StepProgress&) { return WindowStepper::Next::kContinue; };
     const auto started = [&](StateStore& store) {
         for (const RobotId robot : sim.ids) store.put(robot, 0, RobotState(sim.states[robot.index()]));
     };
@@ -66,19 +66,19 @@ TEST(WindowStepper, WhatACutLeavesIsSteppedOnBySomebodyElseToTheSameStates) {
     started(whole_store), started(store);
     WindowStepper whole(sim.model, pool, {}), stepper(sim.model, pool, {{}, {}, kMostLanes, 1}),
         other(sim.model, pool, {});
-    Plan plan = plan_for(sim, kUntil);
-    const Frame expected = whole.step(plan, whole_store, goes_on);
+    Assignment assignment = assignment_for(sim, kUntil);
+    const WindowResult expected = whole.step(assignment, whole_store, goes_on);
 
-    plan.due_ns = 1;
-    const Frame cut = stepper.step(plan, store, [&](const StepProgress& progress) {
-        return progress.done * kUntil < kCut ? WindowStepper::Next::kGoOn : WindowStepper::Next::kStop;
+    assignment.due_ns = 1;
+    const WindowResult cut = stepper.step(assignment, store, [&](const StepProgress& progress) {
+        return progress.done * kUntil < kCut ? WindowStepper::Next::kContinue : WindowStepper::Next::kStop;
     });
     EXPECT_EQ(cut.left, static_cast<std::uint64_t>(kUntil - kCut));
     EXPECT_TRUE(cut.robots.empty());
     ASSERT_EQ(cut.islands.size(), kBalls);
 
     const auto rest_of = [&](std::size_t first, std::size_t last) {
-        Plan rest = plan_for(sim, kUntil);
+        Assignment rest = assignment_for(sim, kUntil);
         rest.from = kCut;
         rest.robots.assign(sim.ids.begin() + static_cast<std::ptrdiff_t>(first),
                            sim.ids.begin() + static_cast<std::ptrdiff_t>(last));
@@ -88,13 +88,13 @@ TEST(WindowStepper, WhatACutLeavesIsSteppedOnBySomebodyElseToTheSameStates) {
     for (std::size_t i = kKept; i < kBalls; ++i)
         other_store.put(sim.ids[i], kCut, RobotState(*store.find(sim.ids[i], kCut)));
     for (std::size_t i = 0; i < kKept; ++i) ASSERT_TRUE(store.start(sim.ids[i], kCut));
-    const Frame kept = stepper.step(rest_of(0, kKept), store, goes_on),
-                given = other.step(rest_of(kKept, kBalls), other_store, goes_on);
+    const WindowResult kept = stepper.step(rest_of(0, kKept), store, goes_on),
+                       given = other.step(rest_of(kKept, kBalls), other_store, goes_on);
 
     ASSERT_EQ(kept.earlier.size(), kBalls - kKept);
     for (std::size_t i = 0; i < kBalls; ++i) {
-        const RobotFrame& got = i < kKept ? kept.robots[i] : given.robots[i - kKept];
-        const IslandFrame& rest = i < kKept ? kept.islands[i] : given.islands[i - kKept];
+        const RobotResult& got = i < kKept ? kept.robots[i] : given.robots[i - kKept];
+        const IslandResult& rest = i < kKept ? kept.islands[i] : given.islands[i - kKept];
         EXPECT_EQ(got.hash, expected.robots[i].hash) << i;
         EXPECT_EQ(cut.islands[i].cost_ns + rest.cost_ns, expected.islands[i].cost_ns) << i;
         if (i < kKept) {

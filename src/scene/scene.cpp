@@ -6,7 +6,7 @@
 #include <set>
 
 #include "core/hash.h"
-#include "scene/shape_book.h"
+#include "scene/shape_table.h"
 
 namespace roboss {
 namespace {
@@ -145,7 +145,7 @@ class SceneMaker {
     std::span<const World* const> worlds_;
     std::map<std::string, const ModelSpec*> specs_;  // by the names of their instances
     std::set<std::string> drawn_;                    // scenery whose visuals are there
-    ShapeBook shapes_;
+    ShapeTable shapes_;
     Scene scene_;
 };
 

@@ -34,8 +34,8 @@ class WorldLoader {
   public:
     WorldLoader(const LoadOptions& options, Diagnostics& diagnostics)
         : paths_(options.search_paths),
-          looks_(paths_, options.looks),
-          import_{paths_, ElementReader(diagnostics), files_, looks_, 0.001, -1},
+          visuals_(paths_, options.looks),
+          import_{paths_, ElementReader(diagnostics), files_, visuals_, 0.001, -1},
           includes_(paths_, diagnostics),
           libsdformat_(includes_, diagnostics),
           diagnostics_(diagnostics),
@@ -161,7 +161,7 @@ class WorldLoader {
 
     ResourcePaths paths_;
     ShapeFiles files_;
-    LookFiles looks_;
+    LookFiles visuals_;
     Import import_;
     IncludeStore includes_;
     LibsdformatReader libsdformat_;

@@ -1,4 +1,4 @@
-// For the tests of this floor: worlds given as text, in a folder of their own that goes away with the object.
+// For the tests of this layer: worlds given as text, in a folder of their own that goes away with the object.
 #pragma once
 
 #include <algorithm>

@@ -21,24 +21,24 @@ class Side {
         Result<std::shared_ptr<const Model>> model = journal_.model(branch_);
         if (!model) return model.error();
         model_ = model.value();
-        places_ = journal_.checkpoints(branch_);
+        entries_ = journal_.checkpoints(branch_);
         return Ok{};
     }
     const Model& model() const { return *model_; }
     const Branch& branch() const { return branch_; }
     const Journal& journal() const { return journal_; }
-    Tick first() const { return places_.front().tick; }
+    Tick first() const { return entries_.front().tick; }
     Tick last() const { return branch_.end; }
 
-    const CheckpointPlace* place(Tick tick) const {
-        for (const CheckpointPlace& place : places_)
-            if (place.tick == tick) return &place;
+    const CheckpointEntry* entry(Tick tick) const {
+        for (const CheckpointEntry& entry : entries_)
+            if (entry.tick == tick) return &entry;
         return nullptr;
     }
-    const std::vector<CheckpointPlace>& places() const { return places_; }
+    const std::vector<CheckpointEntry>& entries() const { return entries_; }
     /// The states at a tick: kept ones if there are any, else stepped again.
     Result<States> states(Tick tick) const {
-        if (const CheckpointPlace* kept = place(tick)) {
+        if (const CheckpointEntry* kept = entry(tick)) {
             Result<StoredCheckpoint> stored = journal_.checkpoint(*kept, *model_);
             if (!stored) return stored.error();
             return std::move(stored.value().states);
@@ -57,10 +57,10 @@ class Side {
     Branch branch_;
     ReplayOptions options_;
     std::shared_ptr<const Model> model_;
-    std::vector<CheckpointPlace> places_;
+    std::vector<CheckpointEntry> entries_;
 };
 
-/// Fills in who differs and in what; false if nobody does.
+/// Fills in the robots and fields that differ; false if there are none.
 bool describe(const Model& model, const States& a, const States& b, Divergence& result) {
     result.robots = 0;
     for (std::size_t r = 0; r < a.size(); ++r) {
@@ -91,7 +91,7 @@ Result<> describe_orders(const Side& a, const Side& b, Tick tick, Divergence& re
     for (std::size_t i = 0; i < 2; ++i) {
         Result<LogBatch> log = sides[i]->journal().log(sides[i]->branch(), tick, tick + 1);
         if (!log) return log.error();
-        for (const SaidOrder& o : log.value().orders) {
+        for (const LoggedOrder& o : log.value().orders) {
             if (o.order.apply_at != tick) continue;
             if (Result<> checked = check_order(sides[i]->model(), o.order); !checked) return checked;
             orders[i].emplace_back(encode_orders({o.order}), describe(sides[i]->model(), o.order));
@@ -132,10 +132,10 @@ Result<std::optional<Divergence>> step_apart(const Side& a, const Side& b, Tick 
 /// Ticks to be compared, ascending: checkpoints that both have; else those of one; and the last.
 std::vector<Tick> ticks_to_compare(const Side& a, const Side& b, Tick from, Tick until) {
     std::vector<Tick> common{from, until}, all{from, until};
-    for (const CheckpointPlace& place : a.places()) {
-        if (place.tick <= from || place.tick >= until) continue;
-        all.push_back(place.tick);
-        if (b.place(place.tick) != nullptr) common.push_back(place.tick);
+    for (const CheckpointEntry& entry : a.entries()) {
+        if (entry.tick <= from || entry.tick >= until) continue;
+        all.push_back(entry.tick);
+        if (b.entry(entry.tick) != nullptr) common.push_back(entry.tick);
     }
     std::vector<Tick>& chosen = common.size() > 2 ? common : all;
     std::sort(chosen.begin(), chosen.end());
@@ -144,7 +144,7 @@ std::vector<Tick> ticks_to_compare(const Side& a, const Side& b, Tick from, Tick
 }
 
 Result<bool> equal_at(const Side& a, const Side& b, Tick tick, Divergence& found) {
-    const CheckpointPlace *kept_a = a.place(tick), *kept_b = b.place(tick);
+    const CheckpointEntry *kept_a = a.entry(tick), *kept_b = b.entry(tick);
     if (kept_a != nullptr && kept_b != nullptr && a.model().hash == b.model().hash &&
         kept_a->hash == kept_b->hash)
         return true;
@@ -155,16 +155,16 @@ Result<bool> equal_at(const Side& a, const Side& b, Tick tick, Divergence& found
     return !describe(a.model(), states_a.value(), states_b.value(), found);
 }
 
-/// The place of the first tick whose kept hashes differ; the last place if there is none. Costs nothing.
+/// The index of the first tick whose kept hashes differ; the last index if there is none. Costs nothing.
 std::size_t first_kept_apart(const Side& a, const Side& b, const std::vector<Tick>& ticks) {
     for (std::size_t i = 0; i < ticks.size() && a.model().hash == b.model().hash; ++i) {
-        const CheckpointPlace *kept_a = a.place(ticks[i]), *kept_b = b.place(ticks[i]);
+        const CheckpointEntry *kept_a = a.entry(ticks[i]), *kept_b = b.entry(ticks[i]);
         if (kept_a != nullptr && kept_b != nullptr && kept_a->hash != kept_b->hash) return i;
     }
     return ticks.size() - 1;
 }
 
-/// The first tick of `ticks` that differs, by halving; ticks.size() if none does.
+/// The first tick of `ticks` that differs, by bisection; ticks.size() if none does.
 Result<std::size_t> first_that_differs(const Side& a, const Side& b, const std::vector<Tick>& ticks,
                                        Divergence& found) {
     std::size_t low = 0, high = first_kept_apart(a, b, ticks);  // equal before low; different from high on

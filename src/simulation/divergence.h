@@ -1,6 +1,6 @@
-// Where two runs part: the first tick at which their states differ, and what differs there. Checkpoints that
+// Where two runs diverge: the first tick at which their states differ, and the differences. Checkpoints that
 // both journals have are compared; the first stretch whose end differs is stepped again, both runs side by
-// side, tick by tick. So a journal need not hold every tick. Runs that have parted are taken to stay apart.
+// side, tick by tick. So a journal need not hold every tick. Diverged runs are assumed to stay different.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace roboss {
 
-/// One number of a robot's state, by a name that a person can read.
+/// One number of a robot's state, by a readable name.
 struct FieldDifference {
     std::string field;  // "joint 'wheel_0' velocity"
     std::string a, b;   // the values, exact
@@ -27,13 +27,13 @@ struct Divergence {
     std::string robot;
     FieldDifference field;
     std::size_t robots = 0;  // that differ at this tick
-    /// Orders that took effect in the step before it in one run only, in words.
+    /// Orders that took effect in the step before it in one run only, as text.
     std::vector<std::string> orders_a_only, orders_b_only;
-    std::string remark;  // what else is to be known
+    std::string remark;  // additional remarks
 };
 
 struct Comparison {
-    Tick from = 0, until = 0;  // what was compared
+    Tick from = 0, until = 0;  // the ticks compared
     std::uint64_t model_a = 0, model_b = 0;
     std::optional<Divergence> divergence;
 };

@@ -6,10 +6,10 @@
 namespace roboss {
 
 Result<std::unique_ptr<Simulation>> replay_from(const Journal& journal, const Branch& branch,
-                                                const CheckpointPlace& place,
+                                                const CheckpointEntry& entry,
                                                 const std::shared_ptr<const Model>& model, Tick until,
                                                 const ReplayOptions& options) {
-    Result<SavedRun> run = journal.run_from(branch, place, *model, until);
+    Result<SavedRun> run = journal.run_from(branch, entry, *model, until);
     if (!run) return run.error();
     SimulationOptions simulation;
     simulation.threads = options.threads;
@@ -22,10 +22,10 @@ Result<std::unique_ptr<Simulation>> replay_from(const Journal& journal, const Br
 Result<std::unique_ptr<Simulation>> replay_at(const Journal& journal, const Branch& branch,
                                               const std::shared_ptr<const Model>& model, Tick tick,
                                               Tick until, const ReplayOptions& options) {
-    const std::vector<CheckpointPlace> places = journal.checkpoints(branch);
-    const auto above = std::upper_bound(places.begin(), places.end(), tick,
-                                        [](Tick t, const CheckpointPlace& p) { return t < p.tick; });
-    if (above == places.begin())
+    const std::vector<CheckpointEntry> entries = journal.checkpoints(branch);
+    const auto above = std::upper_bound(entries.begin(), entries.end(), tick,
+                                        [](Tick t, const CheckpointEntry& p) { return t < p.tick; });
+    if (above == entries.begin())
         return Error{journal.path() + " has no checkpoint before tick " + std::to_string(tick) +
                          " of branch " + std::to_string(branch.id),
                      "give a later time"};
@@ -40,14 +40,14 @@ Result<std::vector<Stretch>> verify(const Journal& journal, const Branch& branch
                                     const std::function<void(const Stretch&)>& tell) {
     Result<std::shared_ptr<const Model>> model = journal.model(branch);
     if (!model) return model.error();
-    const std::vector<CheckpointPlace> places = journal.checkpoints(branch);
+    const std::vector<CheckpointEntry> entries = journal.checkpoints(branch);
     std::vector<Stretch> stretches;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const bool last = i + 1 == places.size();
-        Stretch s{branch.id, places[i].tick, last ? branch.committed : places[i + 1].tick,
-                  last ? branch.hash : places[i + 1].hash, 0};
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const bool last = i + 1 == entries.size();
+        Stretch s{branch.id, entries[i].tick, last ? branch.committed : entries[i + 1].tick,
+                  last ? branch.hash : entries[i + 1].hash, 0};
         if (s.until <= s.from) break;
-        auto simulation = replay_from(journal, branch, places[i], model.value(), s.until, options);
+        auto simulation = replay_from(journal, branch, entries[i], model.value(), s.until, options);
         if (!simulation) return simulation.error();
         if (Result<> done = simulation.value()->run_until(s.until); !done) return done.error();
         s.found = simulation.value()->hash();

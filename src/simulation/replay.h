@@ -1,4 +1,4 @@
-// Replay: what a journal says, stepped again without its Clients, and compared with what was kept.
+// Replay: steps a journal's run again without its Clients, and compares it with the checkpoints.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@ struct ReplayOptions {
 
 /// A Simulation at this checkpoint, whose orders are those of the branch up to `until`.
 Result<std::unique_ptr<Simulation>> replay_from(const Journal& journal, const Branch& branch,
-                                                const CheckpointPlace& place,
+                                                const CheckpointEntry& entry,
                                                 const std::shared_ptr<const Model>& model, Tick until,
                                                 const ReplayOptions& options);
 
@@ -25,7 +25,7 @@ Result<std::unique_ptr<Simulation>> replay_at(const Journal& journal, const Bran
                                               const std::shared_ptr<const Model>& model, Tick tick,
                                               Tick until, const ReplayOptions& options);
 
-/// From one place where a branch's hash is known to the next.
+/// From one checkpoint where a branch's hash is known to the next.
 struct Stretch {
     BranchId branch = 0;
     Tick from = 0, until = 0;
@@ -34,7 +34,7 @@ struct Stretch {
 };
 
 /// Steps every stretch of the branch again, from its first checkpoint to the last tick whose hash is known;
-/// each from what was kept, so that one fault does not hide the next. `tell` hears of each as it is done.
+/// each from its checkpoint, so that one fault does not hide the next. Calls `tell` after each.
 Result<std::vector<Stretch>> verify(const Journal& journal, const Branch& branch,
                                     const ReplayOptions& options,
                                     const std::function<void(const Stretch&)>& tell = {});

@@ -61,7 +61,7 @@ Simulation::Simulation(std::shared_ptr<const Model> model, const SimulationOptio
       bus_(bus ? std::move(bus) : std::make_unique<InProcessBus>()),
       pool_(options.threads),
       lanes_(options.lanes),
-      guest_(options.guest),
+      observer_(options.observer),
       controller_(model_, controller_options(options, programs),
                   starting_point(*model_, from, controller_options(options, programs).clients)),
       probe_(*model_),
@@ -86,7 +86,7 @@ void Simulation::add_simulator() {
 }
 
 bool Simulation::remove_simulator() {
-    return controller_.send_one_home();
+    return controller_.dismiss_simulator();
 }
 
 std::vector<std::string> Simulation::clients_elsewhere() const {
@@ -107,10 +107,10 @@ void Simulation::turn() {
     serve_log();
     for (auto& simulator : simulators_) simulator->advance(*bus_);
     std::erase_if(simulators_, [](const auto& simulator) { return simulator->gone(); });
-    if (guest_) guest_(*bus_);
+    if (observer_) observer_(*bus_);
 }
 
-/// Puts what control programs remember at its tick into a checkpoint for the log.
+/// Adds the memory of control programs at its tick to a checkpoint for the log.
 void Simulation::serve_log() {
     if (log_ == nullptr) return;
     if (controller_.log_tick() && controller_.log_tick() != noting_) {
@@ -136,7 +136,7 @@ void Simulation::serve_log() {
 }
 
 void Simulation::wait() {
-    constexpr std::int64_t kLongestWait_ms = 10;  // roles send again and notice losses by the clock
+    constexpr std::int64_t kLongestWait_ms = 10;  // roles resend and detect losses by the clock
     if (controller_.waits_for_log()) return log_->wait_safe(controller_.log_needed(), kLongestWait_ms);
     bus_->wait(kLongestWait_ms);
 }

@@ -1,6 +1,6 @@
-// Simulation: the Controller and whoever else lives in its process (Simulators, control programs), and the
-// Bus between them. It only gives each role its turn; everything else is the roles' own. With a Bus that
-// reaches further, others take part from their own processes.
+// Simulation: the Controller and the other roles of its process (Simulators, control programs), and the Bus
+// between them. It only calls each role's advance() in turn. With a Bus over a network, others take part from
+// their own processes.
 #pragma once
 
 #include <functional>
@@ -30,28 +30,28 @@ struct SimulationOptions {
     std::size_t simulators_awaited = 0;  // in others: the first window waits for them too
     std::vector<std::string> clients_awaited;
     unsigned threads = 1;            // that step islands, shared by the Simulators of this process
-    std::size_t lanes = kMostLanes;  // robots of a type stepped at once, as far as the processor can
+    std::size_t lanes = kMostLanes;  // most robots of a type stepped at once
     std::string world_file;          // for saved runs
-    /// Whoever else has its turns in this process, a viewer say; no result may depend on it.
-    std::function<void(Bus&)> guest;
+    /// Called in every round: advances a viewer, say. No result may depend on it.
+    std::function<void(Bus&)> observer;
     ControllerOptions controller;  // its `simulators` and `clients` are set from here
 };
 
 class Simulation {
   public:
     /// At the world's beginning, or where `from` was saved. Orders with equal ticks sort by the programs'
-    /// places, awaited Clients last. `bus`: none, and everybody is in this process.
+    /// positions, awaited Clients last. `bus`: null if all members are in this process.
     static Result<std::unique_ptr<Simulation>> create(std::shared_ptr<const Model> model,
                                                       const SimulationOptions& options,
                                                       std::vector<NamedProgram> programs = {},
                                                       const SavedRun* from = nullptr,
                                                       std::unique_ptr<Bus> bus = nullptr);
 
-    /// An order with its tick, from a file say; refused if it makes no sense or comes too late.
+    /// An order with its tick, from a file say; refused if it is invalid or too late.
     Result<> submit(const Order& order) { return controller_.submit(order); }
 
     /// Runs until the world is at `target`. An Error: the run cannot go on (a state not finite, a control
-    /// program that threw); the world is intact at tick() and can be saved. `go_on` is asked now and then;
+    /// program that threw); the world is intact at tick() and can be saved. `go_on` is called now and then;
     /// false ends the run at the next window's end (at once if it waits for its first Simulators).
     Result<> run_until(Tick target, const std::function<bool()>& go_on = {});
 
@@ -66,21 +66,21 @@ class Simulation {
     /// the joints of a robot bear in it (physics/probe.h). Valid until the next run_until().
     std::span<const ContactReport> contacts() { return probe().contacts(); }
     std::vector<JointReaction> joint_reactions(RobotId robot) { return probe().joint_reactions(robot); }
-    /// Everything needed to go on exactly.
+    /// Everything needed to continue exactly.
     SavedRun saved_run();
     Result<> save(const std::string& path) { return save_run(path, *model_, saved_run()); }
-    /// From now on the run is logged, with checkpoints at multiples of log_ticks. A log that has nothing yet
-    /// of this branch begins with a checkpoint here.
+    /// Logs the run from now on, with checkpoints at multiples of log_ticks. The log of a new branch begins
+    /// with a checkpoint here.
     void start_log(RunLog* log, Tick log_ticks);
 
     /// Names of the Clients that take part from other processes.
     std::vector<std::string> clients_elsewhere() const;
-    /// One turn for everybody while the world rests: members come and go, requests are heard.
+    /// Advances all roles once while the run rests: members join and leave, requests are accepted.
     void serve();
-    /// Another Simulator in this process, or one less, in good order; false: there is only one left.
+    /// Adds a Simulator in this process, or makes one leave; false: there is only one left.
     void add_simulator();
     bool remove_simulator();
-    /// The end of this one; the next one goes on with the Bus. (Nothing of it may be used after that.)
+    /// Ends this Simulation and returns its Bus for the next one. (It must not be used after that.)
     std::unique_ptr<Bus> release_bus() { return std::move(bus_); }
 
     const Counters& counters() const { return controller_.counters(); }
@@ -94,7 +94,7 @@ class Simulation {
     Simulation(std::shared_ptr<const Model> model, const SimulationOptions& options,
                std::vector<NamedProgram> programs, const SavedRun* from, std::unique_ptr<Bus> bus);
     void turn();
-    /// Gives everybody turns until done().
+    /// Advances all roles until done().
     template <class Done>
     void turn_until(Done&& done);
     void wait();
@@ -107,7 +107,7 @@ class Simulation {
     std::unique_ptr<Bus> bus_;
     ThreadPool pool_;
     std::size_t lanes_;  // robots of a type stepped at once
-    std::function<void(Bus&)> guest_;
+    std::function<void(Bus&)> observer_;
     std::uint64_t instance_ = 0;  // of the last role made here
     Controller controller_;
     std::vector<std::unique_ptr<ProgramHost>> hosts_;
@@ -116,7 +116,7 @@ class Simulation {
 
     RunLog* log_ = nullptr;
     std::optional<RunCheckpoint> log_checkpoint_;  // complete but for its memory
-    std::optional<Tick> noting_;                   // what control programs remember at this tick
+    std::optional<Tick> noting_;                   // the memory of control programs is noted at this tick
     ClientMemory noted_;
 };
 

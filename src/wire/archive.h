@@ -1,7 +1,7 @@
 // Writing and reading plain values as little-endian bytes. A message describes its fields once, as a function
 // template over the archive, so that encoder and decoder cannot disagree. Reading past the end or an
-// impossible count sets the reader's failure and gives zeros; it never throws and never allocates by a count
-// that the bytes cannot hold.
+// impossible count sets the reader's failure and gives zeros; it never throws, and never allocates for a
+// count that the bytes cannot hold.
 #pragma once
 
 #include <algorithm>

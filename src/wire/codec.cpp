@@ -18,28 +18,28 @@ constexpr bool kPlain =
     std::is_same_v<T, std::uint8_t> || std::is_same_v<T, std::uint32_t> || std::is_same_v<T, RobotId>;
 static_assert(sizeof(RobotId) == 4);
 
-/// Of an island in a Frame: what it has to tell besides its cost.
+/// Of an island in a WindowResult: which fields it has besides its cost.
 constexpr std::uint8_t kContacts = 1, kStaticContacts = 2, kFailure = 4;
-std::uint8_t told_of(const IslandFrame& island) {
+std::uint8_t told_of(const IslandResult& island) {
     return static_cast<std::uint8_t>((island.contacts > 0 ? kContacts : 0) |
                                      (island.static_contacts > 0 ? kStaticContacts : 0) |
                                      (island.failed.valid() ? kFailure : 0));
 }
 
-/// Of an Address' role: it has no number.
+/// Of an Address' role: its instance is 0.
 constexpr std::uint8_t kAlone = 0x80;
 
-/// What an item takes at least, so that room is made for many of them at once.
+/// The least bytes of an item, to reserve memory for lists.
 template <class T>
 constexpr std::size_t kLeastBytes = 1;
 template <>
 constexpr std::size_t kLeastBytes<Order> = 25;
 template <>
-constexpr std::size_t kLeastBytes<RobotFrame> = 42;
+constexpr std::size_t kLeastBytes<RobotResult> = 42;
 template <>
 constexpr std::size_t kLeastBytes<EarlierBox> = 25;
 template <>
-constexpr std::size_t kLeastBytes<IslandFrame> = 2;
+constexpr std::size_t kLeastBytes<IslandResult> = 2;
 
 template <class A, class... Fields>
 void fields(A& a, Fields&... values);
@@ -53,7 +53,7 @@ void field(Writer& a, const std::variant<T...>& value);
 template <class... T>
 void field(Reader& a, std::variant<T...>& value);
 
-/// What small messages about a plan begin with.
+/// The first fields of small messages about an assignment.
 template <class A, class Epoch, class Window, class Attempt>
 void head(A& a, Epoch& epoch, Window& window, Attempt& attempt) {
     compact(a, epoch);
@@ -61,7 +61,7 @@ void head(A& a, Epoch& epoch, Window& window, Attempt& attempt) {
     compact(a, attempt);
 }
 
-/// A list that is mostly short.
+/// A list, mostly a short one.
 template <class T, class Each>
 void short_list(Writer& a, const std::vector<T>& values, const Each& each) {
     compact(a, values.size());
@@ -76,7 +76,7 @@ void short_list(Reader& a, std::vector<T>& values, const Each& each) {
     for (std::size_t i = 0; i < values.size() && !a.failed(); ++i) each(values[i]);
 }
 
-/// Robots of a list are mostly near each other: how far it is from the last one, in either direction.
+/// Ids of a list are mostly close to each other: encodes the signed difference to the last one.
 inline void next_robot(Writer& a, RobotId robot, std::uint32_t& last) {
     const std::uint32_t gap = robot.value - last;
     compact(a, (gap << 1) ^ (0 - (gap >> 31)));
@@ -89,7 +89,7 @@ inline void next_robot(Reader& a, RobotId& robot, std::uint32_t& last) {
     robot = RobotId(last);
 }
 
-/// The Controller is alone in its role, so its number, 0, need not be told.
+/// The Controller is the only one of its role, so its instance, 0, is not encoded.
 inline void field(Writer& a, const Address& m) {
     const auto& [role, instance] = m;
     const bool alone = instance == 0;
@@ -106,8 +106,8 @@ inline void field(Reader& a, Address& m) {
     if (m.instance == 0) a.fail("an address has no number");
 }
 
-// Each description names all members of its struct, in their order, before it says how they travel: a new
-// member breaks the build here, so that it is not forgotten.
+// Each description first names all members of its struct, in order, and then encodes them: a forgotten new
+// member breaks the build here.
 // clang-format off
 template <class A> void field(A& a, Of<A, Vec3>& m) { auto& [x, y, z] = m; fields(a, x, y, z); }
 template <class A> void field(A& a, Of<A, Quat>& m) { auto& [w, x, y, z] = m; fields(a, w, x, y, z); }
@@ -127,20 +127,20 @@ template <class A> void field(A& a, Of<A, Hello>& m) { auto& [model_hash, thread
 template <class A> void field(A& a, Of<A, Welcome>& m) { auto& [simulator] = m; fields(a, simulator); }
 template <class A> void field(A& a, Of<A, Refused>& m) { auto& [reason] = m; fields(a, reason); }
 template <class A> void field(A& a, Of<A, Expelled>& m) { auto& [simulator] = m; fields(a, simulator); }
-template <class A> void field(A& a, Of<A, Alive>& m) { auto& [simulator] = m; fields(a, simulator); }
+template <class A> void field(A& a, Of<A, Heartbeat>& m) { auto& [simulator] = m; fields(a, simulator); }
 template <class A> void field(A& a, Of<A, LeaveRequest>& m) { auto& [simulator] = m; fields(a, simulator); }
 template <class A> void field(A& a, Of<A, Goodbye>& m) { auto& [simulator] = m; fields(a, simulator); }
-template <class A> void field(A& a, Of<A, Plan>& m) {
-    auto& [epoch, window, attempt, simulator, window_from, from, until, island_offsets, robots, hand_offs, gives, orders, ahead, keep,
+template <class A> void field(A& a, Of<A, Assignment>& m) {
+    auto& [epoch, window, attempt, simulator, window_from, from, until, island_offsets, robots, hand_offs, transfers, orders, ahead, keep,
            release_before, due_ns] = m;
-    fields(a, epoch, window, attempt, simulator, window_from, from, until, island_offsets, robots, hand_offs, gives, orders, ahead, keep,
+    fields(a, epoch, window, attempt, simulator, window_from, from, until, island_offsets, robots, hand_offs, transfers, orders, ahead, keep,
            release_before, due_ns);
 }
 template <class A> void field(A& a, Of<A, OrdersAhead>& m) { auto& [window, simulator, orders] = m; fields(a, window, simulator, orders); }
 template <class A> void field(A& a, Of<A, Late>& m) { auto& [epoch, window, attempt, needs_ns] = m; head(a, epoch, window, attempt); compact(a, needs_ns); }
 template <class A> void field(A& a, Of<A, Cut>& m) { auto& [epoch, window, attempt, simulator] = m; head(a, epoch, window, attempt); field(a, simulator); }
 template <class A> void field(A& a, Of<A, Box32>& m) { auto& [min, max] = m; fields(a, min, max); }
-template <class A> void field(A& a, Of<A, IslandFrame>& m) {
+template <class A> void field(A& a, Of<A, IslandResult>& m) {
     auto& [cost_ns, contacts, static_contacts, failed, failed_at, failed_joint, beyond_numbers] = m;
     std::uint8_t told = told_of(m);
     field(a, told);
@@ -148,17 +148,17 @@ template <class A> void field(A& a, Of<A, IslandFrame>& m) {
     if ((told & kContacts) != 0) compact(a, contacts);
     if ((told & kStaticContacts) != 0) compact(a, static_contacts);
     if ((told & kFailure) != 0) fields(a, failed, failed_at, failed_joint, beyond_numbers);
-    if constexpr (A::kReading) if (told != told_of(m)) a.fail("an island does not have what it tells of");
+    if constexpr (A::kReading) if (told != told_of(m)) a.fail("an island lacks a field that its flags announce");
 }
-template <class A> void field(A& a, Of<A, Frame>& m) {
+template <class A> void field(A& a, Of<A, WindowResult>& m) {
     auto& [epoch, window, attempt, left, robots, earlier, islands] = m;
     head(a, epoch, window, attempt);
     compact(a, left);
     std::uint32_t last = 0;
     short_list(a, robots, [&](auto& r) {
-        auto& [robot, swept, place, velocity, hash] = r;
+        auto& [robot, swept, position, velocity, hash] = r;
         next_robot(a, robot, last);
-        fields(a, swept, place, velocity, hash);
+        fields(a, swept, position, velocity, hash);
     });
     short_list(a, earlier, [&](auto& e) { auto& [robot, swept] = e; next_robot(a, robot, last); field(a, swept); });
     short_list(a, islands, [&](auto& i) { field(a, i); });
@@ -166,19 +166,19 @@ template <class A> void field(A& a, Of<A, Frame>& m) {
 template <class A> void field(A& a, Of<A, StateRequest>& m) { auto& [tick, robots, window] = m; fields(a, tick, window, robots); }
 template <class A> void field(A& a, Of<A, StateReply>& m) { auto& [states, window] = m; fields(a, window, states); }
 template <class A> void field(A& a, Of<A, ClientHello>& m) {
-    auto& [name, model_hash, period, latency, synchronous, guest, expected, acknowledged, said] = m;
-    fields(a, name, model_hash, period, latency, synchronous, guest, expected, acknowledged, said);
+    auto& [name, model_hash, period, latency, synchronous, observer, expected, acknowledged, last_reply] = m;
+    fields(a, name, model_hash, period, latency, synchronous, observer, expected, acknowledged, last_reply);
 }
 template <class A> void field(A& a, Of<A, ClientWelcome>& m) { auto& [client, first, seed] = m; fields(a, client, first, seed); }
-template <class A> void field(A& a, Of<A, Observation>& m) { auto& [tick, last_word, holders] = m; fields(a, tick, last_word, holders); }
+template <class A> void field(A& a, Of<A, Observation>& m) { auto& [tick, last_reply, holders] = m; fields(a, tick, last_reply, holders); }
 template <class A> void field(A& a, Of<A, ClientOrder>& m) { auto& [sequence, robot, action] = m; fields(a, sequence, robot, action); }
-template <class A> void field(A& a, Of<A, ClientWord>& m) { auto& [client, word, observed, orders] = m; fields(a, client, word, observed, orders); }
+template <class A> void field(A& a, Of<A, ClientReply>& m) { auto& [client, number, observed, orders] = m; fields(a, client, number, observed, orders); }
 template <class A> void field(A& a, Of<A, RefusedOrder>& m) { auto& [sequence, reason] = m; fields(a, sequence, reason); }
-template <class A> void field(A& a, Of<A, WordAck>& m) { auto& [client, word, refused] = m; fields(a, client, word, refused); }
-template <class A> void field(A& a, Of<A, ClientBye>& m) { auto& [client, word, failed, reason] = m; fields(a, client, word, failed, reason); }
+template <class A> void field(A& a, Of<A, ReplyAck>& m) { auto& [client, number, refused] = m; fields(a, client, number, refused); }
+template <class A> void field(A& a, Of<A, ClientBye>& m) { auto& [client, number, failed, reason] = m; fields(a, client, number, failed, reason); }
 template <class A> void field(A& a, Of<A, RunOver>& m) { auto& [reason] = m; fields(a, reason); }
 template <class A> void field(A& a, Of<A, ClientUnknown>& m) { auto& [client] = m; fields(a, client); }
-template <class A> void field(A& a, Of<A, ControlRequest>& m) { auto& [number, words] = m; fields(a, number, words); }
+template <class A> void field(A& a, Of<A, ControlRequest>& m) { auto& [number, arguments] = m; fields(a, number, arguments); }
 template <class A> void field(A& a, Of<A, ControlReply>& m) { auto& [number, done, text] = m; fields(a, number, done, text); }
 template <class A> void field(A& a, Of<A, ModelChanged>& m) { auto& [model_hash] = m; fields(a, model_hash); }
 template <class A> void field(A& a, Of<A, ModelRequest>& m) { auto& [what, offset] = m; fields(a, what, offset); }
@@ -243,10 +243,10 @@ void field(Reader& a, std::variant<T...>& value) {
     if (!a.failed()) read_alternative(a, index, value);
 }
 
-// What the fields' types alone cannot say and every receiver relies on. A rule needs no Model; what does is
-// checked by the role that receives the message.
+// Rules beyond the fields' types on which every receiver relies. They need no Model; the receiving role
+// checks what does.
 
-/// So far that sums of two ticks do not overflow. -1: before the first.
+/// Bounded so that sums of two ticks do not overflow. -1: before the first.
 bool in_range(Tick tick) {
     constexpr Tick kFarthest = Tick{1} << 60;
     return tick >= -1 && tick <= kFarthest;
@@ -275,19 +275,22 @@ const char* broken_rule(const StateBlock& block) {
     return in_range(block.tick) ? nullptr : kTickOutOfRange;
 }
 
-const char* broken_rule(const Plan& plan) {
-    const auto& offsets = plan.island_offsets;
-    if (offsets.empty() || offsets.front() != 0 || offsets.back() != plan.robots.size())
+const char* broken_rule(const Assignment& assignment) {
+    const auto& offsets = assignment.island_offsets;
+    if (offsets.empty() || offsets.front() != 0 || offsets.back() != assignment.robots.size())
         return "its islands do not cover its robots";
     for (std::size_t i = 1; i < offsets.size(); ++i)
         if (offsets[i] <= offsets[i - 1]) return "one of its islands is empty";
-    for (const Tick tick : {plan.window_from, plan.from, plan.until, plan.release_before})
+    for (const Tick tick :
+         {assignment.window_from, assignment.from, assignment.until, assignment.release_before})
         if (!in_range(tick)) return kTickOutOfRange;
-    if (plan.window_from < 0 || plan.until < plan.from || plan.from < plan.window_from)
+    if (assignment.window_from < 0 || assignment.until < assignment.from ||
+        assignment.from < assignment.window_from)
         return "it ends before it starts";
-    const bool inside = std::all_of(plan.orders.begin(), plan.orders.end(), [&](const Order& order) {
-        return plan.from <= order.apply_at && order.apply_at < plan.until;
-    });
+    const bool inside =
+        std::all_of(assignment.orders.begin(), assignment.orders.end(), [&](const Order& order) {
+            return assignment.from <= order.apply_at && order.apply_at < assignment.until;
+        });
     return inside ? nullptr : "one of its orders is for a tick that it does not step";
 }
 
@@ -295,15 +298,15 @@ const char* broken_rule(const OrdersAhead& ahead) {
     return broken_rule_of(ahead.orders);
 }
 
-const char* broken_rule(const Frame& frame) {
-    const bool told = frame.left == 0 || (frame.robots.empty() && frame.earlier.empty());
-    if (!told) return "it was cut short and tells of robots";
+const char* broken_rule(const WindowResult& result) {
+    const bool told = result.left == 0 || (result.robots.empty() && result.earlier.empty());
+    if (!told) return "it was cut short and lists robots";
     const auto numbers = [](const auto& entry) { return is_number(entry.swept); };
-    if (!std::all_of(frame.robots.begin(), frame.robots.end(), numbers) ||
-        !std::all_of(frame.earlier.begin(), frame.earlier.end(), numbers))
+    if (!std::all_of(result.robots.begin(), result.robots.end(), numbers) ||
+        !std::all_of(result.earlier.begin(), result.earlier.end(), numbers))
         return "a robot's bound is not a number";
-    const bool known = std::all_of(frame.islands.begin(), frame.islands.end(),
-                                   [](const IslandFrame& island) { return in_range(island.failed_at); });
+    const bool known = std::all_of(result.islands.begin(), result.islands.end(),
+                                   [](const IslandResult& island) { return in_range(island.failed_at); });
     return known ? nullptr : kTickOutOfRange;
 }
 
@@ -323,8 +326,8 @@ const char* broken_rule(const ClientWelcome& welcome) {
     return in_range(welcome.first) ? nullptr : kTickOutOfRange;
 }
 
-const char* broken_rule(const ClientWord& word) {
-    return in_range(word.observed) ? nullptr : kTickOutOfRange;
+const char* broken_rule(const ClientReply& reply) {
+    return in_range(reply.observed) ? nullptr : kTickOutOfRange;
 }
 
 const char* broken_rule(const ViewDue& due) {
@@ -344,7 +347,7 @@ const char* broken_rule(const Hello& hello) {
 const char* broken_rule(const ClientHello& hello) {
     constexpr Tick kLongest = Tick{1} << 50;
     return hello.period < 1 || hello.period > kLongest || hello.latency < 0 || hello.latency > kLongest ||
-                   hello.expected < -1 || hello.expected > kLongest || hello.said < hello.acknowledged
+                   hello.expected < -1 || hello.expected > kLongest || hello.last_reply < hello.acknowledged
                ? "its period or latency is out of range"
                : nullptr;
 }
@@ -369,9 +372,9 @@ const char* broken_rule(const T&) {
 
 const char* message_name(const Message& message) {
     static constexpr const char* kNames[] = {
-        "Hello",         "Welcome",     "Refused",       "Expelled",       "Alive",        "LeaveRequest",
-        "Goodbye",       "Plan",        "Frame",         "StateRequest",   "StateReply",   "ClientHello",
-        "ClientWelcome", "Observation", "ClientWord",    "WordAck",        "ClientBye",    "RunOver",
+        "Hello",         "Welcome",     "Refused",       "Expelled",       "Heartbeat",    "LeaveRequest",
+        "Goodbye",       "Assignment",  "WindowResult",  "StateRequest",   "StateReply",   "ClientHello",
+        "ClientWelcome", "Observation", "ClientReply",   "ReplyAck",       "ClientBye",    "RunOver",
         "ModelRequest",  "ModelPart",   "ClientUnknown", "ControlRequest", "ControlReply", "ModelChanged",
         "ViewRequest",   "ViewDue",     "ViewStates",    "OrdersAhead",    "Late",         "Cut"};
     static_assert(std::size(kNames) == std::variant_size_v<Message>);

@@ -1,5 +1,5 @@
 // Envelopes as bytes and back. The encoding is little-endian, field by field, in the order of message.h. The
-// decoder is total: any bytes give an Envelope or an Error that names the message and what is wrong with it;
+// decoder is total: any bytes give an Envelope or an Error that names the message and the fault;
 // it allocates no more than a small multiple of the bytes it was given.
 #pragma once
 
@@ -23,7 +23,7 @@ Result<Envelope> decode_envelope(std::span<const std::uint8_t> bytes);
 std::vector<std::uint8_t> encode_orders(const std::vector<Order>& orders);
 Result<std::vector<Order>> decode_orders(std::span<const std::uint8_t> bytes);
 
-/// "Plan", "Frame" ... for logs and errors.
+/// "Assignment", "WindowResult" ... for logs and errors.
 const char* message_name(const Message& message);
 
 }  // namespace roboss

@@ -22,29 +22,30 @@ std::vector<Order> some_orders() {
 /// Of each kind one in which no field has the value that it has in a message just made, so that none can get
 /// lost unnoticed.
 std::vector<Message> one_of_each() {
-    Plan plan{2,
-              17,
-              1,
-              SimulatorId(3u),
-              4,
-              10,
-              26,
-              {0, 1, 2},
-              {kRobot, kOther},
-              {{{Role::kSimulator, 5}, {kOther}}},
-              {{{Role::kSimulator, 6}, {kRobot}}},
-              some_orders(),
-              16,
-              {kRobot},
-              8,
-              3'000'000};
-    Frame frame{2,
-                17,
-                1,
-                0,
-                {{kRobot, {{-1, 0, 2}, {3, 4, 5}}, {1, 2, 3}, {4, 5, 6}, 77}},
-                {{kOther, {{-6, 7, 8}, {9, 10, 11}}}},
-                {{100, 5, 2, kRobot, 12, JointId(3u), true}, {1ull << 63, 0x3FFF, 0x4000, {}, 0, {}, false}}};
+    Assignment assignment{2,
+                          17,
+                          1,
+                          SimulatorId(3u),
+                          4,
+                          10,
+                          26,
+                          {0, 1, 2},
+                          {kRobot, kOther},
+                          {{{Role::kSimulator, 5}, {kOther}}},
+                          {{{Role::kSimulator, 6}, {kRobot}}},
+                          some_orders(),
+                          16,
+                          {kRobot},
+                          8,
+                          3'000'000};
+    WindowResult result{
+        2,
+        17,
+        1,
+        0,
+        {{kRobot, {{-1, 0, 2}, {3, 4, 5}}, {1, 2, 3}, {4, 5, 6}, 77}},
+        {{kOther, {{-6, 7, 8}, {9, 10, 11}}}},
+        {{100, 5, 2, kRobot, 12, JointId(3u), true}, {1ull << 63, 0x3FFF, 0x4000, {}, 0, {}, false}}};
     StateReply reply{{12, {kRobot, kOther}, {2, 3}, {1, 2, 3, 4, 5}}, 17};
     std::vector<ClientOrder> orders;
     for (const Order& o : some_orders()) orders.push_back({o.sequence, o.robot, o.action});
@@ -52,18 +53,18 @@ std::vector<Message> one_of_each() {
             Welcome{SimulatorId(1u)},
             Refused{"another world"},
             Expelled{SimulatorId(1u)},
-            Alive{SimulatorId(1u)},
+            Heartbeat{SimulatorId(1u)},
             LeaveRequest{SimulatorId(1u)},
             Goodbye{SimulatorId(1u)},
-            plan,
-            frame,
+            assignment,
+            result,
             StateRequest{12, {kRobot, kOther}, 17},
             reply,
             ClientHello{"driver", 5, 20, 10, false, true, 40, 3, 5},
             ClientWelcome{ClientId(0u), 40, 99},
             Observation{40, 3, {{{Role::kController, 0}, {kRobot}}}},
-            ClientWord{ClientId(0u), 4, 40, orders},
-            WordAck{ClientId(0u), 4, {{2, "no such link"}}},
+            ClientReply{ClientId(0u), 4, 40, orders},
+            ReplyAck{ClientId(0u), 4, {{2, "no such link"}}},
             ClientBye{ClientId(0u), 5, true, "it threw"},
             RunOver{"the run has ended"},
             ModelRequest{Whole::kScene, 7},
@@ -77,7 +78,7 @@ std::vector<Message> one_of_each() {
             ViewStates{5, 2, 77, 1000, {1, 2, 3, 4}},
             OrdersAhead{16, SimulatorId(3u), some_orders()},
             Late{2, 17, 1, 4'000'000},
-            Frame{2, 17, 1, 9, {}, {}, {{100, 5, 2, {}, 0, {}, false}}},
+            WindowResult{2, 17, 1, 9, {}, {}, {{100, 5, 2, {}, 0, {}, false}}},
             Cut{2, 17, 1, SimulatorId(3u)}};
 }
 
@@ -149,34 +150,34 @@ TEST(Codec, RefusesNoiseAndHugeCounts) {
 }
 
 TEST(Codec, RefusesAnotherVersionByName) {
-    std::vector<std::uint8_t> bytes = encode(envelope_of(Alive{SimulatorId(1u)}));
+    std::vector<std::uint8_t> bytes = encode(envelope_of(Heartbeat{SimulatorId(1u)}));
     bytes[0] = 200;
     const Result<Envelope> back = decode_envelope(bytes);
     ASSERT_FALSE(back.ok());
     EXPECT_NE(back.error().message.find("wire version 200"), std::string::npos);
 }
 
-TEST(Codec, RefusesPlansWhoseIslandsDoNotCoverTheirRobots) {
-    Plan plan;
-    plan.island_offsets = {0, 2, 1};
-    plan.robots = {kRobot};
-    EXPECT_FALSE(decode_envelope(encode(envelope_of(plan))).ok());
-    plan.island_offsets = {0, 0, 1};
-    EXPECT_FALSE(decode_envelope(encode(envelope_of(plan))).ok());
-    plan.island_offsets = {0, 1};
-    EXPECT_TRUE(decode_envelope(encode(envelope_of(plan))).ok());
+TEST(Codec, RefusesAssignmentsWhoseIslandsDoNotCoverTheirRobots) {
+    Assignment assignment;
+    assignment.island_offsets = {0, 2, 1};
+    assignment.robots = {kRobot};
+    EXPECT_FALSE(decode_envelope(encode(envelope_of(assignment))).ok());
+    assignment.island_offsets = {0, 0, 1};
+    EXPECT_FALSE(decode_envelope(encode(envelope_of(assignment))).ok());
+    assignment.island_offsets = {0, 1};
+    EXPECT_TRUE(decode_envelope(encode(envelope_of(assignment))).ok());
 }
 
-TEST(Codec, RefusesFramesThatWereCutShortAndTellOfRobots) {
-    Frame frame;
-    frame.left = 12;
-    frame.islands.resize(1);
-    EXPECT_TRUE(decode_envelope(encode(envelope_of(frame))).ok());
-    frame.robots.resize(1);
-    EXPECT_FALSE(decode_envelope(encode(envelope_of(frame))).ok());
-    frame.robots.clear();
-    frame.earlier.push_back({kRobot, {}});
-    EXPECT_FALSE(decode_envelope(encode(envelope_of(frame))).ok());
+TEST(Codec, RefusesResultsThatWereCutShortAndListRobots) {
+    WindowResult result;
+    result.left = 12;
+    result.islands.resize(1);
+    EXPECT_TRUE(decode_envelope(encode(envelope_of(result))).ok());
+    result.robots.resize(1);
+    EXPECT_FALSE(decode_envelope(encode(envelope_of(result))).ok());
+    result.robots.clear();
+    result.earlier.push_back({kRobot, {}});
+    EXPECT_FALSE(decode_envelope(encode(envelope_of(result))).ok());
 }
 
 bool accepted(Message message) {
@@ -186,7 +187,7 @@ bool accepted(Message message) {
 TEST(Codec, RefusesTicksWhoseSumsOverflow) {
     constexpr Tick kLowest = std::numeric_limits<Tick>::min(), kHighest = std::numeric_limits<Tick>::max();
     for (const Tick wrong : {kLowest, Tick{-2}, (Tick{1} << 60) + 1, kHighest}) {
-        EXPECT_FALSE(accepted(ClientWord{ClientId(0u), 1, wrong, {}})) << wrong;
+        EXPECT_FALSE(accepted(ClientReply{ClientId(0u), 1, wrong, {}})) << wrong;
         EXPECT_FALSE(accepted(ClientWelcome{ClientId(0u), wrong, 1})) << wrong;
         EXPECT_FALSE(accepted(Observation{wrong, 0, {}})) << wrong;
         EXPECT_FALSE(accepted(StateRequest{wrong, {}, 0})) << wrong;
@@ -196,27 +197,28 @@ TEST(Codec, RefusesTicksWhoseSumsOverflow) {
         EXPECT_FALSE(accepted(OrdersAhead{1, SimulatorId(0u), {{wrong, {}, 0, kRobot, SetVelocity{}}}}))
             << wrong;
         EXPECT_FALSE(accepted(ClientHello{"a", 1, 1, 1, true, false, wrong, 0, 0})) << wrong;
-        Frame frame;
-        frame.islands.push_back({1, 0, 0, kRobot, wrong, {}, false});
-        EXPECT_FALSE(accepted(frame)) << wrong;
-        for (Tick Plan::*tick : {&Plan::window_from, &Plan::from, &Plan::until, &Plan::release_before}) {
-            Plan plan;
-            plan.island_offsets = {0};
-            plan.*tick = wrong;
-            EXPECT_FALSE(accepted(plan)) << wrong;
+        WindowResult result;
+        result.islands.push_back({1, 0, 0, kRobot, wrong, {}, false});
+        EXPECT_FALSE(accepted(result)) << wrong;
+        for (Tick Assignment::*tick :
+             {&Assignment::window_from, &Assignment::from, &Assignment::until, &Assignment::release_before}) {
+            Assignment assignment;
+            assignment.island_offsets = {0};
+            assignment.*tick = wrong;
+            EXPECT_FALSE(accepted(assignment)) << wrong;
         }
     }
-    EXPECT_TRUE(accepted(ClientWord{ClientId(0u), 1, -1, {}})) << "it has seen nothing yet";
+    EXPECT_TRUE(accepted(ClientReply{ClientId(0u), 1, -1, {}})) << "it has seen nothing yet";
     EXPECT_TRUE(accepted(ClientWelcome{ClientId(0u), Tick{1} << 60, 1}));
 }
 
-TEST(Codec, RefusesPlansWithOrdersForTicksThatTheyDoNotStep) {
-    Plan plan;
-    plan.window_from = 10, plan.from = 12, plan.until = 20;
-    plan.island_offsets = {0};
+TEST(Codec, RefusesAssignmentsWithOrdersForTicksThatTheyDoNotStep) {
+    Assignment assignment;
+    assignment.window_from = 10, assignment.from = 12, assignment.until = 20;
+    assignment.island_offsets = {0};
     for (const Tick tick : {Tick{11}, Tick{12}, Tick{19}, Tick{20}}) {
-        plan.orders = {{tick, ClientId(0u), 1, kRobot, SetVelocity{}}};
-        EXPECT_EQ(accepted(plan), tick == 12 || tick == 19) << tick;
+        assignment.orders = {{tick, ClientId(0u), 1, kRobot, SetVelocity{}}};
+        EXPECT_EQ(accepted(assignment), tick == 12 || tick == 19) << tick;
     }
 }
 
@@ -224,12 +226,12 @@ TEST(Codec, RefusesBoundsThatAreNoNumbers) {
     for (std::size_t k = 0; k < 6; ++k) {
         Box32 box{{-1, 0, 2}, {3, 4, 5}};
         (k < 3 ? box.min : box.max)[k % 3] = std::numeric_limits<float>::quiet_NaN();
-        Frame frame;
-        frame.robots.push_back({kRobot, box, {}, {}, 0});
-        EXPECT_FALSE(accepted(frame)) << k;
-        frame = {};
-        frame.earlier.push_back({kRobot, box});
-        EXPECT_FALSE(accepted(frame)) << k;
+        WindowResult result;
+        result.robots.push_back({kRobot, box, {}, {}, 0});
+        EXPECT_FALSE(accepted(result)) << k;
+        result = {};
+        result.earlier.push_back({kRobot, box});
+        EXPECT_FALSE(accepted(result)) << k;
     }
 }
 
@@ -238,31 +240,31 @@ TEST(Codec, RefusesSimulatorsWithoutThreadsOrWithTooMany) {
         EXPECT_EQ(accepted(Hello{1, threads, "here"}), threads == 1 || threads == 1024) << threads;
 }
 
-TEST(Codec, KeepsRobotsOfAFrameInAnyOrder) {
-    Frame frame;
+TEST(Codec, KeepsRobotsOfAResultInAnyOrder) {
+    WindowResult result;
     for (const std::uint32_t id : {9u, 7u, 7u, 0u, 0x80000000u, 1u, 0xFFFFFFFFu, 0u}) {
-        frame.robots.push_back({RobotId(id), {{-1, 0, 2}, {3, 4, 5}}, {0, 128, 255}, {1, 2, 65535}, ~0ull});
-        frame.earlier.push_back({RobotId(~id), {{-1, 0, 2}, {3, 4, 5}}});
+        result.robots.push_back({RobotId(id), {{-1, 0, 2}, {3, 4, 5}}, {0, 128, 255}, {1, 2, 65535}, ~0ull});
+        result.earlier.push_back({RobotId(~id), {{-1, 0, 2}, {3, 4, 5}}});
     }
-    const Result<Envelope> back = decode_envelope(encode(envelope_of(frame)));
+    const Result<Envelope> back = decode_envelope(encode(envelope_of(result)));
     ASSERT_TRUE(back.ok()) << back.error().text();
-    EXPECT_EQ(std::get<Frame>(back.value().message), frame);
+    EXPECT_EQ(std::get<WindowResult>(back.value().message), result);
 }
 
 TEST(Codec, TakesSixtyFourBytesARobotWhereASimulatorHasFour) {
-    Frame frame{1000, 100'000, 3, 0, {}, {}, {}};
+    WindowResult result{1000, 100'000, 3, 0, {}, {}, {}};
     for (std::uint32_t id = 100; id < 104; ++id) {
-        frame.robots.push_back({RobotId(id), {{-1, 0, 2}, {3, 4, 5}}, {}, {}, ~0ull});
-        frame.islands.push_back({2'000'000, 1000, 1000, {}, 0, {}, false});
+        result.robots.push_back({RobotId(id), {{-1, 0, 2}, {3, 4, 5}}, {}, {}, ~0ull});
+        result.islands.push_back({2'000'000, 1000, 1000, {}, 0, {}, false});
     }
-    EXPECT_LE(encode(envelope_of(frame)).size(), 4 * 64u);
+    EXPECT_LE(encode(envelope_of(result)).size(), 4 * 64u);
 }
 
 TEST(Codec, RefusesASecondWayToWriteAnAddress) {
-    std::vector<std::uint8_t> bytes = encode(envelope_of(Alive{SimulatorId(1u)}));
+    std::vector<std::uint8_t> bytes = encode(envelope_of(Heartbeat{SimulatorId(1u)}));
     bytes[2] = 0x81;  // the sender: a Simulator without a number, where it has one
     EXPECT_FALSE(decode_envelope(bytes).ok());
-    bytes = encode({{Role::kSimulator, 1}, {Role::kController, 0}, Alive{SimulatorId(1u)}});
+    bytes = encode({{Role::kSimulator, 1}, {Role::kController, 0}, Heartbeat{SimulatorId(1u)}});
     bytes[3] = 0;
     const Result<Envelope> back = decode_envelope(bytes);
     ASSERT_FALSE(back.ok());

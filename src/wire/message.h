@@ -1,6 +1,6 @@
-// Every message that Controller, Simulators and Clients exchange, as plain data. A Bus may drop, double,
-// delay or reorder any of them: requests are sent again until answered, and every answer names what it
-// answers, so nothing here is harmful when it comes late or twice.
+// Every message that Controller, Simulators and Clients exchange, as plain data. A Bus may drop, duplicate,
+// delay or reorder any of them: requests are sent again until answered, and every answer names the request
+// that it answers, so late and duplicate messages are harmless.
 #pragma once
 
 #include <array>
@@ -13,21 +13,21 @@
 #include "core/types.h"
 #include "math/box32.h"
 #include "model/order.h"
-#include "wire/robot_frame.h"
+#include "wire/robot_result.h"
 
 namespace roboss {
 
 enum class Role : std::uint8_t { kController, kSimulator, kClient };
 
-/// Who a message is from or for. `instance` is chosen by whoever starts the role and never used twice; the
-/// Controller is 0.
+/// Sender or receiver of a message. Whoever starts a role chooses its `instance`, which is never used again;
+/// the Controller has 0.
 struct Address {
     Role role = Role::kController;
     std::uint64_t instance = 0;
     friend auto operator<=>(const Address&, const Address&) = default;
 };
 
-/// States of some robots at one tick, bit for bit: hand-offs, checkpoints, observations.
+/// Exact states of some robots at one tick, for hand-offs, checkpoints and observations.
 struct StateBlock {
     Tick tick = 0;
     std::vector<RobotId> robots;
@@ -36,14 +36,14 @@ struct StateBlock {
     friend bool operator==(const StateBlock&, const StateBlock&) = default;
 };
 
-/// Which robots' states can be had from whom.
+/// Who holds the states of which robots.
 struct Holding {
     Address source;
     std::vector<RobotId> robots;
     friend bool operator==(const Holding&, const Holding&) = default;
 };
 
-/// Robots whose states are to be sent to somebody.
+/// Robots whose states the receiver of the message sends to `to`.
 struct HandOver {
     Address to;
     std::vector<RobotId> robots;
@@ -56,7 +56,7 @@ struct HandOver {
 struct Hello {  // Simulator -> Controller
     std::uint64_t model_hash = 0;
     std::uint32_t threads = 1;
-    std::string name;  // for people: where it runs
+    std::string name;  // where it runs, for reports
     friend bool operator==(const Hello&, const Hello&) = default;
 };
 struct Welcome {  // Controller -> Simulator
@@ -67,7 +67,7 @@ struct Refused {  // Controller -> Simulator or Client that cannot take part
     std::string reason;
     friend bool operator==(const Refused&, const Refused&) = default;
 };
-struct Expelled {  // Controller -> Simulator that was given up; it may say Hello again
+struct Expelled {  // Controller -> Simulator that is considered lost; it may send Hello again
     SimulatorId simulator;
     friend bool operator==(const Expelled&, const Expelled&) = default;
 };
@@ -75,17 +75,17 @@ struct RunOver {  // Controller -> everybody: the run has ended
     std::string reason;
     friend bool operator==(const RunOver&, const RunOver&) = default;
 };
-/// Simulator -> Controller, every 50 ms, also from within a long step; and Controller -> all others now and
-/// then, so that who hears nothing knows that the line is dead.
-struct Alive {
+/// Simulator -> Controller, every 50 ms, also during a long step; and Controller -> everybody, every 250 ms,
+/// so that a member notices when its connection to the Controller is lost.
+struct Heartbeat {
     SimulatorId simulator;
-    friend bool operator==(const Alive&, const Alive&) = default;
+    friend bool operator==(const Heartbeat&, const Heartbeat&) = default;
 };
 struct LeaveRequest {  // Simulator -> Controller
     SimulatorId simulator;
     friend bool operator==(const LeaveRequest&, const LeaveRequest&) = default;
 };
-struct Goodbye {  // Controller -> Simulator: nothing depends on it any more
+struct Goodbye {  // Controller -> Simulator: it may end, nothing depends on it any more
     SimulatorId simulator;
     friend bool operator==(const Goodbye&, const Goodbye&) = default;
 };
@@ -95,42 +95,43 @@ struct Goodbye {  // Controller -> Simulator: nothing depends on it any more
 
 /// One Simulator's part of an attempt at a window. Island i is robots[island_offsets[i] .. island_offsets[i +
 /// 1]).
-struct Plan {
+struct Assignment {
     std::uint32_t epoch = 0;    // grows when a Simulator is lost
     std::uint64_t window = 0;   // grows with every window planned
-    std::uint32_t attempt = 0;  // grows when touching islands of the window are merged, and with every Cut
+    std::uint32_t attempt = 0;  // grows when touching islands of the window are merged, and with each Cut
     SimulatorId simulator;
-    Tick window_from = 0;  // where the window starts, for all
-    /// What this plan steps: the whole window, or what a Cut left of it.
+    Tick window_from = 0;  // where the window starts for everybody
+    /// The ticks of this assignment: the whole window, or what a Cut left of it.
     Tick from = 0, until = 0;
     std::vector<std::uint32_t> island_offsets;
     std::vector<RobotId> robots;
-    std::vector<Holding>
-        hand_offs;  // robots whose states at `from` come from elsewhere; the others are here already
+    std::vector<Holding> hand_offs;  // robots whose states at `from` others send; the Simulator has the rest
     std::vector<HandOver>
-        gives;                  // robots that others get: their states at `from` are sent before any stepping
-    std::vector<Order> orders;  // for these robots, from <= apply_at < until, canonical order; besides:
-    std::uint64_t ahead = 0;    // those of the OrdersAhead of this window; 0: none
-    std::vector<RobotId> keep;  // robots of this Simulator whose states at `from` somebody still wants
-    Tick release_before = 0;    // states kept for earlier ticks may go
-    /// CPU time that everybody is expected to need for the window, or for what a Cut left; who sees that it
-    /// will need more says Late. 0: nobody does.
+        transfers;              // robots that others get: it sends their states at `from` before it steps
+    std::vector<Order> orders;  // for these robots, from <= apply_at < until, canonical order; in addition:
+    std::uint64_t ahead = 0;    // the OrdersAhead sent during this window; 0: none
+    std::vector<RobotId> keep;  // robots whose states at `from` it keeps, since others still need them
+    Tick release_before = 0;    // states kept for earlier ticks may be dropped
+    /// CPU time that each Simulator is expected to need for the window, or for what a Cut left. A Simulator
+    /// that will need more sends Late. 0: no limit.
     std::uint64_t due_ns = 0;
-    /// The window in whose midst this begins; 0: it begins at a window's start.
-    std::uint64_t midst() const { return from > window_from ? window : 0; }
-    friend bool operator==(const Plan&, const Plan&) = default;
+    /// The window within which this assignment begins; 0: it begins at a window's start.
+    std::uint64_t mid_window() const { return from > window_from ? window : 0; }
+    friend bool operator==(const Assignment&, const Assignment&) = default;
 };
 
-/// Controller -> Simulator while it steps a window: orders for the ticks after it, of the robots that it has
-/// there. The next plan says only what else there is, or all, if this gets lost.
+/// Controller -> Simulator while it steps a window: orders for the ticks after the window, for the robots
+/// that it steps. The next assignment then has only the remaining orders, or all of them if this message was
+/// lost.
 struct OrdersAhead {
-    std::uint64_t window = 0;  // that is being stepped
+    std::uint64_t window = 0;  // the window being stepped
     SimulatorId simulator;
     std::vector<Order> orders;  // canonical order
     friend bool operator==(const OrdersAhead&, const OrdersAhead&) = default;
 };
 
-/// Simulator -> Controller while it steps: it will need so much CPU time for this plan, more than was due.
+/// Simulator -> Controller while it steps: it will need `needs_ns` of CPU time for this assignment, more than
+/// its due_ns.
 struct Late {
     std::uint32_t epoch = 0;
     std::uint64_t window = 0;
@@ -139,8 +140,9 @@ struct Late {
     friend bool operator==(const Late&, const Late&) = default;
 };
 
-/// Controller -> Simulator that is late, when others have nothing to do: to stop where it is; what is left of
-/// the window will be shared out. Who is nearly done goes on to the end, so nothing depends on its coming.
+/// Controller -> Simulator that is late, when others are idle (work stealing): stop at the current tick; the
+/// remaining ticks are distributed. A Simulator that is nearly done steps on to the end, so this message may
+/// get lost.
 struct Cut {
     std::uint32_t epoch = 0;
     std::uint64_t window = 0;
@@ -149,16 +151,16 @@ struct Cut {
     friend bool operator==(const Cut&, const Cut&) = default;
 };
 
-/// Interaction bounds from earlier in the window: from before a teleport, or of a robot that somebody else
-/// steps on after a Cut.
+/// Interaction bounds from earlier in the window: before a teleport, or before a Cut if another Simulator
+/// steps the robot from then on.
 struct EarlierBox {
     RobotId robot;
     Box32 swept;
     friend bool operator==(const EarlierBox&, const EarlierBox&) = default;
 };
 
-struct IslandFrame {
-    /// Thread CPU time of the stepping; for balance and telemetry, never for results.
+struct IslandResult {
+    /// Thread CPU time of the stepping. For load balancing and telemetry only; results never depend on it.
     std::uint64_t cost_ns = 0;
     std::uint64_t contacts = 0, static_contacts = 0;  // summed over the ticks
     /// Valid: this robot's state was not finite after the step from tick `failed_at`, the first in which one
@@ -167,34 +169,34 @@ struct IslandFrame {
     Tick failed_at = 0;
     JointId failed_joint;
     bool beyond_numbers = false;
-    friend bool operator==(const IslandFrame&, const IslandFrame&) = default;
+    friend bool operator==(const IslandResult&, const IslandResult&) = default;
 };
 
-/// Simulator -> Controller: the answer to a Plan, robots and islands in the Plan's order. After a Cut:
-/// without robots, and islands tell of the ticks stepped; bounds so far come with the frame of what was left.
-struct Frame {
+/// Simulator -> Controller: the answer to an Assignment, robots and islands in its order. After a Cut it has
+/// no robots, its islands report the ticks stepped, and the bounds so far come with the result of the rest.
+struct WindowResult {
     std::uint32_t epoch = 0;
     std::uint64_t window = 0;
     std::uint32_t attempt = 0;
-    std::uint64_t left = 0;  // ticks that were not stepped, because of a Cut
-    std::vector<RobotFrame> robots;
+    std::uint64_t left = 0;  // ticks not stepped because of a Cut
+    std::vector<RobotResult> robots;
     std::vector<EarlierBox> earlier;
-    std::vector<IslandFrame> islands;
-    friend bool operator==(const Frame&, const Frame&) = default;
+    std::vector<IslandResult> islands;
+    friend bool operator==(const WindowResult&, const WindowResult&) = default;
 };
 
 // --- the Model
 // -----------------------------------------------------------------------------------------------------------
 
-/// What the Controller gives to whoever asks: the Model (wire/model_codec.h), or what the world looks like,
-/// in bytes that only viewers understand (none: the Controller does not know).
+/// What the Controller sends on request: the Model (wire/model_codec.h), or the scene, in bytes that only
+/// viewers understand (empty: the Controller has none).
 enum class Whole : std::uint8_t { kModel, kScene };
-struct ModelRequest {  // anyone -> Controller, before anything else: who joins needs no file
+struct ModelRequest {  // anyone -> Controller, first of all: a member that joins needs no file
     Whole what = Whole::kModel;
     std::uint64_t offset = 0;
     friend bool operator==(const ModelRequest&, const ModelRequest&) = default;
 };
-/// Controller -> who asked: some of its bytes. Equal hashes: of the same whole.
+/// Controller -> requester: some of the bytes. Parts with equal hashes belong together.
 struct ModelPart {
     Whole what = Whole::kModel;
     std::uint64_t bytes_hash = 0, total = 0, offset = 0;
@@ -205,33 +207,34 @@ struct ModelPart {
 // --- states
 // --------------------------------------------------------------------------------------------------------------
 
-struct StateRequest {  // anyone -> whoever holds the robots
+struct StateRequest {  // anyone -> holder of the robots
     Tick tick = 0;
     std::vector<RobotId> robots;
-    /// Of states in the midst of a window (where a Cut ended it), for such may be of no account tomorrow: the
-    /// window's number. 0: of states at a window's start, which are committed.
+    /// For states within a window (where a Cut ended an assignment), which may never be committed: the
+    /// window's number. 0: for states at a window's start, which are committed.
     std::uint64_t window = 0;
     friend bool operator==(const StateRequest&, const StateRequest&) = default;
 };
 struct StateReply {
-    StateBlock states;         // may lack robots that are not here (yet)
+    StateBlock states;         // may lack robots whose states the sender does not have (yet)
     std::uint64_t window = 0;  // the request's
     friend bool operator==(const StateReply&, const StateReply&) = default;
 };
 
-// --- views: what is shown of the world; nothing is computed from them, and none is missed
+// --- views: for display only; a lost one is not sent again
 // -----------------------------------------------------
 
-/// Viewer -> Controller: show me the world as it is committed. Said again each second; forgotten after a few.
+/// Viewer -> Controller: subscribes to views of the committed world. Repeated each second; expires after a
+/// few.
 struct ViewRequest {
-    std::uint64_t model_hash = 0;         // another than the run's is answered by ModelChanged
-    std::uint32_t interval_ms = 0;        // at most one view in so long; 0: none
-    std::uint32_t exact_interval_ms = 0;  // and exact states of these (StateReply)
+    std::uint64_t model_hash = 0;         // if it is not the run's, the answer is ModelChanged
+    std::uint32_t interval_ms = 0;        // least time between two views; 0: no views
+    std::uint32_t exact_interval_ms = 0;  // the same for exact states of the robots below (StateReply)
     bool exact_all = false;
     std::vector<RobotId> exact;
     friend bool operator==(const ViewRequest&, const ViewRequest&) = default;
 };
-/// Controller -> who holds the robots: send these to the viewer, if they are still here.
+/// Controller -> holder of the robots: send these to the viewer, if you still have them.
 struct ViewDue {
     std::uint32_t epoch = 0;   // of the Controller
     std::uint64_t serial = 0;  // of its views, ascending
@@ -258,11 +261,11 @@ struct ClientHello {
     Tick period = 1;   // ticks between observations
     Tick latency = 1;  // ticks from an observation to the effect of its orders
     bool synchronous = true;
-    bool guest = false;  // comes and goes: nobody waits for it, whatever it said before
-    // Of a Client that was here before and meets a Controller that does not know it:
+    bool observer = false;  // nobody ever waits for it, whatever its other options are
+    // Set by a Client that had joined before and meets a Controller that does not know it:
     Tick expected = -1;              // its next observation; negative: it is new
-    std::uint64_t acknowledged = 0;  // its last word that a Controller has acknowledged
-    std::uint64_t said = 0;          // its last word; those between are on their way
+    std::uint64_t acknowledged = 0;  // its last reply that a Controller has acknowledged
+    std::uint64_t last_reply = 0;    // the last one it has sent; those between are on their way
     friend bool operator==(const ClientHello&, const ClientHello&) = default;
 };
 struct ClientWelcome {
@@ -271,11 +274,11 @@ struct ClientWelcome {
     std::uint64_t seed = 0;
     friend bool operator==(const ClientWelcome&, const ClientWelcome&) = default;
 };
-/// Controller -> Client: the world at `tick` is committed and may be fetched. Sent again until the Client's
-/// word comes.
+/// Controller -> Client: the world at `tick` is committed and can be fetched. Sent again until the Client
+/// replies.
 struct Observation {
     Tick tick = 0;
-    std::uint64_t last_word = 0;  // the Client's last word that the Controller has
+    std::uint64_t last_reply = 0;  // the Client's last reply that the Controller has
     std::vector<Holding> holders;
     friend bool operator==(const Observation&, const Observation&) = default;
 };
@@ -285,16 +288,16 @@ struct ClientOrder {
     Action action;
     friend bool operator==(const ClientOrder&, const ClientOrder&) = default;
 };
-/// Client -> Controller, numbered 1, 2, 3 ...; accepted in this order. One for each observation, with its
-/// orders.
-struct ClientWord {
+/// Client -> Controller: one for each observation, with its orders. Numbered 1, 2, 3 ... and accepted in this
+/// order.
+struct ClientReply {
     ClientId client;
-    std::uint64_t word = 0;
+    std::uint64_t number = 0;
     Tick observed = 0;
     std::vector<ClientOrder> orders;
-    friend bool operator==(const ClientWord&, const ClientWord&) = default;
+    friend bool operator==(const ClientReply&, const ClientReply&) = default;
 };
-struct ClientUnknown {  // Controller -> Client whose seat it does not have: it may say ClientHello again
+struct ClientUnknown {  // Controller -> Client that it does not know: it may send ClientHello again
     ClientId client;
     friend bool operator==(const ClientUnknown&, const ClientUnknown&) = default;
 };
@@ -303,16 +306,16 @@ struct RefusedOrder {
     std::string reason;
     friend bool operator==(const RefusedOrder&, const RefusedOrder&) = default;
 };
-struct WordAck {
+struct ReplyAck {
     ClientId client;
-    std::uint64_t word = 0;             // the last word accepted
-    std::vector<RefusedOrder> refused;  // orders of that word that were refused
-    friend bool operator==(const WordAck&, const WordAck&) = default;
+    std::uint64_t number = 0;           // the last reply accepted
+    std::vector<RefusedOrder> refused;  // orders of that reply that were refused
+    friend bool operator==(const ReplyAck&, const ReplyAck&) = default;
 };
-/// Client -> Controller: its last word; it takes no part any more. A failure ends the run.
+/// Client -> Controller: its last reply; it leaves. A failure ends the run.
 struct ClientBye {
     ClientId client;
-    std::uint64_t word = 0;
+    std::uint64_t number = 0;
     bool failed = false;
     std::string reason;
     friend bool operator==(const ClientBye&, const ClientBye&) = default;
@@ -324,26 +327,26 @@ struct ClientBye {
 /// Anyone -> Controller: pause, step, speed, rewind ... (simulation/control.h). Sent again until answered.
 struct ControlRequest {
     std::uint64_t number = 0;  // of the sender's requests, ascending
-    std::vector<std::string> words;
+    std::vector<std::string> arguments;
     friend bool operator==(const ControlRequest&, const ControlRequest&) = default;
 };
-struct ControlReply {  // Controller -> who asked
+struct ControlReply {  // Controller -> requester
     std::uint64_t number = 0;
     bool done = false;
     std::string text;
     friend bool operator==(const ControlReply&, const ControlReply&) = default;
 };
-/// Controller -> member that has an earlier Model of this run: fetch it again and join again.
+/// Controller -> member that has an earlier Model of this run: fetch the new one and join again.
 struct ModelChanged {
     std::uint64_t model_hash = 0;
     friend bool operator==(const ModelChanged&, const ModelChanged&) = default;
 };
 
 using Message =
-    std::variant<Hello, Welcome, Refused, Expelled, Alive, LeaveRequest, Goodbye, Plan, Frame, StateRequest,
-                 StateReply, ClientHello, ClientWelcome, Observation, ClientWord, WordAck, ClientBye, RunOver,
-                 ModelRequest, ModelPart, ClientUnknown, ControlRequest, ControlReply, ModelChanged,
-                 ViewRequest, ViewDue, ViewStates, OrdersAhead, Late, Cut>;
+    std::variant<Hello, Welcome, Refused, Expelled, Heartbeat, LeaveRequest, Goodbye, Assignment,
+                 WindowResult, StateRequest, StateReply, ClientHello, ClientWelcome, Observation, ClientReply,
+                 ReplyAck, ClientBye, RunOver, ModelRequest, ModelPart, ClientUnknown, ControlRequest,
+                 ControlReply, ModelChanged, ViewRequest, ViewDue, ViewStates, OrdersAhead, Late, Cut>;
 
 struct Envelope {
     Address from, to;

@@ -33,24 +33,24 @@ template <class T>
 void field(ModelReader& a, std::vector<T>& values);
 
 template <class T>
-std::uint32_t place_of(const std::vector<std::shared_ptr<const T>>& all, const T* one) {
+std::uint32_t index_of(const std::vector<std::shared_ptr<const T>>& all, const T* one) {
     if (one == nullptr) return 0;
     const auto found = std::find_if(all.begin(), all.end(), [one](const auto& p) { return p.get() == one; });
     ROBOSS_CHECK(found != all.end(), "a shape points to something that the Model does not own");
     return static_cast<std::uint32_t>(found - all.begin()) + 1;
 }
 
-/// A pointer to shared data travels as its place, counted from 1; 0: none.
+/// A pointer to shared data travels as its index, counted from 1; 0: none.
 template <class T>
 void pointer(ModelWriter& a, const std::vector<std::shared_ptr<const T>>& all, const T* const& value) {
-    a.scalar(place_of(all, value));
+    a.scalar(index_of(all, value));
 }
 template <class T>
 void pointer(ModelReader& a, const std::vector<std::shared_ptr<const T>>& all, const T*& value) {
-    std::uint32_t place = 0;
-    a.scalar(place);
-    if (place > all.size()) a.fail("a shape points to a mesh that is not there");
-    value = place == 0 || a.failed() ? nullptr : all[place - 1].get();
+    std::uint32_t index = 0;
+    a.scalar(index);
+    if (index > all.size()) a.fail("a shape points to a mesh that is not there");
+    value = index == 0 || a.failed() ? nullptr : all[index - 1].get();
 }
 
 // clang-format off

@@ -1,4 +1,4 @@
-// View states: what a picture needs of a robot, in a few bytes, as it goes to the viewer's page
+// View states: what a viewer needs of a robot, in a few bytes, as sent to its page
 // (docs/viewer-protocol.md, entries of the State message). Nothing is ever computed from them.
 #pragma once
 

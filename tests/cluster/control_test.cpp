@@ -29,7 +29,7 @@ TEST(Control, AClientsRequestsComeOnceAndInOrderAndAreAnswered) {
             bus.advance_clock(1);
             controller.advance(bus);
             for (const ControlCall& call : controller.control().take_calls()) {
-                heard.push_back(call.request.words.front());
+                heard.push_back(call.request.arguments.front());
                 controller.control().answer(bus, call, heard.size() == 1, "heard");
             }
             client.advance(bus);
@@ -39,7 +39,7 @@ TEST(Control, AClientsRequestsComeOnceAndInOrderAndAreAnswered) {
         ASSERT_EQ(answers.size(), 2u) << "seed " << seed;
         EXPECT_TRUE(answers[0].done);
         EXPECT_FALSE(answers[1].done);
-        EXPECT_EQ(answers[1].words, (std::vector<std::string>{"speed", "2"}));
+        EXPECT_EQ(answers[1].arguments, (std::vector<std::string>{"speed", "2"}));
     }
 }
 

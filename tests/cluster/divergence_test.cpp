@@ -54,7 +54,7 @@ class Divergences : public ::testing::Test {
     }
 
     fs::path folder_;
-    std::shared_ptr<const Model> model_ = heaps_world(2);
+    std::shared_ptr<const Model> model_ = piles_world(2);
 };
 
 TEST_F(Divergences, AreFoundToTheTickRobotAndField) {
@@ -87,11 +87,11 @@ TEST_F(Divergences, ComputedWithOtherBitsAreToldFromOrderedOnes) {
         auto writer = std::move(JournalWriter::open((folder_ / "bits").string())).value();
         EXPECT_TRUE(writer->start_branch({}, *model_).ok());
         const Branch branch = plain.branch().value();
-        for (const CheckpointPlace& place : plain.checkpoints(branch)) {
+        for (const CheckpointEntry& entry : plain.checkpoints(branch)) {
             auto states =
-                std::make_shared<std::vector<RobotState>>(plain.checkpoint(place, *model_).value().states);
-            if (place.tick == 150) (*states)[2].v[4] += 1e-12;
-            writer->checkpoint({place.tick, states, {}});
+                std::make_shared<std::vector<RobotState>>(plain.checkpoint(entry, *model_).value().states);
+            if (entry.tick == 150) (*states)[2].v[4] += 1e-12;
+            writer->checkpoint({entry.tick, states, {}});
             EXPECT_TRUE(writer->flush().ok());
         }
         EXPECT_TRUE(writer->close().ok());

@@ -14,7 +14,7 @@ constexpr Tick kFails = 57, kFailsLater = 61, kEnd = 120;
 const RobotId kFirst(2u), kSecond(4u), kLater(1u);
 
 /// Lone balls, three of them so light that a force within the limits of orders makes them infinitely fast,
-/// and between them a heap of crates that keeps the windows busy.
+/// and between them a pile of crates that keeps the windows busy.
 std::shared_ptr<const Model> fragile_world() {
     World world = empty_world(2e-3);
     place(world, ground(surface(0.5)), "ground");

@@ -12,7 +12,7 @@ FaultyCluster::FaultyCluster(std::shared_ptr<const Model> model, ControllerOptio
     options_.resend_ms = 20;
     options_.ahead_least = 1;
     options_.loss_ms = 250;
-    options_.help_least_ns = 0;
+    options_.stealing_least_ns = 0;
     bus_.on_drain = [this] { let_others_go_on(); };
     for (std::size_t i = 0; i < simulators; ++i) add_simulator();
 }
@@ -27,7 +27,7 @@ void FaultyCluster::add_simulator() {
     const Address address{Role::kSimulator, ++instance_};
     SimulatorOptions options;
     options.resend_ms = 20;
-    options.alive_ms = 20;
+    options.heartbeat_ms = 20;
     options.measure_cpu = false;
     options.look_up = 1;
     options.cut_least_ns = 0;

@@ -67,7 +67,7 @@ class FaultyCluster {
     std::vector<std::unique_ptr<ProgramHost>> hosts_;
     std::vector<Member> simulators_;
     std::uint64_t instance_ = 0;
-    std::size_t steppers_ = 0;  // Simulators in the midst of their turn
+    std::size_t steppers_ = 0;  // Simulators during their turn
     bool controller_at_it_ = false;
     int others_went_on_ = 0;  // in this turn
     int kills_ = 0;

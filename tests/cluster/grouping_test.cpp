@@ -37,7 +37,7 @@ TEST(Grouping, GivesTheSameHashForAnySimulatorsThreadsWindowsAndIslands) {
         std::shared_ptr<const Model> model;
         bool driven;
     };
-    for (const World& world : {World{heaps_world(), false}, World{carts_world(), true}}) {
+    for (const World& world : {World{piles_world(), false}, World{carts_world(), true}}) {
         ASSERT_NE(world.model, nullptr);
         SimulationOptions reference;
         reference.controller.forecast.merge_all = true;

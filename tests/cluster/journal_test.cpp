@@ -16,9 +16,11 @@ constexpr Tick kLogTicks = 30;
 class SlowLog : public RunLog {
   public:
     void joined(ClientId, const std::string&) override {}
-    void order(const Order& order, Tick said) override { waiting_.orders.push_back({order, said}), ++given_; }
-    void word(ClientId client, Tick observed) override {
-        waiting_.words.push_back({client, observed}), ++given_;
+    void order(const Order& order, Tick given_at) override {
+        waiting_.orders.push_back({order, given_at}), ++given_;
+    }
+    void reply(ClientId client, Tick observed) override {
+        waiting_.replies.push_back({client, observed}), ++given_;
     }
     void note(Tick, const std::string&) override {}
     void planned(Tick until) override { waiting_planned_ = until; }
@@ -49,13 +51,13 @@ class SlowLog : public RunLog {
     StartingPoint last(const Model& model, std::size_t clients) const {
         StartingPoint start = beginning_of(model);
         start.answered.assign(clients, -1);
-        for (const SaidWord& word : kept_.words)
-            start.answered[word.client.index()] =
-                std::max(start.answered[word.client.index()], word.observed);
+        for (const LoggedReply& reply : kept_.replies)
+            start.answered[reply.client.index()] =
+                std::max(start.answered[reply.client.index()], reply.observed);
         const Tick all = *std::min_element(start.answered.begin(), start.answered.end());
         for (const RunCheckpoint& c : checkpoints_)
             if (c.tick <= all) start.tick = c.tick, start.states = *c.states;
-        for (const SaidOrder& o : kept_.orders)
+        for (const LoggedOrder& o : kept_.orders)
             if (o.order.apply_at >= start.tick) start.orders.push_back(o);
         start.logged_until = std::max(planned_, start.tick);
         return start;

@@ -119,12 +119,12 @@ std::shared_ptr<const Model> compiled(const World& world) {
 
 }  // namespace
 
-std::shared_ptr<const Model> heaps_world(int heaps) {
-    World world = empty_world("heaps");
+std::shared_ptr<const Model> piles_world(int piles) {
+    World world = empty_world("piles");
     world.prototypes.push_back(crate());
     world.prototypes.push_back(ball());
     int n = 0;
-    for (int h = 0; h < heaps; ++h) {
+    for (int h = 0; h < piles; ++h) {
         const double x = 2.5 * h;
         for (int i = 0; i < 3; ++i)
             world.instances.push_back(

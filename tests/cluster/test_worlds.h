@@ -9,8 +9,8 @@
 
 namespace roboss::test {
 
-/// Boxes and balls that fall on each other in several heaps, and one long row of boxes like dominoes.
-std::shared_ptr<const Model> heaps_world(int heaps = 4);
+/// Boxes and balls that fall on each other in several piles, and one long row of boxes like dominoes.
+std::shared_ptr<const Model> piles_world(int piles = 4);
 
 /// Four-wheeled carts on a plane around a wall, to be driven by a DrivingProgram; they bump into each other.
 std::shared_ptr<const Model> carts_world(int carts = 6);

@@ -98,7 +98,7 @@ const std::vector<RobotState>& states_of(FaultyCluster& cluster) {
 
 /// The hash at `target`, with or without somebody who watches all the time.
 std::uint64_t hash_at(Tick target, const Trouble& trouble, const FaultOptions& faults, Watcher* watcher) {
-    const auto model = heaps_world(4);
+    const auto model = piles_world(4);
     FaultyCluster cluster(model, cluster_options(), faults, trouble, 3);
     cluster.turn();
     cluster.controller().run_until(target);
@@ -124,7 +124,7 @@ TEST(Views, ShowCommittedStatesAndChangeNoHashThroughFaultsAndLosses) {
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
         FaultOptions faults;
         faults.seed = seed;
-        Watcher watcher(heaps_world(4), {heaps_world(4)->hash, 5, 0, false, {}});
+        Watcher watcher(piles_world(4), {piles_world(4)->hash, 5, 0, false, {}});
         const std::uint64_t watched = hash_at(400, trouble, faults, &watcher);
         EXPECT_EQ(to_hex(watched), to_hex(hash_at(400, {}, faults, nullptr))) << "seed " << seed;
         EXPECT_GT(watcher.views(), 5) << "seed " << seed;
@@ -132,7 +132,7 @@ TEST(Views, ShowCommittedStatesAndChangeNoHashThroughFaultsAndLosses) {
 }
 
 TEST(Views, GiveExactStatesOfThoseAskedForOnly) {
-    const auto model = heaps_world(4);
+    const auto model = piles_world(4);
     Watcher watcher(model, {model->hash, 0, 5, false, {RobotId(2u), RobotId(5u), RobotId(9999u)}});
     FaultyCluster cluster(model, cluster_options(), {}, {}, 3);
     cluster.turn();
@@ -156,7 +156,7 @@ TEST(Views, GiveExactStatesOfThoseAskedForOnly) {
 }
 
 TEST(Views, OfAnotherModelAreAnsweredByTheNews) {
-    const auto model = heaps_world(4);
+    const auto model = piles_world(4);
     Watcher watcher(model, {model->hash ^ 1, 5, 0, false, {}});
     FaultyCluster cluster(model, cluster_options(), {}, {}, 3);
     cluster.turn();
@@ -170,7 +170,7 @@ TEST(Views, OfAnotherModelAreAnsweredByTheNews) {
 }
 
 TEST(Views, GoOnWhenTheControllerIsStartedAnew) {
-    const auto model = heaps_world(4);
+    const auto model = piles_world(4);
     Watcher watcher(model, {model->hash, 5, 0, false, {}});
     FaultyCluster cluster(model, cluster_options(), {}, {}, 3);
     ASSERT_TRUE(cluster.run_until(100));

@@ -42,7 +42,7 @@ TEST(Windows, AWrongForecastRepeatsOnlyTheTouchingIslandsAndKeepsTheHash) {
 }
 
 TEST(Windows, AForecastWithoutMarginsKeepsTheHashInACrowd) {
-    const auto model = heaps_world(3);
+    const auto model = piles_world(3);
     auto reference = make(model, merged());
     ASSERT_TRUE(reference->run_until(300).ok());
     for (const Tick window : {5, 16, 50}) {
@@ -148,7 +148,7 @@ TEST(Windows, AnEmptyWorldRunsToo) {
 }
 
 TEST(Windows, StatesHaveTheCommittedHash) {
-    const auto model = heaps_world(2);
+    const auto model = piles_world(2);
     SimulationOptions options;
     options.simulators = 2;
     auto simulation = make(model, options);

@@ -5,7 +5,7 @@ import unittest
 
 from running import DRIVER, FOLDER, WORLDS, RobossTest, roboss, summary
 
-HEAP = WORLDS / "heap.sdf"
+PILE = WORLDS / "pile.sdf"
 FRAGILE = """<sdf version="1.9"><world name="fragile"><physics name="p" type="ode"><max_step_size>0.001</max_step_size></physics>
 <model name="dust"><pose>0 0 9 0 0 0</pose><link name="body"><inertial><mass>1e-300</mass>
 <inertia><ixx>1e-100</ixx><iyy>1e-100</iyy><izz>1e-100</izz></inertia></inertial>
@@ -25,13 +25,13 @@ class BadInput(RobossTest):
         self.refused(["run", broken, "--duration", "1"], 1, "broken.sdf:4")
 
     def test_every_fault_of_a_world_is_told_at_once_with_its_line(self):
-        text = HEAP.read_text().replace("<mass>2</mass>", "<mass>-1</mass>").replace("<child>upper</child>", "<child>uper</child>")
+        text = PILE.read_text().replace("<mass>2</mass>", "<mass>-1</mass>").replace("<child>upper</child>", "<child>uper</child>")
         bad = written("bad.sdf", text)
         done = self.refused(["run", bad, "--duration", "1", "--strict"], 1, "bad.sdf:", "uper", "mass")
         self.assertGreaterEqual(done.stderr.count("error:"), 2)
 
     def test_a_model_with_errors_is_left_out_unless_strict(self):
-        bad = written("one_bad.sdf", HEAP.read_text().replace("<child>upper</child>", "<child>uper</child>"))
+        bad = written("one_bad.sdf", PILE.read_text().replace("<child>upper</child>", "<child>uper</child>"))
         done = roboss("run", bad, "--duration", "0.1", "--headless", "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("model 'arm' is left out", done.stderr)
@@ -39,39 +39,39 @@ class BadInput(RobossTest):
         self.refused(["check", bad], 1, "left-out", "--strict")
 
     def test_nan_in_a_world(self):
-        bad = written("nan.sdf", HEAP.read_text().replace("<radius>0.09</radius>", "<radius>nan</radius>"))
+        bad = written("nan.sdf", PILE.read_text().replace("<radius>0.09</radius>", "<radius>nan</radius>"))
         self.refused(["run", bad, "--duration", "1", "--strict"], 1, "nan.sdf:")
 
     def test_wrong_usage(self):
         self.refused(["run"], 2, "world")
-        self.refused(["run", HEAP, "--speed", "fast"], 2, "--speed")
-        self.refused(["run", HEAP, "--no-such-option"], 2, "--no-such-option")
+        self.refused(["run", PILE, "--speed", "fast"], 2, "--speed")
+        self.refused(["run", PILE, "--no-such-option"], 2, "--no-such-option")
         self.refused(["fly"], 2)
 
     def test_an_order_to_an_unknown_robot_stops_before_the_start(self):
         orders = written("orders.jsonl", '{"t":0,"robot":"arm","joint":{"name":"shoulder","effort":1}}\n{"t":0,"robot":"nobody","joint":{}}\n')
-        self.refused(["run", HEAP, "--duration", "1", "--orders", orders], 1, "orders.jsonl:2", "nobody")
+        self.refused(["run", PILE, "--duration", "1", "--orders", orders], 1, "orders.jsonl:2", "nobody")
 
     def test_a_control_program_that_is_none(self):
-        self.refused(["run", HEAP, "--duration", "1", "--client", "no/such.so"], 1, "no/such.so")
-        self.refused(["run", HEAP, "--duration", "1", "--client", written("text.so", "not a library")], 1, "text.so")
+        self.refused(["run", PILE, "--duration", "1", "--client", "no/such.so"], 1, "no/such.so")
+        self.refused(["run", PILE, "--duration", "1", "--client", written("text.so", "not a library")], 1, "text.so")
 
     def test_a_saved_state_of_another_world_or_damaged(self):
-        saved = FOLDER / "heap.roboss"
-        summary(HEAP, "--duration", 0.1, "--save", saved)
-        self.refused(["run", WORLDS / "crossroads.sdf", "--duration", "1", "--from", saved], 1, "heap.roboss")
+        saved = FOLDER / "pile.roboss"
+        summary(PILE, "--duration", 0.1, "--save", saved)
+        self.refused(["run", WORLDS / "crossroads.sdf", "--duration", "1", "--from", saved], 1, "pile.roboss")
         whole = saved.read_bytes()
         damaged = FOLDER / "damaged.roboss"
         damaged.write_bytes(whole[: len(whole) // 2])
-        self.refused(["run", HEAP, "--duration", "1", "--from", damaged], 1, "damaged.roboss")
+        self.refused(["run", PILE, "--duration", "1", "--from", damaged], 1, "damaged.roboss")
 
     def test_a_folder_that_cannot_be_written(self):
-        done = self.refused(["run", HEAP, "--duration", "0.1", "--quiet", "--save", "no/such/folder/x.roboss"], 3, "no/such/folder")
+        done = self.refused(["run", PILE, "--duration", "0.1", "--quiet", "--save", "no/such/folder/x.roboss"], 3, "no/such/folder")
         self.assertIn("state hash", done.stdout, "the summary is there all the same")
 
     def test_an_order_beyond_the_limits_is_refused_by_name(self):
         orders = written("boom.jsonl", '{"t":0.05,"robot":"arm","wrench":{"link":"lower","force":[1e308,0,0],"duration":0.1}}\n')
-        self.refused(["run", HEAP, "--duration", "1", "--orders", orders], 1, "boom.jsonl:1", "arm", "force", "limit")
+        self.refused(["run", PILE, "--duration", "1", "--orders", orders], 1, "boom.jsonl:1", "arm", "force", "limit")
 
     def test_a_run_that_blows_up_says_who_and_when_and_keeps_what_was(self):
         world = written("fragile.sdf", FRAGILE)

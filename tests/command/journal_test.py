@@ -14,7 +14,7 @@ from running import DRIVER, FOLDER, ROBOSS, WORLDS, RobossTest, roboss, summary
 RUNS = {
     "city": [WORLDS / "city.sdf", "--client", DRIVER],
     "crossroads": [WORLDS / "crossroads.sdf", "--orders", WORLDS / "crossroads.jsonl"],
-    "heap": [WORLDS / "heap.sdf"],
+    "pile": [WORLDS / "pile.sdf"],
 }
 UNTIL = 1.2
 expected = {}
@@ -69,7 +69,7 @@ class Journal(RobossTest):
                 self.assertEqual((branch["committed_hash"], branch["end_s"]), (undisturbed(name), UNTIL))
 
     def test_from_any_time_the_run_goes_on_to_the_same_end(self):
-        for name, at in (("city", 0.734), ("city", 0.5), ("crossroads", 1.1), ("heap", 0.001)):
+        for name, at in (("city", 0.734), ("city", 0.5), ("crossroads", 1.1), ("pile", 0.001)):
             with self.subTest(world=name, at=at):
                 self.assertEqual(summary(*RUNS[name], "--until", UNTIL, "--from", f"{kept(name)}@{at}")["state_hash"],
                                  undisturbed(name))
@@ -90,13 +90,13 @@ class Journal(RobossTest):
 
     def test_rewound_runs_are_branches_of_the_same_journal(self):
         file = fresh("branches.journal")
-        shutil.copy(kept("heap"), file)
+        shutil.copy(kept("pile"), file)
         shove = FOLDER / "shove.jsonl"
         shove.write_text('{"t":0.9,"robot":"arm","wrench":{"link":"lower","force":[30,0,0],"duration":0.05}}\n')
-        other = summary(*RUNS["heap"], "--orders", shove, "--until", UNTIL, "--from", f"{file}@0.8", "--journal", file)
-        self.assertNotEqual(other["state_hash"], undisturbed("heap"))
-        third = summary(*RUNS["heap"], "--until", UNTIL, "--from", f"{file}#2@0.3", "--journal", file)
-        self.assertEqual(third["state_hash"], undisturbed("heap"), "0.3 s is before the branch left: the first branch's history")
+        other = summary(*RUNS["pile"], "--orders", shove, "--until", UNTIL, "--from", f"{file}@0.8", "--journal", file)
+        self.assertNotEqual(other["state_hash"], undisturbed("pile"))
+        third = summary(*RUNS["pile"], "--until", UNTIL, "--from", f"{file}#2@0.3", "--journal", file)
+        self.assertEqual(third["state_hash"], undisturbed("pile"), "0.3 s is before the branch left: the first branch's history")
         branches = as_json("journal", "info", file)["branches"]
         self.assertEqual([(b["parent"], round(b["time_s"], 6)) for b in branches], [(0, 0.0), (1, 0.8), (1, 0.3)])
         self.assertTrue(as_json("journal", "verify", file)["good"])
@@ -112,7 +112,7 @@ class Journal(RobossTest):
         self.assertEqual(summary(WORLDS / "city.sdf", "--orders", orders, "--until", UNTIL)["state_hash"], undisturbed("city"))
 
     def test_killed_at_random_moments_and_started_again_nothing_is_lost(self):
-        for name, seed in (("city", 1), ("city", 2), ("crossroads", 3), ("heap", 4)):
+        for name, seed in (("city", 1), ("city", 2), ("crossroads", 3), ("pile", 4)):
             with self.subTest(world=name, seed=seed):
                 print(f"    seed {seed}")
                 chance = random.Random(seed)
@@ -153,7 +153,7 @@ class Journal(RobossTest):
         self.assertNotEqual(found["a"], found["b"])
         self.assertEqual(len(found["orders_b_only"]), 1)
         self.assertTrue(as_json("diff", other, other)["equal"])
-        self.refused(["diff", other, kept("heap")], 1, "other robots")
+        self.refused(["diff", other, kept("pile")], 1, "other robots")
 
     def first_robot(self):
         first = json.loads(next(line for line in (WORLDS / "crossroads.jsonl").read_text().splitlines() if line.startswith("{")))
@@ -165,30 +165,30 @@ class Journal(RobossTest):
         limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (400_000, resource.RLIM_INFINITY))
         done = subprocess.run(arguments, capture_output=True, text=True, preexec_fn=limit, timeout=120)
         self.assertEqual(done.returncode, 3, done.stderr)
-        self.assertIn("the run goes on", done.stderr)
+        self.assertIn("the run continues", done.stderr)
         self.assertIn(undisturbed("city"), done.stdout, "the result is what it would have been")
         self.assertTrue(as_json("journal", "verify", file)["good"], "what was written is whole")
         self.assertEqual(summary(*RUNS["city"], "--until", UNTIL, "--journal", file)["state_hash"], undisturbed("city"),
                          "and with room again, it goes on")
 
     def test_a_journal_that_does_not_fit_is_refused_in_words_and_left_alone(self):
-        file = kept("heap")
+        file = kept("pile")
         whole = file.read_bytes()
         cut = FOLDER / "cut.journal"
         cut.write_bytes(whole[: len(whole) * 2 // 3])
-        for command in (["journal", "info"], ["journal", "verify"], ["replay"], ["run", WORLDS / "heap.sdf", "--until", 1, "--journal"]):
+        for command in (["journal", "info"], ["journal", "verify"], ["replay"], ["run", WORLDS / "pile.sdf", "--until", 1, "--journal"]):
             self.refused([*command, cut], 1, "cut.journal")
         self.assertEqual(cut.read_bytes(), whole[: len(whole) * 2 // 3])
-        self.refused(["run", *RUNS["crossroads"], "--until", 1, "--journal", file], 1, "another world", "heap.sdf")
-        self.refused(["run", *RUNS["heap"], "--dt", 0.001, "--until", 1, "--journal", file], 1, "another world")
-        self.refused(["run", *RUNS["heap"], "--from", f"{file}@7"], 1, "nothing at 7")
-        self.refused(["run", *RUNS["heap"], "--from", f"{file}#9"], 1, "no branch 9")
+        self.refused(["run", *RUNS["crossroads"], "--until", 1, "--journal", file], 1, "another world", "pile.sdf")
+        self.refused(["run", *RUNS["pile"], "--dt", 0.001, "--until", 1, "--journal", file], 1, "another world")
+        self.refused(["run", *RUNS["pile"], "--from", f"{file}@7"], 1, "nothing at 7")
+        self.refused(["run", *RUNS["pile"], "--from", f"{file}#9"], 1, "no branch 9")
         self.refused(["run", WORLDS / "city.sdf", "--until", 2, "--journal", kept("city")], 1, "other Clients")
         text = FOLDER / "text.journal"
         text.write_text("not a journal, but something that somebody needs\n")
-        self.refused(["run", *RUNS["heap"], "--until", 1, "--journal", text], 1, "text.journal")
+        self.refused(["run", *RUNS["pile"], "--until", 1, "--journal", text], 1, "text.journal")
         self.assertIn("somebody needs", text.read_text())
-        self.refused(["run", *RUNS["heap"], "--until", 1, "--journal", "no/such/folder.journal"], 1, "no/such/folder.journal")
+        self.refused(["run", *RUNS["pile"], "--until", 1, "--journal", "no/such/folder.journal"], 1, "no/such/folder.journal")
         self.assertEqual(file.read_bytes(), whole)
 
 

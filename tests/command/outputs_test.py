@@ -47,7 +47,7 @@ class Outputs(unittest.TestCase):
 
     def test_the_summary_has_its_keys_and_the_terminal_the_same_hash(self):
         file = FOLDER / "s.json"
-        done = roboss("run", WORLDS / "heap.sdf", "--duration", 0.2, "--json", file)
+        done = roboss("run", WORLDS / "pile.sdf", "--duration", 0.2, "--json", file)
         data = json.loads(file.read_text())
         self.assertLessEqual(KEYS, set(data))
         self.assertEqual(data["ticks"], 100)
@@ -75,7 +75,7 @@ class Outputs(unittest.TestCase):
     def test_the_log_tells_what_happens_who_has_what_and_how_the_run_stands(self):
         file = FOLDER / "run.log"
         file.write_text("a line of a run before\n")
-        summary(WORLDS / "heap.sdf", "--duration", 0.4, "--simulators", 3, "--log", file, "--log-every", 0.001)
+        summary(WORLDS / "pile.sdf", "--duration", 0.4, "--simulators", 3, "--log", file, "--log-every", 0.001)
         first, *lines = file.read_text().splitlines()
         self.assertEqual(first, "a line of a run before", "it is added to")
         events = [dict(p.split("=", 1) for p in shlex.split(line)[1:]) for line in lines]
@@ -90,7 +90,7 @@ class Outputs(unittest.TestCase):
         self.assertIn("the run has ended", [e.get("text") for e in events])
 
     def test_a_log_that_cannot_be_written_is_refused(self):
-        done = roboss("run", WORLDS / "heap.sdf", "--duration", 0.1, "--log", FOLDER)
+        done = roboss("run", WORLDS / "pile.sdf", "--duration", 0.1, "--log", FOLDER)
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("cannot write the log", done.stderr)
 
@@ -103,14 +103,14 @@ class Outputs(unittest.TestCase):
 
     def test_ctrl_c_ends_a_run_with_its_summary_and_its_state(self):
         saved = FOLDER / "interrupted.roboss"
-        run = subprocess.Popen([ROBOSS, "run", WORLDS / "heap.sdf", "--speed", "1", "--save", saved],
+        run = subprocess.Popen([ROBOSS, "run", WORLDS / "pile.sdf", "--speed", "1", "--save", saved],
                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         time.sleep(1.5)
         run.send_signal(signal.SIGINT)
         output, _ = run.communicate(timeout=60)
         self.assertEqual(run.returncode, 130)
         self.assertIn("state hash", output)
-        self.assertGreater(summary(WORLDS / "heap.sdf", "--from", saved, "--duration", 0)["sim_time_s"], 0.1)
+        self.assertGreater(summary(WORLDS / "pile.sdf", "--from", saved, "--duration", 0)["sim_time_s"], 0.1)
 
     def test_speed_follows_the_clock(self):
         data = summary(WORLDS / "crossroads.sdf", "--duration", 1.0, "--speed", 2)

@@ -9,7 +9,7 @@ from running import DRIVER, FOLDER, WORLDS, roboss, summary
 RUNS = {
     "city": ([WORLDS / "city.sdf", "--client", DRIVER], 3.0),
     "crossroads": ([WORLDS / "crossroads.sdf", "--orders", WORLDS / "crossroads.jsonl"], 2.3),
-    "heap": ([WORLDS / "heap.sdf"], 2.0),
+    "pile": ([WORLDS / "pile.sdf"], 2.0),
     "four_bar": ([WORLDS / "four_bar.sdf", "--orders", WORLDS / "four_bar.jsonl"], 2.0),
     "parallel": ([WORLDS / "parallel.sdf", "--orders", WORLDS / "parallel.jsonl"], 2.0),
     "shapes": ([WORLDS / "shapes.sdf"], 0.8),
@@ -65,11 +65,11 @@ class SameBits(unittest.TestCase):
         self.assertEqual(len(set(line.split()[-1] for line in lines[0])), 8, "each time has a hash of its own")
 
     def test_one_changed_bit_of_the_input_changes_the_hash(self):
-        text = (WORLDS / "heap.sdf").read_text()
-        changed = FOLDER / "heap.sdf"
+        text = (WORLDS / "pile.sdf").read_text()
+        changed = FOLDER / "pile.sdf"
         changed.write_text(text.replace("<mass>2</mass>", "<mass>2.0000000000000004</mass>", 1))
         self.assertNotEqual(summary(changed, "--duration", 0.5)["state_hash"],
-                            summary(WORLDS / "heap.sdf", "--duration", 0.5)["state_hash"])
+                            summary(WORLDS / "pile.sdf", "--duration", 0.5)["state_hash"])
         world, _ = RUNS["city"]
         self.assertNotEqual(summary(*world, "--duration", 1)["state_hash"],
                             summary(*world, "--duration", 1, "--precision", "float")["state_hash"], "floats")

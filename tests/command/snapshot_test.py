@@ -30,8 +30,8 @@ class Snapshot(RobossTest):
     def test_it_shows_the_world_from_where_one_looks(self):
         shown = []
         for camera in ("top", "0,0,0.5,40,20,6"):
-            file = FOLDER / f"heap-{len(shown)}.png"
-            done = roboss("snapshot", WORLDS / "heap.sdf", "--at", 1, "--camera", camera, "--width", 640, "--height", 400, "-o", file)
+            file = FOLDER / f"pile-{len(shown)}.png"
+            done = roboss("snapshot", WORLDS / "pile.sdf", "--at", 1, "--camera", camera, "--width", 640, "--height", 400, "-o", file)
             self.assertEqual(done.returncode, 0, done.stderr)
             width, height, rows = pixels(file)
             self.assertEqual((width, height), (640, 400))
@@ -43,7 +43,7 @@ class Snapshot(RobossTest):
         before = dict(os.environ)
         os.environ["ROBOSS_BROWSER"] = "/nowhere/chromium"
         try:
-            self.refused(["snapshot", WORLDS / "heap.sdf", "-o", FOLDER / "none.png"], 3, "the browser has ended", "remedy")
+            self.refused(["snapshot", WORLDS / "pile.sdf", "-o", FOLDER / "none.png"], 3, "the browser has ended", "remedy")
         finally:
             os.environ.clear()
             os.environ.update(before)

@@ -47,7 +47,7 @@ SimulationOptions LiveRun::simulation_options() const {
     SimulationOptions options;
     options.simulators = options_.simulators;
     if (!gateway_) return options;
-    options.guest = [this](Bus& bus) { gateway_->advance(bus); };
+    options.observer = [this](Bus& bus) { gateway_->advance(bus); };
     options.controller.scene = [textures = options_.textures](const Model& model) {
         SceneFile file = scene_file(make_scene(model, nullptr), model, 0);
         file.textures = textures;
@@ -111,7 +111,7 @@ void LiveRun::serve_calls() {
     for (ControlCall& call : simulation_->controller().control().take_calls())
         calls_.push_back(std::move(call));
     for (const ControlCall& call : std::exchange(calls_, {})) {
-        const std::string& word = call.request.words.at(0);
+        const std::string& word = call.request.arguments.at(0);
         bool done = true;
         std::string text;
         if (word == "status") {

@@ -9,7 +9,7 @@ import unittest
 from members import DRIVER, FOLDER, NETWORK, ROBOSS, WORLDS, Cluster, embedded
 
 CITY = [WORLDS / "city.sdf", "--until", 1.2, "--seed", 7]
-HEAP = [WORLDS / "heap.sdf", "--until", 2.0]
+PILE = [WORLDS / "pile.sdf", "--until", 2.0]
 BALL = """<sdf version="1.9"><model name="ball"><link name="ball"><inertial><mass>1</mass><inertia><ixx>.004</ixx><iyy>.004</iyy>
 <izz>.004</izz></inertia></inertial><collision name="c"><geometry><sphere><radius>.1</radius></sphere></geometry></collision></link></model></sdf>"""
 
@@ -53,10 +53,10 @@ class Control(unittest.TestCase):
                 self.assertTrue(journal("verify", file)["good"])
 
     def test_a_running_simulation_obeys_and_its_result_does_not_depend_on_pace(self):
-        expected = embedded(*HEAP)
+        expected = embedded(*PILE)
         with Cluster() as cluster:
             file = FOLDER / "controlled.journal"
-            controller = cluster.controller(*HEAP, "--local", 1, "--simulators", 1, "--paused", "--journal", file)
+            controller = cluster.controller(*PILE, "--local", 1, "--simulators", 1, "--paused", "--journal", file)
             other = cluster.simulator()
             controller.hears("joined", 2)
             self.assertEqual(self.status(cluster)["tick"], 0)
@@ -97,7 +97,7 @@ class Control(unittest.TestCase):
             self.ask(cluster, "resume")
             self.assertEqual(cluster.summary(controller)["state_hash"], expected["state_hash"], controller.said())
             self.assertEqual(other.end(10), 0)
-            self.assertEqual(embedded(*HEAP, "--from", saved)["state_hash"], expected["state_hash"])
+            self.assertEqual(embedded(*PILE, "--from", saved)["state_hash"], expected["state_hash"])
             self.assertTrue(journal("verify", file)["good"])
 
     def test_robots_and_accuracy_change_at_a_tick_and_the_journal_keeps_it(self):
@@ -107,7 +107,7 @@ class Control(unittest.TestCase):
         for way in (["--local", 1, "--simulators", 0], ["--simulators", 2]):
             with self.subTest(way=way), Cluster() as cluster:
                 file = FOLDER / f"changed-{len(hashes)}.journal"
-                controller = cluster.controller(*HEAP, *way, "--paused", "--journal", file)
+                controller = cluster.controller(*PILE, *way, "--paused", "--journal", file)
                 for _ in range(2 if way[1] == 2 else 0):
                     cluster.simulator()
                 self.ask(cluster, "step", 200)
@@ -126,12 +126,12 @@ class Control(unittest.TestCase):
                 self.assertEqual(self.status(cluster)["robots"], [*before[:3], *before[4:], "guest"])
                 self.ask(cluster, "remove", "nobody", code=3)
                 controller.kill()
-                again = cluster.controller(*HEAP, *way, "--journal", file)
+                again = cluster.controller(*PILE, *way, "--journal", file)
                 hashes.append(cluster.summary(again)["state_hash"])
                 self.assertTrue(journal("verify", file)["good"])
                 self.assertEqual(len(journal("info", file)["branches"]), 4)
         self.assertEqual(hashes[0], hashes[1])
-        self.assertNotEqual(hashes[0], embedded(*HEAP)["state_hash"])
+        self.assertNotEqual(hashes[0], embedded(*PILE)["state_hash"])
 
 
 if __name__ == "__main__":

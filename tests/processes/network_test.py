@@ -17,7 +17,7 @@ import bad_cable
 from members import DRIVER, FOLDER, ROBOSS, WORLDS, Member, embedded  # takes its own arguments
 
 CITY = [WORLDS / "city.sdf", "--until", 0.4, "--seed", 7]
-HEAP = [WORLDS / "heap.sdf", "--until", 2.0]
+PILE = [WORLDS / "pile.sdf", "--until", 2.0]
 
 
 class HostMember(Member):
@@ -86,7 +86,7 @@ class Network(unittest.TestCase):
                 self.assertEqual(self.city(lambda _: finding, hosts)["state_hash"], expected)
 
     def test_a_simulator_cut_off_by_its_host_is_done_without_and_comes_back(self):
-        world = [WORLDS / "heap.sdf", "--until", 3.0]
+        world = [WORLDS / "pile.sdf", "--until", 3.0]
         expected = embedded(*world)["state_hash"]
         with bad_cable.Hosts(3, loss=0.01, delay_s=0.002, seed=4) as hosts:
             place = ["--simulation", "net", "--interface"]
@@ -125,7 +125,7 @@ program = "{ROBOSS}"
 reach = ["ip", "netns", "exec", "{{host}}", "sh", "-s"]
 [controller]
 host = "{hosts.name(0)}"
-world = "{WORLDS / 'heap.sdf'}"
+world = "{WORLDS / 'pile.sdf'}"
 interface = "{hosts.address(0)}"
 options = ["--simulators", "3", "--speed", "0.5", "--headless"]
 [[simulators]]
@@ -163,10 +163,10 @@ class DiscoveryServer(unittest.TestCase):
         summary = FOLDER / "server.json"
         with discovery_server("127.0.0.1", 20_000 + os.getpid() % 10_000) as finding:
             place = ["--simulation", f"server-{os.getpid()}", *finding]
-            members = [Member("controller", *HEAP, "--simulators", 2, "--json", summary, *place), Member("simulator", *place), Member("simulator", *place)]
+            members = [Member("controller", *PILE, "--simulators", 2, "--json", summary, *place), Member("simulator", *place), Member("simulator", *place)]
             try:
                 self.assertEqual(members[0].end(60), 0, members[0].said())
-                self.assertEqual(json.loads(summary.read_text())["state_hash"], embedded(*HEAP)["state_hash"])
+                self.assertEqual(json.loads(summary.read_text())["state_hash"], embedded(*PILE)["state_hash"])
             finally:
                 for member in members:
                     member.kill()

@@ -9,7 +9,7 @@ from pathlib import Path
 from members import DRIVER, FOLDER, WORLDS, Cluster, embedded
 
 CROSSROADS = [WORLDS / "crossroads.sdf", "--orders", WORLDS / "crossroads.jsonl", "--duration", 1.2]
-HEAP = [WORLDS / "heap.sdf", "--duration", 1.2]
+PILE = [WORLDS / "pile.sdf", "--duration", 1.2]
 CITY = [WORLDS / "city.sdf", "--duration", 1.2, "--seed", 7]
 
 
@@ -22,7 +22,7 @@ def running(pid):
 
 class Processes(unittest.TestCase):
     def test_one_two_and_four_simulator_processes_give_the_hash_of_one_process(self):
-        for world in (CROSSROADS, HEAP):
+        for world in (CROSSROADS, PILE):
             expected = embedded(*world)
             for count in (1, 2, 4):
                 with self.subTest(world=world[0].name, processes=count):
@@ -70,29 +70,29 @@ class Processes(unittest.TestCase):
             self.assertEqual(found["simulators"], 2)
 
     def test_runs_side_by_side_never_mix(self):
-        expected = [embedded(*world)["state_hash"] for world in (CROSSROADS, HEAP)]
+        expected = [embedded(*world)["state_hash"] for world in (CROSSROADS, PILE)]
         with Cluster() as one, Cluster() as other:
             members = [one.simulator(), other.simulator()]
-            controllers = [one.controller(*CROSSROADS), other.controller(*HEAP)]
+            controllers = [one.controller(*CROSSROADS), other.controller(*PILE)]
             self.assertEqual([one.summary(controllers[0])["state_hash"], other.summary(controllers[1])["state_hash"]], expected)
             self.assertEqual([member.end(10) for member in members], [0, 0])
 
     def test_a_controller_killed_and_started_again_finds_its_simulators_waiting(self):
-        expected = embedded(*HEAP)
+        expected = embedded(*PILE)
         with Cluster() as cluster:
             simulator = cluster.simulator()
-            killed = cluster.controller(*HEAP, "--speed", 0.2)
+            killed = cluster.controller(*PILE, "--speed", 0.2)
             killed.hears("joined")
             killed.kill()
-            again = cluster.controller(*HEAP)
+            again = cluster.controller(*PILE)
             self.assertEqual(cluster.summary(again)["state_hash"], expected["state_hash"])
             self.assertEqual(simulator.end(10), 0)
 
     def test_who_cannot_take_part_is_told_why(self):
         with Cluster() as cluster:
-            waiting = cluster.controller(*HEAP)
+            waiting = cluster.controller(*PILE)
             waiting.hears("waits for 1 Simulators")
-            second = cluster.controller(*HEAP)
+            second = cluster.controller(*PILE)
             self.assertEqual(second.end(), 1)
             self.assertIn("there is a Controller of simulation", second.said())
             waiting.process.send_signal(signal.SIGINT)
@@ -110,7 +110,7 @@ class Processes(unittest.TestCase):
     def test_simulator_processes_die_with_the_process_that_started_them(self):
         before = set(os.listdir("/dev/shm"))
         with Cluster() as cluster:
-            run = cluster.start_plain("run", *HEAP, "--processes", 2, "--speed", 0.2)
+            run = cluster.start_plain("run", *PILE, "--processes", 2, "--speed", 0.2)
             run.hears("joined", 2)
             pid = run.process.pid
             children = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()

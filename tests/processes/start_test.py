@@ -10,7 +10,7 @@ from pathlib import Path
 from members import WORLDS, Cluster, embedded
 
 CROSSROADS = [WORLDS / "crossroads.sdf", "--orders", WORLDS / "crossroads.jsonl", "--duration", 1.2]
-ENDLESS = ["run", WORLDS / "heap.sdf", "--headless", "--speed", 0.5, "--log", "-", "--log-every", 0.1]
+ENDLESS = ["run", WORLDS / "pile.sdf", "--headless", "--speed", 0.5, "--log", "-", "--log-every", 0.1]
 MANY = 32
 MANY_START_S = 60  # on a machine that does much else; 3 s on two idle cores
 PROCESSES_FAILED = 4

@@ -183,11 +183,11 @@ class Viewer(unittest.TestCase):
     def test_robots_added_at_run_time_look_as_their_file_says(self):
         with Cluster() as cluster:
             self.added_robots_look_as_their_file_says(
-                url_of(cluster.start_plain("run", WORLDS / "heap.sdf", "--speed", 1, "--view", 0)))
+                url_of(cluster.start_plain("run", WORLDS / "pile.sdf", "--speed", 1, "--view", 0)))
 
     def test_robots_added_to_a_cluster_look_as_their_file_says(self):
         with Cluster() as cluster:
-            cluster.controller(WORLDS / "heap.sdf", "--simulators", 2, "--speed", 1, "--headless")
+            cluster.controller(WORLDS / "pile.sdf", "--simulators", 2, "--speed", 1, "--headless")
             viewer = cluster.start("view", "--view", 0, "--patience", 30)
             for _ in range(2):
                 cluster.simulator()

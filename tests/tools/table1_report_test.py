@@ -63,7 +63,7 @@ class Table1Report(unittest.TestCase):
 
     def test_a_page_without_marks_and_rows_without_a_city_are_refused(self):
         self.assertIn("lacks the marker lines", self.report([row("city", 50, 1, 1)], page="nothing").stderr)
-        self.assertIn("holds no measured city", self.report([row("heap", 50, 1, 1)]).stderr)
+        self.assertIn("holds no measured city", self.report([row("pile", 50, 1, 1)]).stderr)
 
 
 if __name__ == "__main__":

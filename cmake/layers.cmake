@@ -1,0 +1,58 @@
+# roboss_layer(name DEPENDS layers...): src/name/*.cpp becomes the static library roboss_name; every src/name/*_test.cpp goes into one
+# test program, roboss_name_test. A layer with external libraries adds them in src/name/layer.cmake (included after the target exists);
+# cmake/install.cmake must know each such library, so that an installed RoBOSS finds it again.
+add_library(roboss_options INTERFACE)
+target_compile_options(roboss_options INTERFACE
+  -Wall -Wextra -Wshadow -Wconversion -Werror -ffp-contract=off -fno-fast-math)
+# g++ 12 warns of overlapping copies inside std::string::operator+ that cannot happen (GCC bug 105651).
+target_compile_options(roboss_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+# clang counts changes of sign to -Wconversion, g++ does not; g++ is the measure.
+target_compile_options(roboss_options INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>)
+# Kernels say & and | for lanes' masks and for bool alike.
+target_compile_options(roboss_options INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>)
+target_compile_features(roboss_options INTERFACE cxx_std_20)
+if(ROBOSS_SANITIZE)
+  target_compile_options(roboss_options INTERFACE -fsanitize=${ROBOSS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(roboss_options INTERFACE -fsanitize=${ROBOSS_SANITIZE})
+endif()
+
+if(ROBOSS_TESTS)
+  find_package(GTest REQUIRED)
+  include(GoogleTest)
+endif()
+
+function(roboss_layer name)
+  cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/*.cpp)
+  file(GLOB tests CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/*_test.cpp)
+  list(REMOVE_ITEM sources ${tests} "")
+  set(target roboss_${name})
+  if(sources)
+    add_library(${target} STATIC ${sources})
+    set(scope PUBLIC)
+    target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:roboss_options>)
+  else()
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  add_library(roboss::${name} ALIAS ${target})
+  target_include_directories(${target} ${scope}
+    $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include/roboss>)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  # A program outside compiles our inline arithmetic too, and the linker may keep its copy: it needs C++20 and must not fuse.
+  target_compile_features(${target} ${scope} cxx_std_20)
+  target_compile_options(${target} INTERFACE $<INSTALL_INTERFACE:-ffp-contract=off>)
+  foreach(dep ${ARG_DEPENDS})
+    target_link_libraries(${target} ${scope} roboss_${dep})
+  endforeach()
+  if(EXISTS ${CMAKE_SOURCE_DIR}/src/${name}/layer.cmake)
+    include(${CMAKE_SOURCE_DIR}/src/${name}/layer.cmake)
+  endif()
+  set_property(GLOBAL APPEND PROPERTY ROBOSS_LAYERS ${name})
+  if(ROBOSS_TESTS AND tests)
+    add_executable(${target}_test ${tests})
+    target_link_libraries(${target}_test PRIVATE ${target} roboss_options GTest::gtest_main)
+    target_include_directories(${target}_test PRIVATE ${CMAKE_SOURCE_DIR}/tests)  # <support/...>: worlds that tests share
+    gtest_discover_tests(${target}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60)
+  endif()
+endfunction()

@@ -1,0 +1,37 @@
+// ControlService: requests to the run itself (pause, rewind ...). Each is handed out once, and its answer is
+// sent again whenever the request is. The owner of the run executes them.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bus/bus.h"
+
+namespace roboss {
+
+struct ControlCall {
+    Address from;
+    ControlRequest request;
+};
+
+class ControlService {
+  public:
+    /// Accepts a request, or sends its answer again.
+    void take(Bus& bus, const Address& from, const ControlRequest& request);
+    /// Requests that are new since the last call.
+    std::vector<ControlCall> take_calls() { return std::exchange(calls_, {}); }
+    void answer(Bus& bus, const ControlCall& call, bool done, const std::string& text);
+
+  private:
+    struct Last {
+        std::uint64_t number = 0;
+        std::optional<ControlReply> reply;
+    };
+    std::map<Address, Last> last_;  // by requester
+    std::vector<ControlCall> calls_;
+};
+
+}  // namespace roboss
