@@ -14,9 +14,10 @@ using Text = fmt::memory_buffer;
 
 const char* const kOfFloats = R"(## In floats, dt 1 ms
 
-The cases again with `--precision float`, their bounds as they are. *The same*: no robot of the case goes through floats (lone bodies, what moves
-freely, loops, robots that touch each other: docs/physics.md, Precision), or none shows it in these figures. A float has 24 bits: the change of a velocity in one
-tick is exact to some 1e-7 of itself, so what asks for 1e-9 of it (a stalled motor's force) cannot be met in floats; it is met in doubles.
+The cases again with `--precision float`, with their bounds. *The same*: no robot of the case goes through floats (lone
+bodies, free motion, loops, robots that touch each other: docs/physics.md, Precision), or none shows it in these
+figures. A float has 24 bits: the change of a velocity in one tick is exact to some 1e-7 of itself, so what needs 1e-9
+of it (a stalled motor's force) is met in doubles only.
 
 )";
 
@@ -151,15 +152,17 @@ void write_misses(Text& text, const Results& all) {
 
 const char* const kIntroduction = R"(# Accuracy
 
-Motions whose truth is known from elsewhere: a closed form, a reference converged in long double, or that nothing should move. Every case runs on
-RoBOSS and on the engines that Debian 12 packages, in the same run, through one interface (`bench/engines/engine.h`); an engine's velocities and poses are
-read alike and energies summed alike. This page is written by the program; `./bench.sh accuracy` makes it again (`--list` names the cases, `--case NAME`
-runs some, `--json FILE` gives the rows to programs).
+Motions with a known truth: a closed form, a reference converged in long double, or that nothing should move. Every case
+runs on RoBOSS and on the engines that Debian 12 packages, in the same run, through one interface
+(`bench/engines/engine.h`); velocities and poses of all engines are read alike, and energies summed alike. This page is
+written by the program; `./bench.sh accuracy` makes it again (`--list` names the cases, `--case NAME` runs some,
+`--json FILE` writes the rows for programs).
 
-How to read the tables: figures are errors unless the unit says otherwise, and `✗` marks one that does not keep the bound in the column *must*.
-The bounds are for RoBOSS, at its default accuracy; the peers, set up as in the benchmark of speed, were not made for them and are shown for scale. *Stated* figures have no bound.
-*Cannot*: the engine has no such thing. An engine that needs more than its share of wall time is
-cut short; the note says when, and *too slow* stands where it did not come half way.
+How to read the tables: figures are errors unless the unit says otherwise, and `✗` marks one that does not keep the
+bound in the column *must*. The bounds are for RoBOSS, at its default accuracy. The peers, set up as in the benchmark of
+speed, were not made for them and are shown for scale. *Stated* figures have no bound. *Cannot*: the engine does not
+support it. An engine that needs more than its share of wall time is stopped; the note says when, and *too slow* means
+that it did not reach half of the time.
 
 )";
 
@@ -178,9 +181,9 @@ std::string to_markdown(const Results& all, const std::string& picture) {
     add(text, "## The same at dt 2 ms\n\nThe bounds are those of 1 ms, for comparison only.\n\n");
     write_table(text, all, true, [](const Case&) { return true; });
     if (all.floats) write_floats(text, all);
-    add(text, "## The engines\n\n");
+    add(text, "## The engines\n\n| engine | version | set-up |\n|---|---|---|\n");
     const auto describe = [&](const EngineNote& e) {
-        add(text, "- **{}** ({}): {}.\n", e.name, e.version, e.settings);
+        add(text, "| {} | {} | {} |\n", e.name, e.version, e.settings);
     };
     std::for_each(all.engines.begin(), all.engines.end(), describe);
     if (all.floats) describe(*all.floats);

@@ -11,7 +11,7 @@
 // comes to within 2 mm of it while moving, and when a robot that it touched is awake or not in the call. The
 // last cannot be told apart by who is in the call: robots that touch have bounds that overlap, so they are
 // always stepped together, unless an order has taken one of them away. So the rest of the argument in
-// docs/how-windows-work.md holds.
+// ARCHITECTURE.md ("Why the bits are equal") holds.
 #pragma once
 
 #include <span>

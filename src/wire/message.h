@@ -324,7 +324,7 @@ struct ClientBye {
 // --- control of the run
 // --------------------------------------------------------------------------------------------------
 
-/// Anyone -> Controller: pause, step, speed, rewind ... (simulation/control.h). Sent again until answered.
+/// Anyone -> Controller: pause, step, speed, rewind ... Sent again until answered.
 struct ControlRequest {
     std::uint64_t number = 0;  // of the sender's requests, ascending
     std::vector<std::string> arguments;
