@@ -63,9 +63,11 @@ class Answerer {
     WindowResult answer(const Assignment& assignment) const {
         WindowResult result{assignment.epoch, assignment.window, assignment.attempt, 0, {}, {}, {}};
         for (const RobotId robot : assignment.robots) result.robots.push_back(result_of(robot, assignment));
-        for (std::size_t i = 0; i + 1 < assignment.island_offsets.size(); ++i)
-            result.islands.push_back(
-                {5'000u * static_cast<std::uint64_t>(assignment.until - assignment.from), 4, 4, {}, 0});
+        IslandResult island;
+        island.cost_ns = 5'000u * static_cast<std::uint64_t>(assignment.until - assignment.from);
+        island.contacts = island.static_contacts = 4;
+        const std::size_t offsets = assignment.island_offsets.size();
+        if (offsets > 0) result.islands.assign(offsets - 1, island);
         return result;
     }
 
