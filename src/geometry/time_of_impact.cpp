@@ -31,7 +31,7 @@ bool is_held(const Manifold& m, std::span<const TouchedPlane> held, const Transf
 double closing_speed(const Course& a, const Course& b, const Vec3& n, double t, double dt) {
     const Vec3 va = a.velocity(a.at(t).p, t), vb = b.velocity(b.at(t).p, t);
     return -dot(n, va - vb) + a.most_turning(dt) + b.most_turning(dt) +
-           0.5 * (a.bend() + b.bend()) * (dt - t);
+           0.5 * (a.bend(dt) + b.bend(dt)) * (dt - t);
 }
 
 /// `find(t)` gives the manifold at time t; `m` is that of the beginning, with points.

@@ -9,6 +9,7 @@
 
 #include "core/make_room.h"
 #include "geometry/collide.h"
+#include "physics/free_course.h"
 #include "physics/swept_contact.h"
 
 namespace roboss {
@@ -93,7 +94,8 @@ void sort_contacts(std::span<const RobotWork> robots, std::span<Contact> contact
 
 }  // namespace
 
-ContactFinder::ContactFinder() : buffers_(std::make_unique<SweepBuffers>()) {}
+ContactFinder::ContactFinder()
+    : buffers_(std::make_unique<SweepBuffers>()), free_courses_(std::make_unique<FreeCourses>()) {}
 ContactFinder::~ContactFinder() = default;
 ContactFinder::ContactFinder(ContactFinder&&) noexcept = default;
 ContactFinder& ContactFinder::operator=(ContactFinder&&) noexcept = default;
@@ -111,8 +113,10 @@ SurfacePair surface_of(const Model& model, std::span<const RobotWork> robots, co
                         b.shapes[contact.shape_b].X_WS.R, contact.normal, -contact.gap);
 }
 
-void ContactFinder::find(const Model& model, std::span<RobotWork> robots, std::vector<Contact>& contacts) {
+void ContactFinder::find(const Model& model, std::span<RobotWork> robots, bool keep_loads,
+                         std::vector<Contact>& contacts) {
     contacts.clear(), near_misses_.clear();
+    free_courses_->start(robots.size(), keep_loads);
     std::size_t pair = 0;
     for (std::size_t a = 0; a < robots.size(); ++a) {
         const std::size_t first = contacts.size();
@@ -163,17 +167,24 @@ void ContactFinder::with_static(const Model& model, std::span<const RobotWork> r
     if (!may_collide(shape.material, scenery.material)) return;
     const Pair pair{static_cast<int>(a), -1, s, i, shape.body, -1};
     const std::uint32_t keep = points_max(shape.material, scenery.material);
-    if (scenery.shape.kind == ShapeKind::kSurface)
-        return with_surface(model, robots[a], pair, keep, contacts);
+    if (scenery.shape.kind == ShapeKind::kSurface) return with_surface(model, robots, pair, keep, contacts);
     Manifold manifold = collide(shape.shape, placed.X_WS, scenery.shape, scenery.X_WS, placed.margin);
     if (scenery.shape.kind != ShapeKind::kPlane && may_pass(manifold, placed.margin - kBaseMargin))
-        return add_judged(pair, course_of(robots[a], s), resting_course(scenery.shape, scenery.X_WS),
-                          model.dt_s, placed.margin + kBaseMargin, keep, manifold, contacts);
+        return add_judged(pair, course(model, robots, pair.robot_a, s),
+                          resting_course(scenery.shape, scenery.X_WS), model.dt_s,
+                          placed.margin + kBaseMargin, keep, manifold, contacts);
     add_points(manifold, pair, keep, contacts);
 }
 
-void ContactFinder::with_surface(const Model& model, const RobotWork& robot, const Pair& pair,
+Course ContactFinder::course(const Model& model, std::span<const RobotWork> robots, int robot,
+                             std::size_t shape) {
+    const auto number = static_cast<std::size_t>(robot);
+    return known_course(model, robots[number], number, shape, *free_courses_);
+}
+
+void ContactFinder::with_surface(const Model& model, std::span<const RobotWork> robots, const Pair& pair,
                                  std::uint32_t keep, std::vector<Contact>& contacts) {
+    const RobotWork& robot = robots[static_cast<std::size_t>(pair.robot_a)];
     const StaticShape& scenery = model.statics[pair.shape_b];
     const TriangleSurface& surface = *scenery.shape.surface;
     const ShapeWork& placed = robot.shapes[pair.shape_a];
@@ -184,8 +195,8 @@ void ContactFinder::with_surface(const Model& model, const RobotWork& robot, con
     const auto passes = [&](const SurfaceContact& c) { return may_pass(c.gap, way); };
     if (way <= kFastWay && std::ranges::none_of(b.found.points, passes))
         return add_points(b.found.points, pair, keep, contacts);
-    const Course course = course_of(robot, pair.shape_a), still{};
-    const SweptPair judged = sweep(course, surface, scenery.X_WS, model.dt_s, margin, b);
+    const Course moving = course(model, robots, pair.robot_a, pair.shape_a), still{};
+    const SweptPair judged = sweep(moving, surface, scenery.X_WS, model.dt_s, margin, b);
     if (judged.meeting == Meeting::kNone) miss(pair);
     const std::size_t first = contacts.size();
     add_points(b.found.points, pair, keep, contacts);
@@ -196,7 +207,7 @@ void ContactFinder::with_surface(const Model& model, const RobotWork& robot, con
         const auto is_taken = [&](const Contact& other) { return other.feature == contacts[c].feature; };
         const std::span<const Contact> before = std::span(contacts).subspan(first, c - first);
         while (std::ranges::any_of(before, is_taken)) ++contacts[c].feature;
-        take_back(course, still, judged.time, contacts[c]);
+        take_back(moving, still, judged.time, contacts[c]);
     }
 }
 
@@ -253,8 +264,9 @@ void ContactFinder::collide_shapes(const Model& model, std::span<const RobotWork
     Manifold manifold = collide(a.shape, wa.X_WS, b.shape, wb.X_WS, margin);
     const bool has_plane = a.shape.kind == ShapeKind::kPlane || b.shape.kind == ShapeKind::kPlane;
     if (sweeps && !has_plane && may_pass(manifold, margin - 2 * kBaseMargin))
-        return add_judged(pair, course_of(ra, pair.shape_a), course_of(rb, pair.shape_b), model.dt_s, margin,
-                          keep, manifold, contacts);
+        return add_judged(pair, course(model, robots, pair.robot_a, pair.shape_a),
+                          course(model, robots, pair.robot_b, pair.shape_b), model.dt_s, margin, keep,
+                          manifold, contacts);
     add_points(manifold, pair, keep, contacts);
 }
 

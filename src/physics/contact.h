@@ -54,6 +54,7 @@ inline std::span<const NearMiss> misses_of(std::uint32_t robot, std::span<const 
 struct Course;
 struct Manifold;
 struct SweepBuffers;
+class FreeCourses;
 
 /// What the materials make of a contact of the island.
 SurfacePair surface_of(const Model& model, std::span<const RobotWork> robots, const Contact& contact);
@@ -72,9 +73,13 @@ class ContactFinder {
     std::span<const std::pair<std::uint32_t, std::uint32_t>> pairs() const { return pairs_; }
 
     /// Contacts of these pairs, of robots with themselves and with the scenery. Sleepers are left out.
-    void find(const Model& model, std::span<RobotWork> robots, std::vector<Contact>& contacts);
+    /// `keep_loads`: see FreeCourses.
+    void find(const Model& model, std::span<RobotWork> robots, bool keep_loads,
+              std::vector<Contact>& contacts);
     /// What find() left out of the contacts, sorted.
     std::span<const NearMiss> near_misses() const { return near_misses_; }
+    /// Of the robots of find().
+    FreeCourses& free_courses() { return *free_courses_; }
 
     /// Contacts of robots a < b, asleep or not (but placed), as if the planes of the beginning were walls.
     void with_robot(const Model& model, std::span<const RobotWork> robots, std::size_t a, std::size_t b,
@@ -83,14 +88,15 @@ class ContactFinder {
   private:
     struct Pair;
     void sweep_along_x(std::span<const RobotWork> robots);
+    Course course(const Model& model, std::span<const RobotWork> robots, int robot, std::size_t shape);
     void meet_robot(const Model& model, std::span<const RobotWork> robots, std::size_t a, std::size_t b,
                     bool sweeps, std::vector<Contact>& contacts);
     void collide_shapes(const Model& model, std::span<const RobotWork> robots, Pair pair, bool sweeps,
                         std::vector<Contact>& contacts);
     void add_judged(const Pair& pair, const Course& a, const Course& b, double dt, double margin,
                     std::uint32_t keep, Manifold& manifold, std::vector<Contact>& contacts);
-    void with_surface(const Model& model, const RobotWork& robot, const Pair& pair, std::uint32_t keep,
-                      std::vector<Contact>& contacts);
+    void with_surface(const Model& model, std::span<const RobotWork> robots, const Pair& pair,
+                      std::uint32_t keep, std::vector<Contact>& contacts);
     void miss(const Pair& pair);
     void defer_later(const Model& model, std::span<const RobotWork> robots, std::vector<Contact>& contacts);
     void with_statics(const Model& model, std::span<RobotWork> robots, std::size_t a,
@@ -102,6 +108,7 @@ class ContactFinder {
                      std::vector<Contact>& contacts);
 
     std::unique_ptr<SweepBuffers> buffers_;
+    std::unique_ptr<FreeCourses> free_courses_;
     std::vector<NearMiss> near_misses_;
     std::vector<double> first_hits_;         // by robot, s
     std::vector<std::uint32_t> candidates_;  // scenery near a robot, and its boxes

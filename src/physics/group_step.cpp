@@ -312,9 +312,14 @@ void stop_late_hits(const Model& model, std::span<RobotWork> robots, GroupScratc
     if (!is_sane(s.way)) return;
     const std::size_t found = s.island_contacts.size();
     for (int round = 0; round <= kRounds; ++round) {
-        const SolvedIsland island{
-            model, robots, members, s.offsets, s.finder.near_misses(), {s.island_contacts.data(), found},
-            s.way};
+        const SolvedIsland island{model,
+                                  robots,
+                                  members,
+                                  s.offsets,
+                                  s.finder.near_misses(),
+                                  {s.island_contacts.data(), found},
+                                  s.way,
+                                  s.finder.free_courses()};
         if (!s.look.find(island, round == 0)) break;
         if (round == kRounds) {
             stop_at_first_hit(model, robots, s, members);
@@ -454,7 +459,7 @@ struct IslandStepper {
 
 void step_group(const Model& model, std::span<RobotWork> robots, GroupScratch& s, StepReport& report) {
     wake_sleepers(model, robots, s.finder, s.wake);
-    s.finder.find(model, robots, s.contacts);
+    s.finder.find(model, robots, s.keep_loads, s.contacts);
     recall_impulses(robots, s.contacts);
     build_contact_islands(s, robots);
     s.queue.start(model.types.size());

@@ -18,11 +18,6 @@ bool is_plane(const Model& model, const Contact& c) {
     return c.robot_b < 0 && model.statics[c.shape_b].shape.kind == ShapeKind::kPlane;
 }
 
-/// Whether what happens to the robot in this tick may differ from what its velocities before it say.
-bool is_bent(const RobotWork& robot) {
-    return robot.pushed || robot.type->nv != 6 || !robot.type->free_base;
-}
-
 /// Upper bound of what turns_far asks, from the joints' velocities alone.
 bool may_turn_far(const RobotType& type, std::span<const double> way, double dt) {
     constexpr double kArc = 2e-4;  // m
@@ -62,6 +57,22 @@ void shift_base(const Vec3& by, RobotState& state) {
 
 }  // namespace
 
+/// Whether a contact or a hit found already pushes the robot.
+bool SecondLook::is_pushed(const SolvedIsland& island, int robot) const {
+    return island.robots[static_cast<std::size_t>(robot)].pushed ||
+           std::ranges::any_of(
+               hits_, [&](const Contact& hit) { return hit.robot_a == robot || hit.robot_b == robot; });
+}
+
+/// Whether what happens to the robot in this tick may differ from what was known before solving.
+bool SecondLook::is_bent(const SolvedIsland& island, int robot) const {
+    if (robot < 0) return false;
+    const auto i = static_cast<std::size_t>(robot);
+    const RobotWork& work = island.robots[i];
+    const bool lone = work.type->nv == 6 && work.type->free_base;
+    return is_pushed(island, robot) || !(lone || island.free_courses.knows(island.model, work, i));
+}
+
 /// The robot with the velocities of its displacement.
 const Mechanics<double>& SecondLook::moved(const SolvedIsland& island, int robot) {
     const auto i = static_cast<std::size_t>(robot);
@@ -83,6 +94,10 @@ Course SecondLook::course(const SolvedIsland& island, int robot, std::uint32_t s
         const StaticShape& scenery = island.model.statics[shape];
         return resting_course(scenery.shape, scenery.X_WS);
     }
+    const auto i = static_cast<std::size_t>(robot);
+    if (!is_pushed(island, robot))
+        if (const auto free = island.free_courses.find(island.model, island.robots[i], i, shape))
+            return *free;
     return course_of(moved(island, robot), shape);
 }
 
@@ -103,17 +118,15 @@ void SecondLook::add(const SolvedIsland& island, const NearMiss& pair, const Cou
 /// The planes of a surface that hold a shape already.
 void SecondLook::hold_planes(const SolvedIsland& island, const NearMiss& pair) {
     buffers_.held.clear();
-    const Course before = course_of(island.robots[static_cast<std::size_t>(pair.robot_a)], pair.shape_a);
+    const auto i = static_cast<std::size_t>(pair.robot_a);
+    const Course before = known_course(island.model, island.robots[i], i, pair.shape_a, island.free_courses);
     for (const Contact* c : island.contacts)
         if (pair_of(*c) == pair) buffers_.held.push_back({c->normal, c->p_W + before.shift(c->time)});
 }
 
 void SecondLook::find_missed(const SolvedIsland& island, const NearMiss& pair) {
     const Model& model = island.model;
-    const auto bent = [&](int robot) {
-        return robot >= 0 && is_bent(island.robots[static_cast<std::size_t>(robot)]);
-    };
-    if (!bent(pair.robot_a) && !bent(pair.robot_b)) return;
+    if (!is_bent(island, pair.robot_a) && !is_bent(island, pair.robot_b)) return;
     const Course a = course(island, pair.robot_a, pair.shape_a);
     const Course b = course(island, pair.robot_b, pair.shape_b);
     if (b.shape->kind == ShapeKind::kSurface) {

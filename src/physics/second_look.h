@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "physics/contact_rows.h"
+#include "physics/free_course.h"
 #include "physics/swept_contact.h"
 #include "physics/turns_far.h"
 
@@ -23,6 +24,7 @@ struct SolvedIsland {
     std::span<const NearMiss> near_misses;     // of the group
     std::span<const Contact* const> contacts;  // of the island, with the solved velocities' impulses
     std::span<const double> way;               // displacement over dt
+    FreeCourses& free_courses;                 // of the group
 };
 
 class SecondLook {
@@ -58,6 +60,8 @@ class SecondLook {
     void find_turned(const SolvedIsland& island, std::span<const Contact* const> contacts);
     void hold_planes(const SolvedIsland& island, const NearMiss& pair);
     bool start(const SolvedIsland& island);
+    bool is_pushed(const SolvedIsland& island, int robot) const;
+    bool is_bent(const SolvedIsland& island, int robot) const;
     const Mechanics<double>& moved(const SolvedIsland& island, int robot);
     Course course(const SolvedIsland& island, int robot, std::uint32_t shape);
     void add(const SolvedIsland& island, const NearMiss& pair, const Course& a, const Course& b, double t,

@@ -46,7 +46,8 @@ Course free_course(const Mechanics<double>& robot, std::size_t number) {
             {},
             turning_speed<double>(shape.shape, X.R, w_W),
             R * rate,
-            R * curve};
+            R * curve,
+            {}};
 }
 
 bool is_fast(const Course& a, const Course& b, double dt) {
@@ -65,8 +66,8 @@ Course course_of(const Mechanics<double>& robot, std::size_t number) {
     const Vec3 arm = body.X_WB.p - robot.origin, &w = body.velocity.angular;
     const Vec3 linear = body.velocity.linear + cross(w, arm);
     const Vec3 accelerated = body.bias.linear + cross(body.bias.angular, arm) + cross(w, linear);
-    return {&shape.shape, X, body.X_WB.p, w, linear, accelerated, turning_speed<double>(shape.shape, X.R, w),
-            {},           {}};
+    return {&shape.shape, X,  body.X_WB.p, w, linear, accelerated, turning_speed<double>(shape.shape, X.R, w),
+            {},           {}, {}};
 }
 
 SweptPair sweep(const Course& a, const Course& b, double dt, double margin, Manifold& m) {
