@@ -24,11 +24,11 @@ constexpr double kDeeper = 1e-9;  // m
 
 class SurfaceCollider {
   public:
-    /// `found`: what counts; `deep`: faces that a thin body has gone through, which count if nothing else
-    /// holds it.
+    /// Adds to out.candidates what counts, and to out.deep faces that a thin body may have gone through,
+    /// which count if nothing else holds it.
     SurfaceCollider(const ConvexBody& body, const TriangleSurface& surface, double margin,
-                    std::vector<SurfaceContact>& found, std::vector<SurfaceContact>& deep)
-        : body_(body), surface_(surface), margin_(margin), found_(found), deep_(deep) {}
+                    SurfaceContacts& out)
+        : body_(body), surface_(surface), margin_(margin), out_(out) {}
 
     void collide(std::uint32_t number) {
         number_ = number;
@@ -52,7 +52,7 @@ class SurfaceCollider {
         const bool ridge = std::any_of(triangle_.fold.begin(), triangle_.fold.end(),
                                        [](double fold) { return fold < kRidge; });
         const bool over_it = over.count > 0 && over.deepest() <= s_face + 1e-6 * body_.size();
-        if ((shallow && (!ridge || over_it)) || height < 0.0) return add_face(over, found_);
+        if ((shallow && (!ridge || over_it)) || height < 0.0) return add_face(over, out_.candidates);
         collide_ridge(over, shallow);
     }
 
@@ -77,13 +77,14 @@ class SurfaceCollider {
         if (!is_own_normal(sheet, best.n)) {
             // Near the face's normal: the body is only deeper over a neighbour, it has not gone through.
             const bool held = shallow || surface_.is_ground() || dot(best.n, triangle_.n) > kUpright;
-            return add_face(over, held ? found_ : deep_);
+            if (best.s < body_.ball()) out_.pierced.push_back(triangle_.n);
+            return add_face(over, held ? out_.candidates : out_.deep);
         }
         Manifold manifold;
         write_general(body_, sheet, best, margin_, manifold);
         for (int i = 0; i < manifold.count; ++i) {
             const ContactPoint& p = manifold.points[static_cast<std::size_t>(i)];
-            add(p.p_W, manifold.n_W, p.gap, p.feature >> 16, p.feature & 0xFFFFu, found_);
+            add(p.p_W, manifold.n_W, p.gap, p.feature >> 16, p.feature & 0xFFFFu, out_.candidates);
         }
     }
 
@@ -121,7 +122,7 @@ class SurfaceCollider {
     const ConvexBody& body_;
     const TriangleSurface& surface_;
     double margin_;
-    std::vector<SurfaceContact>&found_, &deep_;
+    SurfaceContacts& out_;
     std::uint32_t number_ = 0;
     SurfaceTriangle triangle_;
     bool turned_ = false;
@@ -167,8 +168,12 @@ void reduce(SurfaceContacts& work, double merge) {
 
 /// A body thinner than it is deep, stuck through a face, is nearest to the outside sideways, where the
 /// surface does not end. If nothing else holds it, the face does that it has gone through least: its centre
-/// is still before it.
+/// is still before it. A body that passes beside the surface and reaches behind it overlaps no face there.
 void add_deep_faces(SurfaceContacts& work) {
+    std::erase_if(work.deep, [&](const SurfaceContact& c) {
+        return std::ranges::none_of(work.pierced,
+                                    [&](const Vec3& n) { return dot(n, c.n_W) > kSameDirection; });
+    });
     if (work.deep.empty()) return;
     const auto holds = [](const SurfaceContact& c) { return c.gap < 0.0; };
     if (std::any_of(work.candidates.begin(), work.candidates.end(), holds)) return;
@@ -203,7 +208,7 @@ void collide_surface(const Shape& shape, const Transform& X_WA, const TriangleSu
                      const Transform& X_WS, double margin, SurfaceContacts& out) {
     out.points.clear();
     out.candidates.clear();
-    out.deep.clear();
+    out.deep.clear(), out.pierced.clear();
     if (shape.kind == ShapeKind::kPlane || shape.kind == ShapeKind::kSurface) return;
     const Transform X_SA = inverse(X_WS) * X_WA;
     surface.query(bounds(shape, X_SA).inflated(margin), out.triangles);
@@ -211,7 +216,7 @@ void collide_surface(const Shape& shape, const Transform& X_WA, const TriangleSu
     const Posed posed{shape, X_SA};
     const ConvexBody body(posed);
     for (const std::uint32_t number : out.triangles)
-        SurfaceCollider(body, surface, margin, out.candidates, out.deep).collide(number);
+        SurfaceCollider(body, surface, margin, out).collide(number);
     add_deep_faces(out);
     reduce(out, kMerge * body.size());
     name_apart(out.points);

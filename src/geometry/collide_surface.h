@@ -19,6 +19,7 @@ struct SurfaceContact {
 struct SurfaceContacts {
     std::vector<SurfaceContact> points;
     std::vector<SurfaceContact> candidates, deep, cluster;
+    std::vector<Vec3> pierced;  // normals of faces that the body overlaps
     std::vector<std::uint32_t> triangles;
     std::vector<Vec3> positions;
     std::vector<double> gaps;
