@@ -182,6 +182,31 @@ void SecondLook::find_struck(const SolvedIsland& island, std::uint32_t robot) {
     }
 }
 
+/// The least gap of two shapes at time t, if they overlap.
+double SecondLook::gap_at(const Course& a, const Course& b, double t) {
+    if (b.shape->kind != ShapeKind::kSurface)
+        return least_gap(collide(*a.shape, a.at(t), *b.shape, b.at(t), 0));
+    collide_surface(*a.shape, a.at(t), *b.shape->surface, b.X, 0, buffers_.there);
+    double gap = 0;
+    for (const SurfaceContact& c : buffers_.there.points) gap = std::min(gap, c.gap);
+    return gap;
+}
+
+/// The last time before two shapes first sink deeper than `least`, if they do in the tick.
+std::optional<double> SecondLook::time_of_sinking(const Course& a, const Course& b, double dt, double least) {
+    constexpr int kParts = 8, kHalvings = 6;
+    const auto sinks = [&](double t) { return gap_at(a, b, t) < least - kDeep; };
+    double low = 0, high = 0;
+    for (int part = 1; part <= kParts && (high == 0 || !sinks(high)); ++part)
+        low = high, high = part == kParts ? dt : part * dt / kParts;
+    if (high == dt && !sinks(dt)) return std::nullopt;
+    for (int i = 0; i < kHalvings; ++i) {
+        const double middle = 0.5 * (low + high);
+        (sinks(middle) ? high : low) = middle;
+    }
+    return low;
+}
+
 /// `contacts`: of one pair of shapes. At the end of the tick no point may be deeper than it was at its
 /// beginning. Where a thin shape has come out behind the other, the end says nothing of where it went in.
 void SecondLook::find_turned(const SolvedIsland& island, std::span<const Contact* const> contacts) {
@@ -193,13 +218,25 @@ void SecondLook::find_turned(const SolvedIsland& island, std::span<const Contact
     const Course b = course(island, pair.robot_b, pair.shape_b);
     const auto turns = [&](const Course& c) { return turns_far<double>(*c.shape, c.X.R, c.angular, dt); };
     if (!turns(a) && !turns(b)) return;
-    if (first_) turned_.push_back({pair, least});
+    if (first_) turned_.push_back({pair, least, contacts.front()->normal});
+    const std::size_t known = hits_.size();
     const auto see = [&](const Vec3& normal, const Vec3& p_W, double gap) {
         if (gap < least - kDeep) add(island, pair, a, b, dt, normal, p_W, gap - least);
+    };
+    const auto set_time = [&] {
+        if (hits_.size() == known) return;
+        const double time = time_of_sinking(a, b, dt, least).value_or(dt);
+        for (std::size_t h = known; h < hits_.size(); ++h) hits_[h].time = time;
     };
     if (b.shape->kind == ShapeKind::kSurface) {
         collide_surface(*a.shape, a.at(dt), *b.shape->surface, b.X, 0, buffers_.there);
         for (const SurfaceContact& c : buffers_.there.points) see(c.n_W, c.p_W, c.gap);
+        if (!buffers_.there.points.empty()) return set_time();
+        const std::optional<double> t = time_of_sinking(a, b, dt, least);
+        if (!t) return;
+        collide_surface(*a.shape, a.at(*t), *b.shape->surface, b.X, kDeep, buffers_.there);
+        for (const SurfaceContact& c : buffers_.there.points)
+            add(island, pair, a, b, *t, c.n_W, c.p_W, c.gap - least);
         return;
     }
     const Manifold m = collide(*a.shape, a.at(dt), *b.shape, b.at(dt), 0);
@@ -208,6 +245,7 @@ void SecondLook::find_turned(const SolvedIsland& island, std::span<const Contact
     if (m.count > 0 && is_behind && add_first_hit(island, pair, a, b)) return;
     for (int i = 0; i < m.count; ++i)
         see(m.n_W, m.points[static_cast<std::size_t>(i)].p_W, m.points[static_cast<std::size_t>(i)].gap);
+    set_time();
 }
 
 /// False if there is nothing to look at.
@@ -245,7 +283,17 @@ bool SecondLook::find(const SolvedIsland& island, bool first) {
             find_turned(island, island.contacts.subspan(c, end - c));
         c = end;
     }
+    watch_hits();
     return hits_.size() > known_;
+}
+
+/// What was hit is looked at after the motion too.
+void SecondLook::watch_hits() {
+    for (std::size_t h = known_; h < hits_.size(); ++h) {
+        const NearMiss pair = pair_of(hits_[h]);
+        const auto is_known = [&](const Turned& turned) { return turned.pair == pair; };
+        if (std::ranges::none_of(turned_, is_known)) turned_.push_back({pair, 0, hits_[h].normal});
+    }
 }
 
 double SecondLook::first_time() const {
@@ -285,6 +333,7 @@ bool SecondLook::push_out(std::span<RobotWork> robots, const Model& model, const
     }
     const double ease_a = ease_of(a), ease_b = b == nullptr || b == &a ? 0 : ease_of(*b);
     if (normal == Vec3{} || ease_a + ease_b == 0 || b == &a) return false;
+    if (dot(normal, turned.normal) <= 0) return false;  // the way out of the other side
     const Vec3 push = normal * ((turned.least - deepest) / (ease_a + ease_b));
     if (ease_a == 0 || ease_b == 0) {
         shift_base(push * ease_a, *a.state);

@@ -5,6 +5,7 @@
 // that the blow itself is that of the next tick, which begins at the place of the hit.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,10 +47,11 @@ class SecondLook {
     double first_time() const;
 
   private:
-    /// A pair in contact of which one turns far.
+    /// A pair in contact of which one turns far, or that hits.
     struct Turned {
         NearMiss pair;
         double least = 0;  // m: its least gap at the beginning of the tick, at most 0
+        Vec3 normal;       // of a contact
     };
     bool push_out(std::span<RobotWork> robots, const Model& model, const Turned& turned);
     void move_apart(const Model& model, RobotWork& a, const Vec3& move_a, RobotWork& b, const Vec3& move_b);
@@ -58,8 +60,11 @@ class SecondLook {
     bool add_first_hit(const SolvedIsland& island, const NearMiss& pair, const Course& a, const Course& b);
     void find_struck(const SolvedIsland& island, std::uint32_t robot);
     void find_turned(const SolvedIsland& island, std::span<const Contact* const> contacts);
+    double gap_at(const Course& a, const Course& b, double t);
+    std::optional<double> time_of_sinking(const Course& a, const Course& b, double dt, double least);
     void hold_planes(const SolvedIsland& island, const NearMiss& pair);
     bool start(const SolvedIsland& island);
+    void watch_hits();
     bool is_pushed(const SolvedIsland& island, int robot) const;
     bool is_bent(const SolvedIsland& island, int robot) const;
     const Mechanics<double>& moved(const SolvedIsland& island, int robot);
