@@ -160,7 +160,7 @@ StartState start_state(const ModelSpec& model, const Pose& X_WM) {
     return start;
 }
 
-std::vector<BodyState> place_bodies(const Assembly& assembly, const StartState& start) {
+std::vector<BodyState> forward_kinematics(const Assembly& assembly, const StartState& start) {
     std::vector<BodyState> states(assembly.bodies.size());
     for (std::size_t b = 0; b < assembly.bodies.size(); ++b) {
         const PartBody& body = assembly.bodies[b];

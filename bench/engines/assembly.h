@@ -62,7 +62,7 @@ struct StartState {
 StartState start_state(const ModelSpec& model, const Pose& X_WM);
 
 /// Forward kinematics over the tree's joints (no loops are closed, ball joints stay at zero).
-std::vector<BodyState> place_bodies(const Assembly& assembly, const StartState& start);
+std::vector<BodyState> forward_kinematics(const Assembly& assembly, const StartState& start);
 
 /// Principal axes and moments of a symmetric matrix: m = R diag(moments) transpose(R), R a rotation.
 struct PrincipalAxes {

@@ -357,7 +357,7 @@ class BulletEngine final : public Engine {
     void start() {
         started_ = true;
         for (BulletInstance& instance : instances_) {
-            const std::vector<BodyState> states = place_bodies(instance.assembly, instance.start);
+            const std::vector<BodyState> states = forward_kinematics(instance.assembly, instance.start);
             for (std::size_t b = 0; b < states.size(); ++b) {
                 btRigidBody& body = *instance.bodies[b].body;
                 const btTransform X_WF = to_bullet(states[b].X_WB * instance.bodies[b].X_BF);

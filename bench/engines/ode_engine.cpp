@@ -344,7 +344,7 @@ class OdeEngine final : public Engine {
     void start() {
         started_ = true;
         for (OdeInstance& instance : instances_) {
-            const std::vector<BodyState> states = place_bodies(instance.assembly, instance.start);
+            const std::vector<BodyState> states = forward_kinematics(instance.assembly, instance.start);
             for (std::size_t b = 0; b < states.size(); ++b)
                 move(instance.bodies[b], states[b], instance.assembly.bodies[b].p_BC);
             for (OdeJoint& joint : instance.joints)

@@ -21,7 +21,7 @@ double area(const std::vector<Vec3>& loop) {
 }
 
 void expect_pieces(std::vector<Vec3> outline, double whole, std::size_t count_max) {
-    for (int way = 0; way < 2; ++way) {
+    for (int displacement = 0; displacement < 2; ++displacement) {
         const auto pieces = convex_pieces(outline);
         ASSERT_TRUE(pieces.ok()) << pieces.error().message;
         EXPECT_LE(pieces.value().size(), count_max);

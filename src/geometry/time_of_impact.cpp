@@ -12,8 +12,8 @@ namespace {
 using namespace narrow;
 
 constexpr int kStepsMax = 2000;
-constexpr double kLeastWay = 2e-4;  // m: no step is shorter, what sinks in less deep may be missed
-constexpr double kGlide = 2e-3;     // m: from touch to touch, where nothing sinks in
+constexpr double kLeastAdvance = 2e-4;  // m: no step is shorter, what sinks in less deep may be missed
+constexpr double kGlide = 2e-3;         // m: from touch to touch, where nothing sinks in
 constexpr int kHalvings = 10;
 constexpr double kSameNormal = 0.98;                   // cosine
 constexpr double kSameSlope = 0.2, kSamePlane = 1e-4;  // m
@@ -47,7 +47,7 @@ std::optional<double> advance(const Course& a, const Course& b, double dt, doubl
             if (sinking(a, b, m, t, dt) > deep) return t;
             step = kGlide / closing;
         }
-        const double next = std::min(t + std::max(step, kLeastWay / closing), dt);
+        const double next = std::min(t + std::max(step, kLeastAdvance / closing), dt);
         Manifold there = find(next);
         if (there.count > 0 && least_gap(there) < -kImpactGap && gap > kImpactGap) {
             // The least step went too far: the impact lies between.

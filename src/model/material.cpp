@@ -23,7 +23,7 @@ Material to_material(const SurfaceSpec& surface) {
     m.stiffness = surface.stiffness;
     m.damping = surface.damping;
     m.slop = std::max(m.slop, surface.min_depth);
-    if (surface.max_vel >= 0) m.mend_speed = std::min(m.mend_speed, surface.max_vel);
+    if (surface.max_vel >= 0) m.correction_speed = std::min(m.correction_speed, surface.max_vel);
     if (surface.max_contacts >= 0) m.contacts_max = static_cast<std::uint32_t>(surface.max_contacts);
     m.collide_bitmask = surface.collide_bitmask;
     m.category_bitmask = surface.category_bitmask;
@@ -33,7 +33,7 @@ Material to_material(const SurfaceSpec& surface) {
 void add_to_hash(Hash& hash, const Material& m) {
     for (double x : {m.mu, m.mu2, m.direction_S.x, m.direction_S.y, m.direction_S.z, m.restitution,
                      m.bounce_threshold, m.torsional_mu, m.patch_radius, m.surface_radius, m.rolling,
-                     m.stiffness, m.damping, m.slop, m.mend_speed})
+                     m.stiffness, m.damping, m.slop, m.correction_speed})
         hash.add(x);
     for (std::uint32_t x : {m.contacts_max, m.collide_bitmask, m.category_bitmask})
         hash.add(static_cast<std::uint64_t>(x));

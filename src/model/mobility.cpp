@@ -19,7 +19,7 @@ class Mobility {
     explicit Mobility(RobotType& type) : type_(type), n_(static_cast<std::size_t>(type.nv)) {}
 
     void run() {
-        place_bodies();
+        forward_kinematics();
         fill_mass_matrix();
         if (!factor()) return;
         for (std::size_t b = 0; b < type_.bodies.size(); ++b) {
@@ -87,7 +87,7 @@ class Mobility {
         coupling.inverse_inertia = inverse_norm(row);
     }
 
-    void place_bodies() {
+    void forward_kinematics() {
         X_WB_.resize(type_.bodies.size());
         for (std::size_t b = 0; b < type_.bodies.size(); ++b) {
             const Body& body = type_.bodies[b];

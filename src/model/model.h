@@ -129,7 +129,7 @@ struct Material {
     double rolling = 0;                 // m
     double stiffness = 0, damping = 0;  // N/m, N s/m of a soft contact; stiffness 0: rigid
     double slop = 1e-5;                 // m, penetration that a rigid contact leaves alone
-    double mend_speed = 2;              // m/s at most, while mending; it never enters the velocity
+    double correction_speed = 2;        // m/s at most, while mending; it never enters the velocity
     std::uint32_t contacts_max = 0xFFFFFFFF;
     std::uint32_t collide_bitmask = 0xFFFF, category_bitmask = 0xFFFF;
 };

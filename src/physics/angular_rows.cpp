@@ -33,16 +33,16 @@ void add_angular_row(const Model& model, const Contact& c, const SurfacePair& su
     const ContactSide<double> a = side_of(robots, offsets, c.robot_a, c.body_a);
     add_columns(a, 1.0, frame, rows.columns);
     const std::size_t middle = rows.columns.size();
-    double ease = mobility(a);
+    double inverse_effective_mass = mobility(a);
     if (c.robot_b >= 0) {
         const ContactSide<double> b = side_of(robots, offsets, c.robot_b, c.body_b);
         add_columns(b, -1.0, frame, rows.columns);
-        ease += mobility(b);
+        inverse_effective_mass += mobility(b);
     }
     if (c.robot_b == c.robot_a) rows.columns.merge(row.first, middle);
     row.last = rows.columns.size();
     row.torsional = surface.torsional;
-    row.spin.compliance = row.roll.compliance = model.accuracy.compliance * ease;
+    row.spin.compliance = row.roll.compliance = model.accuracy.compliance * inverse_effective_mass;
     row.spin.high = surface.torsional * c.impulse;
     row.spin.low = -row.spin.high;
     row.roll.coefficient = surface.rolling;

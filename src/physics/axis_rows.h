@@ -27,10 +27,10 @@ using AxisState = AxisStateT<double>;
 namespace axis {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
-inline constexpr double kLimitShare = 0.2;  // of a violated limit mended in one tick
+inline constexpr double kLimitShare = 0.2;  // of a violated limit corrected in one tick
 inline constexpr double kLimitSlop = 1e-6;  // rad or m beyond a limit that are left alone
 inline constexpr double kLimitSpeedMax =
-    1.0;  // rad/s or m/s, while mending; it never enters the velocity, so it adds no energy
+    1.0;  // rad/s or m/s, while correction; it never enters the velocity, so it adds no energy
 inline constexpr double kApproachSpeedMax =
     10.0;  // rad/s or m/s, of a position motor without gains whose force and speed have no bound
 
@@ -105,7 +105,8 @@ template <class T>
     row.low = -impulse_max, row.high = impulse_max;
 }
 
-/// Way that a limit asks for in this tick, and how hard. `room`: way left to the limit, negative beyond it.
+/// Displacement that a limit asks for in this tick, and how hard. `room`: distance left to the limit,
+/// negative beyond it.
 template <class T>
 struct LimitRow {
     T away{};  // speed away from the limit, m/s or rad/s
@@ -137,20 +138,20 @@ MaskOf<T> add_limits(const AxisStateT<T>& s, Lockstep<T>& together, std::vector<
     const auto mend = [&](const T& room, bool hard) {
         return hard ? clamped((-room - kLimitSlop) * kLimitShare / T(s.dt), T(0), T(kLimitSpeedMax)) : T(0);
     };
-    MaskOf<T> mends = false;
+    MaskOf<T> corrects = false;
     if (together(near(below, s.v, s.dt))) {
         const LimitRow<T> limit = limit_row(s, below);
         set_row<T>(limit.away, limit.compliance, 0.0, kInfinity, mend(below, limit.hard),
                    rows.emplace_back());
-        if (limit.hard) mends = mends | (below < T(-kLimitSlop));
+        if (limit.hard) corrects = corrects | (below < T(-kLimitSlop));
     }
     if (together(near(above, s.v, s.dt))) {
         const LimitRow<T> limit = limit_row(s, above);
         set_row<T>(-limit.away, limit.compliance, -kInfinity, 0.0, -mend(above, limit.hard),
                    rows.emplace_back());
-        if (limit.hard) mends = mends | (above < T(-kLimitSlop));
+        if (limit.hard) corrects = corrects | (above < T(-kLimitSlop));
     }
-    return mends;
+    return corrects;
 }
 
 }  // namespace axis

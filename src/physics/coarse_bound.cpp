@@ -30,9 +30,9 @@ JointShare joint_share(const RobotType& type, const RobotState& state) {
         }
         if (body.joint != JointKind::kPrismatic && body.joint != JointKind::kScrew) continue;
         const Dof& dof = type.dofs[static_cast<std::size_t>(body.v_index - type.base_nv())];
-        const double way = body.joint == JointKind::kPrismatic ? 1.0 : std::fabs(body.pitch);
+        const double displacement = body.joint == JointKind::kPrismatic ? 1.0 : std::fabs(body.pitch);
         const double q = std::fabs(state.q[static_cast<std::size_t>(body.q_index)]);
-        share.slid += way * std::max(0.0, q - std::max(std::fabs(dof.lower), std::fabs(dof.upper)));
+        share.slid += displacement * std::max(0.0, q - std::max(std::fabs(dof.lower), std::fabs(dof.upper)));
     }
     return share;
 }

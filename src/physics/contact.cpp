@@ -113,10 +113,10 @@ SurfacePair surface_of(const Model& model, std::span<const RobotWork> robots, co
                         b.shapes[contact.shape_b].X_WS.R, contact.normal, -contact.gap);
 }
 
-void ContactFinder::find(const Model& model, std::span<RobotWork> robots, bool keep_loads,
+void ContactFinder::find(const Model& model, std::span<RobotWork> robots, bool keep_reactions,
                          std::vector<Contact>& contacts) {
     contacts.clear(), near_misses_.clear();
-    free_courses_->start(robots.size(), keep_loads);
+    free_courses_->start(robots.size(), keep_reactions);
     std::size_t pair = 0;
     for (std::size_t a = 0; a < robots.size(); ++a) {
         const std::size_t first = contacts.size();
@@ -188,12 +188,12 @@ void ContactFinder::with_surface(const Model& model, std::span<const RobotWork> 
     const StaticShape& scenery = model.statics[pair.shape_b];
     const TriangleSurface& surface = *scenery.shape.surface;
     const ShapeWork& placed = robot.shapes[pair.shape_a];
-    const double margin = placed.margin, way = margin - kBaseMargin;
+    const double margin = placed.margin, displacement = margin - kBaseMargin;
     SweepBuffers& b = *buffers_;
     collide_surface(robot.type->shapes[pair.shape_a].shape, placed.X_WS, surface, scenery.X_WS, margin,
                     b.found);
-    const auto passes = [&](const SurfaceContact& c) { return may_pass(c.gap, way); };
-    if (way <= kFastWay && std::ranges::none_of(b.found.points, passes))
+    const auto passes = [&](const SurfaceContact& c) { return may_pass(c.gap, displacement); };
+    if (displacement <= kFastDisplacement && std::ranges::none_of(b.found.points, passes))
         return add_points(b.found.points, pair, keep, contacts);
     const Course moving = course(model, robots, pair.robot_a, pair.shape_a), still{};
     const SweptPair judged = sweep(moving, surface, scenery.X_WS, model.dt_s, margin, b);

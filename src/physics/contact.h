@@ -73,8 +73,8 @@ class ContactFinder {
     std::span<const std::pair<std::uint32_t, std::uint32_t>> pairs() const { return pairs_; }
 
     /// Contacts of these pairs, of robots with themselves and with the scenery. Sleepers are left out.
-    /// `keep_loads`: see FreeCourses.
-    void find(const Model& model, std::span<RobotWork> robots, bool keep_loads,
+    /// `keep_reactions`: see FreeCourses.
+    void find(const Model& model, std::span<RobotWork> robots, bool keep_reactions,
               std::vector<Contact>& contacts);
     /// What find() left out of the contacts, sorted.
     std::span<const NearMiss> near_misses() const { return near_misses_; }

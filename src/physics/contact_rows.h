@@ -1,5 +1,5 @@
-// A contact point becomes rows: Jacobian columns along both robots' paths, and targets for velocity and way.
-// Over T: see rows.h.
+// A contact point becomes rows: Jacobian columns along both robots' paths, and targets for velocity and
+// displacement. Over T: see rows.h.
 #pragma once
 
 #include <cmath>
@@ -55,7 +55,7 @@ inline constexpr double kWeights =
     10;  // a load that a contact may take up at once, in weights of what it moves
 inline constexpr double kSticking = 0.99;  // of the friction bound; beyond, a contact is taken for sliding
 inline constexpr double kSoftBlow = 10;    // m/s
-inline constexpr double kMendShare = 0.3;  // of the penetration beyond the slop mended in one tick
+inline constexpr double kCorrectionShare = 0.3;  // of the penetration beyond the slop corrected in one tick
 
 /// Along `direction`, the velocity of point p of a free base per unit of its turning and moving.
 template <class T>
@@ -134,11 +134,11 @@ T normal_velocity(const ContactSide<T>& side, const Vec3T<T>& p_W, const Vec3T<T
     return dot(n, v.linear + cross(v.angular, p_W - side.robot->origin));
 }
 
-/// Where the contact's normal velocity goes to, and its way.
+/// Where the contact's normal velocity and displacement go to.
 template <class T>
 struct NormalTargets {
     MaskOf<T> split{false};  // they differ
-    T velocity{}, way{};
+    T velocity{}, displacement{};
 };
 
 /// An impact inside the tick: flies `to_hit` seconds, bounces, flies the rest; gravity counted in both parts.
@@ -153,7 +153,7 @@ NormalTargets<T> impact(const ContactT<T>& c, const SurfacePair& surface, const 
     const T gap_after = away * rest + 0.5 * gravity_n * rest * rest;
     NormalTargets<T> targets;
     targets.velocity = away + gravity_n * rest;
-    targets.way = (gap_after - larger(c.gap, T(0))) / T(dt);
+    targets.displacement = (gap_after - larger(c.gap, T(0))) / T(dt);
     targets.split = (approach > T(0)) & (to_hit <= T(dt)) & (speed > T(surface.bounce_threshold)) &
                     (targets.velocity > T(0));
     return targets;
@@ -165,13 +165,13 @@ NormalTargets<T> impact(const ContactT<T>& c, const SurfacePair& surface, const 
 /// of kSoftBlow: shapes that start deep in each other are not shot apart. False if the contact is as hard as
 /// rigid ones, of compliance `rigid`.
 template <class T>
-bool set_softness(const ContactT<T>& c, const Softness& soft, double dt, double ease, double rigid,
-                  BoundedRowT<T>& row) {
+bool set_softness(const ContactT<T>& c, const Softness& soft, double dt, double inverse_effective_mass,
+                  double rigid, BoundedRowT<T>& row) {
     if (soft.stiffness <= 0) return false;
     const double compliance = 1.0 / (dt * dt * soft.stiffness + dt * soft.damping);
     if (compliance < rigid) return false;
     row.compliance = compliance;
-    const T depth = smaller(-c.gap, T(kSoftBlow / std::sqrt(soft.stiffness * ease)));
+    const T depth = smaller(-c.gap, T(kSoftBlow / std::sqrt(soft.stiffness * inverse_effective_mass)));
     row.target = select(c.gap <= T(0), depth * T(soft.stiffness) / T(dt * soft.stiffness + soft.damping),
                         -c.gap / T(dt));
     row.position_target = row.target;
@@ -179,21 +179,23 @@ bool set_softness(const ContactT<T>& c, const Softness& soft, double dt, double 
 }
 
 /// Targets of the normal. The load of the last tick is where the row starts from (a proximal step): a contact
-/// at rest carries it without any velocity, however compliant the row. True if velocity and way differ.
+/// at rest carries it without any velocity, however compliant the row. True if velocity and displacement
+/// differ.
 template <class T>
 MaskOf<T> set_normal(const ContactT<T>& c, const SurfacePair& surface, const T& approach, const T& gravity_n,
                      double dt, const T& compliance, BoundedRowT<T>& row) {
     row.compliance = compliance;
     const T closing = select(c.gap > T(0), -c.gap / T(dt), T(0));
-    const MaskOf<T> mends = c.gap < T(-surface.slop);
-    const T mending = smaller(kMendShare * (-c.gap - surface.slop) / T(dt), T(surface.mend_speed));
+    const MaskOf<T> corrects = c.gap < T(-surface.slop);
+    const T correction =
+        smaller(kCorrectionShare * (-c.gap - surface.slop) / T(dt), T(surface.correction_speed));
     row.target = closing + compliance * c.load;
-    row.position_target = select(mends, mending, closing) + compliance * c.load;
-    if (surface.restitution <= 0) return mends;
+    row.position_target = select(corrects, correction, closing) + compliance * c.load;
+    if (surface.restitution <= 0) return corrects;
     const NormalTargets<T> hit = impact(c, surface, approach, gravity_n, dt);
     row.target = select(hit.split, hit.velocity, row.target);
-    row.position_target = select(hit.split, hit.way, row.position_target);
-    return hit.split | mends;
+    row.position_target = select(hit.split, hit.displacement, row.position_target);
+    return hit.split | corrects;
 }
 
 /// Friction starts from that of the last tick, as the normal does; `share` makes velocities of its impulses.
@@ -221,8 +223,8 @@ void start_from_load(const ContactT<T>& c, const FrictionEllipse& friction, cons
 
 }  // namespace contact
 
-/// Adds the rows of a contact of `a` with `b` (nullptr: scenery). True if the way of this tick needs another
-/// target than the velocity.
+/// Adds the rows of a contact of `a` with `b` (nullptr: scenery). True if the displacement of this tick needs
+/// another target than the velocity.
 template <class T>
 MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const SurfacePair& surface,
                           const ContactSide<T>& a, const ContactSide<T>* b, IslandRowsT<T>& rows) {
@@ -232,30 +234,31 @@ MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const Surfac
     row.first = rows.columns.size();
     contact::add_columns(a, 1.0, c.p_W, frame, rows.columns);
     const std::size_t middle = rows.columns.size();
-    double ease = contact::mobility(a);
+    double inverse_effective_mass = contact::mobility(a);
     T approach = -contact::normal_velocity(a, c.p_W, c.normal);
     T gravity_n = contact::gravity_along(model, a, c.normal);
     if (b != nullptr) {
         contact::add_columns(*b, -1.0, c.p_W + c.shift_b, frame, rows.columns);
-        ease += contact::mobility(*b);
+        inverse_effective_mass += contact::mobility(*b);
         approach += contact::normal_velocity(*b, c.p_W + c.shift_b, c.normal);
         gravity_n -= contact::gravity_along(model, *b, c.normal);
         if (b->robot == a.robot) rows.columns.merge(row.first, middle);
     }
     row.last = rows.columns.size();
     const MaskOf<T> loaded = c.load > T(0);
-    const T compliance =
-        ease * select(loaded, T(loaded_compliance<T>(model.accuracy)), T(new_compliance<T>(model.accuracy)));
+    const T compliance = inverse_effective_mass * select(loaded, T(loaded_compliance<T>(model.accuracy)),
+                                                         T(new_compliance<T>(model.accuracy)));
     row.normal.high = std::numeric_limits<double>::infinity();
-    row.soft = contact::set_softness(c, surface.softness, dt, ease, ease * new_compliance<T>(model.accuracy),
-                                     row.normal);
+    row.soft = contact::set_softness(c, surface.softness, dt, inverse_effective_mass,
+                                     inverse_effective_mass * new_compliance<T>(model.accuracy), row.normal);
     MaskOf<T> split = false;
     if (!row.soft) split = contact::set_normal(c, surface, approach, gravity_n, dt, compliance, row.normal);
     row.slip.coefficient = surface.friction.mu;
     row.slip.bound = surface.friction.mu * c.impulse;
     row.slip.compliance = compliance;
-    row.ease = ease;
-    row.load_max = larger(4.0 * c.load, T(contact::kWeights * norm(model.gravity) * dt / ease));
+    row.inverse_effective_mass = inverse_effective_mass;
+    row.warm_start_max =
+        larger(4.0 * c.load, T(contact::kWeights * norm(model.gravity) * dt / inverse_effective_mass));
     contact::start_from_load(c, surface.friction, frame, loaded, compliance, row);
     return split;
 }

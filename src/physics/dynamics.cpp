@@ -19,8 +19,8 @@ void add_wrenches(const RobotType& type, const RobotState& state, double dt, Rob
 
 }  // namespace
 
-template void place_bodies<double>(const RobotType&, std::span<const double>, Mechanics<double>&);
-template void move_bodies<double>(const RobotType&, std::span<const double>, Mechanics<double>&);
+template void forward_kinematics<double>(const RobotType&, std::span<const double>, Mechanics<double>&);
+template void forward_velocities<double>(const RobotType&, std::span<const double>, Mechanics<double>&);
 template void place_shapes<double>(const RobotType&, double, std::span<const double>, Mechanics<double>&);
 template void compute_mass_matrix<double>(const RobotType&, double, Mechanics<double>&);
 
@@ -32,8 +32,8 @@ void place_robot(const Model& model, RobotId id, RobotState& state, RobotWork& w
     work.contacts = 0;
     work.touches_robot = work.pushed = work.held = work.asleep = false;
     work.placed = true;
-    place_bodies<double>(type, state.q, work);
-    move_bodies<double>(type, state.v, work);
+    forward_kinematics<double>(type, state.q, work);
+    forward_velocities<double>(type, state.v, work);
     place_shapes<double>(type, model.dt_s, state.q, work);
 }
 

@@ -30,7 +30,7 @@ std::size_t put_base_part(const SpatialT<T>& force, std::size_t length, T* row) 
 }
 
 template <class T>
-void place_bodies(const RobotType& type, std::span<const T> q, Mechanics<T>& work) {
+void forward_kinematics(const RobotType& type, std::span<const T> q, Mechanics<T>& work) {
     const TransformT<T> X_WR = base_transform(q);
     work.origin = X_WR.p;
     work.bodies.resize(type.bodies.size());
@@ -50,7 +50,7 @@ void place_bodies(const RobotType& type, std::span<const T> q, Mechanics<T>& wor
 }
 
 template <class T>
-void move_bodies(const RobotType& type, std::span<const T> v, Mechanics<T>& work) {
+void forward_velocities(const RobotType& type, std::span<const T> v, Mechanics<T>& work) {
     for (std::size_t b = 0; b < type.bodies.size(); ++b) {
         const Body& body = type.bodies[b];
         BodyWorkT<T>& w = work.bodies[b];

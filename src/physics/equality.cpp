@@ -144,7 +144,7 @@ void leave_out_locked(std::span<const char> locked, Equalities& equalities) {
 
 void EqualityProjection::place(const RobotType& type, std::span<const double> q) {
     work_.type = &type;
-    place_bodies<double>(type, q, work_);
+    forward_kinematics<double>(type, q, work_);
     for (BodyWork& body : work_.bodies) body.velocity = body.bias = {};
     gather_equalities(work_, q, equalities_);
     wanted_.resize(equalities_.rows.size());

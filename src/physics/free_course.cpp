@@ -25,10 +25,10 @@ BodyMotion motion_of(const BodyWork& body, const Vec3& origin) {
 
 }  // namespace
 
-void FreeCourses::start(std::size_t robots, bool keep_loads) {
+void FreeCourses::start(std::size_t robots, bool keep_reactions) {
     if (flights_.size() < robots) flights_.resize(robots);
     for (std::size_t r = 0; r < count_; ++r) flights_[r].ahead = Ahead::kUnknown;
-    count_ = robots, keep_loads_ = keep_loads;
+    count_ = robots, keep_loads_ = keep_reactions;
 }
 
 bool FreeCourses::compute(const Model& model, const RobotWork& robot, std::vector<BodyMotion>& ends) {
@@ -42,11 +42,11 @@ bool FreeCourses::compute(const Model& model, const RobotWork& robot, std::vecto
     if (turns_too_far(robot)) return false;
     work_.id = robot.id, work_.type = robot.type, work_.state = &state_;
     state_ = *robot.state;
-    place_bodies<double>(type, state_.q, work_);
-    move_bodies<double>(type, state_.v, work_);
+    forward_kinematics<double>(type, state_.q, work_);
+    forward_velocities<double>(type, state_.v, work_);
     advance_freely(model, work_, buffer_);
-    place_bodies<double>(type, state_.q, work_);
-    move_bodies<double>(type, state_.v, work_);
+    forward_kinematics<double>(type, state_.q, work_);
+    forward_velocities<double>(type, state_.v, work_);
     if (turns_too_far(work_)) return false;
     ends.clear();
     for (const BodyWork& body : work_.bodies) ends.push_back(motion_of(body, work_.origin));

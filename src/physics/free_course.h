@@ -16,8 +16,8 @@ namespace roboss {
 /// The ticks that were computed ahead, by robot of a group.
 class FreeCourses {
   public:
-    /// Forgets all; `keep_loads`: robots with loops do not move freely.
-    void start(std::size_t robots, bool keep_loads);
+    /// Forgets all; `keep_reactions`: robots with loops do not move freely.
+    void start(std::size_t robots, bool keep_reactions);
     /// Whether the robot `number`, which is `robot`, moves freely and has joints, and its tick is known.
     bool knows(const Model& model, const RobotWork& robot, std::size_t number);
     /// The course of one of its shapes, if so.

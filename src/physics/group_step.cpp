@@ -6,10 +6,10 @@
 
 #include "core/make_room.h"
 #include "physics/drag.h"
-#include "physics/loads.h"
+#include "physics/fast_turning.h"
 #include "physics/row_math.h"
-#include "physics/stirring.h"
 #include "physics/velocity_forces.h"
+#include "physics/warm_start.h"
 
 namespace roboss {
 namespace {
@@ -31,7 +31,7 @@ void build_contact_islands(GroupScratch& s, std::span<const RobotWork> robots) {
     s.islands.sort_by_set(s.members);
 }
 
-/// Marks the robots that a contact pushes, in their velocity or on their way.
+/// Marks the robots that a contact pushes, in their velocity or displacement.
 void mark_pushed(std::span<RobotWork> robots, GroupScratch& s) {
     for (std::size_t c = 0; c < s.rows.contacts.size(); ++c) {
         const Contact& contact = *s.island_contacts[c];
@@ -42,7 +42,7 @@ void mark_pushed(std::span<RobotWork> robots, GroupScratch& s) {
 }
 
 bool flies(const Model& model, const RobotWork& work, const GroupScratch& s) {
-    return moves_freely(model, work) && !(s.keep_loads && !work.type->loops.empty());
+    return moves_freely(model, work) && !(s.keep_reactions && !work.type->loops.empty());
 }
 
 /// Marks the robots that another robot or scenery pushes, by the impulses of the last solution, and notes
@@ -62,7 +62,7 @@ void mark_touched(std::span<const RobotWork> robots, GroupScratch& s) {
 
 /// Which members drift, and, if any does, the split of the solved impulses. Where nothing pushes an island
 /// from outside its momentum is to stay, and that of its energy that no motor gives: then all drift. Others
-/// do where they stir.
+/// do where they turn fast.
 void choose_drifting(const Model& model, std::span<const RobotWork> robots, GroupScratch& s,
                      std::span<const std::uint32_t> members) {
     s.touched.resize(robots.size());
@@ -77,7 +77,7 @@ void choose_drifting(const Model& model, std::span<const RobotWork> robots, Grou
         const bool kept = s.touched[members[m]]
                               ? !s.anchored
                               : work.type->free_base || !is_driven<double>(work.state->motors);
-        if (!kept && !stirs<double>(work, model.dt_s)) continue;
+        if (!kept && !turns_fast<double>(work, model.dt_s)) continue;
         s.drifts[m] = 1;
         any = true;
     }
@@ -100,13 +100,13 @@ Vec3 late_moment(const GroupScratch& s) {
 }
 
 /// Moves one member by the kick-drift step.
-void drift(const Model& model, RobotWork& work, std::size_t member, bool touched, std::span<const double> way,
-           GroupScratch& s) {
+void drift(const Model& model, RobotWork& work, std::size_t member, bool touched,
+           std::span<const double> displacement, GroupScratch& s) {
     const auto offset = static_cast<std::size_t>(s.island_offsets[member]);
     const auto nv = static_cast<std::size_t>(work.type->nv);
     const auto own = [&](const auto& array) { return std::span(array).subspan(offset, nv); };
     SolvedTick solved;
-    solved.velocity = own(s.v), solved.displacement = way.subspan(offset, nv);
+    solved.velocity = own(s.v), solved.displacement = displacement.subspan(offset, nv);
     solved.kick = own(s.split.kick), solved.load = own(s.split.load), solved.locked = own(s.split.locked);
     solved.held = own(s.split.held);
     solved.isolated = !touched;
@@ -117,7 +117,7 @@ void drift(const Model& model, RobotWork& work, std::size_t member, bool touched
 /// Writes the solved velocities into the states and moves the coordinates. A robot that is near something but
 /// not pushed moves freely, else a ball would lose height in every tick that it spends close to the ground.
 void finish_island(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
-                   std::span<const std::uint32_t> members, std::span<const double> way) {
+                   std::span<const std::uint32_t> members, std::span<const double> displacement) {
     for (std::size_t m = 0; m < members.size(); ++m) {
         RobotWork& work = robots[members[m]];
         const auto offset = static_cast<std::size_t>(s.island_offsets[m]);
@@ -128,11 +128,11 @@ void finish_island(const Model& model, std::span<RobotWork> robots, GroupScratch
         }
         work.held = true;
         if (s.drifts[m]) {
-            drift(model, work, m, s.touched[members[m]] != 0, way, s);
+            drift(model, work, m, s.touched[members[m]] != 0, displacement, s);
             continue;
         }
         std::copy_n(s.v.begin() + static_cast<std::ptrdiff_t>(offset), nv, work.state->v.begin());
-        advance_coordinates<double>(*work.type, way.subspan(offset, nv), model.dt_s, work.state->q);
+        advance_coordinates<double>(*work.type, displacement.subspan(offset, nv), model.dt_s, work.state->q);
         if (work.type->has_equalities())
             s.free_buffer.projection.close_coordinates(*work.type, work.state->q);
     }
@@ -147,8 +147,8 @@ std::span<Contact> contacts_of(std::uint32_t robot, std::span<Contact> contacts)
     return {first, last};
 }
 
-/// Gathers rows and first guess of one contact island; true if the way of the tick needs a solution of its
-/// own.
+/// Gathers rows and first guess of one contact island; true if the displacement of the tick needs a solution
+/// of its own.
 bool gather_island(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
                    std::span<const std::uint32_t> members, std::span<Contact> contacts) {
     s.island_robots.clear(), s.island_offsets.clear();
@@ -163,7 +163,7 @@ bool gather_island(const Model& model, std::span<RobotWork> robots, GroupScratch
         s.island_offsets.push_back(offset);
         compute_impulse(model, model.dt_s, 1.0, work.state->q, work.state->v, work);
         compute_mass_matrix<double>(*work.type, model.dt_s, work);
-        tame_velocity_forces(model, work, s.free_buffer);
+        limit_velocity_forces(model, work, s.free_buffer);
         split |= add_joint_rows(model, work, offset, s.buffer, s.rows);
         s.v.insert(s.v.end(), work.state->v.begin(), work.state->v.end());
     }
@@ -184,10 +184,10 @@ bool gather_island(const Model& model, std::span<RobotWork> robots, GroupScratch
 /// The solved impulses, into motors and contacts: what the next tick starts from.
 void take_impulses(GroupScratch& s) {
     for (const JointRow& row : s.rows.joints)
-        if (row.motor != nullptr) remember_load(row.impulse, *row.motor);
+        if (row.motor != nullptr) store_warm_start(row.impulse, *row.motor);
     for (const CouplingRow& row : s.rows.couplings)
-        if (row.motor != nullptr) remember_load(row.impulse, *row.motor);
-    if (s.keep_loads)
+        if (row.motor != nullptr) store_warm_start(row.impulse, *row.motor);
+    if (s.keep_reactions)
         for (const CouplingRow& row : s.rows.couplings)
             if (row.loop >= 0) s.loads.push_back({row.robot, row.loop, row.wrench * row.impulse});
     for (std::size_t c = 0; c < s.rows.contacts.size(); ++c)
@@ -201,20 +201,21 @@ void take_impulses(GroupScratch& s) {
     }
 }
 
-/// The way of the whole island goes back towards its velocity, by one share, so that it still fits at every
-/// contact.
-void limit_mending(std::span<const RobotWork> robots, GroupScratch& s,
-                   std::span<const std::uint32_t> members) {
+/// The displacement of the whole island goes back towards its velocity, by one share, so that it still fits
+/// at every contact.
+void limit_correction(std::span<const RobotWork> robots, GroupScratch& s,
+                      std::span<const std::uint32_t> members) {
     double share = 1;
     for (std::size_t m = 0; m < members.size(); ++m) {
         const std::vector<double>& before = robots[members[m]].state->v;
         const auto part = [&](const std::vector<double>& v) {
             return std::span(v).subspan(static_cast<std::size_t>(s.island_offsets[m]), before.size());
         };
-        share = std::min(share, share_of_mending<double>(before, part(s.v), part(s.way)));
+        share = std::min(share, share_of_correction<double>(before, part(s.v), part(s.displacement)));
     }
     if (share == 1) return;
-    for (std::size_t i = 0; i < s.v.size(); ++i) s.way[i] = s.v[i] + share * (s.way[i] - s.v[i]);
+    for (std::size_t i = 0; i < s.v.size(); ++i)
+        s.displacement[i] = s.v[i] + share * (s.displacement[i] - s.v[i]);
 }
 
 /// Lone bodies that hardly turn, before and after the tick.
@@ -234,7 +235,7 @@ bool slides_only(std::span<const RobotWork> robots, const GroupScratch& s,
 
 /// True if every contact is hard and no normal velocity changes: nothing new touches, nothing lifts off.
 bool contacts_are_steady(const GroupScratch& s, double dt) {
-    constexpr double kNothing = 1e-10;  // m, in the way of a tick
+    constexpr double kNothing = 1e-10;  // m, in the displacement of a tick
     const ContactColumns& columns = s.rows.columns;
     for (const ContactRow& row : s.rows.contacts) {
         if (row.soft) return false;
@@ -250,17 +251,18 @@ bool contacts_are_steady(const GroupScratch& s, double dt) {
 
 /// What slides without turning moves by the mean of its velocities before and after the tick, which is exact
 /// while it speeds up or slows down evenly. Only there, for no force on it depends on its place; where one
-/// does (whatever rocks, swings or hangs on a spring) this way would feed the motion energy in each tick.
-void take_mean_way(std::span<const RobotWork> robots, GroupScratch& s, std::span<const std::uint32_t> members,
-                   double dt) {
+/// does (whatever rocks, swings or hangs on a spring) this would add energy to the motion in each tick.
+void take_mean_displacement(std::span<const RobotWork> robots, GroupScratch& s,
+                            std::span<const std::uint32_t> members, double dt) {
     const bool drifts = std::ranges::find(s.drifts, 1) != s.drifts.end();
     const bool even = !drifts && slides_only(robots, s, members) && contacts_are_steady(s, dt);
-    s.way.resize(s.v.size());
-    for (std::size_t i = 0; i < s.v.size(); ++i) s.way[i] = even ? 0.5 * (s.v_before[i] + s.v[i]) : s.v[i];
+    s.displacement.resize(s.v.size());
+    for (std::size_t i = 0; i < s.v.size(); ++i)
+        s.displacement[i] = even ? 0.5 * (s.v_before[i] + s.v[i]) : s.v[i];
 }
 
 /// False for what the second look cannot compute with: it ends the run, or soon will.
-bool is_sane(std::span<const double> x) {
+bool is_plausible(std::span<const double> x) {
     constexpr double kMost = 1e7;  // m, rad, m/s, rad/s
     return std::ranges::all_of(x, [](double each) { return std::fabs(each) < kMost; });
 }
@@ -268,7 +270,8 @@ bool is_sane(std::span<const double> x) {
 /// From now on no contact asks for more than the displacement gives, and friction is that of the velocities.
 void hold_displacement(GroupScratch& s, bool split) {
     for (ContactRow& row : s.rows.contacts) {
-        const jacobian::Along<double> u = jacobian::along(s.rows.columns, row.first, row.last, s.way);
+        const jacobian::Along<double> u =
+            jacobian::along(s.rows.columns, row.first, row.last, s.displacement);
         row.normal.position_target = std::min(row.normal.position_target, u.n);
         if (!split) row.slip.bound = row.slip.coefficient * row.normal.impulse;
     }
@@ -289,17 +292,18 @@ void stop_at_first_hit(const Model& model, std::span<RobotWork> robots, GroupScr
     for (std::size_t m = 0; free && m < members.size(); ++m) {
         const RobotWork& robot = robots[members[m]];
         if (!robot.type->free_base) continue;
-        const auto own = std::span(s.way).subspan(static_cast<std::size_t>(s.island_offsets[m]),
-                                                  static_cast<std::size_t>(robot.type->nv));
+        const auto own = std::span(s.displacement)
+                             .subspan(static_cast<std::size_t>(s.island_offsets[m]),
+                                      static_cast<std::size_t>(robot.type->nv));
         s.free_buffer.work.type = robot.type, s.free_buffer.work.state = robot.state;
         all += sum_bodies(model, robot.state->q, own, robot.origin, s.free_buffer.work);
     }
     const Vec3 common = all.inertia.mass > 0 ? all.momentum.linear * (1.0 / all.inertia.mass) : Vec3{};
-    for (double& x : s.way) x *= share;
+    for (double& x : s.displacement) x *= share;
     for (std::size_t m = 0; free && m < members.size(); ++m) {
         if (!robots[members[m]].type->free_base) continue;
         const auto linear = static_cast<std::size_t>(s.island_offsets[m]) + 3;
-        for (std::size_t i = 0; i < 3; ++i) s.way[linear + i] += (1 - share) * common[i];
+        for (std::size_t i = 0; i < 3; ++i) s.displacement[linear + i] += (1 - share) * common[i];
     }
 }
 
@@ -309,7 +313,7 @@ void stop_late_hits(const Model& model, std::span<RobotWork> robots, GroupScratc
                     std::span<const std::uint32_t> members, bool split, StepReport& report) {
     constexpr int kRounds = 4;
     s.look.clear();
-    if (!is_sane(s.way)) return;
+    if (!is_plausible(s.displacement)) return;
     const std::size_t found = s.island_contacts.size();
     for (int round = 0; round <= kRounds; ++round) {
         const SolvedIsland island{model,
@@ -318,7 +322,7 @@ void stop_late_hits(const Model& model, std::span<RobotWork> robots, GroupScratc
                                   s.offsets,
                                   s.finder.near_misses(),
                                   {s.island_contacts.data(), found},
-                                  s.way,
+                                  s.displacement,
                                   s.finder.free_courses()};
         if (!s.look.find(island, round == 0)) break;
         if (round == kRounds) {
@@ -333,7 +337,7 @@ void stop_late_hits(const Model& model, std::span<RobotWork> robots, GroupScratc
         }
         s.look.add_rows(island, s.rows, s.island_surfaces);
         report.iterations +=
-            s.solver.solve({model.accuracy, s.island_robots, s.island_offsets, s.rows, true}, s.way)
+            s.solver.solve({model.accuracy, s.island_robots, s.island_offsets, s.rows, true}, s.displacement)
                 .iterations;
     }
     s.island_contacts.resize(found);
@@ -369,14 +373,14 @@ void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch&
     take_impulses(s);
     const bool bounces = throws_back(s.rows);
     if (split) {
-        s.way = s.v;
+        s.displacement = s.v;
         for (ContactRow& row : s.rows.contacts) row.slip.bound = row.slip.coefficient * row.normal.impulse;
         report.iterations +=
-            s.solver.solve({model.accuracy, s.island_robots, s.island_offsets, s.rows, true}, s.way)
+            s.solver.solve({model.accuracy, s.island_robots, s.island_offsets, s.rows, true}, s.displacement)
                 .iterations;
-        limit_mending(robots, s, members);
+        limit_correction(robots, s, members);
     } else {
-        take_mean_way(robots, s, members, model.dt_s);
+        take_mean_displacement(robots, s, members, model.dt_s);
     }
     mark_pushed(robots, s);
     stop_late_hits(model, robots, s, members, split, report);
@@ -384,9 +388,9 @@ void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch&
     const bool drifts = std::ranges::find(s.drifts, 1) != s.drifts.end();
     s.gained_moment = {};
     const bool guards = start_guard(model, robots, s, members, bounces, drifts);
-    finish_island(model, robots, s, members, s.way);
+    finish_island(model, robots, s, members, s.displacement);
     const auto moved_well = [&](std::uint32_t m) {
-        return is_sane(robots[m].state->q) && is_sane(robots[m].state->v);
+        return is_plausible(robots[m].state->q) && is_plausible(robots[m].state->v);
     };
     if (s.look.may_push_out() && std::ranges::all_of(members, moved_well)) s.look.push_out(robots, model);
     if (const Vec3 moment = late_moment(s) - s.gained_moment; !s.anchored && moment != Vec3{})
@@ -425,7 +429,7 @@ struct IslandStepper {
     /// is stepped so hangs on nothing but itself and on who touches it.
     bool goes_in_lanes(std::span<const std::uint32_t> members) const {
         const RobotWork& work = robots[members[0]];
-        if (!s.lanes || s.tried_alone || s.keep_loads || members.size() > 1 || work.touches_robot)
+        if (!s.lanes || s.tried_alone || s.keep_reactions || members.size() > 1 || work.touches_robot)
             return false;
         if (!misses_of(members[0], s.finder.near_misses()).empty()) return false;
         if (!fits_lanes(*work.type, *work.state)) return false;
@@ -459,7 +463,7 @@ struct IslandStepper {
 
 void step_group(const Model& model, std::span<RobotWork> robots, GroupScratch& s, StepReport& report) {
     wake_sleepers(model, robots, s.finder, s.wake);
-    s.finder.find(model, robots, s.keep_loads, s.contacts);
+    s.finder.find(model, robots, s.keep_reactions, s.contacts);
     recall_impulses(robots, s.contacts);
     build_contact_islands(s, robots);
     s.queue.start(model.types.size());

@@ -21,8 +21,9 @@ namespace roboss {
 
 /// Buffers of a group's step; the contacts stay until the next one.
 struct GroupScratch {
-    bool keep_loads = false;  // then robots with loops do not move freely, for then nothing knows their loads
-    std::vector<LoopLoad> loads;
+    bool keep_reactions =
+        false;  // then robots with loops do not move freely, for then nothing knows their loads
+    std::vector<LoopReaction> loads;
     LaneSteppers lanes;        // for robots that touch nobody
     bool tried_alone = false;  // the group is one robot that lanes and floats did not step
     LaneQueue queue;
@@ -36,12 +37,12 @@ struct GroupScratch {
     std::vector<int> offsets, island_offsets;
     IslandRows rows;
     std::vector<double> v, v_before;
-    std::vector<double> way;    // of the tick, over dt
-    std::vector<char> drifts;   // by member of the island: takes the kick-drift step
-    std::vector<char> touched;  // by robot: pushed by another or by scenery
-    bool anchored = false;      // the island: pushed by something that does not move freely
-    RowSplit split;             // if anyone drifts
-    Vec3 gained_moment;         // of the island: returned by advance_kick_drift
+    std::vector<double> displacement;  // of the tick, over dt
+    std::vector<char> drifts;          // by member of the island: takes the kick-drift step
+    std::vector<char> touched;         // by robot: pushed by another or by scenery
+    bool anchored = false;             // the island: pushed by something that does not move freely
+    RowSplit split;                    // if anyone drifts
+    Vec3 gained_moment;                // of the island: returned by advance_kick_drift
     IslandGuard guard;
     SecondLook look;
     IslandSolver solver;

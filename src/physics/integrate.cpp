@@ -93,8 +93,8 @@ void free_acceleration(const Model& model, const SteadyRows& rows, std::span<con
                        std::span<const double> v, FreeBuffer& free) {
     RobotWork& buffer = free.work;
     const RobotType& type = *buffer.type;
-    place_bodies<double>(type, q, buffer);
-    move_bodies<double>(type, v, buffer);
+    forward_kinematics<double>(type, q, buffer);
+    forward_velocities<double>(type, v, buffer);
     compute_impulse(model, 1.0, 0.0, q, v, buffer);
     compute_mass_matrix<double>(type, 0.0, buffer);
     add_joint_forces(model, q, v, rows.has_stiff, buffer);

@@ -126,7 +126,7 @@ void start_inside(const Accuracy& accuracy, IslandRows& rows, double speed) {
     for (JointRow& row : rows.joints) start_inside(row, speed, reach(row, accuracy.compliance));
     for (CouplingRow& row : rows.couplings) start_inside(row, speed, reach(row, accuracy.compliance));
     for (ContactRow& row : rows.contacts) {
-        const double normal = kGenerous * speed / row.ease;
+        const double normal = kGenerous * speed / row.inverse_effective_mass;
         start_inside(row.normal, speed, normal);
         start_inside(row.slip, normal, speed * normal);
     }

@@ -71,7 +71,8 @@ void add_spring(const AxisState& axis, double q, const Spatial& wrench, LoopRowW
     writer.add(row, wrench, row.compliance > axis.dof.inverse_inertia);
 }
 
-/// Everything that acts along the free directions of a loop joint. Returns true if something is to be mended.
+/// Everything that acts along the free directions of a loop joint. Returns true if something is to be
+/// corrected.
 bool add_loop_axes(const Model& model, const RobotWork& robot, const LoopJoint& loop, int offset,
                    std::vector<BoundedRow>& buffer, IslandRows& rows) {
     const auto placed = [&](int b) {
@@ -85,7 +86,7 @@ bool add_loop_axes(const Model& model, const RobotWork& robot, const LoopJoint& 
     LoopRowWriter writer(robot, loop, offset, rows);
     const FreeDirections free = free_directions(loop, placed(loop.body_a), placed(loop.body_b));
     Lockstep<double> alone;
-    bool mends = false;
+    bool corrects = false;
     for (std::size_t k = 0; k < free.count; ++k) {
         const FreeDirection& direction = free.directions[k];
         const Dof& dof = loop.dofs[k];
@@ -98,13 +99,13 @@ bool add_loop_axes(const Model& model, const RobotWork& robot, const LoopJoint& 
                              model.accuracy.compliance * dof.inverse_inertia,
                              loop.kind != JointSpecKind::kBall};
         buffer.clear();
-        mends |= add_axis_rows(axis, alone, buffer);
+        corrects |= add_axis_rows(axis, alone, buffer);
         for (std::size_t r = 0; r < buffer.size(); ++r)
             writer.add(buffer[r], direction.wrench, buffer[r].compliance > axis.dof.inverse_inertia,
                        r == 0 && has_hard_motor(axis) ? &motor : nullptr);
         add_spring(axis, near(direction.position, dof.spring_reference, loop, dof), direction.wrench, writer);
     }
-    return mends;
+    return corrects;
 }
 
 /// True if the free directions of a loop joint are not all left to themselves.
@@ -145,13 +146,13 @@ bool add_joint_rows(const Model& model, const RobotWork& robot, int offset, RowB
                     IslandRows& rows) {
     const RobotType& type = *robot.type;
     Lockstep<double> alone;
-    bool mends = add_tree_rows(model, type, joint_states(robot), offset, alone, rows.joints);
-    if (!type.has_equalities()) return mends;
+    bool corrects = add_tree_rows(model, type, joint_states(robot), offset, alone, rows.joints);
+    if (!type.has_equalities()) return corrects;
     gather_equalities(robot, robot.state->q, buffer.equalities);
     add_equality_rows(model, robot.id, buffer.equalities, offset, rows);
     for (const LoopJoint& loop : type.loops)
-        mends |= add_loop_axes(model, robot, loop, offset, buffer.axis, rows);
-    return mends;
+        corrects |= add_loop_axes(model, robot, loop, offset, buffer.axis, rows);
+    return corrects;
 }
 
 bool moves_freely(const Model& model, const RobotWork& robot) {

@@ -40,11 +40,11 @@ AxisStateT<T> tree_axis(const Model& model, const RobotType& type, const JointSt
 template <class T>
 MaskOf<T> add_tree_rows(const Model& model, const RobotType& type, const JointStates<T>& state, int offset,
                         Lockstep<T>& together, std::vector<JointRowT<T>>& rows) {
-    MaskOf<T> mends = false;
+    MaskOf<T> corrects = false;
     for (std::size_t d = 0; d < type.dofs.size(); ++d) {
         const std::size_t first = rows.size();
         const AxisStateT<T> axis = tree_axis(model, type, state, d);
-        mends = mends | add_axis_rows(axis, together, rows);
+        corrects = corrects | add_axis_rows(axis, together, rows);
         for (std::size_t r = first; r < rows.size(); ++r) {
             JointRowT<T>& row = rows[r];
             row.dof = offset + type.base_nv() + static_cast<int>(d);
@@ -53,7 +53,7 @@ MaskOf<T> add_tree_rows(const Model& model, const RobotType& type, const JointSt
                 row.target -= axis.v, row.position_target -= axis.v;  // relative, as a velocity motor's is
         }
     }
-    return mends;
+    return corrects;
 }
 
 /// Motors, joint friction, limits, loops and couplings of one robot; `offset` is its first dof in the contact

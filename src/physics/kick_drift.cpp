@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "physics/axis_rows.h"
-#include "physics/stirring.h"
+#include "physics/fast_turning.h"
 #include "physics/tree_factor.h"
 
 namespace roboss {
@@ -98,7 +98,7 @@ class KickDrift {
     }
     void attempt_again() {
         state_.q = buffer_.held.q_start, state_.v = buffer_.held.v_start;
-        place_bodies<double>(type_, state_.q, work_);
+        forward_kinematics<double>(type_, state_.q, work_);
         attempt();
     }
 
@@ -135,7 +135,7 @@ class KickDrift {
         for (const std::span<const double> v :
              {std::span(before), rows_act() ? solved_.velocity : std::span(before),
               std::span<const double>(state_.v)}) {
-            move_bodies<double>(type_, v, work_);
+            forward_velocities<double>(type_, v, work_);
             fastest_ = std::max(fastest_, fastest_turn(work_));
         }
         buffer_.force.assign(solved_.load.begin(), solved_.load.end());
@@ -225,20 +225,20 @@ class KickDrift {
     bool hold_still() {
         HeldJoints& held = buffer_.held;
         bool any = false;
-        std::vector<double>& way = buffer_.wanted;
-        way.assign(state_.v.size(), 0.0);
-        for (std::size_t i = 0; i < way.size(); ++i) {
+        std::vector<double>& displacement = buffer_.wanted;
+        displacement.assign(state_.v.size(), 0.0);
+        for (std::size_t i = 0; i < displacement.size(); ++i) {
             if (!held.locked[i] || held.velocity[i] == 0) continue;
-            way[i] = held.velocity[i], held.velocity[i] = 0;
+            displacement[i] = held.velocity[i], held.velocity[i] = 0;
             any = true;
         }
         if (!any) return false;
         state_.q = held.q_start, state_.v = held.v_start;
         const BodySums before = sums();
-        advance_coordinates<double>(type_, way, model_.dt_s, state_.q);
+        advance_coordinates<double>(type_, displacement, model_.dt_s, state_.q);
         if (type_.has_equalities()) buffer_.projection.close_coordinates(type_, state_.q);
         BodySums after = sums();
-        if (type_.free_base) put_on({before.centre(), before.momentum}, after);
+        if (type_.free_base) set_course({before.centre(), before.momentum}, after);
         if (after.energy() <= before.energy()) held.q_start = state_.q, held.v_start = state_.v;
         return true;
     }
@@ -250,7 +250,7 @@ class KickDrift {
             held.locked[i] = 1, held.velocity[i] = 0;
     }
 
-    /// The mending of penetrations and what impacts inside the tick change in the displacement. Momentum
+    /// Penetration recovery and what impacts inside the tick change in the displacement. Momentum
     /// stays, so a slender body that is turned would have to spin faster about its axis: such a turn is cut.
     void shift() {
         std::vector<double>& extra = buffer_.wanted;
@@ -263,8 +263,8 @@ class KickDrift {
         if (!any) return;
         if (!type_.free_base) return displace(1);
         const BodySums before = sums();
-        const Vec3 way = displaced().linear * (model_.dt_s / before.inertia.mass);
-        gained_ = cross(way, before.momentum.linear);
+        const Vec3 displacement = displaced().linear * (model_.dt_s / before.inertia.mass);
+        gained_ = cross(displacement, before.momentum.linear);
         Spatial momentum = before.momentum;
         momentum.angular += gained_;
         HeldJoints& held = buffer_.held;
@@ -273,7 +273,7 @@ class KickDrift {
             state_.q = held.q_start, state_.v = held.v_start;
             displace(share);
             BodySums now = sums();
-            put_on({before.centre() + way, momentum}, now);
+            set_course({before.centre() + displacement, momentum}, now);
             if (keeps_energy()) limit(before.energy(), now);
             if (now.inner_kinetic() <= kMoreByShift * before.inner_kinetic()) return;
         }
@@ -298,7 +298,7 @@ class KickDrift {
         if (!course && !keeps_energy()) return true;
         BodySums now = sums();
         if (!std::isfinite(now.energy())) return false;  // joints held through a dead point of a loop
-        if (course) put_on(*course, now);
+        if (course) set_course(*course, now);
         return !keeps_energy() || limit(before.energy() + kGrowth * model_.dt_s * before.kinetic, now);
     }
 
@@ -328,7 +328,7 @@ class KickDrift {
     }
 
     /// Moves the robot as a whole onto the course; `now` are its sums.
-    void put_on(const FreeCourse& course, BodySums& now) {
+    void set_course(const FreeCourse& course, BodySums& now) {
         const Vec3 off = course.centre - now.centre();
         for (std::size_t i = 0; i < 3; ++i) state_.q[i] += off[i];
         translate(off, model_.gravity, now);

@@ -10,8 +10,8 @@ namespace {
 JointState loop_joint_state(const RobotType& type, const RobotState& state, const LoopJoint& loop,
                             std::size_t axis) {
     RobotWork work;
-    place_bodies<double>(type, state.q, work);
-    move_bodies<double>(type, state.v, work);
+    forward_kinematics<double>(type, state.q, work);
+    forward_velocities<double>(type, state.v, work);
     const auto placed = [&](int b) {
         const Transform X_WB =
             b < 0 ? to_transform(base_pose(state)) : work.bodies[static_cast<std::size_t>(b)].X_WB;
@@ -29,7 +29,7 @@ JointState loop_joint_state(const RobotType& type, const RobotState& state, cons
 
 void body_poses(const RobotType& type, const RobotState& state, std::span<Transform> X_WB) {
     RobotWork work;
-    place_bodies<double>(type, state.q, work);
+    forward_kinematics<double>(type, state.q, work);
     for (std::size_t b = 0; b < X_WB.size(); ++b) X_WB[b] = work.bodies[b].X_WB;
 }
 
@@ -37,7 +37,7 @@ Transform link_pose(const RobotType& type, const RobotState& state, LinkId link)
     const Link& info = type.links[link.index()];
     if (info.body < 0) return to_transform(base_pose(state)) * info.X_BL;
     RobotWork work;
-    place_bodies<double>(type, state.q, work);
+    forward_kinematics<double>(type, state.q, work);
     return work.bodies[static_cast<std::size_t>(info.body)].X_WB * info.X_BL;
 }
 
@@ -45,8 +45,8 @@ Twist link_twist(const RobotType& type, const RobotState& state, LinkId link) {
     const Link& info = type.links[link.index()];
     if (info.body < 0) return {};
     RobotWork work;
-    place_bodies<double>(type, state.q, work);
-    move_bodies<double>(type, state.v, work);
+    forward_kinematics<double>(type, state.q, work);
+    forward_velocities<double>(type, state.v, work);
     const BodyWork& body = work.bodies[static_cast<std::size_t>(info.body)];
     const Vec3 p = body.X_WB * info.X_BL.p - work.origin;
     return {body.velocity.angular, body.velocity.linear + cross(body.velocity.angular, p)};

@@ -44,16 +44,17 @@ class LaneState {
         else
             return {q_, v_, motors_};
     }
-    /// Coordinates go by `way`, velocities become `solution`, which is overwritten; in floats both are added
-    /// to the velocities before.
-    void advance(const RobotType& type, double dt, const std::vector<T>& way, std::vector<T>& solution) {
+    /// Coordinates go by `displacement`, velocities become `solution`, which is overwritten; in floats both
+    /// are added to the velocities before.
+    void advance(const RobotType& type, double dt, const std::vector<T>& displacement,
+                 std::vector<T>& solution) {
         if constexpr (kIsFloat<T>) {
             wide_.resize(v_.size());
-            for (std::size_t i = 0; i < v_.size(); ++i) wide_[i] = v_[i] + widen(way[i]);
+            for (std::size_t i = 0; i < v_.size(); ++i) wide_[i] = v_[i] + widen(displacement[i]);
             advance_coordinates<Wide>(type, wide_, dt, q_);
             for (std::size_t i = 0; i < v_.size(); ++i) v_[i] += widen(solution[i]);
         } else {
-            advance_coordinates<T>(type, way, dt, q_);
+            advance_coordinates<T>(type, displacement, dt, q_);
             v_.swap(solution);
         }
     }

@@ -9,15 +9,15 @@
 #include "geometry/plane_contacts.h"
 #include "physics/contact_rows.h"
 #include "physics/dynamics.h"
+#include "physics/fast_turning.h"
 #include "physics/joint_rows.h"
 #include "physics/lane_contacts.h"
 #include "physics/lane_state.h"
-#include "physics/loads.h"
 #include "physics/newton.h"
 #include "physics/sleep.h"
-#include "physics/stirring.h"
 #include "physics/tree_hessian.h"
 #include "physics/turns_far.h"
+#include "physics/warm_start.h"
 
 namespace roboss {
 
@@ -35,9 +35,9 @@ class LaneStep final : public LaneStepper {
         take_contacts(model, together);
         add_rows(model, together);
         solve(model, together);
-        leave_the_free(together);
-        leave_the_turning(model, together);
-        state_.advance(*work_.type, model.dt_s, way_, solution_);
+        leave_free_robots(together);
+        leave_far_turning_robots(model, together);
+        state_.advance(*work_.type, model.dt_s, displacement_, solution_);
         leave(state_.not_finite(), together);
         for (std::size_t i = 0; i < robots.size(); ++i)
             if (is_in(together, i)) scatter(model, i, robots[i], report);
@@ -63,14 +63,14 @@ class LaneStep final : public LaneStepper {
         leave(LaneTraits<Wide>::bits(m), together);
     }
 
-    /// Bodies and shapes in lanes, contacts lane by lane. Who might fall asleep or stirs leaves. All
+    /// Bodies and shapes in lanes, contacts lane by lane. Who might fall asleep or turns_fast leaves. All
     /// robots come with contacts, or none.
     void place(const Model& model, std::span<const LaneRobot> robots, Lockstep<T>& together) {
         const RobotType& type = *work_.type;
         placed().type = &type;
-        place_bodies<Wide>(type, state_.q(), placed());
-        move_bodies<Wide>(type, state_.v(), placed());
-        leave_where(stirs<Wide>(placed(), model.dt_s), together);
+        forward_kinematics<Wide>(type, state_.q(), placed());
+        forward_velocities<Wide>(type, state_.v(), placed());
+        leave_where(turns_fast<Wide>(placed(), model.dt_s), together);
         const bool has_contacts = robots[0].has_contacts;
         if (model.sleep || !has_contacts) place_shapes<Wide>(type, model.dt_s, state_.q(), placed());
         if (model.sleep) leave_where(placed().speed <= Wide(kRestSpeed), together);
@@ -306,7 +306,7 @@ class LaneStep final : public LaneStepper {
         row.slip.target_1 -= dot(frame.t1, velocity), row.slip.target_2 -= dot(frame.t2, velocity);
     }
 
-    /// Velocities and way of the tick, and what motors and contacts gave.
+    /// Velocities and displacement of the tick, and what motors and contacts gave.
     void solve(const Model& model, Lockstep<T>& together) {
         const Mechanics<T>* robot = &work_;
         const int offset = 0;
@@ -320,51 +320,51 @@ class LaneStep final : public LaneStepper {
         leave_where(!newton_.solve(problem, together, solution_, solved_), together);
         pushed_ = false;
         take_impulses();
-        leave_the_isolated(together);
-        way_ = solution_;
-        if (together.any() && together(split_)) solve_way(problem, together);
+        leave_isolated_robots(together);
+        displacement_ = solution_;
+        if (together.any() && together(split_)) solve_displacement(problem, together);
     }
 
     void take_impulses() {
         for (const JointRowT<T>& row : rows_.joints)
-            if (row.motor != nullptr) remember_load(row.impulse, *row.motor);
+            if (row.motor != nullptr) store_warm_start(row.impulse, *row.motor);
         for (std::size_t c = 0; c < contacts_.size(); ++c) {
             take_impulse(rows_.contacts[c], surfaces_[c].friction, contacts_[c]);
             pushed_ = pushed_ | (contacts_[c].impulse > T(0));
         }
     }
 
-    void solve_way(SolveProblem<T> problem, Lockstep<T>& together) {
+    void solve_displacement(SolveProblem<T> problem, Lockstep<T>& together) {
         problem.position = true;
         for (ContactRowT<T>& row : rows_.contacts) row.slip.bound = row.slip.coefficient * row.normal.impulse;
         SolveReportT<T> report;
-        newton_.start(problem, way_);
-        leave_where(!newton_.solve(problem, together, way_, report), together);
+        newton_.start(problem, displacement_);
+        leave_where(!newton_.solve(problem, together, displacement_, report), together);
         solved_.iterations += report.iterations;
         for (const ContactRowT<T>& row : rows_.contacts) pushed_ = pushed_ | (row.normal.impulse > T(0));
-        leave_where(mends_too_fast(), together);
+        leave_where(corrects_too_fast(), together);
     }
 
-    Mask mends_too_fast() {
+    Mask corrects_too_fast() {
         const std::span<const T> before = state_.joints().v;
-        if constexpr (!kIsFloat<T>) return share_of_mending<T>(before, solution_, way_) < T(1);
-        whole_solution_ = solution_, whole_way_ = way_;
-        for (std::size_t i = 0; i < way_.size(); ++i)
-            whole_solution_[i] += before[i], whole_way_[i] += before[i];
-        return share_of_mending<T>(before, whole_solution_, whole_way_) < T(1);
+        if constexpr (!kIsFloat<T>) return share_of_correction<T>(before, solution_, displacement_) < T(1);
+        whole_solution_ = solution_, whole_displacement_ = displacement_;
+        for (std::size_t i = 0; i < displacement_.size(); ++i)
+            whole_solution_[i] += before[i], whole_displacement_[i] += before[i];
+        return share_of_correction<T>(before, whole_solution_, whole_displacement_) < T(1);
     }
 
     /// What moves freely and nothing pushes keeps its momentum: it takes the kick-drift step
     /// (group_step.cpp).
-    void leave_the_isolated(Lockstep<T>& together) {
+    void leave_isolated_robots(Lockstep<T>& together) {
         if (work_.type->free_base) leave_where(!pushed_, together);
     }
 
     /// What nothing holds moves by the method for free motion.
-    void leave_the_free(Lockstep<T>& together) { leave_where(free_ & !pushed_, together); }
+    void leave_free_robots(Lockstep<T>& together) { leave_where(free_ & !pushed_, together); }
 
     /// Contacts of bodies that turn far get a second look, one by one.
-    void leave_the_turning(const Model& model, Lockstep<T>& together) {
+    void leave_far_turning_robots(const Model& model, Lockstep<T>& together) {
         if (on_plane_ || !together.any()) return;
         const auto first = static_cast<std::size_t>(std::countr_zero(together.present()));
         bool is_known = false;
@@ -380,12 +380,14 @@ class LaneStep final : public LaneStepper {
         }
     }
 
-    /// How the bodies turn on their way.
+    /// How the bodies turn during the tick.
     void turn_bodies() {
         const RobotType& type = *work_.type;
         turning_.resize(type.bodies.size());
         const std::span<const T> before = state_.joints().v;
-        const auto rate = [&](std::size_t i) { return kIsFloat<T> ? before[i] + way_[i] : way_[i]; };
+        const auto rate = [&](std::size_t i) {
+            return kIsFloat<T> ? before[i] + displacement_[i] : displacement_[i];
+        };
         for (std::size_t b = 0; b < type.bodies.size(); ++b) {
             const Body& body = type.bodies[b];
             const auto first = static_cast<std::size_t>(body.v_index);
@@ -440,9 +442,9 @@ class LaneStep final : public LaneStepper {
     Mechanics<T> work_;
     Mechanics<Wide> placed_;  // floats: poses and velocities
     LaneState<T> state_;
-    std::vector<T> solution_, way_;              // of floats, what is added to the velocities before
-    std::vector<T> whole_solution_, whole_way_;  // of floats, in all
-    std::vector<Vec3T<T>> turning_;              // of the bodies, rad/s
+    std::vector<T> solution_, displacement_;              // of floats, what is added to the velocities before
+    std::vector<T> whole_solution_, whole_displacement_;  // of floats, in all
+    std::vector<Vec3T<T>> turning_;                       // of the bodies, rad/s
     std::vector<ContactT<T>> contacts_;
     std::vector<SurfacePair> surfaces_;  // of these, the same in all lanes
     IslandRowsT<T> rows_;

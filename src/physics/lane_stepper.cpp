@@ -1,7 +1,7 @@
 // See lane_stepper.h.
 #include "physics/lane_stepper.h"
 
-#include "physics/stirring.h"
+#include "physics/fast_turning.h"
 
 namespace roboss {
 

@@ -181,7 +181,7 @@ TEST(Lanes, BouncingCarsAlike) {
         world, [](Simulation&) {}, 400);
 }
 
-/// Deep in the ground at the start: the way of the tick has a solution of its own.
+/// Deep in the ground at the start: the displacement of the tick has a solution of its own.
 TEST(Lanes, CarsThatStartInTheGroundAreMendedAlike) {
     compare(
         scattered(car(), 8, -0.03), [](Simulation&) {}, 200);

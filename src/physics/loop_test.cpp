@@ -21,8 +21,8 @@ World with(const ModelSpec& model, double dt_s = 1e-3, const Vec3& gravity = {0,
 double gap(const Simulation& sim, std::size_t robot = 0) {
     RobotWork work;
     work.type = &sim.type(robot);
-    place_bodies<double>(*work.type, sim.states[robot].q, work);
-    move_bodies<double>(*work.type, sim.states[robot].v, work);
+    forward_kinematics<double>(*work.type, sim.states[robot].q, work);
+    forward_velocities<double>(*work.type, sim.states[robot].v, work);
     Equalities equalities;
     gather_equalities(work, sim.states[robot].q, equalities);
     double largest = 0;

@@ -190,14 +190,14 @@ TEST(Motor, ServoThatIsOverrunBrakesByItsDampingAlone) {
 }
 
 TEST(Motor, ServoThatIsOverrunFarKeepsItsBound) {
-    for (const double way : {1.0, -1.0}) {
+    for (const double displacement : {1.0, -1.0}) {
         Hinge hinge(1.5, false, [](AxisSpec& axis) {
             axis.position_gain = 10, axis.velocity_gain = 2, axis.max_velocity = 0.5;
         });
-        hinge.set(MotorMode::kPosition, 3 * way);
-        hinge.sim->states[0].v[0] = 20 * way;
+        hinge.set(MotorMode::kPosition, 3 * displacement);
+        hinge.sim->states[0].v[0] = 20 * displacement;
         hinge.sim->step();
-        EXPECT_NEAR((20 - hinge.v() * way) * hinge.inertia() / 1.5e-3, 1, 1e-9);
+        EXPECT_NEAR((20 - hinge.v() * displacement) * hinge.inertia() / 1.5e-3, 1, 1e-9);
     }
 }
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/wide.h"
-#include "physics/bends.h"
+#include "physics/breakpoints.h"
 #include "physics/friction_bounds.h"
 #include "physics/newton_rows.h"
 #include "physics/tree_factor.h"
@@ -27,7 +27,7 @@ struct SolveReportT {
 };
 
 /// What is asked for: `robots`, the contact island, and `offsets`, their first dofs. `position`: solve for
-/// the way of the tick (position targets) instead of the velocity.
+/// the displacement of the tick (position targets) instead of the velocity.
 template <class T>
 struct SolveProblem {
     const Accuracy& accuracy;
@@ -79,7 +79,7 @@ class Newton {
     T imbalance(const SolveProblem<T>& p) const;
     T slope() const;
     T take_step(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v);
-    T slope_beyond(const SolveProblem<T>& p, const T& way);
+    T slope_beyond(const SolveProblem<T>& p, const T& fraction);
     T line_search(const SolveProblem<T>& p, Lockstep<T>& together, const T& at_start, const T& at_end);
     void measure_from_targets(const SolveProblem<T>& p);
     void keep_start(const SolveProblem<T>& p, const std::vector<T>& v);
@@ -103,7 +103,7 @@ class Newton {
     std::vector<T> step_, m_step_;
     std::vector<T> lightness_;           // 1 / M's diagonal
     std::vector<T> v_start_, mv_start_;  // where an attempt began
-    Bends<T> bends_;
+    LineSearchBreakpoints<T> breakpoints_;
     std::vector<T> u_start_;  // floats: velocities along all rows there
 };
 
@@ -211,17 +211,17 @@ T Newton<T, Matrix>::take_step(const SolveProblem<T>& p, Lockstep<T>& together, 
     return balance(p);
 }
 
-/// The potential's derivative along the step, `way` steps beyond its end.
+/// The potential's derivative along the step, `fraction` steps beyond its end.
 template <class T, class Matrix>
-T Newton<T, Matrix>::slope_beyond(const SolveProblem<T>& p, const T& way) {
+T Newton<T, Matrix>::slope_beyond(const SolveProblem<T>& p, const T& fraction) {
     T s = 0;
     for (std::size_t r = 0; r < p.robots.size(); ++r) {
         for (std::size_t k = 0; k < static_cast<std::size_t>(p.robots[r]->type->nv); ++k) {
             const std::size_t i = static_cast<std::size_t>(p.offsets[r]) + k;
-            s += step_[i] * (mv_[i] + way * m_step_[i] - p.robots[r]->impulse[k]);
+            s += step_[i] * (mv_[i] + fraction * m_step_[i] - p.robots[r]->impulse[k]);
         }
     }
-    return s - newton::row_slope(p.rows, way);
+    return s - newton::row_slope(p.rows, fraction);
 }
 
 /// Minimum along the step, as its distance from the step's end, where we are: the root of the
@@ -234,20 +234,20 @@ T Newton<T, Matrix>::line_search(const SolveProblem<T>& p, Lockstep<T>& together
         low = high, s_low = s_high, high = T(2) * high + T(1);
         s_high = slope_beyond(p, high);
     }
-    bends_.find(p.rows, low, high, s_low, s_high);
+    breakpoints_.find(p.rows, low, high, s_low, s_high);
     int side = 0;  // of the last point: -1 below the root
     for (int i = 0; i < 60;
          ++i) {  // regula falsi with the Illinois rule; each third time a bisection, for the kinks are sharp
         const T share = i % 3 == 2 ? T(0.5) : s_low / (s_low - s_high);
-        const T way = low + (high - low) * share;
-        const T s = bends_.slope(way);
-        if (together(magnitude(s) <= -0.05 * at_start)) return way;
+        const T fraction = low + (high - low) * share;
+        const T s = breakpoints_.slope(fraction);
+        if (together(magnitude(s) <= -0.05 * at_start)) return fraction;
         if (together(s < T(0))) {
-            low = way, s_low = s;
+            low = fraction, s_low = s;
             if (side < 0) s_high *= 0.5;
             side = -1;
         } else {
-            high = way, s_high = s;
+            high = fraction, s_high = s;
             if (side > 0) s_low *= 0.5;
             side = 1;
         }

@@ -126,11 +126,11 @@ void StepProbe::step(Tick tick, std::span<const RobotState* const> states) {
         pointers_[i] = &after_[i];
     }
     tick_ = tick;
-    scratch_.keep_loads(true);
+    scratch_.keep_reactions(true);
     step_island(model_, tick, ids_, pointers_, {}, bounds_, scratch_);
     const std::span<const ContactReport> found = read_contacts(scratch_);
     contacts_.assign(found.begin(), found.end());
-    const std::span<const LoopLoad> loads = read_loop_loads(scratch_);
+    const std::span<const LoopReaction> loads = read_loop_reactions(scratch_);
     loads_.assign(loads.begin(), loads.end());
     free_.resize(n);
     for (std::size_t i = 0; i < n; ++i) free_[i] = moved_freely(scratch_, i);
@@ -166,7 +166,7 @@ std::vector<JointReaction> StepProbe::joint_reactions(RobotId robot) const {
 /// On their bodies B, about the robot's origin.
 std::vector<Spatial> StepProbe::forces_of_loops(RobotId robot, const RobotType& type) const {
     std::vector<Spatial> forces(type.loops.size());
-    for (const LoopLoad& load : loads_)
+    for (const LoopReaction& load : loads_)
         if (load.robot == robot)
             forces[static_cast<std::size_t>(load.loop)] += load.impulse * (1.0 / model_.dt_s);
     return forces;

@@ -46,7 +46,7 @@ class StepProbe {
     std::vector<RobotState> before_, after_;
     std::vector<RobotState*> pointers_;
     std::vector<Aabb> bounds_;
-    std::vector<LoopLoad> loads_;
+    std::vector<LoopReaction> loads_;
     std::vector<char> free_;  // moved by the Runge-Kutta method
     std::vector<ContactReport> contacts_;
     StepScratch scratch_;

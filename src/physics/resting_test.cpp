@@ -55,7 +55,7 @@ struct Slope {
         sim = std::make_unique<Simulation>(world);
         down = rotate(tilt, Vec3{1, 0, 0});
     }
-    double way() const { return dot(base_pose(sim->states[0]).p, down); }
+    double displacement() const { return dot(base_pose(sim->states[0]).p, down); }
     double speed() const {
         return dot(Vec3{sim->states[0].v[3], sim->states[0].v[4], sim->states[0].v[5]}, down);
     }
@@ -71,19 +71,19 @@ TEST(Resting, BoxSlidesDownASteepSlopeByCoulombsLaw) {
         slope.sim->run(2);
         const double a = 9.81 * (std::sin(slope.angle) - 0.2 * std::cos(slope.angle));
         tell("relative error of the speed after 2 s", slope.speed() / (a * 2) - 1);
-        tell("relative error of the way after 2 s", slope.way() / (0.5 * a * 4) - 1);
+        tell("relative error of the way after 2 s", slope.displacement() / (0.5 * a * 4) - 1);
         EXPECT_NEAR(slope.speed() / (a * 2), 1, 1e-10);
-        EXPECT_NEAR(slope.way() / (0.5 * a * 4), 1, 1e-10);
+        EXPECT_NEAR(slope.displacement() / (0.5 * a * 4), 1, 1e-10);
     }
 }
 
 TEST(Resting, BoxBelowTheFrictionAngleDoesNotCreep) {
     Slope slope(20, 0.4, 2e-3);
     slope.sim->run(1);
-    const double before = slope.way();
+    const double before = slope.displacement();
     slope.sim->run(10);
-    tell("creep below the friction angle, m/s", (slope.way() - before) / 10);
-    EXPECT_LT(std::fabs(slope.way() - before) / 10, 1e-6);
+    tell("creep below the friction angle, m/s", (slope.displacement() - before) / 10);
+    EXPECT_LT(std::fabs(slope.displacement() - before) / 10, 1e-6);
     EXPECT_LT(std::fabs(slope.speed()), 1e-6);
 }
 
@@ -94,9 +94,9 @@ TEST(Resting, SlidingBoxStopsWhereFrictionSaysAndStays) {
     Simulation sim(world);
     sim.states[0].v = {0, 0, 0, 1.2, 1.6, 0};  // diagonal to both tangents: friction must be isotropic
     sim.run(2);
-    const double way = 2.0 * 2.0 / (2 * 0.5 * 9.81);
+    const double displacement = 2.0 * 2.0 / (2 * 0.5 * 9.81);
     const double x = sim.states[0].q[0], y = sim.states[0].q[1];
-    EXPECT_NEAR(std::hypot(x, y) / way, 1, 5e-3);
+    EXPECT_NEAR(std::hypot(x, y) / displacement, 1, 5e-3);
     EXPECT_NEAR(y / x, 1.6 / 1.2, 1e-4) << "stays on its line";
     EXPECT_LT(std::hypot(sim.states[0].v[3], sim.states[0].v[4]), 1e-9);
 }

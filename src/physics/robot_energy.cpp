@@ -23,11 +23,11 @@ Sym3 about_centre(const SpatialInertia& I, const Vec3& centre) {
     return a;
 }
 
-/// The inertia about O of bodies that were moved by `way`.
-void move_inertia(const Vec3& way, SpatialInertia& I) {
+/// The inertia about O of bodies that were moved by `displacement`.
+void move_inertia(const Vec3& displacement, SpatialInertia& I) {
     if (!(I.mass > 0)) return;
     const Vec3 centre = I.moment * (1.0 / I.mass);
-    I = spatial_inertia(I.mass, centre + way, about_centre(I, centre));
+    I = spatial_inertia(I.mass, centre + displacement, about_centre(I, centre));
 }
 
 /// Energy of the springs of a joint and of its soft limits, J.
@@ -94,10 +94,10 @@ BodySums sum_placed_bodies(const Model& model, std::span<const double> q, std::s
     return sums;
 }
 
-void translate(const Vec3& way, const Vec3& gravity, BodySums& sums) {
-    sums.momentum.angular += cross(way, sums.momentum.linear);
-    move_inertia(way, sums.inertia);
-    sums.potential -= sums.inertia.mass * dot(gravity, way);
+void translate(const Vec3& displacement, const Vec3& gravity, BodySums& sums) {
+    sums.momentum.angular += cross(displacement, sums.momentum.linear);
+    move_inertia(displacement, sums.inertia);
+    sums.potential -= sums.inertia.mass * dot(gravity, displacement);
 }
 
 void add_motion(const Spatial& change, BodySums& sums) {
@@ -134,8 +134,8 @@ Slowdown slowdown_to(double kinetic, const BodySums& sums, bool anchored) {
 
 BodySums sum_bodies(const Model& model, std::span<const double> q, std::span<const double> v,
                     const Vec3& origin, RobotWork& work) {
-    place_bodies<double>(*work.type, q, work);
-    move_bodies<double>(*work.type, v, work);
+    forward_kinematics<double>(*work.type, q, work);
+    forward_velocities<double>(*work.type, v, work);
     return sum_placed_bodies(model, q, v, origin, work);
 }
 

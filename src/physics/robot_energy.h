@@ -37,9 +37,9 @@ BodySums sum_bodies(const Model& model, std::span<const double> q, std::span<con
 BodySums sum_placed_bodies(const Model& model, std::span<const double> q, std::span<const double> v,
                            const Vec3& origin, RobotWork& work);
 
-/// Moves the bodies of `sums` as a whole: by `way`, then by adding the rigid motion `change` (about the
-/// origin).
-void translate(const Vec3& way, const Vec3& gravity, BodySums& sums);
+/// Moves the bodies of `sums` as a whole: by `displacement`, then by adding the rigid motion `change` (about
+/// the origin).
+void translate(const Vec3& displacement, const Vec3& gravity, BodySums& sums);
 void add_motion(const Spatial& change, BodySums& sums);
 
 /// Adds `share` of a rigid motion about `origin` to the velocities of a robot with a free base.

@@ -12,7 +12,7 @@
 
 namespace roboss {
 
-constexpr double kBaseMargin = 0.002;  // m: what gravity and solving may add to the way of one tick
+constexpr double kBaseMargin = 0.002;  // m: what gravity and solving may add to the displacement of one tick
 
 template <class T>
 struct BodyWorkT {
@@ -66,9 +66,9 @@ void place_robot(const Model& model, RobotId id, RobotState& state, RobotWork& w
 
 /// Parts of it in the order of computing (dynamics.h); `dt` in s.
 template <class T>
-void place_bodies(const RobotType& type, std::span<const T> q, Mechanics<T>& work);
+void forward_kinematics(const RobotType& type, std::span<const T> q, Mechanics<T>& work);
 template <class T>
-void move_bodies(const RobotType& type, std::span<const T> v, Mechanics<T>& work);
+void forward_velocities(const RobotType& type, std::span<const T> v, Mechanics<T>& work);
 template <class T>
 void place_shapes(const RobotType& type, double dt, std::span<const T> q, Mechanics<T>& work);
 /// work.impulse = momentum_weight * M v + dt * (applied - bias); with (1, 0) the generalised force alone.
@@ -76,7 +76,7 @@ void place_shapes(const RobotType& type, double dt, std::span<const T> q, Mechan
 /// compute_mass_matrix.
 void compute_impulse(const Model& model, double dt, double momentum_weight, std::span<const double> q,
                      std::span<const double> v, RobotWork& work);
-/// Inertias of the bodies alone, as compute_impulse sets them on its way; compute_mass_matrix needs them.
+/// Inertias of the bodies alone, as compute_impulse sets them on the way; compute_mass_matrix needs them.
 void compute_inertias(const RobotType& type, RobotWork& work);
 template <class T>
 void compute_mass_matrix(const RobotType& type, double dt, Mechanics<T>& work);

@@ -42,22 +42,22 @@ template <class T>
         });
 }
 
-/// Impulse along the row's step, at `way` of it.
+/// Impulse along the row's step, at `fraction` of it.
 template <class T>
-T force_along(const BoundedRowT<T>& row, const T& way) {
-    return impulse_at(row, row.u + way * row.du) * row.du;
+T force_along(const BoundedRowT<T>& row, const T& fraction) {
+    return impulse_at(row, row.u + fraction * row.du) * row.du;
 }
 template <class T>
-TangentialT<T> impulse_along(const FrictionDiscT<T>& disc, const T& way) {
-    return impulse_at(disc, disc.u_1 + way * disc.du_1, disc.u_2 + way * disc.du_2, disc.bound);
+TangentialT<T> impulse_along(const FrictionDiscT<T>& disc, const T& fraction) {
+    return impulse_at(disc, disc.u_1 + fraction * disc.du_1, disc.u_2 + fraction * disc.du_2, disc.bound);
 }
 template <class T>
 T force_of(const FrictionDiscT<T>& disc, const TangentialT<T>& t) {
     return t.t1 * disc.du_1 + t.t2 * disc.du_2;
 }
 template <class T>
-T force_along(const FrictionDiscT<T>& disc, const T& way) {
-    return force_of(disc, impulse_along(disc, way));
+T force_along(const FrictionDiscT<T>& disc, const T& fraction) {
+    return force_of(disc, impulse_along(disc, fraction));
 }
 
 /// A row that just reaches its bound counts, in floats, as one that has not: what a float cannot tell apart

@@ -74,7 +74,7 @@ void add(const ContactColumns& columns, std::size_t first, std::size_t last, con
 
 /// True for a contact whose spring does not outweigh the inertia in one tick.
 bool is_soft(const ContactRow& row) {
-    return row.soft && row.normal.stiffness * row.ease < 1;
+    return row.soft && row.normal.stiffness * row.inverse_effective_mass < 1;
 }
 
 }  // namespace

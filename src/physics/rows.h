@@ -32,7 +32,7 @@ double loaded_compliance(const Accuracy& accuracy) {
 template <class T>
 struct BoundedRowT {
     T target{};           // for the velocity
-    T position_target{};  // for the way of this tick, where what is violated is mended without speed
+    T position_target{};  // for the displacement of this tick, which corrects violations without adding speed
     T compliance{1}, low{}, high{};
     T stiffness{1};  // 1 / compliance, set by the solver
     T u{}, du{};     // velocity along it; per unit step of the line search
@@ -125,11 +125,11 @@ struct ContactRowT {
     std::size_t first = 0, last = 0;  // columns
     BoundedRowT<T> normal;
     FrictionDiscT<T> slip;
-    T load_max{};       // of its normal impulse, what may count as a load and not as a blow
-    bool soft = false;  // a spring and damper
+    T warm_start_max{};  // of its normal impulse, what may count as a load and not as a blow
+    bool soft = false;   // a spring and damper
     // It carried a load in the last tick and did not slide: it probably will not now.
     MaskOf<T> sticks{false};
-    double ease = 1;  // 1/kg: mobility that its compliances are relative to
+    double inverse_effective_mass = 1;  // 1/kg: mobility that its compliances are relative to
 };
 using ContactRow = ContactRowT<double>;
 
@@ -164,7 +164,8 @@ struct IslandRowsT {
 using IslandRows = IslandRowsT<double>;
 
 /// Rows of one contact; offsets[i] is the first dof of robots[i] in the contact island. Returns true if the
-/// way of this tick needs another target than the velocity (penetration to mend, an impact inside the tick).
+/// way of this tick needs another target than the velocity (a penetration to correct, an impact inside the
+/// tick).
 bool add_contact_row(const Model& model, const Contact& contact, const SurfacePair& surface,
                      std::span<const RobotWork> robots, std::span<const int> offsets, IslandRows& rows);
 

@@ -19,22 +19,22 @@ bool is_plane(const Model& model, const Contact& c) {
 }
 
 /// Upper bound of what turns_far asks, from the joints' velocities alone.
-bool may_turn_far(const RobotType& type, std::span<const double> way, double dt) {
+bool may_turn_far(const RobotType& type, std::span<const double> displacement, double dt) {
     constexpr double kArc = 2e-4;  // m
     double turning = 0;
-    for (std::size_t i = 0; i < way.size(); ++i)
-        if (!type.free_base || i < 3 || i > 5) turning += std::fabs(way[i]);
+    for (std::size_t i = 0; i < displacement.size(); ++i)
+        if (!type.free_base || i < 3 || i > 5) turning += std::fabs(displacement[i]);
     return 0.5 * turning * turning * dt * dt * type.reach > kArc;
 }
 
 /// Whether the robot's points may move further than their speeds before the tick say, by more than is allowed
 /// for anyhow.
-bool is_struck(const RobotWork& robot, std::span<const double> way, double dt) {
+bool is_struck(const RobotWork& robot, std::span<const double> displacement, double dt) {
     double change = 0;
-    for (std::size_t i = 0; i < way.size(); ++i) {
+    for (std::size_t i = 0; i < displacement.size(); ++i) {
         const bool is_linear = robot.type->free_base && i >= 3 && i < 6;
-        change +=
-            std::fabs(way[i] - robot.state->v[i]) * (is_linear ? 1.0 : std::max(1.0, robot.type->reach));
+        change += std::fabs(displacement[i] - robot.state->v[i]) *
+                  (is_linear ? 1.0 : std::max(1.0, robot.type->reach));
     }
     return robot.pushed && change * dt > kBaseMargin;
 }
@@ -44,7 +44,7 @@ double speed_of(const Course& c) {
 }
 
 /// 1/kg: how easily a robot is moved as a whole; 0 if it stands on a fixed base.
-double ease_of(const RobotWork& robot) {
+double inverse_mass_of(const RobotWork& robot) {
     if (!robot.type->free_base) return 0;
     double mass = 0;
     for (const Body& body : robot.type->bodies) mass += body.mass;
@@ -84,8 +84,8 @@ const Mechanics<double>& SecondLook::moved(const SolvedIsland& island, int robot
     to.bodies = work.bodies, to.axes = work.axes, to.shapes = work.shapes;
     const auto first = static_cast<std::size_t>(island.offsets[i]);
     if (work.type->nv > 0)
-        move_bodies<double>(*work.type, island.way.subspan(first, static_cast<std::size_t>(work.type->nv)),
-                            to);
+        forward_velocities<double>(
+            *work.type, island.displacement.subspan(first, static_cast<std::size_t>(work.type->nv)), to);
     return to;
 }
 
@@ -257,10 +257,11 @@ bool SecondLook::start(const SolvedIsland& island) {
     for (const std::uint32_t m : island.members) {
         const RobotType& type = *island.robots[m].type;
         const auto nv = static_cast<std::size_t>(type.nv);
-        const auto way = island.way.subspan(static_cast<std::size_t>(island.offsets[m]), nv);
+        const auto displacement =
+            island.displacement.subspan(static_cast<std::size_t>(island.offsets[m]), nv);
         is_moved_[m] = 0;
-        turns_[m] = may_turn_far(type, way, island.model.dt_s);
-        strikes_ |= island.members.size() > 1 && is_struck(island.robots[m], way, island.model.dt_s);
+        turns_[m] = may_turn_far(type, displacement, island.model.dt_s);
+        strikes_ |= island.members.size() > 1 && is_struck(island.robots[m], displacement, island.model.dt_s);
         any |= turns_[m] != 0 || !misses_of(m, island.near_misses).empty();
     }
     return any || strikes_;
@@ -303,7 +304,7 @@ double SecondLook::first_time() const {
 }
 
 const ShapeWork& SecondLook::placed(const RobotWork& robot, std::uint32_t shape) {
-    place_bodies<double>(*robot.type, robot.state->q, placed_);
+    forward_kinematics<double>(*robot.type, robot.state->q, placed_);
     place_shapes<double>(*robot.type, 0, robot.state->q, placed_);
     return placed_.shapes[shape];
 }
@@ -331,15 +332,16 @@ bool SecondLook::push_out(std::span<RobotWork> robots, const Model& model, const
         const Manifold m = collide(shape, X, other, X_other, 0);
         see(m.n_W, least_gap(m));
     }
-    const double ease_a = ease_of(a), ease_b = b == nullptr || b == &a ? 0 : ease_of(*b);
-    if (normal == Vec3{} || ease_a + ease_b == 0 || b == &a) return false;
+    const double inverse_mass_a = inverse_mass_of(a),
+                 inverse_mass_b = b == nullptr || b == &a ? 0 : inverse_mass_of(*b);
+    if (normal == Vec3{} || inverse_mass_a + inverse_mass_b == 0 || b == &a) return false;
     if (dot(normal, turned.normal) <= 0) return false;  // the way out of the other side
-    const Vec3 push = normal * ((turned.least - deepest) / (ease_a + ease_b));
-    if (ease_a == 0 || ease_b == 0) {
-        shift_base(push * ease_a, *a.state);
-        if (ease_b > 0) shift_base(push * -ease_b, *b->state);
+    const Vec3 push = normal * ((turned.least - deepest) / (inverse_mass_a + inverse_mass_b));
+    if (inverse_mass_a == 0 || inverse_mass_b == 0) {
+        shift_base(push * inverse_mass_a, *a.state);
+        if (inverse_mass_b > 0) shift_base(push * -inverse_mass_b, *b->state);
     } else {
-        move_apart(model, a, push * ease_a, *b, push * -ease_b);
+        move_apart(model, a, push * inverse_mass_a, *b, push * -inverse_mass_b);
     }
     return true;
 }
@@ -384,7 +386,7 @@ void SecondLook::add_rows(const SolvedIsland& island, IslandRows& rows, std::vec
         add_contact_row(island.model, c, surface, island.robots, island.offsets, rows);
         ContactRow& row = rows.contacts.back();
         row.normal.target = row.normal.position_target = -c.gap / island.model.dt_s;
-        row.normal.compliance = row.ease * new_compliance<double>(island.model.accuracy);
+        row.normal.compliance = row.inverse_effective_mass * new_compliance<double>(island.model.accuracy);
     }
 }
 

@@ -24,7 +24,7 @@ struct SolvedIsland {
     std::span<const int> offsets;              // by robot: first degree of freedom in the island
     std::span<const NearMiss> near_misses;     // of the group
     std::span<const Contact* const> contacts;  // of the island, with the solved velocities' impulses
-    std::span<const double> way;               // displacement over dt
+    std::span<const double> displacement;      // displacement over dt
     FreeCourses& free_courses;                 // of the group
 };
 

@@ -89,11 +89,11 @@ TEST(Shapes, ABoxSlidesOverATriangulatedFloorAsStraightAndFarAsOnAPlane) {
     for (World* w : {&plane, &mesh}) place(*w, body, "box", start);
     Simulation a(plane), b(mesh);
     slide(a), slide(b);
-    const double way = position(b).x - start.p.x;
-    tell("way on the mesh, m", way);
+    const double displacement = position(b).x - start.p.x;
+    tell("way on the mesh, m", displacement);
     tell("way on the plane, m", position(a).x - start.p.x);
-    EXPECT_NEAR(way, position(a).x - start.p.x, 1e-4);
-    EXPECT_NEAR(way, 25 / (2 * mu * 9.81), 0.01);
+    EXPECT_NEAR(displacement, position(a).x - start.p.x, 1e-4);
+    EXPECT_NEAR(displacement, 25 / (2 * mu * 9.81), 0.01);
     EXPECT_NEAR(position(b).y, 0.03, 1e-6);
     EXPECT_NEAR(position(b).z, 0.05, 2e-5);
     const Quat q = base_pose(b.states[0]).q;
@@ -139,11 +139,11 @@ TEST(Shapes, ASphereRollsDownARampOfAHeightmapAsOnAnInclinedPlane) {
     Simulation sim(world);
     sim.run(2.0);
     const double exact = 0.5 * (5.0 / 7.0) * 9.81 * sine * 4;
-    const Vec3 way = position(sim) - start;
-    tell("way down the ramp / exact", norm(way) / exact);
-    EXPECT_NEAR(norm(way), exact, 2e-3 * exact);
-    EXPECT_NEAR(dot(way, n), 0, 3e-5);
-    EXPECT_NEAR(way.y, 0, 1e-6);
+    const Vec3 displacement = position(sim) - start;
+    tell("way down the ramp / exact", norm(displacement) / exact);
+    EXPECT_NEAR(norm(displacement), exact, 2e-3 * exact);
+    EXPECT_NEAR(dot(displacement, n), 0, 3e-5);
+    EXPECT_NEAR(displacement.y, 0, 1e-6);
 }
 
 TEST(Shapes, AnLShapedPolylineFallsAndStands) {

@@ -25,7 +25,7 @@ struct StepScratch::Impl {
     std::vector<Aabb> coarse;
     Meetings meetings;
     UnionFind joined;                        // of robots: who may meet, directly or by way of others
-    std::vector<std::uint32_t> stirring;     // awake, or about to wake
+    std::vector<std::uint32_t> active;       // awake, or about to wake
     std::vector<std::uint32_t> near, batch;  // `near`: who may meet others, or sleeps, set by set
     std::vector<char> is_near, ordered, moved_freely;
     std::vector<float> efforts;
@@ -125,8 +125,8 @@ void note_failure(const RobotWork& work, bool beyond_numbers, JointId joint, Ste
     report.beyond_numbers = beyond_numbers;
 }
 
-/// A robot so fast that its way in one tick is no number: it would meet everybody, and spoil them. The body
-/// of its first such part, -1: the base; none: it is not so fast.
+/// A robot so fast that its displacement in one tick is not finite: it would meet everybody, and spoil them.
+/// The body of its first such part, -1: the base; none: it is not so fast.
 std::optional<int> body_beyond_numbers(const RobotWork& work) {
     if (!is_finite(work.origin)) return -1;
     for (std::size_t i = 0; i < work.shapes.size(); ++i)
@@ -167,24 +167,24 @@ bool join_neighbours(const Model& model, std::span<const RobotId> robots, std::s
 void find_near(const Model& model, std::span<const RobotId> robots, std::span<RobotState* const> states,
                Impl& s) {
     const std::size_t count = robots.size();
-    s.is_near.assign(count, 0), s.near.clear(), s.stirring.clear();
+    s.is_near.assign(count, 0), s.near.clear(), s.active.clear();
     s.joined.reset(count), s.coarse.resize(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         const RobotState& state = *states[i];
         if (state.rest.asleep) {
             s.is_near[i] = 1;
             s.coarse[i] = state.rest.bound;
-            if (join_neighbours(model, robots, states, i, s)) s.stirring.push_back(i);
+            if (join_neighbours(model, robots, states, i, s)) s.active.push_back(i);
         } else if (count > 1) {
             s.coarse[i] = coarse_bound(model.type_of(robots[i]), state, model.dt_s);
-            s.stirring.push_back(i);
+            s.active.push_back(i);
         }
         if (count > 1 && !is_finite(s.coarse[i].max - s.coarse[i].min)) {
             s.is_near[i] = 1;
             s.coarse[i] = kEverywhere;
         }
     }
-    if (count > 1) s.meetings.join(s.coarse, s.stirring, s.joined);
+    if (count > 1) s.meetings.join(s.coarse, s.active, s.joined);
     for (std::uint32_t i = 0; i < count; ++i)
         if (const std::uint32_t root = s.joined.find(i); root != i) s.is_near[i] = s.is_near[root] = 1;
     for (std::uint32_t i = 0; i < count; ++i)
@@ -259,13 +259,13 @@ struct Call {
             expire_wrenches(tick, state);
             if (!is_finite(state)) note_failure(works[k], false, broken_joint(*works[k].type, state), report);
         }
-        if (s.group.keep_loads) keep_contacts(works, s.group.contacts, s.contacts);
+        if (s.group.keep_reactions) keep_contacts(works, s.group.contacts, s.contacts);
     }
 
     /// Steps a robot that meets nobody, or lets it wait until there are enough of its type.
     void step_alone(std::uint32_t i, Impl& s, StepReport& report) const {
         const std::size_t type = model.robots[robots[i].index()].type.index();
-        if (!s.group.lanes || s.group.keep_loads || !fits_lanes(model.types[type], *states[i]))
+        if (!s.group.lanes || s.group.keep_reactions || !fits_lanes(model.types[type], *states[i]))
             return step({&i, 1}, s.alone, s, report);
         s.queue.add(type, i, s.group.lanes.width(),
                     [&](auto& batch) { return step_in_lanes(batch, s, report); });
@@ -342,7 +342,7 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
     const Call call{model, tick, robots, states, bounds};
     call.step_near(s, report);
     call.step_all_alone(s, report);
-    if (s.group.keep_loads)
+    if (s.group.keep_reactions)
         std::stable_sort(
             s.contacts.begin(), s.contacts.end(),
             [](const ContactReport& a, const ContactReport& b) { return a.robot_a < b.robot_a; });
@@ -360,15 +360,15 @@ std::size_t StepScratch::lanes(Precision precision) const {
     return impl_->lanes ? impl_->lanes->width() : 1;
 }
 
-void StepScratch::keep_loads(bool keep) {
-    impl_->group.keep_loads = keep;
+void StepScratch::keep_reactions(bool keep) {
+    impl_->group.keep_reactions = keep;
 }
 
 std::span<const ContactReport> read_contacts(StepScratch& scratch) {
     return scratch.impl().contacts;
 }
 
-std::span<const LoopLoad> read_loop_loads(StepScratch& scratch) {
+std::span<const LoopReaction> read_loop_reactions(StepScratch& scratch) {
     return scratch.impl().group.loads;
 }
 

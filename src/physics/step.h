@@ -44,10 +44,10 @@ class StepScratch {
     ~StepScratch();
     StepScratch(StepScratch&&) noexcept;
     StepScratch& operator=(StepScratch&&) noexcept;
-    /// From now on steps keep what contacts and loops bear, for read_contacts and read_loop_loads. A robot
-    /// with loops that nothing pushes is then stepped with rows, not by the Runge-Kutta method, which knows
-    /// no loads: its state is off by what the orders differ.
-    void keep_loads(bool keep);
+    /// From now on steps keep what contacts and loops bear, for read_contacts and read_loop_reactions. A
+    /// robot with loops that nothing pushes is then stepped with rows, not by the Runge-Kutta method, which
+    /// knows no loads: its state is off by what the orders differ.
+    void keep_reactions(bool keep);
     /// From now on at most so many robots of a type are stepped at once in lanes (lane_stepper.h), as far as
     /// this processor can; 1: none. At first as many as it can. No bit depends on it.
     void use_lanes(std::size_t most);
@@ -79,14 +79,14 @@ struct ContactReport {
 std::span<const ContactReport> read_contacts(StepScratch& scratch);
 
 /// Part of what a joint that closes a loop passed on in a tick: by its conditions, its motor, its limits ...
-struct LoopLoad {
+struct LoopReaction {
     RobotId robot;
     int loop = 0;     // in RobotType::loops
     Spatial impulse;  // N m s and N s on its body B, about the robot's origin at the beginning of the tick
 };
 
 /// Of the step made last with this scratch; empty unless it keeps them.
-std::span<const LoopLoad> read_loop_loads(StepScratch& scratch);
+std::span<const LoopReaction> read_loop_reactions(StepScratch& scratch);
 
 /// By robot of the last call: how much work its step was, in Newton iterations and about two for all else; in
 /// lanes the mean of the batch. For sharing out measured time, never for results.

@@ -57,7 +57,8 @@ SurfacePair surface_pair(const Material& a, const Mat3& R_WA, const Material& b,
     pair.restitution = std::max(a.restitution, b.restitution);
     pair.bounce_threshold = std::max(a.bounce_threshold, b.bounce_threshold);
     pair.softness = softness_of(a, b);
-    pair.slop = std::max(a.slop, b.slop), pair.mend_speed = std::min(a.mend_speed, b.mend_speed);
+    pair.slop = std::max(a.slop, b.slop),
+    pair.correction_speed = std::min(a.correction_speed, b.correction_speed);
     return pair;
 }
 

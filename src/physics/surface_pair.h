@@ -8,7 +8,7 @@
 //   surface changes nothing in a soft one. A soft contact does not use restitution: its spring gives back
 //   what its damper leaves.
 // - Torsional friction: the smaller coefficient, the larger radius. Rolling friction: the larger.
-// - Penetration left alone: the larger. Speed of mending, points of contact: the smaller.
+// - Penetration left alone: the larger. Speed of correction, points of contact: the smaller.
 #pragma once
 
 #include "model/model.h"
@@ -33,7 +33,7 @@ struct SurfacePair {
     double torsional = 0, rolling = 0;  // m: levers of the largest torques over the normal force
     double restitution = 0, bounce_threshold = 0;
     Softness softness;
-    double slop = 0, mend_speed = 0;  // of a rigid contact, m and m/s
+    double slop = 0, correction_speed = 0;  // of a rigid contact, m and m/s
 };
 
 bool may_collide(const Material& a, const Material& b);

@@ -118,10 +118,10 @@ TEST(AnisotropicFriction, StopsAfterTheWayOfItsDirection) {
             const double c = std::cos(yaw + angle), s = std::sin(yaw + angle);
             sim.states[0].v = {0, 0, 0, kSpeed * c, kSpeed * s, 0};
             sim.run(2);
-            const double mu = angle == 0 ? 0.6 : 0.3, way = kSpeed * kSpeed / (2 * mu * kG);
+            const double mu = angle == 0 ? 0.6 : 0.3, displacement = kSpeed * kSpeed / (2 * mu * kG);
             const double x = sim.states[0].q[0], y = sim.states[0].q[1];
-            EXPECT_NEAR((c * x + s * y) / way, 1, 5e-3) << "yaw " << yaw << ", angle " << angle;
-            EXPECT_LT(std::fabs(c * y - s * x), 1e-4 * way);
+            EXPECT_NEAR((c * x + s * y) / displacement, 1, 5e-3) << "yaw " << yaw << ", angle " << angle;
+            EXPECT_LT(std::fabs(c * y - s * x), 1e-4 * displacement);
         }
     }
 }
@@ -205,8 +205,8 @@ TEST(RollingFriction, ARollingBallStopsWhereItsLeverSays) {
         // moment lever * m g on a ball that rolls: inertia about the contact point 1.4 m r^2
         const double a = kLever * kG / (1.4 * kRadius);
         sim.run(kSpeed / a + 0.2);
-        const double way = std::hypot(sim.states[0].q[0], sim.states[0].q[1]);
-        EXPECT_NEAR(way / (kSpeed * kSpeed / (2 * a)), 1, 3e-3);
+        const double displacement = std::hypot(sim.states[0].q[0], sim.states[0].q[1]);
+        EXPECT_NEAR(displacement / (kSpeed * kSpeed / (2 * a)), 1, 3e-3);
         EXPECT_NEAR(std::atan2(sim.states[0].q[1], sim.states[0].q[0]), angle, 1e-4);
         EXPECT_LT(std::hypot(sim.states[0].v[3], sim.states[0].v[4]), 1e-6) << "and stays";
     }

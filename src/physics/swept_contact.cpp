@@ -52,7 +52,7 @@ Course free_course(const Mechanics<double>& robot, std::size_t number) {
 
 bool is_fast(const Course& a, const Course& b, double dt) {
     const Vec3 v = a.velocity(a.X.p, 0) - b.velocity(b.X.p, 0);
-    return (norm(v) + a.turning + b.turning) * dt > kFastWay;
+    return (norm(v) + a.turning + b.turning) * dt > kFastDisplacement;
 }
 
 }  // namespace
@@ -76,9 +76,9 @@ SweptPair sweep(const Course& a, const Course& b, double dt, double margin, Mani
     bool reaches = false;
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& p = m.points[static_cast<std::size_t>(i)];
-        const double way = approach_of(a, b, m.n_W, p.p_W) * dt;
-        blow = std::max(blow, way);
-        reaches |= way > p.gap;
+        const double displacement = approach_of(a, b, m.n_W, p.p_W) * dt;
+        blow = std::max(blow, displacement);
+        reaches |= displacement > p.gap;
     }
     if (gap <= kNearly && blow <= kBlow) return {};
     const bool fast = is_fast(a, b, dt);
@@ -115,11 +115,13 @@ SweptPair sweep(const Course& course, const TriangleSurface& surface, const Tran
     buffers.met.clear();
     std::vector<SurfaceContact>& points = buffers.found.points;
     const Course still{};
-    const auto way = [&](const SurfaceContact& c) { return approach_of(course, still, c.n_W, c.p_W) * dt; };
-    const auto touches = [&](const SurfaceContact& c) {
-        return c.gap <= kImpactGap || (c.gap <= kNearly && way(c) <= kBlow);
+    const auto displacement = [&](const SurfaceContact& c) {
+        return approach_of(course, still, c.n_W, c.p_W) * dt;
     };
-    const auto reaches = [&](const SurfaceContact& c) { return !touches(c) && way(c) > c.gap; };
+    const auto touches = [&](const SurfaceContact& c) {
+        return c.gap <= kImpactGap || (c.gap <= kNearly && displacement(c) <= kBlow);
+    };
+    const auto reaches = [&](const SurfaceContact& c) { return !touches(c) && displacement(c) > c.gap; };
     const bool fast = is_fast(course, still, dt);
     if (!fast && std::ranges::none_of(points, reaches)) return {};
     buffers.held.clear();

@@ -13,9 +13,10 @@ namespace roboss {
 
 constexpr double kDeep = 1e-4;  // m: shapes that sink deeper within a tick than its rows say are stopped
 
-constexpr double kFastWay = 4e-3;  // m in a tick: less, and the plane of the beginning is near enough
-constexpr double kNearly = 1e-4;   // m: what is nearer and not fast along the normal touches
-constexpr double kBlow = 1e-3;     // m in a tick, along the normal: fast
+constexpr double kFastDisplacement =
+    4e-3;                         // m in a tick: less, and the plane of the beginning is near enough
+constexpr double kNearly = 1e-4;  // m: what is nearer and not fast along the normal touches
+constexpr double kBlow = 1e-3;    // m in a tick, along the normal: fast
 
 /// The motion of a shape of a robot by the velocities in `robot`.
 Course course_of(const Mechanics<double>& robot, std::size_t shape);
@@ -31,14 +32,15 @@ struct SweptPair {
     double time = 0;  // s
 };
 
-/// Whether shapes `gap` apart, which approach each other by at most `way` in the tick, may pass: then sweep()
-/// has to judge. Quick, for most pairs are slow or touch.
-inline bool may_pass(double gap, double way) {
-    return gap > kImpactGap && (way > kFastWay || (way > gap && (gap > kNearly || way > kBlow)));
+/// Whether shapes `gap` apart, which approach each other by at most `displacement` in the tick, may pass:
+/// then sweep() has to judge. Quick, for most pairs are slow or touch.
+inline bool may_pass(double gap, double displacement) {
+    return gap > kImpactGap && (displacement > kFastDisplacement ||
+                                (displacement > gap && (gap > kNearly || displacement > kBlow)));
 }
 
-inline bool may_pass(const Manifold& manifold, double way) {
-    return manifold.count > 0 && may_pass(least_gap(manifold), way);
+inline bool may_pass(const Manifold& manifold, double displacement) {
+    return manifold.count > 0 && may_pass(least_gap(manifold), displacement);
 }
 
 /// Judges a pair from its manifold at the beginning, which becomes that of the impact.
@@ -60,7 +62,7 @@ SweptPair sweep(const Course& course, const TriangleSurface& surface, const Tran
 bool is_blow(std::span<const RobotWork> robots, const Contact& contact, double dt);
 
 /// Rewrites a contact at time t for a solver that knows the beginning of the tick only: the arms from the
-/// bodies' origins stay those of the impact, the gap is the way to it.
+/// bodies' origins stay those of the impact, the gap is the distance to it.
 void take_back(const Course& a, const Course& b, double t, Contact& contact);
 
 /// buffers.met becomes the contacts of a shape, placed at X_WA, with a surface: all points of the planes in

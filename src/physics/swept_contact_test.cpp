@@ -142,7 +142,7 @@ class Shooting {
         const Vec3 offset = t1 * random.uniform(-aside, aside) + t2 * random.uniform(-aside, aside);
         const double share = range_.is_static ? 1 : random.uniform(0.2, 0.8);  // of the speed
         const Vec3 v = along * range_.speed;
-        const double way = 0.5 * kFlight;
+        const double displacement = 0.5 * kFlight;
         const auto put = [&](const Body& body, const Vec3& p, const Vec3& velocity, bool is_static) {
             ModelSpec model = body_of(body, is_static, range_.mu);
             if (is_static && range_.is_mesh) {
@@ -155,10 +155,11 @@ class Shooting {
             velocities_.push_back({w.x, w.y, w.z, velocity.x, velocity.y, velocity.z});
         };
         const auto put_body = [&] {
-            put(range_.body, centre + offset - along * (way * share), v * share, false);
+            put(range_.body, centre + offset - along * (displacement * share), v * share, false);
         };
         const auto put_target = [&] {
-            put(range_.target, centre + along * (way * (1 - share)), v * (share - 1), range_.is_static);
+            put(range_.target, centre + along * (displacement * (1 - share)), v * (share - 1),
+                range_.is_static);
         };
         put_body();
         put_target();

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "physics/stirring.h"
+#include "physics/fast_turning.h"
 #include "physics/tree_factor.h"
 
 namespace roboss {
@@ -14,8 +14,8 @@ void add_up_forces_at_rest(const Model& model, const RobotWork& work, FreeBuffer
     buffer.v.assign(work.impulse.size(), 0.0);
     buffer.work.type = work.type;
     buffer.work.state = work.state;
-    place_bodies<double>(*work.type, work.state->q, buffer.work);
-    move_bodies<double>(*work.type, buffer.v, buffer.work);
+    forward_kinematics<double>(*work.type, work.state->q, buffer.work);
+    forward_velocities<double>(*work.type, buffer.v, buffer.work);
     compute_impulse(model, model.dt_s, 0.0, work.state->q, buffer.v, buffer.work);
 }
 
@@ -27,12 +27,12 @@ void leave_out_gyroscopic_torque(const Model& model, RobotWork& work, FreeBuffer
 
 }  // namespace
 
-void tame_velocity_forces(const Model& model, RobotWork& work, FreeBuffer& buffer) {
+void limit_velocity_forces(const Model& model, RobotWork& work, FreeBuffer& buffer) {
     constexpr double kShare = 0.002;  // of the kinetic energy
     constexpr double kTurn = 0.5;     // rad
     const bool lone = work.type->free_base && work.type->nv == 6;
     const bool turns = lone || fastest_turn(work) * model.dt_s * model.dt_s > kTurn * kTurn;
-    if (!turns || !stirs<double>(work, model.dt_s)) return;
+    if (!turns || !turns_fast<double>(work, model.dt_s)) return;
     if (lone) return leave_out_gyroscopic_torque(model, work, buffer);
     add_up_forces_at_rest(model, work, buffer);
     const DofPaths& paths = work.type->paths;

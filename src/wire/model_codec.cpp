@@ -81,7 +81,7 @@ template <class A> void field(A& a, Of<A, CoordinateCoupling>& m) {
 }
 template <class A> void field(A& a, Of<A, Material>& m) {
     fields(a, m.mu, m.mu2, m.direction_S, m.restitution, m.bounce_threshold, m.torsional_mu, m.patch_radius, m.surface_radius, m.rolling,
-           m.stiffness, m.damping, m.slop, m.mend_speed, m.contacts_max, m.collide_bitmask, m.category_bitmask);
+           m.stiffness, m.damping, m.slop, m.correction_speed, m.contacts_max, m.collide_bitmask, m.category_bitmask);
 }
 template <class A> void field(A& a, Of<A, Shape>& m) {
     fields(a, m.kind, m.half, m.radius, m.half_length);

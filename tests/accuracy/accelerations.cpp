@@ -55,8 +55,8 @@ std::vector<double> free_acceleration(const Model& model, RobotState& state,
     RobotWork work;
     work.type = &type;
     work.state = &state;
-    place_bodies<double>(type, state.q, work);
-    move_bodies<double>(type, state.v, work);
+    forward_kinematics<double>(type, state.q, work);
+    forward_velocities<double>(type, state.v, work);
     compute_impulse(model, 1.0, 0.0, state.q, state.v, work);
     compute_mass_matrix<double>(type, 0.0, work);
     for (std::size_t d = 0; d < type.dofs.size(); ++d) {

@@ -26,8 +26,8 @@ void shift_half_a_tick(const Model& model, RobotState& state) {
     EqualitySolver solver;
     std::vector<double> wanted, change(state.v.size());
     for (int i = 0; i < 4; ++i) {
-        place_bodies<double>(type, state.q, work);
-        move_bodies<double>(type, state.v, work);
+        forward_kinematics<double>(type, state.q, work);
+        forward_velocities<double>(type, state.v, work);
         compute_inertias(type, work);
         compute_mass_matrix<double>(type, 0.0, work);
         tree_factor(type.paths, work.mass_matrix.data());

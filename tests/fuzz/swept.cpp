@@ -70,7 +70,7 @@ void SweptDistance::add(const std::vector<RobotState>& states) {
     Sample sample;
     for (std::size_t r = 0; r < states.size(); ++r) {
         const RobotType& type = model_.type_of(RobotId(r));
-        place_bodies<double>(type, states[r].q, work_);
+        forward_kinematics<double>(type, states[r].q, work_);
         for (const BodyShape& s : type.shapes)
             sample.push_back(s.body < 0 ? to_transform(base_pose(states[r])) * s.X_BS
                                         : work_.bodies[static_cast<std::size_t>(s.body)].X_WB * s.X_BS);

@@ -48,8 +48,8 @@ class MechanicalSummer {
     };
 
     void add(const RobotType& type, const RobotState& state) {
-        place_bodies<double>(type, state.q, work_);
-        move_bodies<double>(type, state.v, work_);
+        forward_kinematics<double>(type, state.q, work_);
+        forward_velocities<double>(type, state.v, work_);
         for (const Link& link : type.links)
             if (link.body >= 0) add_link(link);
         for (const Dof& dof : type.dofs) add_rotor_and_springs(type, state, dof);

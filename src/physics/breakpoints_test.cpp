@@ -1,6 +1,6 @@
 // The derivative along a step, of the rows that bend and a straight line for the others, against the sum over
 // all rows.
-#include "physics/bends.h"
+#include "physics/breakpoints.h"
 
 #include <gtest/gtest.h>
 
@@ -37,29 +37,29 @@ void start(FrictionDisc& disc, Chance& chance) {
 }
 
 /// Minus the rows' impulses along the step; the smooth part is left out.
-double slope_of_all(IslandRows& rows, double way) {
-    return -newton::row_slope(rows, way);
+double slope_of_all(IslandRows& rows, double fraction) {
+    return -newton::row_slope(rows, fraction);
 }
 
-TEST(Bends, BoundedRowsAreExactAlongTheWay) {
+TEST(LineSearchBreakpoints, BoundedRowsAreExactAlongTheWay) {
     for (unsigned seed = 0; seed < 200; ++seed) {
         Chance chance(seed);
         IslandRows rows;
         rows.joints.resize(8);
         for (JointRow& row : rows.joints) start(row, chance);
         const double low = -1, high = chance.in(0, 2);
-        Bends<double> bends;
+        LineSearchBreakpoints<double> bends;
         bends.find(rows, low, high, slope_of_all(rows, low), slope_of_all(rows, high));
         for (int i = 0; i < 20; ++i) {
-            const double way = chance.in(low, high), right = slope_of_all(rows, way);
-            EXPECT_NEAR(bends.slope(way), right, 1e-9 * (1 + std::fabs(right))) << "seed " << seed;
+            const double fraction = chance.in(low, high), right = slope_of_all(rows, fraction);
+            EXPECT_NEAR(bends.slope(fraction), right, 1e-9 * (1 + std::fabs(right))) << "seed " << seed;
         }
     }
 }
 
 /// Sliding on in about the same direction is taken for a straight line: what that leaves out is small, and
 /// nothing at both ends.
-TEST(Bends, DiscsAreExactAtBothEndsAndNearlySoBetween) {
+TEST(LineSearchBreakpoints, DiscsAreExactAtBothEndsAndNearlySoBetween) {
     double worst = 0;
     for (unsigned seed = 0; seed < 200; ++seed) {
         Chance chance(seed);
@@ -69,15 +69,15 @@ TEST(Bends, DiscsAreExactAtBothEndsAndNearlySoBetween) {
         start(rows.contacts[0].slip, chance);
         const FrictionDisc& disc = rows.contacts[0].slip;
         const double low = -1, high = chance.in(0, 2);
-        Bends<double> bends;
+        LineSearchBreakpoints<double> bends;
         bends.find(rows, low, high, slope_of_all(rows, low), slope_of_all(rows, high));
         for (const double end : {low, high})
             EXPECT_NEAR(bends.slope(end), slope_of_all(rows, end),
                         1e-9 * (1 + std::fabs(slope_of_all(rows, end))));
         const double most = disc.bound * std::hypot(disc.du_1, disc.du_2);
         for (int i = 0; i < 20; ++i) {
-            const double way = chance.in(low, high);
-            const double error = std::fabs(bends.slope(way) - slope_of_all(rows, way));
+            const double fraction = chance.in(low, high);
+            const double error = std::fabs(bends.slope(fraction) - slope_of_all(rows, fraction));
             EXPECT_LE(error, 0.1 * most + 1e-9) << "seed " << seed;
             worst = std::max(worst, error / most);
         }

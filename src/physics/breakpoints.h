@@ -11,13 +11,13 @@
 namespace roboss {
 
 template <class T>
-class Bends {
+class LineSearchBreakpoints {
   public:
-    /// Finds the rows that bend between `low` and `high` of the way along their steps. There the derivative
+    /// Finds the rows that bend between `low` and `high` of the range along their steps. There the derivative
     /// of the potential of everything is s_low and s_high.
     void find(IslandRowsT<T>& rows, const T& low, const T& high, const T& s_low, const T& s_high);
     /// The derivative between them.
-    T slope(const T& way) const;
+    T slope(const T& fraction) const;
 
   private:
     using Mask = MaskOf<T>;
@@ -34,11 +34,11 @@ class Bends {
 
     std::vector<Bent<Bounded>> bounded_;
     std::vector<Bent<Disc>> discs_;
-    T low_{}, at_low_{}, rise_{};  // the straight part: its value at low, more per unit of way
+    T low_{}, at_low_{}, rise_{};  // the straight part: its value at low, more per unit of step
 };
 
 template <class T>
-MaskOf<T> Bends<T>::bends(const Bounded& row, const T& low, const T& high) {
+MaskOf<T> LineSearchBreakpoints<T>::bends(const Bounded& row, const T& low, const T& high) {
     const T at_low = (row.target - row.u - low * row.du) * row.stiffness;
     const T at_high = (row.target - row.u - high * row.du) * row.stiffness;
     const Mask below = (at_low <= row.low) & (at_high <= row.low);
@@ -48,7 +48,8 @@ MaskOf<T> Bends<T>::bends(const Bounded& row, const T& low, const T& high) {
 }
 
 template <class T>
-MaskOf<T> Bends<T>::bends(const Disc& disc, const TangentialT<T>& low, const TangentialT<T>& high) {
+MaskOf<T> LineSearchBreakpoints<T>::bends(const Disc& disc, const TangentialT<T>& low,
+                                          const TangentialT<T>& high) {
     constexpr double kStraight = 0.9;  // cosine of the angle by which sliding may turn
     constexpr double kInside = 1 - 1e-9;
     const T full = disc.bound * disc.bound;
@@ -59,7 +60,8 @@ MaskOf<T> Bends<T>::bends(const Disc& disc, const TangentialT<T>& low, const Tan
 }
 
 template <class T>
-void Bends<T>::find(IslandRowsT<T>& rows, const T& low, const T& high, const T& s_low, const T& s_high) {
+void LineSearchBreakpoints<T>::find(IslandRowsT<T>& rows, const T& low, const T& high, const T& s_low,
+                                    const T& s_high) {
     bounded_.clear(), discs_.clear();
     T at_low = s_low, at_high = s_high;
     const auto take_out = [&](const Mask& here, const T& force_low, const T& force_high) {
@@ -83,10 +85,11 @@ void Bends<T>::find(IslandRowsT<T>& rows, const T& low, const T& high, const T& 
 }
 
 template <class T>
-T Bends<T>::slope(const T& way) const {
-    T sum = at_low_ + (way - low_) * rise_;
-    for (const Bent<Bounded>& bent : bounded_) sum -= select(bent.here, force_along(*bent.row, way), T(0));
-    for (const Bent<Disc>& bent : discs_) sum -= select(bent.here, force_along(*bent.row, way), T(0));
+T LineSearchBreakpoints<T>::slope(const T& fraction) const {
+    T sum = at_low_ + (fraction - low_) * rise_;
+    for (const Bent<Bounded>& bent : bounded_)
+        sum -= select(bent.here, force_along(*bent.row, fraction), T(0));
+    for (const Bent<Disc>& bent : discs_) sum -= select(bent.here, force_along(*bent.row, fraction), T(0));
     return sum;
 }
 

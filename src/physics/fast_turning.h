@@ -12,18 +12,18 @@ namespace roboss {
 
 /// Share of the kinetic energy that explicit velocity-dependent forces may add in one tick; a robot beyond it
 /// takes the kick-drift step (kick_drift.h). It is reached at about 0.05 rad a tick.
-inline constexpr double kStirringShare = 0.0025;
+inline constexpr double kFastTurnShare = 0.0025;
 
 /// True where centrifugal, Coriolis and gyroscopic forces, taken at the beginning of the tick (explicit
-/// Euler), could add more than kStirringShare to the kinetic energy. By Gauss' principle they add at most
+/// Euler), could add more than kFastTurnShare to the kinetic energy. By Gauss' principle they add at most
 /// what they would add to the bodies if no joint held them,
 ///     dt^2 / 2 * sum over bodies (m |a|^2 + tau^T I^-1 tau),
 /// with a and tau the bias acceleration and torque of a body. A wheel that spins about its axis of symmetry
 /// has neither. It depends on the state alone. Over T: one robot, or a few in lanes. `work` holds the placed
 /// and moved bodies.
 template <class T>
-MaskOf<T> stirs(const Mechanics<T>& work, double dt) {
-    constexpr double kNoTurn = 0.02;  // rad in a tick: below, no body bends its way enough
+MaskOf<T> turns_fast(const Mechanics<T>& work, double dt) {
+    constexpr double kNoTurn = 0.02;  // rad in a tick: below, no body bends its path enough
     T fastest = 0;
     for (const BodyWorkT<T>& body : work.bodies)
         fastest = larger(fastest, norm_squared(body.velocity.angular));
@@ -52,7 +52,7 @@ MaskOf<T> stirs(const Mechanics<T>& work, double dt) {
     }
     // What a free robot moves as a whole does not count: the laws are the same in every inertial frame.
     if (work.type->free_base && mass > 0) energy -= norm_squared(momentum) * T(1.0 / mass);
-    return turns & (added * T(dt * dt) > energy * T(kStirringShare));
+    return turns & (added * T(dt * dt) > energy * T(kFastTurnShare));
 }
 
 /// True where a motor can do work.
