@@ -1,4 +1,4 @@
-// What is said where a file that was asked for cannot be written.
+// The error for an output file that cannot be written.
 #pragma once
 
 #include <cerrno>
@@ -13,7 +13,7 @@ namespace roboss {
 inline Error cannot_write(const std::string& path, const std::string& what = "",
                           const std::string& why = std::strerror(errno)) {
     return Error{"cannot write " + what + "'" + path + "': " + why,
-                 "check the folder, its rights and the space left"};
+                 "check the folder, its permissions and the free space", "not-writable"};
 }
 
 }  // namespace roboss

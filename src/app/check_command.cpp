@@ -17,13 +17,14 @@ namespace roboss {
 namespace {
 
 constexpr const char* kHelp =
-    "Reads a world without running it: prints how many robots, links, joints, shapes and sensors it has, and "
-    "everything\n"
-    "that is wrong, unsupported or suspicious in it, each with file, line and what to do.\n"
+    "Reads a world without running it. Prints the numbers of robots, links, joints, shapes and sensors, and "
+    "all\n"
+    "errors, warnings and unsupported elements, each with file, line and remedy.\n"
     "WORLD is an SDFormat file (1.4 to 1.12) or a URDF file.\n\n"
-    "Exit codes: 0 fine (warnings and notes allowed), 1 errors: `roboss run` leaves out the models that have "
+    "Exit codes: 0 no errors (warnings and notes allowed), 1 errors: `roboss run` leaves out the models that "
+    "have "
     "them, or\n"
-    "refuses the world if nothing else is left, 2 the file cannot be read or wrong usage.\n"
+    "refuses the world if no other model is left, 2 the file cannot be read or wrong usage.\n"
     "Example: roboss check worlds/city.sdf --path ~/models";
 
 struct CheckOptions {
@@ -90,7 +91,7 @@ nlohmann::json to_json(const Diagnostics& diagnostics) {
 int check(const CheckOptions& options) {
     Diagnostics diagnostics;
     const std::optional<World> world = load_world(options.world, {options.paths}, diagnostics);
-    // Compiling finds what only the joint graph shows: loops, parts that nothing connects.
+    // Compiling finds errors of the joint graph: loops, unconnected parts.
     const bool runs = world && !diagnostics.refuses() && compile(*world, {}, diagnostics) != nullptr;
     if (options.json) {
         nlohmann::json report = world ? to_json(take_census(*world), *world) : nlohmann::json::object();
@@ -120,9 +121,8 @@ void add_check_command(CLI::App& app, int& exit_code) {
         ->required()
         ->type_name("WORLD");
     command
-        ->add_option(
-            "--path", options->paths,
-            "folder to search for model://, package:// and relative URIs; may be given several times")
+        ->add_option("--path", options->paths,
+                     "folder in which model://, package:// and relative URIs are looked up (may be repeated)")
         ->type_name("DIR")
         ->take_all();
     command->add_flag("--json", options->json, "print one JSON object instead of text");

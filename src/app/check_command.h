@@ -1,4 +1,4 @@
-// `roboss check WORLD`: what is in a world, and everything worth telling about it, without running it.
+// `roboss check WORLD`: prints the contents of a world and all diagnostics, without running it.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,5 +1,4 @@
-// Plain text is written, not a tree of XML nodes: the file for ten thousand cars has 40 MB and is made in a
-// moment.
+// Writes plain text instead of a tree of XML nodes, which keeps it fast: ten thousand cars take 40 MB.
 #include "app/city_world.h"
 
 #include <fmt/format.h>
@@ -100,7 +99,7 @@ constexpr const char* kWheel = R"(      <link name="{0}_wheel">
       </joint>
 )";
 
-/// What stands between <model ...><pose/> and </model>, the same for every car.
+/// The text between <model ...><pose/> and </model>, the same for every car.
 std::string car_body() {
     Text text;
     add(text, "{}", kChassis);

@@ -1,4 +1,4 @@
-// Gets the Model, loads the program, and gives it its turns until the run is over.
+// Fetches the Model, loads the program, and drives it until the run ends.
 #include "app/client_command.h"
 
 #include <fmt/format.h>
@@ -19,9 +19,10 @@ constexpr std::int64_t kGoodbye_ms = 5'000;
 
 const char* const kFooter =
     R"(PROGRAM is a shared library as for `roboss run --client`; the source is the same. It may attach to a run at any time.
-A run that must wait for it names it: `roboss controller WORLD --await-client NAME`.
+`roboss controller WORLD --await-client NAME` starts a run that waits for it.
 
-Exit codes: 0 the run is over or it has left, 1 an option is wrong or no Controller came, 3 the program threw.)";
+Exit codes: 0 the run has ended or the Client has left, 1 an option is wrong or no Controller was found, 3 the program
+threw an exception.)";
 
 struct ClientProcessOptions {
     MemberOptions member;
@@ -35,7 +36,7 @@ class ClientProcess {
 
     int go() {
         Result<std::unique_ptr<ControlProgram>> program = load_control_program(o_.program);
-        if (!program) return member_.complain(program.error()), kBadInput;
+        if (!program) return member_.report_error(program.error()), kBadInput;
         if (!member_.open()) return kBadInput;
         const Address self = member_.new_address(Role::kClient);
         const auto model = member_.fetch_model(self);
@@ -43,12 +44,12 @@ class ClientProcess {
         const std::string name =
             o_.name.empty() ? std::filesystem::path(o_.program).filename().string() : o_.name;
         if (Result<BusClientOptions> times = client_options(program.value()->options(), *model, name); !times)
-            return member_.complain(times.error()), kBadInput;
+            return member_.report_error(times.error()), kBadInput;
         auto host = std::make_unique<ProgramHost>(model, self, name, std::move(program).value());
         for (;;) {
             const std::optional<int> ended = serve(*host);
             if (ended) return *ended;
-            member_.say("the world has changed, fetches it again");  // and start() is called again
+            member_.report("the world has changed; fetching it again");  // and start() is called again
             const Address again = member_.new_address(Role::kClient);
             const auto changed = member_.fetch_model(again);
             if (!changed) return interrupted() ? kDone : kBadInput;
@@ -57,7 +58,7 @@ class ClientProcess {
     }
 
   private:
-    /// The exit code; none: the run has another Model now.
+    /// The exit code; nullopt: the run has a new Model.
     std::optional<int> serve(ProgramHost& host) {
         std::int64_t leaving_ms = 0;
         while (host.client().over().empty()) {
@@ -68,16 +69,16 @@ class ClientProcess {
             }
             if (leaving_ms != 0 && (host.client().heard() || now - leaving_ms > kGoodbye_ms)) break;
             host.advance(member_.bus());
-            for (const std::string& refusal : host.client().take_refusals()) member_.say(refusal);
+            for (const std::string& refusal : host.client().take_refusals()) member_.report(refusal);
             if (host.client().outdated()) return std::nullopt;
             if (!member_.wait()) return kBadInput;
         }
         member_.bus().flush(500);
         if (!host.failure().empty()) {
-            member_.complain({host.failure(), "mend the control program"});
+            member_.report_error({host.failure(), "fix the control program", "client-failed"});
             return kRunFailed;
         }
-        if (!host.client().over().empty()) member_.say(host.client().over());
+        if (!host.client().over().empty()) member_.report(host.client().over());
         return kDone;
     }
 
@@ -92,7 +93,7 @@ void add_client_command(CLI::App& app, int& exit_code) {
     command->footer(kFooter);
     auto options = std::make_shared<ClientProcessOptions>();
     command->add_option("program", options->program, "the control program: a shared library")->required();
-    command->add_option("--name", options->name, "its name in the run (default: that of its file)");
+    command->add_option("--name", options->name, "name of the Client in the run (default: the file name)");
     add_member_options(*command, options->member);
     command->callback([options, &exit_code] { exit_code = ClientProcess(*options).go(); });
 }

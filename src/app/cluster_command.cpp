@@ -1,5 +1,5 @@
-// Starting, watching and ending the processes of a run on many hosts. It only starts and ends; who takes part
-// in the run is between the members and the Controller, and any of them may as well be started by hand.
+// Starts, watches and ends the processes of a run on many hosts. It only starts and ends processes: members
+// join the Controller by themselves, and each of them may also be started by hand.
 #include "app/cluster_command.h"
 
 #include <fmt/format.h>
@@ -28,36 +28,37 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const char* const kFooter =
-    R"(HOSTS.toml says what runs where:
+    R"(HOSTS.toml lists the processes and their hosts:
 
   simulation = "city"              # name of the run
-  program = "/opt/roboss/bin/roboss"    # on the hosts; default: roboss, found by PATH
-  folder = "/home/me/worlds"       # in which all is started there
-  interface = "eth0"               # for all, and again for one where it differs; also: domain, peers = [...],
+  program = "/opt/roboss/bin/roboss"    # on the hosts; default: roboss, found through PATH
+  folder = "/home/me/worlds"       # working directory on the hosts
+  interface = "eth0"               # for all; may be repeated for one process. Also: domain, peers = [...],
                                    # discovery_server = "HOST:PORT", multicast = false
   [controller]
-  host = "node1"                   # as ssh knows it, or "local"
+  host = "node1"                   # name for ssh, or "local"
   world = "city.sdf"
-  options = ["--simulators", "8", "--journal", "city.journal"]    # as of `roboss controller`
+  options = ["--simulators", "8", "--journal", "city.journal"]    # options of `roboss controller`
   [[simulators]]
   host = "node2"
-  count = 4                        # processes there
-  threads = 2                      # of each; default: all cores of the host, with a count above 1 one
+  count = 4                        # number of processes
+  threads = 2                      # of each; default: all cores of the host, 1 if count is above 1
   [[clients]]
   host = "node1"
   program = "driver.so"
 
-Hosts are reached by ssh without a question (an agent or a key; known hosts), by one shell a host;
-reach = ["ip", "netns", "exec", "{host}", "sh", "-s"] names another way to have a shell that reads a script.
-What was started is noted beside the file (HOSTS.toml.running), logs are on the hosts under ~/.roboss/logs.
+Hosts are reached by non-interactive ssh (an agent or a key; known hosts), with one shell per host;
+reach = ["ip", "netns", "exec", "{host}", "sh", "-s"] sets another command that starts a shell which reads a script.
+Started processes are listed in HOSTS.toml.running beside the file; their logs are on the hosts in ~/.roboss/logs.
 
 Examples:
   roboss cluster up hosts.toml
   roboss cluster status hosts.toml
-  roboss cluster status --simulation city --interface eth0      # of any run, however it was started
+  roboss cluster status --simulation city --interface eth0      # any run, however it was started
   roboss cluster down hosts.toml
 
-Exit codes: 0 done, 1 the file is wrong or nothing is there, 2 wrong usage, 3 a host cannot be reached or a process does not start.)";
+Exit codes: 0 done, 1 the file is wrong or nothing was started, 2 wrong usage, 3 a host cannot be reached or a process
+does not start.)";
 
 std::string notes_of(const ClusterFile& file) {
     return file.path + ".running";
@@ -71,7 +72,8 @@ Result<> write_notes(const ClusterFile& file, const std::vector<Started>& all) {
     std::ofstream out(notes_of(file));
     if (out << o.dump(1) << '\n') return Ok{};
     return Error{notes_of(file) + " cannot be written",
-                 "what was started cannot be ended by `down` then: put the file where you may write"};
+                 "without this file `down` cannot end the processes: put HOSTS.toml into a writable folder",
+                 "not-writable"};
 }
 
 Result<std::vector<Started>> read_notes(const ClusterFile& file) {
@@ -79,7 +81,7 @@ Result<std::vector<Started>> read_notes(const ClusterFile& file) {
     const Json o = Json::parse(in, nullptr, false);
     if (!in || o.is_discarded() || !o.contains("processes"))
         return Error{"nothing was started by " + file.path,
-                     "`roboss cluster up " + file.path + "` starts it"};
+                     "start it with `roboss cluster up " + file.path + "`", "not-started"};
     std::vector<Started> all;
     for (const Json& p : o["processes"])
         all.push_back({p.value("name", ""), p.value("role", ""), p.value("host", ""), p.value("log", ""),
@@ -87,22 +89,23 @@ Result<std::vector<Started>> read_notes(const ClusterFile& file) {
     return all;
 }
 
-void say(const std::map<std::string, std::string>& silent) {
-    for (const auto& [host, why] : silent) fmt::print(stderr, "roboss: {} does not answer: {}\n", host, why);
+void report(const std::map<std::string, std::string>& silent) {
+    for (const auto& [host, why] : silent)
+        fmt::print(stderr, "roboss: host {} does not answer: {} [no-answer]\n", host, why);
 }
 
-/// Something of what was started before runs, or may run; it has been said.
+/// Whether processes started before still run, or may still run; it has been reported.
 bool is_up(const ClusterFile& file) {
     const Result<std::vector<Started>> before = read_notes(file);
     if (!before) return false;
     const Presence presence = ask_hosts(file, before.value());
-    const std::string remedy = "`roboss cluster down " + file.path + "` ends it first";
+    const std::string remedy = "`roboss cluster down " + file.path + "` ends it";
     if (std::find(presence.runs.begin(), presence.runs.end(), true) != presence.runs.end())
-        return print(Error{"it is up already", remedy}), true;
-    say(presence.silent);
+        return print(Error{"the cluster is already running", remedy, "already-running"}), true;
+    report(presence.silent);
     if (!presence.silent.empty())
-        print(Error{"what was started there before may still run",
-                    remedy + "; if these hosts are gone for good, remove " + notes_of(file)});
+        print(Error{"processes started there before may still run",
+                    remedy + "; if these hosts are gone for good, remove " + notes_of(file), "may-run"});
     return !presence.silent.empty();
 }
 
@@ -116,19 +119,21 @@ int up(const std::string& path) {
     for (const Error& error : outcome.errors) print(error);
     bool good = outcome.errors.empty() && outcome.started.size() == file.value().processes.size();
     if (!good)
-        fmt::print(stderr, "roboss: not all has started; `roboss cluster down {}` ends the rest\n", path);
+        fmt::print(stderr,
+                   "roboss: not all processes have started; `roboss cluster down {}` ends the others\n",
+                   path);
     if (Result<> written = write_notes(file.value(), outcome.started); !written)
         print(written.error()), good = false;
     return good ? kDone : kRunFailed;
 }
 
-/// Ends processes, and knows whose hosts do not answer any more: nobody waits for them again.
+/// Ends processes, and remembers hosts that do not answer any more: it does not wait for them again.
 class Ending {
   public:
     explicit Ending(const ClusterFile& file, std::vector<Started> all) : file_(file), left_(std::move(all)) {}
 
     void signal(const char* name) { send_signal(file_, left_, name); }
-    /// False: there is none that runs.
+    /// False: none is running.
     bool signal_controller(const char* name) {
         wait(0);
         std::vector<Started> controller;
@@ -137,7 +142,7 @@ class Ending {
         send_signal(file_, controller, name);
         return !controller.empty();
     }
-    /// Waits for the end of all, at most so long; whether some are left.
+    /// Waits until all have ended, at most this long. True: some are left.
     bool wait(int seconds) {
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
         for (bool again = false; !left_.empty(); again = true) {
@@ -170,23 +175,24 @@ int down(const std::string& path) {
     Result<std::vector<Started>> all = read_notes(file.value());
     if (!all) return print(all.error()), kBadInput;
     Ending ending(file.value(), all.value());
-    // As Ctrl-C: the run ends as at its duration, and sends everybody home.
+    // Like Ctrl-C: the run ends as at its duration, and dismisses all members.
     bool some_left = ending.wait(ending.signal_controller("INT") ? 10 : 0);
     for (const char* name : {"TERM", "KILL"}) {
         if (!some_left) break;
         ending.signal(name);
-        some_left = ending.wait(8);  // a Client without Controller takes five to leave
+        some_left = ending.wait(8);  // a Client without a Controller takes 5 s to leave
     }
-    say(ending.silent());
+    report(ending.silent());
     std::vector<Started> rest = ending.left();
     for (const Started& s : rest)
-        fmt::print(stderr, "roboss: {} (process {} on {}) does not end\n", s.name, s.pid, s.host);
+        fmt::print(stderr, "roboss: {} (process {} on {}) did not end\n", s.name, s.pid, s.host);
     for (const Started& s : ending.unknown())
-        fmt::print(stderr, "roboss: {} (process {} on {}) may still run\n", s.name, s.pid, s.host);
+        fmt::print(stderr, "roboss: {} (process {} on {}) may still run [may-run]\n", s.name, s.pid, s.host);
     rest.insert(rest.end(), ending.unknown().begin(), ending.unknown().end());
     if (!rest.empty()) {
         if (Result<> written = write_notes(file.value(), rest); !written) print(written.error());
-        fmt::print(stderr, "roboss: {} processes have ended; `roboss cluster down {}` again for the rest\n",
+        fmt::print(stderr,
+                   "roboss: {} processes have ended; run `roboss cluster down {}` again for the others\n",
                    all.value().size() - rest.size(), path);
         return kRunFailed;
     }
@@ -201,12 +207,12 @@ void print_status(const Json& o) {
                o.value("paused", false) ? "paused" : "speed " + o.value("speed", "?"), o["robots"].size(),
                o.value("islands", 0), o.value("window_ticks", 0));
     fmt::print(
-        "{} windows, {} repeated; efficiency before messages {:.3f}; {} losses, {} recoveries, {} "
-        "migrations, {} late plans relieved\n",
+        "{} windows, {} repeated; load balance {:.3f}; {} losses, {} recoveries, {} migrations, {} windows "
+        "with work stealing\n",
         o.value("windows", 0), o.value("windows_repeated", 0), o.value("efficiency", 0.0),
         o.value("losses", 0), o.value("recoveries", 0), o.value("migrations", 0), o.value("cuts", 0));
-    fmt::print("{:>4}  {:<32} {:<8} {:>7} {:>7} {:>8} {:>6} {:>10}\n", "id", "where", "state", "threads",
-               "robots", "islands", "load", "us a tick");
+    fmt::print("{:>4}  {:<32} {:<8} {:>7} {:>7} {:>8} {:>6} {:>10}\n", "id", "host/pid", "state", "threads",
+               "robots", "islands", "load", "us/tick");
     for (const Json& m : o["members"])
         fmt::print("{:>4}  {:<32} {:<8} {:>7} {:>7} {:>8} {:>6.2f} {:>10.1f}\n", m.value("id", 0),
                    m.value("name", ""), m.value("state", ""), m.value("threads", 0), m.value("robots", 0),
@@ -228,13 +234,12 @@ Result<std::string> ask_status(const StatusOptions& o, const ClusterFile* file) 
             "\n");
 }
 
-/// What the hosts say of the processes that were started; an Error if the Controller is not among those that
-/// run.
+/// The status of the started processes, as their hosts report it; an Error if the Controller does not run.
 Result<Json> ask_processes(const ClusterFile& file) {
     Result<std::vector<Started>> all = read_notes(file);
     if (!all) return all.error();
     const Presence presence = ask_hosts(file, all.value());
-    say(presence.silent);
+    report(presence.silent);
     Json processes = Json::array();
     std::optional<Error> ended;
     for (std::size_t i = 0; i < all.value().size(); ++i) {
@@ -243,11 +248,12 @@ Result<Json> ask_processes(const ClusterFile& file) {
         processes.push_back({{"name", s.name}, {"host", s.host}, {"pid", s.pid}, {"log", s.log}});
         processes.back()["runs"] = runs ? Json(*runs) : Json();
         if (runs.value_or(true)) continue;
-        fmt::print(stderr, "roboss: {} (process {} on {}) has ended; its log: {}\n", s.name, s.pid, s.host,
-                   s.log);
+        fmt::print(stderr, "roboss: {} (process {} on {}) has ended; its log: {} [process-ended]\n", s.name,
+                   s.pid, s.host, s.log);
         if (s.role != "controller") continue;
         const Result<std::string> log = run_on_host(file, s.host, "tail -n 5 " + quoted(s.log) + "\n");
-        ended = Error{"the run is over; the last lines of its log:\n" + (log ? log.value() : ""), ""};
+        ended = Error{"the run has ended; the last lines of its log:\n" + (log ? log.value() : ""), "",
+                      "run-ended"};
     }
     if (ended) return *ended;
     return processes;
@@ -266,12 +272,12 @@ int status(const StatusOptions& o) {
     }
     Result<std::string> text = ask_status(o, file ? &*file : nullptr);
     if (!text) return print(text.error()), kBadInput;
-    Json told = Json::parse(text.value(), nullptr, false);
-    if (!told.is_object() || !told.contains("members") || !told.contains("robots"))
-        return print(Error{"the run said: " + text.value(), ""}), kRunFailed;
-    if (file) told["processes"] = processes;
-    if (o.json) return fmt::print("{}\n", told.dump(2)), kDone;
-    print_status(told);
+    Json run = Json::parse(text.value(), nullptr, false);
+    if (!run.is_object() || !run.contains("members") || !run.contains("robots"))
+        return print(Error{"unexpected reply of the run: " + text.value(), ""}), kRunFailed;
+    if (file) run["processes"] = processes;
+    if (o.json) return fmt::print("{}\n", run.dump(2)), kDone;
+    print_status(run);
     return kDone;
 }
 
@@ -283,15 +289,17 @@ void add_cluster_command(CLI::App& app, int& exit_code) {
     command->require_subcommand(1);
     auto o = std::make_shared<StatusOptions>();
     CLI::App* sub =
-        command->add_subcommand("up", "start Controller, Simulators and Clients as the file says");
+        command->add_subcommand("up", "start the Controller, Simulators and Clients that the file lists");
     sub->add_option("hosts", o->path, "TOML file")->required();
     sub->callback([o, &exit_code] { exit_code = up(o->path); });
-    sub = command->add_subcommand("down", "end all that `up` has started: the run first, then who is left");
+    sub = command->add_subcommand(
+        "down", "end all processes that `up` started: the run first, then the remaining ones");
     sub->add_option("hosts", o->path, "TOML file")->required();
     sub->callback([o, &exit_code] { exit_code = down(o->path); });
-    sub = command->add_subcommand("status", "who has what, and how evenly the work is spread");
-    sub->add_option("hosts", o->path, "TOML file; without it the run is found by the network options");
-    sub->add_flag("--json", o->json, "as JSON");
+    sub = command->add_subcommand("status",
+                                  "print the load of each Simulator and how evenly the work is spread");
+    sub->add_option("hosts", o->path, "TOML file; without it, the run is found by the network options");
+    sub->add_flag("--json", o->json, "print JSON");
     add_member_options(*sub, o->member);
     sub->callback([o, &exit_code] { exit_code = status(*o); });
 }

@@ -21,11 +21,10 @@ class Reading {
   public:
     explicit Reading(std::string path) : path_(std::move(path)) {}
 
-    void fail(const toml::node& at, const std::string& what, const std::string& remedy) {
-        fail(at.source().begin.line, what, remedy);
-    }
-    void fail(std::uint32_t line, const std::string& what, const std::string& remedy) {
-        if (!error_) error_ = Error{fmt::format("{}:{}: {}", path_, line, what), remedy};
+    void fail(const toml::node& at, const std::string& what, const std::string& remedy,
+              const std::string& code) {
+        if (!error_)
+            error_ = Error{fmt::format("{}:{}: {}", path_, at.source().begin.line, what), remedy, code};
     }
     const std::optional<Error>& error() const { return error_; }
 
@@ -34,7 +33,7 @@ class Reading {
             if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;
             std::string known;
             for (const std::string_view k : keys) known += (known.empty() ? "" : ", ") + std::string(k);
-            fail(value, fmt::format("'{}' is not known here", key.str()), "known are " + known);
+            fail(value, fmt::format("unknown key '{}'", key.str()), "known keys: " + known, "unknown-key");
         }
     }
 
@@ -43,7 +42,8 @@ class Reading {
         if (node == nullptr) return otherwise;
         const auto value = node->value_exact<std::string>();
         if (!value)
-            fail(*node, fmt::format("'{}' is not a text", key), fmt::format("write {} = \"...\"", key));
+            fail(*node, fmt::format("'{}' is not a string", key), fmt::format("write {} = \"...\"", key),
+                 "wrong-type");
         return value.value_or(otherwise);
     }
 
@@ -53,8 +53,8 @@ class Reading {
         if (node == nullptr) return otherwise;
         const auto value = node->value_exact<std::int64_t>();
         if (!value || *value < 0 || *value > most)
-            fail(*node, fmt::format("'{}' is not a whole number from 0 to {}", key, most),
-                 "give such a number");
+            fail(*node, fmt::format("'{}' is not an integer from 0 to {}", key, most), "give such a number",
+                 "wrong-type");
         return value.value_or(otherwise);
     }
 
@@ -64,13 +64,15 @@ class Reading {
         if (node == nullptr) return values;
         const toml::array* array = node->as_array();
         if (array == nullptr) {
-            fail(*node, fmt::format("'{}' is not a list of texts", key),
-                 fmt::format("write {} = [\"...\", \"...\"]", key));
+            fail(*node, fmt::format("'{}' is not a list of strings", key),
+                 fmt::format("write {} = [\"...\", \"...\"]", key), "wrong-type");
             return values;
         }
         for (const toml::node& entry : *array) {
             const auto value = entry.value_exact<std::string>();
-            if (!value) fail(entry, fmt::format("an entry of '{}' is not a text", key), "put it in quotes");
+            if (!value)
+                fail(entry, fmt::format("an entry of '{}' is not a string", key), "put it in quotes",
+                     "wrong-type");
             values.push_back(value.value_or(""));
         }
         return values;
@@ -84,13 +86,13 @@ class Reading {
         const toml::array* array = node->as_array();
         if (array == nullptr) {
             fail(*node, fmt::format("'{}' is not a list of tables", key),
-                 fmt::format("write [[{}]], once for each", key));
+                 fmt::format("write [[{}]], once for each", key), "wrong-type");
             return found;
         }
         for (const toml::node& entry : *array) {
             if (entry.as_table() == nullptr) {
                 fail(entry, fmt::format("an entry of '{}' is not a table", key),
-                     fmt::format("write [[{}]], once for each", key));
+                     fmt::format("write [[{}]], once for each", key), "wrong-type");
                 break;
             }
             found.push_back(entry.as_table());
@@ -107,7 +109,7 @@ void append(std::vector<std::string>& words, const std::vector<std::string>& mor
     words.insert(words.end(), more.begin(), more.end());
 }
 
-/// How it finds the others: what `own` says, else what `all` says.
+/// The network options of a process: those in `own`, else those in `all`.
 std::vector<std::string> network_options(Reading& read, const toml::table& own, const toml::table& all) {
     const auto where = [&](const char* key) -> const toml::table& { return own.contains(key) ? own : all; };
     std::vector<std::string> words;
@@ -120,7 +122,9 @@ std::vector<std::string> network_options(Reading& read, const toml::table& own, 
         append(words, {"--discovery-server", server});
     if (const toml::node* node = all.get("multicast")) {
         const auto value = node->value_exact<bool>();
-        if (!value) read.fail(*node, "'multicast' is neither true nor false", "write multicast = false");
+        if (!value)
+            read.fail(*node, "'multicast' is neither true nor false", "write multicast = false",
+                      "wrong-type");
         if (value && !*value) words.push_back("--no-multicast");
     }
     return words;
@@ -130,13 +134,12 @@ void add_controller(Reading& read, const toml::table& root, ClusterFile& file) {
     const toml::node* node = root.get("controller");
     const toml::table* table = node == nullptr ? nullptr : node->as_table();
     if (table == nullptr)
-        return read.fail(root, "there is no [controller]",
-                         "say where it runs and which world: host and world");
+        return read.fail(root, "[controller] is missing", "add it with its host and world", "no-controller");
     read.only(*table, {"host", "world", "interface", "peers", "options"});
     const std::string world = read.text(*table, "world", "");
     if (world.empty())
-        read.fail(*table, "[controller] has no world",
-                  "write world = \"city.sdf\", as it is called on that host");
+        read.fail(*table, "[controller] has no world", "write world = \"city.sdf\", the path on that host",
+                  "no-world");
     ClusterProcess process{"controller",
                            "controller",
                            read.text(*table, "host", "local"),
@@ -151,7 +154,7 @@ void add_simulators(Reading& read, const toml::table& root, ClusterFile& file) {
         read.only(*table, {"host", "count", "threads", "interface", "peers", "options"});
         const std::string host = read.text(*table, "host", "local");
         const std::int64_t count = read.number(*table, "count", 1, kMostPerHost),
-                           // By themselves on a host they take all of its cores.
+                           // A single one takes all cores of its host.
             threads = read.number(*table, "threads", count > 1 ? 1 : 0, kMostPerHost);
         for (std::int64_t i = 1; i <= count; ++i) {
             ClusterProcess process{"simulator", "", host, {"simulator"}, network_options(read, *table, root)};
@@ -168,7 +171,7 @@ void add_clients(Reading& read, const toml::table& root, ClusterFile& file) {
         const std::string program = read.text(*table, "program", "");
         if (program.empty())
             read.fail(*table, "a client has no program",
-                      "write program = \"driver.so\", as it is called on that host");
+                      "write program = \"driver.so\", the path on that host", "no-program");
         ClusterProcess process{"client",
                                "",
                                read.text(*table, "host", "local"),
@@ -197,9 +200,9 @@ Result<ClusterFile> load_cluster_file(const std::string& path) {
     Reading read(path);
     if (!parsed) {
         const toml::parse_error& e = parsed.error();
-        if (e.source().begin.line == 0) return Error{path + " cannot be read", "check the path"};
+        if (e.source().begin.line == 0) return Error{path + " cannot be read", "check the path", "no-file"};
         return Error{fmt::format("{}:{}: {}", path, e.source().begin.line, e.description()),
-                     "see https://toml.io for how TOML is written"};
+                     "see https://toml.io for the syntax", "bad-toml"};
     }
     const toml::table& root = parsed.table();
     read.only(root, {"simulation", "program", "folder", "reach", "interface", "domain", "peers",

@@ -1,4 +1,4 @@
-// The file of `roboss cluster`: which processes of a run go where (TOML).
+// The TOML file of `roboss cluster`: the processes of a run and their hosts.
 #pragma once
 
 #include <string>
@@ -8,21 +8,22 @@
 
 namespace roboss {
 
-/// One process of the run, wherever it is to be.
+/// One process of the run.
 struct ClusterProcess {
     std::string role;                    // "controller", "simulator", "client"
     std::string name;                    // unique in the file: "controller", "node2-1" ...
     std::string host;                    // "local": this computer, without any other program in between
     std::vector<std::string> arguments;  // of `roboss`
-    std::vector<std::string> network;    // network options: what the file says for it, else for all
+    std::vector<std::string> network;    // network options: its own in the file, else those for all
 };
 
 struct ClusterFile {
     std::string path;
     std::string simulation;          // name of the run
     std::string program = "roboss";  // on the hosts
-    std::string folder;              // in which it is started there; empty: where the login leaves us
-    std::vector<std::string> reach;  // how a shell on "{host}" is had; it reads a script from its input
+    std::string folder;              // working directory; empty: that of the login
+    std::vector<std::string>
+        reach;  // command that starts a shell on "{host}", which reads a script from its input
     std::vector<ClusterProcess> processes;  // the Controller first
 };
 

@@ -19,19 +19,19 @@ constexpr std::int64_t kAgain_ms = 250;
 constexpr double kPatience_s = 10;
 
 const char* const kFooter =
-    R"(The run is found as by its other members: by --simulation and the network options. A request takes effect at the end
-of the window under way. Pause, step, speed, window and Simulators change no bit of the result. Rewinding, adding, removing
-and another accuracy change the world at a tick; with a journal each begins a branch there.
+    R"(The run is found by --simulation and the network options, as by its other members. A request takes effect at the end
+of the current window. pause, step, speed, window and simulators do not change the result. rewind, add, remove and accuracy
+change the world at a tick; with a journal, each starts a new branch there.
 
 Examples:
   roboss controller world.sdf --local 1 --simulators 0 --journal run.journal      a run that can be controlled
   roboss control pause
   roboss control step 100
   roboss control rewind 12.5
-  roboss control add robot.sdf --pose "1 0 0.5 0 0 0" --name guest
-  roboss control remove guest
+  roboss control add robot.sdf --pose "1 0 0.5 0 0 0" --name visitor
+  roboss control remove visitor
 
-Exit codes: 0 done, 1 no Controller was found or a file cannot be read, 2 wrong usage, 3 the run refuses it.)";
+Exit codes: 0 done, 1 no Controller was found or a file cannot be read, 2 wrong usage, 3 the run refused the request.)";
 
 struct ControlCommandOptions {
     MemberOptions member;
@@ -53,17 +53,18 @@ void add_plain(CLI::App& command, ControlCommandOptions& o, const Ask& ask) {
             ask({verb, o.value});
         });
     };
-    none("status", "time, pace, Simulators, hash and robots, as one JSON object");
-    none("pause", "stop at the end of this window; members stay");
-    none("resume", "go on");
-    one("step", "go on for so many ticks (default: 1) and pause", "ticks", false);
-    one("speed", "simulated seconds a real second, max or world", "speed", true);
-    one("window", "ticks between two talks with the Controller, or auto", "window", true);
-    none("groups", "by robot, the number of its Simulator and of its island, as JSON");
-    none("bounds", "by robot, the box that it swept in the last window (m), as JSON");
-    one("save", "save the state; the Controller writes the file, on its computer", "file", true);
-    one("rewind", "back to this time (s) of the journal, or #BRANCH@TIME, and on from there", "time", true);
-    none("quit", "end the run as at its duration");
+    none("status", "print time, speed, Simulators, state hash and robots, as one JSON object");
+    none("pause", "pause at the end of the current window; members stay connected");
+    none("resume", "continue a paused run");
+    one("step", "advance by this many ticks (default: 1), then pause", "ticks", false);
+    one("speed", "set the speed: simulated seconds per real second, max or world", "speed", true);
+    one("window", "set the synchronization interval in ticks, or auto", "window", true);
+    none("groups", "print the Simulator and the island of each robot, as JSON");
+    none("bounds", "print the bounding box that each robot swept in the last window (m), as JSON");
+    one("save", "save the state; the Controller writes the file on its computer", "file", true);
+    one("rewind", "return to this time (s) of the journal, or #BRANCH@TIME, and continue from there", "time",
+        true);
+    none("quit", "end the run as if its duration were over");
 }
 
 void add_changes(CLI::App& command, ControlCommandOptions& o, const Ask& ask, int& exit_code) {
@@ -73,26 +74,29 @@ void add_changes(CLI::App& command, ControlCommandOptions& o, const Ask& ask, in
         ask(words);
     };
     CLI::App* sub = command.add_subcommand(
-        "simulators", "add or remove one Simulator of the run's own, or kill one of its processes");
-    sub->add_option("action", o.values, "add, remove, or kill and a number as `status` lists them")
+        "simulators", "add or remove a Simulator that the run itself started, or kill one of its processes");
+    sub->add_option("action", o.values, "add, remove, or kill and a number from `status`")
         ->required()
         ->expected(1, 2);
     sub->callback([all] { all("simulators"); });
-    sub = command.add_subcommand("accuracy", "fast, standard, high and numbers (tolerance=1e-10)");
+    sub = command.add_subcommand(
+        "accuracy", "change the accuracy: fast, standard or high, and numbers (tolerance=1e-10)");
     sub->add_option("values", o.values)->required();
     sub->callback([all] { all("accuracy"); });
-    sub = command.add_subcommand("remove", "take robots out of the world, by name");
+    sub = command.add_subcommand("remove", "remove robots from the world, by name");
     sub->add_option("robots", o.values)->required();
     sub->callback([all] { all("remove"); });
-    sub = command.add_subcommand("add", "put the models of an SDF or URDF file into the world");
-    sub->add_option("file", o.value, "its meshes are looked up on the Controller's computer")->required();
+    sub = command.add_subcommand("add", "add the models of an SDF or URDF file to the world");
+    sub->add_option("file", o.value,
+                    "SDF or URDF file; its meshes are looked up on the Controller's computer")
+        ->required();
     sub->add_option("--pose", o.pose, "\"x y z roll pitch yaw\", m and rad")->capture_default_str();
-    sub->add_option("--name", o.name, "its name in the world (default: that of the file)");
+    sub->add_option("--name", o.name, "name in the world (default: the name in the file)");
     sub->callback([&o, ask, &exit_code] {
         std::ifstream in(o.value, std::ios::binary);
         std::stringstream content;
         if (in && content << in.rdbuf()) return ask({"add", o.value, content.str(), o.pose, o.name});
-        print(Error{o.value + " cannot be read", "check the path"});
+        print(Error{o.value + " cannot be read", "check the path", "no-file"});
         exit_code = kBadInput;
     });
 }
@@ -103,7 +107,7 @@ std::optional<ControlReply> find_reply(const std::vector<Envelope>& inbox) {
     return std::nullopt;
 }
 
-/// What came of a request: nothing if there was no Controller (it has been said) or Ctrl-C was pressed.
+/// The reply to a request; nullopt if no Controller was found (it has been reported) or on Ctrl-C.
 std::optional<ControlReply> reply_of_controller(const MemberOptions& options,
                                                 const std::vector<std::string>& words) {
     MemberOptions patient = options;
@@ -130,7 +134,7 @@ std::optional<ControlReply> reply_of_controller(const MemberOptions& options,
 Result<std::string> request_of_controller(const MemberOptions& options,
                                           const std::vector<std::string>& words) {
     const std::optional<ControlReply> reply = reply_of_controller(options, words);
-    if (!reply) return Error{"no Controller has answered", "see the network options"};
+    if (!reply) return Error{"no Controller replied", "see the network options", "no-controller"};
     if (!reply->done) return Error{reply->text, ""};
     return reply->text;
 }

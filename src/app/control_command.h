@@ -1,4 +1,4 @@
-// `roboss control WORDS...`: asks a running simulation for something, over the network.
+// `roboss control REQUEST...`: sends a request to a running simulation.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,10 +12,10 @@ namespace roboss {
 /// Adds the subcommand; exit_code as in its --help.
 void add_control_command(CLI::App& app, int& exit_code);
 
-/// What the Controller answers to these words; an Error: there is none, or it refuses.
+/// The reply of the Controller to a request; an Error if no Controller was found or it refused.
 Result<std::string> request_of_controller(const MemberOptions& options,
                                           const std::vector<std::string>& words);
-/// Asks the Controller, waits for its answer and prints it. The exit code.
+/// Sends a request to the Controller, waits for its reply and prints it. Returns the exit code.
 int ask_controller(const MemberOptions& options, const std::vector<std::string>& words);
 
 }  // namespace roboss

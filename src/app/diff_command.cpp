@@ -1,4 +1,4 @@
-// Comparing two journals on the command line.
+// Compares two journals.
 #include "app/diff_command.h"
 
 #include <fmt/format.h>
@@ -19,10 +19,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const char* const kFooter =
-    R"(A and B are journals (FILE or FILE#BRANCH). Their checkpoints are compared, and the first stretch that ends
-differently is stepped again, both runs side by side, so any --journal-every will do.
+    R"(A and B are journals (FILE or FILE#BRANCH). Their checkpoints are compared. Both runs are then stepped again, side
+by side, over the first stretch that ends differently, so the journals may have any --journal-every.
 
-Exit codes: 0 equal over all the time that both have, 1 they cannot be read or have nothing in common, 2 wrong usage,
+Exit codes: 0 equal over the time that both cover, 1 a journal cannot be read or they have no time in common, 2 wrong usage,
 3 different.)";
 
 struct DiffOptions {
@@ -39,7 +39,8 @@ Result<Named> open(const std::string& text) {
     Result<JournalLocation> location = parse_location(text);
     if (!location) return location.error();
     if (location.value().time_s)
-        return Error{text + " names a point in time", "name a whole run: FILE or FILE#BRANCH"};
+        return Error{text + " names a point in time", "name a whole run: FILE or FILE#BRANCH",
+                     "bad-location"};
     Result<Journal> journal = Journal::open(location.value().file);
     if (!journal) return journal.error();
     Result<Branch> branch = journal.value().branch(location.value().branch);
@@ -66,8 +67,8 @@ void print_text(const Comparison& c, double dt_s) {
     fmt::print("robot             {}\n", d.robot);
     fmt::print("field             {}\n  a               {}\n  b               {}\n", d.field.field, d.field.a,
                d.field.b);
-    print_orders("only a was ordered", d.orders_a_only);
-    print_orders("only b was ordered", d.orders_b_only);
+    print_orders("only in a", d.orders_a_only);
+    print_orders("only in b", d.orders_b_only);
     if (!d.remark.empty()) fmt::print("remark            {}\n", d.remark);
 }
 
@@ -112,12 +113,12 @@ int diff(const DiffOptions& o) {
 
 void add_diff_command(CLI::App& app, int& exit_code) {
     CLI::App* command =
-        app.add_subcommand("diff", "the first tick, robot and field in which two journals differ");
+        app.add_subcommand("diff", "find the first tick, robot and field in which two journals differ");
     command->footer(kFooter);
     auto o = std::make_shared<DiffOptions>();
     command->add_option("a", o->a, "a journal: FILE or FILE#BRANCH")->required();
-    command->add_option("b", o->b, "another one")->required();
-    command->add_option("--threads", o->threads, "threads to step with")
+    command->add_option("b", o->b, "another journal: FILE or FILE#BRANCH")->required();
+    command->add_option("--threads", o->threads, "number of threads")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
     command->add_flag("--json", o->json, "print one JSON object");

@@ -13,9 +13,9 @@
 namespace roboss {
 namespace {
 
-constexpr std::size_t kRangesMax = 24;  // of ids in a line: `roboss control groups` tells them all
+constexpr std::size_t kRangesMax = 24;  // of ids in a line; `roboss control groups` prints them all
 
-/// As one word: quoted, without line breaks.
+/// Quoted, without line breaks.
 std::string quoted(const std::string& text) {
     std::string word = "\"";
     for (const char c : text) {
@@ -89,12 +89,16 @@ void EventLog::event(Tick tick, const std::string& text) {
     logger_->info("tick={} event=notice text={}", tick, quoted(text));
 }
 
-void EventLog::tell_if_due(const Simulation& simulation) {
-    if (std::chrono::duration<double>(Clock::now() - told_).count() >= every_s_) tell(simulation);
+void EventLog::end(Tick tick, const std::string& code) {
+    logger_->info("tick={} event=end code={}", tick, code);
 }
 
-void EventLog::tell(const Simulation& simulation) {
-    told_ = Clock::now();
+void EventLog::write_state_if_due(const Simulation& simulation) {
+    if (std::chrono::duration<double>(Clock::now() - written_).count() >= every_s_) write_state(simulation);
+}
+
+void EventLog::write_state(const Simulation& simulation) {
+    written_ = Clock::now();
     for (const std::string& line : state_lines(simulation))
         logger_->info("tick={} {}", simulation.tick(), line);
 }

@@ -1,6 +1,6 @@
-// --log: what happens in a run and how it stands, one event a line, as `name=value` pairs that people read
-// and programs split: who came and went, and every so often the window, its repetitions, the balance, and who
-// has what. Times are those of the wall (UTC), ticks the world's.
+// --log: the events and, at intervals, the state of a run, one per line as `name=value` pairs: members that
+// join and leave, the window, its repetitions, the load balance, and the robots of each Simulator. Times are
+// wall-clock times (UTC); ticks are those of the world.
 #pragma once
 
 #include <chrono>
@@ -17,20 +17,21 @@ class logger;
 
 namespace roboss {
 
-/// How a run stands: a line for all of it (`event=state`), then one for each Simulator (`event=load`: its
-/// robots as ranges of ids, CPU time a tick, share of the busiest's).
+/// The state of a run: one line for the whole run (`event=state`), then one for each Simulator (`event=load`:
+/// its robots as ranges of ids, CPU time a tick, share of the busiest's).
 std::vector<std::string> state_lines(const Simulation& simulation);
 
 class EventLog {
   public:
-    /// `path`: a file to add to, or `-` for standard error. How the run stands is told each `every_s`
-    /// seconds.
+    /// `path`: a file to append to, or `-` for standard error. The state is written every `every_s` seconds.
     static Result<EventLog> open(const std::string& path, double every_s);
 
     void event(Tick tick, const std::string& text);
-    /// How it stands, now, or if it is time to.
-    void tell(const Simulation& simulation);
-    void tell_if_due(const Simulation& simulation);
+    /// The end of the run, with `code` done or failed.
+    void end(Tick tick, const std::string& code);
+    /// Writes the state of the run: now, or if the interval is over.
+    void write_state(const Simulation& simulation);
+    void write_state_if_due(const Simulation& simulation);
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -39,7 +40,7 @@ class EventLog {
 
     std::shared_ptr<spdlog::logger> logger_;
     double every_s_;
-    Clock::time_point told_ = Clock::now();
+    Clock::time_point written_ = Clock::now();
 };
 
 }  // namespace roboss

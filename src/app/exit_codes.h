@@ -1,4 +1,4 @@
-// How the subcommands that run something end; their --help says the same.
+// Exit codes of the subcommands; their --help lists them.
 #pragma once
 
 namespace roboss {
@@ -7,7 +7,7 @@ enum ExitCode {
     kDone = 0,
     kBadInput = 1,
     kRunFailed = 3,
-    kProcessesFailed = 4,  // Simulator processes of this run's own died or never joined
+    kProcessesFailed = 4,  // Simulator processes that the run started ended or never joined
     kInterrupted = 130
 };
 

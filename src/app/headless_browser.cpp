@@ -1,4 +1,4 @@
-// A process, two pipes, JSON between zeros.
+// Runs Chromium with two pipes: JSON messages, each terminated by a zero byte.
 #include "app/headless_browser.h"
 
 #include <fcntl.h>
@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kPatience_ms = 60'000;  // software rendering on a busy machine takes its time
+constexpr int kPatience_ms = 60'000;  // software rendering on a busy machine is slow
 
 std::string find_browser() {
     if (const char* named = std::getenv("ROBOSS_BROWSER")) return named;
@@ -52,7 +52,8 @@ std::string from_base64(const std::string& text) {
 }
 
 Error gone() {
-    return {"the browser has ended", "start it by hand and see what it says (chromium --headless)"};
+    return {"the browser has ended", "start it by hand (chromium --headless) and look for errors",
+            "browser-ended"};
 }
 
 /// In the child: its ends of the pipes become 3 and 4, as the browser wants them.
@@ -75,11 +76,12 @@ Error gone() {
 Result<std::unique_ptr<HeadlessBrowser>> HeadlessBrowser::start(int width, int height) {
     const std::string browser = find_browser();
     if (browser.empty())
-        return Error{"there is no Chromium here to draw the picture",
-                     "apt-get install chromium, or name one with ROBOSS_BROWSER"};
+        return Error{"Chromium was not found",
+                     "install it (apt-get install chromium), or set ROBOSS_BROWSER to its path",
+                     "no-browser"};
     std::string folder = (std::filesystem::temp_directory_path() / "roboss-browser-XXXXXX").string();
     if (mkdtemp(folder.data()) == nullptr)
-        return Error{"no folder for the browser can be made in " + folder, "make room there"};
+        return Error{"cannot create the folder " + folder + " for the browser", "free some space there"};
     std::unique_ptr<HeadlessBrowser> result(new HeadlessBrowser);
     result->folder_ = folder;
     std::vector<std::string> words{browser,
@@ -97,7 +99,7 @@ Result<std::unique_ptr<HeadlessBrowser>> HeadlessBrowser::start(int width, int h
     words.push_back("about:blank");
     std::array<int, 2> in{}, out{};
     if (pipe2(in.data(), O_CLOEXEC) != 0 || pipe2(out.data(), O_CLOEXEC) != 0)
-        return Error{"no pipes can be had", "see the limits (ulimit -n)"};
+        return Error{"cannot create a pipe", "see the limits (ulimit -n)"};
     result->id_ = fork();
     if (result->id_ == 0) become(words, in[0], out[1]);
     close(in[0]), close(out[1]);
@@ -122,7 +124,7 @@ HeadlessBrowser::~HeadlessBrowser() {
     if (to_ >= 0) close(to_);
     if (from_ >= 0) close(from_);
     if (id_ > 0) {
-        ::kill(-id_, SIGKILL);  // it has processes of its own
+        ::kill(-id_, SIGKILL);  // it has child processes
         ::kill(id_, SIGKILL);
         waitpid(id_, nullptr, 0);
     }
@@ -134,8 +136,8 @@ Result<> HeadlessBrowser::open(const std::string& url) {
     Result<Json> answer = call("Page.navigate", {{"url", url}});
     if (!answer) return answer.error();
     if (answer.value().contains("errorText"))
-        return Error{"the page does not open: " + answer.value().value("errorText", ""),
-                     "is the viewer's page built?"};
+        return Error{"the page cannot be opened: " + answer.value().value("errorText", ""),
+                     "build the viewer's page, or give its folder with --web"};
     return Ok{};
 }
 
@@ -156,7 +158,7 @@ Result<Json> HeadlessBrowser::call(const std::string& method, Json parameters) {
     Json message{{"id", number}, {"method", method}, {"params", std::move(parameters)}};
     if (!session_.empty()) message["sessionId"] = session_;
     const std::string text = message.dump();
-    for (std::size_t done = 0; done <= text.size();) {  // the closing zero too
+    for (std::size_t done = 0; done <= text.size();) {  // including the terminating zero
         const ssize_t n = ::write(to_, text.c_str() + done, text.size() + 1 - done);
         if (n <= 0) return gone();
         done += static_cast<std::size_t>(n);
@@ -167,7 +169,7 @@ Result<Json> HeadlessBrowser::call(const std::string& method, Json parameters) {
         if (answer.value().value("id", 0) != number) continue;  // an event
         if (!answer.value().contains("error")) return answer.value().value("result", Json::object());
         return Error{"the browser refuses " + method + ": " + answer.value()["error"].value("message", ""),
-                     "is it a Chromium of these years?"};
+                     "install a recent Chromium"};
     }
 }
 
@@ -181,7 +183,7 @@ Result<Json> HeadlessBrowser::next_message() {
         }
         pollfd waits{from_, POLLIN, 0};
         if (poll(&waits, 1, kPatience_ms) <= 0)
-            return Error{"the browser does not answer", "is the machine too busy?"};
+            return Error{"the browser does not respond", "try again when the machine is less busy"};
         std::array<char, 65536> buffer;
         const ssize_t n = ::read(from_, buffer.data(), buffer.size());
         if (n <= 0) return gone();

@@ -1,4 +1,4 @@
-// HeadlessBrowser: Chromium without a window, told what to do over two pipes (the Chrome DevTools Protocol,
+// HeadlessBrowser: headless Chromium, controlled over two pipes (the Chrome DevTools Protocol,
 // --remote-debugging-pipe). It ends with this object.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Scripts for a plain sh, and what they say.
+// Scripts for a plain sh, and their output.
 #include "app/host_processes.h"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 namespace roboss {
 namespace {
 
-constexpr std::size_t kAtOnce = 16;  // hosts spoken to at the same time
+constexpr std::size_t kAtOnce = 16;  // hosts contacted at the same time
 
 using HostScripts = std::map<std::string, std::string>;
 using HostAnswers = std::map<std::string, Result<std::string>>;
@@ -49,25 +49,27 @@ std::string path_of_log(const ClusterFile& file, const ClusterProcess& process) 
     return "\"$folder\"/" + quoted(file.simulation + "-" + process.name + ".log");
 }
 
-/// Starts all of `processes` on one host, and says of each, by its place in the file, what came of it: a line
-/// "+ PLACE PID LOG" or "- PLACE" and the end of its log.
-std::string starting_script(const ClusterFile& file, const std::vector<std::size_t>& places) {
+/// Starts processes on one host, given by their index in the file, and prints for each a line "+ INDEX PID
+/// LOG", or
+/// "- INDEX" and the end of its log.
+std::string starting_script(const ClusterFile& file, const std::vector<std::size_t>& indices) {
     const std::string program = quoted(file.program);
-    const char* absent = file.program.find('/') == std::string::npos
-                             ? "\"is not found by PATH, which is $PATH there: give its full path as program\""
-                             : "is not there";
+    const char* absent =
+        file.program.find('/') == std::string::npos
+            ? "\"is not found by PATH, which is $PATH there: give its full path as program [no-program]\""
+            : "\"does not exist there [no-program]\"";
     std::string script = in_folder(file) + fmt::format(R"(folder="${{HOME:-/tmp}}/.roboss/logs"
 mkdir -p "$folder" || exit 3
 command -v {0} >/dev/null || {{ echo {0} {1}; exit 3; }}
 )",
                                                        program, absent);
-    for (const std::size_t i : places) {
+    for (const std::size_t i : indices) {
         const ClusterProcess& process = file.processes[i];
         script += fmt::format("setsid nohup {} >{} 2>&1 </dev/null &\npid{}=$!\n",
                               command_line(file, process, process.arguments), path_of_log(file, process), i);
     }
     script += "sleep 0.5\n";
-    for (const std::size_t i : places)
+    for (const std::size_t i : indices)
         script += fmt::format(
             "if kill -0 $pid{0} 2>/dev/null; then echo \"+ {0} $pid{0} \"{1}; else echo '- {0}'; tail -n 5 "
             "{1}; fi\n",
@@ -75,16 +77,16 @@ command -v {0} >/dev/null || {{ echo {0} {1}; exit 3; }}
     return script;
 }
 
-/// Asks for the process, and makes sure that it is the one that was started.
+/// A command that succeeds if the process runs and is the one that was started.
 std::string about(const Started& process, const ClusterFile& file) {
     return fmt::format("tr '\\0' ' ' 2>/dev/null </proc/{0}/cmdline | grep -qF -e {1}", process.pid,
                        quoted("--simulation " + file.simulation + " "));
 }
 
-/// What the starting script said of each of its processes, into `outcome`.
-void take_answer(const ClusterFile& file, const std::string& host, const std::string& said,
+/// Parses the output of the starting script into `outcome`.
+void take_output(const ClusterFile& file, const std::string& host, const std::string& output,
                  StartOutcome& outcome) {
-    std::istringstream lines(said);
+    std::istringstream lines(output);
     Error* failure = nullptr;
     for (std::string line; std::getline(lines, line);) {
         char sign = 0;
@@ -99,8 +101,8 @@ void take_answer(const ClusterFile& file, const std::string& host, const std::st
         if (sign == '+' && words >> started.pid >> std::ws && std::getline(words, started.log))
             outcome.started.push_back(started), failure = nullptr;
         else
-            failure =
-                &outcome.errors.emplace_back(Error{started.name + " on " + host + ": it ended at once:", ""});
+            failure = &outcome.errors.emplace_back(
+                Error{started.name + " on " + host + ": it ended immediately:", ""});
     }
 }
 
@@ -116,20 +118,20 @@ std::string command_line(const ClusterFile& file, const ClusterProcess& process,
 }
 
 StartOutcome start_processes(const ClusterFile& file) {
-    std::map<std::string, std::vector<std::size_t>> places;
-    for (std::size_t i = 0; i < file.processes.size(); ++i) places[file.processes[i].host].push_back(i);
+    std::map<std::string, std::vector<std::size_t>> indices;
+    for (std::size_t i = 0; i < file.processes.size(); ++i) indices[file.processes[i].host].push_back(i);
     HostScripts scripts;
-    for (const auto& [host, its] : places) scripts[host] = starting_script(file, its);
+    for (const auto& [host, its] : indices) scripts[host] = starting_script(file, its);
     StartOutcome outcome;
-    for (const auto& [host, said] : run_on_hosts(file, scripts)) {
-        if (said) {
-            take_answer(file, host, said.value(), outcome);
+    for (const auto& [host, output] : run_on_hosts(file, scripts)) {
+        if (output) {
+            take_output(file, host, output.value(), outcome);
             continue;
         }
-        std::string who = file.processes[places[host].front()].name;
-        if (places[host].size() > 1) who += fmt::format(" and {} more", places[host].size() - 1);
+        std::string who = file.processes[indices[host].front()].name;
+        if (indices[host].size() > 1) who += fmt::format(" and {} more", indices[host].size() - 1);
         outcome.errors.push_back(
-            {fmt::format("{} on {}: {}", who, host, said.error().message), said.error().remedy});
+            {fmt::format("{} on {}: {}", who, host, output.error().message), output.error().remedy});
     }
     return outcome;
 }
@@ -141,14 +143,14 @@ Presence ask_hosts(const ClusterFile& file, const std::vector<Started>& all) {
     for (auto& [host, script] : scripts) script += "true\n";
     Presence presence;
     presence.runs.resize(all.size());
-    for (const auto& [host, said] : run_on_hosts(file, scripts)) {
-        if (!said) {
-            presence.silent[host] = said.error().message;
+    for (const auto& [host, output] : run_on_hosts(file, scripts)) {
+        if (!output) {
+            presence.silent[host] = output.error().message;
             continue;
         }
         for (std::size_t i = 0; i < all.size(); ++i)
             if (all[i].host == host) presence.runs[i] = false;
-        std::istringstream lines(said.value());
+        std::istringstream lines(output.value());
         for (std::string line; std::getline(lines, line);) {
             std::istringstream words(line);
             char sign = 0;

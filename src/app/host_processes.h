@@ -1,5 +1,5 @@
-// Processes of a run on their hosts: starting them, asking whether they run, signalling them. Every host has
-// one shell at a time for all that is to be done there, since an sshd turns away who comes with many at once.
+// Starts, polls and signals the processes of a run on their hosts. Every host gets one shell at a time, since
+// an sshd refuses many simultaneous connections.
 #pragma once
 
 #include <map>
@@ -17,27 +17,27 @@ struct Started {
     long pid = 0;
 };
 
-/// What came of starting: those that run, and what is to be said of the others.
+/// The processes that run, and an error for each of the others.
 struct StartOutcome {
     std::vector<Started> started;
     std::vector<Error> errors;
 };
 StartOutcome start_processes(const ClusterFile& file);
 
-/// What the hosts say: of `all`, who runs; and of hosts that do not answer, why.
+/// Which processes run, and the error of each host that does not answer.
 struct Presence {
-    std::vector<std::optional<bool>> runs;  // as `all`; nothing: its host does not answer
+    std::vector<std::optional<bool>> runs;  // in the order of `all`; nullopt: its host does not answer
     std::map<std::string, std::string> silent;
 };
 Presence ask_hosts(const ClusterFile& file, const std::vector<Started>& all);
 
-/// To those that still run. Hosts that do not answer are passed over.
+/// Signals the processes that still run. Hosts that do not answer are skipped.
 void send_signal(const ClusterFile& file, const std::vector<Started>& to, const char* name);
 
 /// Runs a script on a host, in the folder of the file.
 Result<std::string> run_on_host(const ClusterFile& file, const std::string& host, const std::string& script);
 
-/// `roboss` with these arguments as this process would be started, as words of a shell.
+/// `roboss` with these arguments and the network options of `process`, quoted for a shell.
 std::string command_line(const ClusterFile& file, const ClusterProcess& process,
                          const std::vector<std::string>& arguments);
 

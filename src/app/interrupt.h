@@ -1,4 +1,4 @@
-// Ctrl-C and SIGTERM: the first one asks to end in good order, the second one ends at once.
+// Ctrl-C and SIGTERM: the first one requests an orderly end, the second one ends the process immediately.
 #pragma once
 
 namespace roboss {

@@ -1,4 +1,4 @@
-// Looking at journals.
+// Inspects, verifies and exports journals.
 #include "app/journal_command.h"
 
 #include <fmt/format.h>
@@ -20,14 +20,15 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const char* const kFooter =
-    R"(A journal is written by `roboss run|controller --journal FILE`; a file of --save is a small one.
-FILE#BRANCH names a branch (default: the youngest), FILE@TIME a point in time, in s; FILE#2@1.5 both.
+    R"(A journal is written by `roboss run|controller --journal FILE`; a file written by --save is a small journal.
+FILE#BRANCH names a branch (default: the newest), FILE@TIME a point in time, in s; FILE#2@1.5 names both.
 
-Exit codes: 0 done, 1 the file is not there, damaged, or of another version, 2 wrong usage, 3 verify found a difference.
+Exit codes: 0 done, 1 the file is missing, damaged, or of another version, 2 wrong usage, 3 verify found a difference.
 Examples:
   roboss journal info run.journal
   roboss journal verify run.journal --threads 4
-  roboss journal export run.journal --orders > orders.jsonl    and   roboss run world.sdf --orders orders.jsonl)";
+  roboss journal export run.journal --orders > orders.jsonl
+  roboss run world.sdf --orders orders.jsonl)";
 
 struct JournalOptions {
     std::string location;
@@ -39,7 +40,7 @@ void print_json(const Json& o) {
     fmt::print("{}\n", o.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
-/// What the options name, opened; nothing if it cannot be (it has been said).
+/// Opens the journal that the options name; nullopt if it cannot be opened (it has been reported).
 struct Opened {
     Journal journal;
     JournalLocation location;
@@ -126,22 +127,22 @@ int verify(const JournalOptions& o) {
     std::size_t bad = 0;
     for (const Branch& b : journal.branches()) {
         if (opened->location.branch && *opened->location.branch != b.id) continue;
-        const auto tell = [&](const Stretch& s) {
+        const auto report = [&](const Stretch& s) {
             bad += s.good() ? 0 : 1;
             stretches.push_back(to_json(s));
             if (!o.json)
                 fmt::print("branch {}  ticks {} to {}  {}\n", s.branch, s.from, s.until,
                            s.good() ? "equal"
-                                    : fmt::format("DIFFERENT: kept {}, stepped again {}", to_hex(s.kept),
+                                    : fmt::format("DIFFERENT: recorded {}, replayed {}", to_hex(s.kept),
                                                   to_hex(s.found)));
         };
-        auto done = roboss::verify(journal, b, {static_cast<unsigned>(o.threads), 0}, tell);
+        auto done = roboss::verify(journal, b, {static_cast<unsigned>(o.threads), 0}, report);
         if (!done) return print(done.error()), kRunFailed;
     }
     if (o.json)
         print_json(
             {{"file", journal.path()}, {"good", bad == 0}, {"different", bad}, {"stretches", stretches}});
-    if (!o.json) fmt::print("{} stretches stepped again, {} different\n", stretches.size(), bad);
+    if (!o.json) fmt::print("{} stretches replayed, {} different\n", stretches.size(), bad);
     return bad == 0 ? kDone : kRunFailed;
 }
 
@@ -183,7 +184,7 @@ int export_log(const JournalOptions& o) {
 }  // namespace
 
 void add_journal_command(CLI::App& app, int& exit_code) {
-    CLI::App* command = app.add_subcommand("journal", "look at a journal: info, verify, export");
+    CLI::App* command = app.add_subcommand("journal", "inspect a journal: info, verify, export");
     command->footer(kFooter);
     command->require_subcommand(1);
     auto o = std::make_shared<JournalOptions>();
@@ -194,17 +195,17 @@ void add_journal_command(CLI::App& app, int& exit_code) {
         sub->callback([o, act, &exit_code] { exit_code = act(*o); });
         return sub;
     };
-    add("info", "what it holds: world, branches, checkpoints, orders", info)
-        ->add_flag("--json", o->json, "as one JSON object");
-    CLI::App* sub =
-        add("verify", "step every stretch between two checkpoints again and compare hashes", verify);
-    sub->add_flag("--json", o->json, "as one JSON object");
-    sub->add_option("--threads", o->threads, "threads to step with")
+    add("info", "print the contents: world, branches, checkpoints, orders", info)
+        ->add_flag("--json", o->json, "print one JSON object");
+    CLI::App* sub = add("verify", "replay every stretch between two checkpoints and compare hashes", verify);
+    sub->add_flag("--json", o->json, "print one JSON object");
+    sub->add_option("--threads", o->threads, "number of threads")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
-    add("export", "a branch as JSON lines: checkpoints, Clients, notes, orders (from TIME on, if given)",
+    add("export",
+        "print a branch as JSON lines: checkpoints, Clients, notes, orders (from TIME on, if given)",
         export_log)
-        ->add_flag("--orders", o->orders, "only the orders, as `roboss run --orders` reads them");
+        ->add_flag("--orders", o->orders, "print only the orders, in the format of `roboss run --orders`");
 }
 
 }  // namespace roboss

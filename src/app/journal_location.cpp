@@ -1,4 +1,4 @@
-// Names of moments, and where they are.
+// Parses journal locations, and finds them in the file.
 #include "app/journal_location.h"
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 namespace roboss {
 namespace {
 
-/// The number behind the last `mark`, which is cut off with it; nothing if there is none.
+/// Cuts off and returns the number behind the last `mark`; nullopt if there is none.
 Result<std::optional<double>> cut_number(std::string& text, char mark, const char* what) {
     const std::size_t at = text.rfind(mark);
     if (at == std::string::npos || text.find('/', at) != std::string::npos) return std::optional<double>{};
@@ -23,7 +23,7 @@ Result<std::optional<double>> cut_number(std::string& text, char mark, const cha
     } catch (const std::exception&) {
     }
     return Error{"'" + number + "' in '" + text + "' is not a " + what,
-                 "write FILE, FILE@TIME or FILE#BRANCH@TIME, with the time in s"};
+                 "write FILE, FILE@TIME or FILE#BRANCH@TIME, with the time in s", "bad-location"};
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ Result<JournalTime> find_time(const Journal& journal, const JournalLocation& loc
     return time;
 }
 
-Result<OpenedJournalTime> open_moment(const std::string& text) {
+Result<OpenedJournalTime> open_location(const std::string& text) {
     Result<JournalLocation> location = parse_location(text);
     if (!location) return location.error();
     Result<Journal> journal = Journal::open(location.value().file);

@@ -10,7 +10,7 @@ namespace roboss {
 
 struct JournalLocation {
     std::string file;
-    std::optional<BranchId> branch;  // none: the youngest
+    std::optional<BranchId> branch;  // none: the newest
     std::optional<double> time_s;    // none: the end
 };
 
@@ -31,6 +31,6 @@ struct OpenedJournalTime {
     Journal journal;
     JournalTime time;
 };
-Result<OpenedJournalTime> open_moment(const std::string& text);
+Result<OpenedJournalTime> open_location(const std::string& text);
 
 }  // namespace roboss

@@ -52,7 +52,7 @@ Result<LocalProcess> LocalProcess::start(const std::vector<std::string>& argumen
     words.push_back(nullptr);
     const int log = memfd_create("roboss-log", MFD_CLOEXEC);
     if (log < 0)
-        return Error{std::string("there is no log for a process: ") + std::strerror(errno),
+        return Error{std::string("no log can be created for a process: ") + std::strerror(errno),
                      "see the limits (ulimit -n)"};
     fcntl(log, F_SETFL, O_APPEND);
     const pid_t parent = getpid();
@@ -114,9 +114,9 @@ std::string LocalProcess::doing() const {
     std::getline(file, line);
     const std::size_t name_end = line.rfind(") ");  // the name before it may hold anything
     const char state = name_end == std::string::npos ? '?' : line[name_end + 2];
-    if (state == 'T' || state == 't') return "is stopped (SIGSTOP or a debugger)";
-    if (state == 'D') return "waits for a disk or another device";
-    return state == '?' ? "is not to be seen" : "runs";
+    if (state == 'T' || state == 't') return "stopped (SIGSTOP or a debugger)";
+    if (state == 'D') return "waiting for a disk or another device";
+    return state == '?' ? "unknown" : "running";
 }
 
 std::string LocalProcess::last_lines(std::size_t count) const {

@@ -1,4 +1,4 @@
-// LocalProcess: another process of this program, started and ended by its id. It dies with its parent.
+// LocalProcess: another process of this program, started and ended by its id. It ends with its parent.
 #pragma once
 
 #include <sys/types.h>
@@ -24,13 +24,13 @@ class LocalProcess {
     ~LocalProcess();
 
     pid_t id() const { return id_; }
-    /// SIGKILL; ended() tells later.
+    /// Sends SIGKILL; ended() reports the end later.
     void kill();
-    /// How it ended, in words; nothing while it runs.
+    /// How it ended, as text; nullopt while it runs.
     std::optional<std::string> ended();
     /// Waits for its end, at most so long. False: it still runs.
     bool wait(int ms_max);
-    /// What it does while it runs, in words: "runs", "is stopped by a signal" ...
+    /// Its state, as text: "running", "stopped ..." ...
     std::string doing() const;
     /// The end of its log, at most so many lines.
     std::string last_lines(std::size_t count) const;

@@ -1,4 +1,4 @@
-// The roboss command: one subcommand a file.
+// The roboss command: one subcommand per file.
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
@@ -17,12 +17,13 @@
 
 int main(int argc, char** argv) {
     CLI::App app{
-        "RoBOSS simulates many robots in one physical world, exactly, on any number of machines.\n"
-        "Start with:  roboss check WORLD   then   roboss run WORLD --duration 10"};
+        "RoBOSS simulates many robots in one physical world, with bit-identical results on any number of "
+        "machines.\n"
+        "To start:  roboss check WORLD   then   roboss run WORLD --duration 10"};
     app.require_subcommand(1);
-    app.set_help_all_flag("--help-all", "help of all subcommands");
+    app.set_help_all_flag("--help-all", "print the help of all subcommands");
     std::signal(SIGXFSZ,
-                SIG_IGN);  // a file that may not grow is an error of its writer, not the end of the run
+                SIG_IGN);  // a file at its size limit gives its writer an error instead of ending the run
     int exit_code = 0;
     roboss::add_run_command(app, exit_code);
     roboss::add_check_command(app, exit_code);

@@ -1,5 +1,5 @@
-// What a Simulator process and a Client process have in common: an address of their own on the network, the
-// Model from the Controller, and an end to their patience when no Controller is there.
+// What a Simulator process and a Client process have in common: an address of its own on the network, the
+// Model from the Controller, and a time limit (--patience) for finding a Controller.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -23,21 +23,21 @@ class Member {
     /// `what`: "simulator" or "client", for messages.
     Member(const char* what, const MemberOptions& options) : what_(what), o_(options) {}
 
-    /// False: an option is wrong, and it has been said.
+    /// False: an option is wrong; it has been reported.
     bool open();
     DdsBus& bus() { return *bus_; }
     /// A new address, never used before.
     Address new_address(Role role) const;
-    /// Waits for the Model; nothing if it cannot be had (it has been said why) or someone interrupted.
+    /// Waits for the Model; null if it cannot be fetched (it has been reported) or on Ctrl-C.
     std::shared_ptr<const Model> fetch_model(const Address& self);
-    /// Between two turns of the role: waits for messages. False: there was no Controller for too long.
+    /// Waits for messages between two turns of the role. False: no Controller for too long.
     bool wait();
-    void say(const std::string& line) const;
-    void complain(const Error& error) const;
+    void report(const std::string& line) const;
+    void report_error(const Error& error) const;
 
   private:
-    /// Joins the network afresh when it has heard nothing of a Controller for long, less and less often.
-    void mend_silence(std::int64_t now_ms);
+    /// Reconnects after a long silence of the Controller, with growing intervals.
+    void reconnect_if_silent(std::int64_t now_ms);
     std::int64_t first_silence_ms() const;
 
     const char* what_;
@@ -45,8 +45,8 @@ class Member {
     std::unique_ptr<DdsBus> bus_;
     std::int64_t seen_ms_ = 0;  // when a Controller was there last
     std::int64_t connected_ms_ = 0, silence_ms_max_ = 0;
-    bool told_waiting_ = false;
-    std::string told_trouble_;
+    bool waiting_reported_ = false;
+    std::string trouble_reported_;
 };
 
 }  // namespace roboss

@@ -1,6 +1,6 @@
-// ModelVisuals: what the Models of a run look like. The world file's World has it for the first; what was
-// added since brings its own World along. Each Model knows which of these it is made of, so a rewind to
-// before an addition shows the world as it was.
+// ModelVisuals: the visuals of the Models of a run. The World of the world file has those of the first Model;
+// each addition brings its own World. The visuals of each Model are kept, so a rewind to before an addition
+// shows the world of that time.
 #pragma once
 
 #include <map>

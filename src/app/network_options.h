@@ -1,4 +1,4 @@
-// The options by which every process of a run says on which network it is, the same for all subcommands.
+// The network options of every process of a run, the same for all subcommands.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -27,7 +27,7 @@ void only_keys(const json& object, const char* what, std::initializer_list<const
         bool known = false;
         std::string all;
         for (const char* k : keys) known |= key == k, all += std::string(all.empty() ? "" : ", ") + k;
-        if (!known) throw LineFault("'" + key + "' is not a key of " + what, "known are: " + all);
+        if (!known) throw LineFault("'" + key + "' is not a key of " + what, "known keys: " + all);
     }
 }
 
@@ -61,7 +61,7 @@ Vec3 vector(const json& object, const char* key) {
 
 std::string text(const json& object, const char* key) {
     if (!object.contains(key) || !object[key].is_string())
-        throw LineFault(std::string("'") + key + "' is missing or not a text", "name it in quotes");
+        throw LineFault(std::string("'") + key + "' is missing or not a text", "write it in quotes");
     return object[key].get<std::string>();
 }
 
@@ -95,7 +95,7 @@ Action parse_wrench(const json& o, const Model& model, const RobotType& type, co
                         "its first link is '" + type.links.front().name + "'");
     const double duration = o.contains("duration") ? number(o, "duration") : model.dt_s;
     if (!(duration > 0 && duration < 1e9))
-        throw LineFault("'duration' is not in (0, 1e9) s", "give the time the wrench acts, in s");
+        throw LineFault("'duration' is not in (0, 1e9) s", "give the duration of the wrench, in s");
     const Tick ticks = std::max<Tick>(1, tick_at(duration, model.dt_s));
     return ApplyWrench{*link, vector(o, "force"), vector(o, "torque"), ticks};
 }
@@ -138,7 +138,8 @@ Order parse_line(const std::string& line, const Model& model) {
     try {
         o = json::parse(line);
     } catch (const json::exception& error) {
-        throw LineFault("not valid JSON: " + std::string(error.what()), "one complete JSON object a line");
+        throw LineFault("not valid JSON: " + std::string(error.what()),
+                        "write one complete JSON object per line");
     }
     only_keys(o, "an order", {"t", "robot", "set_pose", "set_velocity", "wrench", "joint"});
     const double time_s = number(o, "t");
@@ -147,8 +148,7 @@ Order parse_line(const std::string& line, const Model& model) {
     const std::string robot = text(o, "robot");
     const auto id = model.find_robot(robot);
     if (!id)
-        throw LineFault("there is no robot '" + robot + "' in the world",
-                        "`roboss check WORLD` lists the robots");
+        throw LineFault("the world has no robot '" + robot + "'", "`roboss check WORLD` lists the robots");
     const RobotType& type = model.type_of(*id);
     const int actions = static_cast<int>(o.size()) - 2;
     if (actions != 1)
@@ -193,7 +193,8 @@ struct ActionToJson {
         static constexpr const char* kModes[] = {"effort", "velocity", "position", "effort"};
         nlohmann::ordered_json joint{{"name", type.joints[a.joint.index()].name}};
         if (a.axis != 0) joint["axis"] = a.axis;
-        const bool passive = a.mode == MotorMode::kPassive;  // no line says it: an effort of 0 does the same
+        const bool passive =
+            a.mode == MotorMode::kPassive;  // not expressible in a line: an effort of 0 does the same
         joint[kModes[static_cast<std::size_t>(a.mode)]] = passive ? 0.0 : a.target;
         if (a.max_effort >= 0 && std::isfinite(a.max_effort)) joint["max_effort"] = a.max_effort;
         line["joint"] = joint;

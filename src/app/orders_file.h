@@ -1,4 +1,4 @@
-// Orders from a file, one JSON object a line (--orders): what a Client would say, with its time.
+// Orders from a file, one JSON object per line (--orders).
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ std::vector<Order> load_orders(const std::string& file, const Model& model, Diag
 std::vector<Order> parse_orders(std::string_view content, const std::string& file, const Model& model,
                                 Diagnostics& diagnostics);
 
-/// A line that parse_orders() makes this order of (its Client and number apart).
+/// The line from which parse_orders() makes this order (except its Client and number).
 std::string order_line(const Order& order, const Model& model);
 
 /// The tick at which something due at `time_s` happens: the nearest one.

@@ -329,7 +329,8 @@ void Picture::paint_footer() {
     std::sort(lengths.begin(), lengths.end());
     if (!lengths.empty())
         add(text_,
-            "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"13\" fill=\"#666c74\">way driven: shortest {:.0f} "
+            "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"13\" fill=\"#666c74\">distance driven: shortest "
+            "{:.0f} "
             "m, median {:.0f} m, longest {:.0f} m</text>\n",
             kMargin + 136, y, lengths.front(), lengths[lengths.size() / 2], lengths.back());
     paint_scale_bar(y);
@@ -348,7 +349,7 @@ Result<> write_path_picture(const std::string& file, const Model& model, const s
     out << path_picture(model, paths, options) << std::flush;
     if (!out)
         return Error{"cannot write the picture " + file,
-                     "name a file in a folder that exists and can be written to"};
+                     "name a file in a folder that exists and is writable", "not-writable"};
     return Ok{};
 }
 

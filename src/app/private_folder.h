@@ -1,4 +1,5 @@
-// PrivateFolder: a folder for temporary files that nobody else can foresee or enter; it goes with its owner.
+// PrivateFolder: a folder for temporary files with an unpredictable name, readable by its owner only. The
+// destructor removes it.
 #pragma once
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// One line about a run that is under way, on a terminal only.
+// A progress line of a run, on a terminal only.
 #pragma once
 
 #include <chrono>
@@ -11,7 +11,7 @@ class Progress {
   public:
     /// `wanted`: show anything at all. Quiet too if standard error is no terminal.
     explicit Progress(bool wanted);
-    /// Shows the line if the last one is half a second old.
+    /// Updates the line every half second.
     void show(const Simulation& simulation);
     /// Ends the line, so that other text can follow.
     void clear();

@@ -30,7 +30,7 @@ void write_all(int to, const std::string& text) {
     for (std::size_t done = 0; done < text.size();) {
         const ssize_t n = ::write(to, text.data() + done, text.size() - done);
         if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) return;  // it reads no more: its exit code tells why
+        if (n <= 0) return;  // it stopped reading: its exit code gives the reason
         done += static_cast<std::size_t>(n);
     }
 }
@@ -46,12 +46,12 @@ std::string read_all(int from) {
     }
 }
 
-/// Cuts off what was said before the script began: by ssh, by the host, by the user's own .bashrc. False if
-/// it never began.
-bool drop_greeting(std::string& said) {
-    const std::size_t at = said.find(kBegins);
+/// Removes output from before the script began (of ssh, the host or .bashrc). False if the script never
+/// began.
+bool drop_greeting(std::string& output) {
+    const std::size_t at = output.find(kBegins);
     if (at == std::string::npos) return false;
-    said.erase(0, at + std::strlen(kBegins) + 1);
+    output.erase(0, at + std::strlen(kBegins) + 1);
     return true;
 }
 
@@ -87,21 +87,21 @@ Result<std::string> run_script(const std::vector<std::string>& words, const std:
     ::signal(SIGPIPE, SIG_IGN);
     write_all(in.ends[1], "echo " + std::string(kBegins) + "\n" + script);
     in.close_end(1);
-    std::string said = read_all(out.ends[0]);
+    std::string output = read_all(out.ends[0]);
     int status = 0;
     while (waitpid(id, &status, 0) < 0 && errno == EINTR) {
     }
-    const bool is_shell = drop_greeting(said);
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && is_shell) return said;
-    while (!said.empty() && said.back() == '\n') said.pop_back();
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 127 && said.empty())
+    const bool is_shell = drop_greeting(output);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && is_shell) return output;
+    while (!output.empty() && output.back() == '\n') output.pop_back();
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 127 && output.empty())
         return Error{"'" + words[0] + "' is not found here",
-                     "install it, or say how hosts are reached (reach = [...])"};
-    if (said.empty()) said = "it ended with code " + std::to_string(WEXITSTATUS(status));
-    if (is_shell) return Error{said, ""};
+                     "install it, or set another command with reach = [...]", "no-shell"};
+    if (output.empty()) output = "ended with exit code " + std::to_string(WEXITSTATUS(status));
+    if (is_shell) return Error{output, ""};
     std::string command;
     for (const std::string& word : words) command += " " + word;
-    return Error{said, "this must give a shell without a question:" + command};
+    return Error{output, "this command must start a shell without a prompt:" + command, "no-shell"};
 }
 
 }  // namespace roboss

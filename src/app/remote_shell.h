@@ -1,4 +1,4 @@
-// A shell on some host, which is given a script and says something.
+// Runs a script in a shell, here or on another host, and returns its output.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace roboss {
 
-/// Starts `words` (found by PATH), writes `script` to its input, and reads what the script says until it
-/// ends; what others say before is dropped. An Error: it could not be started, is no shell or ended with
-/// another code than 0; then with what it complained of.
+/// Starts `words` (found by PATH), writes `script` to its input, and reads its output until it
+/// ends; output from before the script is dropped. An Error if it could not be started, is no shell or ended
+/// with a non-zero exit code; the message contains its output.
 Result<std::string> run_script(const std::vector<std::string>& words, const std::string& script);
 
-/// As one word of a shell.
+/// Quoted for a shell.
 std::string quoted(const std::string& word);
 
 }  // namespace roboss

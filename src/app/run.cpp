@@ -18,15 +18,15 @@
 namespace roboss {
 namespace {
 
-/// Warnings and errors in full, notes as a count: `roboss check` tells them all.
+/// Prints warnings and errors in full, notes as a count: `roboss check` prints them all.
 void print(const Diagnostics& diagnostics, const std::string& world) {
     for (const Diagnostic& d : diagnostics.items())
         if (d.severity != Severity::kNote) fmt::print(stderr, "{}\n", to_text(d));
     if (const std::size_t notes = diagnostics.count(Severity::kNote); notes > 0)
-        fmt::print(stderr, "{} notes about this world: `roboss check {}` shows them\n", notes, world);
+        fmt::print(stderr, "{} notes about this world; `roboss check {}` prints them\n", notes, world);
 }
 
-/// Where the Controller of this run was killed before, Simulators may still live by the ids it gave them.
+/// Ids of an earlier, killed Controller of this run may still be in use by its Simulators.
 std::uint32_t first_simulator_id() {
     constexpr int kSeatBits = 12;
     std::random_device device;
@@ -45,7 +45,7 @@ int Run::go() {
     if (!begin()) return finish(false, 0);
     const auto began = Clock::now();
     const bool fine = drive();
-    tell_notices();
+    report_notices();
     progress_.clear();
     return finish(fine, std::chrono::duration<double>(Clock::now() - began).count());
 }
@@ -67,7 +67,7 @@ bool Run::prepare() {
     if (journal_->changed_model()) {
         model_ = journal_->changed_model();
         if (!std::exchange(orders_, {}).empty())
-            notices_.push_back("the orders file is not read: what it says for this world is in the journal");
+            notices_.push_back("the orders file is not read: its orders are in the journal already");
     }
     return create() && submit(orders_) && open_files();
 }
@@ -158,7 +158,7 @@ SimulationOptions Run::simulation_options(const SavedRun* from) const {
 Result<> Run::start_again(std::shared_ptr<const Model> model, const SavedRun& from, const Turn& turn) {
     std::vector<NamedProgram> programs;
     if (!load_programs(programs))
-        return Error{"a control program cannot be loaded again", "see the lines above"};
+        return Error{"a control program cannot be loaded again", "see the messages above"};
     SimulationOptions options = simulation_options(&from);
     members_->configure(options);
     options.simulators_awaited = options.simulators > 0 ? 0 : 1;
@@ -174,8 +174,8 @@ Result<> Run::start_again(std::shared_ptr<const Model> model, const SavedRun& fr
     model_ = std::move(model);
     busy_until_ = from.logged_until;
     if (!advance_to(from.logged_until))
-        return Error{"the run could not be brought there", "see the lines above"};
-    pace_.begin(simulation_->tick());  // no hurry to where the run was before
+        return Error{"the run could not be restored at that time", "see the messages above"};
+    pace_.begin(simulation_->tick());  // so that the speed limit does not catch up with the time before
     return journal_->begin_branch(*simulation_, turn.parent, turn.reason);
 }
 
@@ -244,7 +244,7 @@ Summary Run::summary(double wall_s) const {
     return s;
 }
 
-/// Files and summary, also of a run that failed: nothing that was computed is lost.
+/// Writes files and summary, also of a failed run: nothing that was computed is lost.
 int Run::finish(bool fine, double wall_s) {
     const Summary s = summary(wall_s);
     bool written = true;
@@ -262,8 +262,8 @@ int Run::finish(bool fine, double wall_s) {
         check(write_path_picture(o_.paths_picture, *model_, paths_, {model_->name, subtitle}));
     }
     if (log_) {
-        log_->tell(*simulation_);
-        log_->event(simulation_->tick(), fine ? "the run has ended" : "the run has failed");
+        log_->write_state(*simulation_);
+        log_->end(simulation_->tick(), fine ? "done" : "failed");
     }
     simulation_->controller().dismiss(simulation_->bus(), fine ? "the run has ended" : "the run has failed");
     members_->await_exit(abandoned_);

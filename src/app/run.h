@@ -31,7 +31,7 @@ class Run {
 
   private:
     using Clock = std::chrono::steady_clock;
-    struct Schedule;  // what is due when
+    struct Schedule;  // when files and pictures are due
 
     // run.cpp: the beginning and the end
     bool prepare();
@@ -63,11 +63,11 @@ class Run {
     bool take_picture();
     Tick end_of_run() const;
 
-    // run_control.cpp: what others ask for
+    // run_control.cpp: requests of others
     using Answer = Result<std::string>;
     void serve_calls();
     Answer execute(const std::vector<std::string>& words);
-    // run_status.cpp: what others want to know, as JSON
+    // run_status.cpp: the status, as JSON
     std::string status() const;
     std::string groups() const;
     std::string bounds() const;
@@ -85,7 +85,7 @@ class Run {
     Answer remove_robots(const std::vector<std::string>& words);
 
     bool advance_to(Tick target);
-    void tell_notices();
+    void report_notices();
     void show_progress();
     bool write_trace();
     bool write_contacts();
@@ -120,7 +120,7 @@ class Run {
     std::vector<std::string> notices_;
     Tick busy_until_ = 0;  // to which requests wait: the run is being brought to its start
     bool abandoned_ =
-        false;  // Simulator processes of the run's own failed: nobody is left who has the states
+        false;  // Simulator processes of this run failed: no process is left that has the states
 };
 
 void print(const Error& error);

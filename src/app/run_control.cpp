@@ -1,6 +1,6 @@
-// What a run does when it is asked to. Everything that changes the state takes effect at a tick between two
-// windows and is a new branch of the journal; the rest (pause, speed, window, Simulators) changes no bit and
-// is noted in it.
+// Requests to a run (`roboss control`). Requests that change the state take effect at a tick between two
+// windows and start a new branch of the journal; the others (pause, speed, window, Simulators) do not change
+// the result and are noted in it.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -21,12 +21,12 @@ using Words = std::vector<std::string>;
 using Answer = Result<std::string>;
 
 Answer wrong(const Words& words) {
-    std::string said;
-    for (const std::string& word : words) said += (said.empty() ? "" : " ") + word.substr(0, 40);
-    return Error{"'" + said + "' is not understood", "see `roboss control --help`"};
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : " ") + word.substr(0, 40);
+    return Error{"unknown request '" + text + "'", "see `roboss control --help`", "unknown-request"};
 }
 
-/// What changes nothing and is not worth a line.
+/// Requests that change nothing are not logged.
 bool only_asks(const Words& words) {
     return words.empty() || words[0] == "status" || words[0] == "groups" || words[0] == "bounds";
 }
@@ -76,11 +76,11 @@ void Run::serve_calls() {
         const Answer answer = execute(call.request.arguments);
         const std::string text = answer ? answer.value() : answer.error().text();
         if (answer && !only_asks(call.request.arguments)) {
-            notices_.push_back(fmt::format("asked to {}: {}", call.request.arguments[0], text));
+            notices_.push_back(fmt::format("request {}: {}", call.request.arguments[0], text));
             if (journal_->writes()) journal_->writer().note(tick, text);
         }
         if (journal_->writes() && !only_asks(call.request.arguments))
-            (void)journal_->writer().flush();  // what is answered is kept
+            (void)journal_->writer().flush();  // a request that got its reply is in the journal
         simulation_->controller().control().answer(simulation_->bus(), call, answer.ok(), text);
     }
 }
@@ -95,7 +95,7 @@ Answer Run::execute(const Words& words) {
     if (verb == "pause" && n == 1)
         return pace_.paused = true, fmt::format("paused at {:.6f} s", simulation_->time_s());
     if (verb == "resume" && n == 1)
-        return resume(), fmt::format("goes on at {:.6f} s", simulation_->time_s());
+        return resume(), fmt::format("resumed at {:.6f} s", simulation_->time_s());
     if (verb == "step" && n <= 2) return step(words);
     if (verb == "speed" && n == 2) return set_speed(words);
     if (verb == "window" && n == 2) return set_window(words);
@@ -105,7 +105,7 @@ Answer Run::execute(const Words& words) {
     if (verb == "accuracy" && n >= 2) return change_accuracy(words);
     if (verb == "add" && n == 5) return add_models(words);
     if (verb == "remove" && n >= 2) return remove_robots(words);
-    if (verb == "quit" && n == 1) return pace_.quit = true, std::string("ends");
+    if (verb == "quit" && n == 1) return pace_.quit = true, std::string("ending the run");
     return wrong(words);
 }
 
@@ -120,7 +120,7 @@ Answer Run::step(const Words& words) {
     if (!ticks || *ticks < 1 || *ticks > 1e15 || *ticks != std::floor(*ticks)) return wrong(words);
     resume();
     pace_.step_until = simulation_->tick() + static_cast<Tick>(*ticks);
-    return fmt::format("steps to tick {} and pauses there", *pace_.step_until);
+    return fmt::format("stepping to tick {}, then pausing", *pace_.step_until);
 }
 
 Answer Run::set_speed(const Words& words) {
@@ -140,15 +140,16 @@ Answer Run::set_window(const Words& words) {
         (*ticks == 0 && words[1] != "auto"))
         return wrong(words);
     simulation_->controller().set_window(static_cast<Tick>(*ticks));
-    return fmt::format("windows of {} ticks from tick {}", words[1], simulation_->tick());
+    return fmt::format("synchronization interval {} ticks from tick {}", words[1], simulation_->tick());
 }
 
 Answer Run::change_simulators(const Words& words) {
     if (words[1] == "kill" && words.size() == 3) return kill_simulator(words);
     if (words.size() != 2) return wrong(words);
     if (words[1] == "remove") {
-        if (simulation_->remove_simulator()) return std::string("one Simulator is sent home");
-        return Error{"there is only one Simulator", "a run needs one; add another first"};
+        if (simulation_->remove_simulator()) return std::string("one Simulator is leaving");
+        return Error{"the run has only one Simulator", "a run needs one; add another first",
+                     "last-simulator"};
     }
     if (words[1] != "add") return wrong(words);
     if (Result<bool> started = members_->add_simulator(); !started) {
@@ -156,17 +157,18 @@ Answer Run::change_simulators(const Words& words) {
     } else if (!started.value()) {
         simulation_->add_simulator();
     }
-    return std::string("one Simulator more is started");
+    return std::string("one more Simulator is starting");
 }
 
-/// A process of this run's own, without a word to it: to see the run recover.
+/// Kills a process that this run started, to watch the run recover.
 Answer Run::kill_simulator(const Words& words) {
     for (const MemberReport& member : simulation_->controller().members()) {
         if (std::to_string(member.number) != words[2] || !member.alive) continue;
         if (Result<> killed = members_->kill(member.name); !killed) return killed.error();
-        return fmt::format("Simulator {} ({}) is killed", words[2], member.name);
+        return fmt::format("Simulator {} ({}) killed", words[2], member.name);
     }
-    return Error{"there is no Simulator '" + words[2] + "'", "`roboss control status` lists them"};
+    return Error{"there is no Simulator '" + words[2] + "'", "`roboss control status` lists them",
+                 "no-simulator"};
 }
 
 Answer Run::save(const std::string& file) {
@@ -174,13 +176,14 @@ Answer Run::save(const std::string& file) {
     return fmt::format("saved {:.6f} s (tick {}) in {}", simulation_->time_s(), simulation_->tick(), file);
 }
 
-Answer Run::rewind(const std::string& moment_text) {
-    if (!journal_->writes()) return Error{"the run has no journal", "start it with --journal FILE"};
+Answer Run::rewind(const std::string& time_text) {
+    if (!journal_->writes())
+        return Error{"the run has no journal", "start it with --journal FILE", "no-journal"};
     if (Result<> flushed = journal_->writer().flush(); !flushed) return flushed.error();
     const std::string where =
-        o_.journal + (moment_text.find('@') == std::string::npos
-                          ? fmt::format("#{}@{}", journal_->writer().branch(), moment_text)
-                          : moment_text);
+        o_.journal + (time_text.find('@') == std::string::npos
+                          ? fmt::format("#{}@{}", journal_->writer().branch(), time_text)
+                          : time_text);
     Result<JournalLocation> location = parse_location(where);
     if (!location) return location.error();
     Result<Journal> journal = Journal::open(o_.journal);
@@ -198,13 +201,13 @@ Answer Run::rewind(const std::string& moment_text) {
     return text + fmt::format(", branch {}", journal_->writer().branch());
 }
 
-/// The run goes on with this Model, at the same tick.
+/// The run continues with this Model, at the same tick.
 Answer Run::change_model(const ModelEdit& edit, const std::string& what) {
     SavedRun run = simulation_->saved_run();
     run.states = carry_over(edit, run.states);
     std::erase_if(run.orders, [&](LoggedOrder& o) { return !carry_over(edit, o.order); });
     visuals_.change(*model_, *edit.model);
-    if (edit.model->robots.size() < model_->robots.size())  // what sensors hold goes by RobotId
+    if (edit.model->robots.size() < model_->robots.size())  // sensor samples are stored by RobotId
         for (auto& [client, memory] : run.memory) memory = without_samples(memory);
     const std::string text = fmt::format("{} at {:.6f} s (tick {})", what, simulation_->time_s(), run.tick);
     const BranchId parent = journal_->writes() ? journal_->writer().branch() : 0;
@@ -229,24 +232,26 @@ Answer Run::change_accuracy(const Words& words) {
     return change_model(edit.value(), together(words));
 }
 
-/// add FILE CONTENT POSE NAME: the content comes along, for the file may be on another computer.
+/// add FILE CONTENT POSE NAME: the request carries the content, since the file may be on another computer.
 Answer Run::add_models(const Words& words) {
     const std::optional<Pose> X_WA = pose_of(words[3]);
     if (!X_WA)
         return Error{"'" + words[3] + "' is not a pose",
-                     "give \"x y z roll pitch yaw\", m and rad, none above 1e9"};
+                     "give \"x y z roll pitch yaw\", m and rad, none above 1e9", "bad-pose"};
     const std::optional<PrivateFolder> folder = PrivateFolder::make("add");
     if (!folder)
-        return Error{"there is no room for temporary files", "set TMPDIR to a folder that can be written"};
+        return Error{"no temporary folder can be created", "set TMPDIR to a writable folder with free space",
+                     "not-writable"};
     const std::filesystem::path file = folder->path() / std::filesystem::path(words[1]).filename();
     if (!(std::ofstream(file) << words[2]))
-        return Error{file.string() + " cannot be written", "make room there, and name a file"};
+        return Error{file.string() + " cannot be written",
+                     "free some space there, and give the name of a file", "not-writable"};
     Diagnostics found;
     std::optional<World> world = load_world(file.string(), {o_.paths, {}, is_shown()}, found);
     CompileOptions options;
     options.dt_s = model_->dt_s;
     const auto addition = world && !found.has_errors() ? compile(*world, options, found) : nullptr;
-    if (!addition) return Error{first_error(found), "mend the file"};
+    if (!addition) return Error{first_error(found), "fix the file", "bad-model"};
     for (const Diagnostic& d : found.items())
         if (d.severity == Severity::kWarning) notices_.push_back(to_text(d));
     Result<ModelEdit> edit = with_models(*model_, *addition, *X_WA, words[4]);

@@ -1,4 +1,4 @@
-// Opening journals for a run.
+// Opens journals for a run.
 #include "app/run_journal.h"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ Result<std::unique_ptr<RunJournal>> RunJournal::open(const RunOptions& options, 
 
 Result<std::unique_ptr<RunJournal>> RunJournal::open_replay(const RunOptions& options) {
     std::unique_ptr<RunJournal> result(new RunJournal(options));
-    Result<OpenedJournalTime> opened = open_moment(options.replay);
+    Result<OpenedJournalTime> opened = open_location(options.replay);
     if (!opened) return opened.error();
     const auto& [location, journal, time] = opened.value();
     const Branch& branch = time.branch;
@@ -55,14 +55,16 @@ Result<> RunJournal::check(Tick now, std::uint64_t hash) const {
     for (const CheckpointEntry& entry : replay_->checks)
         if (entry.tick == now && entry.hash != hash)
             return Error{
-                fmt::format("at tick {} the replay has another state than the run had: hash {} instead of {}",
-                            now, to_hex(hash), to_hex(entry.hash)),
-                "one of them was computed with other bits: see `roboss journal verify`, and replay on "
-                "another machine"};
+                fmt::format(
+                    "at tick {} the state of the replay differs from the recorded run: hash {} instead of {}",
+                    now, to_hex(hash), to_hex(entry.hash)),
+                "one of the two machines computes other bits: see `roboss journal verify`, and replay on "
+                "another machine",
+                "bits-differ"};
     return Ok{};
 }
 
-/// The branch's Model: that of the world file, or one that a run of this world came to.
+/// The branch's Model: that of the world file, or one into which a run of this world was changed.
 Result<std::shared_ptr<const Model>> RunJournal::model_of(const Journal& journal, const Branch& branch,
                                                           const Model& world) {
     const Branch root = journal.holder_of(branch, -1);
@@ -73,7 +75,7 @@ Result<std::shared_ptr<const Model>> RunJournal::model_of(const Journal& journal
 }
 
 Result<> RunJournal::open_from(const Model& model) {
-    Result<OpenedJournalTime> opened = open_moment(o_.from);
+    Result<OpenedJournalTime> opened = open_location(o_.from);
     if (!opened) return opened.error();
     const auto& [location, journal, time] = opened.value();
     const Branch& branch = time.branch;
@@ -99,12 +101,12 @@ Result<> RunJournal::open_journal(const Model& model) {
     if (writer_->is_new() || parent_ != 0) return Ok{};
     if (from_)
         return Error{o_.journal + " exists already, and --from names another file",
-                     "give --journal a new name, or take --from out of this journal"};
+                     "give --journal a new name, or start --from this journal", "journal-exists"};
     return resume(model);
 }
 
-/// From the last checkpoint before which every Client that is still there had answered all that it saw: one
-/// in a process of its own will not see anything earlier again.
+/// From the last checkpoint before which every connected Client had answered everything that it saw: a Client
+/// in its own process will not see anything earlier again.
 Result<SavedRun> RunJournal::last_run(const Journal& journal, const Branch& branch, const Model& model) {
     const std::vector<CheckpointEntry> entries = journal.checkpoints(branch);
     for (std::size_t i = entries.size(); i-- > 0;) {
@@ -117,7 +119,7 @@ Result<SavedRun> RunJournal::last_run(const Journal& journal, const Branch& bran
         };
         if (std::none_of(run.value().clients.begin(), run.value().clients.end(), silent)) return run;
     }
-    return Error{journal.path() + " has no checkpoint", "begin a new journal"};
+    return Error{journal.path() + " has no checkpoint", "begin a new journal", "journal-empty"};
 }
 
 Result<> RunJournal::resume(const Model& model) {
@@ -134,7 +136,7 @@ Result<> RunJournal::resume(const Model& model) {
     resumes_ = true;
     first_tick_ = journal.value().holder_of(branch.value(), -1).tick;
     writer_->continue_branch(journal.value(), branch.value());
-    notices_.push_back(fmt::format("goes on from {} where it ended, at {:.6f} s (tick {})", o_.journal,
+    notices_.push_back(fmt::format("resuming {} at {:.6f} s (tick {}) [resumed]", o_.journal,
                                    static_cast<double>(branch.value().end) * model.dt_s, branch.value().end));
     return Ok{};
 }
@@ -154,8 +156,9 @@ Result<std::vector<std::string>> RunJournal::awaited(const std::vector<std::stri
         for (const std::string& name : all) text += (text.empty() ? "'" : ", '") + name + "'";
         return text.empty() ? std::string("none") : text;
     };
-    return Error{o_.journal + " was written with other Clients: " + list(were) + "; given are " + list(names),
-                 "give the same Clients in the same order, or begin a branch with --from " + o_.journal};
+    return Error{o_.journal + " was written with other Clients: " + list(were) + "; given: " + list(names),
+                 "give the same Clients in the same order, or begin a branch with --from " + o_.journal,
+                 "other-clients"};
 }
 
 Result<> RunJournal::begin(Simulation& simulation) {

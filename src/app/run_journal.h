@@ -1,4 +1,4 @@
-// RunJournal: where a run starts and where it is kept, as --from, --journal and --replay say.
+// RunJournal: the start and the journal of a run, according to --from, --journal and --replay.
 #pragma once
 
 #include <memory>
@@ -26,18 +26,19 @@ class RunJournal {
     const std::optional<Replay>& replay() const { return replay_; }
     /// The next tick whose hash is known.
     Tick next_check(Tick now) const;
-    /// Whether this hash is the one that was kept for this tick, if one was.
+    /// Compares the hash with the one recorded for this tick, if any.
     Result<> check(Tick now, std::uint64_t hash) const;
 
     /// Where the run starts; none: at the world's beginning.
-    /// The Model of that moment, if it is not that of the world file (robots were added, say); else none.
+    /// The Model at that time if it differs from the world file (for example, robots were added); else null.
     const std::shared_ptr<const Model>& changed_model() const { return changed_model_; }
     const SavedRun* from() const { return from_ ? &*from_ : nullptr; }
     Tick start() const { return start_; }
-    /// The journal of a run that goes on where it ended; it is to be told everything from the start.
+    /// The journal of a resumed run, which logs everything from the start; else null.
     RunLog* resumed() { return resumes_ ? writer_.get() : nullptr; }
-    /// `names`: the Clients that a resumed run is given, by ClientId. Who else was there in other processes
-    /// is awaited again, if `others_may_come`; an Error: they are not those that the run had.
+    /// `names`: the Clients that a resumed run is given, by ClientId. Returns the Clients in other
+    /// processes, which are awaited again if `others_may_come`; an Error if the Clients are not those of the
+    /// run.
     Result<std::vector<std::string>> awaited(const std::vector<std::string>& names,
                                              bool others_may_come) const;
 

@@ -1,4 +1,4 @@
-// The loop of a run: from one thing that is due to the next.
+// The loop of a run: advances to the next tick at which something is due.
 #include <fmt/format.h>
 
 #include <limits>
@@ -16,7 +16,7 @@ constexpr double kPictureEvery_s = 0.25;
 constexpr double kPaceEvery_s = 0.01;
 constexpr Tick kNever = std::numeric_limits<Tick>::max();
 
-/// Something due each so many ticks; never if `every` is 0.
+/// Something due at a fixed interval of ticks; never if it is 0.
 class Due {
   public:
     Due(double every_s, double dt_s, Tick start)
@@ -39,7 +39,7 @@ struct Run::Schedule {
     }
 };
 
-/// Towards this tick; false if the run failed. Requests that come on the way end it at the next window's end.
+/// Advances to this tick; false if the run failed. A request ends it early, at the end of the current window.
 bool Run::advance_to(Tick target) {
     Result<> looked_after = Ok{};
     const Result<> stepped = simulation_->run_until(target, [&] {
@@ -54,7 +54,7 @@ bool Run::advance_to(Tick target) {
     return true;
 }
 
-/// A moment of a paused run; false if it cannot go on.
+/// One turn of a paused run; false if it cannot continue.
 bool Run::rest() {
     simulation_->serve();
     if (!members_->reaches_others()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -64,7 +64,7 @@ bool Run::rest() {
     return true;
 }
 
-/// The run waits meanwhile.
+/// The run is paused meanwhile.
 bool Run::take_picture() {
     if (o_.snapshot.file.empty() || interrupted()) return true;
     const Result<> taken =
@@ -73,7 +73,7 @@ bool Run::take_picture() {
     return taken.ok();
 }
 
-/// What is due at this tick.
+/// Writes and checks what is due at this tick.
 bool Run::look(const Schedule& due) {
     const Tick now = simulation_->tick();
     if (due.trace.at(now) && !write_trace()) return false;
@@ -104,7 +104,7 @@ bool Run::drive() {
     pace_.speed = o_.speed == "max" ? 0.0 : o_.speed == "world" ? world_speed_ : std::stod(o_.speed);
     pace_.paused = o_.paused;
     pace_.begin(start_);
-    Tick seen = -1;  // the last tick at which all that is due was done
+    Tick seen = -1;  // the last tick whose due work is done
     for (;;) {
         serve_calls();
         const Tick now = simulation_->tick();
@@ -126,7 +126,7 @@ bool Run::drive() {
     }
 }
 
-void Run::tell_notices() {
+void Run::report_notices() {
     for (const auto& notices :
          {simulation_->take_notices(), members_->take_notices(), journal_->take_notices(),
           std::exchange(notices_, {}), gateway_ ? gateway_->take_notices() : std::vector<std::string>()})
@@ -138,8 +138,8 @@ void Run::tell_notices() {
 
 void Run::show_progress() {
     progress_.show(*simulation_);
-    tell_notices();
-    if (log_) log_->tell_if_due(*simulation_);
+    report_notices();
+    if (log_) log_->write_state_if_due(*simulation_);
 }
 
 bool Run::write_trace() {

@@ -1,4 +1,4 @@
-// Processes of this computer and members from anywhere.
+// Starts processes on this computer and opens the network on which members join.
 #include "app/run_members.h"
 
 #include <fmt/format.h>
@@ -15,15 +15,15 @@
 namespace roboss {
 namespace {
 
-constexpr std::int64_t kSilence_ms = 1'000;     // a Simulator whose stepping hangs
+constexpr std::int64_t kSilence_ms = 1'000;     // silence after which a Simulator counts as lost
 constexpr std::int64_t kClientGone_ms = 5'000;  // a Client whose process is gone and does not come back
-constexpr double kCheckpointEvery_s = 0.2;      // of stepping: what a loss may cost
+constexpr double kCheckpointEvery_s = 0.2;      // of stepping time: bounds the work lost with a Simulator
 constexpr std::int64_t kLookAround_ms = 500;    // for another Controller of the same name
 constexpr int kStartedAgainMax = 3;
-constexpr std::uint32_t kOnOneComputer_ms = 5'000;  // no cable to be cut: what is slow is only busy
-constexpr std::int64_t kJoin_ms = 7'000;            // for a process, when no other one joins either
-constexpr std::int64_t kLinked_ms = 100;            // CPU time of any start, whatever the world
-constexpr std::int64_t kFarewell_ms = 3'000;        // for all processes, to end by themselves
+constexpr std::uint32_t kOnOneComputer_ms = 5'000;  // no network can fail: a slow process is only busy
+constexpr std::int64_t kJoin_ms = 7'000;            // without another process joining
+constexpr std::int64_t kLinked_ms = 100;            // CPU time of a start, without the world
+constexpr std::int64_t kFarewell_ms = 3'000;        // for all processes to end by themselves
 
 }  // namespace
 
@@ -61,16 +61,16 @@ Result<> RunMembers::open_network() {
     while (bus_->now_ms() < end) {
         bus_->wait(end - bus_->now_ms());
         if (bus_->taken_elsewhere(kControllerAddress))
-            return Error{"there is a Controller of " + describe(network_) + " already",
-                         "end it, or give this run another name with --simulation"};
+            return Error{"a Controller of " + describe(network_) + " is already running",
+                         "end it, or give this run another name with --simulation", "controller-exists"};
     }
-    notices_.push_back(
-        fmt::format("Controller of {}, waits for {} Simulators", describe(network_), o_.simulators));
+    notices_.push_back(fmt::format("Controller of {}, waiting for {} Simulators [waiting]",
+                                   describe(network_), o_.simulators));
     return Ok{};
 }
 
-/// It finds this process only, at its port, and no other one: what members find of each other grows with the
-/// square of their number (decision 0021).
+/// The process discovers this process only, at its port: full discovery would grow with the square of the
+/// number of members (decision 0021).
 Result<> RunMembers::start_process() {
     const int threads = threads_of_each(o_.threads, o_.processes);
     return processes_.start({"roboss",
@@ -113,8 +113,8 @@ std::unique_ptr<Bus> RunMembers::take_bus() {
 
 Result<bool> RunMembers::add_simulator() {
     if (o_.is_controller && o_.local == 0)
-        return Error{"this run takes its Simulators from anywhere",
-                     "start `roboss simulator` where you want it"};
+        return Error{"Simulators of this run join over the network",
+                     "start `roboss simulator` where you want it", "external-simulators"};
     if (o_.processes == 0) return false;
     if (Result<> started = start_process(); !started) return started.error();
     return true;
@@ -122,8 +122,9 @@ Result<bool> RunMembers::add_simulator() {
 
 Result<> RunMembers::kill(const std::string& name) {
     if (processes_.kill(name)) return Ok{};
-    return Error{"Simulator '" + name + "' is no process of this run's own",
-                 "end it where it runs; runs started with --processes have processes of their own"};
+    return Error{"Simulator '" + name + "' was not started by this run",
+                 "end it where it runs; only runs with --processes start their own Simulator processes",
+                 "not-own-process"};
 }
 
 Result<> RunMembers::watch_start(const Controller& controller) {
@@ -145,8 +146,9 @@ Result<> RunMembers::look_after(const Controller& controller) {
     for (std::string& line : processes_.take_ended()) notices_.push_back(std::move(line));
     if (processes_.count() > 0) return Ok{};
     if (++started_again_ > kStartedAgainMax)
-        return Error{"all Simulator processes have ended, again and again", "see why in the lines above"};
-    notices_.push_back("no Simulator process is left, starting one");
+        return Error{"all Simulator processes have ended, repeatedly",
+                     "see the messages above for the reason", "processes-ended"};
+    notices_.push_back("no Simulator process is left; starting one [process-restarted]");
     return start_process();
 }
 

@@ -1,5 +1,5 @@
-// RunMembers: who takes part in a run beside this process, and over which Bus they talk. The run itself is
-// the same whoever comes.
+// RunMembers: the other members of a run, and the Bus that connects them. The run itself does not depend on
+// who its members are.
 #pragma once
 
 #include <memory>
@@ -15,27 +15,26 @@ namespace roboss {
 
 class RunMembers {
   public:
-    /// Opens the network and starts the processes that the options ask for; with neither, there is nobody.
-    /// `prepared_ms`: CPU time that the Model took here; a process needs as much for it.
+    /// Opens the network and starts the processes that the options ask for; with neither, there are no other
+    /// members. `prepared_ms`: CPU time that the Model took here; a process needs as much for it.
     static Result<std::unique_ptr<RunMembers>> gather(const RunOptions& options, std::int64_t prepared_ms);
 
-    /// Says whom the run waits for and how members are missed.
+    /// Sets the members that the run waits for, and the time after which a silent one counts as lost.
     void configure(SimulationOptions& options) const;
-    /// For Simulation::create(); none: everybody is in this process.
+    /// For Simulation::create(); null: all members are in this process.
     std::unique_ptr<Bus> take_bus();
     /// Others may take part from their own processes.
     bool reaches_others() const { return open_bus_ != nullptr; }
     /// Starts a process more, if the run has its Simulators in processes of this computer; false: it has not.
     Result<bool> add_simulator();
-    /// Ends this process of the run's own, by the name that its Simulator gave, without a word to it.
+    /// Kills a process that this run started, by the name of its Simulator.
     Result<> kill(const std::string& name);
     /// To be called now and then. An Error: processes of the run's own died or never joined, and it cannot go
     /// on.
     Result<> look_after(const Controller& controller);
     /// What happened since the last call, one line each.
     std::vector<std::string> take_notices();
-    /// Once the Controller has dismissed everybody: sees them off, at most for some seconds; none where they
-    /// have failed.
+    /// Waits some seconds for the processes to end after the Controller dismissed them; not after a failure.
     void await_exit(bool failed);
 
   private:

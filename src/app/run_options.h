@@ -31,9 +31,9 @@ struct RunOptions {
     int threads = 0;              // 0: the cores of this computer, shared by `processes`
     std::size_t lanes = kMostLanes;
     int simulators = 1;
-    int processes = 0;           // Simulators as processes of their own; 0: in this one
+    int processes = 0;           // Simulators as separate processes; 0: in this one
     int local = 0;               // Simulators in the process of a Controller
-    bool is_controller = false;  // `roboss controller`: Simulators come from anywhere
+    bool is_controller = false;  // `roboss controller`: Simulators join over the network
     std::vector<std::string> clients_awaited;
     DdsOptions network;
     bool merge_islands = false;
@@ -47,10 +47,10 @@ struct RunOptions {
     std::string json;
     std::string log;  // a file, or - for standard error
     double log_every_s = 10;
-    std::optional<std::uint64_t> seed;  // none: that of the saved run, else 0
+    std::optional<std::uint64_t> seed;  // none: the seed of the saved run, else 0
     std::string save;
     std::string from;     // FILE[#BRANCH][@TIME]
-    std::string journal;  // kept here; gone on with if it exists
+    std::string journal;  // the run is recorded here; resumed if it exists
     double journal_every_s = 1;
     std::optional<double> until_s;
     std::string replay;         // FILE[#BRANCH][@TIME]: stepped again and checked, instead of a world
@@ -60,11 +60,11 @@ struct RunOptions {
     bool quiet = false;
 };
 
-/// Of `roboss run`: everybody on this computer.
+/// Of `roboss run`: all members on this computer.
 void add_run_options(CLI::App& command, RunOptions& options);
 /// Of `roboss replay`: a journal instead of a world.
 void add_replay_options(CLI::App& command, RunOptions& options);
-/// Of `roboss controller`: the same, and where the others come from.
+/// Of `roboss controller`: the same, and the network on which members join.
 void add_controller_options(CLI::App& command, RunOptions& options);
 
 }  // namespace roboss

@@ -1,5 +1,4 @@
-// What a run says of itself when it is asked: `status` for people and panels, `groups` and `bounds` for
-// pictures.
+// Status of a run as JSON: `status` for people and panels, `groups` and `bounds` for drawings.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -18,7 +17,7 @@ std::string text_of(const Json& json, int indent) {
 }
 
 const char* standing(const MemberReport& member) {
-    if (member.alive) return member.leaving ? "leaving" : "at work";
+    if (member.alive) return member.leaving ? "leaving" : "active";
     return member.leaving ? "left" : "lost";
 }
 

@@ -1,4 +1,4 @@
-// Saving states.
+// Saves states.
 #include "app/save_command.h"
 
 #include <fmt/format.h>
@@ -14,14 +14,16 @@ namespace roboss {
 namespace {
 
 const char* const kFooter =
-    R"(The file is as `roboss run --save` writes it: `--from FILE` goes on from it, and `roboss replay` and `roboss journal`
-read it too.
-Examples:
-  roboss save half.roboss --from run.journal@30       out of a journal
-  roboss save half.roboss --simulation mine           of a running simulation: its Controller writes the file, on its
-                                                      computer
+    R"(The file has the format of `roboss run --save`: `roboss run WORLD --from FILE` continues from it; `roboss replay` and
+`roboss journal` read it too.
 
-Exit codes: 0 done, 1 it cannot be read, 2 wrong usage, 3 it cannot be written.)";
+Examples:
+  roboss save half.roboss --from run.journal@30       from a journal
+  roboss save half.roboss --simulation mine           from a running simulation: its Controller writes the file
+                                                      on its computer
+
+Exit codes: 0 done, 1 the journal cannot be read or no Controller was found, 2 wrong usage, 3 the file cannot be
+written.)";
 
 struct SaveOptions {
     MemberOptions member;
@@ -29,7 +31,7 @@ struct SaveOptions {
 };
 
 int save_from_journal(const SaveOptions& o) {
-    Result<OpenedJournalTime> opened = open_moment(o.from);
+    Result<OpenedJournalTime> opened = open_location(o.from);
     if (!opened) return print(opened.error()), kBadInput;
     const auto& [location, journal, time] = opened.value();
     const Model& model = *time.model;
@@ -52,7 +54,7 @@ void add_save_command(CLI::App& app, int& exit_code) {
     command->add_option("file", o->file, "the file to write")->required();
     command->add_option(
         "--from", o->from,
-        "FILE, FILE@TIME or FILE#BRANCH@TIME of a journal; without it, a running simulation is asked");
+        "FILE, FILE@TIME or FILE#BRANCH@TIME of a journal; without it, a running simulation saves its state");
     add_member_options(*command, o->member);
     command->callback([o, &exit_code] {
         exit_code = o->from.empty() ? ask_controller(o->member, {"save", o->file}) : save_from_journal(*o);

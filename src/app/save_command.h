@@ -1,4 +1,4 @@
-// `roboss save FILE`: a state as a file of its own, out of a running simulation or out of a journal.
+// `roboss save FILE`: saves a state of a running simulation or of a journal to a file.
 #pragma once
 
 #include <CLI/CLI.hpp>

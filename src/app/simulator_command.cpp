@@ -1,4 +1,4 @@
-// Gets the Model, gives the Simulator role its turns, and leaves in good order when asked.
+// Fetches the Model, drives the Simulator role, and leaves the run in an orderly way on request.
 #include "app/simulator_command.h"
 
 #include <fmt/format.h>
@@ -18,10 +18,12 @@ namespace {
 constexpr std::int64_t kGoodbye_ms = 5'000;
 
 const char* const kFooter =
-    R"(It needs no world: it gets the compiled Model from the Controller. Ctrl-C (or SIGTERM) makes it leave in good order:
-what it holds goes elsewhere first. A second one ends it at once, which costs the run a moment and no result.
+    R"(A Simulator needs no world file: it receives the compiled Model from the Controller. Ctrl-C (or SIGTERM) makes it
+leave: its robots move to other Simulators first. A second Ctrl-C ends it immediately; the run stalls briefly and its
+results do not change.
 
-Exit codes: 0 the run is over or it has left, 1 an option is wrong, no Controller came or it was refused.)";
+Exit codes: 0 the run has ended or the Simulator has left, 1 an option is wrong, no Controller was found, or the
+Controller refused it.)";
 
 struct SimulatorProcessOptions {
     MemberOptions member;
@@ -43,7 +45,8 @@ class SimulatorProcess {
             const Address self = member_.new_address(Role::kSimulator);
             const auto model = member_.fetch_model(self);
             if (!model) return interrupted() ? kDone : kBadInput;
-            member_.say(fmt::format("has the world '{}' (model hash {})", model->name, to_hex(model->hash)));
+            member_.report(
+                fmt::format("received world '{}' (model hash {})", model->name, to_hex(model->hash)));
             SimulatorOptions role;
             role.lanes = o_.lanes;
             role.name = process_name(getpid());
@@ -51,23 +54,23 @@ class SimulatorProcess {
             if (!serve(simulator)) return kBadInput;
             if (interrupted()) return kDone;
             if (simulator.outdated()) {
-                member_.say("the world has changed, fetches it again");
+                member_.report("the world has changed; fetching it again");
             } else if (simulator.dismissed()) {
-                member_.say("sent home by the Controller");
+                member_.report("dismissed by the Controller");
                 return kDone;
             } else if (!simulator.over().empty()) {
-                member_.say(simulator.over());
+                member_.report(simulator.over());
                 if (!o_.stay) return kDone;
             } else if (!o_.stay && !simulator.refusal().empty()) {
-                return member_.complain(
-                           {"the Controller refuses it: " + simulator.refusal(), "start it again"}),
+                return member_.report_error({"refused by the Controller: " + simulator.refusal(),
+                                             "start it again", "refused"}),
                        kBadInput;
             }
         }
     }
 
   private:
-    /// Until the role is done. False: the Controller was away for too long.
+    /// Until the role is done. False: no Controller for too long.
     bool serve(Simulator& simulator) {
         std::int64_t asked_ms = 0;
         while (!simulator.gone()) {
@@ -78,7 +81,7 @@ class SimulatorProcess {
                 if (!member_.bus().present(kControllerAddress) || now - asked_ms > kGoodbye_ms) return true;
             }
             simulator.advance(member_.bus());
-            for (const std::string& line : simulator.take_notices()) member_.say(line);
+            for (const std::string& line : simulator.take_notices()) member_.report(line);
             if (!member_.wait()) return false;
         }
         return true;
@@ -92,21 +95,23 @@ class SimulatorProcess {
 }  // namespace
 
 void add_simulator_command(CLI::App& app, int& exit_code) {
-    CLI::App* command = app.add_subcommand("simulator", "step robots for a Controller anywhere");
+    CLI::App* command = app.add_subcommand("simulator", "join a Controller's run and step robots for it");
     command->footer(kFooter);
     auto options = std::make_shared<SimulatorProcessOptions>();
     command
-        ->add_option("--threads", options->threads,
-                     "threads it steps its islands with; the same result (default: one for each core of this "
-                     "computer; where several Simulators share it, give each its part)")
+        ->add_option(
+            "--threads", options->threads,
+            "threads; the result is the same (default: one per core of this computer; if several Simulators "
+            "share the computer, give each its share)")
         ->check(CLI::Range(1, 1024));
     command
         ->add_option("--lanes", options->lanes,
-                     "robots of a type stepped at once, at most: 1, 4 (AVX2) or 8 (AVX-512), with floats 1, "
-                     "8 or 16; the same result")
+                     "SIMD lanes: largest number of robots of a type stepped together: 1, 4 (AVX2) or 8 "
+                     "(AVX-512), with "
+                     "floats 1, 8 or 16; the result is the same")
         ->check(CLI::Range(std::size_t{1}, kMostLanes))
         ->capture_default_str();
-    command->add_flag("--stay", options->stay, "wait for the next run when one is over");
+    command->add_flag("--stay", options->stay, "wait for the next run when one ends");
     add_member_options(*command, options->member);
     command->callback([options, &exit_code] { exit_code = SimulatorProcess(*options).go(); });
 }

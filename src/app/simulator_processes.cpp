@@ -1,4 +1,4 @@
-// What is said of processes that fail.
+// Watches the Simulator processes of a run, and describes their failures.
 #include "app/simulator_processes.h"
 
 #include <fmt/format.h>
@@ -61,15 +61,15 @@ std::vector<std::string> SimulatorProcesses::take_ended() {
     std::erase_if(processes_, [&](Member& member) {
         const auto ended = member.process.ended();
         if (!ended) return false;
-        lines.push_back(words_for(member) + " " + *ended);
+        lines.push_back(name_of(member) + " " + *ended);
         if (const std::string log = member.process.last_lines(kLinesShown); !log.empty())
-            lines.back() += "; its last words:\n" + log;
+            lines.back() += "; end of its log:\n" + log;
         return true;
     });
     return lines;
 }
 
-std::string SimulatorProcesses::words_for(const Member& member) const {
+std::string SimulatorProcesses::name_of(const Member& member) const {
     return fmt::format("Simulator process {} of {} (pid {})", member.number, started_, member.process.id());
 }
 
@@ -79,7 +79,8 @@ Error SimulatorProcesses::have_ended(const std::vector<std::string>& lines) cons
         message += (i == 0 ? "" : "\n") + lines[i];
     if (lines.size() > kMembersShown)
         message += fmt::format("\nand {} others ended", lines.size() - kMembersShown);
-    return {message + "\nbefore the run began", "see why above; fewer --processes need less memory and time"};
+    return {message + "\nbefore the start of the run",
+            "see the reason above; fewer --processes need less memory and time", "process-ended"};
 }
 
 Error SimulatorProcesses::have_not_joined(std::int64_t silent_ms) const {
@@ -87,14 +88,14 @@ Error SimulatorProcesses::have_not_joined(std::int64_t silent_ms) const {
     std::size_t absent = 0;
     for (const Member& member : processes_) {
         if (member.joined || ++absent > kMembersShown) continue;
-        message += fmt::format("{} has not joined: it {}\n", words_for(member), member.process.doing());
+        message += fmt::format("{} has not joined; state: {}\n", name_of(member), member.process.doing());
         if (const std::string log = member.process.last_lines(kLinesShown); !log.empty())
-            message += "its last words:\n" + log + "\n";
+            message += "end of its log:\n" + log + "\n";
     }
     if (absent > kMembersShown)
         message += fmt::format("and {} others have not joined\n", absent - kMembersShown);
-    message += fmt::format("nobody has joined for {:.1f} s", 1e-3 * static_cast<double>(silent_ms));
-    return {message, "see what holds them up; fewer --processes need less memory and time"};
+    message += fmt::format("no Simulator joined for {:.1f} s", 1e-3 * static_cast<double>(silent_ms));
+    return {message, "see the states above; fewer --processes need less memory and time", "not-joined"};
 }
 
 void SimulatorProcesses::await_exit(std::int64_t ms_max) {

@@ -1,5 +1,6 @@
-// SimulatorProcesses: the Simulators of `roboss run --processes`. Started as processes of this computer,
-// watched until all have joined, and ended. Who dies or does not come is told in words.
+// SimulatorProcesses: the Simulators of `roboss run --processes`. It starts them as processes of
+// this computer, watches them until all have joined, ends them, and reports which ended early or did not
+// join.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,7 @@ class SimulatorProcesses {
     std::size_t count() const { return processes_.size(); }
     /// By which their Simulators will join.
     std::vector<std::string> names() const;
-    /// Ends the one whose Simulator has this name, without a word to it; false: there is none.
+    /// Kills the process of the Simulator with this name; false: there is none.
     bool kill(const std::string& name);
 
     /// The beginning of a run, until every process has joined. An Error names those that have ended, or that
@@ -40,7 +41,7 @@ class SimulatorProcesses {
     };
     Error have_ended(const std::vector<std::string>& lines) const;
     Error have_not_joined(std::int64_t silent_ms) const;
-    std::string words_for(const Member& member) const;
+    std::string name_of(const Member& member) const;
 
     std::vector<Member> processes_;
     std::size_t started_ = 0;

@@ -1,4 +1,4 @@
-// A picture of a run as its viewer shows it, drawn by a browser without a window.
+// A picture of a run as its viewer shows it, drawn by a headless browser.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -14,12 +14,11 @@ namespace roboss {
 struct SnapshotOptions {
     std::string file;  // PNG; empty: none is taken
     int width = 1280, height = 800;
-    std::vector<std::pair<std::string, std::string>>
-        words;  // what the page's address says (docs/viewer-page.md)
+    std::vector<std::pair<std::string, std::string>> parameters;  // of the page's URL (docs/viewer-page.md)
 };
 void add_snapshot_options(CLI::App& command, SnapshotOptions& options);
 
-/// Takes the picture of the page at `url`; `serve` gives the run its turns meanwhile, false ends it.
+/// Takes the picture of the page at `url`; `serve` drives the run meanwhile; false ends it.
 Result<> take_snapshot(const SnapshotOptions& options, const std::string& url,
                        const std::function<bool()>& serve);
 

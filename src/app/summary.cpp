@@ -1,4 +1,4 @@
-// The summary as JSON and as the last lines on the terminal.
+// The summary as JSON and as the last lines of the output.
 #include "app/summary.h"
 
 #include <fmt/format.h>
@@ -42,10 +42,10 @@ std::string to_text(const Summary& s) {
         "robots            {}\n"
         "simulated         {:.3f} s ({} steps of {:g} ms), world time now {:.3f} s\n"
         "wall time         {:.2f} s, {:.1f} x real time\n"
-        "stepping          {:.2f} s of CPU, {:.2f} us a robot and step\n"
-        "windows           {} ({} repeated), {:.1f} islands each\n"
-        "contacts          {:.1f} points a step, {:.4f} of them with buildings and walls\n"
-        "simulators        {} at the end, {} lost on the way, {} robots moved between them\n"
+        "stepping          {:.2f} s of CPU, {:.2f} us per robot and step\n"
+        "windows           {} ({} repeated), {:.1f} islands on average\n"
+        "contacts          {:.1f} points per step, {:.4f} of them with static models\n"
+        "simulators        {} at the end, {} lost, {} robots migrated\n"
         "model hash        {}\n"
         "state hash        {}\n",
         s.world, s.robots, static_cast<double>(s.ticks) * s.dt_s, s.ticks, s.dt_s * 1e3, s.sim_time_s,

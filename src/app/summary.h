@@ -1,4 +1,4 @@
-// What a run ends with, for people and for programs.
+// The summary of a run, for people and for programs.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ struct Summary {
     std::uint64_t model_hash = 0, state_hash = 0;
     std::uint64_t losses = 0, recoveries = 0,
                   migrations = 0;  // of Simulators; of runs of recovery; of robots
-    std::uint64_t cuts = 0;        // late plans of which others took a part
+    std::uint64_t cuts = 0;        // windows of a straggler that others took over in part (work stealing)
     std::size_t simulators = 0;    // at the end
 };
 

@@ -1,4 +1,4 @@
-// How many threads a Simulator gets where nobody says.
+// The default number of threads of a Simulator.
 #pragma once
 
 namespace roboss {

@@ -1,5 +1,5 @@
-// TrafficMeter: what goes to and from the Controller in a second, in all and by member, from what the Bus
-// counts; over the last second or two.
+// TrafficMeter: messages and bytes per second to and from the Controller, in total and by member, from the
+// counters of the Bus over the last one or two seconds.
 #pragma once
 
 #include <map>
@@ -9,7 +9,7 @@
 
 namespace roboss {
 
-/// A second.
+/// Per second.
 struct TrafficRate {
     double messages_in = 0, bytes_in = 0;    // to the Controller
     double messages_out = 0, bytes_out = 0;  // from it

@@ -1,4 +1,4 @@
-// Joins the network of a run and gives the gateway its turns.
+// Joins the network of a run and serves the viewer.
 #include "app/view_command.h"
 
 #include <fmt/format.h>
@@ -12,15 +12,15 @@ namespace roboss {
 namespace {
 
 const char* const kFooter =
-    R"(It needs no world: Model and looks come from the Controller when the first browser opens the page. It stays when the
-Controller ends, and shows the next one of that name. What is watched and ordered here changes nothing of the result but
-what is ordered.
+    R"(The viewer needs no world file: it gets the Model and its visuals from the Controller when the first browser opens the
+page. It keeps running when the Controller ends, and shows the next run of that name. Watching a run does not change its
+result; orders given in the viewer do.
 
 Examples:
   roboss view                                      a run on this computer (`roboss controller ...`)
-  roboss view --interface eth0 --view 0.0.0.0:8090  for browsers elsewhere, with a token
+  roboss view --interface eth0 --view 0.0.0.0:8090  for browsers on other computers, with a token
 
-Exit codes: 0 ended by Ctrl-C, 1 an option is wrong, or no Controller came in time (--patience).)";
+Exit codes: 0 ended by Ctrl-C, 1 an option is wrong, or no Controller was found in time (--patience).)";
 
 struct ViewCommandOptions {
     MemberOptions member;
@@ -30,12 +30,12 @@ struct ViewCommandOptions {
 int view(const ViewCommandOptions& o) {
     Member member("view", o.member);
     Result<std::unique_ptr<Gateway>> gateway = open_viewer(o.viewer, true);
-    if (!gateway) return member.complain(gateway.error()), kBadInput;
+    if (!gateway) return member.report_error(gateway.error()), kBadInput;
     if (!member.open()) return kBadInput;
     fmt::print(stderr, "roboss: viewer at {}\n", gateway.value()->url());
     while (!interrupted()) {
         gateway.value()->advance(member.bus());
-        for (const std::string& line : gateway.value()->take_notices()) member.say(line);
+        for (const std::string& line : gateway.value()->take_notices()) member.report(line);
         if (!member.wait()) return kBadInput;
     }
     member.bus().flush(500);
@@ -45,7 +45,7 @@ int view(const ViewCommandOptions& o) {
 }  // namespace
 
 void add_view_command(CLI::App& app, int& exit_code) {
-    CLI::App* command = app.add_subcommand("view", "show a running Controller's world to browsers");
+    CLI::App* command = app.add_subcommand("view", "serve the viewer of a running simulation to browsers");
     command->footer(kFooter);
     auto options = std::make_shared<ViewCommandOptions>();
     add_viewer_options(*command, options->viewer, ViewerDefault::kAlways);

@@ -8,11 +8,12 @@ namespace roboss {
 void add_viewer_options(CLI::App& command, ViewerOptions& o, ViewerDefault by_default) {
     const std::string group = "Viewer (docs/viewer.md)";
     const bool on_demand = by_default == ViewerDefault::kOnDemand;
-    CLI::Option* view = command.add_option(
-        "--view", o.listen,
-        std::string(on_demand ? "show it to browsers, at " : "") +
-            "[ADDRESS:]PORT at which browsers find the viewer; if the port is taken, the next one. The "
-            "default address is this computer's own; on any other the address printed carries a token");
+    CLI::Option* view =
+        command.add_option("--view", o.listen,
+                           std::string(on_demand ? "serve the viewer at " : "") +
+                               "[ADDRESS:]PORT of the viewer for browsers; if the port is in use, the next "
+                               "free one. The default "
+                               "address is loopback only; with any other, the printed URL carries a token");
     view->group(group);
     o.headless = on_demand;
     if (on_demand)
@@ -20,15 +21,16 @@ void add_viewer_options(CLI::App& command, ViewerOptions& o, ViewerDefault by_de
     else
         view->capture_default_str();
     command
-        .add_option("--web", o.page_folder, "folder of the viewer's page (default: as built or installed)")
+        .add_option("--web", o.page_folder,
+                    "folder of the viewer's web page (default: the built or installed one)")
         ->check(CLI::ExistingDirectory)
         ->group(group);
     if (by_default == ViewerDefault::kOn)
-        command.add_flag("--headless", o.headless, "no viewer")->group(group);
-    else if (on_demand)  // as scripts may say for `run`, too
+        command.add_flag("--headless", o.headless, "do not serve the viewer")->group(group);
+    else if (on_demand)  // so that scripts may use the flag with every subcommand
         command
             .add_flag_callback(
-                "--headless", [] {}, "no viewer (the default)")
+                "--headless", [] {}, "do not serve the viewer (the default)")
             ->excludes(view)
             ->group(group);
 }

@@ -16,7 +16,7 @@ struct ViewerOptions {
 };
 enum class ViewerDefault {
     kAlways,    // there is a viewer
-    kOn,        // unless --headless says no
+    kOn,        // unless disabled with --headless
     kOnDemand,  // only if --view asks for it
 };
 void add_viewer_options(CLI::App& command, ViewerOptions& options, ViewerDefault by_default);
