@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadLine{"{", "not valid JSON"}, BadLine{"[1]", "not a JSON object"},
         BadLine{R"({"robot":"cart"})", "'t' is missing"},
         BadLine{R"({"t":-1,"robot":"cart","joint":{}})", "'t' is not in"},
-        BadLine{R"({"t":0,"robot":"carl","joint":{}})", "no robot 'carl'"},
+        BadLine{R"({"t":0,"robot":"carl","joint":{}})", "'carl'"},
         BadLine{R"({"t":0,"robot":"cart"})", "0 actions"},
         BadLine{R"({"t":0,"robot":"cart","joint":{"name":"slid","velocity":1}})", "no joint 'slid'"},
         BadLine{R"({"t":0,"robot":"cart","joint":{"name":"slide","velocity":1,"effort":1}})", "names 2 of"},

@@ -1,4 +1,4 @@
-// What is said of processes that die, hang or come late. The processes are this test program itself, with one
+// Reports on processes that die, hang or join late. The processes are this test program itself, with one
 // of the cases of SimulatorProcessesChild.
 #include "app/simulator_processes.h"
 
@@ -47,11 +47,11 @@ TEST(LocalProcess, KeepsTheEndOfWhatItsProcessSaid) {
 
 TEST(LocalProcess, SaysWhatItsProcessDoes) {
     LocalProcess process = started("Sleeps");
-    EXPECT_EQ(process.doing(), "runs");
+    EXPECT_EQ(process.doing(), "running");
     ::kill(process.id(), SIGSTOP);
-    for (int i = 0; i < 500 && process.doing() == "runs"; ++i)
+    for (int i = 0; i < 500 && process.doing() == "running"; ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    EXPECT_EQ(process.doing(), "is stopped (SIGSTOP or a debugger)");
+    EXPECT_EQ(process.doing(), "stopped (SIGSTOP or a debugger)");
     process.kill();
     ASSERT_TRUE(process.wait(20'000));
     EXPECT_EQ(process.ended(), "was killed by SIGKILL");
@@ -67,11 +67,11 @@ TEST(SimulatorProcesses, OneThatEndsBeforeTheRunIsNamedWithItsLastWords) {
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     ASSERT_FALSE(watched.ok());
-    const std::string& said = watched.error().message;
-    EXPECT_NE(said.find("Simulator process 2 of 2 (pid "), std::string::npos) << said;
-    EXPECT_NE(said.find("ended with exit code 7; its last words:\nmessage 4"), std::string::npos) << said;
-    EXPECT_NE(said.find("before the run began"), std::string::npos) << said;
-    EXPECT_EQ(said.find("process 1 of 2"), std::string::npos) << said;
+    const std::string& text = watched.error().message;
+    EXPECT_EQ(watched.error().code, "process-ended");
+    EXPECT_NE(text.find("2 of 2"), std::string::npos) << text;
+    EXPECT_NE(text.find("\nmessage 4"), std::string::npos) << text << "the end of its log";
+    EXPECT_EQ(text.find("1 of 2"), std::string::npos) << text;
 }
 
 TEST(SimulatorProcesses, PatienceLastsAsLongAsSomebodyJoinsOrFetches) {
@@ -83,11 +83,11 @@ TEST(SimulatorProcesses, PatienceLastsAsLongAsSomebodyJoinsOrFetches) {
     EXPECT_TRUE(processes.watch_start({}, 5, now += 900, kPatience_ms).ok());
     const Result<> failed = processes.watch_start({}, 5, now += 100, kPatience_ms);
     ASSERT_FALSE(failed.ok());
-    const std::string& said = failed.error().message;
-    EXPECT_NE(said.find("Simulator process 1 of 6 (pid "), std::string::npos) << said;
-    EXPECT_NE(said.find("has not joined: it runs"), std::string::npos) << said;
-    EXPECT_NE(said.find("and 2 others have not joined"), std::string::npos) << said;
-    EXPECT_NE(said.find("nobody has joined for 1.0 s"), std::string::npos) << said;
+    const std::string& text = failed.error().message;
+    EXPECT_EQ(failed.error().code, "not-joined");
+    EXPECT_NE(text.find("1 of 6"), std::string::npos) << text;
+    EXPECT_EQ(text.find("5 of 6"), std::string::npos) << "the others are counted";
+    EXPECT_NE(text.find("1.0 s"), std::string::npos) << text;
 }
 
 TEST(SimulatorProcesses, TheStartIsOverWhenAllHaveJoined) {
