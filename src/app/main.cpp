@@ -3,17 +3,17 @@
 #include <csignal>
 #include <cstdio>
 
-#include "app/check_command.h"
-#include "app/client_command.h"
-#include "app/cluster_command.h"
-#include "app/control_command.h"
-#include "app/diff_command.h"
-#include "app/journal_command.h"
-#include "app/run_command.h"
-#include "app/save_command.h"
-#include "app/simulator_command.h"
-#include "app/snapshot.h"
-#include "app/view_command.h"
+#include "app/commands/check_command.h"
+#include "app/commands/client_command.h"
+#include "app/commands/cluster_command.h"
+#include "app/commands/control_command.h"
+#include "app/commands/diff_command.h"
+#include "app/commands/journal_command.h"
+#include "app/commands/run_command.h"
+#include "app/commands/save_command.h"
+#include "app/commands/simulator_command.h"
+#include "app/commands/view_command.h"
+#include "app/viewer/snapshot.h"
 
 int main(int argc, char** argv) {
     CLI::App app{

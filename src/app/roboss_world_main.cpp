@@ -5,7 +5,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "app/city_world.h"
+#include "app/worlds/city_world.h"
 
 namespace {
 
