@@ -1,4 +1,4 @@
-"""A Controller killed with -9 in the middle of a run of many processes goes on from its journal; a running simulation is
+"""A Controller killed with -9 in the middle of a run of many processes resumes from its journal; a running simulation is
 controlled from the command line; and all of it can be stepped again to the same hash."""
 import json
 import random

@@ -1,5 +1,5 @@
-"""Many processes start and end with the usual hash; processes that die at the start or never join end the run soon, with
-words and an exit code of their own; those that die later are done without."""
+"""Many processes start and end with the usual hash; processes that end at the start or never join end the run soon, with
+an error code and their own exit code; the run recovers from later losses."""
 import os
 import re
 import signal
@@ -85,7 +85,7 @@ class Start(unittest.TestCase):
         with Cluster() as cluster:
             run = cluster.start_plain(*ENDLESS, "--processes", 2)
             first = wait_for_children(run)[0]
-            os.kill(first, signal.SIGTERM)  # it leaves in good order, or is killed if it does not know how to yet
+            os.kill(first, signal.SIGTERM)  # it leaves in an orderly way, or is killed if its handler is not installed yet
             self.assertRegex(self.fails_soon(run), rf"process 1 of 2 \(pid {first}\).*( 0|SIGTERM)")
 
     def test_one_that_dies_later_is_named_and_done_without(self):
