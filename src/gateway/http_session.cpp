@@ -95,9 +95,9 @@ void HttpSession::upgrade() {
         return refuse(http::status::upgrade_required, "/ws needs a WebSocket upgrade");
     http::token_list subprotocols(request_[http::field::sec_websocket_protocol]);
     if (!subprotocols.exists(viewer_protocol::kSubprotocol))
-        return refuse(
-            http::status::bad_request,
-            std::string("the WebSocket does not offer the subprotocol ") + viewer_protocol::kSubprotocol);
+        return refuse(http::status::bad_request,
+                      std::string("the WebSocket does not offer the subprotocol ") +
+                          viewer_protocol::kSubprotocol + " [no-subprotocol]");
     auto page = std::make_shared<PageSession>(std::move(stream_), core_, core_.next_page(), peer_);
     if (!core_.admit(page)) {
         core_.notice("viewer: a page from " + peer_ + " is refused: too many pages [too-many-pages]");

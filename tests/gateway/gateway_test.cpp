@@ -237,7 +237,7 @@ TEST_F(Viewed, WrongHostsOriginsTokensAndPathsAreRefusedWithALine) {
     EXPECT_EQ(http_get(url, "/", "evil.example:80").status, 403);
     EXPECT_TRUE(run->says("'evil.example"));
     EXPECT_FALSE(Browser(url, {"/ws", "http://evil.example", ""}).connected());
-    EXPECT_TRUE(run->says("a page of 'http://evil.example' may not use it"));
+    EXPECT_TRUE(run->says("'http://evil.example' [wrong-origin]"));
     EXPECT_FALSE(Browser(url, {"/ws", "null", ""}).connected());
     EXPECT_TRUE(Browser(url, {"/ws", "http://" + url.authority(), ""}).connected());
     for (const char* path :
@@ -277,10 +277,10 @@ TEST_F(Viewed, AWebSocketNamesItsOriginAndTheSubprotocol) {
     const ViewerUrl url(run->url());
     EXPECT_TRUE(Browser(url, {"/ws", "", "", "other, roboss.1"}).connected());
     EXPECT_FALSE(Browser(url, {"/ws", kLeftOut, ""}).connected());
-    EXPECT_TRUE(run->says("does not name its Origin"));
+    EXPECT_TRUE(run->says("[no-origin]"));
     for (const char* subprotocol : {kLeftOut, "roboss.2", "roboss", "roboss.10", "Xroboss.1"})
         EXPECT_FALSE(Browser(url, {"/ws", "", "", subprotocol}).connected()) << subprotocol;
-    EXPECT_TRUE(run->says("does not offer the subprotocol roboss.1"));
+    EXPECT_TRUE(run->says("[no-subprotocol]"));
 }
 
 TEST_F(Viewed, BeyondLoopbackATokenIsNeeded) {
@@ -301,7 +301,7 @@ TEST_F(Viewed, BeyondLoopbackATokenIsNeeded) {
     EXPECT_EQ(http_get(url, "/", {}, cookie.substr(0, cookie.find(';'))).status, 200);
     EXPECT_TRUE(Browser(url, {"/ws?token=" + url.token, "http://" + url.authority(), ""}).connected());
     EXPECT_FALSE(Browser(url, {"/ws?token=" + url.token, "http://evil.example", ""}).connected());
-    EXPECT_TRUE(run->says("has not the token"));
+    EXPECT_TRUE(run->says("[no-token]"));
 }
 
 struct Misdeed {

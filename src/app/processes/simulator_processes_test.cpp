@@ -98,7 +98,8 @@ TEST(SimulatorProcesses, TheStartIsOverWhenAllHaveJoined) {
     EXPECT_TRUE(processes.starting());
     EXPECT_TRUE(processes.watch_start(processes.names(), 0, 2, kPatience_ms).ok());
     EXPECT_FALSE(processes.starting());
-    EXPECT_TRUE(processes.watch_start({}, 0, 60'000, kPatience_ms).ok()) << "later losses do not fail the start";
+    EXPECT_TRUE(processes.watch_start({}, 0, 60'000, kPatience_ms).ok())
+        << "later losses do not fail the start";
 }
 
 TEST(Threads, AreSharedByProcessesAndAtLeastOneEach) {
