@@ -42,8 +42,8 @@ void add_options(CLI::App& app, Options& o) {
     for (const Case& c : all_cases()) names.push_back(c.name);
     for (const EngineKind& k : engines()) kinds.push_back(k.name);
     kinds.push_back(kFloats);
-    app.add_option("--case", o.cases, "run this case only (may be given again)")->check(CLI::IsMember(names));
-    app.add_option("--engine", o.engines, "run on this engine only (may be given again)")
+    app.add_option("--case", o.cases, "run this case only (may be repeated)")->check(CLI::IsMember(names));
+    app.add_option("--engine", o.engines, "run on this engine only (may be repeated)")
         ->check(CLI::IsMember(kinds));
     app.add_flag("--list", o.list, "print the names of cases and engines, and end");
     app.add_flag("--skip-coarse", o.only_main, "leave out the second table, at dt 2 ms");

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "app/city_world.h"
+#include "app/worlds/city_world.h"
 #include "client/plugin.h"
 #include "core/thread_cpu.h"
 #include "sdf/load_world.h"

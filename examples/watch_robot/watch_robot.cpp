@@ -1,5 +1,6 @@
-// Says what robots do, one JSON object a line and robot, ten times a simulated second: for scripts, and to
-// see whether what was ordered elsewhere is obeyed. It orders nothing and nobody waits for it.
+// Prints the state of robots as JSON, one object per line and robot, ten times per simulated second: for
+// scripts, and to check that orders of others are obeyed. It gives no orders, and the run does not wait for
+// it.
 //   ROBOSS_WATCH=car_3,car_7 roboss client roboss_watch_robot.so     (without: every robot)
 #include <algorithm>
 #include <cmath>
@@ -80,7 +81,8 @@ std::vector<roboss::RobotId> watched(const roboss::Model& model) {
         const std::size_t end = std::min(list.find(',', at), list.size());
         const std::string name = list.substr(at, end - at);
         const auto robot = model.find_robot(name);
-        if (!robot) throw std::runtime_error("ROBOSS_WATCH names '" + name + "', which is no robot here");
+        if (!robot)
+            throw std::runtime_error("ROBOSS_WATCH names '" + name + "', but the world has no such robot");
         robots.push_back(*robot);
         at = end + 1;
     }

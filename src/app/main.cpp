@@ -1,28 +1,29 @@
-// The roboss command: one subcommand a file.
+// The roboss command: one subcommand per file.
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
 
-#include "app/check_command.h"
-#include "app/client_command.h"
-#include "app/cluster_command.h"
-#include "app/control_command.h"
-#include "app/diff_command.h"
-#include "app/journal_command.h"
-#include "app/run_command.h"
-#include "app/save_command.h"
-#include "app/simulator_command.h"
-#include "app/snapshot.h"
-#include "app/view_command.h"
+#include "app/commands/check_command.h"
+#include "app/commands/client_command.h"
+#include "app/commands/cluster_command.h"
+#include "app/commands/control_command.h"
+#include "app/commands/diff_command.h"
+#include "app/commands/journal_command.h"
+#include "app/commands/run_command.h"
+#include "app/commands/save_command.h"
+#include "app/commands/simulator_command.h"
+#include "app/commands/view_command.h"
+#include "app/viewer/snapshot.h"
 
 int main(int argc, char** argv) {
     CLI::App app{
-        "RoBOSS simulates many robots in one physical world, exactly, on any number of machines.\n"
-        "Start with:  roboss check WORLD   then   roboss run WORLD --duration 10"};
+        "RoBOSS simulates many robots in one physical world, with bit-identical results on any number of "
+        "machines.\n"
+        "To start:  roboss check WORLD   then   roboss run WORLD --duration 10"};
     app.require_subcommand(1);
-    app.set_help_all_flag("--help-all", "help of all subcommands");
+    app.set_help_all_flag("--help-all", "print the help of all subcommands");
     std::signal(SIGXFSZ,
-                SIG_IGN);  // a file that may not grow is an error of its writer, not the end of the run
+                SIG_IGN);  // a file at its size limit gives its writer an error instead of ending the run
     int exit_code = 0;
     roboss::add_run_command(app, exit_code);
     roboss::add_check_command(app, exit_code);

@@ -1,11 +1,11 @@
-// roboss-world: makes worlds. One subcommand a kind of world.
+// roboss-world: generates worlds. One subcommand per kind of world.
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <fstream>
 #include <iostream>
 
-#include "app/city_world.h"
+#include "app/worlds/city_world.h"
 
 namespace {
 
@@ -20,8 +20,8 @@ int write_world(const std::string& text, const std::string& file) {
         if (out) return 0;
     }
     std::cerr << "roboss-world: cannot write " << (file.empty() ? "to standard output" : file)
-              << "\n  remedy: name a file in a folder that exists and can be written to, with room for "
-              << text.size() << " bytes\n";
+              << "\n  remedy: give a file in a writable folder with free space for " << text.size()
+              << " bytes\n";
     return 3;
 }
 
@@ -29,8 +29,8 @@ int write_world(const std::string& text, const std::string& file) {
 
 int main(int argc, char** argv) {
     CLI::App app{
-        "Makes worlds for RoBOSS, as SDF files.\n"
-        "Exit codes: 0 done, 3 the file cannot be written, others: the command line is wrong."};
+        "Generates worlds for RoBOSS, as SDF files.\n"
+        "Exit codes: 0 done, 3 the file cannot be written, others: wrong usage."};
     app.require_subcommand(1);
     roboss::CityOptions city;
     std::string file;
@@ -38,11 +38,11 @@ int main(int argc, char** argv) {
         "city",
         "a city of streets, buildings and parked obstacles, with four-wheeled cars that have a laser range\n"
         "finder, odometer, GPS and gyrocompass; more cars make a larger city of the same density");
-    make_city->add_option("--cars", city.cars, "how many cars, 1 to 100000")
+    make_city->add_option("--cars", city.cars, "number of cars, 1 to 100000")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
-    make_city->add_option("--seed", city.seed, "another seed, another city")->capture_default_str();
-    make_city->add_option("-o,--output", file, "the file to write; without it, or with -, standard output");
+    make_city->add_option("--seed", city.seed, "seed of the random layout")->capture_default_str();
+    make_city->add_option("-o,--output", file, "output file (default, or with -: standard output)");
     CLI11_PARSE(app, argc, argv);
     return write_world(roboss::city_sdf(city), file);
 }

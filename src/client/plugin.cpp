@@ -26,20 +26,22 @@ Result<std::unique_ptr<ControlProgram>> load_control_program(const std::string& 
     const std::filesystem::path file = std::filesystem::absolute(path, error);
     if (error || !std::filesystem::is_regular_file(file, error))
         return Error{"control program " + path + ": there is no such file",
-                     "give the path of a shared library (.so)"};
+                     "give the path of a shared library (.so)", "no-file"};
     void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr)
-        return Error{"control program " + path + " cannot be loaded: " + loader_says(), kRemedy};
+        return Error{"control program " + path + " cannot be loaded: " + loader_says(), kRemedy,
+                     "not-loadable"};
     using Version = int();
     using Make = ControlProgram*();
     auto* version = reinterpret_cast<Version*>(dlsym(library, "roboss_control_program_abi"));
     auto* make = reinterpret_cast<Make*>(dlsym(library, "roboss_control_program"));
     if (version == nullptr || make == nullptr)
-        return Error{"control program " + path + " has no entry point: " + loader_says(), kRemedy};
+        return Error{"control program " + path + " has no entry point: " + loader_says(), kRemedy,
+                     "no-entry-point"};
     if (const int abi = version(); abi != kControlProgramAbi)
         return Error{"control program " + path + " was built for interface version " + std::to_string(abi) +
                          ", this is version " + std::to_string(kControlProgramAbi),
-                     "build it again against this version of RoBOSS"};
+                     "build it again against this version of RoBOSS", "abi-mismatch"};
     try {
         std::unique_ptr<ControlProgram> program(make());
         if (program) return program;

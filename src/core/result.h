@@ -1,5 +1,6 @@
 // Result<T>: a value, or one Error with a message that names the thing and the remedy. For the outside world:
-// files, network, users. World files report through Diagnostics instead (all findings at once).
+// files, network, users. World files report through Diagnostics instead (all findings at once). Programs and
+// tests compare the code; messages are for people.
 #pragma once
 
 #include <string>
@@ -13,7 +14,11 @@ namespace roboss {
 struct Error {
     std::string message;  // what went wrong, with names and values
     std::string remedy;   // what the user can do about it
-    std::string text() const { return remedy.empty() ? message : message + "\n  remedy: " + remedy; }
+    std::string code{};   // names the kind of error, as "no-branch"; empty: none is assigned
+    std::string text() const {
+        return message + (code.empty() ? "" : " [" + code + "]") +
+               (remedy.empty() ? "" : "\n  remedy: " + remedy);
+    }
 };
 
 struct Ok {};

@@ -106,8 +106,8 @@ Result<ListenAddress> parse_listen_address(const std::string& text) {
         result.address = result.address.substr(1, result.address.size() - 2);
     const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), result.port);
     if (error != std::errc() || end != port.data() + port.size() || result.address.empty())
-        return Error{"'" + text + "' is no address for the viewer",
-                     "give PORT or ADDRESS:PORT, as 0.0.0.0:8090"};
+        return Error{"'" + text + "' is not an address for the viewer",
+                     "give PORT or ADDRESS:PORT, for example 0.0.0.0:8090", "bad-address"};
     if (result.address == "localhost") result.address = "127.0.0.1";
     return result;
 }
@@ -117,16 +117,16 @@ bool Access::named_token(const Visitor& visitor) const {
 }
 
 std::string Access::refusal(const Visitor& visitor) const {
-    if (visitor.hosts != 1) return "it has " + std::to_string(visitor.hosts) + " Host headers instead of one";
+    if (visitor.hosts != 1) return std::to_string(visitor.hosts) + " Host headers instead of one";
     if (token_.empty() && !names_loopback(visitor.host))
-        return "it names another host, " + quoted(visitor.host);
+        return "wrong Host header " + quoted(visitor.host) + " [wrong-host]";
     if (!token_.empty() && !named_token(visitor) &&
         !same_secret(value_of(visitor.cookie, "roboss_token", ';'), token_))
-        return "it has not the token that was printed at the start";
+        return "the token that was printed at the start is missing [no-token]";
     if (!visitor.wants_socket) return {};
-    if (visitor.origins == 0) return "it does not name its Origin, as every browser does";
+    if (visitor.origins == 0) return "the Origin header is missing [no-origin]";
     if (visitor.origins > 1 || !same_origin(visitor.origin, visitor.host))
-        return "a page of " + quoted(visitor.origin) + " may not use it";
+        return "wrong Origin " + quoted(visitor.origin) + " [wrong-origin]";
     return {};
 }
 

@@ -62,7 +62,7 @@ void HttpSession::read() {
             if (error) {
                 self->request_ = {};
                 self->request_.version(11);
-                return self->refuse(http::status::bad_request, "its request is damaged: " + error.message());
+                return self->refuse(http::status::bad_request, "malformed request: " + error.message());
             }
             self->request_ = self->parser_->release();
             self->serve();
@@ -82,7 +82,7 @@ void HttpSession::serve() {
     if (const std::string refusal = core_.access().refusal(visitor); !refusal.empty())
         return refuse(http::status::forbidden, refusal);
     if (request_.method() != http::verb::get && request_.method() != http::verb::head)
-        return refuse(http::status::method_not_allowed, "it may only ask");
+        return refuse(http::status::method_not_allowed, "only GET and HEAD are allowed");
     if (socket) return upgrade();
     if (path == "/scene") return serve_scene();
     Answer answer = answer_for(path);
@@ -92,15 +92,15 @@ void HttpSession::serve() {
 
 void HttpSession::upgrade() {
     if (!beast::websocket::is_upgrade(request_))
-        return refuse(http::status::upgrade_required, "it asks for /ws without a WebSocket");
+        return refuse(http::status::upgrade_required, "/ws needs a WebSocket upgrade");
     http::token_list subprotocols(request_[http::field::sec_websocket_protocol]);
     if (!subprotocols.exists(viewer_protocol::kSubprotocol))
-        return refuse(
-            http::status::bad_request,
-            std::string("its WebSocket does not offer the subprotocol ") + viewer_protocol::kSubprotocol);
+        return refuse(http::status::bad_request,
+                      std::string("the WebSocket does not offer the subprotocol ") +
+                          viewer_protocol::kSubprotocol + " [no-subprotocol]");
     auto page = std::make_shared<PageSession>(std::move(stream_), core_, core_.next_page(), peer_);
     if (!core_.admit(page)) {
-        core_.notice("viewer: a page of " + peer_ + " is turned away, there are too many");
+        core_.notice("viewer: a page from " + peer_ + " is refused: too many pages [too-many-pages]");
         return page->close();
     }
     page->start(request_);
@@ -112,7 +112,7 @@ void HttpSession::serve_scene() {
         const auto& scene = self->core_.scene();
         if (!scene)
             return self->send({http::status::service_unavailable, "text/plain; charset=utf-8",
-                               "the run does not answer yet\n", false});
+                               "the run does not reply yet\n", false});
         self->send({http::status::ok, "application/json", numbered(scene->file, scene->number), false});
     });
 }
@@ -123,7 +123,7 @@ HttpSession::Answer HttpSession::mesh(std::string_view number) const {
     const auto& scene = core_.scene();
     if (error != std::errc() || end != number.data() + number.size() || !scene ||
         n >= scene->file.meshes.size())
-        return {http::status::not_found, "text/plain; charset=utf-8", "there is no such mesh\n", false};
+        return {http::status::not_found, "text/plain; charset=utf-8", "no such mesh\n", false};
     const std::vector<std::uint8_t>& bytes = scene->file.meshes[n];
     return {http::status::ok, "application/octet-stream", std::string(bytes.begin(), bytes.end()), false};
 }
@@ -135,7 +135,7 @@ HttpSession::Answer HttpSession::texture(std::string_view hash) const {
             if (to_hex(t.hash) == hash)
                 return {http::status::ok, mime_type(t.kind), std::string(t.bytes.begin(), t.bytes.end()),
                         false, true};
-    return {http::status::not_found, "text/plain; charset=utf-8", "there is no such picture\n"};
+    return {http::status::not_found, "text/plain; charset=utf-8", "no such picture\n"};
 }
 
 HttpSession::Answer HttpSession::answer_for(std::string_view path) const {
@@ -143,13 +143,12 @@ HttpSession::Answer HttpSession::answer_for(std::string_view path) const {
     if (path.starts_with(kMesh)) return mesh(path.substr(kMesh.size()));
     if (path.starts_with(kTexture)) return texture(path.substr(kTexture.size()));
     std::optional<PageFile> file = core_.files().find(path);
-    if (!file)
-        return {http::status::not_found, "text/plain; charset=utf-8", "there is no such file\n", false};
+    if (!file) return {http::status::not_found, "text/plain; charset=utf-8", "no such file\n", false};
     return {http::status::ok, file->type, std::move(file->content), false};
 }
 
 void HttpSession::refuse(http::status status, const std::string& why) {
-    core_.notice("viewer: a request of " + peer_ + " is refused: " + why);
+    core_.notice("viewer: a request from " + peer_ + " is refused: " + why);
     request_.keep_alive(false);
     send({status, "text/plain; charset=utf-8", "refused: " + why + "\n", false});
 }

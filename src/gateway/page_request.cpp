@@ -87,7 +87,7 @@ SetPose pose_of(Fields& fields) {
     const std::vector<double> v = fields.numbers("pose", 7);
     const double norm_squared = v[3] * v[3] + v[4] * v[4] + v[5] * v[5] + v[6] * v[6];
     if (!(norm_squared > 1e-6 && norm_squared < 1e6))
-        return fields.fail("pose", "a place and a quaternion"), SetPose{};
+        return fields.fail("pose", "a position and a quaternion"), SetPose{};
     return {{{v[0], v[1], v[2]}, normalized(Quat{v[3], v[4], v[5], v[6]})}};
 }
 
@@ -166,11 +166,11 @@ bool too_deep(std::string_view text) {
 
 Result<PageRequest> parse_page_request(std::string_view text) {
     const auto refused = [](const std::string& why) {
-        return Error{"a page's message is not understood: " + why, "see docs/viewer-protocol.md"};
+        return Error{"invalid message of a page: " + why, "see docs/viewer-protocol.md", "bad-message"};
     };
     if (too_deep(text)) return refused("it is nested too deeply");
     const Json json = Json::parse(text, nullptr, false);
-    if (!json.is_object()) return refused("it is no JSON object");
+    if (!json.is_object()) return refused("it is not a JSON object");
     Fields fields(json);
     const std::string type = fields.text("type");
     PageRequest request;

@@ -43,8 +43,8 @@ TEST(PageRequest, UnderstandsWatchesAndBoundsTheirRate) {
 
 TEST(PageRequest, RefusesWhatIsWrongByName) {
     const std::pair<const char*, const char*> wrongs[] = {
-        {"", "no JSON object"},
-        {"[]", "no JSON object"},
+        {"", "JSON object"},
+        {"[]", "JSON object"},
         {R"({"type":7})", "\"type\""},
         {R"({"type":"control","words":[]})", "\"words\""},
         {R"({"type":"control","words":["a",1]})", "\"words\""},

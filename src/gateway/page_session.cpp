@@ -41,7 +41,7 @@ void PageSession::start(const Request& request) {
     socket_.write_buffer_bytes(1 << 16);
     socket_.auto_fragment(false);
     socket_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
-        if (error) return self->end("its handshake failed: " + error.message());
+        if (error) return self->end("the handshake failed: " + error.message());
         self->open_ = true;
         if (self->core_.scene()) self->greet();
         self->core_.watch_changed();
@@ -72,14 +72,15 @@ void PageSession::read() {
         if (error == websocket::error::closed || error == asio::error::operation_aborted)
             return self->end({});
         if (error == websocket::error::message_too_big)
-            return self->end("its message is larger than " +
-                             std::to_string(viewer_protocol::kMessageBytesMax) + " bytes");
-        if (error == beast::error::timeout) return self->end("it has fallen silent");
-        if (error) return self->end("its connection broke: " + error.message());
-        if (!self->socket_.got_text()) return self->end("it sent a binary message");
+            return self->end("a message is larger than " + std::to_string(viewer_protocol::kMessageBytesMax) +
+                             " bytes [too-large]");
+        if (error == beast::error::timeout) return self->end("it timed out [timeout]");
+        if (error) return self->end("the connection broke: " + error.message() + " [broken]");
+        if (!self->socket_.got_text()) return self->end("it sent a binary message [binary-message]");
         if (!self->rate_.take(steady_ms()))
-            return self->end("it floods: more than " + std::to_string(viewer_protocol::kMessagesASecondMax) +
-                             " messages a second");
+            return self->end("too many messages: more than " +
+                             std::to_string(viewer_protocol::kMessagesASecondMax) +
+                             " messages per second [flood]");
         self->take(beast::buffers_to_string(self->buffer_.data()));
         if (!self->ended_) self->read();
     });
@@ -87,7 +88,7 @@ void PageSession::read() {
 
 void PageSession::take(const std::string& text) {
     Result<PageRequest> request = parse_page_request(text);
-    if (!request) return end(request.error().message);
+    if (!request) return end(request.error().message + " [" + request.error().code + "]");
     if (std::holds_alternative<PageWatch>(request.value().what)) {
         watch_ = std::get<PageWatch>(request.value().what);
         core_.watch_changed();
@@ -107,7 +108,7 @@ bool PageSession::greet() {
 
 void PageSession::say(std::string text, bool may_miss) {
     if (!open_ || (may_miss && lines_.size() >= kLinesMissAt)) return;
-    if (lines_.size() >= kLinesMax) return end("it does not read what it asked for");
+    if (lines_.size() >= kLinesMax) return end("it does not read its replies");
     lines_.push_back(std::move(text));
     write_next();
 }
@@ -144,7 +145,8 @@ void PageSession::write_next() {
         self->sent_bytes_ += bytes;
         self->core_.count_sent(bytes);
         if (error)
-            return self->end(error == asio::error::operation_aborted ? "" : "it is gone: " + error.message());
+            return self->end(error == asio::error::operation_aborted ? ""
+                                                                     : "it disconnected: " + error.message());
         self->write_next();
     };
     if (!lines_.empty()) {

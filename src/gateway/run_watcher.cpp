@@ -241,7 +241,7 @@ void RunWatcher::answer(std::uint64_t page, std::int64_t id, bool done, std::str
 void RunWatcher::serve(Bus& bus, PageCall& call) {
     if (const auto* order_said = std::get_if<PageOrder>(&call.what)) return order(bus, call, *order_said);
     if (control_.questions.size() >= kQuestionsMax)
-        return answer(call.page, call.id, false, "too many requests wait for their answers");
+        return answer(call.page, call.id, false, "too many requests are waiting for replies");
     control_.questions.push_back({std::move(std::get<ControlArguments>(call.what).words),
                                   [this, page = call.page, id = call.id](const ControlReply& reply) {
                                       answer(page, id, reply.done, reply.text);
@@ -250,7 +250,7 @@ void RunWatcher::serve(Bus& bus, PageCall& call) {
 
 void RunWatcher::order(Bus& bus, const PageCall& call, const PageOrder& said) {
     if (!scene_ || outdated_)
-        return answer(call.page, call.id, false, "the scene has changed, and is being fetched");
+        return answer(call.page, call.id, false, "the scene has changed and is being fetched");
     if (!client_) {
         BusClientOptions options;
         options.name = "viewer";
@@ -280,7 +280,7 @@ void RunWatcher::order(Bus& bus, const PageCall& call, const PageOrder& said) {
 /// It knows a world that is no more; the next order makes another.
 void RunWatcher::drop_client() {
     for (const OpenOrder& o : std::exchange(orders_, {}))
-        answer(o.page, o.id, false, "the world has changed meanwhile");
+        answer(o.page, o.id, false, "the world has changed in the meantime");
     client_.reset();
 }
 
@@ -300,7 +300,7 @@ void RunWatcher::serve_orders(Bus& bus) {
     }
     if (client_->outdated() || !client_->over().empty()) return drop_client();
     if (!client_->heard()) return;
-    for (const OpenOrder& o : std::exchange(orders_, {})) end(o, true, "the order is given");
+    for (const OpenOrder& o : std::exchange(orders_, {})) end(o, true, "order accepted");
 }
 
 }  // namespace roboss

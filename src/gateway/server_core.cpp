@@ -50,8 +50,8 @@ Result<> ServerCore::listen(const ListenAddress& address) {
     boost::system::error_code error;
     const auto ip = asio::ip::make_address(address.address, error);
     if (error)
-        return Error{"'" + address.address + "' is no address of this computer",
-                     "give an IPv4 or IPv6 address, as 0.0.0.0 for all"};
+        return Error{"'" + address.address + "' is not an address of this computer",
+                     "give an IPv4 or IPv6 address, for example 0.0.0.0 for all", "bad-address"};
     const tcp::endpoint endpoint(ip, address.port);
     acceptor_.open(endpoint.protocol(), error);
     if (!error) acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
@@ -62,7 +62,7 @@ Result<> ServerCore::listen(const ListenAddress& address) {
     acceptor_.close(ignored);
     return Error{"the viewer cannot listen at " + address.address + ":" + std::to_string(address.port) +
                      ": " + error.message(),
-                 "give another port with --view, or --headless"};
+                 "give another port with --view, or disable the viewer with --headless", "cannot-listen"};
 }
 
 std::uint16_t ServerCore::port() const {
@@ -107,7 +107,7 @@ void ServerCore::accept() {
             ++connections_;
             std::make_shared<HttpSession>(std::move(socket), *this)->start();
         } else if (!error) {
-            notice("viewer: a connection is turned away, there are " + std::to_string(kConnectionsMax));
+            notice("viewer: a connection is refused, there are already " + std::to_string(kConnectionsMax));
         }
         accept();
     });
@@ -156,7 +156,7 @@ void ServerCore::call(PageSession& page, PageRequest&& request) {
     const std::int64_t id = call.id;
     if (exchange_->call(std::move(call))) return;
     page.say(
-        nlohmann::json{{"type", "answer"}, {"id", id}, {"done", false}, {"text", "too much is asked at once"}}
+        nlohmann::json{{"type", "answer"}, {"id", id}, {"done", false}, {"text", "too many requests at once"}}
             .dump(),
         false);
 }
@@ -275,7 +275,8 @@ std::vector<std::string> ServerCore::take_notices() {
     const std::scoped_lock lock(mutex_);
     const bool may_tell = notices_left_out_ > 0 && notice_rate_.take(steady_ms());
     if (const std::size_t n = may_tell ? std::exchange(notices_left_out_, 0) : 0; n > 0)
-        notices_.push_back("viewer: " + std::to_string(n) + " more lines like these are left out");
+        notices_.push_back("viewer: " + std::to_string(n) +
+                           " more such messages are left out [rate-limited]");
     return std::exchange(notices_, {});
 }
 

@@ -53,13 +53,14 @@ std::string at_tick(Tick tick) {
 }  // namespace
 
 Error Journal::damaged(const std::string& what) const {
-    return {path_ + " is damaged: " + what, kAnother};
+    return {path_ + " is damaged: " + what, kAnother, "journal-damaged"};
 }
 
 Result<Journal> Journal::open(const std::string& path, bool thorough) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error))
-        return Error{path + ": there is no such file", "give a file that --journal or --save wrote"};
+        return Error{path + ": there is no such file", "give a file that --journal or --save wrote",
+                     "no-file"};
     Result<Database> opened = Database::open_read(path);
     if (!opened) return opened.error();
     Journal journal;
@@ -82,7 +83,7 @@ Result<> Journal::read_meta() {
     if (!rows)
         return Error{
             path_ + " is not a checkpoint or journal of RoBOSS, or is truncated: " + rows.error().message,
-            kAnother};
+            kAnother, "not-a-journal"};
     std::int64_t format = 0;
     for (const Row& row : rows.value()) {
         const auto* key = std::get_if<std::string>(&row[0]);
@@ -96,7 +97,7 @@ Result<> Journal::read_meta() {
         return Error{path_ + " has journal format " + std::to_string(format) + " (written by RoBOSS " +
                          (version_.empty() ? "of long ago" : version_) + "), this program reads " +
                          std::to_string(kJournalFormat),
-                     "use the version of RoBOSS that wrote it"};
+                     "use the version of RoBOSS that wrote it", "journal-format"};
     return Ok{};
 }
 
@@ -120,7 +121,7 @@ Result<> Journal::read_branches() {
         b.committed = b.end = b.tick;
         branches_.push_back(std::move(b));
     }
-    if (branches_.empty()) return Error{path_ + " is empty: its run never began", kAnother};
+    if (branches_.empty()) return Error{path_ + " is empty: its run never began", kAnother, "journal-empty"};
     return Ok{};
 }
 
@@ -182,7 +183,7 @@ Result<Branch> Journal::branch(std::optional<BranchId> id) const {
     if (wanted < 1 || wanted > static_cast<BranchId>(branches_.size()))
         return Error{path_ + " has no branch " + std::to_string(wanted) + ", it has " +
                          std::to_string(branches_.size()),
-                     "`roboss journal info " + path_ + "` shows them"};
+                     "`roboss journal info " + path_ + "` shows them", "no-branch"};
     return branches_[static_cast<std::size_t>(wanted - 1)];
 }
 
@@ -280,7 +281,7 @@ Result<SavedRun> Journal::run_at(const Branch& branch, const Model& model, Tick 
                          ") of branch " + std::to_string(branch.id) + ", it has " + time(first) + " to " +
                          time(branch.end) + " (ticks " + std::to_string(first) + " to " +
                          std::to_string(branch.end) + ")",
-                     "give a time that it has"};
+                     "give a time that it has", "no-such-time"};
     }
     return run_from(branch, *std::prev(above), model, tick);
 }
@@ -354,7 +355,8 @@ Result<> check_world(const Journal& journal, const Branch& branch, const Model& 
     return Error{journal.path() + " was written for another world: " + branch.world_file + ", model hash " +
                      to_hex(branch.model_hash) + "; this one has model hash " + to_hex(model.hash),
                  "give the world file, the step, the accuracy and the version of RoBOSS (" +
-                     journal.version() + ") that it was written with"};
+                     journal.version() + ") that it was written with",
+                 "another-world"};
 }
 
 }  // namespace roboss

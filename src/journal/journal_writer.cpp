@@ -32,7 +32,8 @@ Result<int> lock(const std::string& path) {
         return Error{path + ": cannot write it", "check the path, the permissions and the free space"};
     if (flock(file, LOCK_EX | LOCK_NB) == 0) return file;
     ::close(file);
-    return Error{path + " is being written by another run", "end that run, or give another file"};
+    return Error{path + " is being written by another run", "end that run, or give another file",
+                 "journal-busy"};
 }
 
 /// The one number that the question is answered with; -1 if it is not.
@@ -143,7 +144,8 @@ void JournalWriter::settle(const Result<>& written, Pending& pending) {
     }
     trouble_ = written.error();
     if (!failing_.exchange(true))
-        notices_.push_back(written.error().message + "; the run continues, the journal stays consistent");
+        notices_.push_back(written.error().message +
+                           "; the run continues, the journal stays consistent [journal-waiting]");
     take_in(pending);
 }
 
@@ -158,7 +160,7 @@ void JournalWriter::take_in(Pending& pending) {
     waiting_bytes_ = bytes_about(waiting_.entries);
     if (waiting_bytes_ <= options_.waiting_bytes_max || lost_) return;
     lost_ = Error{path_ + ": it could not be written for too long, the journal ends here",
-                  "free some space, and start again with it"};
+                  "free some space, and start again with it", "journal-lost"};
     notices_.push_back(lost_->message);
     waiting_ = {};
     checkpoint_waits_ = true;

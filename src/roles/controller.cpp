@@ -243,7 +243,7 @@ Result<> Controller::submit(const Order& order) {
     if (order.apply_at < stampable())
         return Error{"an order for tick " + std::to_string(order.apply_at) +
                          " comes too late, the world is at tick " + std::to_string(stampable()),
-                     "give a later time"};
+                     "give a later time", "too-late"};
     // given before this tick is observed: a save or a branch at this tick includes it
     const Tick given_at = std::max(tick_, logged_until_) - 1;
     if (order_log_.add(order, given_at) && options_.log != nullptr) options_.log->order(order, given_at);

@@ -101,7 +101,8 @@ void Controller::take_bye(Bus& bus, const Address& from, const ClientBye& bye) {
     if (!is_news) return;
     if (bye.failed)
         fail({"client '" + seat->name + "' failed at tick " + std::to_string(tick_) + ": " + bye.reason,
-              "fix the control program; the world up to this tick is intact and can be saved"});
+              "fix the control program; the world up to this tick is intact and can be saved",
+              "client-failed"});
     else
         notice("client '" + seat->name + "' left");
 }
@@ -134,7 +135,7 @@ void Controller::notice_client_losses(Bus& bus) {
                                  (seat.vanished_ms ? " ago" : "");
         if (seat.synchronous)
             fail({what + " at tick " + std::to_string(tick_),
-                  "see why it hangs; the world up to this tick is intact and can be saved"});
+                  "see why it hangs; the world up to this tick is intact and can be saved", "client-lost"});
         else
             notice(what + " and is given up");
     }

@@ -227,7 +227,8 @@ void Controller::finish_leg() {
             return fail({"robot '" + model_->robots[robot.index()].name + "' came to another state at tick " +
                              std::to_string(tick_) + " when it was stepped again after a loss",
                          "a Simulator computes other bits: compare the machines with `roboss check`, and "
-                         "report this"});
+                         "report this",
+                         "bits-differ"});
         }
         holder_[robot.index()] = round_->seat_of(robot);
     }

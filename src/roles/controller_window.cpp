@@ -264,7 +264,8 @@ void Controller::end_before(const IslandResult& failure) {
             " s): " + part_of(failure.failed, failure.failed_joint) +
             (failure.beyond_numbers ? " moves faster than can be computed" : " is infinite or no number"),
         "look for extreme orders or masses, or take a shorter step; the world up to tick " +
-            std::to_string(tick_) + " is intact and can be saved"};
+            std::to_string(tick_) + " is intact and can be saved",
+        failure.beyond_numbers ? "too-fast" : "not-finite"};
     drop_round();
     fail(std::move(error));
 }

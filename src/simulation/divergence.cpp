@@ -194,10 +194,10 @@ Result<> check_comparable(const Side& a, const Side& b) {
     if (!same || a.model().dt_s != b.model().dt_s)
         return Error{
             a.journal().path() + " and " + b.journal().path() + " are of worlds with other robots or steps",
-            "compare runs of one world"};
+            "compare runs of one world", "other-robots"};
     if (std::max(a.first(), b.first()) > std::min(a.last(), b.last()))
         return Error{a.journal().path() + " and " + b.journal().path() + " have no time in common",
-                     "compare runs of the same time"};
+                     "compare runs of the same time", "no-common-time"};
     return Ok{};
 }
 

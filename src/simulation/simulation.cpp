@@ -44,7 +44,8 @@ Result<std::unique_ptr<Simulation>> Simulation::create(std::shared_ptr<const Mod
         return Error{"two awaited Clients have the same name", "give each its own name"};
     for (const NamedProgram& program : programs) {
         if (!names.insert(program.name).second)
-            return Error{"two control programs are called '" + program.name + "'", "give each its own name"};
+            return Error{"two control programs are called '" + program.name + "'", "give each its own name",
+                         "duplicate-name"};
         if (Result<BusClientOptions> times = client_options(program.program->options(), *model, program.name);
             !times)
             return times.error();

@@ -116,7 +116,9 @@ TEST(Clients, OneThatThrowsEndsTheRunWithItsWordsAndNothingIsLost) {
     });
     const Result<> ran = simulation->run_until(1000);
     ASSERT_FALSE(ran.ok());
-    EXPECT_NE(ran.error().message.find("my battery is empty"), std::string::npos) << ran.error().text();
+    EXPECT_EQ(ran.error().code, "client-failed") << ran.error().text();
+    EXPECT_NE(ran.error().message.find("my battery is empty"), std::string::npos)
+        << "the text of the exception";
     EXPECT_NE(ran.error().message.find("'caller'"), std::string::npos);
     EXPECT_GE(simulation->tick(), 40);
     EXPECT_LE(simulation->tick(), 50);
@@ -132,6 +134,7 @@ TEST(Clients, TwoProgramsOfOneNameAreRefused) {
         programs.push_back({"twin", std::make_unique<Calling>(ControlOptions{}, [](Client&) {})});
     const auto made = Simulation::create(pair_world(), {}, std::move(programs));
     ASSERT_FALSE(made.ok());
+    EXPECT_EQ(made.error().code, "duplicate-name");
     EXPECT_NE(made.error().message.find("twin"), std::string::npos);
 }
 

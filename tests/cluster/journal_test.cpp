@@ -1,4 +1,4 @@
-// A Controller that is killed goes on from its log, whatever the Bus does and however far the log had come;
+// A Controller that is killed resumes from its log, whatever the Bus does and however far the log had come;
 // what was committed is what it was.
 #include <gtest/gtest.h>
 

@@ -27,7 +27,7 @@ def summary(*arguments):
 
 class RobossTest(unittest.TestCase):
     def refused(self, arguments, exit_code, *words):
-        """The command ends with this code and says these words."""
+        """The command ends with this exit code and prints these error codes, names or values."""
         done = roboss(*arguments)
         self.assertEqual(done.returncode, exit_code, done.stderr + done.stdout)
         for word in words:

@@ -39,11 +39,11 @@ class Snapshot(RobossTest):
             shown.append(rows)
         self.assertNotEqual(*shown)
 
-    def test_without_a_browser_it_says_what_to_do(self):
+    def test_without_a_browser_it_is_refused_with_a_remedy(self):
         before = dict(os.environ)
         os.environ["ROBOSS_BROWSER"] = "/nowhere/chromium"
         try:
-            self.refused(["snapshot", WORLDS / "pile.sdf", "-o", FOLDER / "none.png"], 3, "the browser has ended", "remedy")
+            self.refused(["snapshot", WORLDS / "pile.sdf", "-o", FOLDER / "none.png"], 3, "[browser-ended]", "remedy")
         finally:
             os.environ.clear()
             os.environ.update(before)

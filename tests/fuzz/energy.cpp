@@ -51,7 +51,7 @@ Finding run_energy(const Request& request) {
     test::MechanicalSummer summer(motion.model());
     test::MechanicalSums sums = summer(motion.states());
     EnergyGauge gauge(sums, norm_squared(motion.model().gravity) > 0);
-    if (request.tell) request.tell(line(motion, sums, 0, 0));
+    if (request.print_line) request.print_line(line(motion, sums, 0, 0));
     Finding finding;
     while (motion.time_s() < request.seconds && std::isfinite(finding.figure)) {
         const StepReport& report = motion.step();
@@ -59,7 +59,7 @@ Finding run_energy(const Request& request) {
         const double growth = find_not_finite(motion.states()).valid()
                                   ? std::numeric_limits<double>::infinity()
                                   : gauge.read(sums);
-        if (request.tell) request.tell(line(motion, sums, growth, report.contacts));
+        if (request.print_line) request.print_line(line(motion, sums, growth, report.contacts));
         if (growth > finding.figure) finding.figure = growth, finding.tick = motion.tick();
     }
     finding.failed = !(finding.figure <= kEnergyGrowthMost);

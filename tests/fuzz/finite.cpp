@@ -13,13 +13,13 @@ Finding run_finite(const Request& request) {
     while (motion.time_s() < request.seconds) {
         const StepReport& report = motion.step();
         const double fastest = motion.fastest();
-        if (request.tell) {
+        if (request.print_line) {
             char buffer[160];
             std::snprintf(buffer, sizeof buffer,
                           "%6lld %8.4f s  fastest %-12.6g contacts %-4d iterations %-4d residual %.2g",
                           static_cast<long long>(motion.tick()), motion.time_s(), fastest, report.contacts,
                           report.iterations, report.residual);
-            request.tell(buffer);
+            request.print_line(buffer);
         }
         if (fastest > finding.figure) finding.figure = fastest, finding.tick = motion.tick();
         const RobotId broken = find_not_finite(motion.states());

@@ -31,17 +31,17 @@ Finding run_ghost(const Request& request) {
         if (!flight.finite())
             return {true, std::numeric_limits<double>::infinity(), flight.tick(), "not finite"};
         const double change = flight.change(), turn = flight.turn(flight.before());
-        if ((change == 0 || turn > Flight::kTurnMost) && !request.tell)
+        if ((change == 0 || turn > Flight::kTurnMost) && !request.print_line)
             continue;  // no need to know how near it was
         const double clear = clear_at(turn);
         swept.clear();
         for (const std::vector<RobotState>& states : flight.fine_way()) swept.add(states);
         const double gap = swept.least_gap(clear, kResolution);
-        if (request.tell) {
+        if (request.print_line) {
             char buffer[120];
             std::snprintf(buffer, sizeof buffer, "%6lld  least gap %-10.4g change of velocity %-10.4g",
                           static_cast<long long>(flight.tick()), gap, change);
-            request.tell(buffer);
+            request.print_line(buffer);
         }
         if (gap <= clear || turn > Flight::kTurnMost || change <= finding.figure) continue;
         finding.failed = true;

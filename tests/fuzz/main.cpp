@@ -1,5 +1,5 @@
-// roboss-fuzz: properties of the engine on random worlds, over a range of seeds, or one seed told tick by
-// tick.
+// roboss-fuzz: checks properties of the engine on random worlds, for a range of seeds, or for one seed with a
+// line per tick.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -22,18 +22,18 @@ namespace roboss::fuzz {
 namespace {
 
 const char* const kFooter =
-    R"(A seed names a world: the same on every machine. Kinds of world, steps and spins take turns from seed to seed;
---kind, --dt, --spin and --speed set them instead.
+    R"(A seed determines a world, the same on every machine. Kinds of world, time steps and spins alternate from seed to seed;
+--kind, --dt, --spin and --speed fix them instead.
 
 Examples:
   roboss-fuzz                                          all properties, seeds 0 to 47
   roboss-fuzz --property energy --seeds 0..1000        one property, a thousand seeds
   roboss-fuzz --property energy --kind tree --dt 0.004 --spin 30 --seeds 0..60
-  roboss-fuzz --property energy --seed 17              replays one seed and tells of every tick
+  roboss-fuzz --property energy --seed 17              replays one seed and prints a line per tick
   roboss-fuzz --seeds 0..10000 --json soak.json        the soak of docs/testing.md (an hour or two)
   roboss-fuzz --list                                   properties and kinds of world
 
-For each failing seed a line says what replays it. A seed whose state is not finite has an infinite figure.
+For each failing seed, the command that replays it is printed. A seed whose state is not finite has an infinite figure.
 
 Exit codes: 0 all hold, 1 a seed fails (or a file could not be written), 2 wrong usage.)";
 
@@ -67,25 +67,24 @@ std::vector<std::string> names_of(std::span<const Property> all) {
 
 void add_options(CLI::App& app, Options& o) {
     app.footer(kFooter);
-    app.add_option("--property", o.properties, "check this property only (may be given again)")
+    app.add_option("--property", o.properties, "check this property only (may be repeated)")
         ->check(CLI::IsMember(names_of(properties())))
         ->capture_default_str();
     app.add_option("--seeds", o.seeds, "seeds A to B - 1, as A..B")->capture_default_str();
-    app.add_option("--seed", o.seed, "replay this seed alone and print every tick");
-    app.add_option("--kind", o.kinds, "these kinds of world only (may be given again; see --list)");
-    app.add_option("--dt", o.dt_s, "step of every world, s")->check(CLI::Range(1e-5, 5e-3));
-    app.add_option("--spin", o.spin, "largest start speed of bases and joints, rad/s")
+    app.add_option("--seed", o.seed, "replay this seed only and print a line per tick");
+    app.add_option("--kind", o.kinds, "use these kinds of world only (may be repeated; see --list)");
+    app.add_option("--dt", o.dt_s, "time step of every world, s")->check(CLI::Range(1e-5, 5e-3));
+    app.add_option("--spin", o.spin, "largest initial angular speed of bases and joints, rad/s")
         ->check(CLI::NonNegativeNumber);
     app.add_option("--speed", o.speed, "speed of shots, m/s (ghost, tunnel)")->check(CLI::PositiveNumber);
-    app.add_option("--seconds", o.seconds, "simulated time of each seed, s (default: each property's own)")
+    app.add_option("--seconds", o.seconds, "simulated time of each seed, s (default: set by each property)")
         ->check(CLI::PositiveNumber);
-    app.add_option("--jobs", o.jobs, "seeds run at the same time; no result depends on it")
+    app.add_option("--jobs", o.jobs, "number of seeds run in parallel; results do not depend on it")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
-    app.add_option("--every", o.every, "with --seed: print one tick of so many")
-        ->check(CLI::Range(1, 1000000));
-    app.add_option("--json", o.json, "write every seed's figure to this file");
-    app.add_flag("--list", o.list, "print properties and kinds of world, and end");
+    app.add_option("--every", o.every, "with --seed: print every N-th tick")->check(CLI::Range(1, 1000000));
+    app.add_option("--json", o.json, "write the figure of every seed to this JSON file");
+    app.add_flag("--list", o.list, "print the properties and kinds of world, and exit");
 }
 
 void print_list() {
@@ -127,7 +126,7 @@ std::string failure_line(const Row& row) {
                        row.finding.figure, replay_command(*row.property, row.request));
 }
 
-/// Tells failures at once, and every ten seconds how far it is.
+/// Prints failures immediately, and progress every ten seconds.
 class Progress {
   public:
     Progress(const Property& property, std::size_t seeds) : property_(property), seeds_(seeds) {}
@@ -137,8 +136,8 @@ class Progress {
         ++done_, failed_ += row.finding.failed;
         if (row.finding.failed) fmt::print("{}", failure_line(row)), std::fflush(stdout);
         const auto now = std::chrono::steady_clock::now();
-        if (now - told_ < std::chrono::seconds(10)) return;
-        told_ = now;
+        if (now - printed_ < std::chrono::seconds(10)) return;
+        printed_ = now;
         fmt::print(stderr, "{}: {} of {} seeds, {} failed\n", property_.name, done_, seeds_, failed_);
     }
 
@@ -146,7 +145,7 @@ class Progress {
     const Property& property_;
     std::size_t seeds_, done_ = 0, failed_ = 0;
     std::mutex mutex_;
-    std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
+    std::chrono::steady_clock::time_point printed_ = std::chrono::steady_clock::now();
 };
 
 std::vector<Row> run_seeds(const Property& registered, const Property& property, Range range,
@@ -215,10 +214,10 @@ bool write_json(const std::string& name, const std::vector<Row>& rows) {
     file << list.dump(1) << "\n";
     file.close();
     if (!file)
-        fmt::print(
-            stderr,
-            "roboss-fuzz: could not write '{}'\n  remedy: does its folder exist, may you write there?\n",
-            name);
+        fmt::print(stderr,
+                   "roboss-fuzz: cannot write '{}'\n  remedy: check the folder, its permissions and the free "
+                   "space\n",
+                   name);
     return static_cast<bool>(file);
 }
 
@@ -228,7 +227,7 @@ bool replay(const Property& registered, const Property& property, const Options&
     row.property = &registered;
     row.request.setting = property.setting(*o.seed);
     row.request.seconds = property.seconds;
-    row.request.tell = [&, tick = 0u](const std::string& line) mutable {
+    row.request.print_line = [&, tick = 0u](const std::string& line) mutable {
         if (tick++ % o.every == 0) fmt::print("{}\n", line);
     };
     row.finding = property.run(row.request);
@@ -269,7 +268,7 @@ int run(const Options& o) {
         held &= std::ranges::none_of(rows, [](const Row& row) { return row.finding.failed; });
         all.insert(all.end(), rows.begin(), rows.end());
     }
-    if (!any) return usage("no property has such a kind of world; --list tells them");
+    if (!any) return usage("no property has such a kind of world; --list prints them");
     const bool written = o.json.empty() || write_json(o.json, all);
     return held && written ? 0 : 1;
 }

@@ -34,13 +34,13 @@ Finding run_momentum(const Request& request) {
     while (motion.time_s() < request.seconds && std::isfinite(finding.figure)) {
         const StepReport& report = motion.step();
         const Drift now = drift(start, summer(motion.states()));
-        if (request.tell) {
+        if (request.print_line) {
             char buffer[160];
             std::snprintf(buffer, sizeof buffer,
                           "%6lld %8.4f s  linear %-10.3g angular %-10.3g fastest %-10.4g contacts %d",
                           static_cast<long long>(motion.tick()), motion.time_s(), now.linear, now.angular,
                           motion.fastest(), report.contacts);
-            request.tell(buffer);
+            request.print_line(buffer);
         }
         if (now.worst() > finding.figure) finding.figure = now.worst(), finding.tick = motion.tick();
     }

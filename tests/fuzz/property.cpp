@@ -49,7 +49,7 @@ std::vector<Property> make_properties() {
          5,
          run_finite},
         {"ghost",
-         "who passes clear of everything is not pushed, not by one bit",
+         "a robot that passes clear of everything is not pushed, not by one bit",
          "largest change of a velocity, m/s or rad/s",
          shots(true),
          steps,

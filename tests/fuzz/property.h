@@ -23,7 +23,7 @@ struct Request {
     Setting setting;
     double seconds = 0;
     /// Receives a line for each tick; empty: nobody wants them.
-    std::function<void(const std::string&)> tell{};
+    std::function<void(const std::string&)> print_line{};
 };
 
 struct Property {

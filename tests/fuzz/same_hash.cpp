@@ -120,12 +120,12 @@ Finding run_hash(const Request& request) {
     for (const Configuration& c : kConfigurations) {
         const Outcome out = run(start, setting, c, ticks);
         if (&c == &kConfigurations[0]) expected = out;
-        if (request.tell) request.tell(line(c, out));
+        if (request.print_line) request.print_line(line(c, out));
         if (out == expected) continue;
         if (!finding.failed) {
-            finding.tick = request.tell ? first_difference(start, setting, c, ticks) : out.tick;
-            finding.text = std::string(out.ended_early ? "ends elsewhere" : "another hash") + " with " +
-                           c.name + "; configurations that differ:";
+            finding.tick = request.print_line ? first_difference(start, setting, c, ticks) : out.tick;
+            finding.text = std::string(out.ended_early ? "different last tick" : "different hash") +
+                           " with " + c.name + "; configurations that differ:";
         }
         finding.failed = true, finding.figure += 1;
     }

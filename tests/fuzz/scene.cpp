@@ -209,8 +209,8 @@ constexpr SceneKind kKinds[] = {
     {"cloud", "eight free robots that collide in empty space", cloud, true, true},
     {"room", "eight free robots in a closed room", room, true, false},
     {"fleet", "twelve copies of one robot dropped on the ground", fleet, true, false},
-    {"crowd", "nine driven robots on the ground, in each other's way", crowd, false, false},
-    {"wild", "driven robots that start in each other, soft contacts, any accuracy", wild, false, false},
+    {"crowd", "nine driven robots on the ground that obstruct each other", crowd, false, false},
+    {"wild", "driven robots that start interpenetrating, soft contacts, any accuracy", wild, false, false},
 };
 
 /// Any motor at all, with targets far beyond what it can reach.

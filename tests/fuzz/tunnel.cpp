@@ -79,7 +79,7 @@ void judge_ways(const Flight& flight, SweptDistance& swept, Judge& judge) {
         swept.add_between(flight.before(), flight.states(), Flight::kFine);
         const double overlap = overlap_of(swept);
         if (overlap > 0)
-            judge.see(overlap / (0.5 * swept.least_width() + kSlack), flight.tick(), "deep in each other",
+            judge.see(overlap / (0.5 * swept.least_width() + kSlack), flight.tick(), "deep interpenetration",
                       overlap);
     }
     if (flight.change() != 0 || before > Flight::kTurnMost) return;
@@ -90,7 +90,7 @@ void judge_ways(const Flight& flight, SweptDistance& swept, Judge& judge) {
     swept.clear();
     for (const std::vector<RobotState>& states : flight.fine_way()) swept.add(states);
     const double missed = overlap_of(swept) - at_first;
-    if (missed > 0) judge.see(missed / kFelt, flight.tick(), "a hit was not felt", missed);
+    if (missed > 0) judge.see(missed / kFelt, flight.tick(), "an impact had no effect", missed);
 }
 
 }  // namespace
@@ -105,14 +105,14 @@ Finding run_tunnel(const Request& request) {
             return {true, std::numeric_limits<double>::infinity(), flight.tick(), "not finite"};
         judge_sides(flight, judge);
         if (flight.shot().has_oracle) judge_ways(flight, swept, judge);
-        if (!request.tell) continue;
+        if (!request.print_line) continue;
         const Vec3 p = centre_of(flight.states().back());
         char buffer[160];
         std::snprintf(buffer, sizeof buffer,
                       "%6lld  last robot at %.5f %.5f %.5f  change of velocity %-10.4g worst %-8.3g",
                       static_cast<long long>(flight.tick()), p.x, p.y, p.z, flight.change(),
                       judge.finding.figure);
-        request.tell(buffer);
+        request.print_line(buffer);
     }
     return judge.finding;
 }

@@ -148,7 +148,8 @@ TEST_F(Viewed, OrdersOfAPageAreObeyedAlsoInAPausedWorldAndAnswered) {
     ASSERT_TRUE(page.until([&] { return page.answer(4) && page.answer(5) && page.answer(6); }));
     EXPECT_TRUE(page.answer(4)->starts_with("no")) << *page.answer(4);
     EXPECT_TRUE(page.answer(5)->starts_with("yes")) << *page.answer(5);
-    EXPECT_EQ(*page.answer(6), "no 'fly' is not understood");
+    EXPECT_TRUE(page.answer(6)->starts_with("no")) << *page.answer(6);
+    EXPECT_NE(page.answer(6)->find("[unknown-request]"), std::string::npos) << *page.answer(6);
 }
 
 TEST_F(Viewed, OnlyWhatMovesIsSentAgain) {
@@ -234,9 +235,9 @@ TEST_F(Viewed, WrongHostsOriginsTokensAndPathsAreRefusedWithALine) {
     const ViewerUrl url(run->url());
     EXPECT_EQ(http_get(url, "/").status, 200);
     EXPECT_EQ(http_get(url, "/", "evil.example:80").status, 403);
-    EXPECT_TRUE(run->says("names another host, 'evil.example"));
+    EXPECT_TRUE(run->says("'evil.example"));
     EXPECT_FALSE(Browser(url, {"/ws", "http://evil.example", ""}).connected());
-    EXPECT_TRUE(run->says("a page of 'http://evil.example' may not use it"));
+    EXPECT_TRUE(run->says("'http://evil.example' [wrong-origin]"));
     EXPECT_FALSE(Browser(url, {"/ws", "null", ""}).connected());
     EXPECT_TRUE(Browser(url, {"/ws", "http://" + url.authority(), ""}).connected());
     for (const char* path :
@@ -258,7 +259,7 @@ TEST_F(Viewed, APageOfANameThatIsMadeToPointHereIsRefused) {
         EXPECT_EQ(http_get(url, "/scene", host).status, 403) << host;
         EXPECT_FALSE(Browser(url, {"/ws", "http://" + host, host}).connected()) << host;
     }
-    EXPECT_TRUE(run->says("names another host, '127.evil.com"));
+    EXPECT_TRUE(run->says("'127.evil.com"));
     const std::string own = "Host: " + url.authority() + "\r\n";
     const auto get = [&](const std::string& headers) {
         return http_raw(url, "GET / HTTP/1.1\r\n" + headers + "Connection: close\r\n\r\n");
@@ -276,10 +277,10 @@ TEST_F(Viewed, AWebSocketNamesItsOriginAndTheSubprotocol) {
     const ViewerUrl url(run->url());
     EXPECT_TRUE(Browser(url, {"/ws", "", "", "other, roboss.1"}).connected());
     EXPECT_FALSE(Browser(url, {"/ws", kLeftOut, ""}).connected());
-    EXPECT_TRUE(run->says("does not name its Origin"));
+    EXPECT_TRUE(run->says("[no-origin]"));
     for (const char* subprotocol : {kLeftOut, "roboss.2", "roboss", "roboss.10", "Xroboss.1"})
         EXPECT_FALSE(Browser(url, {"/ws", "", "", subprotocol}).connected()) << subprotocol;
-    EXPECT_TRUE(run->says("does not offer the subprotocol roboss.1"));
+    EXPECT_TRUE(run->says("[no-subprotocol]"));
 }
 
 TEST_F(Viewed, BeyondLoopbackATokenIsNeeded) {
@@ -300,7 +301,7 @@ TEST_F(Viewed, BeyondLoopbackATokenIsNeeded) {
     EXPECT_EQ(http_get(url, "/", {}, cookie.substr(0, cookie.find(';'))).status, 200);
     EXPECT_TRUE(Browser(url, {"/ws?token=" + url.token, "http://" + url.authority(), ""}).connected());
     EXPECT_FALSE(Browser(url, {"/ws?token=" + url.token, "http://evil.example", ""}).connected());
-    EXPECT_TRUE(run->says("has not the token"));
+    EXPECT_TRUE(run->says("[no-token]"));
 }
 
 struct Misdeed {
@@ -311,39 +312,37 @@ struct Misdeed {
 
 TEST_F(Viewed, WhoMisbehavesIsCutOffWithALineAndTheRunGoesOnWithTheSameHash) {
     const Misdeed misdeeds[] = {
-        {"no JSON", [](Browser& b) { b.send_text("{\"type\": \"wat"); }, "it is no JSON object"},
+        {"no JSON", [](Browser& b) { b.send_text("{\"type\": \"wat"); }, "[bad-message]"},
         {"an unknown type",
          [](Browser& b) {
              b.send({{"type", "format_disk"}});
          },
-         "\"type\" is not control"},
-        {"a list of lists", [](Browser& b) { b.send_text(std::string(5000, '[')); }, "nested too deeply"},
+         "\"type\""},
+        {"a list of lists", [](Browser& b) { b.send_text(std::string(5000, '[')); }, "[bad-message]"},
         {"numbers that are none",
          [](Browser& b) {
              b.send_text(R"({"type":"order","id":1,"robot":0,"action":"pose","pose":[null,0,0,1,0,0,0]})");
          },
-         "\"pose\" is not a list of 7 finite numbers"},
+         "\"pose\""},
         {"a robot below zero",
          [](Browser& b) {
              b.send({{"type", "watch"}, {"robots", {-1}}});
          },
-         "\"robots\" is not"},
-        {"a binary message", [](Browser& b) { b.send_text("\1\2\3", true); }, "it sent a binary message"},
-        {"too large a message", [](Browser& b) { b.send_text(std::string(70'000, ' ')); },
-         "larger than 65536 bytes"},
-        {"a frame that is none", [](Browser& b) { b.send_raw(std::string(64, '\xFF')); },
-         "its connection broke"},
+         "\"robots\""},
+        {"a binary message", [](Browser& b) { b.send_text("\1\2\3", true); }, "[binary-message]"},
+        {"too large a message", [](Browser& b) { b.send_text(std::string(70'000, ' ')); }, "[too-large]"},
+        {"a frame that is none", [](Browser& b) { b.send_raw(std::string(64, '\xFF')); }, "[broken]"},
         {"half a frame, then nothing",
          [](Browser& b) {
              b.send_raw("\x81\xFE\x10");
              b.vanish();
          },
-         "its connection broke"},
+         "[broken]"},
         {"a flood",
          [](Browser& b) {
              for (int i = 0; i < 1000 && !b.closed(); ++i) b.send({{"type", "whole"}});
          },
-         "it floods"},
+         "[flood]"},
     };
     LiveRunOptions options;
     options.end = 3000;
@@ -366,7 +365,7 @@ TEST_F(Viewed, WhoMisbehavesIsCutOffWithALineAndTheRunGoesOnWithTheSameHash) {
 TEST_F(Viewed, ThoseWhoAreRefusedCannotFillTheLog) {
     const auto run = begin();
     for (int i = 0; i < 300; ++i) EXPECT_EQ(http_get(ViewerUrl(run->url()), "/", "evil.example").status, 403);
-    EXPECT_TRUE(run->says("more lines like these are left out"));
+    EXPECT_TRUE(run->says("[rate-limited]"));
     const std::string log = run->log();
     EXPECT_LT(std::count(log.begin(), log.end(), '\n'), 200);
 }
@@ -379,7 +378,7 @@ TEST_F(Viewed, CrowdsAreTurnedAway) {
         ASSERT_TRUE(pages.back()->connected());
     }
     EXPECT_FALSE(Browser{ViewerUrl(run->url())}.connected());
-    EXPECT_TRUE(run->says("is turned away, there are too many"));
+    EXPECT_TRUE(run->says("[too-many-pages]"));
     pages.clear();
     EXPECT_TRUE(run->says("page 1 of"));
     for (int i = 0; i < 100; ++i) {

@@ -128,7 +128,7 @@ void LiveRun::serve_calls() {
             text = word + " at tick " + std::to_string(simulation_->tick());
         } else {
             done = false;
-            text = "'" + word + "' is not understood";
+            text = "unknown request '" + word + "' [unknown-request]";
         }
         simulation_->controller().control().answer(simulation_->bus(), call, done, text);
     }

@@ -21,7 +21,7 @@ struct LiveRunOptions {
     std::string page_folder;
     std::size_t simulators = 1;
     Tick end = 0;      // rests there; 0: goes on
-    double speed = 1;  // simulated seconds a second; 0: as fast as it can
+    double speed = 1;  // simulated seconds per second; 0: as fast as it can
     bool paused = false;
     std::vector<Order> orders;          // as of a file
     std::vector<TextureFile> textures;  // that the scene has

@@ -1,4 +1,4 @@
-"""A Controller killed with -9 in the middle of a run of many processes goes on from its journal; a running simulation is
+"""A Controller killed with -9 in the middle of a run of many processes resumes from its journal; a running simulation is
 controlled from the command line; and all of it can be stepped again to the same hash."""
 import json
 import random
@@ -45,7 +45,7 @@ class Control(unittest.TestCase):
                     controller.kill()
                     reached.append(journal("info", file)["branches"][0]["end_tick"])
                     controller = cluster.controller(*arguments, "--speed", 0.5)
-                    controller.hears("goes on from")
+                    controller.hears("[resumed]")
                 self.assertEqual(cluster.summary(controller)["state_hash"], expected["state_hash"], (reached, controller.said()))
                 self.assertGreater(reached[0], 0)
                 for member in members:
@@ -65,7 +65,7 @@ class Control(unittest.TestCase):
                 time.sleep(0.02)
             self.assertEqual(self.status(cluster)["tick"], 100)
             members = self.status(cluster)["members"]
-            self.assertEqual([member["state"] for member in members], ["at work", "at work"])
+            self.assertEqual([member["state"] for member in members], ["active", "active"])
             self.assertTrue(members[1]["name"].endswith(f"/{other.process.pid}") or members[0]["name"].endswith(f"/{other.process.pid}"))
             robots = len(self.status(cluster)["robots"])
             self.assertEqual(sum(member["robots"] for member in members), robots)
@@ -74,8 +74,8 @@ class Control(unittest.TestCase):
             self.assertEqual([groups["simulator"].count(member["id"]) for member in members], [member["robots"] for member in members])
             self.assertTrue(all(groups["island"][island] == island for island in groups["island"]), "an island is called by its first robot")
             self.assertEqual(len(json.loads(self.ask(cluster, "bounds"))["boxes"]), robots)
-            self.assertIn("no process of this run's own", self.ask(cluster, "simulators", "kill", 0, code=3))
-            self.assertIn("there is no Simulator '7'", self.ask(cluster, "simulators", "kill", 7, code=3))
+            self.assertIn("[not-own-process]", self.ask(cluster, "simulators", "kill", 0, code=3))
+            self.assertIn("[no-simulator]", self.ask(cluster, "simulators", "kill", 7, code=3))
             self.ask(cluster, "window", 3)
             self.ask(cluster, "speed", 0.3)  # slow enough for all that follows
             self.ask(cluster, "simulators", "add")
@@ -93,7 +93,7 @@ class Control(unittest.TestCase):
             self.ask(cluster, "rewind", 0.15)
             status = self.status(cluster)
             self.assertEqual(status["tick"], 75)
-            self.assertEqual({member["state"] for member in status["members"]}, {"at work"}, "members from before the rewind are no more")
+            self.assertEqual({member["state"] for member in status["members"]}, {"active"}, "members from before the rewind are no more")
             self.ask(cluster, "resume")
             self.assertEqual(cluster.summary(controller)["state_hash"], expected["state_hash"], controller.said())
             self.assertEqual(other.end(10), 0)

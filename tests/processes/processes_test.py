@@ -88,18 +88,18 @@ class Processes(unittest.TestCase):
             self.assertEqual(cluster.summary(again)["state_hash"], expected["state_hash"])
             self.assertEqual(simulator.end(10), 0)
 
-    def test_who_cannot_take_part_is_told_why(self):
+    def test_a_member_that_cannot_join_reports_why(self):
         with Cluster() as cluster:
             waiting = cluster.controller(*PILE)
-            waiting.hears("waits for 1 Simulators")
+            waiting.hears("[waiting]")
             second = cluster.controller(*PILE)
             self.assertEqual(second.end(), 1)
-            self.assertIn("there is a Controller of simulation", second.said())
+            self.assertIn("[controller-exists]", second.said())
             waiting.process.send_signal(signal.SIGINT)
             self.assertEqual(waiting.end(), 130, "Ctrl-C ends one that waits for Simulators")
             alone = cluster.start("simulator", "--patience", 0.3)
             self.assertEqual(alone.end(), 1)
-            self.assertIn("there was no Controller", alone.said())
+            self.assertIn("[no-controller]", alone.said())
             lost = cluster.start("client", FOLDER / "no_such.so")
             self.assertEqual(lost.end(), 1)
             self.assertIn("no_such.so", lost.said())

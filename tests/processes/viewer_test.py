@@ -225,7 +225,7 @@ class Viewer(unittest.TestCase):
             with self.assertRaises(urllib.error.HTTPError) as refused:
                 urllib.request.urlopen(request, timeout=20)
             self.assertEqual(refused.exception.code, 403)
-            run.hears("refused: it names another host, 'evil.example'")
+            run.hears("'evil.example' [wrong-host]")
 
 
 if __name__ == "__main__":

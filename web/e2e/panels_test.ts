@@ -69,7 +69,7 @@ bench.test(
         await until("time runs on", async () => (await time(page)) > then + 0.5, WAIT_MS);
         const { held, all } = await page.evaluate(() => {
             const { status, world } = window.roboss.state,
-                working = status.value?.members?.filter((member) => member.state === "at work") ?? [];
+                working = status.value?.members?.filter((member) => member.state === "active") ?? [];
             return {
                 held: working.reduce((sum, member) => sum + member.robots, 0),
                 all: world.value?.fleet.count,

@@ -44,7 +44,7 @@ export class MockRun {
             islands: 0,
             load: 0.7,
             step_us: 400,
-            state: "at work",
+            state: "active",
         });
     }
 

@@ -60,7 +60,7 @@ test("a joint's slider spans its limits, or what is usual where it has none", ()
 
 test("the step times of a Simulator that comes later start where it came, those of a lost one end", () => {
     const times = new StepTimes(),
-        member = (id: number, step_us: number, state = "at work") => ({
+        member = (id: number, step_us: number, state = "active") => ({
             id,
             name: "",
             threads: 1,

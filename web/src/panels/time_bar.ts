@@ -37,7 +37,7 @@ export function timeBar(state: ViewerState, run: RunLink): TimeBar {
     const rtf = h("output", {
         class: "rtf",
         "aria-label": "Real-time factor",
-        title: "Real-time factor: simulated seconds a second",
+        title: "Real-time factor: simulated seconds per second",
     });
     const tick = h("output", { class: "tick", "aria-label": "Tick", title: "Tick" });
     state.status.follow((status) => {

@@ -1,0 +1,101 @@
+// Fetches the Model, loads the program, and drives it until the run ends.
+#include "app/commands/client_command.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "app/commands/exit_codes.h"
+#include "app/processes/interrupt.h"
+#include "app/processes/member.h"
+#include "client/plugin.h"
+#include "client/program_host.h"
+
+namespace roboss {
+namespace {
+
+constexpr std::int64_t kGoodbye_ms = 5'000;
+
+const char* const kFooter =
+    R"(PROGRAM is a shared library as for `roboss run --client`; the source is the same. It may attach to a run at any time.
+`roboss controller WORLD --await-client NAME` starts a run that waits for it.
+
+Exit codes: 0 the run has ended or the Client has left, 1 an option is wrong or no Controller was found, 3 the program
+threw an exception.)";
+
+struct ClientProcessOptions {
+    MemberOptions member;
+    std::string program, name;
+};
+
+class ClientProcess {
+  public:
+    explicit ClientProcess(const ClientProcessOptions& options)
+        : o_(options), member_("client", options.member) {}
+
+    int go() {
+        Result<std::unique_ptr<ControlProgram>> program = load_control_program(o_.program);
+        if (!program) return member_.report_error(program.error()), kBadInput;
+        if (!member_.open()) return kBadInput;
+        const Address self = member_.new_address(Role::kClient);
+        const auto model = member_.fetch_model(self);
+        if (!model) return interrupted() ? kDone : kBadInput;
+        const std::string name =
+            o_.name.empty() ? std::filesystem::path(o_.program).filename().string() : o_.name;
+        if (Result<BusClientOptions> times = client_options(program.value()->options(), *model, name); !times)
+            return member_.report_error(times.error()), kBadInput;
+        auto host = std::make_unique<ProgramHost>(model, self, name, std::move(program).value());
+        for (;;) {
+            const std::optional<int> ended = serve(*host);
+            if (ended) return *ended;
+            member_.report("the world has changed; fetching it again");  // and start() is called again
+            const Address again = member_.new_address(Role::kClient);
+            const auto changed = member_.fetch_model(again);
+            if (!changed) return interrupted() ? kDone : kBadInput;
+            host = std::make_unique<ProgramHost>(changed, again, name, host->take_program());
+        }
+    }
+
+  private:
+    /// The exit code; nullopt: the run has a new Model.
+    std::optional<int> serve(ProgramHost& host) {
+        std::int64_t leaving_ms = 0;
+        while (host.client().over().empty()) {
+            const std::int64_t now = member_.bus().now_ms();
+            if (leaving_ms == 0 && (interrupted() || !host.failure().empty())) {
+                leaving_ms = now;
+                if (host.failure().empty() && host.client().joined()) host.client().leave(member_.bus());
+            }
+            if (leaving_ms != 0 && (host.client().heard() || now - leaving_ms > kGoodbye_ms)) break;
+            host.advance(member_.bus());
+            for (const std::string& refusal : host.client().take_refusals()) member_.report(refusal);
+            if (host.client().outdated()) return std::nullopt;
+            if (!member_.wait()) return kBadInput;
+        }
+        member_.bus().flush(500);
+        if (!host.failure().empty()) {
+            member_.report_error({host.failure(), "fix the control program", "client-failed"});
+            return kRunFailed;
+        }
+        if (!host.client().over().empty()) member_.report(host.client().over());
+        return kDone;
+    }
+
+    const ClientProcessOptions& o_;
+    Member member_;
+};
+
+}  // namespace
+
+void add_client_command(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand("client", "attach a control program to a running Controller");
+    command->footer(kFooter);
+    auto options = std::make_shared<ClientProcessOptions>();
+    command->add_option("program", options->program, "the control program: a shared library")->required();
+    command->add_option("--name", options->name, "name of the Client in the run (default: the file name)");
+    add_member_options(*command, options->member);
+    command->callback([options, &exit_code] { exit_code = ClientProcess(*options).go(); });
+}
+
+}  // namespace roboss

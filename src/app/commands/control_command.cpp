@@ -1,0 +1,164 @@
+// Requests from the command line.
+#include "app/commands/control_command.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <sstream>
+
+#include "app/commands/exit_codes.h"
+#include "app/processes/interrupt.h"
+#include "app/run/run.h"
+
+namespace roboss {
+namespace {
+
+constexpr std::int64_t kAgain_ms = 250;
+constexpr double kPatience_s = 10;
+
+const char* const kFooter =
+    R"(The run is found by --simulation and the network options, as by its other members. A request takes effect at the end
+of the current window. pause, step, speed, window and simulators do not change the result. rewind, add, remove and accuracy
+change the world at a tick; with a journal, each starts a new branch there.
+
+Examples:
+  roboss controller world.sdf --local 1 --simulators 0 --journal run.journal      a run that can be controlled
+  roboss control pause
+  roboss control step 100
+  roboss control rewind 12.5
+  roboss control add robot.sdf --pose "1 0 0.5 0 0 0" --name visitor
+  roboss control remove visitor
+
+Exit codes: 0 done, 1 no Controller was found or a file cannot be read, 2 wrong usage, 3 the run refused the request.)";
+
+struct ControlCommandOptions {
+    MemberOptions member;
+    std::string value, pose = "0 0 0 0 0 0", name;
+    std::vector<std::string> values;
+};
+
+using Ask = std::function<void(const std::vector<std::string>&)>;
+
+void add_plain(CLI::App& command, ControlCommandOptions& o, const Ask& ask) {
+    const auto none = [&](const char* verb, const char* what) {
+        command.add_subcommand(verb, what)->callback([verb, ask] { ask({verb}); });
+    };
+    const auto one = [&](const char* verb, const char* what, const char* value, bool required) {
+        CLI::App* sub = command.add_subcommand(verb, what);
+        sub->add_option(value, o.value)->required(required);
+        sub->callback([verb, ask, &o] {
+            if (o.value.empty()) return ask({verb});
+            ask({verb, o.value});
+        });
+    };
+    none("status", "print time, speed, Simulators, state hash and robots, as one JSON object");
+    none("pause", "pause at the end of the current window; members stay connected");
+    none("resume", "continue a paused run");
+    one("step", "advance by this many ticks (default: 1), then pause", "ticks", false);
+    one("speed", "set the speed: simulated seconds per real second, max or world", "speed", true);
+    one("window", "set the synchronization interval in ticks, or auto", "window", true);
+    none("groups", "print the Simulator and the island of each robot, as JSON");
+    none("bounds", "print the bounding box that each robot swept in the last window (m), as JSON");
+    one("save", "save the state; the Controller writes the file on its computer", "file", true);
+    one("rewind", "return to this time (s) of the journal, or #BRANCH@TIME, and continue from there", "time",
+        true);
+    none("quit", "end the run as if its duration were over");
+}
+
+void add_changes(CLI::App& command, ControlCommandOptions& o, const Ask& ask, int& exit_code) {
+    const auto all = [&o, ask](const char* verb) {
+        std::vector<std::string> words{verb};
+        words.insert(words.end(), o.values.begin(), o.values.end());
+        ask(words);
+    };
+    CLI::App* sub = command.add_subcommand(
+        "simulators", "add or remove a Simulator that the run itself started, or kill one of its processes");
+    sub->add_option("action", o.values, "add, remove, or kill and a number from `status`")
+        ->required()
+        ->expected(1, 2);
+    sub->callback([all] { all("simulators"); });
+    sub = command.add_subcommand(
+        "accuracy", "change the accuracy: fast, standard or high, and numbers (tolerance=1e-10)");
+    sub->add_option("values", o.values)->required();
+    sub->callback([all] { all("accuracy"); });
+    sub = command.add_subcommand("remove", "remove robots from the world, by name");
+    sub->add_option("robots", o.values)->required();
+    sub->callback([all] { all("remove"); });
+    sub = command.add_subcommand("add", "add the models of an SDF or URDF file to the world");
+    sub->add_option("file", o.value,
+                    "SDF or URDF file; its meshes are looked up on the Controller's computer")
+        ->required();
+    sub->add_option("--pose", o.pose, "\"x y z roll pitch yaw\", m and rad")->capture_default_str();
+    sub->add_option("--name", o.name, "name in the world (default: the name in the file)");
+    sub->callback([&o, ask, &exit_code] {
+        std::ifstream in(o.value, std::ios::binary);
+        std::stringstream content;
+        if (in && content << in.rdbuf()) return ask({"add", o.value, content.str(), o.pose, o.name});
+        print(Error{o.value + " cannot be read", "check the path", "no-file"});
+        exit_code = kBadInput;
+    });
+}
+
+std::optional<ControlReply> find_reply(const std::vector<Envelope>& inbox) {
+    for (const Envelope& envelope : inbox)
+        if (const auto* reply = std::get_if<ControlReply>(&envelope.message)) return *reply;
+    return std::nullopt;
+}
+
+/// The reply to a request; nullopt if no Controller was found (it has been reported) or on Ctrl-C.
+std::optional<ControlReply> reply_of_controller(const MemberOptions& options,
+                                                const std::vector<std::string>& words) {
+    MemberOptions patient = options;
+    if (patient.patience_s <= 0) patient.patience_s = kPatience_s;
+    Member member("control", patient);
+    if (!member.open()) return std::nullopt;
+    const Address self = member.new_address(Role::kClient);
+    std::vector<Envelope> inbox;
+    std::int64_t asked_ms = -kAgain_ms;
+    for (;;) {
+        const std::int64_t now = member.bus().now_ms();
+        if (now - asked_ms >= kAgain_ms) {
+            asked_ms = now;
+            member.bus().send(self, kControllerAddress, ControlRequest{1, words});
+        }
+        member.bus().drain(self, inbox);
+        if (std::optional<ControlReply> reply = find_reply(inbox)) return reply;
+        if (interrupted() || !member.wait()) return std::nullopt;
+    }
+}
+
+}  // namespace
+
+Result<std::string> request_of_controller(const MemberOptions& options,
+                                          const std::vector<std::string>& words) {
+    const std::optional<ControlReply> reply = reply_of_controller(options, words);
+    if (!reply) return Error{"no Controller replied", "see the network options", "no-controller"};
+    if (!reply->done) return Error{reply->text, ""};
+    return reply->text;
+}
+
+int ask_controller(const MemberOptions& options, const std::vector<std::string>& words) {
+    const std::optional<ControlReply> reply = reply_of_controller(options, words);
+    if (!reply) return interrupted() ? kInterrupted : kBadInput;
+    if (reply->done) fmt::print("{}\n", reply->text);
+    if (!reply->done) fmt::print(stderr, "roboss control: {}\n", reply->text);
+    return reply->done ? kDone : kRunFailed;
+}
+
+void add_control_command(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand("control", "pause, step, rewind or change a running simulation");
+    command->footer(kFooter);
+    command->require_subcommand(1);
+    auto o = std::make_shared<ControlCommandOptions>();
+    add_member_options(*command, o->member);
+    const Ask ask = [o, &exit_code](const std::vector<std::string>& words) {
+        exit_code = ask_controller(o->member, words);
+    };
+    add_plain(*command, *o, ask);
+    add_changes(*command, *o, ask, exit_code);
+    for (CLI::App* sub : command->get_subcommands({})) sub->fallthrough();
+}
+
+}  // namespace roboss

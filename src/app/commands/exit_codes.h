@@ -1,0 +1,14 @@
+// Exit codes of the subcommands; their --help lists them.
+#pragma once
+
+namespace roboss {
+
+enum ExitCode {
+    kDone = 0,
+    kBadInput = 1,
+    kRunFailed = 3,
+    kProcessesFailed = 4,  // Simulator processes that the run started ended or never joined
+    kInterrupted = 130
+};
+
+}  // namespace roboss

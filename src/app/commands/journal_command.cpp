@@ -1,0 +1,211 @@
+// Inspects, verifies and exports journals.
+#include "app/commands/journal_command.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands/exit_codes.h"
+#include "app/run/journal_location.h"
+#include "app/run/run.h"
+#include "app/worlds/orders_file.h"
+#include "core/hash.h"
+#include "simulation/replay.h"
+
+namespace roboss {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* const kFooter =
+    R"(A journal is written by `roboss run|controller --journal FILE`; a file written by --save is a small journal.
+FILE#BRANCH names a branch (default: the newest), FILE@TIME a point in time, in s; FILE#2@1.5 names both.
+
+Exit codes: 0 done, 1 the file is missing, damaged, or of another version, 2 wrong usage, 3 verify found a difference.
+Examples:
+  roboss journal info run.journal
+  roboss journal verify run.journal --threads 4
+  roboss journal export run.journal --orders > orders.jsonl
+  roboss run world.sdf --orders orders.jsonl)";
+
+struct JournalOptions {
+    std::string location;
+    bool json = false, all = false, orders = false;
+    int threads = 1;
+};
+
+void print_json(const Json& o) {
+    fmt::print("{}\n", o.dump(2, ' ', false, Json::error_handler_t::replace));
+}
+
+/// Opens the journal that the options name; nullopt if it cannot be opened (it has been reported).
+struct Opened {
+    Journal journal;
+    JournalLocation location;
+};
+std::optional<Opened> open(const JournalOptions& o, bool thorough) {
+    Result<JournalLocation> location = parse_location(o.location);
+    if (!location) return print(location.error()), std::nullopt;
+    Result<Journal> journal = Journal::open(location.value().file, thorough);
+    if (!journal) return print(journal.error()), std::nullopt;
+    return Opened{std::move(journal).value(), std::move(location).value()};
+}
+
+Json to_json(const Branch& b, double dt_s) {
+    return {{"branch", b.id},
+            {"parent", b.parent},
+            {"reason", b.reason},
+            {"world_file", b.world_file},
+            {"model_hash", to_hex(b.model_hash)},
+            {"seed", b.seed},
+            {"tick", b.tick},
+            {"time_s", static_cast<double>(b.tick) * dt_s},
+            {"end_tick", b.end},
+            {"end_s", static_cast<double>(b.end) * dt_s},
+            {"committed_tick", b.committed},
+            {"committed_hash", to_hex(b.hash)},
+            {"checkpoints", b.checkpoints},
+            {"orders", b.orders},
+            {"bytes", b.bytes}};
+}
+
+void print_tree(const Journal& journal, BranchId parent, int depth, const std::vector<double>& dt_s) {
+    for (const Branch& b : journal.branches()) {
+        if (b.parent != parent) continue;
+        const double dt = dt_s[static_cast<std::size_t>(b.id - 1)];
+        fmt::print(
+            "{:{}}branch {}  {:.3f} s to {:.3f} s  {} checkpoints, {} orders, {:.1f} MB  ({}, hash {} at "
+            "tick {})\n",
+            "", 2 * depth, b.id, static_cast<double>(b.tick) * dt, static_cast<double>(b.end) * dt,
+            b.checkpoints, b.orders, 1e-6 * static_cast<double>(b.bytes), b.reason, to_hex(b.hash),
+            b.committed);
+        print_tree(journal, b.id, depth + 1, dt_s);
+    }
+}
+
+int info(const JournalOptions& o) {
+    const std::optional<Opened> opened = open(o, false);
+    if (!opened) return kBadInput;
+    const Journal& journal = opened->journal;
+    Json branches = Json::array();
+    std::vector<double> dt_s;
+    std::size_t robots = 0;
+    for (const Branch& b : journal.branches()) {
+        Result<std::shared_ptr<const Model>> model = journal.model(b);
+        if (!model) return print(model.error()), kBadInput;
+        dt_s.push_back(model.value()->dt_s);
+        robots = model.value()->robots.size();
+        branches.push_back(to_json(b, dt_s.back()));
+        branches.back()["robots"] = robots;
+        branches.back()["dt_s"] = dt_s.back();
+    }
+    if (o.json) {
+        print_json({{"file", journal.path()}, {"version", journal.version()}, {"branches", branches}});
+        return kDone;
+    }
+    const Branch& youngest = journal.branches().back();
+    fmt::print("journal           {}, written by RoBOSS {}\n", journal.path(), journal.version());
+    fmt::print("world             {}, model hash {}\n", youngest.world_file, to_hex(youngest.model_hash));
+    fmt::print("robots            {}, step {:g} ms, seed {}\n", robots, dt_s.back() * 1e3, youngest.seed);
+    print_tree(journal, 0, 0, dt_s);
+    return kDone;
+}
+
+Json to_json(const Stretch& s) {
+    return {{"branch", s.branch}, {"from_tick", s.from},         {"until_tick", s.until},
+            {"good", s.good()},   {"kept_hash", to_hex(s.kept)}, {"found_hash", to_hex(s.found)}};
+}
+
+int verify(const JournalOptions& o) {
+    const std::optional<Opened> opened = open(o, true);
+    if (!opened) return kBadInput;
+    const Journal& journal = opened->journal;
+    if (Result<> whole = journal.inspect(); !whole) return print(whole.error()), kBadInput;
+    Json stretches = Json::array();
+    std::size_t bad = 0;
+    for (const Branch& b : journal.branches()) {
+        if (opened->location.branch && *opened->location.branch != b.id) continue;
+        const auto report = [&](const Stretch& s) {
+            bad += s.good() ? 0 : 1;
+            stretches.push_back(to_json(s));
+            if (!o.json)
+                fmt::print("branch {}  ticks {} to {}  {}\n", s.branch, s.from, s.until,
+                           s.good() ? "equal"
+                                    : fmt::format("DIFFERENT: recorded {}, replayed {}", to_hex(s.kept),
+                                                  to_hex(s.found)));
+        };
+        auto done = roboss::verify(journal, b, {static_cast<unsigned>(o.threads), 0}, report);
+        if (!done) return print(done.error()), kRunFailed;
+    }
+    if (o.json)
+        print_json(
+            {{"file", journal.path()}, {"good", bad == 0}, {"different", bad}, {"stretches", stretches}});
+    if (!o.json) fmt::print("{} stretches replayed, {} different\n", stretches.size(), bad);
+    return bad == 0 ? kDone : kRunFailed;
+}
+
+void print_line(const Json& o) {
+    fmt::print("{}\n", o.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+/// One branch as JSON lines, in the order of time.
+int export_branch(const Journal& journal, const JournalTime& time, bool from_here, bool orders_only) {
+    const Model& model = *time.model;
+    constexpr Tick kAll = std::numeric_limits<Tick>::max();
+    Result<LogBatch> log = journal.log(time.branch, from_here ? time.tick : -1, kAll);
+    if (!log) return print(log.error()), kBadInput;
+    const auto seconds = [&](Tick tick) { return static_cast<double>(tick) * model.dt_s; };
+    if (!orders_only) {
+        print_line(to_json(time.branch, model.dt_s));
+        for (const CheckpointEntry& c : journal.checkpoints(time.branch))
+            print_line({{"checkpoint", c.tick}, {"t", seconds(c.tick)}, {"state_hash", to_hex(c.hash)}});
+        for (const auto& [client, name] : log.value().clients)
+            print_line({{"client", client}, {"name", name}});
+        for (const LogNote& note : log.value().notes)
+            print_line({{"note", note.text}, {"tick", note.tick}, {"t", seconds(note.tick)}});
+    }
+    for (const LoggedOrder& o : log.value().orders) {
+        if (Result<> good = check_order(model, o.order); !good) return print(good.error()), kBadInput;
+        fmt::print("{}\n", order_line(o.order, model));
+    }
+    return kDone;
+}
+
+int export_log(const JournalOptions& o) {
+    const std::optional<Opened> opened = open(o, false);
+    if (!opened) return kBadInput;
+    Result<JournalTime> time = find_time(opened->journal, opened->location);
+    if (!time) return print(time.error()), kBadInput;
+    return export_branch(opened->journal, time.value(), opened->location.time_s.has_value(), o.orders);
+}
+
+}  // namespace
+
+void add_journal_command(CLI::App& app, int& exit_code) {
+    CLI::App* command = app.add_subcommand("journal", "inspect a journal: info, verify, export");
+    command->footer(kFooter);
+    command->require_subcommand(1);
+    auto o = std::make_shared<JournalOptions>();
+    const auto add = [&](const char* name, const char* what, int (*act)(const JournalOptions&)) {
+        CLI::App* sub = command->add_subcommand(name, what);
+        sub->footer(kFooter);
+        sub->add_option("file", o->location, "FILE, FILE#BRANCH or FILE@TIME")->required();
+        sub->callback([o, act, &exit_code] { exit_code = act(*o); });
+        return sub;
+    };
+    add("info", "print the contents: world, branches, checkpoints, orders", info)
+        ->add_flag("--json", o->json, "print one JSON object");
+    CLI::App* sub = add("verify", "replay every stretch between two checkpoints and compare hashes", verify);
+    sub->add_flag("--json", o->json, "print one JSON object");
+    sub->add_option("--threads", o->threads, "number of threads")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    add("export",
+        "print a branch as JSON lines: checkpoints, Clients, notes, orders (from TIME on, if given)",
+        export_log)
+        ->add_flag("--orders", o->orders, "print only the orders, in the format of `roboss run --orders`");
+}
+
+}  // namespace roboss

@@ -1,0 +1,64 @@
+// Saves states.
+#include "app/commands/save_command.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/commands/control_command.h"
+#include "app/commands/exit_codes.h"
+#include "app/run/journal_location.h"
+#include "app/run/run.h"
+
+namespace roboss {
+namespace {
+
+const char* const kFooter =
+    R"(The file has the format of `roboss run --save`: `roboss run WORLD --from FILE` continues from it; `roboss replay` and
+`roboss journal` read it too.
+
+Examples:
+  roboss save half.roboss --from run.journal@30       from a journal
+  roboss save half.roboss --simulation mine           from a running simulation: its Controller writes the file
+                                                      on its computer
+
+Exit codes: 0 done, 1 the journal cannot be read or no Controller was found, 2 wrong usage, 3 the file cannot be
+written.)";
+
+struct SaveOptions {
+    MemberOptions member;
+    std::string file, from;
+};
+
+int save_from_journal(const SaveOptions& o) {
+    Result<OpenedJournalTime> opened = open_location(o.from);
+    if (!opened) return print(opened.error()), kBadInput;
+    const auto& [location, journal, time] = opened.value();
+    const Model& model = *time.model;
+    Result<SavedRun> run = journal.run_at(time.branch, model, time.tick);
+    if (!run) return print(run.error()), kBadInput;
+    if (Result<> saved = save_run(o.file, model, run.value()); !saved)
+        return print(saved.error()), kRunFailed;
+    fmt::print("saved {:.6f} s (tick {}) in {}\n", static_cast<double>(time.tick) * model.dt_s, time.tick,
+               o.file);
+    return kDone;
+}
+
+}  // namespace
+
+void add_save_command(CLI::App& app, int& exit_code) {
+    CLI::App* command =
+        app.add_subcommand("save", "save one point in time of a journal or of a running simulation");
+    command->footer(kFooter);
+    auto o = std::make_shared<SaveOptions>();
+    command->add_option("file", o->file, "the file to write")->required();
+    command->add_option(
+        "--from", o->from,
+        "FILE, FILE@TIME or FILE#BRANCH@TIME of a journal; without it, a running simulation saves its state");
+    add_member_options(*command, o->member);
+    command->callback([o, &exit_code] {
+        exit_code = o->from.empty() ? ask_controller(o->member, {"save", o->file}) : save_from_journal(*o);
+    });
+}
+
+}  // namespace roboss

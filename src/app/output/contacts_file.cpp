@@ -1,0 +1,47 @@
+// Writes the CSV of --contacts.
+#include "app/output/contacts_file.h"
+
+#include "app/output/cannot_write.h"
+
+namespace roboss {
+namespace {
+
+const char* link_name(const Model& model, RobotId robot, LinkId link) {
+    return model.type_of(robot).links[link.index()].name.c_str();
+}
+
+}  // namespace
+
+Result<ContactsFile> ContactsFile::create(const std::string& path) {
+    ContactsFile contacts;
+    contacts.path_ = path;
+    contacts.file_.reset(std::fopen(path.c_str(), "w"));
+    if (!contacts.file_) return cannot_write(path);
+    std::fputs("time_s,robot_a,link_a,robot_b,link_b,x,y,z,nx,ny,nz,gap,impulse,fx,fy,fz\n",
+               contacts.file_.get());
+    return contacts;
+}
+
+Result<> ContactsFile::write(const Model& model, Tick tick, std::span<const ContactReport> contacts) {
+    const double time_s = static_cast<double>(tick) * model.dt_s;
+    for (const ContactReport& c : contacts) {
+        const bool robot = c.robot_b.valid();
+        std::fprintf(file_.get(), "%.17g,%s,%s,%s,%s", time_s, model.robots[c.robot_a.index()].name.c_str(),
+                     link_name(model, c.robot_a, c.link_a),
+                     robot ? model.robots[c.robot_b.index()].name.c_str() : "",
+                     robot ? link_name(model, c.robot_b, c.link_b) : model.statics[c.scenery].name.c_str());
+        for (const double x : {c.p_W.x, c.p_W.y, c.p_W.z, c.normal.x, c.normal.y, c.normal.z, c.gap,
+                               c.impulse, c.friction.x, c.friction.y, c.friction.z})
+            std::fprintf(file_.get(), ",%.17g", x);
+        std::fputc('\n', file_.get());
+    }
+    if (std::ferror(file_.get())) return cannot_write(path_);
+    return Ok{};
+}
+
+Result<> ContactsFile::close() {
+    if (file_ && std::fclose(file_.release()) != 0) return cannot_write(path_);
+    return Ok{};
+}
+
+}  // namespace roboss

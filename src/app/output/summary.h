@@ -1,0 +1,36 @@
+// The summary of a run, for people and for programs.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/result.h"
+#include "core/types.h"
+
+namespace roboss {
+
+struct Summary {
+    std::string world;
+    std::size_t robots = 0;
+    Tick ticks = 0;  // of this run (from its start, not from the world's)
+    double dt_s = 0;
+    double sim_time_s = 0;  // world time at the end
+    double wall_time_s = 0;
+    double real_time_factor = 0;
+    double step_cpu_s = 0;  // thread CPU time of stepping alone
+    std::uint64_t windows = 0, windows_repeated = 0;
+    double islands_mean = 0;            // per window
+    double contacts_mean = 0;           // contact points per tick
+    double building_contacts_mean = 0;  // of these with static scenery other than planes, per tick
+    std::uint64_t model_hash = 0, state_hash = 0;
+    std::uint64_t losses = 0, recoveries = 0,
+                  migrations = 0;  // of Simulators; of runs of recovery; of robots
+    std::uint64_t cuts = 0;        // windows of a straggler that others took over in part (work stealing)
+    std::size_t simulators = 0;    // at the end
+};
+
+std::string to_json(const Summary& summary);
+std::string to_text(const Summary& summary);
+Result<> write_json(const Summary& summary, const std::string& file);
+
+}  // namespace roboss

@@ -1,0 +1,29 @@
+// A flag, since nothing else is safe in a signal handler.
+#include "app/processes/interrupt.h"
+
+#include <unistd.h>
+
+#include <csignal>
+
+namespace roboss {
+namespace {
+
+volatile std::sig_atomic_t g_interrupted = 0;
+
+void on_interrupt(int) {
+    if (g_interrupted != 0) _exit(130);
+    g_interrupted = 1;
+}
+
+}  // namespace
+
+void watch_for_interrupts() {
+    std::signal(SIGINT, on_interrupt);
+    std::signal(SIGTERM, on_interrupt);
+}
+
+bool interrupted() {
+    return g_interrupted != 0;
+}
+
+}  // namespace roboss

@@ -1,0 +1,106 @@
+// Joining a run.
+#include "app/processes/member.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <random>
+
+#include "app/processes/interrupt.h"
+#include "app/processes/network_options.h"
+
+namespace roboss {
+namespace {
+
+constexpr std::int64_t kTurn_ms = 10;
+constexpr std::int64_t kResend_ms = 250;
+constexpr std::int64_t kReportWaiting_ms = 3'000;
+constexpr std::int64_t kSilence_ms = 1'500, kSilenceLongest_ms = 60'000;
+constexpr std::int64_t kSilentLeases =
+    6;  // where a lease is long: processes are many and get their turns late
+
+}  // namespace
+
+void add_member_options(CLI::App& command, MemberOptions& o) {
+    add_network_options(command, o.network);
+    command
+        .add_option("--patience", o.patience_s,
+                    "give up after this long without a Controller, s (default: wait without limit)")
+        ->check(CLI::PositiveNumber);
+    command.add_flag("--quiet", o.quiet, "print errors only");
+}
+
+bool Member::open() {
+    Result<std::unique_ptr<DdsBus>> bus = DdsBus::create(o_.network);
+    if (!bus) return report_error(bus.error()), false;
+    bus_ = std::move(bus).value();
+    seen_ms_ = connected_ms_ = bus_->now_ms();
+    silence_ms_max_ = first_silence_ms();
+    watch_for_interrupts();
+    return true;
+}
+
+Address Member::new_address(Role role) const {
+    std::random_device device;
+    return {role, static_cast<std::uint64_t>(device()) << 32 | device()};
+}
+
+std::shared_ptr<const Model> Member::fetch_model(const Address& self) {
+    ModelPull pull;
+    while (!pull.model()) {
+        if (interrupted()) return nullptr;
+        pull.advance(*bus_, self, kResend_ms);
+        if (!wait()) return nullptr;
+    }
+    if (!pull.model()->ok()) return report_error(pull.model()->error()), nullptr;
+    return pull.model()->value();
+}
+
+bool Member::wait() {
+    bus_->wait(kTurn_ms);
+    for (const std::string& line : bus_->take_notices()) report(line);
+    const std::int64_t now = bus_->now_ms();
+    reconnect_if_silent(now);
+    if (bus_->present(kControllerAddress)) {
+        seen_ms_ = now;
+        waiting_reported_ = false;
+        return true;
+    }
+    if (now - seen_ms_ > kReportWaiting_ms && !std::exchange(waiting_reported_, true))
+        report(fmt::format("waiting for the Controller of {}", describe(o_.network)));
+    if (o_.patience_s <= 0 || static_cast<double>(now - seen_ms_) < 1e3 * o_.patience_s) return true;
+    report_error(
+        {fmt::format("no Controller of {} found for {} s", describe(o_.network), o_.patience_s),
+         "start `roboss controller` with the same --simulation, --domain and network, or see --peer and "
+         "--discovery-server if the network has no multicast",
+         "no-controller"});
+    return false;
+}
+
+std::int64_t Member::first_silence_ms() const {
+    return std::max(kSilence_ms, kSilentLeases * o_.network.liveliness_ms);
+}
+
+void Member::reconnect_if_silent(std::int64_t now_ms) {
+    const std::int64_t heard_ms = bus_->heard_ms(kControllerAddress).value_or(0);
+    if (heard_ms > connected_ms_) silence_ms_max_ = first_silence_ms();
+    if (now_ms - std::max(heard_ms, connected_ms_) < silence_ms_max_) return;
+    connected_ms_ = now_ms;
+    if (const Result<> again = bus_->reconnect(); !again) {
+        if (std::exchange(trouble_reported_, again.error().message) != again.error().message)
+            report(again.error().message + "; retrying [reconnecting]");
+        return;
+    }
+    trouble_reported_.clear();
+    silence_ms_max_ = std::min(2 * silence_ms_max_, kSilenceLongest_ms);
+}
+
+void Member::report(const std::string& line) const {
+    if (!o_.quiet) fmt::print(stderr, "roboss {}: {}\n", what_, line);
+}
+
+void Member::report_error(const Error& error) const {
+    fmt::print(stderr, "roboss {}: {}\n", what_, error.text());
+}
+
+}  // namespace roboss

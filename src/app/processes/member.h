@@ -1,0 +1,52 @@
+// What a Simulator process and a Client process have in common: an address of its own on the network, the
+// Model from the Controller, and a time limit (--patience) for finding a Controller.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <optional>
+
+#include "bus/model_pull.h"
+#include "dds/dds_bus.h"
+
+namespace roboss {
+
+struct MemberOptions {
+    DdsOptions network;
+    double patience_s = 0;  // without a Controller; 0: any time
+    bool quiet = false;
+};
+void add_member_options(CLI::App& command, MemberOptions& options);
+
+class Member {
+  public:
+    /// `what`: "simulator" or "client", for messages.
+    Member(const char* what, const MemberOptions& options) : what_(what), o_(options) {}
+
+    /// False: an option is wrong; it has been reported.
+    bool open();
+    DdsBus& bus() { return *bus_; }
+    /// A new address, never used before.
+    Address new_address(Role role) const;
+    /// Waits for the Model; null if it cannot be fetched (it has been reported) or on Ctrl-C.
+    std::shared_ptr<const Model> fetch_model(const Address& self);
+    /// Waits for messages between two turns of the role. False: no Controller for too long.
+    bool wait();
+    void report(const std::string& line) const;
+    void report_error(const Error& error) const;
+
+  private:
+    /// Reconnects after a long silence of the Controller, with growing intervals.
+    void reconnect_if_silent(std::int64_t now_ms);
+    std::int64_t first_silence_ms() const;
+
+    const char* what_;
+    const MemberOptions& o_;
+    std::unique_ptr<DdsBus> bus_;
+    std::int64_t seen_ms_ = 0;  // when a Controller was there last
+    std::int64_t connected_ms_ = 0, silence_ms_max_ = 0;
+    bool waiting_reported_ = false;
+    std::string trouble_reported_;
+};
+
+}  // namespace roboss

@@ -1,0 +1,276 @@
+// How a run begins and how it ends.
+#include "app/run/run.h"
+
+#include <fmt/format.h>
+
+#include <ctime>
+#include <random>
+
+#include "app/commands/exit_codes.h"
+#include "app/processes/interrupt.h"
+#include "app/processes/threads.h"
+#include "app/worlds/orders_file.h"
+#include "client/plugin.h"
+#include "core/hash.h"
+#include "scene/scene_file.h"
+#include "sdf/load_world.h"
+
+namespace roboss {
+namespace {
+
+/// Prints warnings and errors in full, notes as a count: `roboss check` prints them all.
+void print(const Diagnostics& diagnostics, const std::string& world) {
+    for (const Diagnostic& d : diagnostics.items())
+        if (d.severity != Severity::kNote) fmt::print(stderr, "{}\n", to_text(d));
+    if (const std::size_t notes = diagnostics.count(Severity::kNote); notes > 0)
+        fmt::print(stderr, "{} notes about this world; `roboss check {}` prints them\n", notes, world);
+}
+
+/// Ids of an earlier, killed Controller of this run may still be in use by its Simulators.
+std::uint32_t first_simulator_id() {
+    constexpr int kSeatBits = 12;
+    std::random_device device;
+    return (device() >> 1) & ~((1u << kSeatBits) - 1);
+}
+
+}  // namespace
+
+void print(const Error& error) {
+    fmt::print(stderr, "roboss: {}\n", error.text());
+}
+
+int Run::go() {
+    if (!prepare()) return kBadInput;
+    watch_for_interrupts();
+    if (!begin()) return finish(false, 0);
+    const auto began = Clock::now();
+    const bool fine = drive();
+    report_notices();
+    progress_.clear();
+    return finish(fine, std::chrono::duration<double>(Clock::now() - began).count());
+}
+
+bool Run::prepare() {
+    if (!o_.replay.empty()) return prepare_replay();
+    Diagnostics diagnostics;
+    std::optional<World> world = load_world(o_.world, {o_.paths, o_.profile, is_shown()}, diagnostics);
+    const auto refused = [&] { return o_.strict ? diagnostics.has_errors() : diagnostics.refuses(); };
+    if (world && !refused()) model_ = compile(*world, compile_options(), diagnostics);
+    if (world) world_speed_ = world->real_time_factor;
+    if (model_ && !o_.orders.empty()) orders_ = load_orders(o_.orders, *model_, diagnostics);
+    print(diagnostics, o_.world);
+    if (!model_ || refused()) return false;
+    if (is_shown()) visuals_.begin(*model_, std::move(*world));
+    Result<std::unique_ptr<RunJournal>> journal = RunJournal::open(o_, *model_);
+    if (!journal) return print(journal.error()), false;
+    journal_ = std::move(journal).value();
+    if (journal_->changed_model()) {
+        model_ = journal_->changed_model();
+        if (!std::exchange(orders_, {}).empty())
+            notices_.push_back("the orders file is not read: its orders are in the journal already");
+    }
+    return create() && submit(orders_) && open_files();
+}
+
+bool Run::prepare_replay() {
+    Result<std::unique_ptr<RunJournal>> journal = RunJournal::open_replay(o_);
+    if (!journal) return print(journal.error()), false;
+    journal_ = std::move(journal).value();
+    model_ = journal_->replay()->model;
+    world_speed_ = 1;
+    return create() && open_files();
+}
+
+CompileOptions Run::compile_options() const {
+    CompileOptions options;
+    options.dt_s = o_.dt_s;
+    options.accuracy = o_.accuracy;
+    if (o_.no_sleep) options.sleep = false;
+    options.precision = o_.precision;
+    return options;
+}
+
+bool Run::load_programs(std::vector<NamedProgram>& programs) const {
+    for (const std::string& path : o_.clients) {
+        Result<std::unique_ptr<ControlProgram>> program = load_control_program(path);
+        if (!program) return print(program.error()), false;
+        programs.push_back({fmt::format("{}#{}", path, programs.size()), std::move(program.value())});
+    }
+    return true;
+}
+
+bool Run::create() {
+    std::vector<NamedProgram> programs;
+    if (!load_programs(programs)) return false;
+    std::vector<std::string> names;
+    names.reserve(programs.size());
+    for (const NamedProgram& program : programs) names.push_back(program.name);
+    names.insert(names.end(), o_.clients_awaited.begin(), o_.clients_awaited.end());
+    const Result<std::vector<std::string>> others = journal_->awaited(names, o_.is_controller);
+    if (!others) return print(others.error()), false;
+    const auto prepared_ms =
+        static_cast<std::int64_t>(1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC);
+    Result<std::unique_ptr<RunMembers>> members = RunMembers::gather(o_, prepared_ms);
+    if (!members) return print(members.error()), false;
+    members_ = std::move(members.value());
+    if (!open_gateway()) return false;
+    const SavedRun* from = journal_->from();
+    SimulationOptions options = simulation_options(from);
+    options.controller.log = journal_->resumed();
+    options.controller.before.first_id = first_simulator_id();
+    members_->configure(options);
+    options.clients_awaited.insert(options.clients_awaited.end(), others.value().begin(),
+                                   others.value().end());
+    auto simulation = Simulation::create(model_, options, std::move(programs), from, members_->take_bus());
+    if (!simulation) return print(simulation.error()), false;
+    simulation_ = std::move(simulation.value());
+    start_ = journal_->start();
+    return true;
+}
+
+bool Run::open_gateway() {
+    if (o_.viewer.headless) return true;
+    Result<std::unique_ptr<Gateway>> gateway = open_viewer(o_.viewer, !o_.journal.empty());
+    if (!gateway) return print(gateway.error()), false;
+    gateway_ = std::move(gateway).value();
+    if (!o_.quiet) fmt::print(stderr, "roboss: viewer at {}\n", gateway_->url());
+    return true;
+}
+
+SimulationOptions Run::simulation_options(const SavedRun* from) const {
+    SimulationOptions options;
+    options.simulators = static_cast<std::size_t>(o_.simulators);
+    options.threads = static_cast<unsigned>(threads_of_each(o_.threads, 1));
+    options.lanes = o_.lanes;
+    options.world_file = o_.world;
+    options.controller.seed = o_.seed.value_or(from != nullptr ? from->seed : 0);
+    options.controller.window = o_.window == "auto" ? 0 : static_cast<Tick>(std::stod(o_.window));
+    options.controller.forecast.merge_all = o_.merge_islands;
+    options.controller.log_ticks = journal_->log_ticks();
+    if (gateway_) options.observer = [gateway = gateway_.get()](Bus& bus) { gateway->advance(bus); };
+    if (!is_shown()) return options;
+    options.controller.scene = [this, seed = options.controller.seed](const Model& model) {
+        return encode(scene_file(make_scene(model, visuals_.of(model)), model, seed));
+    };
+    return options;
+}
+
+Result<> Run::start_again(std::shared_ptr<const Model> model, const SavedRun& from, const Turn& turn) {
+    std::vector<NamedProgram> programs;
+    if (!load_programs(programs))
+        return Error{"a control program cannot be loaded again", "see the messages above"};
+    SimulationOptions options = simulation_options(&from);
+    members_->configure(options);
+    options.simulators_awaited = options.simulators > 0 ? 0 : 1;
+    options.controller.before = simulation_->controller().hand_over();
+    options.controller.before.went_back = options.controller.before.went_back || turn.back;
+    options.clients_awaited = simulation_->clients_elsewhere();
+    const bool reaches_others = members_->reaches_others();
+    simulation_->start_log(nullptr, 0);
+    auto made = Simulation::create(model, options, std::move(programs), &from,
+                                   reaches_others ? simulation_->release_bus() : nullptr);
+    if (!made) return made.error();
+    simulation_ = std::move(made).value();
+    model_ = std::move(model);
+    busy_until_ = from.logged_until;
+    if (!advance_to(from.logged_until))
+        return Error{"the run could not be restored at that time", "see the messages above"};
+    pace_.begin(simulation_->tick());  // so that the speed limit does not catch up with the time before
+    return journal_->begin_branch(*simulation_, turn.parent, turn.reason);
+}
+
+/// Orders from before the start of a continued run have been applied already.
+bool Run::submit(const std::vector<Order>& orders) {
+    for (const Order& order : orders) {
+        if (order.apply_at < start_) continue;
+        const Result<> taken = simulation_->submit(order);
+        if (!taken) return print(taken.error()), false;
+    }
+    return true;
+}
+
+bool Run::open_files() {
+    if (!o_.log.empty()) {
+        Result<EventLog> log = EventLog::open(o_.log, o_.log_every_s);
+        if (!log) return print(log.error()), false;
+        log_ = std::move(log.value());
+    }
+    if (!o_.contacts.empty()) {
+        Result<ContactsFile> contacts = ContactsFile::create(o_.contacts);
+        if (!contacts) return print(contacts.error()), false;
+        contacts_ = std::move(contacts.value());
+    }
+    if (o_.trace.empty()) return true;
+    Result<TraceFile> trace = TraceFile::create(o_.trace);
+    if (!trace) return print(trace.error()), false;
+    trace_ = std::move(trace.value());
+    return true;
+}
+
+/// From the checkpoint to where the run starts, and the journal's new branch there.
+bool Run::begin() {
+    busy_until_ = start_;
+    if (start_ > simulation_->tick() && !advance_to(start_)) return false;
+    if (interrupted()) return true;
+    const Result<> begun = journal_->begin(*simulation_);
+    if (!begun) print(begun.error());
+    return begun.ok();
+}
+
+Summary Run::summary(double wall_s) const {
+    const Counters& c = simulation_->counters();
+    const double ticks = std::max(1.0, static_cast<double>(c.ticks));
+    Summary s;
+    s.world = journal_->replay() ? journal_->replay()->branch.world_file : o_.world;
+    s.robots = model_->robots.size();
+    s.ticks = std::max<Tick>(simulation_->tick() - start_, 0);
+    s.dt_s = model_->dt_s;
+    s.sim_time_s = simulation_->time_s();
+    s.wall_time_s = wall_s;
+    s.real_time_factor = wall_s > 0 ? static_cast<double>(s.ticks) * s.dt_s / wall_s : 0.0;
+    s.step_cpu_s = c.step_cpu_s;
+    s.windows = c.windows;
+    s.windows_repeated = c.windows_repeated;
+    s.islands_mean = static_cast<double>(c.island_ticks) / ticks;
+    s.contacts_mean = static_cast<double>(c.contacts) / ticks;
+    s.building_contacts_mean = static_cast<double>(c.static_contacts) / ticks;
+    s.model_hash = model_->hash;
+    s.state_hash = simulation_->hash();
+    s.losses = c.losses;
+    s.recoveries = c.recoveries;
+    s.migrations = c.migrations;
+    s.cuts = c.cuts;
+    s.simulators = c.simulators;
+    return s;
+}
+
+/// Writes files and summary, also of a failed run: nothing that was computed is lost.
+int Run::finish(bool fine, double wall_s) {
+    const Summary s = summary(wall_s);
+    bool written = true;
+    const auto check = [&](const Result<>& result) {
+        if (!result) print(result.error()), written = false;
+    };
+    if (trace_) check(trace_->close());
+    if (contacts_) check(contacts_->close());
+    if (!o_.save.empty() && !abandoned_) check(simulation_->save(o_.save));
+    check(journal_->close());
+    if (!o_.json.empty()) check(write_json(s, o_.json));
+    if (!o_.paths_picture.empty()) {
+        const std::string subtitle = fmt::format("{} robots, {:.1f} s simulated, state hash {}", s.robots,
+                                                 static_cast<double>(s.ticks) * s.dt_s, to_hex(s.state_hash));
+        check(write_path_picture(o_.paths_picture, *model_, paths_, {model_->name, subtitle}));
+    }
+    if (log_) {
+        log_->write_state(*simulation_);
+        log_->end(simulation_->tick(), fine ? "done" : "failed");
+    }
+    simulation_->controller().dismiss(simulation_->bus(), fine ? "the run has ended" : "the run has failed");
+    members_->await_exit(abandoned_);
+    fmt::print("{}", to_text(s));
+    if (abandoned_) return kProcessesFailed;
+    if (!fine || !written) return kRunFailed;
+    return interrupted() ? kInterrupted : kDone;
+}
+
+}  // namespace roboss

@@ -1,0 +1,128 @@
+// Run: loads, runs, watches and ends one run. Everything that decides a result is in the roles; here are
+// files, clock and terminal.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+
+#include "app/output/contacts_file.h"
+#include "app/output/event_log.h"
+#include "app/output/path_picture.h"
+#include "app/output/progress.h"
+#include "app/output/summary.h"
+#include "app/output/trace_file.h"
+#include "app/run/run_journal.h"
+#include "app/run/run_members.h"
+#include "app/run/run_options.h"
+#include "app/run/traffic_meter.h"
+#include "app/viewer/model_visuals.h"
+#include "app/viewer/viewer.h"
+#include "model/edit.h"
+#include "simulation/simulation.h"
+
+namespace roboss {
+
+class Run {
+  public:
+    explicit Run(const RunOptions& options) : o_(options), progress_(!options.quiet) {}
+    /// The exit code.
+    int go();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    struct Schedule;  // when files and pictures are due
+
+    // run.cpp: the beginning and the end
+    bool prepare();
+    bool prepare_replay();
+    CompileOptions compile_options() const;
+    bool create();
+    bool load_programs(std::vector<NamedProgram>& programs) const;
+    bool submit(const std::vector<Order>& orders);
+    bool open_files();
+    bool begin();
+    /// The same run with another Model or from another time: a new Simulation on the same Bus, a new branch.
+    struct Turn {
+        BranchId parent = 0;
+        std::string reason;
+        bool back = false;  // in time
+    };
+    Result<> start_again(std::shared_ptr<const Model> model, const SavedRun& from, const Turn& turn);
+    SimulationOptions simulation_options(const SavedRun* from) const;
+    bool open_gateway();
+    /// Here, or by `roboss view` elsewhere.
+    bool is_shown() const { return !o_.viewer.headless || o_.is_controller; }
+    Summary summary(double wall_s) const;
+    int finish(bool fine, double wall_s);
+
+    // run_loop.cpp: the time between
+    bool drive();
+    bool look(const Schedule& due);
+    bool rest();
+    bool take_picture();
+    Tick end_of_run() const;
+
+    // run_control.cpp: requests of others
+    using Answer = Result<std::string>;
+    void serve_calls();
+    Answer execute(const std::vector<std::string>& words);
+    // run_status.cpp: the status, as JSON
+    std::string status() const;
+    std::string groups() const;
+    std::string bounds() const;
+    void resume();
+    Answer step(const std::vector<std::string>& words);
+    Answer set_speed(const std::vector<std::string>& words);
+    Answer set_window(const std::vector<std::string>& words);
+    Answer change_simulators(const std::vector<std::string>& words);
+    Answer kill_simulator(const std::vector<std::string>& words);
+    Answer save(const std::string& file);
+    Answer rewind(const std::string& where);
+    Answer change_model(const ModelEdit& edit, const std::string& what);
+    Answer change_accuracy(const std::vector<std::string>& words);
+    Answer add_models(const std::vector<std::string>& words);
+    Answer remove_robots(const std::vector<std::string>& words);
+
+    bool advance_to(Tick target);
+    void report_notices();
+    void show_progress();
+    bool write_trace();
+    bool write_contacts();
+    void collect_paths();
+
+    const RunOptions& o_;
+    Progress progress_;
+    std::shared_ptr<const Model> model_;
+    ModelVisuals visuals_;              // for the viewer; none: of a replay
+    std::unique_ptr<Gateway> gateway_;  // none: headless
+    std::vector<Order> orders_;         // of the orders file
+    std::unique_ptr<RunJournal> journal_;
+    std::unique_ptr<RunMembers> members_;
+    std::unique_ptr<Simulation> simulation_;
+    std::optional<TraceFile> trace_;
+    std::optional<ContactsFile> contacts_;
+    std::optional<EventLog> log_;
+    std::vector<RobotPath> paths_;
+    double world_speed_ = 0;  // simulated seconds per real second; 0: as fast as possible
+    Tick start_ = 0;
+    /// How fast, and whether at all. No part of the state.
+    struct Pace {
+        double speed = 0;  // simulated seconds per real second; 0: as fast as possible
+        bool paused = false, quit = false;
+        std::optional<Tick> step_until;  // and pauses there
+        Tick from = 0;                   // since `since`
+        Clock::time_point since;
+        void begin(Tick tick) { from = tick, since = Clock::now(); }
+    } pace_;
+    TrafficMeter traffic_;
+    std::vector<ControlCall> calls_;  // requests to be served
+    std::vector<std::string> notices_;
+    Tick busy_until_ = 0;  // to which requests wait: the run is being brought to its start
+    bool abandoned_ =
+        false;  // Simulator processes of this run failed: no process is left that has the states
+};
+
+void print(const Error& error);
+
+}  // namespace roboss

@@ -1,0 +1,195 @@
+// Opens journals for a run.
+#include "app/run/run_journal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+
+#include "app/worlds/orders_file.h"
+#include "core/hash.h"
+
+namespace roboss {
+
+Result<std::unique_ptr<RunJournal>> RunJournal::open(const RunOptions& options, const Model& model) {
+    std::unique_ptr<RunJournal> journal(new RunJournal(options));
+    journal->log_ticks_ = std::max<Tick>(1, tick_at(options.journal_every_s, model.dt_s));
+    if (!options.from.empty())
+        if (Result<> opened = journal->open_from(model); !opened) return opened.error();
+    if (!options.journal.empty())
+        if (Result<> opened = journal->open_journal(model); !opened) return opened.error();
+    return journal;
+}
+
+Result<std::unique_ptr<RunJournal>> RunJournal::open_replay(const RunOptions& options) {
+    std::unique_ptr<RunJournal> result(new RunJournal(options));
+    Result<OpenedJournalTime> opened = open_location(options.replay);
+    if (!opened) return opened.error();
+    const auto& [location, journal, time] = opened.value();
+    const Branch& branch = time.branch;
+    Replay replay{time.model, branch, journal.checkpoints(branch)};
+    if (branch.hash != 0 && branch.committed > replay.checks.back().tick)
+        replay.checks.push_back({branch.id, branch.committed, branch.hash});
+    result->start_ = location.time_s ? time.tick : branch.tick;
+    Result<SavedRun> to_start = journal.run_at(branch, *replay.model, result->start_);
+    if (!to_start) return to_start.error();
+    Result<SavedRun> run = journal.run_from(
+        branch, {branch.id, to_start.value().tick, state_hash_of(*replay.model, to_start.value())},
+        *replay.model, branch.end);
+    if (!run) return run.error();
+    result->from_ = std::move(run).value();
+    result->replay_ = std::move(replay);
+    return result;
+}
+
+Tick RunJournal::next_check(Tick now) const {
+    if (replay_)
+        for (const CheckpointEntry& entry : replay_->checks)
+            if (entry.tick > now) return entry.tick;
+    return std::numeric_limits<Tick>::max();
+}
+
+Result<> RunJournal::check(Tick now, std::uint64_t hash) const {
+    if (!replay_) return Ok{};
+    for (const CheckpointEntry& entry : replay_->checks)
+        if (entry.tick == now && entry.hash != hash)
+            return Error{
+                fmt::format(
+                    "at tick {} the state of the replay differs from the recorded run: hash {} instead of {}",
+                    now, to_hex(hash), to_hex(entry.hash)),
+                "one of the two machines computes other bits: see `roboss journal verify`, and replay on "
+                "another machine",
+                "bits-differ"};
+    return Ok{};
+}
+
+/// The branch's Model: that of the world file, or one into which a run of this world was changed.
+Result<std::shared_ptr<const Model>> RunJournal::model_of(const Journal& journal, const Branch& branch,
+                                                          const Model& world) {
+    const Branch root = journal.holder_of(branch, -1);
+    if (Result<> fits = check_world(journal, root, world); !fits) return fits.error();
+    Result<std::shared_ptr<const Model>> model = journal.model(branch);
+    if (model && model.value()->hash != world.hash) changed_model_ = model.value();
+    return model;
+}
+
+Result<> RunJournal::open_from(const Model& model) {
+    Result<OpenedJournalTime> opened = open_location(o_.from);
+    if (!opened) return opened.error();
+    const auto& [location, journal, time] = opened.value();
+    const Branch& branch = time.branch;
+    Result<std::shared_ptr<const Model>> its_model = model_of(journal, branch, model);
+    if (!its_model) return its_model.error();
+    Result<SavedRun> run = journal.run_at(branch, *its_model.value(), time.tick);
+    if (!run) return run.error();
+    from_ = std::move(run).value();
+    start_ = from_->logged_until;
+    std::error_code none;
+    if (!o_.journal.empty() && std::filesystem::equivalent(location.file, o_.journal, none)) {
+        parent_ = branch.id;
+        first_tick_ = journal.holder_of(branch, -1).tick;
+    }
+    reason_ = fmt::format("from {}", o_.from);
+    return Ok{};
+}
+
+Result<> RunJournal::open_journal(const Model& model) {
+    Result<std::unique_ptr<JournalWriter>> writer = JournalWriter::open(o_.journal);
+    if (!writer) return writer.error();
+    writer_ = std::move(writer).value();
+    if (writer_->is_new() || parent_ != 0) return Ok{};
+    if (from_)
+        return Error{o_.journal + " exists already, and --from names another file",
+                     "give --journal a new name, or start --from this journal", "journal-exists"};
+    return resume(model);
+}
+
+/// From the last checkpoint before which every connected Client had answered everything that it saw: a Client
+/// in its own process will not see anything earlier again.
+Result<SavedRun> RunJournal::last_run(const Journal& journal, const Branch& branch, const Model& model) {
+    const std::vector<CheckpointEntry> entries = journal.checkpoints(branch);
+    for (std::size_t i = entries.size(); i-- > 0;) {
+        Result<SavedRun> run = journal.resume_from(branch, entries[i], model);
+        if (!run || i == 0) return run;
+        const auto silent = [&](const std::string& name) {
+            return run.value().answered[name] < 0 &&
+                   std::find(run.value().left.begin(), run.value().left.end(), name) ==
+                       run.value().left.end();
+        };
+        if (std::none_of(run.value().clients.begin(), run.value().clients.end(), silent)) return run;
+    }
+    return Error{journal.path() + " has no checkpoint", "begin a new journal", "journal-empty"};
+}
+
+Result<> RunJournal::resume(const Model& model) {
+    Result<Journal> journal = Journal::open(o_.journal);
+    if (!journal) return journal.error();
+    Result<Branch> branch = journal.value().branch();
+    if (!branch) return branch.error();
+    Result<std::shared_ptr<const Model>> its_model = model_of(journal.value(), branch.value(), model);
+    if (!its_model) return its_model.error();
+    Result<SavedRun> run = last_run(journal.value(), branch.value(), *its_model.value());
+    if (!run) return run.error();
+    from_ = std::move(run).value();
+    start_ = from_->logged_until;
+    resumes_ = true;
+    first_tick_ = journal.value().holder_of(branch.value(), -1).tick;
+    writer_->continue_branch(journal.value(), branch.value());
+    notices_.push_back(fmt::format("resuming {} at {:.6f} s (tick {}) [resumed]", o_.journal,
+                                   static_cast<double>(branch.value().end) * model.dt_s, branch.value().end));
+    return Ok{};
+}
+
+Result<std::vector<std::string>> RunJournal::awaited(const std::vector<std::string>& names,
+                                                     bool others_may_come) const {
+    if (!resumes_) return std::vector<std::string>{};
+    std::vector<std::string> were;
+    for (const std::string& name : from_->clients)
+        if (std::find(from_->left.begin(), from_->left.end(), name) == from_->left.end())
+            were.push_back(name);
+    const bool fits = names.size() <= were.size() && std::equal(names.begin(), names.end(), were.begin());
+    if (fits && (others_may_come || names.size() == were.size()))
+        return std::vector<std::string>(were.begin() + static_cast<std::ptrdiff_t>(names.size()), were.end());
+    const auto list = [](const std::vector<std::string>& all) {
+        std::string text;
+        for (const std::string& name : all) text += (text.empty() ? "'" : ", '") + name + "'";
+        return text.empty() ? std::string("none") : text;
+    };
+    return Error{o_.journal + " was written with other Clients: " + list(were) + "; given: " + list(names),
+                 "give the same Clients in the same order, or begin a branch with --from " + o_.journal,
+                 "other-clients"};
+}
+
+Result<> RunJournal::begin(Simulation& simulation) {
+    if (!writer_ || resumes_) return Ok{};
+    return begin_branch(simulation, parent_, reason_);
+}
+
+Result<> RunJournal::begin_branch(Simulation& simulation, BranchId parent, const std::string& reason) {
+    if (!writer_) return Ok{};
+    if (parent == 0) first_tick_ = simulation.tick();
+    Branch branch;
+    branch.parent = parent;
+    branch.tick = simulation.tick();
+    branch.seed = simulation.seed();
+    branch.world_file = o_.world;
+    branch.reason = reason;
+    Result<BranchId> begun = writer_->start_branch(branch, simulation.model());
+    if (!begun) return begun.error();
+    simulation.start_log(writer_.get(), log_ticks_);
+    return writer_->flush();
+}
+
+std::vector<std::string> RunJournal::take_notices() {
+    if (writer_)
+        for (std::string& line : writer_->take_notices()) notices_.push_back(std::move(line));
+    return std::exchange(notices_, {});
+}
+
+Result<> RunJournal::close() {
+    if (!writer_) return Ok{};
+    return writer_->close();
+}
+
+}  // namespace roboss

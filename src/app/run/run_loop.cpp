@@ -1,0 +1,166 @@
+// The loop of a run: advances to the next tick at which something is due.
+#include <fmt/format.h>
+
+#include <limits>
+#include <thread>
+
+#include "app/processes/interrupt.h"
+#include "app/run/run.h"
+#include "app/worlds/orders_file.h"
+#include "core/hash.h"
+
+namespace roboss {
+namespace {
+
+constexpr double kPictureEvery_s = 0.25;
+constexpr double kPaceEvery_s = 0.01;
+constexpr Tick kNever = std::numeric_limits<Tick>::max();
+
+/// Something due at a fixed interval of ticks; never if it is 0.
+class Due {
+  public:
+    Due(double every_s, double dt_s, Tick start)
+        : every_(every_s > 0 ? std::max<Tick>(1, tick_at(every_s, dt_s)) : 0), start_(start) {}
+    Tick next(Tick now) const {
+        return every_ == 0 ? kNever : start_ + ((now - start_) / every_ + 1) * every_;
+    }
+    bool at(Tick now) const { return every_ != 0 && (now - start_) % every_ == 0; }
+
+  private:
+    Tick every_, start_;
+};
+
+}  // namespace
+
+struct Run::Schedule {
+    Due trace, contacts, hash, picture;
+    Tick next(Tick now) const {
+        return std::min({trace.next(now), contacts.next(now), hash.next(now), picture.next(now)});
+    }
+};
+
+/// Advances to this tick; false if the run failed. A request ends it early, at the end of the current window.
+bool Run::advance_to(Tick target) {
+    Result<> looked_after = Ok{};
+    const Result<> stepped = simulation_->run_until(target, [&] {
+        show_progress();
+        looked_after = members_->look_after(simulation_->controller());
+        for (ControlCall& call : simulation_->controller().control().take_calls())
+            calls_.push_back(std::move(call));
+        return looked_after.ok() && !interrupted() && (calls_.empty() || simulation_->tick() < busy_until_);
+    });
+    if (!looked_after) return abandoned_ = true, print(looked_after.error()), false;
+    if (!stepped) return progress_.clear(), print(stepped.error()), false;
+    return true;
+}
+
+/// One turn of a paused run; false if it cannot continue.
+bool Run::rest() {
+    simulation_->serve();
+    if (!members_->reaches_others()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    show_progress();
+    const Result<> looked_after = members_->look_after(simulation_->controller());
+    if (!looked_after) return abandoned_ = true, print(looked_after.error()), false;
+    return true;
+}
+
+/// The run is paused meanwhile.
+bool Run::take_picture() {
+    if (o_.snapshot.file.empty() || interrupted()) return true;
+    const Result<> taken =
+        take_snapshot(o_.snapshot, gateway_->url(), [this] { return rest() && !interrupted(); });
+    if (!taken) print(taken.error());
+    return taken.ok();
+}
+
+/// Writes and checks what is due at this tick.
+bool Run::look(const Schedule& due) {
+    const Tick now = simulation_->tick();
+    if (due.trace.at(now) && !write_trace()) return false;
+    if (due.contacts.at(now) && !write_contacts()) return false;
+    if (due.hash.at(now)) fmt::print("{:.6f} s  {}\n", simulation_->time_s(), to_hex(simulation_->hash()));
+    if (due.picture.at(now)) collect_paths();
+    const Result<> checked = journal_->check(now, simulation_->hash());
+    if (!checked) print(checked.error());
+    return checked.ok();
+}
+
+Tick Run::end_of_run() const {
+    Tick end = o_.duration_s ? start_ + tick_at(*o_.duration_s, model_->dt_s) : kNever;
+    if (o_.until_s) end = std::min(end, tick_at(*o_.until_s, model_->dt_s));
+    if (journal_->replay()) end = std::min(end, journal_->replay()->branch.end);
+    return end;
+}
+
+/// True at the end of the duration or on Ctrl-C, false if the run failed.
+bool Run::drive() {
+    const double dt = model_->dt_s;
+    const Tick end = end_of_run();
+    const auto every = [dt](double s) { return s > 0 ? s : dt; };
+    const Schedule due{{trace_ ? every(o_.trace_every_s) : 0.0, dt, start_},
+                       {contacts_ ? every(o_.contacts_every_s) : 0.0, dt, start_},
+                       {o_.hash_every_s, dt, start_},
+                       {o_.paths_picture.empty() ? 0.0 : kPictureEvery_s, dt, start_}};
+    pace_.speed = o_.speed == "max" ? 0.0 : o_.speed == "world" ? world_speed_ : std::stod(o_.speed);
+    pace_.paused = o_.paused;
+    pace_.begin(start_);
+    Tick seen = -1;  // the last tick whose due work is done
+    for (;;) {
+        serve_calls();
+        const Tick now = simulation_->tick();
+        if (now != seen && !look(due)) return false;
+        seen = now;
+        if (pace_.step_until && now >= *pace_.step_until) pace_.paused = true, pace_.step_until.reset();
+        if (now >= end || interrupted() || pace_.quit) return take_picture();
+        if (pace_.paused) {
+            if (!rest()) return false;
+            continue;
+        }
+        const Due pace(pace_.speed > 0 ? kPaceEvery_s * pace_.speed : 0.0, dt, start_);
+        const Tick next = std::min({end, due.next(now), pace.next(now), journal_->next_check(now)});
+        if (!advance_to(std::min(next, pace_.step_until.value_or(kNever)))) return false;
+        if (pace_.speed <= 0) continue;
+        const double due_s = static_cast<double>(simulation_->tick() - pace_.from) * dt / pace_.speed;
+        std::this_thread::sleep_until(
+            pace_.since + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(due_s)));
+    }
+}
+
+void Run::report_notices() {
+    for (const auto& notices :
+         {simulation_->take_notices(), members_->take_notices(), journal_->take_notices(),
+          std::exchange(notices_, {}), gateway_ ? gateway_->take_notices() : std::vector<std::string>()})
+        for (const std::string& notice : notices) {
+            if (log_) log_->event(simulation_->tick(), notice);
+            if (!o_.quiet && o_.log != "-") progress_.clear(), fmt::print(stderr, "roboss: {}\n", notice);
+        }
+}
+
+void Run::show_progress() {
+    progress_.show(*simulation_);
+    report_notices();
+    if (log_) log_->write_state_if_due(*simulation_);
+}
+
+bool Run::write_trace() {
+    const Result<> written = trace_->write(*model_, simulation_->tick(), simulation_->states());
+    if (!written) print(written.error());
+    return written.ok();
+}
+
+bool Run::write_contacts() {
+    const Result<> written = contacts_->write(*model_, simulation_->tick(), simulation_->contacts());
+    if (!written) print(written.error());
+    return written.ok();
+}
+
+void Run::collect_paths() {
+    const std::vector<RobotState>& states = simulation_->states();
+    paths_.resize(std::max(paths_.size(), states.size()));
+    for (std::size_t r = 0; r < states.size(); ++r) {
+        paths_[r].robot = model_->robots[r].name;
+        paths_[r].points_W.push_back(base_pose(states[r]).p);
+    }
+}
+
+}  // namespace roboss

@@ -1,0 +1,167 @@
+// Starts processes on this computer and opens the network on which members join.
+#include "app/run/run_members.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include "app/processes/network_options.h"
+#include "app/processes/threads.h"
+#include "dds/network.h"
+
+namespace roboss {
+namespace {
+
+constexpr std::int64_t kSilence_ms = 1'000;     // silence after which a Simulator counts as lost
+constexpr std::int64_t kClientGone_ms = 5'000;  // a Client whose process is gone and does not come back
+constexpr double kCheckpointEvery_s = 0.2;      // of stepping time: bounds the work lost with a Simulator
+constexpr std::int64_t kLookAround_ms = 500;    // for another Controller of the same name
+constexpr int kStartedAgainMax = 3;
+constexpr std::uint32_t kOnOneComputer_ms = 5'000;  // no network can fail: a slow process is only busy
+constexpr std::int64_t kJoin_ms = 7'000;            // without another process joining
+constexpr std::int64_t kLinked_ms = 100;            // CPU time of a start, without the world
+constexpr std::int64_t kFarewell_ms = 3'000;        // for all processes to end by themselves
+
+}  // namespace
+
+Result<std::unique_ptr<RunMembers>> RunMembers::gather(const RunOptions& options, std::int64_t prepared_ms) {
+    std::unique_ptr<RunMembers> members(new RunMembers(options));
+    members->network_ = options.network;
+    if (options.processes > 0) {
+        std::random_device device;
+        members->network_.simulation = fmt::format("run-{}-{:08x}", getpid(), device());
+        members->network_.interface = "127.0.0.1";
+        members->network_.multicast = false;
+        members->network_.liveliness_ms = kOnOneComputer_ms;
+        const Result<std::uint16_t> port = free_udp_port(members->network_.interface);
+        if (!port) return port.error();
+        members->network_.port = port.value();
+        members->patience_ms_ = kJoin_ms + std::max<std::int64_t>(prepared_ms - kLinked_ms, 0) *
+                                               std::max(1, options.processes / cores());
+    }
+    if (options.processes > 0 || options.is_controller)
+        if (Result<> open = members->open_network(); !open) return open.error();
+    for (int i = 0; i < options.processes; ++i)
+        if (Result<> started = members->start_process(); !started) return started.error();
+    return members;
+}
+
+Result<> RunMembers::open_network() {
+    Result<std::unique_ptr<DdsBus>> bus = DdsBus::create(network_);
+    if (!bus) return bus.error();
+    bus_ = std::move(bus).value();
+    open_bus_ = bus_.get();
+    std::vector<Envelope> inbox;
+    bus_->drain(kControllerAddress, inbox);
+    if (!o_.is_controller) return Ok{};
+    const std::int64_t end = bus_->now_ms() + kLookAround_ms;
+    while (bus_->now_ms() < end) {
+        bus_->wait(end - bus_->now_ms());
+        if (bus_->taken_elsewhere(kControllerAddress))
+            return Error{"a Controller of " + describe(network_) + " is already running",
+                         "end it, or give this run another name with --simulation", "controller-exists"};
+    }
+    notices_.push_back(fmt::format("Controller of {}, waiting for {} Simulators [waiting]",
+                                   describe(network_), o_.simulators));
+    return Ok{};
+}
+
+/// The process discovers this process only, at its port: full discovery would grow with the square of the
+/// number of members (decision 0021).
+Result<> RunMembers::start_process() {
+    const int threads = threads_of_each(o_.threads, o_.processes);
+    return processes_.start({"roboss",
+                             "simulator",
+                             "--simulation",
+                             network_.simulation,
+                             "--domain",
+                             std::to_string(network_.domain),
+                             "--interface",
+                             network_.interface,
+                             "--no-multicast",
+                             "--peer",
+                             fmt::format("{}:{}", network_.interface, network_.port),
+                             "--through-controller",
+                             "--liveliness-ms",
+                             std::to_string(network_.liveliness_ms),
+                             "--threads",
+                             std::to_string(threads),
+                             "--lanes",
+                             std::to_string(o_.lanes),
+                             "--patience",
+                             "10",
+                             "--quiet"});
+}
+
+void RunMembers::configure(SimulationOptions& options) const {
+    if (open_bus_ == nullptr) return;
+    options.simulators = static_cast<std::size_t>(o_.local);
+    options.simulators_awaited = static_cast<std::size_t>(o_.processes > 0 ? o_.processes : o_.simulators);
+    options.clients_awaited = o_.clients_awaited;
+    options.controller.loss_ms =
+        o_.processes > 0 ? kSilence_ms : std::max<std::int64_t>(kSilence_ms, network_.liveliness_ms);
+    options.controller.client_gone_ms = kClientGone_ms;
+    options.controller.checkpoint_work_s = kCheckpointEvery_s;
+}
+
+std::unique_ptr<Bus> RunMembers::take_bus() {
+    return std::move(bus_);
+}
+
+Result<bool> RunMembers::add_simulator() {
+    if (o_.is_controller && o_.local == 0)
+        return Error{"Simulators of this run join over the network",
+                     "start `roboss simulator` where you want it", "external-simulators"};
+    if (o_.processes == 0) return false;
+    if (Result<> started = start_process(); !started) return started.error();
+    return true;
+}
+
+Result<> RunMembers::kill(const std::string& name) {
+    if (processes_.kill(name)) return Ok{};
+    return Error{"Simulator '" + name + "' was not started by this run",
+                 "end it where it runs; only runs with --processes start their own Simulator processes",
+                 "not-own-process"};
+}
+
+Result<> RunMembers::watch_start(const Controller& controller) {
+    std::vector<std::string> joined;
+    std::set<Address> known;
+    for (const MemberReport& member : controller.members()) {
+        joined.push_back(member.name);
+        known.insert(member.address);
+    }
+    std::uint64_t fetched = 0;
+    for (const Flow& flow : open_bus_->flows())
+        if (flow.from == kControllerAddress && !known.contains(flow.to)) fetched += flow.bytes;
+    return processes_.watch_start(joined, fetched, monotonic_ms(), patience_ms_);
+}
+
+Result<> RunMembers::look_after(const Controller& controller) {
+    if (o_.processes == 0) return Ok{};
+    if (processes_.starting()) return watch_start(controller);
+    for (std::string& line : processes_.take_ended()) notices_.push_back(std::move(line));
+    if (processes_.count() > 0) return Ok{};
+    if (++started_again_ > kStartedAgainMax)
+        return Error{"all Simulator processes have ended, repeatedly",
+                     "see the messages above for the reason", "processes-ended"};
+    notices_.push_back("no Simulator process is left; starting one [process-restarted]");
+    return start_process();
+}
+
+std::vector<std::string> RunMembers::take_notices() {
+    if (open_bus_ != nullptr)
+        for (std::string& line : open_bus_->take_notices()) notices_.push_back(std::move(line));
+    return std::exchange(notices_, {});
+}
+
+void RunMembers::await_exit(bool failed) {
+    if (open_bus_ == nullptr) return;
+    if (!failed) open_bus_->flush(1'000);
+    processes_.await_exit(failed ? 0 : kFarewell_ms);
+}
+
+}  // namespace roboss

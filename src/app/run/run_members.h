@@ -1,0 +1,56 @@
+// RunMembers: the other members of a run, and the Bus that connects them. The run itself does not depend on
+// who its members are.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/processes/simulator_processes.h"
+#include "app/run/run_options.h"
+#include "dds/dds_bus.h"
+#include "simulation/simulation.h"
+
+namespace roboss {
+
+class RunMembers {
+  public:
+    /// Opens the network and starts the processes that the options ask for; with neither, there are no other
+    /// members. `prepared_ms`: CPU time that the Model took here; a process needs as much for it.
+    static Result<std::unique_ptr<RunMembers>> gather(const RunOptions& options, std::int64_t prepared_ms);
+
+    /// Sets the members that the run waits for, and the time after which a silent one counts as lost.
+    void configure(SimulationOptions& options) const;
+    /// For Simulation::create(); null: all members are in this process.
+    std::unique_ptr<Bus> take_bus();
+    /// Others may take part from their own processes.
+    bool reaches_others() const { return open_bus_ != nullptr; }
+    /// Starts a process more, if the run has its Simulators in processes of this computer; false: it has not.
+    Result<bool> add_simulator();
+    /// Kills a process that this run started, by the name of its Simulator.
+    Result<> kill(const std::string& name);
+    /// To be called now and then. An Error: processes of the run's own died or never joined, and it cannot go
+    /// on.
+    Result<> look_after(const Controller& controller);
+    /// What happened since the last call, one line each.
+    std::vector<std::string> take_notices();
+    /// Waits some seconds for the processes to end after the Controller dismissed them; not after a failure.
+    void await_exit(bool failed);
+
+  private:
+    explicit RunMembers(const RunOptions& options) : o_(options) {}
+    Result<> open_network();
+    Result<> start_process();
+    Result<> watch_start(const Controller& controller);
+
+    const RunOptions& o_;
+    DdsOptions network_;
+    std::unique_ptr<DdsBus> bus_;
+    DdsBus* open_bus_ = nullptr;  // the same; the Simulation owns it then
+    SimulatorProcesses processes_;
+    std::int64_t patience_ms_ = 0;  // with processes that do not join
+    std::vector<std::string> notices_;
+    int started_again_ = 0;
+};
+
+}  // namespace roboss

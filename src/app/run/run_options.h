@@ -1,0 +1,70 @@
+// The options of `roboss run`, as given on the command line.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/viewer/snapshot.h"
+#include "app/viewer/viewer.h"
+#include "dds/dds_options.h"
+#include "physics/step.h"
+#include "world/world.h"
+
+namespace roboss {
+
+struct RunOptions {
+    std::string world;
+    std::vector<std::string> paths;  // --path: where model:// and package:// URIs are looked up
+    std::optional<double> duration_s;
+    std::optional<double> dt_s;
+    std::string profile;  // of <physics>
+    bool strict = false;  // a model with errors refuses the world; else it is left out
+    bool no_sleep = false;
+    std::optional<Precision> precision;
+    AccuracySpec accuracy;        // --accuracy and each number by itself
+    std::string speed = "max";    // "max", "world" or a factor of real time
+    bool paused = false;          // at the start
+    std::string window = "auto";  // "auto" or a number of ticks
+    int threads = 0;              // 0: the cores of this computer, shared by `processes`
+    std::size_t lanes = kMostLanes;
+    int simulators = 1;
+    int processes = 0;           // Simulators as separate processes; 0: in this one
+    int local = 0;               // Simulators in the process of a Controller
+    bool is_controller = false;  // `roboss controller`: Simulators join over the network
+    std::vector<std::string> clients_awaited;
+    DdsOptions network;
+    bool merge_islands = false;
+    std::vector<std::string> clients;  // control programs, shared libraries
+    std::string orders;                // JSON lines
+    std::string trace;                 // CSV
+    double trace_every_s = 0;
+    std::string contacts;  // CSV
+    double contacts_every_s = 0;
+    double hash_every_s = 0;
+    std::string json;
+    std::string log;  // a file, or - for standard error
+    double log_every_s = 10;
+    std::optional<std::uint64_t> seed;  // none: the seed of the saved run, else 0
+    std::string save;
+    std::string from;     // FILE[#BRANCH][@TIME]
+    std::string journal;  // the run is recorded here; resumed if it exists
+    double journal_every_s = 1;
+    std::optional<double> until_s;
+    std::string replay;         // FILE[#BRANCH][@TIME]: stepped again and checked, instead of a world
+    std::string paths_picture;  // SVG of where the robots went
+    ViewerOptions viewer;
+    SnapshotOptions snapshot;
+    bool quiet = false;
+};
+
+/// Of `roboss run`: all members on this computer.
+void add_run_options(CLI::App& command, RunOptions& options);
+/// Of `roboss replay`: a journal instead of a world.
+void add_replay_options(CLI::App& command, RunOptions& options);
+/// Of `roboss controller`: the same, and the network on which members join.
+void add_controller_options(CLI::App& command, RunOptions& options);
+
+}  // namespace roboss

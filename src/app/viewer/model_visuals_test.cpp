@@ -1,0 +1,100 @@
+// Robots that were added look as their own world says, under the name and at the place where they were put;
+// earlier Models look as they did.
+#include "app/viewer/model_visuals.h"
+
+#include <gtest/gtest.h>
+
+#include "model/edit.h"
+#include "scene/scene.h"
+
+namespace roboss {
+namespace {
+
+VisualSpec ball(const Vec3& rgb) {
+    VisualSpec visual;
+    visual.name = "skin";
+    visual.geometry.kind = GeometryKind::kSphere;
+    visual.rgb = rgb;
+    return visual;
+}
+
+/// A box that looks like a ball of this colour, and a post beside it.
+World world_of(const std::string& robot, const Vec3& rgb) {
+    World world;
+    world.name = "w";
+    for (const bool is_static : {false, true}) {
+        ModelSpec spec;
+        spec.is_static = is_static;
+        LinkSpec link;
+        link.name = "body";
+        link.collisions.push_back({"c", {}, {}, {}, {}});
+        link.visuals.push_back(ball(rgb));
+        spec.links.push_back(link);
+        world.prototypes.push_back(spec);
+    }
+    world.instances.push_back({robot, 0, {{0, 0, 1}, {}}, {}});
+    world.instances.push_back({"post", 1, {{2, 0, 0}, {}}, {}});
+    return world;
+}
+
+std::shared_ptr<const Model> compiled(const World& world) {
+    Diagnostics found;
+    const auto model = compile(world, {}, found);
+    EXPECT_FALSE(found.has_errors());
+    return model;
+}
+
+const SceneShape& shown(const Scene& scene, const Model& model, const char* robot) {
+    return scene.types[scene.robots[model.find_robot(robot)->index()]].links[0].visuals[0];
+}
+
+TEST(ModelVisuals, WhatIsAddedLooksAsItsOwnWorldSaysAndWhatWasBeforeStays) {
+    const World blue = world_of("box", {0, 0, 1}), red = world_of("box", {1, 0, 0});
+    const auto before = compiled(blue), addition = compiled(red);
+    const Pose X_WA{{10, 0, 0}, from_rpy(0, 0, 1.5707963267948966)};
+    const auto after = with_models(*before, *addition, X_WA, "new").value().model;
+    ModelVisuals visuals;
+    visuals.begin(*before, blue);
+    visuals.add({*before, *after, *addition}, red, X_WA, "new");
+    const Scene scene = make_scene(*after, visuals.of(*after));
+    EXPECT_EQ(shown(scene, *after, "box").rgb.z, 1);
+    EXPECT_EQ(shown(scene, *after, "new").kind, SceneShapeKind::kSphere);
+    EXPECT_EQ(shown(scene, *after, "new").rgb.x, 1);
+    ASSERT_EQ(scene.statics.size(), 2u) << "each post is drawn once, as a ball";
+    EXPECT_EQ(scene.statics[1].kind, SceneShapeKind::kSphere);
+    EXPECT_NEAR(scene.statics[1].frame.p.x, 10, 1e-12);
+    EXPECT_NEAR(scene.statics[1].frame.p.y, 2, 1e-12);
+    const Scene then = make_scene(*before, visuals.of(*before));
+    EXPECT_EQ(then.statics.size(), 1u) << "of a rewind to before it came";
+    EXPECT_EQ(shown(then, *before, "box").rgb.z, 1);
+}
+
+TEST(ModelVisuals, ChangesThatAddNothingKeepTheLooksAndANameGivenAgainLooksNew) {
+    const World blue = world_of("box", {0, 0, 1}), red = world_of("box", {1, 0, 0});
+    const auto first = compiled(blue), addition = compiled(red);
+    const auto without = without_robots(*first, {"box"}).value().model;
+    const auto again = with_models(*without, *addition, {}, "").value().model;
+    ModelVisuals visuals;
+    visuals.begin(*first, blue);
+    visuals.change(*first, *without);
+    visuals.add({*without, *again, *addition}, red, {}, "");
+    const auto finer = with_accuracy(*again, {"high", {}, {}}).value().model;
+    visuals.change(*again, *finer);
+    EXPECT_EQ(shown(make_scene(*finer, visuals.of(*finer)), *finer, "box").rgb.x, 1);
+    EXPECT_EQ(visuals.of(*without).size(), 1u);
+}
+
+TEST(ModelVisuals, OfAReplayOnlyWhatWasAddedIsKnown) {
+    const World red = world_of("box", {1, 0, 0});
+    const auto before = compiled(world_of("old", {0, 0, 1})), addition = compiled(red);
+    const auto after = with_models(*before, *addition, {}, "new").value().model;
+    ModelVisuals visuals;
+    EXPECT_TRUE(visuals.of(*before).empty());
+    visuals.add({*before, *after, *addition}, red, {}, "new");
+    const Scene scene = make_scene(*after, visuals.of(*after));
+    EXPECT_EQ(shown(scene, *after, "old").kind, SceneShapeKind::kBox);
+    EXPECT_EQ(shown(scene, *after, "new").kind, SceneShapeKind::kSphere);
+}
+
+}  // namespace
+}  // namespace roboss

@@ -1,0 +1,139 @@
+// Encodes the options into the page's URL, and waits until the page has drawn.
+#include "app/viewer/snapshot.h"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <chrono>
+#include <fstream>
+#include <memory>
+
+#include "app/run/run.h"
+#include "app/viewer/headless_browser.h"
+
+namespace roboss {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto kPatience = std::chrono::seconds(90);
+constexpr auto kLook = std::chrono::milliseconds(100);
+constexpr auto kSettle = std::chrono::milliseconds(1500);
+
+const char* const kFooter =
+    R"(Runs the world to the given time and draws the picture with headless Chromium.
+
+Examples:
+  roboss snapshot world.sdf --at 2.5 -o pile.png
+  roboss snapshot worlds/city.sdf --client build/release/lib/roboss_city_driver.so --at 12 --camera follow:car_7 --show rays -o car.png
+  roboss snapshot worlds/city.sdf --from run.journal@31.2 --at 31.2 --panel inspector --select car_7 --theme dark -o car.png
+
+Exit codes: those of `roboss run`; 3 also if no browser is found or the page does not load.)";
+
+std::string encoded(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        result += std::isalnum(byte) != 0 || c == '.' || c == '-' || c == '_' ? std::string(1, c)
+                                                                              : fmt::format("%{:02X}", byte);
+    }
+    return result;
+}
+
+std::string address(const SnapshotOptions& options, const std::string& url) {
+    std::string result = url + (url.find('?') == std::string::npos ? "?" : "&") + "quality=high";
+    bool panels = false;
+    for (const auto& [key, value] : options.parameters) {
+        result += "&" + key + "=" + encoded(value);
+        panels = panels || key == "panel";
+    }
+    return result + (panels ? "" : "&hide=panels");
+}
+
+Result<> write_file(const std::string& file, const std::string& bytes) {
+    std::ofstream out(file, std::ios::binary);
+    if (out << bytes && out.flush()) return Ok{};
+    return Error{file + " cannot be written", "check the folder, its permissions and the free space",
+                 "not-writable"};
+}
+
+}  // namespace
+
+void add_snapshot_options(CLI::App& command, SnapshotOptions& o) {
+    const std::string group = "Picture";
+    command.add_option("-o,--output", o.file, "PNG file")->required()->group(group);
+    const auto parameter = [&](const char* key, const char* what) {
+        command
+            .add_option_function<std::string>(
+                std::string("--") + key,
+                [&o, key](const std::string& value) { o.parameters.emplace_back(key, value); }, what)
+            ->group(group);
+    };
+    parameter("camera",
+              "x,y,z,azimuth,elevation,distance (point to look at, m; degrees; m), top, follow:ROBOT or "
+              "chase:ROBOT");
+    parameter("select", "name of the robot to select");
+    parameter("colour", "colour robots by model, simulator, island or speed");
+    parameter("show", "layers to draw: rays,tracks,compass,contacts,bounds,spheres,islands,names,collisions");
+    parameter("theme", "theme of the page: light or dark");
+    parameter("panel", "show the panels, with this one open: inspector, cluster or view");
+    command.add_option("--width", o.width, "width of the picture, pixels")
+        ->check(CLI::Range(64, 7680))
+        ->capture_default_str()
+        ->group(group);
+    command.add_option("--height", o.height, "height of the picture, pixels")
+        ->check(CLI::Range(64, 4320))
+        ->capture_default_str()
+        ->group(group);
+}
+
+Result<> take_snapshot(const SnapshotOptions& options, const std::string& url,
+                       const std::function<bool()>& serve) {
+    Result<std::unique_ptr<HeadlessBrowser>> browser = HeadlessBrowser::start(options.width, options.height);
+    if (!browser) return browser.error();
+    if (Result<> opened = browser.value()->open(address(options, url)); !opened) return opened.error();
+    const Clock::time_point end = Clock::now() + kPatience;
+    for (Clock::time_point look = Clock::now();;) {
+        if (!serve())
+            return Error{"the run ended before the picture was drawn", "see the messages above",
+                         "no-picture"};
+        if (Clock::now() > end)
+            return Error{"the page did not draw in time", "open " + url + " in a browser and look for errors",
+                         "no-picture"};
+        if (Clock::now() < look) continue;
+        look = Clock::now() + kLook;
+        Result<nlohmann::json> ready =
+            browser.value()->evaluate("document.body && document.body.dataset.ready");
+        if (!ready) return ready.error();
+        if (ready.value() == "true") break;
+    }
+    // Details on request (rays, contacts, an open inspector) arrive a little after the first State.
+    const Clock::time_point settled =
+        Clock::now() + (options.parameters.empty() ? Clock::duration() : kSettle);
+    while (Clock::now() < settled)
+        if (!serve())
+            return Error{"the run ended before the picture was drawn", "see the messages above",
+                         "no-picture"};
+    Result<std::string> picture = browser.value()->picture();
+    if (!picture) return picture.error();
+    return write_file(options.file, picture.value());
+}
+
+void add_snapshot_command(CLI::App& app, int& exit_code) {
+    CLI::App* command =
+        app.add_subcommand("snapshot", "draw a picture of a world at a given time, as a PNG file");
+    auto options = std::make_shared<RunOptions>();
+    add_run_options(*command, *options);
+    command->add_option("--at", options->until_s, "world time of the picture, s (default: the start)")
+        ->check(CLI::NonNegativeNumber)
+        ->group("Picture");
+    add_snapshot_options(*command, options->snapshot);
+    command->footer(kFooter);
+    command->callback([options, &exit_code] {
+        if (!options->until_s && !options->duration_s) options->until_s = 0.0;
+        options->viewer.headless = false;
+        options->quiet = true;
+        exit_code = Run(*options).go();
+    });
+}
+
+}  // namespace roboss

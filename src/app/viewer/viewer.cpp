@@ -1,0 +1,51 @@
+// Options and addresses.
+#include "app/viewer/viewer.h"
+
+#include <random>
+
+namespace roboss {
+
+void add_viewer_options(CLI::App& command, ViewerOptions& o, ViewerDefault by_default) {
+    const std::string group = "Viewer (docs/viewer.md)";
+    const bool on_demand = by_default == ViewerDefault::kOnDemand;
+    CLI::Option* view =
+        command.add_option("--view", o.listen,
+                           std::string(on_demand ? "serve the viewer at " : "") +
+                               "[ADDRESS:]PORT of the viewer for browsers; if the port is in use, the next "
+                               "free one. The default "
+                               "address is loopback only; with any other, the printed URL carries a token");
+    view->group(group);
+    o.headless = on_demand;
+    if (on_demand)
+        view->each([&o](const std::string&) { o.headless = false; });
+    else
+        view->capture_default_str();
+    command
+        .add_option("--web", o.page_folder,
+                    "folder of the viewer's web page (default: the built or installed one)")
+        ->check(CLI::ExistingDirectory)
+        ->group(group);
+    if (by_default == ViewerDefault::kOn)
+        command.add_flag("--headless", o.headless, "do not serve the viewer")->group(group);
+    else if (on_demand)  // so that scripts may use the flag with every subcommand
+        command
+            .add_flag_callback(
+                "--headless", [] {}, "do not serve the viewer (the default)")
+            ->excludes(view)
+            ->group(group);
+}
+
+Result<std::unique_ptr<Gateway>> open_viewer(const ViewerOptions& o, bool journal) {
+    GatewayOptions options;
+    options.listen = o.listen;
+    options.page_folder = o.page_folder;
+    options.program = "roboss " ROBOSS_VERSION;
+    options.journal = journal;
+    options.new_address = [] {
+        std::random_device device;
+        return Address{Role::kClient, static_cast<std::uint64_t>(device()) << 32 | device()};
+    };
+    return Gateway::open(options);
+}
+
+}  // namespace roboss

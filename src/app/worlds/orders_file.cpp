@@ -1,0 +1,246 @@
+// JSON lines to checked orders. Unknown keys are refused: a misspelt key must not become a silent default.
+#include "app/worlds/orders_file.h"
+
+#include <cmath>
+#include <fstream>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+
+namespace roboss {
+namespace {
+
+using nlohmann::json;
+
+/// A fault in one line; caught in parse_orders, where it becomes a diagnostic.
+struct LineFault : std::runtime_error {
+    LineFault(const std::string& message, std::string what_to_do)
+        : std::runtime_error(message), remedy(std::move(what_to_do)) {}
+    std::string remedy;
+};
+
+void only_keys(const json& object, const char* what, std::initializer_list<const char*> keys) {
+    if (!object.is_object())
+        throw LineFault(std::string(what) + " is not a JSON object", "write {\"...\": ...}");
+    for (const auto& [key, value] : object.items()) {
+        bool known = false;
+        std::string all;
+        for (const char* k : keys) known |= key == k, all += std::string(all.empty() ? "" : ", ") + k;
+        if (!known) throw LineFault("'" + key + "' is not a key of " + what, "known keys: " + all);
+    }
+}
+
+double number(const json& object, const char* key) {
+    if (!object.contains(key)) throw LineFault(std::string("'") + key + "' is missing", "add it");
+    if (!object[key].is_number())
+        throw LineFault(std::string("'") + key + "' is not a number", "give a finite number");
+    return object[key].get<double>();
+}
+
+std::vector<double> numbers(const json& object, const char* key, std::size_t count) {
+    if (!object.contains(key)) return {};
+    const json& list = object[key];
+    if (!list.is_array() || list.size() != count)
+        throw LineFault(std::string("'") + key + "' is not a list of " + std::to_string(count) + " numbers",
+                        "give all of them");
+    std::vector<double> values;
+    for (const json& x : list) {
+        if (!x.is_number())
+            throw LineFault(std::string("'") + key + "' holds something that is not a number",
+                            "give finite numbers");
+        values.push_back(x.get<double>());
+    }
+    return values;
+}
+
+Vec3 vector(const json& object, const char* key) {
+    const std::vector<double> v = numbers(object, key, 3);
+    return v.empty() ? Vec3{} : Vec3{v[0], v[1], v[2]};
+}
+
+std::string text(const json& object, const char* key) {
+    if (!object.contains(key) || !object[key].is_string())
+        throw LineFault(std::string("'") + key + "' is missing or not a text", "write it in quotes");
+    return object[key].get<std::string>();
+}
+
+Action parse_pose(const json& o) {
+    only_keys(o, "set_pose", {"position", "orientation"});
+    if (!o.contains("position")) throw LineFault("set_pose has no 'position'", "give [x, y, z] in m");
+    Pose X_WR{vector(o, "position"), {}};
+    const std::vector<double> q = numbers(o, "orientation", 4);
+    if (!q.empty()) {
+        const double size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+        if (!(std::fabs(size - 1.0) < 1e-3))
+            throw LineFault(
+                "'orientation' is not a unit quaternion (its norm is " + std::to_string(size) + ")",
+                "give [w, x, y, z]");
+        X_WR.q = normalized(Quat{q[0], q[1], q[2], q[3]});
+    }
+    return SetPose{X_WR};
+}
+
+Action parse_velocity(const json& o) {
+    only_keys(o, "set_velocity", {"linear", "angular"});
+    return SetVelocity{vector(o, "linear"), vector(o, "angular")};
+}
+
+Action parse_wrench(const json& o, const Model& model, const RobotType& type, const std::string& robot) {
+    only_keys(o, "wrench", {"link", "force", "torque", "duration"});
+    const std::string name = text(o, "link");
+    const auto link = type.find_link(name);
+    if (!link)
+        throw LineFault("robot '" + robot + "' has no link '" + name + "'",
+                        "its first link is '" + type.links.front().name + "'");
+    const double duration = o.contains("duration") ? number(o, "duration") : model.dt_s;
+    if (!(duration > 0 && duration < 1e9))
+        throw LineFault("'duration' is not in (0, 1e9) s", "give the duration of the wrench, in s");
+    const Tick ticks = std::max<Tick>(1, tick_at(duration, model.dt_s));
+    return ApplyWrench{*link, vector(o, "force"), vector(o, "torque"), ticks};
+}
+
+Action parse_joint(const json& o, const RobotType& type, const std::string& robot) {
+    only_keys(o, "joint", {"name", "axis", "velocity", "position", "effort", "max_effort"});
+    const std::string name = text(o, "name");
+    const auto joint = type.find_joint(name);
+    if (!joint) {
+        const std::string hint = type.joints.empty()
+                                     ? "it has no joints"
+                                     : "its first joint is '" + type.joints.front().name + "'";
+        throw LineFault("robot '" + robot + "' has no joint '" + name + "'", hint);
+    }
+    SetJoint order;
+    order.joint = *joint;
+    int modes = 0;
+    for (const auto& [key, mode] :
+         {std::pair{"velocity", MotorMode::kVelocity}, std::pair{"position", MotorMode::kPosition},
+          std::pair{"effort", MotorMode::kEffort}}) {
+        if (!o.contains(key)) continue;
+        order.mode = mode;
+        order.target = number(o, key);
+        ++modes;
+    }
+    if (modes != 1)
+        throw LineFault("the joint order names " + std::to_string(modes) + " of velocity, position, effort",
+                        "name exactly one");
+    if (o.contains("max_effort")) {
+        order.max_effort = number(o, "max_effort");
+        if (order.max_effort < 0)
+            throw LineFault("'max_effort' is negative", "give a bound >= 0, or leave it out");
+    }
+    if (o.contains("axis")) order.axis = static_cast<int>(number(o, "axis"));
+    return order;
+}
+
+Order parse_line(const std::string& line, const Model& model) {
+    json o;
+    try {
+        o = json::parse(line);
+    } catch (const json::exception& error) {
+        throw LineFault("not valid JSON: " + std::string(error.what()),
+                        "write one complete JSON object per line");
+    }
+    only_keys(o, "an order", {"t", "robot", "set_pose", "set_velocity", "wrench", "joint"});
+    const double time_s = number(o, "t");
+    if (!(time_s >= 0 && time_s < 1e12))
+        throw LineFault("'t' is not in [0, 1e12) s", "give the time of the order, in s");
+    const std::string robot = text(o, "robot");
+    const auto id = model.find_robot(robot);
+    if (!id)
+        throw LineFault("the world has no robot '" + robot + "'", "`roboss check WORLD` lists the robots");
+    const RobotType& type = model.type_of(*id);
+    const int actions = static_cast<int>(o.size()) - 2;
+    if (actions != 1)
+        throw LineFault("the order has " + std::to_string(actions) + " actions",
+                        "name one of set_pose, set_velocity, wrench, joint");
+    Order order;
+    order.apply_at = tick_at(time_s, model.dt_s);
+    order.robot = *id;
+    if (o.contains("set_pose")) order.action = parse_pose(o["set_pose"]);
+    if (o.contains("set_velocity")) order.action = parse_velocity(o["set_velocity"]);
+    if (o.contains("wrench")) order.action = parse_wrench(o["wrench"], model, type, robot);
+    if (o.contains("joint")) order.action = parse_joint(o["joint"], type, robot);
+    const Result<> checked = check_order(model, order);
+    if (!checked) throw LineFault(checked.error().message, checked.error().remedy);
+    return order;
+}
+
+json list(const Vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+/// The action as the value of its key.
+struct ActionToJson {
+    const Model& model;
+    const RobotType& type;
+    nlohmann::ordered_json& line;
+
+    void operator()(const SetPose& a) const {
+        line["set_pose"] = {{"position", list(a.X_WR.p)},
+                            {"orientation", {a.X_WR.q.w, a.X_WR.q.x, a.X_WR.q.y, a.X_WR.q.z}}};
+    }
+    void operator()(const SetVelocity& a) const {
+        line["set_velocity"] = {{"linear", list(a.linear)}, {"angular", list(a.angular)}};
+    }
+    void operator()(const ApplyWrench& a) const {
+        line["wrench"] = {{"link", type.links[a.link.index()].name},
+                          {"force", list(a.force)},
+                          {"torque", list(a.torque)},
+                          {"duration", static_cast<double>(a.duration) * model.dt_s}};
+    }
+    void operator()(const SetJoint& a) const {
+        static constexpr const char* kModes[] = {"effort", "velocity", "position", "effort"};
+        nlohmann::ordered_json joint{{"name", type.joints[a.joint.index()].name}};
+        if (a.axis != 0) joint["axis"] = a.axis;
+        const bool passive =
+            a.mode == MotorMode::kPassive;  // not expressible in a line: an effort of 0 does the same
+        joint[kModes[static_cast<std::size_t>(a.mode)]] = passive ? 0.0 : a.target;
+        if (a.max_effort >= 0 && std::isfinite(a.max_effort)) joint["max_effort"] = a.max_effort;
+        line["joint"] = joint;
+    }
+};
+
+}  // namespace
+
+std::string order_line(const Order& order, const Model& model) {
+    nlohmann::ordered_json line{{"t", static_cast<double>(order.apply_at) * model.dt_s},
+                                {"robot", model.robots[order.robot.index()].name}};
+    std::visit(ActionToJson{model, model.type_of(order.robot), line}, order.action);
+    return line.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+Tick tick_at(double time_s, double dt_s) {
+    return static_cast<Tick>(std::floor(time_s / dt_s + 0.5));
+}
+
+std::vector<Order> parse_orders(std::string_view content, const std::string& file, const Model& model,
+                                Diagnostics& diagnostics) {
+    std::vector<Order> orders;
+    std::istringstream lines{std::string(content)};
+    std::string line;
+    for (int at = 1; std::getline(lines, line); ++at) {
+        const std::size_t start = line.find_first_not_of(" \t\r");
+        if (start == std::string::npos || line[start] == '#') continue;
+        try {
+            orders.push_back(parse_line(line, model));
+            orders.back().sequence = static_cast<std::uint64_t>(at);
+        } catch (const LineFault& fault) {
+            diagnostics.error({file, at}, "bad-order", fault.what(), fault.remedy);
+        }
+    }
+    return orders;
+}
+
+std::vector<Order> load_orders(const std::string& file, const Model& model, Diagnostics& diagnostics) {
+    std::ifstream in(file, std::ios::binary);
+    std::stringstream content;
+    if (!in || !(content << in.rdbuf() || in.peek() == EOF)) {
+        diagnostics.error({file, 0}, "no-file", "cannot read the orders file",
+                          "check the path after --orders");
+        return {};
+    }
+    return parse_orders(content.str(), file, model, diagnostics);
+}
+
+}  // namespace roboss

@@ -1,0 +1,105 @@
+// Orders files: what is right becomes orders, what is wrong becomes a diagnostic with its line, and nothing
+// else is lost.
+#include "app/worlds/orders_file.h"
+
+#include <gtest/gtest.h>
+
+namespace roboss {
+namespace {
+
+/// A world with one robot "cart": a free base with one joint "slide".
+std::shared_ptr<const Model> cart_model() {
+    World world;
+    ModelSpec cart;
+    cart.canonical_link = "base";
+    LinkSpec base, top;
+    base.name = "base", top.name = "top";
+    cart.links = {base, top};
+    JointSpec slide;
+    slide.name = "slide", slide.kind = JointSpecKind::kPrismatic, slide.parent = "base", slide.child = "top";
+    slide.axes.resize(1);
+    slide.axes[0].max_effort = 20;
+    cart.joints = {slide};
+    world.prototypes = {cart};
+    world.instances = {{"cart", 0, {}, {}}};
+    world.dt_s = 0.002;
+    Diagnostics diagnostics;
+    return compile(world, {}, diagnostics);
+}
+
+TEST(OrdersFile, EveryLevelIsRead) {
+    Diagnostics d;
+    const auto orders = parse_orders(
+        "# a comment, then an empty line\n\n"
+        R"({"t":0.5,"robot":"cart","set_pose":{"position":[1,2,3],"orientation":[1,0,0,0]}})"
+        "\n"
+        R"({"t":0.501,"robot":"cart","set_velocity":{"linear":[1,0,0]}})"
+        "\n"
+        R"({"t":1,"robot":"cart","wrench":{"link":"top","force":[0,0,9],"duration":0.1}})"
+        "\n"
+        R"({"t":1,"robot":"cart","joint":{"name":"slide","velocity":-2,"max_effort":5}})"
+        "\n",
+        "f.jsonl", *cart_model(), d);
+    ASSERT_TRUE(d.items().empty());
+    ASSERT_EQ(orders.size(), 4u);
+    EXPECT_EQ(orders[0].apply_at, 250);
+    EXPECT_EQ(std::get<SetPose>(orders[0].action).X_WR.p, (Vec3{1, 2, 3}));
+    EXPECT_EQ(orders[1].apply_at, 251)
+        << "0.501 s is nearer to tick 251 (0.502 s) than any other but 250: rounding half up";
+    EXPECT_EQ(std::get<SetVelocity>(orders[1].action).angular, Vec3{});
+    EXPECT_EQ(std::get<ApplyWrench>(orders[2].action).duration, 50);
+    EXPECT_EQ(std::get<SetJoint>(orders[3].action).mode, MotorMode::kVelocity);
+    EXPECT_EQ(orders[3].sequence, 6u) << "the line number";
+}
+
+struct BadLine {
+    const char* line;
+    const char* says;
+};
+
+class BadOrder : public testing::TestWithParam<BadLine> {};
+
+TEST_P(BadOrder, IsNamedWithItsLineAndTheRestIsKept) {
+    Diagnostics d;
+    const std::string good = R"({"t":0,"robot":"cart","joint":{"name":"slide","effort":1}})";
+    const auto orders =
+        parse_orders(good + "\n" + GetParam().line + "\n" + good + "\n", "f.jsonl", *cart_model(), d);
+    EXPECT_EQ(orders.size(), 2u);
+    ASSERT_EQ(d.items().size(), 1u);
+    EXPECT_EQ(d.items()[0].where.file, "f.jsonl");
+    EXPECT_EQ(d.items()[0].where.line, 2);
+    EXPECT_EQ(d.items()[0].severity, Severity::kError);
+    EXPECT_FALSE(d.items()[0].remedy.empty());
+    EXPECT_NE(d.items()[0].message.find(GetParam().says), std::string::npos) << d.items()[0].message;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Lines, BadOrder,
+    testing::Values(
+        BadLine{"{", "not valid JSON"}, BadLine{"[1]", "not a JSON object"},
+        BadLine{R"({"robot":"cart"})", "'t' is missing"},
+        BadLine{R"({"t":-1,"robot":"cart","joint":{}})", "'t' is not in"},
+        BadLine{R"({"t":0,"robot":"carl","joint":{}})", "'carl'"},
+        BadLine{R"({"t":0,"robot":"cart"})", "0 actions"},
+        BadLine{R"({"t":0,"robot":"cart","joint":{"name":"slid","velocity":1}})", "no joint 'slid'"},
+        BadLine{R"({"t":0,"robot":"cart","joint":{"name":"slide","velocity":1,"effort":1}})", "names 2 of"},
+        BadLine{R"({"t":0,"robot":"cart","joint":{"name":"slide","speed":1}})", "'speed' is not a key"},
+        BadLine{R"({"t":0,"robot":"cart","joint":{"name":"slide","effort":1,"axis":1}})",
+                "degrees of freedom"},
+        BadLine{R"({"t":0,"robot":"cart","joint":{"name":"slide","effort":1,"max_effort":-1}})", "negative"},
+        BadLine{R"({"t":0,"robot":"cart","set_pose":{"position":[1,2]}})", "list of 3 numbers"},
+        BadLine{R"({"t":0,"robot":"cart","set_pose":{"position":[0,0,0],"orientation":[1,1,0,0]}})",
+                "unit quaternion"},
+        BadLine{R"({"t":0,"robot":"cart","wrench":{"link":"bottom","force":[0,0,1]}})", "no link 'bottom'"},
+        BadLine{R"({"t":0,"robot":"cart","wrench":{"link":"top","force":[0,0,1],"duration":0}})",
+                "'duration'"},
+        BadLine{R"({"t":0,"robot":"cart","set_velocity":{"linear":[1e999,0,0]}})", "overflow"}));
+
+TEST(OrdersFile, AFileThatIsNotThereIsAnError) {
+    Diagnostics d;
+    EXPECT_TRUE(load_orders("no/such/file.jsonl", *cart_model(), d).empty());
+    EXPECT_TRUE(d.has_errors());
+}
+
+}  // namespace
+}  // namespace roboss
