@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "core/float_env.h"
-#include "wire/model_codec.h"
 #include "wire/state_block.h"
 
 namespace roboss {
@@ -24,6 +23,7 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
                        StartingPoint start)
     : model_(std::move(model)),
       options_(options),
+      model_server_(model_, options.scene, options.before.models),
       control_(options.before.control),
       roster_(options.before.seats, options.before.first_id),
       clients_(options.clients),
@@ -106,7 +106,7 @@ void Controller::handle(Bus& bus, Envelope& envelope) {
     } else if (const auto* asked = std::get_if<ControlRequest>(&envelope.message)) {
         control_.take(bus, from, *asked);
     } else if (const auto* wanted = std::get_if<ModelRequest>(&envelope.message)) {
-        serve_model(bus, from, *wanted);
+        bus.send(kControllerAddress, from, model_server_.part(*wanted));
     } else if (const auto* view = std::get_if<ViewRequest>(&envelope.message)) {
         take_view_request(bus, from, *view);
     }
@@ -114,7 +114,7 @@ void Controller::handle(Bus& bus, Envelope& envelope) {
 
 void Controller::take_hello(Bus& bus, const Address& from, const Hello& hello) {
     if (from.role != Role::kSimulator) return note_dropped("Hello", "its sender is not a Simulator");
-    if (is_earlier_model(hello.model_hash))
+    if (model_server_.is_earlier(hello.model_hash))
         return bus.send(kControllerAddress, from, ModelChanged{model_->hash});
     if (hello.model_hash != model_->hash)
         return bus.send(kControllerAddress, from,
@@ -130,17 +130,12 @@ void Controller::take_hello(Bus& bus, const Address& from, const Hello& hello) {
     bus.send(kControllerAddress, from, Welcome{roster_.id_of(*seat_id)});
 }
 
-bool Controller::is_earlier_model(std::uint64_t hash) const {
-    const auto& models = options_.before.models;
-    return hash != model_->hash && std::find(models.begin(), models.end(), hash) != models.end();
-}
-
 ControllerOptions::Before Controller::hand_over() {
     ControllerOptions::Before before = options_.before;
     before.seats = roster_.size();
     before.epoch = epoch_ + 1;
     before.window = window_;
-    before.models.push_back(model_->hash);
+    before.models = model_server_.hashes();
     before.control = control_;
     return before;
 }
@@ -195,27 +190,6 @@ void Controller::serve(Bus& bus, const Address& from, const StateRequest& reques
     for (const RobotId robot : request.robots)
         if (robot.index() < base_.states->size()) append(reply.states, robot, (*base_.states)[robot.index()]);
     bus.send(kControllerAddress, from, std::move(reply));
-}
-
-const WholeBytes& Controller::whole(Whole what) {
-    std::optional<WholeBytes>& kept = what == Whole::kModel ? model_bytes_ : scene_bytes_;
-    if (!kept) {
-        kept.emplace();
-        if (what == Whole::kModel) kept->bytes = encode_model(*model_);
-        if (what == Whole::kScene && options_.scene) kept->bytes = options_.scene(*model_);
-        kept->hash = hash_of_bytes(kept->bytes);
-    }
-    return *kept;
-}
-
-void Controller::serve_model(Bus& bus, const Address& from, const ModelRequest& request) {
-    constexpr std::uint64_t kPartBytes = 1u << 20;
-    const WholeBytes& all = whole(request.what);
-    const std::uint64_t total = all.bytes.size(), offset = std::min(request.offset, total);
-    const auto first = all.bytes.begin() + static_cast<std::ptrdiff_t>(offset);
-    const auto count = static_cast<std::ptrdiff_t>(std::min(kPartBytes, total - offset));
-    bus.send(kControllerAddress, from,
-             ModelPart{request.what, all.hash, total, offset, {first, first + count}});
 }
 
 void Controller::dismiss(Bus& bus, const std::string& reason) {

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <algorithm>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,6 +16,7 @@
 #include "journal/run_log.h"
 #include "roles/client_service.h"
 #include "roles/control_service.h"
+#include "roles/model_server.h"
 #include "roles/order_feed.h"
 #include "roles/order_log.h"
 #include "roles/roster.h"
@@ -59,7 +59,7 @@ struct ControllerOptions {
         ControlService control;
     } before;
     /// Makes the scene, in bytes for viewers; called when the first viewer requests it.
-    std::function<std::vector<std::uint8_t>(const Model&)> scene;
+    ModelServer::SceneOf scene;
     RunLog* log = nullptr;  // outlives the Controller; null: nothing is logged
     Tick log_ticks = 0;     // checkpoints for the log at multiples of so many ticks; 0: none
 };
@@ -119,12 +119,6 @@ struct RecoveryCheckpoint {
     Tick tick = 0;
     std::shared_ptr<std::vector<RobotState>> states;  // by RobotId; never changed once it is complete
     UnionFind touched;                                // connects robots that may have interacted since
-};
-
-/// Encoded Model or scene.
-struct WholeBytes {
-    std::vector<std::uint8_t> bytes;
-    std::uint64_t hash = 0;
 };
 
 class Controller {
@@ -216,9 +210,6 @@ class Controller {
     /// The seat of this id. A sender that is not alive there gets Expelled or Goodbye.
     std::optional<SeatId> heard_from(Bus& bus, const Address& from, SimulatorId id);
     void serve(Bus& bus, const Address& from, const StateRequest& request) const;
-    bool is_earlier_model(std::uint64_t hash) const;
-    void serve_model(Bus& bus, const Address& from, const ModelRequest& request);
-    const WholeBytes& whole(Whole what);
     void fail(Error error);
     /// Logs an invalid message.
     void note_dropped(const char* message, const std::string& why);
@@ -300,8 +291,8 @@ class Controller {
     bool is_lost(SeatId seat_id) const { return seat_id != kAtController && !roster_.alive(seat_id); }
 
     std::shared_ptr<const Model> model_;
-    std::optional<WholeBytes> model_bytes_, scene_bytes_;  // made at the first request
     ControllerOptions options_;
+    ModelServer model_server_;
     ControlService control_;
     Roster roster_;
     ClientService clients_;

@@ -8,7 +8,7 @@ namespace roboss {
 
 void Controller::take_client_hello(Bus& bus, const Address& from, const ClientHello& hello) {
     if (from.role != Role::kClient) return note_dropped("ClientHello", "its sender is not a Client");
-    if (is_earlier_model(hello.model_hash))
+    if (model_server_.is_earlier(hello.model_hash))
         return bus.send(kControllerAddress, from, ModelChanged{model_->hash});
     if (hello.model_hash != model_->hash)
         return bus.send(kControllerAddress, from, Refused{"its world is not this run's"});
