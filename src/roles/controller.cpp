@@ -27,10 +27,10 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
       control_(options.before.control),
       roster_(options.before.seats, options.before.first_id),
       clients_(options.clients),
+      recorder_(options.log, options.log_ticks, std::max(start.tick, start.logged_until),
+                std::move(start.answered)),
       tick_(start.tick),
       target_(start.tick),
-      logged_until_(std::max(start.tick, start.logged_until)),
-      answered_(std::move(start.answered)),
       forecast_(model_),
       length_(options.window) {
     epoch_ = options_.before.epoch;
@@ -140,6 +140,17 @@ ControllerOptions::Before Controller::hand_over() {
     return before;
 }
 
+void Controller::start_log(RunLog* log, Tick log_ticks) {
+    recorder_.start(log, log_ticks);
+    for (std::size_t i = 0; i < clients_.seats().size(); ++i)
+        if (clients_.seats()[i].joined) recorder_.joined(ClientId(i), clients_.seats()[i].name);
+    for (const LoggedOrder& o : order_log_.pending(tick_)) recorder_.order(o.order, o.given_at);
+}
+
+bool Controller::waits_for_log() const {
+    return round_ && !round_->span().recovery && round_->all_answered() && !recorder_.may_commit();
+}
+
 void Controller::set_window(Tick ticks) {
     length_ = WindowLength(ticks);
 }
@@ -219,8 +230,8 @@ Result<> Controller::submit(const Order& order) {
                          " comes too late, the world is at tick " + std::to_string(stampable()),
                      "give a later time"};
     // given before this tick is observed: a save or a branch at this tick includes it
-    const Tick given_at = std::max(tick_, logged_until_) - 1;
-    if (order_log_.add(order, given_at) && options_.log != nullptr) options_.log->order(order, given_at);
+    const Tick given_at = std::max(tick_, recorder_.logged_until()) - 1;
+    if (order_log_.add(order, given_at)) recorder_.order(order, given_at);
     return Ok{};
 }
 

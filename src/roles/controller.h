@@ -19,6 +19,7 @@
 #include "roles/model_server.h"
 #include "roles/order_feed.h"
 #include "roles/order_log.h"
+#include "roles/recorder.h"
 #include "roles/roster.h"
 #include "roles/round.h"
 #include "roles/view_service.h"
@@ -167,12 +168,12 @@ class Controller {
 
     /// Tick of the checkpoint for the log that is being fetched. The caller adds the memory of its control
     /// programs.
-    std::optional<Tick> log_tick() const { return log_tick_; }
+    std::optional<Tick> log_tick() const { return recorder_.checkpoint_tick(); }
     /// That checkpoint once it is complete, without the Clients' memory. It is handed out once.
-    std::optional<RunCheckpoint> take_log_checkpoint();
+    std::optional<RunCheckpoint> take_log_checkpoint() { return recorder_.take_checkpoint(); }
     /// The next commit waits for the log.
     bool waits_for_log() const;
-    std::uint64_t log_needed() const { return log_needed_; }
+    std::uint64_t log_needed() const { return recorder_.needed(); }
     /// Logs to `log` from now on, beginning with the orders still to be applied. Only between windows. Null:
     /// ends logging.
     void start_log(RunLog* log, Tick log_ticks);
@@ -231,8 +232,7 @@ class Controller {
     void acknowledge(Bus& bus);
     Tick scheduled_until() const { return round_ && !round_->span().recovery ? round_->span().until : tick_; }
     /// The first tick at which a new order can apply.
-    Tick stampable() const { return std::max(scheduled_until(), logged_until_); }
-    bool is_in_log(const ClientSeat& seat, const ClientReply& reply) const;
+    Tick stampable() const { return std::max(scheduled_until(), recorder_.logged_until()); }
 
     // controller_window.cpp
     void at_boundary(Bus& bus);
@@ -276,12 +276,7 @@ class Controller {
     void advance_checkpoint(Bus& bus);
     void finish_checkpoint();
     bool checkpoint_due() const;
-
-    // controller_log.cpp
     void begin_log_checkpoint();
-    Tick next_log_tick(Tick from) const;
-    void log_window(Tick until);
-    void log_commit();
     bool release_leaving_members(Bus& bus);
     bool anything_lost() const;
     void begin_recovery();
@@ -298,15 +293,9 @@ class Controller {
     ClientService clients_;
     OrderLog order_log_;
     OrderFeed feed_;
+    Recorder recorder_;
 
     Tick tick_ = 0, target_ = 0;
-    Tick logged_until_ = 0;
-    std::vector<Tick>
-        answered_;  // by ClientId: last observation replied to, in the log that this run started from
-    std::uint64_t log_needed_ = 0;  // entries that must be safe before the round is committed
-    std::optional<Tick> log_tick_;  // of the checkpoint for the log that is under way
-    Tick log_tried_ = -1;           // tick of the last attempt
-    std::optional<RunCheckpoint> log_checkpoint_;
     std::optional<Tick> ends_at_;  // in this tick a state becomes non-finite
     bool started_ = false;
     std::vector<std::uint64_t> hashes_, next_hashes_;  // by RobotId: committed; of the round
