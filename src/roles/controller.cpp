@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "core/float_env.h"
-#include "wire/model_codec.h"
 #include "wire/state_block.h"
 
 namespace roboss {
@@ -24,13 +23,14 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
                        StartingPoint start)
     : model_(std::move(model)),
       options_(options),
+      model_server_(model_, options.scene, options.before.models),
       control_(options.before.control),
       roster_(options.before.seats, options.before.first_id),
       clients_(options.clients),
+      recorder_(options.log, options.log_ticks, std::max(start.tick, start.logged_until),
+                std::move(start.answered)),
       tick_(start.tick),
       target_(start.tick),
-      logged_until_(std::max(start.tick, start.logged_until)),
-      answered_(std::move(start.answered)),
       forecast_(model_),
       length_(options.window) {
     epoch_ = options_.before.epoch;
@@ -106,7 +106,7 @@ void Controller::handle(Bus& bus, Envelope& envelope) {
     } else if (const auto* asked = std::get_if<ControlRequest>(&envelope.message)) {
         control_.take(bus, from, *asked);
     } else if (const auto* wanted = std::get_if<ModelRequest>(&envelope.message)) {
-        serve_model(bus, from, *wanted);
+        bus.send(kControllerAddress, from, model_server_.part(*wanted));
     } else if (const auto* view = std::get_if<ViewRequest>(&envelope.message)) {
         take_view_request(bus, from, *view);
     }
@@ -114,7 +114,7 @@ void Controller::handle(Bus& bus, Envelope& envelope) {
 
 void Controller::take_hello(Bus& bus, const Address& from, const Hello& hello) {
     if (from.role != Role::kSimulator) return note_dropped("Hello", "its sender is not a Simulator");
-    if (is_earlier_model(hello.model_hash))
+    if (model_server_.is_earlier(hello.model_hash))
         return bus.send(kControllerAddress, from, ModelChanged{model_->hash});
     if (hello.model_hash != model_->hash)
         return bus.send(kControllerAddress, from,
@@ -130,19 +130,25 @@ void Controller::take_hello(Bus& bus, const Address& from, const Hello& hello) {
     bus.send(kControllerAddress, from, Welcome{roster_.id_of(*seat_id)});
 }
 
-bool Controller::is_earlier_model(std::uint64_t hash) const {
-    const auto& models = options_.before.models;
-    return hash != model_->hash && std::find(models.begin(), models.end(), hash) != models.end();
-}
-
 ControllerOptions::Before Controller::hand_over() {
     ControllerOptions::Before before = options_.before;
     before.seats = roster_.size();
     before.epoch = epoch_ + 1;
     before.window = window_;
-    before.models.push_back(model_->hash);
+    before.models = model_server_.hashes();
     before.control = control_;
     return before;
+}
+
+void Controller::start_log(RunLog* log, Tick log_ticks) {
+    recorder_.start(log, log_ticks);
+    for (std::size_t i = 0; i < clients_.seats().size(); ++i)
+        if (clients_.seats()[i].joined) recorder_.joined(ClientId(i), clients_.seats()[i].name);
+    for (const LoggedOrder& o : order_log_.pending(tick_)) recorder_.order(o.order, o.given_at);
+}
+
+bool Controller::waits_for_log() const {
+    return round_ && !round_->span().recovery && round_->all_answered() && !recorder_.may_commit();
 }
 
 void Controller::set_window(Tick ticks) {
@@ -197,27 +203,6 @@ void Controller::serve(Bus& bus, const Address& from, const StateRequest& reques
     bus.send(kControllerAddress, from, std::move(reply));
 }
 
-const WholeBytes& Controller::whole(Whole what) {
-    std::optional<WholeBytes>& kept = what == Whole::kModel ? model_bytes_ : scene_bytes_;
-    if (!kept) {
-        kept.emplace();
-        if (what == Whole::kModel) kept->bytes = encode_model(*model_);
-        if (what == Whole::kScene && options_.scene) kept->bytes = options_.scene(*model_);
-        kept->hash = hash_of_bytes(kept->bytes);
-    }
-    return *kept;
-}
-
-void Controller::serve_model(Bus& bus, const Address& from, const ModelRequest& request) {
-    constexpr std::uint64_t kPartBytes = 1u << 20;
-    const WholeBytes& all = whole(request.what);
-    const std::uint64_t total = all.bytes.size(), offset = std::min(request.offset, total);
-    const auto first = all.bytes.begin() + static_cast<std::ptrdiff_t>(offset);
-    const auto count = static_cast<std::ptrdiff_t>(std::min(kPartBytes, total - offset));
-    bus.send(kControllerAddress, from,
-             ModelPart{request.what, all.hash, total, offset, {first, first + count}});
-}
-
 void Controller::dismiss(Bus& bus, const std::string& reason) {
     for (SeatId seat_id = 0; seat_id < roster_.size(); ++seat_id)
         if (roster_.alive(seat_id))
@@ -245,8 +230,8 @@ Result<> Controller::submit(const Order& order) {
                          " comes too late, the world is at tick " + std::to_string(stampable()),
                      "give a later time", "too-late"};
     // given before this tick is observed: a save or a branch at this tick includes it
-    const Tick given_at = std::max(tick_, logged_until_) - 1;
-    if (order_log_.add(order, given_at) && options_.log != nullptr) options_.log->order(order, given_at);
+    const Tick given_at = std::max(tick_, recorder_.logged_until()) - 1;
+    if (order_log_.add(order, given_at)) recorder_.order(order, given_at);
     return Ok{};
 }
 

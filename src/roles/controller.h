@@ -5,7 +5,6 @@
 #pragma once
 
 #include <algorithm>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,8 +16,10 @@
 #include "journal/run_log.h"
 #include "roles/client_service.h"
 #include "roles/control_service.h"
+#include "roles/model_server.h"
 #include "roles/order_feed.h"
 #include "roles/order_log.h"
+#include "roles/recorder.h"
 #include "roles/roster.h"
 #include "roles/round.h"
 #include "roles/view_service.h"
@@ -59,7 +60,7 @@ struct ControllerOptions {
         ControlService control;
     } before;
     /// Makes the scene, in bytes for viewers; called when the first viewer requests it.
-    std::function<std::vector<std::uint8_t>(const Model&)> scene;
+    ModelServer::SceneOf scene;
     RunLog* log = nullptr;  // outlives the Controller; null: nothing is logged
     Tick log_ticks = 0;     // checkpoints for the log at multiples of so many ticks; 0: none
 };
@@ -121,12 +122,6 @@ struct RecoveryCheckpoint {
     UnionFind touched;                                // connects robots that may have interacted since
 };
 
-/// Encoded Model or scene.
-struct WholeBytes {
-    std::vector<std::uint8_t> bytes;
-    std::uint64_t hash = 0;
-};
-
 class Controller {
   public:
     Controller(std::shared_ptr<const Model> model, const ControllerOptions& options, StartingPoint start);
@@ -173,12 +168,12 @@ class Controller {
 
     /// Tick of the checkpoint for the log that is being fetched. The caller adds the memory of its control
     /// programs.
-    std::optional<Tick> log_tick() const { return log_tick_; }
+    std::optional<Tick> log_tick() const { return recorder_.checkpoint_tick(); }
     /// That checkpoint once it is complete, without the Clients' memory. It is handed out once.
-    std::optional<RunCheckpoint> take_log_checkpoint();
+    std::optional<RunCheckpoint> take_log_checkpoint() { return recorder_.take_checkpoint(); }
     /// The next commit waits for the log.
     bool waits_for_log() const;
-    std::uint64_t log_needed() const { return log_needed_; }
+    std::uint64_t log_needed() const { return recorder_.needed(); }
     /// Logs to `log` from now on, beginning with the orders still to be applied. Only between windows. Null:
     /// ends logging.
     void start_log(RunLog* log, Tick log_ticks);
@@ -216,9 +211,6 @@ class Controller {
     /// The seat of this id. A sender that is not alive there gets Expelled or Goodbye.
     std::optional<SeatId> heard_from(Bus& bus, const Address& from, SimulatorId id);
     void serve(Bus& bus, const Address& from, const StateRequest& request) const;
-    bool is_earlier_model(std::uint64_t hash) const;
-    void serve_model(Bus& bus, const Address& from, const ModelRequest& request);
-    const WholeBytes& whole(Whole what);
     void fail(Error error);
     /// Logs an invalid message.
     void note_dropped(const char* message, const std::string& why);
@@ -240,8 +232,7 @@ class Controller {
     void acknowledge(Bus& bus);
     Tick scheduled_until() const { return round_ && !round_->span().recovery ? round_->span().until : tick_; }
     /// The first tick at which a new order can apply.
-    Tick stampable() const { return std::max(scheduled_until(), logged_until_); }
-    bool is_in_log(const ClientSeat& seat, const ClientReply& reply) const;
+    Tick stampable() const { return std::max(scheduled_until(), recorder_.logged_until()); }
 
     // controller_window.cpp
     void at_boundary(Bus& bus);
@@ -285,12 +276,7 @@ class Controller {
     void advance_checkpoint(Bus& bus);
     void finish_checkpoint();
     bool checkpoint_due() const;
-
-    // controller_log.cpp
     void begin_log_checkpoint();
-    Tick next_log_tick(Tick from) const;
-    void log_window(Tick until);
-    void log_commit();
     bool release_leaving_members(Bus& bus);
     bool anything_lost() const;
     void begin_recovery();
@@ -300,22 +286,16 @@ class Controller {
     bool is_lost(SeatId seat_id) const { return seat_id != kAtController && !roster_.alive(seat_id); }
 
     std::shared_ptr<const Model> model_;
-    std::optional<WholeBytes> model_bytes_, scene_bytes_;  // made at the first request
     ControllerOptions options_;
+    ModelServer model_server_;
     ControlService control_;
     Roster roster_;
     ClientService clients_;
     OrderLog order_log_;
     OrderFeed feed_;
+    Recorder recorder_;
 
     Tick tick_ = 0, target_ = 0;
-    Tick logged_until_ = 0;
-    std::vector<Tick>
-        answered_;  // by ClientId: last observation replied to, in the log that this run started from
-    std::uint64_t log_needed_ = 0;  // entries that must be safe before the round is committed
-    std::optional<Tick> log_tick_;  // of the checkpoint for the log that is under way
-    Tick log_tried_ = -1;           // tick of the last attempt
-    std::optional<RunCheckpoint> log_checkpoint_;
     std::optional<Tick> ends_at_;  // in this tick a state becomes non-finite
     bool started_ = false;
     std::vector<std::uint64_t> hashes_, next_hashes_;  // by RobotId: committed; of the round

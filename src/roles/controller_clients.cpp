@@ -8,12 +8,13 @@ namespace roboss {
 
 void Controller::take_client_hello(Bus& bus, const Address& from, const ClientHello& hello) {
     if (from.role != Role::kClient) return note_dropped("ClientHello", "its sender is not a Client");
-    if (is_earlier_model(hello.model_hash))
+    if (model_server_.is_earlier(hello.model_hash))
         return bus.send(kControllerAddress, from, ModelChanged{model_->hash});
     if (hello.model_hash != model_->hash)
         return bus.send(kControllerAddress, from, Refused{"its world is not this run's"});
     bool is_new = false;
-    const bool goes_on = scheduled_until() < logged_until_;  // follows a log that has its replies so far
+    const bool goes_on =
+        scheduled_until() < recorder_.logged_until();  // follows a log that has its replies so far
     ClientHello new_hello = hello;
     if (options_.before.went_back) {  // its replies were for a discarded history
         new_hello.expected = -1;
@@ -25,9 +26,8 @@ void Controller::take_client_hello(Bus& bus, const Address& from, const ClientHe
     bus.send(kControllerAddress, from, ClientWelcome{id, seat.first, options_.seed});
     if (!is_new) return;
     notice("client '" + seat.name + "' joined at tick " + std::to_string(tick_));
-    if (options_.log != nullptr) options_.log->joined(id, seat.name);
-    if (options_.log != nullptr && seat.observer)
-        options_.log->reply(id, kGoneForGood);  // nobody waits for it
+    recorder_.joined(id, seat.name);
+    if (seat.observer) recorder_.gone(id);
     const bool at_rest = !round_ || round_->span().recovery;
     if (at_rest && ClientService::observes(seat, tick_)) queue_observation(id, tick_);
 }
@@ -42,30 +42,23 @@ void Controller::take_reply(Bus& bus, const Address& from, const ClientReply& re
     seat->vanished_ms.reset();
     if (reply.number == seat->last_reply + 1) {
         seat->last_reply = reply.number;
-        if (!is_in_log(*seat, reply)) take_orders(*seat, reply);
+        if (!recorder_.has_reply(reply.client, seat->synchronous, reply.observed)) take_orders(*seat, reply);
         std::erase_if(seat->unanswered, [&](Tick tick) { return tick == reply.observed; });
         forget(reply.client, reply.observed);
     }
     // An acknowledged reply is never lost: with a log, it is logged first.
-    seat->acknowledge_at = options_.log != nullptr ? options_.log->given() : 0;
+    seat->acknowledge_at = recorder_.given();
 }
 
 void Controller::acknowledge(Bus& bus) {
     for (std::size_t i = 0; i < clients_.seats().size(); ++i) {
         ClientSeat& seat = clients_.seats()[i];
         if (!seat.acknowledge_at) continue;
-        if (options_.log != nullptr && !options_.log->safe(*seat.acknowledge_at)) continue;
+        if (!recorder_.safe(*seat.acknowledge_at)) continue;
         seat.acknowledge_at.reset();
         seat.acknowledged = seat.last_reply;
         bus.send(kControllerAddress, seat.address, ReplyAck{ClientId(i), seat.last_reply, seat.refused});
     }
-}
-
-/// A run that continues from a log sends Clients observations again to which the log has the replies.
-bool Controller::is_in_log(const ClientSeat& seat, const ClientReply& reply) const {
-    const auto i = static_cast<std::size_t>(&seat - clients_.seats().data());
-    const Tick answered = i < answered_.size() ? answered_[i] : logged_until_ - 1;
-    return reply.observed <= answered || (!seat.synchronous && reply.observed < logged_until_);
 }
 
 void Controller::take_orders(ClientSeat& seat, const ClientReply& reply) {
@@ -82,9 +75,9 @@ void Controller::take_orders(ClientSeat& seat, const ClientReply& reply) {
             continue;
         }
         order_log_.add(order, reply.observed);
-        if (options_.log != nullptr) options_.log->order(order, reply.observed);
+        recorder_.order(order, reply.observed);
     }
-    if (options_.log != nullptr) options_.log->reply(reply.client, reply.observed);
+    recorder_.reply(reply.client, reply.observed);
 }
 
 void Controller::take_bye(Bus& bus, const Address& from, const ClientBye& bye) {
@@ -97,7 +90,7 @@ void Controller::take_bye(Bus& bus, const Address& from, const ClientBye& bye) {
         seat->last_reply = bye.number;
         drop_client(bye.client);
     }
-    seat->acknowledge_at = options_.log != nullptr ? options_.log->given() : 0;
+    seat->acknowledge_at = recorder_.given();
     if (!is_news) return;
     if (bye.failed)
         fail({"client '" + seat->name + "' failed at tick " + std::to_string(tick_) + ": " + bye.reason,
@@ -110,7 +103,7 @@ void Controller::take_bye(Bus& bus, const Address& from, const ClientBye& bye) {
 void Controller::drop_client(ClientId id) {
     ClientSeat& seat = clients_.seats()[id.index()];
     seat.gone = true;
-    if (options_.log != nullptr) options_.log->reply(id, kGoneForGood);
+    recorder_.gone(id);
     for (const Tick tick : std::exchange(seat.unanswered, {})) forget(id, tick);
 }
 
@@ -139,6 +132,19 @@ void Controller::notice_client_losses(Bus& bus) {
         else
             notice(what + " and is given up");
     }
+}
+
+std::vector<std::string> Controller::client_names() const {
+    std::vector<std::string> names;
+    for (const ClientSeat& seat : clients_.seats()) names.push_back(seat.name);
+    return names;
+}
+
+std::vector<std::string> Controller::clients_serving() const {
+    std::vector<std::string> names;
+    for (const ClientSeat& seat : clients_.seats())
+        if (seat.serves() && !seat.observer) names.push_back(seat.name);
+    return names;
 }
 
 WantedTick& Controller::want_at_this_tick() {

@@ -43,6 +43,16 @@ void Controller::begin_checkpoint() {
     work_since_s_ = 0;
 }
 
+/// A checkpoint for the log, if one is due at this tick.
+void Controller::begin_log_checkpoint() {
+    if (!recorder_.take_checkpoint_due(tick_)) return;
+    begin_checkpoint();
+    const bool here = base_.tick == tick_;
+    if (!here && !(next_base_ && next_base_->tick == tick_)) return;
+    recorder_.checkpoint_begun(tick_);
+    if (here) recorder_.checkpoint_complete(tick_, base_.states);
+}
+
 /// Fetches states while Simulators step, so that nobody waits for it. A recovery keeps the checkpoint that it
 /// began with.
 void Controller::advance_checkpoint(Bus& bus) {
@@ -66,7 +76,7 @@ void Controller::finish_checkpoint() {
     pull_.cancel();
     order_log_.trim(base_.tick);
     ++counters_.checkpoints;
-    if (log_tick_ == base_.tick) log_checkpoint_ = RunCheckpoint{base_.tick, base_.states, {}};
+    recorder_.checkpoint_complete(base_.tick, base_.states);
 }
 
 /// No window starts while a member leaves, so the checkpoint taken for it has all states that it held.
@@ -126,7 +136,7 @@ void Controller::give_up(SeatId seat_id, const std::string& why) {
     round_.reset();
     if (next_base_ && !pull_.complete()) {
         pull_.cancel();
-        if (log_tick_ == next_base_->tick) log_tick_.reset();
+        recorder_.checkpoint_lost(next_base_->tick);
         next_base_.reset();
         for (WantedTick& want : wants_) want.checkpoint = false;
         std::erase_if(wants_, [](const WantedTick& want) { return !want.open(); });

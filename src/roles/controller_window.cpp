@@ -68,7 +68,8 @@ Tick Controller::window_end(Tick from, Tick length, bool all_answered) const {
     length = std::min(length, views_.window_max().value_or(length));
     if (options_.window_max > 0) length = std::min(length, options_.window_max);
     if (ends_at_ && *ends_at_ > from) length = std::min(length, *ends_at_ - from);
-    return std::min({from + length, target_, clients_.limit(from, all_answered), next_log_tick(from)});
+    return std::min(
+        {from + length, target_, clients_.limit(from, all_answered), recorder_.next_checkpoint(from)});
 }
 
 Tick Controller::window_max() const {
@@ -90,7 +91,7 @@ void Controller::start_window() {
     for (std::size_t r = 0; r < holder_.size(); ++r)
         if (holder_[r] != kAtController && holder_[r] != round_->seat_of(RobotId(r))) ++counters_.migrations;
     keep_wanted(*round_);
-    log_window(until);
+    recorder_.planned(until);
 }
 
 void Controller::keep_wanted(Round& round) const {
@@ -181,7 +182,7 @@ void Controller::take_costs(const Round::Answered& answered, const WindowResult&
 }
 
 void Controller::finish_round() {
-    if (waits_for_log()) return options_.log->hurry();
+    if (waits_for_log()) return recorder_.hurry();
     counters_.critical_cpu_s += 1e-9 * round_->busiest_ns();
     if (round_->span().recovery) return finish_leg();
     if (merge_touching()) return;
@@ -303,7 +304,7 @@ void Controller::commit() {
     tick_ = round.span().until;
     islands_ = std::move(round_->islands);
     round_.reset();
-    log_commit();
+    recorder_.committed(tick_, model_->hash, hashes_);
     queue_observations();
 }
 
