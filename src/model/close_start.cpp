@@ -80,7 +80,7 @@ class StartClosure {
         errors_.clear(), jacobian_.clear();
         gap_ = {};
         for (const LoopJoint& loop : type_.loops) {
-            const BodyMotion a{placement_.of(loop.body_a), {}, {}}, b{placement_.of(loop.body_b), {}, {}};
+            const BodyKinematics a{placement_.of(loop.body_a), {}, {}}, b{placement_.of(loop.body_b), {}, {}};
             const auto rows = closure_rows(loop, a, b);
             for (const ClosureRow& row : rows.all()) {
                 const bool way = norm_squared(row.wrench.linear) > 0;

@@ -10,7 +10,7 @@ namespace {
 /// Both joint frames and how B moves against A.
 class Relative {
   public:
-    Relative(const LoopJoint& loop, const BodyMotion& a, const BodyMotion& b) : loop_(loop) {
+    Relative(const LoopJoint& loop, const BodyKinematics& a, const BodyKinematics& b) : loop_(loop) {
         const Transform A = a.X_OB * loop.X_AJ, B = b.X_OB * loop.X_BJ;
         R_A_ = A.R, R_B_ = B.R;
         p_ = B.p, apart_ = B.p - A.p;
@@ -104,7 +104,7 @@ void add_universal(const LoopJoint& loop, const Mat3& R_AJ, const Mat3& R_BJ, Fr
 
 }  // namespace
 
-ClosureRows closure_rows(const LoopJoint& loop, const BodyMotion& a, const BodyMotion& b) {
+ClosureRows closure_rows(const LoopJoint& loop, const BodyKinematics& a, const BodyKinematics& b) {
     Relative relative(loop, a, b);
     Vec3 side, up;
     tangents(loop.axis_J, side, up);

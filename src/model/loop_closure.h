@@ -13,7 +13,7 @@ namespace roboss {
 
 /// A body as a loop joint sees it, about O, world axes. `bias` is the acceleration with all joint
 /// accelerations zero.
-struct BodyMotion {
+struct BodyKinematics {
     Transform X_OB;
     Spatial velocity, bias;
 };
@@ -34,7 +34,7 @@ struct ClosureRows {
     std::span<const ClosureRow> all() const&& = delete;  // it would outlive the rows
 };
 
-ClosureRows closure_rows(const LoopJoint& loop, const BodyMotion& a, const BodyMotion& b);
+ClosureRows closure_rows(const LoopJoint& loop, const BodyKinematics& a, const BodyKinematics& b);
 
 /// A free direction; the rate of its position is dot(wrench, velocity of B - velocity of A). Angles are in
 /// (-pi, pi]; of a ball joint the rotation vector.

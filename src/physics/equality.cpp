@@ -19,7 +19,7 @@ constexpr double kClosed = 1e-14;  // m or rad
 constexpr double kStepMax = 0.2;   // rad or m, of one Newton step
 constexpr int kNewtonMax = 4;      // of one tick
 
-BodyMotion motion_of(const RobotWork& work, std::span<const double> q, int body) {
+BodyKinematics motion_of(const RobotWork& work, std::span<const double> q, int body) {
     if (body < 0) return {{to_matrix(Quat{q[3], q[4], q[5], q[6]}), {}}, {}, {}};
     const BodyWork& b = work.bodies[static_cast<std::size_t>(body)];
     return {{b.X_WB.R, b.X_WB.p - work.origin}, b.velocity, b.bias};

@@ -63,7 +63,7 @@ class LaneStep final : public LaneStepper {
         leave(LaneTraits<Wide>::bits(m), together);
     }
 
-    /// Bodies and shapes in lanes, contacts lane by lane. Who might fall asleep or turns_fast leaves. All
+    /// Bodies and shapes in lanes, contacts lane by lane. What might fall asleep or turns fast leaves. All
     /// robots come with contacts, or none.
     void place(const Model& model, std::span<const LaneRobot> robots, Lockstep<T>& together) {
         const RobotType& type = *work_.type;
