@@ -33,7 +33,7 @@ std::vector<std::uint64_t> ModelServer::hashes() const {
 const ModelServer::WholeBytes& ModelServer::whole(Whole what) {
     std::optional<WholeBytes>& kept = what == Whole::kModel ? model_bytes_ : scene_bytes_;
     if (!kept) {
-        kept.emplace();
+        kept = WholeBytes{};
         if (what == Whole::kModel) kept->bytes = encode_model(*model_);
         if (what == Whole::kScene && scene_) kept->bytes = scene_(*model_);
         kept->hash = hash_of_bytes(kept->bytes);
