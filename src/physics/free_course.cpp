@@ -28,7 +28,7 @@ BodyMotion motion_of(const BodyWork& body, const Vec3& origin) {
 void FreeCourses::start(std::size_t robots, bool keep_reactions) {
     if (flights_.size() < robots) flights_.resize(robots);
     for (std::size_t r = 0; r < count_; ++r) flights_[r].ahead = Ahead::kUnknown;
-    count_ = robots, keep_loads_ = keep_reactions;
+    count_ = robots, keep_reactions_ = keep_reactions;
 }
 
 bool FreeCourses::compute(const Model& model, const RobotWork& robot, std::vector<BodyMotion>& ends) {
@@ -37,7 +37,7 @@ bool FreeCourses::compute(const Model& model, const RobotWork& robot, std::vecto
     const auto turns_too_far = [&](const Mechanics<double>& work) {
         return !(fastest_turn(work) * dt * dt < kTurnMost * kTurnMost);
     };
-    if (!has_joints(type) || (keep_loads_ && !type.loops.empty()) || !moves_freely(model, robot))
+    if (!has_joints(type) || (keep_reactions_ && !type.loops.empty()) || !moves_freely(model, robot))
         return false;
     if (turns_too_far(robot)) return false;
     work_.id = robot.id, work_.type = robot.type, work_.state = &state_;

@@ -34,7 +34,7 @@ class FreeCourses {
 
     std::vector<Flight> flights_;  // by robot
     std::size_t count_ = 0;
-    bool keep_loads_ = false;
+    bool keep_reactions_ = false;
     RobotWork work_;  // of a robot that is moved ahead
     RobotState state_;
     FreeBuffer buffer_;

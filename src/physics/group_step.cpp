@@ -60,10 +60,10 @@ void mark_touched(std::span<const RobotWork> robots, GroupScratch& s) {
     }
 }
 
-/// Which members drift, and, if any does, the split of the solved impulses. Where nothing pushes an island
-/// from outside its momentum is to stay, and that of its energy that no motor gives: then all drift. Others
-/// do where they turn fast.
-void choose_drifting(const Model& model, std::span<const RobotWork> robots, GroupScratch& s,
+/// Which members drift, and, if any does (then true), the split of the solved impulses. Where nothing pushes
+/// an island from outside its momentum is to stay, and that of its energy that no motor gives: then all
+/// drift. Others do where they turn fast.
+bool choose_drifting(const Model& model, std::span<const RobotWork> robots, GroupScratch& s,
                      std::span<const std::uint32_t> members) {
     s.touched.resize(robots.size());
     for (const std::uint32_t m : members) s.touched[m] = 0;
@@ -84,6 +84,13 @@ void choose_drifting(const Model& model, std::span<const RobotWork> robots, Grou
     if (any)
         split_rows({model.accuracy, s.island_robots, s.island_offsets, s.rows}, s.v_before, s.v, model.dt_s,
                    s.split);
+    return any;
+}
+
+/// Solves for the displacement of the tick, from what stands there.
+void solve_displacement(const Model& model, GroupScratch& s, StepReport& report) {
+    const IslandSolver::Problem problem{model.accuracy, s.island_robots, s.island_offsets, s.rows, true};
+    report.iterations += s.solver.solve(problem, s.displacement).iterations;
 }
 
 /// N m s: what the rows of swept contacts between robots lack of conserving angular momentum. They push both
@@ -189,7 +196,7 @@ void take_impulses(GroupScratch& s) {
         if (row.motor != nullptr) store_warm_start(row.impulse, *row.motor);
     if (s.keep_reactions)
         for (const CouplingRow& row : s.rows.couplings)
-            if (row.loop >= 0) s.loads.push_back({row.robot, row.loop, row.wrench * row.impulse});
+            if (row.loop >= 0) s.reactions.push_back({row.robot, row.loop, row.wrench * row.impulse});
     for (std::size_t c = 0; c < s.rows.contacts.size(); ++c)
         take_impulse(s.rows.contacts[c], s.island_surfaces[c].friction, *s.island_contacts[c]);
     for (const AngularRow& row : s.rows.angulars) {
@@ -253,8 +260,7 @@ bool contacts_are_steady(const GroupScratch& s, double dt) {
 /// while it speeds up or slows down evenly. Only there, for no force on it depends on its place; where one
 /// does (whatever rocks, swings or hangs on a spring) this would add energy to the motion in each tick.
 void take_mean_displacement(std::span<const RobotWork> robots, GroupScratch& s,
-                            std::span<const std::uint32_t> members, double dt) {
-    const bool drifts = std::ranges::find(s.drifts, 1) != s.drifts.end();
+                            std::span<const std::uint32_t> members, bool drifts, double dt) {
     const bool even = !drifts && slides_only(robots, s, members) && contacts_are_steady(s, dt);
     s.displacement.resize(s.v.size());
     for (std::size_t i = 0; i < s.v.size(); ++i)
@@ -336,9 +342,7 @@ void stop_late_hits(const Model& model, std::span<RobotWork> robots, GroupScratc
             robots[static_cast<std::size_t>(hit.robot_b)].touches_robot = true;
         }
         s.look.add_rows(island, s.rows, s.island_surfaces);
-        report.iterations +=
-            s.solver.solve({model.accuracy, s.island_robots, s.island_offsets, s.rows, true}, s.displacement)
-                .iterations;
+        solve_displacement(model, s, report);
     }
     s.island_contacts.resize(found);
     for (Contact& hit : s.look.hits()) s.island_contacts.push_back(&hit);
@@ -369,23 +373,20 @@ void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch&
         s.solver.solve({model.accuracy, s.island_robots, s.island_offsets, s.rows}, s.v);
     report.iterations += solved.iterations;
     report.residual = std::max(report.residual, solved.residual);
-    choose_drifting(model, robots, s, members);
+    const bool drifts = choose_drifting(model, robots, s, members);
     take_impulses(s);
     const bool bounces = throws_back(s.rows);
     if (split) {
         s.displacement = s.v;
         for (ContactRow& row : s.rows.contacts) row.slip.bound = row.slip.coefficient * row.normal.impulse;
-        report.iterations +=
-            s.solver.solve({model.accuracy, s.island_robots, s.island_offsets, s.rows, true}, s.displacement)
-                .iterations;
+        solve_displacement(model, s, report);
         limit_correction(robots, s, members);
     } else {
-        take_mean_displacement(robots, s, members, model.dt_s);
+        take_mean_displacement(robots, s, members, drifts, model.dt_s);
     }
     mark_pushed(robots, s);
     stop_late_hits(model, robots, s, members, split, report);
     mark_touched(robots, s);
-    const bool drifts = std::ranges::find(s.drifts, 1) != s.drifts.end();
     s.gained_moment = {};
     const bool guards = start_guard(model, robots, s, members, bounces, drifts);
     finish_island(model, robots, s, members, s.displacement);
@@ -393,8 +394,9 @@ void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch&
         return is_plausible(robots[m].state->q) && is_plausible(robots[m].state->v);
     };
     if (s.look.may_push_out() && std::ranges::all_of(members, moved_well)) s.look.push_out(robots, model);
-    if (const Vec3 moment = late_moment(s) - s.gained_moment; !s.anchored && moment != Vec3{})
-        turn_island(model, robots, members, moment, s.free_buffer.work);
+    if (!s.anchored)
+        if (const Vec3 moment = late_moment(s) - s.gained_moment; moment != Vec3{})
+            turn_island(model, robots, members, moment, s.free_buffer.work);
     if (guards) s.guard.finish(model, robots, members, s.free_buffer.work);
 }
 

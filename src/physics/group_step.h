@@ -23,7 +23,7 @@ namespace roboss {
 struct GroupScratch {
     bool keep_reactions =
         false;  // then robots with loops do not move freely, for then nothing knows their loads
-    std::vector<LoopReaction> loads;
+    std::vector<LoopReaction> reactions;
     LaneSteppers lanes;        // for robots that touch nobody
     bool tried_alone = false;  // the group is one robot that lanes and floats did not step
     LaneQueue queue;

@@ -58,6 +58,8 @@ double energy_of_soft_contacts(const IslandGuard::Island& island) {
     return energy;
 }
 
+}  // namespace
+
 BodySums sum_robots(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
                     const Vec3& origin, RobotWork& buffer) {
     BodySums all;
@@ -70,17 +72,20 @@ BodySums sum_robots(const Model& model, std::span<RobotWork> robots, std::span<c
     return all;
 }
 
-}  // namespace
+void add_momentum(std::span<RobotWork> robots, std::span<const std::uint32_t> members, BodySums sums,
+                  const Spatial& momentum, const Vec3& origin) {
+    sums.momentum = momentum;
+    Spatial motion;
+    if (!sums.rigid_motion(motion)) return;
+    for (const std::uint32_t m : members)
+        if (robots[m].type->free_base) add_rigid_motion(motion, origin, 1.0, *robots[m].state);
+}
 
 void turn_island(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
                  const Vec3& moment, RobotWork& buffer) {
     const Vec3 origin = robots[members[0]].origin;
-    BodySums lacks = sum_robots(model, robots, members, origin, buffer);
-    lacks.momentum = {moment, {}};
-    Spatial motion;
-    if (!lacks.rigid_motion(motion)) return;
-    for (const std::uint32_t m : members)
-        if (robots[m].type->free_base) add_rigid_motion(motion, origin, 1.0, *robots[m].state);
+    const BodySums sums = sum_robots(model, robots, members, origin, buffer);
+    add_momentum(robots, members, sums, {moment, {}}, origin);
 }
 
 bool throws_back(const IslandRows& rows) {

@@ -13,12 +13,20 @@ namespace roboss {
 /// True if a rigid contact throws what hits it back, by the velocities that were solved for.
 bool throws_back(const IslandRows& rows);
 
-/// One contact island's tick. `members` index `robots`.
+/// Sums over some robots about `origin`; `members` index `robots`. Overwrites `buffer`.
+BodySums sum_robots(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
+                    const Vec3& origin, RobotWork& buffer);
+
+/// Adds momentum about `origin` to robots with free bases, whose sums these are: they move as one rigid body.
+void add_momentum(std::span<RobotWork> robots, std::span<const std::uint32_t> members, BodySums sums,
+                  const Spatial& momentum, const Vec3& origin);
+
 /// Adds angular momentum, N m s, to an island of robots with free bases: it turns about its centre of mass as
 /// if it were one rigid body.
 void turn_island(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
                  const Vec3& moment, RobotWork& buffer);
 
+/// Guards one contact island in one tick. `members` index `robots`.
 class IslandGuard {
   public:
     /// What is known of the island besides its robots.

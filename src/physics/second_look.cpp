@@ -2,10 +2,11 @@
 #include "physics/second_look.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/make_room.h"
 #include "geometry/collide.h"
-#include "physics/robot_energy.h"
+#include "physics/island_guard.h"
 
 namespace roboss {
 namespace {
@@ -341,31 +342,21 @@ bool SecondLook::push_out(std::span<RobotWork> robots, const Model& model, const
         shift_base(push * inverse_mass_a, *a.state);
         if (inverse_mass_b > 0) shift_base(push * -inverse_mass_b, *b->state);
     } else {
-        move_apart(model, a, push * inverse_mass_a, *b, push * -inverse_mass_b);
+        move_apart(model, robots, pair, push * inverse_mass_a, push * -inverse_mass_b);
     }
     return true;
 }
 
 /// Moves two free robots and keeps their common angular momentum: it would change by move x momentum.
-void SecondLook::move_apart(const Model& model, RobotWork& a, const Vec3& move_a, RobotWork& b,
-                            const Vec3& move_b) {
-    const Vec3 origin = a.origin;
-    const auto both = [&] {
-        BodySums sums;
-        for (const RobotWork* robot : {&a, &b}) {
-            placed_.type = robot->type, placed_.state = robot->state;
-            sums += sum_bodies(model, robot->state->q, robot->state->v, origin, placed_);
-        }
-        return sums;
-    };
-    const BodySums before = both();
-    shift_base(move_a, *a.state), shift_base(move_b, *b.state);
-    BodySums lacks = both();
-    lacks.momentum = {before.momentum.angular - lacks.momentum.angular,
-                      before.momentum.linear - lacks.momentum.linear};
-    Spatial missing;
-    if (!lacks.rigid_motion(missing)) return;
-    add_rigid_motion(missing, origin, 1.0, *a.state), add_rigid_motion(missing, origin, 1.0, *b.state);
+void SecondLook::move_apart(const Model& model, std::span<RobotWork> robots, const NearMiss& pair,
+                            const Vec3& move_a, const Vec3& move_b) {
+    const std::array both{static_cast<std::uint32_t>(pair.robot_a), static_cast<std::uint32_t>(pair.robot_b)};
+    const Vec3 origin = robots[both[0]].origin;
+    const Spatial before = sum_robots(model, robots, both, origin, placed_).momentum;
+    shift_base(move_a, *robots[both[0]].state), shift_base(move_b, *robots[both[1]].state);
+    const BodySums sums = sum_robots(model, robots, both, origin, placed_);
+    const Spatial missing{before.angular - sums.momentum.angular, before.linear - sums.momentum.linear};
+    add_momentum(robots, both, sums, missing, origin);
 }
 
 void SecondLook::push_out(std::span<RobotWork> robots, const Model& model) {

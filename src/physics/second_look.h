@@ -54,7 +54,8 @@ class SecondLook {
         Vec3 normal;       // of a contact
     };
     bool push_out(std::span<RobotWork> robots, const Model& model, const Turned& turned);
-    void move_apart(const Model& model, RobotWork& a, const Vec3& move_a, RobotWork& b, const Vec3& move_b);
+    void move_apart(const Model& model, std::span<RobotWork> robots, const NearMiss& pair, const Vec3& move_a,
+                    const Vec3& move_b);
     const ShapeWork& placed(const RobotWork& robot, std::uint32_t shape);
     void find_missed(const SolvedIsland& island, const NearMiss& pair);
     bool add_first_hit(const SolvedIsland& island, const NearMiss& pair, const Course& a, const Course& b);

@@ -333,7 +333,7 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
     const ExactFloatScope exact;
     Impl& s = scratch.impl();
     StepReport report;
-    s.contacts.clear(), s.group.loads.clear();
+    s.contacts.clear(), s.group.reactions.clear();
     s.group.lanes = s.steppers(model);
     s.moved_freely.assign(robots.size(), 0);
     s.efforts.assign(robots.size(), 0);
@@ -369,7 +369,7 @@ std::span<const ContactReport> read_contacts(StepScratch& scratch) {
 }
 
 std::span<const LoopReaction> read_loop_reactions(StepScratch& scratch) {
-    return scratch.impl().group.loads;
+    return scratch.impl().group.reactions;
 }
 
 std::span<const float> read_efforts(StepScratch& scratch) {
