@@ -1,24 +1,13 @@
 """tools/check_layers accepts a sound tree and names what is wrong in each kind of unsound one."""
-import os
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-TOOL = Path(os.environ["ROBOSS_TOOLS"]) / "check_layers"
+from check_tree import run_check
+
 LAYERS = "roboss_layer(core)\nroboss_layer(math DEPENDS core)\nroboss_layer(sdf DEPENDS math)\nroboss_layer(sensors DEPENDS math)\n"
 
 
 def run(files):
-    """Exit code and output of the check over a tree of {path: text}."""
-    with tempfile.TemporaryDirectory() as root:
-        for name, text in {"CMakeLists.txt": LAYERS, **files}.items():
-            path = Path(root) / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text)
-        done = subprocess.run([sys.executable, TOOL, root], capture_output=True, text=True, check=False)
-        return done.returncode, done.stdout + done.stderr
+    return run_check("check_layers", {"CMakeLists.txt": LAYERS, **files})
 
 
 class CheckLayers(unittest.TestCase):

@@ -1,12 +1,8 @@
 """tools/check_prose accepts sound pages and comments, and names what is wrong in each kind of unsound one."""
-import os
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-TOOL = Path(os.environ["ROBOSS_TOOLS"]) / "check_prose"
+from check_tree import run_check
+
 WORDS = """# a comment
 except: STYLE.md
 absent: tools/later
@@ -17,14 +13,7 @@ everywhere: \\bhelpless\\b => no work stealing
 
 
 def run(files):
-    """Exit code and output of the check over a tree of {path: text}."""
-    with tempfile.TemporaryDirectory() as root:
-        for name, text in {"tools/prose_words.txt": WORDS, **files}.items():
-            path = Path(root) / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text)
-        done = subprocess.run([sys.executable, TOOL, root], capture_output=True, text=True, check=False)
-        return done.returncode, done.stdout + done.stderr
+    return run_check("check_prose", {"tools/prose_words.txt": WORDS, **files})
 
 
 class CheckProse(unittest.TestCase):
@@ -93,9 +82,7 @@ class CheckProse(unittest.TestCase):
         self.refuses({"tools/prose_words.txt": "somewhere: a => b\n", "README.md": "Text.\n"}, "tools/prose_words.txt:1")
 
     def test_refuses_an_empty_tree(self):
-        with tempfile.TemporaryDirectory() as root:
-            done = subprocess.run([sys.executable, TOOL, root], capture_output=True, text=True, check=False)
-            self.assertEqual(done.returncode, 1)
+        self.assertEqual(run_check("check_prose", {})[0], 1)
 
 
 if __name__ == "__main__":

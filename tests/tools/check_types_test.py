@@ -1,23 +1,11 @@
 """tools/check_types finds types of one name in two files of one program, and nothing else."""
-import os
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-TOOL = Path(os.environ["ROBOSS_TOOLS"]) / "check_types"
+from check_tree import run_check
 
 
 def run(files):
-    """Exit code and output of the check over a tree of {path: text}."""
-    with tempfile.TemporaryDirectory() as root:
-        for name, text in files.items():
-            path = Path(root) / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text)
-        done = subprocess.run([sys.executable, TOOL, root], capture_output=True, text=True, check=False)
-        return done.returncode, done.stdout + done.stderr
+    return run_check("check_types", files)
 
 
 def inside(namespace, text):
