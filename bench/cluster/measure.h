@@ -14,7 +14,7 @@ struct ClusterSettings {
     NetworkCosts network;
     Tick window_max = 0;  // 0: by the number of robots
     std::size_t lanes = 1;
-    bool work_stealing = true;  // who is done takes over from who is late
+    bool work_stealing = true;  // idle Simulators take over ticks of stragglers
     bool count_work = false;    // also the efficiency by counted work, and what the clock makes of equal work
 };
 

@@ -100,7 +100,8 @@ void add_options(CLI::App& app, BenchOptions& options) {
                    "counted steps (otherwise a thousand, or 100000 robot-steps if that is more)")
         ->check(CLI::PositiveNumber);
     app.add_option("--settle", options.contest.settle, "steps before")->check(CLI::PositiveNumber);
-    app.add_option("--blocks", options.contest.blocks, "in so many blocks, of which the median is reported")
+    app.add_option("--blocks", options.contest.blocks,
+                   "number of blocks of counted steps; the median is reported")
         ->check(CLI::PositiveNumber);
     app.add_option("--limit", options.contest.limit_s,
                    "seconds of counted steps an engine and scene; a slower engine counts fewer steps");
