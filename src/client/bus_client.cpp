@@ -63,9 +63,9 @@ void BusClient::handle(Envelope& envelope) {
         if (unknown->client == id_) join_again();
     } else if (const auto* refused = std::get_if<Refused>(&envelope.message)) {
         refusals_.push_back(refused->reason);
-    } else if (const auto* answer = std::get_if<ControlReply>(&envelope.message)) {
+    } else if (auto* answer = std::get_if<ControlReply>(&envelope.message)) {
         if (requests_.empty() || requests_.front().number != answer->number) return;
-        answers_.push_back({requests_.front().arguments, answer->done, answer->text});
+        answers_.push_back({std::move(requests_.front().action), std::move(answer->outcome)});
         requests_.pop_front();
         sent_ms_ = kLongAgo;  // the next one at once
     } else if (std::holds_alternative<ModelChanged>(envelope.message)) {
@@ -163,8 +163,8 @@ void BusClient::resend(Bus& bus) {
     if (bye_) bus.send(self_, kControllerAddress, *bye_);
 }
 
-void BusClient::control(std::vector<std::string> arguments) {
-    requests_.push_back({++request_, std::move(arguments)});
+void BusClient::control(ControlAction request) {
+    requests_.push_back({++request_, std::move(request)});
 }
 
 RayScene& BusClient::ray_scene() {

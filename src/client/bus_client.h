@@ -33,7 +33,7 @@ class BusClient : public Client {
     }
     std::uint64_t seed() const override { return seed_; }
     Result<> order(RobotId robot, const Action& action) override;
-    void control(std::vector<std::string> arguments) override;
+    void control(ControlAction request) override;
     std::vector<ControlAnswer> take_control_answers() override { return std::exchange(answers_, {}); }
 
     /// Handles the messages received and requests what is missing. Never waits.

@@ -18,14 +18,15 @@
 #include "physics/kinematics.h"
 #include "physics/probe.h"
 #include "sensors/readings.h"
+#include "wire/control.h"
 
 namespace roboss {
 
 /// Answer to a request to the run.
 struct ControlAnswer {
-    std::vector<std::string> arguments;  // of the request
-    bool done = false;
-    std::string text;  // what was done, or why not
+    ControlAction request;
+    ControlOutcome outcome;
+    bool done() const { return is_done(outcome); }
 };
 
 /// Queries of a robot, link, joint or sensor that does not exist, or of a sensor of another kind, throw
@@ -58,10 +59,9 @@ class Client {
                        int axis = 0);
     virtual Result<> order(RobotId robot, const Action& action) = 0;
 
-    // --- control of the run itself, with the arguments of `roboss control`: {"pause"}, {"speed", "2"},
-    // {"add",
-    // ...}. A request takes effect at the end of the current window; answers come some time later.
-    virtual void control(std::vector<std::string> arguments) = 0;
+    // --- control of the run itself (wire/control.h), as by `roboss control`: control(PauseRun{})
+    /// A request takes effect at the end of the current window; its answer comes some time later.
+    virtual void control(ControlAction request) = 0;
     virtual std::vector<ControlAnswer> take_control_answers() = 0;
 
     // --- sensors: `sensor` is an index into RobotType::sensors

@@ -42,7 +42,7 @@ class StillClient : public Client {
     }
     std::uint64_t seed() const override { return 1; }
     Result<> order(RobotId, const Action&) override { return Ok{}; }
-    void control(std::vector<std::string>) override {}
+    void control(ControlAction) override {}
     std::vector<ControlAnswer> take_control_answers() override { return {}; }
 
   protected:

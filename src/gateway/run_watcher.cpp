@@ -5,7 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/hash.h"
+#include "client/control_text.h"
+#include "gateway/run_json.h"
 
 namespace roboss {
 namespace {
@@ -16,8 +17,6 @@ constexpr std::int64_t kAgain_ms = 250;         // what is not answered is asked
 constexpr std::int64_t kFetchAgain_ms = 1'000;  // the Model, after it could not be read or has changed
 constexpr std::int64_t kWatchAgain_ms = 1'000;
 constexpr std::int64_t kStatusEvery_ms = 500, kGroupsEvery_ms = 500, kBoundsEvery_ms = 250;
-constexpr std::int64_t kUnknownWord_ms =
-    30'000;  // a word that the run does not know is tried again after so long
 constexpr std::uint32_t kExactEvery_ms = 100;
 constexpr std::size_t kQuestionsMax = 200;
 constexpr Tick kNoPeriod = Tick{1} << 49;  // the orders' Client observes nothing, and so holds up no window
@@ -39,31 +38,19 @@ std::string dumped(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// What the run says by robot; nothing where it is of another Model than this scene's.
-Json read_by_robot(const std::string& text, const ShownScene& scene) {
-    Json read = Json::parse(text, nullptr, false);
-    const bool fits =
-        read.is_object() && read.contains("model_hash") && read["model_hash"] == to_hex(scene.model->hash);
-    return fits ? std::move(read) : Json();
-}
-
-std::string groups_line(const std::string& text, const ShownScene& scene) {
-    const Json read = read_by_robot(text, scene);
-    if (read.is_null()) return {};
-    Json line{{"type", "groups"}, {"scene", scene.number}};
-    for (const char* name : {"simulator", "island"})
-        if (read.contains(name)) line[name] = read[name];
-    return dumped(line);
-}
-
-std::string bounds_line(const std::string& text, Tick tick, const ShownScene& scene) {
-    const Json read = read_by_robot(text, scene);
-    if (!read.is_object() || !read.contains("boxes") || !read["boxes"].is_array()) return {};
-    Json bounds = Json::array();
-    for (std::size_t r = 0; r < read["boxes"].size(); ++r)
-        bounds.push_back({{"robot", r}, {"box", read["boxes"][r]}});
+std::string groups_line(const RobotGroups& groups, std::uint32_t scene) {
     return dumped(
-        {{"type", "overlay"}, {"scene", scene.number}, {"tick", tick}, {"bounds", std::move(bounds)}});
+        {{"type", "groups"}, {"scene", scene}, {"simulator", groups.simulator}, {"island", groups.island}});
+}
+
+std::string bounds_line(const RobotBounds& bounds, Tick tick, std::uint32_t scene) {
+    Json list = Json::array();
+    for (std::size_t r = 0; r < bounds.boxes.size(); ++r) {
+        const Box32& box = bounds.boxes[r];
+        list.push_back({{"robot", r},
+                        {"box", {box.min[0], box.min[1], box.min[2], box.max[0], box.max[1], box.max[2]}}});
+    }
+    return dumped({{"type", "overlay"}, {"scene", scene}, {"tick", tick}, {"bounds", std::move(list)}});
 }
 
 }  // namespace
@@ -77,14 +64,14 @@ void RunWatcher::Requester::advance(Bus& bus) {
         const Question question = std::move(questions.front());
         questions.pop_front();
         asked_ms.reset();
-        question.answered(*reply);
+        question.answered(reply->outcome);
     }
     if (questions.empty()) return;
     const std::int64_t now = bus.now_ms();
     if (!asked_ms) ++number;
     if (asked_ms && now - *asked_ms < kAgain_ms) return;
     asked_ms = now;
-    bus.send(self, kControllerAddress, ControlRequest{number, questions.front().words});
+    bus.send(self, kControllerAddress, ControlRequest{number, questions.front().action});
 }
 
 void RunWatcher::advance(Bus& bus) {
@@ -186,66 +173,75 @@ void RunWatcher::poll(std::int64_t now_ms) {
     };
     if (polls_.questions.size() > 3) return;  // no answer yet
     if (due(status_ms_, kStatusEvery_ms))
-        polls_.questions.push_back({{"status"}, [this, now_ms](const ControlReply& reply) {
-                                        status_at_ms_ = now_ms;
-                                        tell_status(reply);
+        polls_.questions.push_back({GetStatus{}, [this, now_ms](const ControlOutcome& outcome) {
+                                        if (const auto* status = std::get_if<RunStatus>(&outcome))
+                                            show_status(*status, now_ms);
                                     }});
     if (!scene_ || outdated_) return;
-    const auto ask_for = [&](const char* word, Line::To to, std::optional<std::int64_t>& last_ms) {
-        polls_.questions.push_back(
-            {{word}, [this, to, &last_ms, scene = scene_, now_ms](const ControlReply& reply) {
-                 if (!reply.done) last_ms = now_ms + kUnknownWord_ms;
-                 if (reply.done) tell_by_robot(reply, to, scene);
-             }});
-    };
     if (watch_request_.groups && due(groups_ms_, kGroupsEvery_ms))
-        ask_for("groups", Line::To::kGroups, groups_ms_);
+        polls_.questions.push_back({GetGroups{}, [this, scene = scene_](const ControlOutcome& outcome) {
+                                        if (const auto* groups = std::get_if<RobotGroups>(&outcome))
+                                            show_groups(*groups, *scene);
+                                    }});
     if (watch_request_.bounds && due(bounds_ms_, kBoundsEvery_ms))
-        ask_for("bounds", Line::To::kBounds, bounds_ms_);
+        polls_.questions.push_back({GetBounds{}, [this, scene = scene_](const ControlOutcome& outcome) {
+                                        if (const auto* bounds = std::get_if<RobotBounds>(&outcome))
+                                            show_bounds(*bounds, *scene);
+                                    }});
 }
 
-/// The status of the run with what only the gateway knows. Names of robots are in the scene.
-void RunWatcher::tell_status(const ControlReply& reply) {
-    if (!reply.done) return;
-    const Json read = Json::parse(reply.text, nullptr, false);
-    if (!read.is_object()) return;
-    Json status{{"type", "status"}};
-    for (const auto& [name, value] : read.items())
-        if (name != "robots" && name != "type") status[name] = value;
-    const bool has_time = read.contains("time_s") && read["time_s"].is_number();
-    const double time_s = has_time ? read["time_s"].get<double>() : 0.0;
-    const double wall_s =
-        1e-3 * static_cast<double>(status_at_ms_ - std::exchange(status_was_ms_, status_at_ms_));
-    const double way_s = time_s - std::exchange(status_time_s_, time_s);
-    const bool known = wall_s > 0 && wall_s < 10 && way_s >= 0;
-    status["rtf"] = known ? std::round(1e3 * way_s / wall_s) / 1e3 : 0.0;
-    exchange_->say({Line::To::kStatus, 0, true,
-                    [text = status.dump(-1, ' ', false, Json::error_handler_t::replace)]() { return text; }});
-}
-
-void RunWatcher::tell_by_robot(const ControlReply& reply, Line::To to,
-                               std::shared_ptr<const ShownScene> scene) {
-    exchange_->say({to, 0, true, [text = reply.text, to, tick = tick_, scene = std::move(scene)]() {
-                        return to == Line::To::kGroups ? groups_line(text, *scene)
-                                                       : bounds_line(text, tick, *scene);
+void RunWatcher::show_status(const RunStatus& status, std::int64_t asked_at_ms) {
+    const double wall_s = 1e-3 * static_cast<double>(asked_at_ms - std::exchange(status_at_ms_, asked_at_ms));
+    const double simulated_s = status.time_s - std::exchange(status_time_s_, status.time_s);
+    const bool known = wall_s > 0 && wall_s < 10 && simulated_s >= 0;
+    exchange_->say({Line::To::kStatus, 0, true, [status, factor = known ? simulated_s / wall_s : 0.0]() {
+                        return status_line(status, factor);
                     }});
 }
 
-void RunWatcher::answer(std::uint64_t page, std::int64_t id, bool done, std::string text) {
-    exchange_->say({Line::To::kPage, page, false, [id, done, text = std::move(text)]() {
-                        return Json{{"type", "answer"}, {"id", id}, {"done", done}, {"text", text}}.dump(
-                            -1, ' ', false, Json::error_handler_t::replace);
+void RunWatcher::show_groups(const RobotGroups& groups, const ShownScene& scene) {
+    if (groups.model_hash != scene.model->hash) return;
+    exchange_->say({Line::To::kGroups, 0, true,
+                    [groups, number = scene.number]() { return groups_line(groups, number); }});
+}
+
+void RunWatcher::show_bounds(const RobotBounds& bounds, const ShownScene& scene) {
+    if (bounds.model_hash != scene.model->hash) return;
+    exchange_->say({Line::To::kBounds, 0, true, [bounds, tick = tick_, number = scene.number]() {
+                        return bounds_line(bounds, tick, number);
                     }});
+}
+
+void RunWatcher::answer(std::uint64_t page, std::int64_t id, const ControlOutcome& outcome) {
+    if (const auto* done = std::get_if<ControlDone>(&outcome)) return answer(page, id, true, done->text);
+    if (const auto* refused = std::get_if<ControlRefused>(&outcome))
+        return answer(page, id, false, refused->error().text(), refused->code);
+    if (const auto* status = std::get_if<RunStatus>(&outcome))
+        return answer(page, id, true, status_json(*status));
+    if (const auto* groups = std::get_if<RobotGroups>(&outcome))
+        return answer(page, id, true, groups_json(*groups));
+    answer(page, id, true, bounds_json(std::get<RobotBounds>(outcome)));
+}
+
+void RunWatcher::answer(std::uint64_t page, std::int64_t id, bool done, std::string text, std::string code) {
+    exchange_->say(
+        {Line::To::kPage, page, false, [id, done, text = std::move(text), code = std::move(code)]() {
+             Json line{{"type", "answer"}, {"id", id}, {"done", done}, {"text", text}};
+             if (!code.empty()) line["code"] = code;
+             return dumped(line);
+         }});
 }
 
 void RunWatcher::serve(Bus& bus, PageCall& call) {
     if (const auto* order_said = std::get_if<PageOrder>(&call.what)) return order(bus, call, *order_said);
     if (control_.questions.size() >= kQuestionsMax)
-        return answer(call.page, call.id, false, "too many requests are waiting for replies");
-    control_.questions.push_back({std::move(std::get<ControlArguments>(call.what).words),
-                                  [this, page = call.page, id = call.id](const ControlReply& reply) {
-                                      answer(page, id, reply.done, reply.text);
-                                  }});
+        return answer(call.page, call.id, false, "too many requests are waiting for replies", "busy");
+    Result<ControlAction> parsed = parse_control(std::get<ControlArguments>(call.what).words);
+    if (!parsed) return answer(call.page, call.id, ControlRefused(parsed.error()));
+    control_.questions.push_back(
+        {std::move(parsed).value(), [this, page = call.page, id = call.id](const ControlOutcome& outcome) {
+             answer(page, id, outcome);
+         }});
 }
 
 void RunWatcher::order(Bus& bus, const PageCall& call, const PageOrder& said) {
@@ -272,7 +268,7 @@ void RunWatcher::order(Bus& bus, const PageCall& call, const PageOrder& said) {
             },
             said.action);
     }
-    if (!given) return answer(call.page, call.id, false, given.error().text());
+    if (!given) return answer(call.page, call.id, ControlRefused(given.error()));
     orders_.push_back({call.page, ++sequence_, call.id});
     client_->send(bus, tick_);
 }

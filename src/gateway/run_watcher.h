@@ -30,11 +30,11 @@ class RunWatcher {
     std::vector<std::string> take_notices() { return std::exchange(notices_, {}); }
 
   private:
-    /// Words to the Controller, one request after the other, each said until it is answered.
+    /// Requests to the Controller, one after the other, each sent until it is answered.
     struct Requester {
         struct Question {
-            std::vector<std::string> words;
-            std::function<void(const ControlReply&)> answered;
+            ControlAction action;
+            std::function<void(const ControlOutcome&)> answered;
         };
         Address self;
         std::uint64_t number = 0;
@@ -59,13 +59,15 @@ class RunWatcher {
     void handle(Bus& bus, Envelope& envelope);
     void look(Bus& bus);
     void poll(std::int64_t now_ms);
-    void tell_status(const ControlReply& reply);
-    void tell_by_robot(const ControlReply& reply, Line::To to, std::shared_ptr<const ShownScene> scene);
+    void show_status(const RunStatus& status, std::int64_t asked_at_ms);
+    void show_groups(const RobotGroups& groups, const ShownScene& scene);
+    void show_bounds(const RobotBounds& bounds, const ShownScene& scene);
     void serve(Bus& bus, PageCall& call);
     void order(Bus& bus, const PageCall& call, const PageOrder& order);
     void serve_orders(Bus& bus);
     void drop_client();
-    void answer(std::uint64_t page, std::int64_t id, bool done, std::string text);
+    void answer(std::uint64_t page, std::int64_t id, const ControlOutcome& outcome);
+    void answer(std::uint64_t page, std::int64_t id, bool done, std::string text, std::string code = {});
 
     std::shared_ptr<Exchange> exchange_;
     std::function<Address()> new_address_;
@@ -83,7 +85,7 @@ class RunWatcher {
     Requester polls_, control_;
     std::optional<std::int64_t> status_ms_, groups_ms_, bounds_ms_;
     double status_time_s_ = 0;
-    std::int64_t status_at_ms_ = 0, status_was_ms_ = 0;
+    std::int64_t status_at_ms_ = 0;
 
     std::unique_ptr<BusClient> client_;  // for orders; made by the first
     std::uint64_t sequence_ = 0;

@@ -11,8 +11,8 @@ void ControlService::take(Bus& bus, const Address& from, const ControlRequest& r
     calls_.push_back({from, request});
 }
 
-void ControlService::answer(Bus& bus, const ControlCall& call, bool done, const std::string& text) {
-    ControlReply reply{call.request.number, done, text};
+void ControlService::answer(Bus& bus, const ControlCall& call, ControlOutcome outcome) {
+    ControlReply reply{call.request.number, std::move(outcome)};
     Last& last = last_[call.from];
     if (last.number == call.request.number) last.reply = reply;
     bus.send(kControllerAddress, call.from, std::move(reply));

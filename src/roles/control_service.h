@@ -23,7 +23,7 @@ class ControlService {
     void take(Bus& bus, const Address& from, const ControlRequest& request);
     /// Requests that are new since the last call.
     std::vector<ControlCall> take_calls() { return std::exchange(calls_, {}); }
-    void answer(Bus& bus, const ControlCall& call, bool done, const std::string& text);
+    void answer(Bus& bus, const ControlCall& call, ControlOutcome outcome);
 
   private:
     struct Last {

@@ -10,24 +10,25 @@ namespace {
 
 TEST(ControlService, HandsARequestOutOnceAndAnswersItAsOftenAsItComes) {
     InProcessBus bus;
-    ControlService desk;
-    const Address asker{Role::kClient, 7};
-    const ControlRequest pause{1, {"pause"}};
-    desk.take(bus, asker, pause);
-    desk.take(bus, asker, pause);
-    const std::vector<ControlCall> calls = desk.take_calls();
+    ControlService service;
+    const Address requester{Role::kClient, 7};
+    const ControlRequest pause{1, PauseRun{}};
+    service.take(bus, requester, pause);
+    service.take(bus, requester, pause);
+    const std::vector<ControlCall> calls = service.take_calls();
     ASSERT_EQ(calls.size(), 1u);
-    EXPECT_TRUE(desk.take_calls().empty());
-    desk.answer(bus, calls[0], true, "paused");
-    desk.take(bus, asker, pause);
+    EXPECT_TRUE(service.take_calls().empty());
+    service.answer(bus, calls[0], ControlDone{5, "paused"});
+    service.take(bus, requester, pause);
     std::vector<Envelope> inbox;
-    bus.drain(asker, inbox);
+    bus.drain(requester, inbox);
     ASSERT_EQ(inbox.size(), 2u);
-    for (const Envelope& envelope : inbox) EXPECT_EQ(std::get<ControlReply>(envelope.message).text, "paused");
-    desk.take(bus, asker, {2, {"resume"}});
-    desk.take(bus, asker, pause);  // a late copy
-    desk.take(bus, Address{Role::kClient, 8}, {1, {"pause"}});
-    EXPECT_EQ(desk.take_calls().size(), 2u);
+    for (const Envelope& envelope : inbox)
+        EXPECT_EQ(std::get<ControlReply>(envelope.message), (ControlReply{1, ControlDone{5, "paused"}}));
+    service.take(bus, requester, {2, ResumeRun{}});
+    service.take(bus, requester, pause);  // a late copy
+    service.take(bus, Address{Role::kClient, 8}, {1, PauseRun{}});
+    EXPECT_EQ(service.take_calls().size(), 2u);
 }
 
 }  // namespace

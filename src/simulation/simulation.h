@@ -86,9 +86,32 @@ class Simulation {
     const Counters& counters() const { return controller_.counters(); }
     /// What happened since the last call, one line each: for the log.
     std::vector<std::string> take_notices();
-    Controller& controller() { return controller_; }
-    const Controller& controller() const { return controller_; }
     Bus& bus() { return *bus_; }
+
+    // --- requests to the run itself (wire/control.h); the owner of the run executes them
+    /// Those that came since the last call.
+    std::vector<ControlCall> take_control_calls() { return controller_.control().take_calls(); }
+    void answer(const ControlCall& call, ControlOutcome outcome) {
+        controller_.control().answer(*bus_, call, std::move(outcome));
+    }
+    /// Length of the next windows in ticks; 0: adaptive.
+    void set_window(Tick ticks) { controller_.set_window(ticks); }
+    /// What the next Simulation on the same Bus has to know.
+    ControllerOptions::Before hand_over() { return controller_.hand_over(); }
+    /// Tells all members that the run is over.
+    void dismiss(const std::string& reason) { controller_.dismiss(*bus_, reason); }
+
+    // --- how the run is distributed, for display
+    bool started() const { return controller_.started(); }
+    std::vector<MemberReport> members() const { return controller_.members(); }
+    /// Seat of the Simulator that holds the robot: MemberReport::number, if that is a member.
+    std::uint32_t seat_of(RobotId robot) const { return controller_.seat_of(robot); }
+    const Islands& islands() const { return controller_.islands(); }
+    /// Each robot's motion in the last window, by RobotId.
+    std::span<const RobotMotion> motions() const { return controller_.motions(); }
+    Tick window_ticks() const { return controller_.window_ticks(); }
+    /// Load balance of the stepping in recent windows: 1 is perfect.
+    double balance() const { return controller_.balance(); }
 
   private:
     Simulation(std::shared_ptr<const Model> model, const SimulationOptions& options,

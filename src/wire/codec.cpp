@@ -14,8 +14,8 @@ namespace {
 
 /// Types whose memory is their encoding, so that a vector of them is copied at once.
 template <class T>
-constexpr bool kPlain =
-    std::is_same_v<T, std::uint8_t> || std::is_same_v<T, std::uint32_t> || std::is_same_v<T, RobotId>;
+constexpr bool kPlain = std::is_same_v<T, std::uint8_t> || std::is_same_v<T, std::uint32_t> ||
+                        std::is_same_v<T, std::int32_t> || std::is_same_v<T, RobotId>;
 static_assert(sizeof(RobotId) == 4);
 
 /// Of an island in a WindowResult: which fields it has besides its cost.
@@ -178,8 +178,42 @@ template <class A> void field(A& a, Of<A, ReplyAck>& m) { auto& [client, number,
 template <class A> void field(A& a, Of<A, ClientBye>& m) { auto& [client, number, failed, reason] = m; fields(a, client, number, failed, reason); }
 template <class A> void field(A& a, Of<A, RunOver>& m) { auto& [reason] = m; fields(a, reason); }
 template <class A> void field(A& a, Of<A, ClientUnknown>& m) { auto& [client] = m; fields(a, client); }
-template <class A> void field(A& a, Of<A, ControlRequest>& m) { auto& [number, arguments] = m; fields(a, number, arguments); }
-template <class A> void field(A& a, Of<A, ControlReply>& m) { auto& [number, done, text] = m; fields(a, number, done, text); }
+template <class A> void field(A&, Of<A, GetGroups>&) { static_assert(std::is_empty_v<GetGroups>); }
+template <class A> void field(A&, Of<A, GetBounds>&) { static_assert(std::is_empty_v<GetBounds>); }
+template <class A> void field(A&, Of<A, PauseRun>&) { static_assert(std::is_empty_v<PauseRun>); }
+template <class A> void field(A&, Of<A, ResumeRun>&) { static_assert(std::is_empty_v<ResumeRun>); }
+template <class A> void field(A&, Of<A, AddSimulator>&) { static_assert(std::is_empty_v<AddSimulator>); }
+template <class A> void field(A&, Of<A, RemoveSimulator>&) { static_assert(std::is_empty_v<RemoveSimulator>); }
+template <class A> void field(A&, Of<A, QuitRun>&) { static_assert(std::is_empty_v<QuitRun>); }
+template <class A> void field(A& a, Of<A, GetStatus>& m) { auto& [robots] = m; fields(a, robots); }
+template <class A> void field(A& a, Of<A, StepRun>& m) { auto& [ticks] = m; fields(a, ticks); }
+template <class A> void field(A& a, Of<A, SetSpeed>& m) { auto& [kind, factor] = m; fields(a, kind, factor); }
+template <class A> void field(A& a, Of<A, SetWindow>& m) { auto& [ticks] = m; fields(a, ticks); }
+template <class A> void field(A& a, Of<A, KillSimulator>& m) { auto& [id] = m; fields(a, id); }
+template <class A> void field(A& a, Of<A, SaveRun>& m) { auto& [file] = m; fields(a, file); }
+template <class A> void field(A& a, Of<A, RewindRun>& m) { auto& [branch, time_s] = m; fields(a, branch, time_s); }
+template <class A> void field(A& a, Of<A, ChangeAccuracy::Number>& m) { auto& [name, value] = m; fields(a, name, value); }
+template <class A> void field(A& a, Of<A, ChangeAccuracy>& m) { auto& [setting, numbers] = m; fields(a, setting, numbers); }
+template <class A> void field(A& a, Of<A, AddModels>& m) { auto& [file, content, X_WA, name] = m; auto& [p, q] = X_WA; fields(a, file, content, p, q, name); }
+template <class A> void field(A& a, Of<A, RemoveRobots>& m) { auto& [names] = m; fields(a, names); }
+template <class A> void field(A& a, Of<A, MessageRate>& m) { auto& [messages_in, messages_out, bytes_in, bytes_out] = m; fields(a, messages_in, messages_out, bytes_in, bytes_out); }
+template <class A> void field(A& a, Of<A, MemberStatus>& m) {
+    auto& [id, name, state, threads, robots, islands, step_us, load, messages] = m;
+    fields(a, id, name, state, threads, robots, islands, step_us, load, messages);
+    if constexpr (A::kReading) if (state > MemberState::kLost) a.fail("the state of a member is unknown");
+}
+template <class A> void field(A& a, Of<A, RunStatus>& m) {
+    auto& [world, tick, time_s, paused, speed, islands, window, windows, repeated, efficiency, step_cpu_s, losses, recoveries, migrations, cuts,
+           messages, model_hash, state_hash, branch, first_s, members, robots, robot_count] = m;
+    fields(a, world, tick, time_s, paused, speed, islands, window, windows, repeated, efficiency, step_cpu_s, losses, recoveries, migrations, cuts,
+           messages, model_hash, state_hash, branch, first_s, members, robots, robot_count);
+}
+template <class A> void field(A& a, Of<A, RobotGroups>& m) { auto& [model_hash, simulator, island] = m; fields(a, model_hash, simulator, island); }
+template <class A> void field(A& a, Of<A, RobotBounds>& m) { auto& [model_hash, boxes] = m; fields(a, model_hash, boxes); }
+template <class A> void field(A& a, Of<A, ControlDone>& m) { auto& [tick, text] = m; fields(a, tick, text); }
+template <class A> void field(A& a, Of<A, ControlRefused>& m) { fields(a, m.message, m.remedy, m.code); }
+template <class A> void field(A& a, Of<A, ControlRequest>& m) { auto& [number, action] = m; fields(a, number, action); }
+template <class A> void field(A& a, Of<A, ControlReply>& m) { auto& [number, outcome] = m; fields(a, number, outcome); }
 template <class A> void field(A& a, Of<A, ModelChanged>& m) { auto& [model_hash] = m; fields(a, model_hash); }
 template <class A> void field(A& a, Of<A, ModelRequest>& m) { auto& [what, offset] = m; fields(a, what, offset); }
 template <class A> void field(A& a, Of<A, ModelPart>& m) { auto& [what, bytes_hash, total, offset, bytes] = m; fields(a, what, bytes_hash, total, offset, bytes); }
@@ -350,6 +384,10 @@ const char* broken_rule(const ClientHello& hello) {
                    hello.expected < -1 || hello.expected > kLongest || hello.last_reply < hello.acknowledged
                ? "its period or latency is out of range"
                : nullptr;
+}
+
+const char* broken_rule(const ControlRequest& request) {
+    return roboss::broken_rule(request.action);
 }
 
 const char* broken_rule(const ModelRequest& request) {

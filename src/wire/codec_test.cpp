@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <random>
 
@@ -70,8 +71,6 @@ std::vector<Message> one_of_each() {
             ModelRequest{Whole::kScene, 7},
             ModelPart{Whole::kModel, 1, 100, 7, {1, 2, 3}},
             ClientUnknown{ClientId(2u)},
-            ControlRequest{3, {"step", "10"}},
-            ControlReply{3, true, "at tick 10"},
             ModelChanged{99},
             ViewRequest{5, 33, 100, true, {kRobot}},
             ViewDue{2, 77, 1000, {Role::kClient, 4}, {kRobot, kOther}, {kOther}},
@@ -82,13 +81,41 @@ std::vector<Message> one_of_each() {
             Cut{2, 17, 1, SimulatorId(3u)}};
 }
 
+/// Every request, and every outcome of one.
+std::vector<Message> every_control_message() {
+    std::vector<Message> all;
+    for (const ControlAction& action :
+         {ControlAction(GetStatus{true}), ControlAction(GetGroups{}), ControlAction(GetBounds{}),
+          ControlAction(PauseRun{}), ControlAction(ResumeRun{}), ControlAction(StepRun{10}),
+          ControlAction(SetSpeed{SetSpeed::Kind::kFactor, 2.5}), ControlAction(SetWindow{8}),
+          ControlAction(AddSimulator{}), ControlAction(RemoveSimulator{}), ControlAction(KillSimulator{3}),
+          ControlAction(SaveRun{"a.roboss"}), ControlAction(QuitRun{}), ControlAction(RewindRun{2, 12.5}),
+          ControlAction(ChangeAccuracy{"high", {{"tolerance", 1e-10}}}),
+          ControlAction(AddModels{"ball.sdf", "<sdf/>", {{1, 2, 3}, {}}, "ball"}),
+          ControlAction(RemoveRobots{{"a", "b"}})})
+        all.emplace_back(ControlRequest{all.size() + 1, action});
+    const MemberStatus member{2, "host/7", MemberState::kLost, 4, 10, 5, 7.5, 0.9, {1, 2, 3, 4}};
+    const RunStatus status{"w.sdf", 500, 1.0, true,         2.0, 3,  16, 40,  2,        0.95,  3.5, 1,
+                           1,       7,   2,   {5, 6, 7, 8}, 11,  12, 3,  0.5, {member}, {"a"}, 1};
+    Box32 box;
+    box.min = {0, 1, 2}, box.max = {3, 4, 5};
+    for (const ControlOutcome& outcome :
+         {ControlOutcome(ControlDone{10, "at tick 10"}),
+          ControlOutcome(ControlRefused(Error{"no", "ask later", "busy"})), ControlOutcome(status),
+          ControlOutcome(RobotGroups{9, {0, -1}, {0, 1}}), ControlOutcome(RobotBounds{9, {box}})})
+        all.emplace_back(ControlReply{all.size(), outcome});
+    return all;
+}
+
 Envelope envelope_of(Message message) {
     return {{Role::kSimulator, 3}, {Role::kController, 0}, std::move(message)};
 }
 
 TEST(Codec, GivesBackEveryMessageAsItWas) {
     std::vector<bool> met(std::variant_size_v<Message>, false);
-    for (const Message& message : one_of_each()) {
+    std::vector<Message> messages = one_of_each();
+    std::ranges::move(every_control_message(), std::back_inserter(messages));
+    for (const Message& message : messages) {
         met[message.index()] = true;
         const std::vector<std::uint8_t> bytes = encode(envelope_of(message));
         const Result<Envelope> back = decode_envelope(bytes);

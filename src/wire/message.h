@@ -13,6 +13,7 @@
 #include "core/types.h"
 #include "math/box32.h"
 #include "model/order.h"
+#include "wire/control.h"
 #include "wire/robot_result.h"
 
 namespace roboss {
@@ -327,13 +328,12 @@ struct ClientBye {
 /// Anyone -> Controller: pause, step, speed, rewind ... Sent again until answered.
 struct ControlRequest {
     std::uint64_t number = 0;  // of the sender's requests, ascending
-    std::vector<std::string> arguments;
+    ControlAction action;
     friend bool operator==(const ControlRequest&, const ControlRequest&) = default;
 };
-struct ControlReply {  // Controller -> requester
-    std::uint64_t number = 0;
-    bool done = false;
-    std::string text;
+struct ControlReply {          // Controller -> requester
+    std::uint64_t number = 0;  // of the request
+    ControlOutcome outcome;
     friend bool operator==(const ControlReply&, const ControlReply&) = default;
 };
 /// Controller -> member that has an earlier Model of this run: fetch the new one and join again.

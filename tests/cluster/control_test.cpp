@@ -21,25 +21,28 @@ TEST(Control, AClientsRequestsComeOnceAndInOrderAndAreAnswered) {
         asking.synchronous = false;
         asking.resend_ms = 20;
         BusClient client(model, {Role::kClient, 1}, asking);
-        client.control({"pause"});
-        client.control({"speed", "2"});
-        std::vector<std::string> heard;
+        const SetSpeed twice{SetSpeed::Kind::kFactor, 2};
+        client.control(PauseRun{});
+        client.control(twice);
+        std::vector<ControlAction> heard;
         std::vector<ControlAnswer> answers;
         for (int turns = 0; turns < 5'000 && answers.size() < 2; ++turns) {
             bus.advance_clock(1);
             controller.advance(bus);
             for (const ControlCall& call : controller.control().take_calls()) {
-                heard.push_back(call.request.arguments.front());
-                controller.control().answer(bus, call, heard.size() == 1, "heard");
+                heard.push_back(call.request.action);
+                const ControlOutcome refused = ControlRefused(Error{"no", "", "refused"});
+                controller.control().answer(bus, call, heard.size() == 1 ? ControlDone{3, "heard"} : refused);
             }
             client.advance(bus);
             for (ControlAnswer& answer : client.take_control_answers()) answers.push_back(std::move(answer));
         }
-        EXPECT_EQ(heard, (std::vector<std::string>{"pause", "speed"})) << "seed " << seed;
+        EXPECT_EQ(heard, (std::vector<ControlAction>{PauseRun{}, twice})) << "seed " << seed;
         ASSERT_EQ(answers.size(), 2u) << "seed " << seed;
-        EXPECT_TRUE(answers[0].done);
-        EXPECT_FALSE(answers[1].done);
-        EXPECT_EQ(answers[1].arguments, (std::vector<std::string>{"speed", "2"}));
+        EXPECT_TRUE(answers[0].done());
+        EXPECT_FALSE(answers[1].done());
+        EXPECT_EQ(answers[1].request, ControlAction(twice));
+        EXPECT_EQ(std::get<ControlRefused>(answers[1].outcome).code, "refused");
     }
 }
 

@@ -87,8 +87,7 @@ void LiveRun::live() {
         }
         const Tick next = options_.end > 0 ? std::min(now + stride, options_.end) : now + stride;
         const Result<> done = simulation_->run_until(next, [&] {
-            for (ControlCall& call : simulation_->controller().control().take_calls())
-                calls_.push_back(std::move(call));
+            for (ControlCall& call : simulation_->take_control_calls()) calls_.push_back(std::move(call));
             note_progress();
             return !stop_ && calls_.empty();
         });
@@ -108,29 +107,23 @@ void LiveRun::note_progress() {
 }
 
 void LiveRun::serve_calls() {
-    for (ControlCall& call : simulation_->controller().control().take_calls())
-        calls_.push_back(std::move(call));
+    for (ControlCall& call : simulation_->take_control_calls()) calls_.push_back(std::move(call));
     for (const ControlCall& call : std::exchange(calls_, {})) {
-        const std::string& word = call.request.arguments.at(0);
-        bool done = true;
-        std::string text;
-        if (word == "status") {
-            text = nlohmann::json{{"time_s", simulation_->time_s()},
-                                  {"tick", simulation_->tick()},
-                                  {"paused", paused_},
-                                  {"robots", {"not", "for", "pages"}}}
-                       .dump();
-        } else if (word == "groups") {
-            text = nlohmann::json{{"model_hash", to_hex(model_->hash)}, {"simulator", {0}}, {"island", {0}}}
-                       .dump();
-        } else if (word == "pause" || word == "resume") {
-            paused_ = word == "pause";
-            text = word + " at tick " + std::to_string(simulation_->tick());
+        const ControlAction& action = call.request.action;
+        ControlOutcome outcome = ControlDone{simulation_->tick(), control_verb(action)};
+        if (std::holds_alternative<GetStatus>(action)) {
+            RunStatus status;
+            status.tick = simulation_->tick(), status.time_s = simulation_->time_s();
+            status.paused = paused_;
+            outcome = status;
+        } else if (std::holds_alternative<GetGroups>(action)) {
+            outcome = RobotGroups{model_->hash, {0}, {0}};
+        } else if (std::holds_alternative<PauseRun>(action) || std::holds_alternative<ResumeRun>(action)) {
+            paused_ = std::holds_alternative<PauseRun>(action);
         } else {
-            done = false;
-            text = "unknown request '" + word + "' [unknown-request]";
+            outcome = ControlRefused(Error{"not of this test's runs", "", "refused"});
         }
-        simulation_->controller().control().answer(simulation_->bus(), call, done, text);
+        simulation_->answer(call, std::move(outcome));
     }
     if (!gateway_) return;
     const std::scoped_lock lock(mutex_);
@@ -146,7 +139,7 @@ void LiveRun::start_again(std::shared_ptr<const Model> model) {
         from.states.push_back(initial_state(*model, RobotId(r)));
     from.orders.clear();
     SimulationOptions options = simulation_options();
-    options.controller.before = simulation_->controller().hand_over();
+    options.controller.before = simulation_->hand_over();
     options.clients_awaited = simulation_->clients_elsewhere();
     auto made = Simulation::create(model, options, {}, &from);
     ROBOSS_CHECK(made.ok(), "the simulation goes on");

@@ -21,6 +21,7 @@
 #include "app/commands/exit_codes.h"
 #include "app/processes/member.h"
 #include "app/run/run.h"
+#include "gateway/run_json.h"
 
 namespace roboss {
 namespace {
@@ -226,7 +227,11 @@ struct StatusOptions {
 };
 
 Result<std::string> ask_status(const StatusOptions& o, const ClusterFile* file) {
-    if (file == nullptr) return request_of_controller(o.member, {"status"});
+    if (file == nullptr) {
+        const Result<RunStatus> status = status_of_controller(o.member);
+        if (!status) return status.error();
+        return status_json(status.value());
+    }
     const ClusterProcess& controller = file->processes.front();
     return run_on_host(
         *file, controller.host,

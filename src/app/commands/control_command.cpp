@@ -11,6 +11,8 @@
 #include "app/commands/exit_codes.h"
 #include "app/processes/interrupt.h"
 #include "app/run/run.h"
+#include "client/control_text.h"
+#include "gateway/run_json.h"
 
 namespace roboss {
 namespace {
@@ -101,15 +103,14 @@ void add_changes(CLI::App& command, ControlCommandOptions& o, const Ask& ask, in
     });
 }
 
-std::optional<ControlReply> find_reply(const std::vector<Envelope>& inbox) {
+std::optional<ControlOutcome> find_reply(const std::vector<Envelope>& inbox) {
     for (const Envelope& envelope : inbox)
-        if (const auto* reply = std::get_if<ControlReply>(&envelope.message)) return *reply;
+        if (const auto* reply = std::get_if<ControlReply>(&envelope.message)) return reply->outcome;
     return std::nullopt;
 }
 
 /// The reply to a request; nullopt if no Controller was found (it has been reported) or on Ctrl-C.
-std::optional<ControlReply> reply_of_controller(const MemberOptions& options,
-                                                const std::vector<std::string>& words) {
+std::optional<ControlOutcome> reply_of_controller(const MemberOptions& options, const ControlAction& action) {
     MemberOptions patient = options;
     if (patient.patience_s <= 0) patient.patience_s = kPatience_s;
     Member member("control", patient);
@@ -121,30 +122,43 @@ std::optional<ControlReply> reply_of_controller(const MemberOptions& options,
         const std::int64_t now = member.bus().now_ms();
         if (now - asked_ms >= kAgain_ms) {
             asked_ms = now;
-            member.bus().send(self, kControllerAddress, ControlRequest{1, words});
+            member.bus().send(self, kControllerAddress, ControlRequest{1, action});
         }
         member.bus().drain(self, inbox);
-        if (std::optional<ControlReply> reply = find_reply(inbox)) return reply;
+        if (std::optional<ControlOutcome> reply = find_reply(inbox)) return reply;
         if (interrupted() || !member.wait()) return std::nullopt;
     }
 }
 
+std::string text_of(const ControlOutcome& outcome) {
+    if (const auto* status = std::get_if<RunStatus>(&outcome)) return status_json(*status);
+    if (const auto* groups = std::get_if<RobotGroups>(&outcome)) return groups_json(*groups);
+    if (const auto* bounds = std::get_if<RobotBounds>(&outcome)) return bounds_json(*bounds);
+    return std::get<ControlDone>(outcome).text;
+}
+
 }  // namespace
 
-Result<std::string> request_of_controller(const MemberOptions& options,
-                                          const std::vector<std::string>& words) {
-    const std::optional<ControlReply> reply = reply_of_controller(options, words);
-    if (!reply) return Error{"no Controller replied", "see the network options", "no-controller"};
-    if (!reply->done) return Error{reply->text, ""};
-    return reply->text;
+Result<RunStatus> status_of_controller(const MemberOptions& options) {
+    const std::optional<ControlOutcome> outcome = reply_of_controller(options, GetStatus{true});
+    if (!outcome) return Error{"no Controller replied", "see the network options", "no-controller"};
+    if (const auto* status = std::get_if<RunStatus>(&*outcome)) return *status;
+    if (const auto* refused = std::get_if<ControlRefused>(&*outcome)) return refused->error();
+    return Error{"the Controller replied to something else", "run the same version of RoBOSS everywhere",
+                 "wrong-reply"};
 }
 
 int ask_controller(const MemberOptions& options, const std::vector<std::string>& words) {
-    const std::optional<ControlReply> reply = reply_of_controller(options, words);
-    if (!reply) return interrupted() ? kInterrupted : kBadInput;
-    if (reply->done) fmt::print("{}\n", reply->text);
-    if (!reply->done) fmt::print(stderr, "roboss control: {}\n", reply->text);
-    return reply->done ? kDone : kRunFailed;
+    const Result<ControlAction> action = parse_control(words);
+    if (!action) return print(action.error()), kWrongUsage;
+    const std::optional<ControlOutcome> outcome = reply_of_controller(options, action.value());
+    if (!outcome) return interrupted() ? kInterrupted : kBadInput;
+    if (const auto* refused = std::get_if<ControlRefused>(&*outcome)) {
+        fmt::print(stderr, "roboss control: {}\n", refused->error().text());
+        return kRunFailed;
+    }
+    fmt::print("{}\n", text_of(*outcome));
+    return kDone;
 }
 
 void add_control_command(CLI::App& app, int& exit_code) {

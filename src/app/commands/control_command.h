@@ -6,16 +6,17 @@
 #include <vector>
 
 #include "app/processes/member.h"
+#include "wire/control.h"
 
 namespace roboss {
 
 /// Adds the subcommand; exit_code as in its --help.
 void add_control_command(CLI::App& app, int& exit_code);
 
-/// The reply of the Controller to a request; an Error if no Controller was found or it refused.
-Result<std::string> request_of_controller(const MemberOptions& options,
-                                          const std::vector<std::string>& words);
-/// Sends a request to the Controller, waits for its reply and prints it. Returns the exit code.
+/// The status of the run, with the names of its robots; an Error if no Controller was found.
+Result<RunStatus> status_of_controller(const MemberOptions& options);
+/// Sends a request, as its words on the command line, to the Controller, waits for its reply and prints it.
+/// Returns the exit code.
 int ask_controller(const MemberOptions& options, const std::vector<std::string>& words);
 
 }  // namespace roboss

@@ -6,6 +6,7 @@ namespace roboss {
 enum ExitCode {
     kDone = 0,
     kBadInput = 1,
+    kWrongUsage = 2,
     kRunFailed = 3,
     kProcessesFailed = 4,  // Simulator processes that the run started ended or never joined
     kInterrupted = 130

@@ -43,20 +43,19 @@ std::string ranges(const std::vector<std::uint32_t>& ids) {
 }  // namespace
 
 std::vector<std::string> state_lines(const Simulation& simulation) {
-    const Controller& controller = simulation.controller();
     const Counters& c = simulation.counters();
     const std::size_t robots = simulation.model().robots.size();
-    const std::vector<MemberReport> members = controller.members();
+    const std::vector<MemberReport> members = simulation.members();
     std::vector<std::vector<std::uint32_t>> has(members.size());
     for (std::uint32_t r = 0; r < robots; ++r)
-        if (const std::uint32_t seat = controller.seat_of(RobotId(r)); seat < has.size())
+        if (const std::uint32_t seat = simulation.seat_of(RobotId(r)); seat < has.size())
             has[seat].push_back(r);
     std::vector<std::string> lines;
     lines.push_back(fmt::format(
         "event=state time_s={:.3f} simulators={} robots={} islands={} window={} windows={} repeated={} "
         "efficiency={:.3f} losses={} recoveries={} migrations={} cuts={}",
-        simulation.time_s(), c.simulators, robots, c.islands_now, controller.window_ticks(), c.windows,
-        c.windows_repeated, controller.balance(), c.losses, c.recoveries, c.migrations, c.cuts));
+        simulation.time_s(), c.simulators, robots, c.islands_now, simulation.window_ticks(), c.windows,
+        c.windows_repeated, simulation.balance(), c.losses, c.recoveries, c.migrations, c.cuts));
     for (std::size_t seat = 0; seat < members.size(); ++seat) {
         const MemberReport& member = members[seat];
         if (!member.alive) continue;

@@ -162,7 +162,7 @@ Result<> Run::start_again(std::shared_ptr<const Model> model, const SavedRun& fr
     SimulationOptions options = simulation_options(&from);
     members_->configure(options);
     options.simulators_awaited = options.simulators > 0 ? 0 : 1;
-    options.controller.before = simulation_->controller().hand_over();
+    options.controller.before = simulation_->hand_over();
     options.controller.before.went_back = options.controller.before.went_back || turn.back;
     options.clients_awaited = simulation_->clients_elsewhere();
     const bool reaches_others = members_->reaches_others();
@@ -265,7 +265,7 @@ int Run::finish(bool fine, double wall_s) {
         log_->write_state(*simulation_);
         log_->end(simulation_->tick(), fine ? "done" : "failed");
     }
-    simulation_->controller().dismiss(simulation_->bus(), fine ? "the run has ended" : "the run has failed");
+    simulation_->dismiss(fine ? "the run has ended" : "the run has failed");
     members_->await_exit(abandoned_);
     fmt::print("{}", to_text(s));
     if (abandoned_) return kProcessesFailed;

@@ -63,26 +63,29 @@ class Run {
     bool take_picture();
     Tick end_of_run() const;
 
-    // run_control.cpp: requests of others
-    using Answer = Result<std::string>;
+    // run_control.cpp: requests to the run (wire/control.h). An Error refuses one; nothing has changed then.
+    using Done = Result<std::string>;  // what was done, for people
     void serve_calls();
-    Answer execute(const std::vector<std::string>& words);
-    // run_status.cpp: the status, as JSON
-    std::string status() const;
-    std::string groups() const;
-    std::string bounds() const;
-    void resume();
-    Answer step(const std::vector<std::string>& words);
-    Answer set_speed(const std::vector<std::string>& words);
-    Answer set_window(const std::vector<std::string>& words);
-    Answer change_simulators(const std::vector<std::string>& words);
-    Answer kill_simulator(const std::vector<std::string>& words);
-    Answer save(const std::string& file);
-    Answer rewind(const std::string& where);
-    Answer change_model(const ModelEdit& edit, const std::string& what);
-    Answer change_accuracy(const std::vector<std::string>& words);
-    Answer add_models(const std::vector<std::string>& words);
-    Answer remove_robots(const std::vector<std::string>& words);
+    ControlOutcome execute(const ControlAction& action);
+    Done act(const PauseRun&);
+    Done act(const ResumeRun&);
+    Done act(const StepRun& step);
+    Done act(const SetSpeed& speed);
+    Done act(const SetWindow& window);
+    Done act(const AddSimulator&);
+    Done act(const RemoveSimulator&);
+    Done act(const KillSimulator& kill);
+    Done act(const SaveRun& save);
+    Done act(const QuitRun&);
+    Done act(const RewindRun& rewind);
+    Done act(const ChangeAccuracy& change);
+    Done act(const AddModels& add);
+    Done act(const RemoveRobots& remove);
+    Done change_model(const ModelEdit& edit, const std::string& what);
+    // run_status.cpp: what only asks
+    RunStatus status(bool with_robots) const;
+    RobotGroups groups() const;
+    RobotBounds bounds() const;
 
     bool advance_to(Tick target);
     void report_notices();
@@ -114,6 +117,10 @@ class Run {
         Tick from = 0;                   // since `since`
         Clock::time_point since;
         void begin(Tick tick) { from = tick, since = Clock::now(); }
+        void resume(Tick tick) {
+            paused = false, step_until.reset();
+            begin(tick);
+        }
     } pace_;
     TrafficMeter traffic_;
     std::vector<ControlCall> calls_;  // requests to be served

@@ -7,56 +7,14 @@
 #include <fstream>
 
 #include "app/processes/private_folder.h"
+#include "app/run/journal_location.h"
 #include "app/run/run.h"
-#include "app/worlds/orders_file.h"
 #include "model/accuracy.h"
 #include "model/edit.h"
-#include "model/order.h"
 #include "sdf/load_world.h"
 
 namespace roboss {
 namespace {
-
-using Words = std::vector<std::string>;
-using Answer = Result<std::string>;
-
-Answer wrong(const Words& words) {
-    std::string text;
-    for (const std::string& word : words) text += (text.empty() ? "" : " ") + word.substr(0, 40);
-    return Error{"unknown request '" + text + "'", "see `roboss control --help`", "unknown-request"};
-}
-
-/// Requests that change nothing are not logged.
-bool only_asks(const Words& words) {
-    return words.empty() || words[0] == "status" || words[0] == "groups" || words[0] == "bounds";
-}
-
-std::optional<double> number(const std::string& text) {
-    try {
-        std::size_t used = 0;
-        const double value = std::stod(text, &used);
-        if (used == text.size() && std::isfinite(value)) return value;
-    } catch (const std::exception&) {
-    }
-    return std::nullopt;
-}
-
-std::string together(const Words& words) {
-    std::string text;
-    for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-    return text;
-}
-
-/// "x y z roll pitch yaw", as SDFormat writes a pose.
-std::optional<Pose> pose_of(const std::string& text) {
-    std::istringstream in(text);
-    double x[6] = {};
-    for (double& value : x)
-        if (!(in >> value) || !(std::fabs(value) <= kOrderLimits.position)) return std::nullopt;
-    std::string rest;
-    if (in >> rest) return std::nullopt;
-    return Pose{{x[0], x[1], x[2]}, from_rpy(x[3], x[4], x[5])};
-}
 
 std::string first_error(const Diagnostics& found) {
     for (const Diagnostic& d : found.items())
@@ -69,126 +27,113 @@ std::string first_error(const Diagnostics& found) {
 void Run::serve_calls() {
     if (const std::int64_t now = simulation_->bus().now_ms(); traffic_.due(now))
         traffic_.take(simulation_->bus().flows(), now);
-    for (ControlCall& call : simulation_->controller().control().take_calls())
-        calls_.push_back(std::move(call));
+    for (ControlCall& call : simulation_->take_control_calls()) calls_.push_back(std::move(call));
     for (const ControlCall& call : std::exchange(calls_, {})) {
+        const ControlAction& action = call.request.action;
         const Tick tick = simulation_->tick();
-        const Answer answer = execute(call.request.arguments);
-        const std::string text = answer ? answer.value() : answer.error().text();
-        if (answer && !only_asks(call.request.arguments)) {
-            notices_.push_back(fmt::format("request {}: {}", call.request.arguments[0], text));
-            if (journal_->writes()) journal_->writer().note(tick, text);
+        ControlOutcome outcome = execute(action);
+        if (const auto* done = std::get_if<ControlDone>(&outcome)) {
+            notices_.push_back(fmt::format("request {}: {}", control_verb(action), done->text));
+            if (journal_->writes()) journal_->writer().note(tick, done->text);
         }
-        if (journal_->writes() && !only_asks(call.request.arguments))
+        if (journal_->writes() && !only_asks(action))
             (void)journal_->writer().flush();  // a request that got its reply is in the journal
-        simulation_->controller().control().answer(simulation_->bus(), call, answer.ok(), text);
+        simulation_->answer(call, std::move(outcome));
     }
 }
 
-Answer Run::execute(const Words& words) {
-    if (words.empty()) return wrong(words);
-    const std::string& verb = words[0];
-    const std::size_t n = words.size();
-    if (verb == "status" && n == 1) return status();
-    if (verb == "groups" && n == 1) return groups();
-    if (verb == "bounds" && n == 1) return bounds();
-    if (verb == "pause" && n == 1)
-        return pace_.paused = true, fmt::format("paused at {:.6f} s", simulation_->time_s());
-    if (verb == "resume" && n == 1)
-        return resume(), fmt::format("resumed at {:.6f} s", simulation_->time_s());
-    if (verb == "step" && n <= 2) return step(words);
-    if (verb == "speed" && n == 2) return set_speed(words);
-    if (verb == "window" && n == 2) return set_window(words);
-    if (verb == "simulators" && (n == 2 || n == 3)) return change_simulators(words);
-    if (verb == "save" && n == 2) return save(words[1]);
-    if (verb == "rewind" && n == 2) return rewind(words[1]);
-    if (verb == "accuracy" && n >= 2) return change_accuracy(words);
-    if (verb == "add" && n == 5) return add_models(words);
-    if (verb == "remove" && n >= 2) return remove_robots(words);
-    if (verb == "quit" && n == 1) return pace_.quit = true, std::string("ending the run");
-    return wrong(words);
+ControlOutcome Run::execute(const ControlAction& action) {
+    return std::visit(
+        [this](const auto& a) -> ControlOutcome {
+            using A = std::decay_t<decltype(a)>;
+            if constexpr (std::is_same_v<A, GetStatus>) {
+                return status(a.robots);
+            } else if constexpr (std::is_same_v<A, GetGroups>) {
+                return groups();
+            } else if constexpr (std::is_same_v<A, GetBounds>) {
+                return bounds();
+            } else {
+                const Tick tick = simulation_->tick();
+                Done done = act(a);
+                if (!done) return ControlRefused(done.error());
+                return ControlDone{tick, std::move(done).value()};
+            }
+        },
+        action);
 }
 
-void Run::resume() {
-    pace_.paused = false;
-    pace_.step_until.reset();
-    pace_.begin(simulation_->tick());
+Run::Done Run::act(const PauseRun&) {
+    pace_.paused = true;
+    return fmt::format("paused at {:.6f} s", simulation_->time_s());
 }
 
-Answer Run::step(const Words& words) {
-    const std::optional<double> ticks = words.size() == 2 ? number(words[1]) : 1.0;
-    if (!ticks || *ticks < 1 || *ticks > 1e15 || *ticks != std::floor(*ticks)) return wrong(words);
-    resume();
-    pace_.step_until = simulation_->tick() + static_cast<Tick>(*ticks);
+Run::Done Run::act(const ResumeRun&) {
+    pace_.resume(simulation_->tick());
+    return fmt::format("resumed at {:.6f} s", simulation_->time_s());
+}
+
+Run::Done Run::act(const StepRun& step) {
+    pace_.resume(simulation_->tick());
+    pace_.step_until = simulation_->tick() + step.ticks;
     return fmt::format("stepping to tick {}, then pausing", *pace_.step_until);
 }
 
-Answer Run::set_speed(const Words& words) {
-    const std::optional<double> speed = words[1] == "max"     ? 0.0
-                                        : words[1] == "world" ? world_speed_
-                                                              : number(words[1]);
-    if (!speed || *speed < 0 || (*speed == 0 && words[1] != "max" && words[1] != "world"))
-        return wrong(words);
-    pace_.speed = *speed;
+Run::Done Run::act(const QuitRun&) {
+    pace_.quit = true;
+    return std::string("ending the run");
+}
+
+Run::Done Run::act(const SetSpeed& speed) {
+    pace_.speed = speed.kind == SetSpeed::Kind::kMax     ? 0.0
+                  : speed.kind == SetSpeed::Kind::kWorld ? world_speed_
+                                                         : speed.factor;
     pace_.begin(simulation_->tick());
-    return fmt::format("speed {} from {:.6f} s", words[1], simulation_->time_s());
+    return fmt::format("speed {} from {:.6f} s", pace_.speed > 0 ? fmt::format("{:g}", pace_.speed) : "max",
+                       simulation_->time_s());
 }
 
-Answer Run::set_window(const Words& words) {
-    const std::optional<double> ticks = words[1] == "auto" ? 0.0 : number(words[1]);
-    if (!ticks || *ticks < 0 || *ticks > 1e6 || *ticks != std::floor(*ticks) ||
-        (*ticks == 0 && words[1] != "auto"))
-        return wrong(words);
-    simulation_->controller().set_window(static_cast<Tick>(*ticks));
-    return fmt::format("synchronization interval {} ticks from tick {}", words[1], simulation_->tick());
+Run::Done Run::act(const SetWindow& window) {
+    simulation_->set_window(window.ticks);
+    return fmt::format("synchronization interval {} ticks from tick {}",
+                       window.ticks > 0 ? std::to_string(window.ticks) : "auto", simulation_->tick());
 }
 
-Answer Run::change_simulators(const Words& words) {
-    if (words[1] == "kill" && words.size() == 3) return kill_simulator(words);
-    if (words.size() != 2) return wrong(words);
-    if (words[1] == "remove") {
-        if (simulation_->remove_simulator()) return std::string("one Simulator is leaving");
-        return Error{"the run has only one Simulator", "a run needs one; add another first",
-                     "last-simulator"};
-    }
-    if (words[1] != "add") return wrong(words);
-    if (Result<bool> started = members_->add_simulator(); !started) {
-        return started.error();
-    } else if (!started.value()) {
-        simulation_->add_simulator();
-    }
+Run::Done Run::act(const AddSimulator&) {
+    Result<bool> started = members_->add_simulator();
+    if (!started) return started.error();
+    if (!started.value()) simulation_->add_simulator();
     return std::string("one more Simulator is starting");
 }
 
-/// Kills a process that this run started, to watch the run recover.
-Answer Run::kill_simulator(const Words& words) {
-    for (const MemberReport& member : simulation_->controller().members()) {
-        if (std::to_string(member.number) != words[2] || !member.alive) continue;
+Run::Done Run::act(const RemoveSimulator&) {
+    if (simulation_->remove_simulator()) return std::string("one Simulator is leaving");
+    return Error{"the run has only one Simulator", "a run needs one; add another first", "last-simulator"};
+}
+
+Run::Done Run::act(const KillSimulator& kill) {
+    for (const MemberReport& member : simulation_->members()) {
+        if (member.number != kill.id || !member.alive) continue;
         if (Result<> killed = members_->kill(member.name); !killed) return killed.error();
-        return fmt::format("Simulator {} ({}) killed", words[2], member.name);
+        return fmt::format("Simulator {} ({}) killed", kill.id, member.name);
     }
-    return Error{"there is no Simulator '" + words[2] + "'", "`roboss control status` lists them",
+    return Error{fmt::format("there is no Simulator {}", kill.id), "`roboss control status` lists them",
                  "no-simulator"};
 }
 
-Answer Run::save(const std::string& file) {
-    if (Result<> saved = simulation_->save(file); !saved) return saved.error();
-    return fmt::format("saved {:.6f} s (tick {}) in {}", simulation_->time_s(), simulation_->tick(), file);
+Run::Done Run::act(const SaveRun& save) {
+    if (Result<> saved = simulation_->save(save.file); !saved) return saved.error();
+    return fmt::format("saved {:.6f} s (tick {}) in {}", simulation_->time_s(), simulation_->tick(),
+                       save.file);
 }
 
-Answer Run::rewind(const std::string& time_text) {
+Run::Done Run::act(const RewindRun& rewind) {
     if (!journal_->writes())
         return Error{"the run has no journal", "start it with --journal FILE", "no-journal"};
     if (Result<> flushed = journal_->writer().flush(); !flushed) return flushed.error();
-    const std::string where =
-        o_.journal + (time_text.find('@') == std::string::npos
-                          ? fmt::format("#{}@{}", journal_->writer().branch(), time_text)
-                          : time_text);
-    Result<JournalLocation> location = parse_location(where);
-    if (!location) return location.error();
+    const BranchId branch = rewind.branch > 0 ? rewind.branch : journal_->writer().branch();
     Result<Journal> journal = Journal::open(o_.journal);
     if (!journal) return journal.error();
-    Result<JournalTime> time = find_time(journal.value(), location.value());
+    Result<JournalTime> time = find_time(journal.value(), {o_.journal, branch, rewind.time_s});
     if (!time) return time.error();
     Result<SavedRun> run =
         journal.value().run_at(time.value().branch, *time.value().model, time.value().tick);
@@ -202,7 +147,7 @@ Answer Run::rewind(const std::string& time_text) {
 }
 
 /// The run continues with this Model, at the same tick.
-Answer Run::change_model(const ModelEdit& edit, const std::string& what) {
+Run::Done Run::change_model(const ModelEdit& edit, const std::string& what) {
     SavedRun run = simulation_->saved_run();
     run.states = carry_over(edit, run.states);
     std::erase_if(run.orders, [&](LoggedOrder& o) { return !carry_over(edit, o.order); });
@@ -215,35 +160,27 @@ Answer Run::change_model(const ModelEdit& edit, const std::string& what) {
     return text;
 }
 
-Answer Run::change_accuracy(const Words& words) {
+Run::Done Run::act(const ChangeAccuracy& change) {
     AccuracySpec spec;
-    for (std::size_t i = 1; i < words.size(); ++i) {
-        const std::size_t equals = words[i].find('=');
-        if (equals == std::string::npos) {
-            spec.setting = words[i];
-            continue;
-        }
-        const std::optional<double> value = number(words[i].substr(equals + 1));
-        if (!value) return wrong(words);
-        spec.numbers.push_back({words[i].substr(0, equals), *value});
+    spec.setting = change.setting;
+    std::string text = "accuracy";
+    if (!change.setting.empty()) text += " " + change.setting;
+    for (const ChangeAccuracy::Number& n : change.numbers) {
+        spec.numbers.push_back({n.name, n.value});
+        text += fmt::format(" {}={}", n.name, n.value);
     }
     Result<ModelEdit> edit = with_accuracy(*model_, spec);
     if (!edit) return edit.error();
-    return change_model(edit.value(), together(words));
+    return change_model(edit.value(), text);
 }
 
-/// add FILE CONTENT POSE NAME: the request carries the content, since the file may be on another computer.
-Answer Run::add_models(const Words& words) {
-    const std::optional<Pose> X_WA = pose_of(words[3]);
-    if (!X_WA)
-        return Error{"'" + words[3] + "' is not a pose",
-                     "give \"x y z roll pitch yaw\", m and rad, none above 1e9", "bad-pose"};
+Run::Done Run::act(const AddModels& add) {
     const std::optional<PrivateFolder> folder = PrivateFolder::make("add");
     if (!folder)
         return Error{"no temporary folder can be created", "set TMPDIR to a writable folder with free space",
                      "not-writable"};
-    const std::filesystem::path file = folder->path() / std::filesystem::path(words[1]).filename();
-    if (!(std::ofstream(file) << words[2]))
+    const std::filesystem::path file = folder->path() / std::filesystem::path(add.file).filename();
+    if (!(std::ofstream(file) << add.content))
         return Error{file.string() + " cannot be written",
                      "free some space there, and give the name of a file", "not-writable"};
     Diagnostics found;
@@ -254,18 +191,20 @@ Answer Run::add_models(const Words& words) {
     if (!addition) return Error{first_error(found), "fix the file", "bad-model"};
     for (const Diagnostic& d : found.items())
         if (d.severity == Severity::kWarning) notices_.push_back(to_text(d));
-    Result<ModelEdit> edit = with_models(*model_, *addition, *X_WA, words[4]);
+    Result<ModelEdit> edit = with_models(*model_, *addition, add.X_WA, add.name);
     if (!edit) return edit.error();
     if (is_shown())
-        visuals_.add({*model_, *edit.value().model, *addition}, std::move(*world), *X_WA, words[4]);
+        visuals_.add({*model_, *edit.value().model, *addition}, std::move(*world), add.X_WA, add.name);
     return change_model(edit.value(),
-                        fmt::format("{} robots of {} added", addition->robots.size(), words[1]));
+                        fmt::format("{} robots of {} added", addition->robots.size(), add.file));
 }
 
-Answer Run::remove_robots(const Words& words) {
-    Result<ModelEdit> edit = without_robots(*model_, {words.begin() + 1, words.end()});
+Run::Done Run::act(const RemoveRobots& remove) {
+    Result<ModelEdit> edit = without_robots(*model_, remove.names);
     if (!edit) return edit.error();
-    return change_model(edit.value(), together(words));
+    std::string text = "remove";
+    for (const std::string& name : remove.names) text += " " + name;
+    return change_model(edit.value(), text);
 }
 
 }  // namespace roboss

@@ -44,9 +44,8 @@ bool Run::advance_to(Tick target) {
     Result<> looked_after = Ok{};
     const Result<> stepped = simulation_->run_until(target, [&] {
         show_progress();
-        looked_after = members_->look_after(simulation_->controller());
-        for (ControlCall& call : simulation_->controller().control().take_calls())
-            calls_.push_back(std::move(call));
+        looked_after = members_->look_after(*simulation_);
+        for (ControlCall& call : simulation_->take_control_calls()) calls_.push_back(std::move(call));
         return looked_after.ok() && !interrupted() && (calls_.empty() || simulation_->tick() < busy_until_);
     });
     if (!looked_after) return abandoned_ = true, print(looked_after.error()), false;
@@ -59,7 +58,7 @@ bool Run::rest() {
     simulation_->serve();
     if (!members_->reaches_others()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     show_progress();
-    const Result<> looked_after = members_->look_after(simulation_->controller());
+    const Result<> looked_after = members_->look_after(*simulation_);
     if (!looked_after) return abandoned_ = true, print(looked_after.error()), false;
     return true;
 }

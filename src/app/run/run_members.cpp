@@ -127,10 +127,10 @@ Result<> RunMembers::kill(const std::string& name) {
                  "not-own-process"};
 }
 
-Result<> RunMembers::watch_start(const Controller& controller) {
+Result<> RunMembers::watch_start(const Simulation& simulation) {
     std::vector<std::string> joined;
     std::set<Address> known;
-    for (const MemberReport& member : controller.members()) {
+    for (const MemberReport& member : simulation.members()) {
         joined.push_back(member.name);
         known.insert(member.address);
     }
@@ -140,9 +140,9 @@ Result<> RunMembers::watch_start(const Controller& controller) {
     return processes_.watch_start(joined, fetched, monotonic_ms(), patience_ms_);
 }
 
-Result<> RunMembers::look_after(const Controller& controller) {
+Result<> RunMembers::look_after(const Simulation& simulation) {
     if (o_.processes == 0) return Ok{};
-    if (processes_.starting()) return watch_start(controller);
+    if (processes_.starting()) return watch_start(simulation);
     for (std::string& line : processes_.take_ended()) notices_.push_back(std::move(line));
     if (processes_.count() > 0) return Ok{};
     if (++started_again_ > kStartedAgainMax)

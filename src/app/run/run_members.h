@@ -31,7 +31,7 @@ class RunMembers {
     Result<> kill(const std::string& name);
     /// To be called now and then. An Error: processes of the run's own died or never joined, and it cannot go
     /// on.
-    Result<> look_after(const Controller& controller);
+    Result<> look_after(const Simulation& simulation);
     /// What happened since the last call, one line each.
     std::vector<std::string> take_notices();
     /// Waits some seconds for the processes to end after the Controller dismissed them; not after a failure.
@@ -41,7 +41,7 @@ class RunMembers {
     explicit RunMembers(const RunOptions& options) : o_(options) {}
     Result<> open_network();
     Result<> start_process();
-    Result<> watch_start(const Controller& controller);
+    Result<> watch_start(const Simulation& simulation);
 
     const RunOptions& o_;
     DdsOptions network_;

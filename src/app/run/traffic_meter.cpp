@@ -28,8 +28,8 @@ void TrafficMeter::take(std::span<const Flow> flows, std::int64_t now_ms) {
     taken_ms_ = now_ms;
 }
 
-TrafficRate TrafficMeter::total() const {
-    TrafficRate total;
+MessageRate TrafficMeter::total() const {
+    MessageRate total;
     for (const auto& [member, rate] : rates_) {
         total.messages_in += rate.messages_in, total.bytes_in += rate.bytes_in;
         total.messages_out += rate.messages_out, total.bytes_out += rate.bytes_out;
@@ -37,9 +37,9 @@ TrafficRate TrafficMeter::total() const {
     return total;
 }
 
-TrafficRate TrafficMeter::of(const Address& member) const {
+MessageRate TrafficMeter::of(const Address& member) const {
     const auto found = rates_.find(member);
-    return found == rates_.end() ? TrafficRate() : found->second;
+    return found == rates_.end() ? MessageRate() : found->second;
 }
 
 }  // namespace roboss

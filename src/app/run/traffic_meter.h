@@ -6,21 +6,16 @@
 #include <span>
 
 #include "bus/bus.h"
+#include "wire/control.h"
 
 namespace roboss {
-
-/// Per second.
-struct TrafficRate {
-    double messages_in = 0, bytes_in = 0;    // to the Controller
-    double messages_out = 0, bytes_out = 0;  // from it
-};
 
 class TrafficMeter {
   public:
     bool due(std::int64_t now_ms) const { return now_ms - taken_ms_ >= kEvery_ms; }
     void take(std::span<const Flow> flows, std::int64_t now_ms);
-    TrafficRate total() const;
-    TrafficRate of(const Address& member) const;
+    MessageRate total() const;
+    MessageRate of(const Address& member) const;
 
   private:
     static constexpr std::int64_t kEvery_ms = 1'000;
@@ -30,7 +25,7 @@ class TrafficMeter {
 
     std::int64_t taken_ms_ = -kEvery_ms;
     std::map<Address, Sums> before_;
-    std::map<Address, TrafficRate> rates_;
+    std::map<Address, MessageRate> rates_;
 };
 
 }  // namespace roboss

@@ -233,6 +233,7 @@ export interface Answer {
     id: number;
     done: boolean;
     text: string;
+    code?: string; // of a refusal
 }
 
 export type Incoming =

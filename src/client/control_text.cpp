@@ -1,0 +1,172 @@
+// One parser per form of request.
+#include "client/control_text.h"
+
+#include <cmath>
+#include <concepts>
+#include <sstream>
+
+#include "math/quat.h"
+
+namespace roboss {
+namespace {
+
+using Words = std::vector<std::string>;
+/// Takes each type of request as it is.
+struct Parsed : Result<ControlAction> {
+    Parsed(Error error) : Result(std::move(error)) {}
+    template <class Request>
+    requires std::constructible_from<ControlAction, Request> Parsed(Request request)
+        : Result(ControlAction(std::move(request))) {}
+};
+
+constexpr std::size_t kShownMost = 40;  // characters of a word in an error
+
+std::string together(const Words& words) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : " ") + word.substr(0, kShownMost);
+    return text;
+}
+
+Error unknown(const Words& words) {
+    return {"unknown request '" + together(words) + "'", "see `roboss control --help`", "unknown-request"};
+}
+
+Error bad_value(const Words& words, const std::string& wanted) {
+    return {"'" + together(words) + "': " + wanted, "see `roboss control " + words[0] + " --help`",
+            "bad-value"};
+}
+
+std::optional<double> number(const std::string& text) {
+    try {
+        std::size_t used = 0;
+        const double value = std::stod(text, &used);
+        if (used == text.size() && std::isfinite(value)) return value;
+    } catch (const std::exception&) {
+    }
+    return std::nullopt;
+}
+
+/// A whole number from 0 on.
+std::optional<std::int64_t> whole(const std::string& text) {
+    const std::optional<double> value = number(text);
+    if (!value || *value < 0 || *value > 1e15 || *value != std::floor(*value)) return std::nullopt;
+    return static_cast<std::int64_t>(*value);
+}
+
+/// "x y z roll pitch yaw", as SDFormat writes a pose.
+std::optional<Pose> pose_of(const std::string& text) {
+    std::istringstream in(text);
+    double x[6] = {};
+    for (double& value : x)
+        if (!(in >> value)) return std::nullopt;
+    std::string rest;
+    if (in >> rest) return std::nullopt;
+    return Pose{{x[0], x[1], x[2]}, from_rpy(x[3], x[4], x[5])};
+}
+
+Parsed step(const Words& words) {
+    if (words.size() == 1) return StepRun{};
+    const std::optional<std::int64_t> ticks = whole(words[1]);
+    if (!ticks) return bad_value(words, "give a whole number of ticks");
+    return StepRun{*ticks};
+}
+
+Parsed speed(const Words& words) {
+    if (words[1] == "max") return SetSpeed{SetSpeed::Kind::kMax};
+    if (words[1] == "world") return SetSpeed{SetSpeed::Kind::kWorld};
+    const std::optional<double> factor = number(words[1]);
+    if (!factor) return bad_value(words, "give a number greater than 0, max or world");
+    return SetSpeed{SetSpeed::Kind::kFactor, *factor};
+}
+
+Parsed window(const Words& words) {
+    if (words[1] == "auto") return SetWindow{};
+    const std::optional<std::int64_t> ticks = whole(words[1]);
+    if (!ticks || *ticks == 0) return bad_value(words, "give a whole number of ticks, or auto");
+    return SetWindow{*ticks};
+}
+
+Parsed simulators(const Words& words) {
+    if (words.size() == 2 && words[1] == "add") return AddSimulator{};
+    if (words.size() == 2 && words[1] == "remove") return RemoveSimulator{};
+    if (words.size() != 3 || words[1] != "kill") return unknown(words);
+    const std::optional<std::int64_t> id = whole(words[2]);
+    if (!id || *id >= RobotId::kNone) return bad_value(words, "give a Simulator's id from `status`");
+    return KillSimulator{static_cast<std::uint32_t>(*id)};
+}
+
+/// [#BRANCH@]TIME.
+Parsed rewind(const Words& words) {
+    RewindRun rewind;
+    const std::string& text = words[1];
+    const std::size_t at = text.find('@');
+    const std::optional<double> time_s = number(at == std::string::npos ? text : text.substr(at + 1));
+    if (!time_s) return bad_value(words, "give a time in s, or #BRANCH@TIME");
+    rewind.time_s = *time_s;
+    if (at == std::string::npos || at == 0) return rewind;
+    const std::optional<std::int64_t> branch = text[0] == '#' ? whole(text.substr(1, at - 1)) : std::nullopt;
+    if (!branch || *branch == 0) return bad_value(words, "give a time in s, or #BRANCH@TIME");
+    rewind.branch = *branch;
+    return rewind;
+}
+
+Parsed accuracy(const Words& words) {
+    ChangeAccuracy change;
+    for (std::size_t i = 1; i < words.size(); ++i) {
+        const std::size_t equals = words[i].find('=');
+        if (equals == std::string::npos) {
+            change.setting = words[i];
+            continue;
+        }
+        const std::optional<double> value = number(words[i].substr(equals + 1));
+        if (!value) return bad_value(words, "give NAME=NUMBER");
+        change.numbers.push_back({words[i].substr(0, equals), *value});
+    }
+    return change;
+}
+
+Parsed add(const Words& words) {
+    const std::optional<Pose> X_WA = pose_of(words[3]);
+    if (!X_WA)
+        return Error{"'" + words[3].substr(0, kShownMost) + "' is not a pose",
+                     "give \"x y z roll pitch yaw\", m and rad", "bad-pose"};
+    return AddModels{words[1], words[2], *X_WA, words[4]};
+}
+
+Parsed parse(const Words& words) {
+    if (words.empty()) return unknown(words);
+    const std::string& verb = words[0];
+    const std::size_t n = words.size();
+    if (verb == "status" && n == 1) return GetStatus{true};
+    if (verb == "groups" && n == 1) return GetGroups{};
+    if (verb == "bounds" && n == 1) return GetBounds{};
+    if (verb == "pause" && n == 1) return PauseRun{};
+    if (verb == "resume" && n == 1) return ResumeRun{};
+    if (verb == "quit" && n == 1) return QuitRun{};
+    if (verb == "step" && n <= 2) return step(words);
+    if (verb == "speed" && n == 2) return speed(words);
+    if (verb == "window" && n == 2) return window(words);
+    if (verb == "simulators" && n >= 2) return simulators(words);
+    if (verb == "save" && n == 2) return SaveRun{words[1]};
+    if (verb == "rewind" && n == 2) return rewind(words);
+    if (verb == "accuracy" && n >= 2) return accuracy(words);
+    if (verb == "add" && n == 5) return add(words);
+    if (verb == "remove" && n >= 2) return RemoveRobots{{words.begin() + 1, words.end()}};
+    return unknown(words);
+}
+
+}  // namespace
+
+Result<ControlAction> parse_control(const Words& words) {
+    Parsed parsed = parse(words);
+    if (!parsed) return parsed;
+    if (const char* broken = broken_rule(parsed.value())) {
+        if (std::holds_alternative<AddModels>(parsed.value()))
+            return Error{"'" + words[3].substr(0, kShownMost) + "': " + broken,
+                         "give \"x y z roll pitch yaw\", m and rad", "bad-pose"};
+        return bad_value(words, broken);
+    }
+    return parsed;
+}
+
+}  // namespace roboss

@@ -1,0 +1,83 @@
+// Words of requests become requests; whatever is not one is refused with a code.
+#include "client/control_text.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace roboss {
+namespace {
+
+using Words = std::vector<std::string>;
+
+TEST(ControlText, ReadsEachRequest) {
+    const std::vector<std::pair<Words, ControlAction>> cases{
+        {{"status"}, GetStatus{true}},
+        {{"groups"}, GetGroups{}},
+        {{"bounds"}, GetBounds{}},
+        {{"pause"}, PauseRun{}},
+        {{"resume"}, ResumeRun{}},
+        {{"quit"}, QuitRun{}},
+        {{"step"}, StepRun{1}},
+        {{"step", "100"}, StepRun{100}},
+        {{"speed", "2.5"}, SetSpeed{SetSpeed::Kind::kFactor, 2.5}},
+        {{"speed", "max"}, SetSpeed{SetSpeed::Kind::kMax}},
+        {{"speed", "world"}, SetSpeed{SetSpeed::Kind::kWorld}},
+        {{"window", "auto"}, SetWindow{0}},
+        {{"window", "16"}, SetWindow{16}},
+        {{"simulators", "add"}, AddSimulator{}},
+        {{"simulators", "remove"}, RemoveSimulator{}},
+        {{"simulators", "kill", "3"}, KillSimulator{3}},
+        {{"save", "a.roboss"}, SaveRun{"a.roboss"}},
+        {{"rewind", "12.5"}, RewindRun{0, 12.5}},
+        {{"rewind", "@12.5"}, RewindRun{0, 12.5}},
+        {{"rewind", "#2@12.5"}, RewindRun{2, 12.5}},
+        {{"accuracy", "high", "tolerance=1e-10"}, ChangeAccuracy{"high", {{"tolerance", 1e-10}}}},
+        {{"add", "ball.sdf", "<sdf/>", "1 2 3 0 0 0", "ball"},
+         AddModels{"ball.sdf", "<sdf/>", {{1, 2, 3}, {}}, "ball"}},
+        {{"remove", "a", "b"}, RemoveRobots{{"a", "b"}}}};
+    std::vector<bool> met(std::variant_size_v<ControlAction>, false);
+    for (const auto& [words, action] : cases) {
+        met[action.index()] = true;
+        const Result<ControlAction> parsed = parse_control(words);
+        ASSERT_TRUE(parsed.ok()) << words[0] << ": " << parsed.error().text();
+        EXPECT_EQ(parsed.value(), action) << words[0];
+        EXPECT_TRUE(std::string(control_verb(action)).starts_with(words[0]));
+    }
+    EXPECT_EQ(std::count(met.begin(), met.end(), true), std::ssize(met)) << "each kind of request";
+}
+
+TEST(ControlText, RefusesWhatIsNoRequestAndNamesTheKindOfMistake) {
+    const std::vector<std::pair<Words, std::string>> cases{
+        {{}, "unknown-request"},
+        {{"fly"}, "unknown-request"},
+        {{"pause", "now"}, "unknown-request"},
+        {{"simulators", "sing"}, "unknown-request"},
+        {{"simulators", "kill"}, "unknown-request"},
+        {{"simulators", "kill", "-1"}, "bad-value"},
+        {{"step", "0"}, "bad-value"},
+        {{"step", "1.5"}, "bad-value"},
+        {{"step", "1e300"}, "bad-value"},
+        {{"speed", "0"}, "bad-value"},
+        {{"speed", "-1"}, "bad-value"},
+        {{"speed", "nan"}, "bad-value"},
+        {{"window", "0"}, "bad-value"},
+        {{"window", "1e9"}, "bad-value"},
+        {{"rewind", "soon"}, "bad-value"},
+        {{"rewind", "-1"}, "bad-value"},
+        {{"rewind", "#0@1"}, "bad-value"},
+        {{"rewind", "2@1"}, "bad-value"},
+        {{"save", ""}, "bad-value"},
+        {{"accuracy", "tolerance=much"}, "bad-value"},
+        {{"add", "f", "c", "1 2 3", "n"}, "bad-pose"},
+        {{"add", "f", "c", "1e300 2 3 0 0 0", "n"}, "bad-pose"}};
+    for (const auto& [words, code] : cases) {
+        const Result<ControlAction> parsed = parse_control(words);
+        ASSERT_FALSE(parsed.ok()) << words[0];
+        EXPECT_EQ(parsed.error().code, code) << (words.empty() ? "" : words.back());
+        EXPECT_FALSE(parsed.error().remedy.empty());
+    }
+}
+
+}  // namespace
+}  // namespace roboss

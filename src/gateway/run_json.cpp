@@ -1,0 +1,115 @@
+// Field names of the JSON texts.
+#include "gateway/run_json.h"
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "core/hash.h"
+
+namespace roboss {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text_of(const Json& json, int indent) {
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+const char* name_of(MemberState state) {
+    switch (state) {
+        case MemberState::kActive:
+            return "active";
+        case MemberState::kLeaving:
+            return "leaving";
+        case MemberState::kLeft:
+            return "left";
+        case MemberState::kLost:
+            break;
+    }
+    return "lost";
+}
+
+std::string speed_text(double speed) {
+    if (!(speed > 0)) return "max";
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", speed);
+    return text;
+}
+
+Json json_of(const MessageRate& rate) {
+    return {{"in", std::round(rate.messages_in)},
+            {"out", std::round(rate.messages_out)},
+            {"bytes_in", std::round(rate.bytes_in)},
+            {"bytes_out", std::round(rate.bytes_out)}};
+}
+
+Json json_of(const MemberStatus& member) {
+    return {{"id", member.id},           {"name", member.name},     {"state", name_of(member.state)},
+            {"threads", member.threads}, {"robots", member.robots}, {"islands", member.islands},
+            {"step_us", member.step_us}, {"load", member.load},     {"messages", json_of(member.messages)}};
+}
+
+void append(Json& o, const RunStatus& s) {
+    o.update({{"world", s.world},
+              {"time_s", s.time_s},
+              {"tick", s.tick},
+              {"paused", s.paused},
+              {"speed", speed_text(s.speed)}});
+    std::size_t active = 0;
+    for (const MemberStatus& member : s.members)
+        active += member.state == MemberState::kActive || member.state == MemberState::kLeaving ? 1 : 0;
+    o.update({{"simulators", active},
+              {"windows", s.windows},
+              {"window_ticks", s.window},
+              {"windows_repeated", s.repeated},
+              {"islands", s.islands},
+              {"efficiency", s.efficiency},
+              {"step_cpu_s", s.step_cpu_s},
+              {"losses", s.losses},
+              {"recoveries", s.recoveries},
+              {"migrations", s.migrations},
+              {"cuts", s.cuts},
+              {"messages", json_of(s.messages)},
+              {"model_hash", to_hex(s.model_hash)},
+              {"state_hash", to_hex(s.state_hash)},
+              {"robot_count", s.robot_count}});
+    if (s.branch > 0) {
+        o["branch"] = s.branch;
+        o["journal"] = {{"first_s", s.first_s}, {"last_s", s.time_s}};
+    }
+    o["members"] = Json::array();
+    for (const MemberStatus& member : s.members) o["members"].push_back(json_of(member));
+}
+
+}  // namespace
+
+std::string status_json(const RunStatus& status) {
+    Json o = Json::object();
+    append(o, status);
+    if (!status.robots.empty() || status.robot_count == 0) o["robots"] = status.robots;
+    return text_of(o, 2);
+}
+
+std::string status_line(const RunStatus& status, double real_time_factor) {
+    Json o{{"type", "status"}};
+    append(o, status);
+    o["rtf"] = std::round(1e3 * real_time_factor) / 1e3;
+    return text_of(o, -1);
+}
+
+std::string groups_json(const RobotGroups& groups) {
+    return text_of({{"model_hash", to_hex(groups.model_hash)},
+                    {"simulator", groups.simulator},
+                    {"island", groups.island}},
+                   -1);
+}
+
+std::string bounds_json(const RobotBounds& bounds) {
+    Json boxes = Json::array();
+    for (const Box32& box : bounds.boxes)
+        boxes.push_back({box.min[0], box.min[1], box.min[2], box.max[0], box.max[1], box.max[2]});
+    return text_of({{"model_hash", to_hex(bounds.model_hash)}, {"boxes", boxes}}, -1);
+}
+
+}  // namespace roboss

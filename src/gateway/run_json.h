@@ -1,0 +1,19 @@
+// JSON texts of what a run replies, for the command line and web pages. Fields: docs/cluster.md.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "wire/control.h"
+
+namespace roboss {
+
+/// The fields of `roboss control status`; `robots` only if they were requested.
+std::string status_json(const RunStatus& status);
+/// The line that pages get twice a second (docs/viewer-protocol.md). real_time_factor: simulated seconds per
+/// real second lately.
+std::string status_line(const RunStatus& status, double real_time_factor);
+std::string groups_json(const RobotGroups& groups);
+std::string bounds_json(const RobotBounds& bounds);
+
+}  // namespace roboss

@@ -1,0 +1,162 @@
+// The Simulation in one process: targets, saved runs, requests, Simulators that come and go; the same hash
+// always.
+#include "simulation/simulation.h"
+
+#include <gtest/gtest.h>
+
+#include <support/bodies.h>
+
+namespace roboss {
+namespace {
+
+constexpr Tick kEnd = 300;
+
+/// A row of boxes that fall and slide, and touch each other.
+std::shared_ptr<const Model> boxes_world() {
+    World world = test::empty_world(0.002);
+    test::place(world, test::ground(test::surface(0.4)), "ground");
+    for (int i = 0; i < 4; ++i)
+        test::place(world, test::solid_box(1, {0.2, 0.2, 0.2}, test::surface(0.4)), "box" + std::to_string(i),
+                    {{0.21 * i, 0, 0.15 + 0.05 * i}, {}});
+    Diagnostics diagnostics;
+    auto model = compile(world, {}, diagnostics);
+    EXPECT_FALSE(diagnostics.has_errors());
+    return model;
+}
+
+std::unique_ptr<Simulation> make(const std::shared_ptr<const Model>& model, std::size_t simulators = 1,
+                                 const SavedRun* from = nullptr) {
+    SimulationOptions options;
+    options.simulators = simulators;
+    Result<std::unique_ptr<Simulation>> made = Simulation::create(model, options, {}, from);
+    EXPECT_TRUE(made.ok());
+    return std::move(made).value();
+}
+
+void run_until(Simulation& simulation, Tick target) {
+    const Result<> stepped = simulation.run_until(target);
+    ASSERT_TRUE(stepped.ok()) << stepped.error().text();
+    ASSERT_EQ(simulation.tick(), target);
+}
+
+Order push(Tick apply_at) {
+    return {apply_at, {}, 1, RobotId(0u), SetVelocity{{1, 0, 0}, {}}};
+}
+
+class SimulationTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        const auto simulation = make(model_);
+        ASSERT_TRUE(simulation->submit(push(100)).ok());
+        run_until(*simulation, kEnd);
+        expected_ = simulation->hash();
+    }
+    std::shared_ptr<const Model> model_ = boxes_world();
+    std::uint64_t expected_ = 0;  // of the run with the push, by one Simulator
+};
+
+TEST_F(SimulationTest, StopsAtEachTargetAndHasTheStatesThere) {
+    const auto simulation = make(model_, 3);
+    ASSERT_TRUE(simulation->submit(push(100)).ok());
+    for (const Tick target : {1, 2, 50, 120, 121}) {
+        run_until(*simulation, target);
+        std::vector<std::uint64_t> hashes;
+        const std::vector<RobotState>& states = simulation->states();
+        for (std::size_t r = 0; r < states.size(); ++r)
+            hashes.push_back(state_hash(RobotId(r), target, states[r]));
+        EXPECT_EQ(world_hash(model_->hash, hashes), simulation->hash()) << "tick " << target;
+    }
+    run_until(*simulation, kEnd);
+    EXPECT_EQ(simulation->hash(), expected_);
+}
+
+TEST_F(SimulationTest, RefusesAnOrderForATickThatIsOverAndForARobotThatIsNot) {
+    const auto simulation = make(model_);
+    run_until(*simulation, 50);
+    EXPECT_FALSE(simulation->submit(push(49)).ok());
+    Order nobody = push(60);
+    nobody.robot = RobotId(99u);
+    EXPECT_FALSE(simulation->submit(nobody).ok());
+    ASSERT_TRUE(simulation->submit(push(100)).ok());
+    run_until(*simulation, kEnd);
+    EXPECT_EQ(simulation->hash(), expected_) << "what was refused has changed nothing";
+}
+
+TEST_F(SimulationTest, ContinuesASavedRunExactlyWithTheOrdersStillToBeApplied) {
+    const auto first = make(model_);
+    ASSERT_TRUE(first->submit(push(100)).ok());
+    run_until(*first, 60);
+    const SavedRun saved = first->saved_run();
+    EXPECT_EQ(saved.tick, 60);
+    const auto second = make(model_, 2, &saved);
+    EXPECT_EQ(second->tick(), 60);
+    EXPECT_EQ(second->hash(), first->hash());
+    run_until(*second, kEnd);
+    EXPECT_EQ(second->hash(), expected_);
+}
+
+TEST_F(SimulationTest, SimulatorsThatComeAndGoChangeNoBit) {
+    const auto simulation = make(model_, 1);
+    ASSERT_TRUE(simulation->submit(push(100)).ok());
+    EXPECT_FALSE(simulation->remove_simulator()) << "it is the only one";
+    run_until(*simulation, 40);
+    simulation->add_simulator();
+    simulation->add_simulator();
+    run_until(*simulation, 90);
+    EXPECT_EQ(simulation->counters().simulators, 3u);
+    ASSERT_EQ(simulation->members().size(), 3u);
+    std::size_t robots = 0;
+    for (const MemberReport& member : simulation->members()) robots += member.robots;
+    EXPECT_EQ(robots, model_->robots.size());
+    EXPECT_TRUE(simulation->remove_simulator());
+    run_until(*simulation, 200);
+    EXPECT_EQ(simulation->counters().simulators, 2u);
+    simulation->set_window(1);
+    run_until(*simulation, kEnd);
+    EXPECT_EQ(simulation->hash(), expected_);
+}
+
+TEST_F(SimulationTest, HandsOutARequestOnceAndSendsItsAnswer) {
+    const auto simulation = make(model_);
+    const Address requester{Role::kClient, 77};
+    simulation->bus().send(requester, kControllerAddress, ControlRequest{1, PauseRun{}});
+    simulation->bus().send(requester, kControllerAddress, ControlRequest{1, PauseRun{}});
+    for (int i = 0; i < 3; ++i) simulation->serve();
+    const std::vector<ControlCall> calls = simulation->take_control_calls();
+    ASSERT_EQ(calls.size(), 1u);
+    EXPECT_EQ(calls[0].request.action, ControlAction(PauseRun{}));
+    simulation->answer(calls[0], ControlDone{0, "paused"});
+    EXPECT_TRUE(simulation->take_control_calls().empty());
+    std::vector<Envelope> inbox;
+    simulation->bus().drain(requester, inbox);
+    ASSERT_EQ(inbox.size(), 1u);
+    EXPECT_EQ(std::get<ControlReply>(inbox[0].message), (ControlReply{1, ControlDone{0, "paused"}}));
+}
+
+TEST_F(SimulationTest, EndsEarlyAtAWindowsEndWhenItsCallerSaysSo) {
+    const auto simulation = make(model_);
+    ASSERT_TRUE(simulation->submit(push(100)).ok());
+    int asked = 0;
+    ASSERT_TRUE(simulation->run_until(kEnd, [&] { return ++asked < 5; }).ok());
+    EXPECT_LT(simulation->tick(), kEnd);
+    run_until(*simulation, kEnd);
+    EXPECT_EQ(simulation->hash(), expected_);
+}
+
+TEST_F(SimulationTest, ANextSimulationOnTheSameBusContinuesTheRun) {
+    auto first = make(model_, 2);
+    ASSERT_TRUE(first->submit(push(100)).ok());
+    run_until(*first, 80);
+    const SavedRun saved = first->saved_run();
+    SimulationOptions options;
+    options.simulators = 2;
+    options.controller.before = first->hand_over();
+    Result<std::unique_ptr<Simulation>> next =
+        Simulation::create(model_, options, {}, &saved, first->release_bus());
+    ASSERT_TRUE(next.ok());
+    run_until(*next.value(), kEnd);
+    EXPECT_EQ(next.value()->hash(), expected_);
+}
+
+}  // namespace
+}  // namespace roboss

@@ -1,0 +1,186 @@
+// Requests to the run itself (pause, rewind, add ...) and their replies, as plain data. The text forms, for
+// command lines and web pages, are in client/control_text.h.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/result.h"
+#include "core/types.h"
+#include "math/box32.h"
+#include "math/pose.h"
+
+namespace roboss {
+
+// --- requests. Those that change nothing:
+struct GetStatus {
+    bool robots = false;  // with the names of all robots, which are many
+    friend bool operator==(const GetStatus&, const GetStatus&) = default;
+};
+struct GetGroups {
+    friend bool operator==(const GetGroups&, const GetGroups&) = default;
+};
+struct GetBounds {
+    friend bool operator==(const GetBounds&, const GetBounds&) = default;
+};
+
+// --- requests that do not change the result:
+struct PauseRun {
+    friend bool operator==(const PauseRun&, const PauseRun&) = default;
+};
+struct ResumeRun {
+    friend bool operator==(const ResumeRun&, const ResumeRun&) = default;
+};
+/// Advances by this many ticks, then pauses.
+struct StepRun {
+    Tick ticks = 1;
+    friend bool operator==(const StepRun&, const StepRun&) = default;
+};
+struct SetSpeed {
+    enum class Kind : std::uint8_t { kFactor, kMax, kWorld };
+    Kind kind = Kind::kFactor;  // kMax: as fast as possible; kWorld: as the world file says
+    double factor = 1;          // simulated seconds per real second, > 0; of kFactor
+    friend bool operator==(const SetSpeed&, const SetSpeed&) = default;
+};
+/// Sets the synchronization interval.
+struct SetWindow {
+    Tick ticks = 0;  // 0: adaptive
+    friend bool operator==(const SetWindow&, const SetWindow&) = default;
+};
+struct AddSimulator {
+    friend bool operator==(const AddSimulator&, const AddSimulator&) = default;
+};
+struct RemoveSimulator {
+    friend bool operator==(const RemoveSimulator&, const RemoveSimulator&) = default;
+};
+/// Kills a Simulator process that the run started, to watch the run recover.
+struct KillSimulator {
+    std::uint32_t id = 0;  // MemberStatus::id
+    friend bool operator==(const KillSimulator&, const KillSimulator&) = default;
+};
+struct SaveRun {
+    std::string file;  // on the Controller's computer
+    friend bool operator==(const SaveRun&, const SaveRun&) = default;
+};
+struct QuitRun {
+    friend bool operator==(const QuitRun&, const QuitRun&) = default;
+};
+
+// --- requests that change the world at a tick. With a journal each starts a new branch:
+struct RewindRun {
+    std::int64_t branch = 0;  // of the journal; 0: the current one
+    double time_s = 0;        // >= 0
+    friend bool operator==(const RewindRun&, const RewindRun&) = default;
+};
+/// Changes the numbers of <roboss:accuracy>.
+struct ChangeAccuracy {
+    struct Number {
+        std::string name;
+        double value = 0;
+        friend bool operator==(const Number&, const Number&) = default;
+    };
+    std::string setting;  // "fast", "standard", "high"; empty: as it is
+    std::vector<Number> numbers;
+    friend bool operator==(const ChangeAccuracy&, const ChangeAccuracy&) = default;
+};
+/// Adds the models of an SDF or URDF file. The request carries the content, since the file may be on another
+/// computer; files that it refers to are looked up on the Controller's.
+struct AddModels {
+    std::string file, content;
+    Pose X_WA;         // of the file's world frame
+    std::string name;  // in the world; empty: the name in the file
+    friend bool operator==(const AddModels&, const AddModels&) = default;
+};
+struct RemoveRobots {
+    std::vector<std::string> names;
+    friend bool operator==(const RemoveRobots&, const RemoveRobots&) = default;
+};
+
+using ControlAction = std::variant<GetStatus, GetGroups, GetBounds, PauseRun, ResumeRun, StepRun, SetSpeed,
+                                   SetWindow, AddSimulator, RemoveSimulator, KillSimulator, SaveRun, QuitRun,
+                                   RewindRun, ChangeAccuracy, AddModels, RemoveRobots>;
+
+/// The request's name on the command line: "pause", "step" ...
+const char* control_verb(const ControlAction& action);
+/// The request only asks; it is not logged.
+bool only_asks(const ControlAction& action);
+/// Why a request is invalid, whatever the run; null: it is valid.
+const char* broken_rule(const ControlAction& action);
+
+// --- replies
+/// Messages and bytes per second to and from the Controller.
+struct MessageRate {
+    double messages_in = 0, messages_out = 0;
+    double bytes_in = 0, bytes_out = 0;
+    friend bool operator==(const MessageRate&, const MessageRate&) = default;
+};
+enum class MemberState : std::uint8_t { kActive, kLeaving, kLeft, kLost };
+struct MemberStatus {
+    std::uint32_t id = 0;  // in the order of joining, from 0
+    std::string name;
+    MemberState state = MemberState::kActive;
+    std::uint32_t threads = 1;
+    std::uint64_t robots = 0, islands = 0;  // that it has now
+    double step_us = 0;                     // stepping CPU time per tick and thread
+    double load = 0;                        // the same, relative to the busiest Simulator
+    MessageRate messages;
+    friend bool operator==(const MemberStatus&, const MemberStatus&) = default;
+};
+struct RunStatus {
+    std::string world;
+    Tick tick = 0;
+    double time_s = 0;
+    bool paused = false;
+    double speed = 0;            // simulated seconds per real second that are wanted; 0: as fast as possible
+    std::uint64_t islands = 0;   // of the last window
+    std::int64_t window = 0;     // ticks of the next window
+    std::uint64_t windows = 0;   // committed
+    std::uint64_t repeated = 0;  // of these, stepped again with islands merged
+    double efficiency = 1;       // mean load of the Simulators, relative to the busiest
+    double step_cpu_s = 0;
+    std::uint64_t losses = 0, recoveries = 0, migrations = 0, cuts = 0;
+    MessageRate messages;  // of all members
+    std::uint64_t model_hash = 0, state_hash = 0;
+    std::int64_t branch = 0;            // of the journal; 0: there is none
+    double first_s = 0;                 // the journal's first time
+    std::vector<MemberStatus> members;  // Simulators that hold or held a seat
+    std::vector<std::string> robots;    // by RobotId, if they were requested
+    std::uint64_t robot_count = 0;
+    friend bool operator==(const RunStatus&, const RunStatus&) = default;
+};
+/// By RobotId.
+struct RobotGroups {
+    std::uint64_t model_hash = 0;
+    std::vector<std::int32_t> simulator;  // id of the robot's Simulator; -1: none yet
+    std::vector<std::int32_t> island;     // lowest RobotId of its island; -1: none yet
+    friend bool operator==(const RobotGroups&, const RobotGroups&) = default;
+};
+/// By RobotId: the box that the robot swept in the last window, with its contact margin, m, world axes.
+struct RobotBounds {
+    std::uint64_t model_hash = 0;
+    std::vector<Box32> boxes;
+    friend bool operator==(const RobotBounds&, const RobotBounds&) = default;
+};
+/// The request was carried out.
+struct ControlDone {
+    Tick tick = 0;     // at which it took effect
+    std::string text;  // for people
+    friend bool operator==(const ControlDone&, const ControlDone&) = default;
+};
+/// The request was refused; nothing has changed. Fields as in Error.
+struct ControlRefused {
+    std::string message, remedy, code;
+    ControlRefused() = default;
+    ControlRefused(const Error& e) : message(e.message), remedy(e.remedy), code(e.code) {}
+    Error error() const { return {message, remedy, code}; }
+    friend bool operator==(const ControlRefused&, const ControlRefused&) = default;
+};
+using ControlOutcome = std::variant<ControlDone, ControlRefused, RunStatus, RobotGroups, RobotBounds>;
+
+inline bool is_done(const ControlOutcome& outcome) {
+    return !std::holds_alternative<ControlRefused>(outcome);
+}
+
+}  // namespace roboss
