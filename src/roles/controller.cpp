@@ -29,24 +29,24 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
       clients_(options.clients),
       recorder_(options.log, options.log_ticks, std::max(start.tick, start.logged_until),
                 std::move(start.answered)),
-      tick_(start.tick),
+      directory_(model_->robots.size(), start.tick),
       target_(start.tick),
       forecast_(model_),
-      length_(options.window) {
+      length_(options.window),
+      views_(model_) {
     epoch_ = options_.before.epoch;
     window_ = options_.before.window;
     const std::size_t n = model_->robots.size();
     ROBOSS_CHECK(start.states.size() == n, "the starting point has not one state a robot");
     const ExactFloatScope exact;
     for (std::size_t i = 0; i < n; ++i) {
-        hashes_.push_back(state_hash(RobotId(i), tick_, start.states[i]));
+        hashes_.push_back(state_hash(RobotId(i), tick(), start.states[i]));
         motions_.push_back(motion_of(*model_, RobotId(i), start.states[i]));
         cost_.push_back(kGuessed_ns * static_cast<float>(4 + model_->type_of(RobotId(i)).nv));
     }
     next_hashes_ = hashes_;
-    holder_.assign(n, kAtController);
     for (const LoggedOrder& o : start.orders) order_log_.add(o.order, o.given_at);
-    base_.tick = tick_;
+    base_.tick = tick();
     base_.states = std::make_shared<std::vector<RobotState>>(std::move(start.states));
     base_.touched.reset(n);
 }
@@ -58,7 +58,8 @@ void Controller::advance(Bus& bus) {
     notice_losses(bus);
     notice_client_losses(bus);
     if (round_ && round_->all_answered()) finish_round();
-    if (!round_) serve_views(bus);
+    if (!round_)
+        views_.serve(bus, {epoch_, directory_, roster_, at_checkpoint() ? base_.states.get() : nullptr});
     if (!round_) at_boundary(bus);
     if (round_) send_assignments(bus);
     advance_checkpoint(bus);
@@ -108,12 +109,13 @@ void Controller::handle(Bus& bus, Envelope& envelope) {
     } else if (const auto* wanted = std::get_if<ModelRequest>(&envelope.message)) {
         bus.send(kControllerAddress, from, model_server_.part(*wanted));
     } else if (const auto* view = std::get_if<ViewRequest>(&envelope.message)) {
-        take_view_request(bus, from, *view);
+        views_.take(bus, from, *view);
     }
 }
 
 void Controller::take_hello(Bus& bus, const Address& from, const Hello& hello) {
-    if (from.role != Role::kSimulator) return note_dropped("Hello", "its sender is not a Simulator");
+    if (from.role != Role::kSimulator)
+        return notices_.dropped("Hello", tick(), "its sender is not a Simulator");
     if (model_server_.is_earlier(hello.model_hash))
         return bus.send(kControllerAddress, from, ModelChanged{model_->hash});
     if (hello.model_hash != model_->hash)
@@ -124,8 +126,9 @@ void Controller::take_hello(Bus& bus, const Address& from, const Hello& hello) {
     const auto seat_id = roster_.seat_for(from, hello, bus.now_ms(), is_new);
     if (!seat_id) return;
     if (is_new)
-        notice("simulator " + std::to_string(*seat_id) + (hello.name.empty() ? "" : " (" + hello.name + ")") +
-               " joined at tick " + std::to_string(tick_));
+        notices_.add("simulator " + std::to_string(*seat_id) +
+                     (hello.name.empty() ? "" : " (" + hello.name + ")") + " joined at tick " +
+                     std::to_string(tick()));
     counters_.simulators = roster_.alive_count();
     bus.send(kControllerAddress, from, Welcome{roster_.id_of(*seat_id)});
 }
@@ -144,7 +147,7 @@ void Controller::start_log(RunLog* log, Tick log_ticks) {
     recorder_.start(log, log_ticks);
     for (std::size_t i = 0; i < clients_.seats().size(); ++i)
         if (clients_.seats()[i].joined) recorder_.joined(ClientId(i), clients_.seats()[i].name);
-    for (const LoggedOrder& o : order_log_.pending(tick_)) recorder_.order(o.order, o.given_at);
+    for (const LoggedOrder& o : order_log_.pending(tick())) recorder_.order(o.order, o.given_at);
 }
 
 bool Controller::waits_for_log() const {
@@ -190,7 +193,7 @@ void Controller::take_leave(Bus& bus, const Address& from, const LeaveRequest& r
     const auto seat_id = heard_from(bus, from, request.simulator);
     if (!seat_id) return;
     SimulatorSeat& seat = roster_.seat(*seat_id);
-    if (!seat.leaving) notice("simulator " + std::to_string(*seat_id) + " wants to leave");
+    if (!seat.leaving) notices_.add("simulator " + std::to_string(*seat_id) + " wants to leave");
     seat.leaving = true;
 }
 
@@ -214,13 +217,13 @@ void Controller::dismiss(Bus& bus, const std::string& reason) {
 bool Controller::settled() const {
     return (resting() || !started_) &&
            std::all_of(clients_.seats().begin(), clients_.seats().end(), [this](const ClientSeat& seat) {
-               return !seat.synchronous || seat.unanswered.empty() || seat.unanswered.front() >= tick_;
+               return !seat.synchronous || seat.unanswered.empty() || seat.unanswered.front() >= tick();
            });
 }
 
 const std::vector<RobotState>* Controller::states() const {
-    if (base_.tick == tick_) return base_.states.get();
-    return next_base_ && next_base_->tick == tick_ && pull_.complete() ? next_base_->states.get() : nullptr;
+    if (base_.tick == tick()) return base_.states.get();
+    return next_base_ && next_base_->tick == tick() && pull_.complete() ? next_base_->states.get() : nullptr;
 }
 
 Result<> Controller::submit(const Order& order) {
@@ -230,19 +233,9 @@ Result<> Controller::submit(const Order& order) {
                          " comes too late, the world is at tick " + std::to_string(stampable()),
                      "give a later time", "too-late"};
     // given before this tick is observed: a save or a branch at this tick includes it
-    const Tick given_at = std::max(tick_, recorder_.logged_until()) - 1;
+    const Tick given_at = std::max(tick(), recorder_.logged_until()) - 1;
     if (order_log_.add(order, given_at)) recorder_.order(order, given_at);
     return Ok{};
-}
-
-void Controller::note_dropped(const char* message, const std::string& why) {
-    notice(std::string("dropped=") + message + " tick=" + std::to_string(tick_) + " reason=\"" + why + "\"");
-}
-
-void Controller::fail(Error error) {
-    if (failure_) return;
-    notice("stopped: " + error.message);
-    failure_ = std::move(error);
 }
 
 }  // namespace roboss

@@ -22,11 +22,12 @@
 #include "roles/recorder.h"
 #include "roles/roster.h"
 #include "roles/round.h"
+#include "roles/run_notices.h"
+#include "roles/state_directory.h"
 #include "roles/view_service.h"
 #include "schedule/forecast.h"
 #include "schedule/touch_watch.h"
 #include "schedule/window_length.h"
-#include "wire/view_state.h"
 
 namespace roboss {
 
@@ -107,15 +108,6 @@ struct MemberReport {
     Address address;
 };
 
-/// A committed tick whose states somebody still needs.
-struct WantedTick {
-    Tick tick = 0;
-    std::vector<SeatId> holder;  // by RobotId: seat, or kLost
-    std::vector<ClientId> clients;
-    bool checkpoint = false;
-    bool open() const { return checkpoint || !clients.empty(); }
-};
-
 struct RecoveryCheckpoint {
     Tick tick = 0;
     std::shared_ptr<std::vector<RobotState>> states;  // by RobotId; never changed once it is complete
@@ -133,18 +125,18 @@ class Controller {
     /// boundary.
     void run_until(Tick target) { target_ = target; }
     Tick target() const { return target_; }
-    Tick tick() const { return tick_; }  // committed
+    Tick tick() const { return directory_.tick(); }  // committed
     /// All members for whom the first window waits have joined.
     bool started() const { return started_; }
     /// At the target with no window in progress.
-    bool resting() const { return tick_ >= target_ && !round_ && started_; }
+    bool resting() const { return tick() >= target_ && !round_ && started_; }
     /// Resting, and every synchronous Client has replied to all observations before tick(): the run can be
     /// saved.
     bool settled() const;
     /// Failed, with no window in progress.
-    bool stopped() const { return failure_ && !round_; }
+    bool stopped() const { return failure() && !round_; }
     /// If set, the run cannot continue; tick() and states are those before the failure.
-    const std::optional<Error>& failure() const { return failure_; }
+    const std::optional<Error>& failure() const { return notices_.failure(); }
 
     /// Tells everybody that the run is over; nobody answers after that.
     void dismiss(Bus& bus, const std::string& reason);
@@ -160,7 +152,7 @@ class Controller {
     /// An order with a given tick, `apply_at` >= tick().
     Result<> submit(const Order& order);
     /// Orders that a run saved at tick() takes along.
-    std::vector<LoggedOrder> pending_orders() { return order_log_.pending(tick_); }
+    std::vector<LoggedOrder> pending_orders() { return order_log_.pending(tick()); }
     /// Names of all Clients that ever joined, by ClientId.
     std::vector<std::string> client_names() const;
     /// Names of those that are here, without observers.
@@ -189,9 +181,9 @@ class Controller {
 
     const Counters& counters() const { return counters_; }
     /// What happened since the last call: losses, refusals, joins. One line each.
-    std::vector<std::string> take_notices() { return std::exchange(notices_, {}); }
+    std::vector<std::string> take_notices() { return notices_.take(); }
     /// Seat of the Simulator that holds the robot; for display.
-    std::uint32_t seat_of(RobotId robot) const { return holder_[robot.index()]; }
+    std::uint32_t seat_of(RobotId robot) const { return directory_.holder_of(robot); }
     const Islands& islands() const { return islands_; }
     /// All Simulators that hold or held a seat.
     std::vector<MemberReport> members() const;
@@ -211,10 +203,6 @@ class Controller {
     /// The seat of this id. A sender that is not alive there gets Expelled or Goodbye.
     std::optional<SeatId> heard_from(Bus& bus, const Address& from, SimulatorId id);
     void serve(Bus& bus, const Address& from, const StateRequest& request) const;
-    void fail(Error error);
-    /// Logs an invalid message.
-    void note_dropped(const char* message, const std::string& why);
-    void notice(std::string text) { notices_.push_back(std::move(text)); }
 
     // controller_clients.cpp
     void take_client_hello(Bus& bus, const Address& from, const ClientHello& hello);
@@ -223,14 +211,14 @@ class Controller {
     void take_bye(Bus& bus, const Address& from, const ClientBye& bye);
     void queue_observations();
     void queue_observation(ClientId id, Tick tick);
-    void forget(ClientId id, Tick tick);
     void drop_client(ClientId id);
     void notice_client_losses(Bus& bus);
     bool stays_away(const ClientSeat& seat, std::int64_t now_ms) const;
     void send_observations(Bus& bus, bool again_now);
-    WantedTick& want_at_this_tick();
     void acknowledge(Bus& bus);
-    Tick scheduled_until() const { return round_ && !round_->span().recovery ? round_->span().until : tick_; }
+    Tick scheduled_until() const {
+        return round_ && !round_->span().recovery ? round_->span().until : tick();
+    }
     /// The first tick at which a new order can apply.
     Tick stampable() const { return std::max(scheduled_until(), recorder_.logged_until()); }
 
@@ -261,12 +249,6 @@ class Controller {
     void steal_work(Bus& bus);
     void share_out_rest(const Round::Answered& cut_short, std::span<const IslandResult> stepped, Tick at);
 
-    // controller_views.cpp
-    void take_view_request(Bus& bus, const Address& from, const ViewRequest& request);
-    void serve_views(Bus& bus);
-    void show(Bus& bus, const ViewService::Due& due);
-    void show_here(Bus& bus, const ViewDue& part);
-
     // controller_recovery.cpp: checkpoints, leaving, losses
     void notice_losses(Bus& bus);
     void take_vanished(const Address& address, std::int64_t now_ms);
@@ -278,12 +260,12 @@ class Controller {
     bool checkpoint_due() const;
     void begin_log_checkpoint();
     bool release_leaving_members(Bus& bus);
-    bool anything_lost() const;
     void begin_recovery();
     std::vector<RobotId> closure_of_lost();
     void begin_leg(Tick from);
     void finish_leg();
-    bool is_lost(SeatId seat_id) const { return seat_id != kAtController && !roster_.alive(seat_id); }
+    void fail_recovery(RobotId robot);
+    bool at_checkpoint() const { return base_.tick == tick(); }
 
     std::shared_ptr<const Model> model_;
     ControllerOptions options_;
@@ -295,11 +277,11 @@ class Controller {
     OrderFeed feed_;
     Recorder recorder_;
 
-    Tick tick_ = 0, target_ = 0;
+    StateDirectory directory_;
+    Tick target_ = 0;
     std::optional<Tick> ends_at_;  // in this tick a state becomes non-finite
     bool started_ = false;
     std::vector<std::uint64_t> hashes_, next_hashes_;  // by RobotId: committed; of the round
-    std::vector<SeatId> holder_;                       // by RobotId: seat of its state at tick_
     std::vector<RobotMotion> motions_;                 // by RobotId, for the forecast
     std::vector<float> cost_;                          // by RobotId: ns a tick on the mean Simulator
     bool costs_known_ = false;                         // measured, no longer guessed
@@ -321,18 +303,14 @@ class Controller {
     StatePull pull_;
     double work_since_s_ = 0;  // of the busiest Simulator since the last checkpoint
     bool states_wanted_ = false;
-    std::vector<WantedTick> wants_;
     std::vector<RobotId> recovering_;  // robots of the recovery under way, ascending
     bool observations_due_ = false;
     std::int64_t heartbeat_sent_ms_ = 0;
 
     ViewService views_;
-    std::uint64_t view_serial_ = 0;
-    std::optional<ViewLayout> view_layout_;  // made with the first view
 
-    std::optional<Error> failure_;
+    RunNotices notices_;
     Counters counters_;
-    std::vector<std::string> notices_;
     std::vector<Envelope> inbox_;
 };
 

@@ -7,7 +7,8 @@
 namespace roboss {
 
 void Controller::take_client_hello(Bus& bus, const Address& from, const ClientHello& hello) {
-    if (from.role != Role::kClient) return note_dropped("ClientHello", "its sender is not a Client");
+    if (from.role != Role::kClient)
+        return notices_.dropped("ClientHello", tick(), "its sender is not a Client");
     if (model_server_.is_earlier(hello.model_hash))
         return bus.send(kControllerAddress, from, ModelChanged{model_->hash});
     if (hello.model_hash != model_->hash)
@@ -20,16 +21,16 @@ void Controller::take_client_hello(Bus& bus, const Address& from, const ClientHe
         new_hello.expected = -1;
         new_hello.acknowledged = new_hello.last_reply;
     }
-    const ClientId id = clients_.welcome(from, new_hello, goes_on ? tick_ : scheduled_until(), is_new);
+    const ClientId id = clients_.welcome(from, new_hello, goes_on ? tick() : scheduled_until(), is_new);
     ClientSeat& seat = clients_.seats()[id.index()];
     seat.vanished_ms.reset();
     bus.send(kControllerAddress, from, ClientWelcome{id, seat.first, options_.seed});
     if (!is_new) return;
-    notice("client '" + seat.name + "' joined at tick " + std::to_string(tick_));
+    notices_.add("client '" + seat.name + "' joined at tick " + std::to_string(tick()));
     recorder_.joined(id, seat.name);
     if (seat.observer) recorder_.gone(id);
     const bool at_rest = !round_ || round_->span().recovery;
-    if (at_rest && ClientService::observes(seat, tick_)) queue_observation(id, tick_);
+    if (at_rest && ClientService::observes(seat, tick())) queue_observation(id, tick());
 }
 
 void Controller::take_reply(Bus& bus, const Address& from, const ClientReply& reply) {
@@ -44,7 +45,7 @@ void Controller::take_reply(Bus& bus, const Address& from, const ClientReply& re
         seat->last_reply = reply.number;
         if (!recorder_.has_reply(reply.client, seat->synchronous, reply.observed)) take_orders(*seat, reply);
         std::erase_if(seat->unanswered, [&](Tick tick) { return tick == reply.observed; });
-        forget(reply.client, reply.observed);
+        directory_.forget(reply.client, reply.observed);
     }
     // An acknowledged reply is never lost: with a log, it is logged first.
     seat->acknowledge_at = recorder_.given();
@@ -70,8 +71,8 @@ void Controller::take_orders(ClientSeat& seat, const ClientReply& reply) {
         if (Result<> checked = check_order(*model_, order); !checked) {
             seat.refused.push_back({given.sequence, checked.error().text()});
             ++counters_.orders_refused;
-            notice("order " + std::to_string(given.sequence) + " of client '" + seat.name +
-                   "' refused: " + checked.error().message);
+            notices_.add("order " + std::to_string(given.sequence) + " of client '" + seat.name +
+                         "' refused: " + checked.error().message);
             continue;
         }
         order_log_.add(order, reply.observed);
@@ -93,18 +94,19 @@ void Controller::take_bye(Bus& bus, const Address& from, const ClientBye& bye) {
     seat->acknowledge_at = recorder_.given();
     if (!is_news) return;
     if (bye.failed)
-        fail({"client '" + seat->name + "' failed at tick " + std::to_string(tick_) + ": " + bye.reason,
-              "fix the control program; the world up to this tick is intact and can be saved",
-              "client-failed"});
+        notices_.fail(
+            {"client '" + seat->name + "' failed at tick " + std::to_string(tick()) + ": " + bye.reason,
+             "fix the control program; the world up to this tick is intact and can be saved",
+             "client-failed"});
     else
-        notice("client '" + seat->name + "' left");
+        notices_.add("client '" + seat->name + "' left");
 }
 
 void Controller::drop_client(ClientId id) {
     ClientSeat& seat = clients_.seats()[id.index()];
     seat.gone = true;
     recorder_.gone(id);
-    for (const Tick tick : std::exchange(seat.unanswered, {})) forget(id, tick);
+    for (const Tick tick : std::exchange(seat.unanswered, {})) directory_.forget(id, tick);
 }
 
 bool Controller::stays_away(const ClientSeat& seat, std::int64_t now_ms) const {
@@ -127,10 +129,11 @@ void Controller::notice_client_losses(Bus& bus) {
                                  std::to_string(now - seat.vanished_ms.value_or(seat.heard_ms)) + " ms" +
                                  (seat.vanished_ms ? " ago" : "");
         if (seat.synchronous)
-            fail({what + " at tick " + std::to_string(tick_),
-                  "see why it hangs; the world up to this tick is intact and can be saved", "client-lost"});
+            notices_.fail({what + " at tick " + std::to_string(tick()),
+                           "see why it hangs; the world up to this tick is intact and can be saved",
+                           "client-lost"});
         else
-            notice(what + " and is given up");
+            notices_.add(what + " and is given up");
     }
 }
 
@@ -147,18 +150,9 @@ std::vector<std::string> Controller::clients_serving() const {
     return names;
 }
 
-WantedTick& Controller::want_at_this_tick() {
-    if (wants_.empty() || wants_.back().tick != tick_) {
-        wants_.push_back({});
-        wants_.back().tick = tick_;
-        wants_.back().holder = holder_;
-    }
-    return wants_.back();
-}
-
 void Controller::queue_observations() {
     for (std::size_t i = 0; i < clients_.seats().size(); ++i)
-        if (ClientService::observes(clients_.seats()[i], tick_)) queue_observation(ClientId(i), tick_);
+        if (ClientService::observes(clients_.seats()[i], tick())) queue_observation(ClientId(i), tick());
 }
 
 void Controller::queue_observation(ClientId id, Tick tick) {
@@ -167,14 +161,8 @@ void Controller::queue_observation(ClientId id, Tick tick) {
         return;  // it is busy with an earlier observation; the world does not wait
     seat.unanswered.push_back(tick);
     seat.sent_ms = 0;
-    want_at_this_tick().clients.push_back(id);
+    directory_.want(id);
     observations_due_ = true;
-}
-
-void Controller::forget(ClientId id, Tick tick) {
-    for (WantedTick& want : wants_)
-        if (want.tick == tick) std::erase(want.clients, id);
-    std::erase_if(wants_, [](const WantedTick& want) { return !want.open(); });
 }
 
 void Controller::send_observations(Bus& bus, bool again_now) {
@@ -183,17 +171,17 @@ void Controller::send_observations(Bus& bus, bool again_now) {
         ClientSeat& seat = clients_.seats()[i];
         if (seat.unanswered.empty() || (!again_now && now - seat.sent_ms < options_.resend_ms)) continue;
         seat.sent_ms = now;
-        for (const WantedTick& want : wants_) {
+        for (const WantedTick& want : directory_.wanted()) {
             if (std::find(want.clients.begin(), want.clients.end(), ClientId(i)) == want.clients.end())
                 continue;
             Observation observation{want.tick, seat.acknowledged, {}};
             std::vector<SeatId> seats;
-            for (std::size_t r = 0; r < want.holder.size(); ++r) {
-                if (is_lost(want.holder[r])) continue;  // told again when it is back
-                auto seat_id = std::find(seats.begin(), seats.end(), want.holder[r]);
+            for (std::size_t r = 0; r < want.holders.size(); ++r) {
+                if (roster_.lost(want.holders[r])) continue;  // sent again once it is recovered
+                auto seat_id = std::find(seats.begin(), seats.end(), want.holders[r]);
                 if (seat_id == seats.end()) {
-                    seat_id = seats.insert(seats.end(), want.holder[r]);
-                    observation.holders.push_back({roster_.address_of(want.holder[r]), {}});
+                    seat_id = seats.insert(seats.end(), want.holders[r]);
+                    observation.holders.push_back({roster_.address_of(want.holders[r]), {}});
                 }
                 observation.holders[static_cast<std::size_t>(seat_id - seats.begin())].robots.emplace_back(r);
             }

@@ -27,8 +27,8 @@ std::vector<Holding> holdings_of(std::span<const SeatId> holder, const Roster& r
 }  // namespace
 
 bool Controller::checkpoint_due() const {
-    if (next_base_ || base_.tick == tick_) return false;
-    const bool by_ticks = options_.checkpoint_ticks > 0 && tick_ - base_.tick >= options_.checkpoint_ticks;
+    if (next_base_ || base_.tick == tick()) return false;
+    const bool by_ticks = options_.checkpoint_ticks > 0 && tick() - base_.tick >= options_.checkpoint_ticks;
     return by_ticks || (options_.checkpoint_work_s > 0 && work_since_s_ >= options_.checkpoint_work_s);
 }
 
@@ -36,41 +36,40 @@ bool Controller::checkpoint_due() const {
 void Controller::begin_checkpoint() {
     if (next_base_) return;
     states_wanted_ = false;
-    if (base_.tick == tick_ || anything_lost()) return;
+    if (base_.tick == tick() || directory_.anything_lost(roster_)) return;
     next_base_.emplace();
-    next_base_->tick = tick_;
-    want_at_this_tick().checkpoint = true;
+    next_base_->tick = tick();
+    directory_.want_checkpoint();
     work_since_s_ = 0;
 }
 
 /// A checkpoint for the log, if one is due at this tick.
 void Controller::begin_log_checkpoint() {
-    if (!recorder_.take_checkpoint_due(tick_)) return;
+    if (!recorder_.take_checkpoint_due(tick())) return;
     begin_checkpoint();
-    const bool here = base_.tick == tick_;
-    if (!here && !(next_base_ && next_base_->tick == tick_)) return;
-    recorder_.checkpoint_begun(tick_);
-    if (here) recorder_.checkpoint_complete(tick_, base_.states);
+    const bool here = base_.tick == tick();
+    if (!here && !(next_base_ && next_base_->tick == tick())) return;
+    recorder_.checkpoint_begun(tick());
+    if (here) recorder_.checkpoint_complete(tick(), base_.states);
 }
 
 /// Fetches states while Simulators step, so that nobody waits for it. A recovery keeps the checkpoint that it
 /// began with.
 void Controller::advance_checkpoint(Bus& bus) {
-    if (next_base_ && !next_base_->states) {  // begun in this call: holder_ is still that of its tick
+    if (next_base_ &&
+        !next_base_->states) {  // begun in this call: directory_.holders() is still that of its tick
         next_base_->states = std::make_shared<std::vector<RobotState>>(model_->robots.size());
         next_base_->touched.reset(model_->robots.size());
-        pull_.begin(*model_, next_base_->tick, holdings_of(holder_, roster_));
+        pull_.begin(*model_, next_base_->tick, holdings_of(directory_.holders(), roster_));
     }
     pull_.advance(bus, kControllerAddress, options_.resend_ms);
     if (pull_.complete() && round_ && !round_->span().recovery) finish_checkpoint();
 }
 
 void Controller::finish_checkpoint() {
-    for (WantedTick& want : wants_)
-        if (want.tick == next_base_->tick) want.checkpoint = false;
-    std::erase_if(wants_, [](const WantedTick& want) { return !want.open(); });
+    directory_.forget_checkpoint();
     // A needed earlier tick could not be recomputed from the new checkpoint.
-    if (!wants_.empty() && wants_.front().tick < next_base_->tick) return;
+    if (directory_.oldest_wanted(next_base_->tick) < next_base_->tick) return;
     base_ = std::move(*next_base_);
     next_base_.reset();
     pull_.cancel();
@@ -85,22 +84,18 @@ bool Controller::release_leaving_members(Bus& bus) {
     for (SeatId seat_id = 0; seat_id < roster_.size(); ++seat_id)
         leaving = leaving || (roster_.alive(seat_id) && roster_.seat(seat_id).leaving);
     if (!leaving) return false;
-    if (base_.tick != tick_) {
+    if (base_.tick != tick()) {
         begin_checkpoint();
         return true;
     }
-    if (!wants_.empty() && wants_.front().tick < tick_) return true;
+    if (directory_.oldest_wanted(tick()) < tick()) return true;
     for (SeatId seat_id = 0; seat_id < roster_.size(); ++seat_id) {
         SimulatorSeat& seat = roster_.seat(seat_id);
         if (!seat.alive || !seat.leaving) continue;
-        for (std::uint32_t& holder : holder_)
-            if (holder == seat_id) holder = kAtController;
-        for (WantedTick& want : wants_)
-            for (std::uint32_t& holder : want.holder)
-                if (holder == seat_id) holder = kAtController;
+        directory_.take_over(seat_id);
         seat.alive = false;
         bus.send(kControllerAddress, seat.address, Goodbye{roster_.id_of(seat_id)});
-        notice("simulator " + std::to_string(seat_id) + " left at tick " + std::to_string(tick_));
+        notices_.add("simulator " + std::to_string(seat_id) + " left at tick " + std::to_string(tick()));
     }
     counters_.simulators = roster_.alive_count();
     observations_due_ = true;
@@ -138,31 +133,20 @@ void Controller::give_up(SeatId seat_id, const std::string& why) {
         pull_.cancel();
         recorder_.checkpoint_lost(next_base_->tick);
         next_base_.reset();
-        for (WantedTick& want : wants_) want.checkpoint = false;
-        std::erase_if(wants_, [](const WantedTick& want) { return !want.open(); });
+        directory_.forget_checkpoint();
     }
-    notice("simulator " + std::to_string(seat_id) + " " + why + " and is given up at tick " +
-           std::to_string(tick_));
-}
-
-bool Controller::anything_lost() const {
-    const auto lost = [this](SeatId seat_id) { return is_lost(seat_id); };
-    return std::any_of(holder_.begin(), holder_.end(), lost) ||
-           std::any_of(wants_.begin(), wants_.end(), [&](const WantedTick& want) {
-               return std::any_of(want.holder.begin(), want.holder.end(), lost);
-           });
+    notices_.add("simulator " + std::to_string(seat_id) + " " + why + " and is given up at tick " +
+                 std::to_string(tick()));
 }
 
 /// Robots to recompute: those lost, now or at a tick that is still needed, and all that they may have touched
 /// since the checkpoint. Ascending.
 std::vector<RobotId> Controller::closure_of_lost() {
-    const std::size_t n = holder_.size();
+    const std::vector<bool> lost = directory_.lost(roster_);
+    const auto n = static_cast<std::uint32_t>(lost.size());
     std::vector<bool> root_lost(n, false);
-    for (std::uint32_t r = 0; r < n; ++r) {
-        bool lost = is_lost(holder_[r]);
-        for (const WantedTick& want : wants_) lost = lost || is_lost(want.holder[r]);
-        if (lost) root_lost[base_.touched.find(r)] = true;
-    }
+    for (std::uint32_t r = 0; r < n; ++r)
+        if (lost[r]) root_lost[base_.touched.find(r)] = true;
     std::vector<RobotId> closure;
     for (std::uint32_t r = 0; r < n; ++r)
         if (root_lost[base_.touched.find(r)]) closure.emplace_back(r);
@@ -173,34 +157,26 @@ void Controller::begin_recovery() {
     if (roster_.workers().empty()) return;
     recovering_ = closure_of_lost();
     ++counters_.recoveries;
-    notice("bringing back " + std::to_string(recovering_.size()) + " robots from the checkpoint at tick " +
-           std::to_string(base_.tick));
-    // Stepping them again overwrites the Simulators' states of them; until it is done only the Controller's
-    // are valid.
-    const SeatId seat_id = base_.tick == tick_ ? kAtController : kLost;
-    for (const RobotId robot : recovering_) holder_[robot.index()] = seat_id;
-    for (WantedTick& want : wants_)
-        for (const RobotId robot : recovering_)
-            want.holder[robot.index()] = want.tick == base_.tick ? kAtController : kLost;
+    notices_.add("bringing back " + std::to_string(recovering_.size()) +
+                 " robots from the checkpoint at tick " + std::to_string(base_.tick));
+    directory_.begin_recovery(recovering_, base_.tick);
     observations_due_ = true;
-    if (base_.tick < tick_) begin_leg(base_.tick);
+    if (base_.tick < tick()) begin_leg(base_.tick);
 }
 
 /// Steps the recovering robots from `from` to the next tick that is needed, or to the committed one.
 void Controller::begin_leg(Tick from) {
-    Tick until = tick_;
-    for (const WantedTick& want : wants_)
-        if (want.tick > from) until = std::min(until, want.tick);
+    const Tick until = directory_.next_needed(from);
     std::vector<SeatId> source = round_ ? std::vector(round_->seats().begin(), round_->seats().end())
-                                        : std::vector(holder_.size(), kAtController);
+                                        : std::vector(directory_.holders().size(), kAtController);
     Islands islands;
     collect_islands(base_.touched, recovering_, islands);
     const bool first = from == base_.tick;
-    Round round(RoundSpan{epoch_, ++window_, from, until, true}, holder_.size());
+    Round round(RoundSpan{epoch_, ++window_, from, until, true}, directory_.holders().size());
     std::vector<SeatId> seat_of_island;
     if (first) {
         const std::vector<SeatId> workers = roster_.workers();
-        const std::vector<std::uint32_t> nowhere(holder_.size(), kNowhere);
+        const std::vector<std::uint32_t> nowhere(directory_.holders().size(), kNowhere);
         std::vector<double> speeds;
         speeds.reserve(workers.size());
         for (const SeatId worker : workers) speeds.push_back(roster_.seat(worker).threads);
@@ -218,32 +194,34 @@ void Controller::begin_leg(Tick from) {
         for (SeatId seat = 0; seat < robots.size(); ++seat)
             if (!robots[seat].empty()) round.keep(seat, std::move(robots[seat]));
     }
-    round.release_before(wants_.empty() ? base_.tick : std::min(base_.tick, wants_.front().tick));
+    round.release_before(std::min(base_.tick, directory_.oldest_wanted(base_.tick)));
     round.islands = std::move(islands);
     round_ = std::move(round);
 }
 
 void Controller::finish_leg() {
     const Tick until = round_->span().until;
-    for (WantedTick& want : wants_)
-        if (want.tick == until)
-            for (const RobotId robot : recovering_)
-                if (is_lost(want.holder[robot.index()])) want.holder[robot.index()] = round_->seat_of(robot);
     observations_due_ = true;
-    if (until < tick_) return begin_leg(until);
-    for (const RobotId robot : recovering_) {
-        if (next_hashes_[robot.index()] != hashes_[robot.index()]) {
-            round_.reset();
-            return fail({"robot '" + model_->robots[robot.index()].name + "' came to another state at tick " +
-                             std::to_string(tick_) + " when it was stepped again after a loss",
-                         "a Simulator computes other bits: compare the machines with `roboss check`, and "
-                         "report this",
-                         "bits-differ"});
-        }
-        holder_[robot.index()] = round_->seat_of(robot);
+    if (until == tick()) {
+        const auto differs = std::find_if(recovering_.begin(), recovering_.end(), [this](RobotId robot) {
+            return next_hashes_[robot.index()] != hashes_[robot.index()];
+        });
+        if (differs != recovering_.end()) return fail_recovery(*differs);
     }
+    directory_.recovered(recovering_, until, round_->seats(), roster_);
+    if (until < tick()) return begin_leg(until);
     round_.reset();
     recovering_.clear();
+}
+
+/// The recovered state of this robot is not the committed one.
+void Controller::fail_recovery(RobotId robot) {
+    round_.reset();
+    notices_.fail(
+        {"robot '" + model_->robots[robot.index()].name + "' came to another state at tick " +
+             std::to_string(tick()) + " when it was stepped again after a loss",
+         "a Simulator computes other bits: compare the machines with `roboss check`, and report this",
+         "bits-differ"});
 }
 
 }  // namespace roboss

@@ -18,10 +18,10 @@ std::vector<MemberReport> Controller::members() const {
         member.step_us = 1e-3 * seat.spent_ns;
         member.load = busiest_ns > 0 ? seat.spent_ns / busiest_ns : 0;
     }
-    for (const SeatId seat_id : holder_)
+    for (const SeatId seat_id : directory_.holders())
         if (seat_id < members.size()) ++members[seat_id].robots;
     for (std::size_t i = 0; i < islands_.count(); ++i)
-        if (const SeatId seat_id = holder_[islands_.of(i).front().index()]; seat_id < members.size())
+        if (const SeatId seat_id = directory_.holder_of(islands_.of(i).front()); seat_id < members.size())
             ++members[seat_id].islands;
     // seats of the run before a rewind have no address
     std::erase_if(members, [this](const MemberReport& member) {

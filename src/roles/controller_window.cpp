@@ -49,11 +49,11 @@ void Controller::at_boundary(Bus& bus) {
         if (!started_) return;
     }
     if (pull_.complete()) finish_checkpoint();
-    if (failure_) {
+    if (failure()) {
         if (states_wanted_) begin_checkpoint();
         return;
     }
-    if (anything_lost()) return begin_recovery();
+    if (directory_.anything_lost(roster_)) return begin_recovery();
     if (release_leaving_members(bus)) return;
     begin_log_checkpoint();
     if (states_wanted_ || checkpoint_due()) begin_checkpoint();
@@ -61,7 +61,7 @@ void Controller::at_boundary(Bus& bus) {
 }
 
 bool Controller::may_start_window() const {
-    return tick_ < target_ && !roster_.workers().empty() && clients_.limit(tick_) > tick_;
+    return tick() < target_ && !roster_.workers().empty() && clients_.limit(tick()) > tick();
 }
 
 Tick Controller::window_end(Tick from, Tick length, bool all_answered) const {
@@ -78,31 +78,33 @@ Tick Controller::window_max() const {
 }
 
 void Controller::start_window() {
-    const Tick until = window_end(tick_, length_.ticks());
-    round_.emplace(RoundSpan{epoch_, ++window_, tick_, until, false}, model_->robots.size());
-    forecast_.islands(motions_, feed_.leaps(order_log_, tick_, until), until - tick_, options_.forecast,
+    const std::span<const SeatId> holders = directory_.holders();
+    const Tick until = window_end(tick(), length_.ticks());
+    round_.emplace(RoundSpan{epoch_, ++window_, tick(), until, false}, model_->robots.size());
+    forecast_.islands(motions_, feed_.leaps(order_log_, tick(), until), until - tick(), options_.forecast,
                       round_->islands);
     const std::vector<SeatId> seat_of_island =
-        assign_to_seats(round_->islands, cost_, roster_, holder_, until - tick_);
-    round_->assign(round_->islands, seat_of_island, holder_, roster_);
+        assign_to_seats(round_->islands, cost_, roster_, holders, until - tick());
+    round_->assign(round_->islands, seat_of_island, holders, roster_);
     feed_.give_rest(order_log_, *round_);
     round_->send_dearest_first(cost_);
     announce_expected_work();
-    for (std::size_t r = 0; r < holder_.size(); ++r)
-        if (holder_[r] != kAtController && holder_[r] != round_->seat_of(RobotId(r))) ++counters_.migrations;
+    for (std::size_t r = 0; r < holders.size(); ++r)
+        if (holders[r] != kAtController && holders[r] != round_->seat_of(RobotId(r))) ++counters_.migrations;
     keep_wanted(*round_);
     recorder_.planned(until);
 }
 
 void Controller::keep_wanted(Round& round) const {
-    if (!wants_.empty() && wants_.back().tick == round.span().from) {
+    if (directory_.wants_this_tick()) {
+        const std::span<const SeatId> holders = directory_.holders();
         std::vector<std::vector<RobotId>> robots(roster_.size());
-        for (std::size_t r = 0; r < holder_.size(); ++r)
-            if (holder_[r] < roster_.size()) robots[holder_[r]].emplace_back(r);
+        for (std::size_t r = 0; r < holders.size(); ++r)
+            if (holders[r] < roster_.size()) robots[holders[r]].emplace_back(r);
         for (SeatId seat_id = 0; seat_id < robots.size(); ++seat_id)
             if (!robots[seat_id].empty()) round.keep(seat_id, std::move(robots[seat_id]));
     }
-    round.release_before(wants_.empty() ? round.span().from : wants_.front().tick);
+    round.release_before(directory_.oldest_wanted(round.span().from));
 }
 
 /// While Simulators step there is time to send the orders of the next window.
@@ -139,8 +141,9 @@ void Controller::take_result(SeatId seat_id, const WindowResult& result) {
     bool fits = true;
     const std::optional<Round::Answered> answered = round_->answered_by(seat_id, result, fits);
     if (!fits)
-        note_dropped("WindowResult",
-                     "what simulator " + std::to_string(seat_id) + " answered does not match its assignment");
+        notices_.dropped(
+            "WindowResult", tick(),
+            "what simulator " + std::to_string(seat_id) + " answered does not match its assignment");
     if (!answered) return;
     const Assignment& assignment = answered->assignment;
     take_costs(*answered, result);
@@ -265,10 +268,10 @@ void Controller::end_before(const IslandResult& failure) {
             " s): " + part_of(failure.failed, failure.failed_joint) +
             (failure.beyond_numbers ? " moves faster than can be computed" : " is infinite or no number"),
         "look for extreme orders or masses, or take a shorter step; the world up to tick " +
-            std::to_string(tick_) + " is intact and can be saved",
+            std::to_string(this->tick()) + " is intact and can be saved",
         failure.beyond_numbers ? "too-fast" : "not-finite"};
     drop_round();
-    fail(std::move(error));
+    notices_.fail(std::move(error));
 }
 
 /// Discards the window; it is stepped again from its start, if at all.
@@ -299,12 +302,11 @@ void Controller::commit() {
     counters_.island_ticks += static_cast<std::uint64_t>(ticks) * round.islands.count();
     counters_.islands_now = round.islands.count();
 
-    holder_.assign(round.last_seats().begin(), round.last_seats().end());
+    directory_.commit(round.span().until, round.last_seats(), roster_);
     hashes_ = next_hashes_;
-    tick_ = round.span().until;
     islands_ = std::move(round_->islands);
     round_.reset();
-    recorder_.committed(tick_, model_->hash, hashes_);
+    recorder_.committed(tick(), model_->hash, hashes_);
     queue_observations();
 }
 

@@ -47,6 +47,8 @@ class Roster {
     bool alive(SeatId seat_id) const { return seat_id < seats_.size() && seats_[seat_id].alive; }
     SimulatorSeat& seat(SeatId seat_id) { return seats_[seat_id]; }
     const SimulatorSeat& seat(SeatId seat_id) const { return seats_[seat_id]; }
+    /// A state with this holder is lost.
+    bool lost(SeatId holder) const { return holder != kAtController && !alive(holder); }
     std::size_t size() const { return seats_.size(); }
     std::size_t alive_count() const;
     /// Seats that can get work: alive and not leaving.
