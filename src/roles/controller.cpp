@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/float_env.h"
+#include "roles/work_stealing.h"
 #include "wire/state_block.h"
 
 namespace roboss {
@@ -31,6 +32,7 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
                 std::move(start.answered)),
       directory_(model_->robots.size(), start.tick),
       target_(start.tick),
+      costs_(*model_),
       forecast_(model_),
       length_(options.window),
       views_(model_) {
@@ -42,7 +44,6 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
     for (std::size_t i = 0; i < n; ++i) {
         hashes_.push_back(state_hash(RobotId(i), tick(), start.states[i]));
         motions_.push_back(motion_of(*model_, RobotId(i), start.states[i]));
-        cost_.push_back(kGuessed_ns * static_cast<float>(4 + model_->type_of(RobotId(i)).nv));
     }
     next_hashes_ = hashes_;
     for (const LoggedOrder& o : start.orders) order_log_.add(o.order, o.given_at);
@@ -54,7 +55,7 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
 void Controller::advance(Bus& bus) {
     bus.drain(kControllerAddress, inbox_);
     for (Envelope& envelope : inbox_) handle(bus, envelope);
-    steal_work(bus);
+    if (round_) steal_work(bus, *round_, roster_);
     notice_losses(bus);
     notice_client_losses(bus);
     if (round_ && round_->all_answered()) finish_round();

@@ -16,6 +16,7 @@
 #include "journal/run_log.h"
 #include "roles/client_service.h"
 #include "roles/control_service.h"
+#include "roles/cost_model.h"
 #include "roles/model_server.h"
 #include "roles/order_feed.h"
 #include "roles/order_log.h"
@@ -188,7 +189,7 @@ class Controller {
     /// All Simulators that hold or held a seat.
     std::vector<MemberReport> members() const;
     /// Load balance of the stepping in recent windows: 1 is perfect. The cost of messages is not included.
-    double balance() const;
+    double balance() const { return roster_.balance(); }
     /// Each robot's motion in the last window, by RobotId.
     std::span<const RobotMotion> motions() const { return motions_; }
     Tick window_ticks() const { return length_.ticks(); }
@@ -233,21 +234,15 @@ class Controller {
     double largest_share() const;
     void send_assignments(Bus& bus);
     void take_result(SeatId seat_id, const WindowResult& result);
+    void take_cut(const Round::Answered& answered, const WindowResult& result);
     void take_costs(const Round::Answered& answered, const WindowResult& result);
     void finish_round();
     bool merge_touching();
     void commit();
-    void learn_costs();
-    void learn_rates(std::span<const double> expected_ns, std::span<const double> spent_ns);
     const IslandResult* first_failure() const;
     void end_before(const IslandResult& failure);
     void drop_round();
     std::string part_of(RobotId robot, JointId joint) const;
-
-    // controller_work_stealing.cpp: idle Simulators take over work of late ones
-    void announce_expected_work();
-    void steal_work(Bus& bus);
-    void share_out_rest(const Round::Answered& cut_short, std::span<const IslandResult> stepped, Tick at);
 
     // controller_recovery.cpp: checkpoints, leaving, losses
     void notice_losses(Bus& bus);
@@ -283,8 +278,7 @@ class Controller {
     bool started_ = false;
     std::vector<std::uint64_t> hashes_, next_hashes_;  // by RobotId: committed; of the round
     std::vector<RobotMotion> motions_;                 // by RobotId, for the forecast
-    std::vector<float> cost_;                          // by RobotId: ns a tick on the mean Simulator
-    bool costs_known_ = false;                         // measured, no longer guessed
+    CostModel costs_;
     Forecast forecast_;
     TouchWatch watch_;
     WindowLength length_;

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "roles/controller.h"
-#include "schedule/assign.h"
 
 namespace roboss {
 
@@ -175,13 +174,7 @@ void Controller::begin_leg(Tick from) {
     Round round(RoundSpan{epoch_, ++window_, from, until, true}, directory_.holders().size());
     std::vector<SeatId> seat_of_island;
     if (first) {
-        const std::vector<SeatId> workers = roster_.workers();
-        const std::vector<std::uint32_t> nowhere(directory_.holders().size(), kNowhere);
-        std::vector<double> speeds;
-        speeds.reserve(workers.size());
-        for (const SeatId worker : workers) speeds.push_back(roster_.seat(worker).threads);
-        seat_of_island = assign({islands, cost_, nowhere, speeds, 0});
-        for (std::uint32_t& seat : seat_of_island) seat = workers[seat];
+        seat_of_island = costs_.assign_recovered(islands, roster_);
     } else {
         for (std::size_t i = 0; i < islands.count(); ++i)
             seat_of_island.push_back(source[islands.of(i).front().index()]);

@@ -1,4 +1,4 @@
-// Status reports: which Simulator has which robots, and the load balance.
+// Status reports: which Simulator has which robots.
 #include <algorithm>
 
 #include "roles/controller.h"
@@ -28,17 +28,6 @@ std::vector<MemberReport> Controller::members() const {
         return roster_.seat(member.number).address.role != Role::kSimulator;
     });
     return members;
-}
-
-double Controller::balance() const {
-    double sum = 0, busiest = 0, threads = 0;
-    for (const SeatId seat_id : roster_.workers()) {
-        const SimulatorSeat& seat = roster_.seat(seat_id);
-        sum += seat.spent_ns * seat.threads;
-        busiest = std::max(busiest, seat.spent_ns);
-        threads += seat.threads;
-    }
-    return busiest > 0 ? sum / (threads * busiest) : 1;
 }
 
 }  // namespace roboss

@@ -1,47 +1,12 @@
 // A window: forecast, assign, send; then results, validation, repetition of islands that touched, commit.
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 #include <utility>
 
 #include "roles/controller.h"
-#include "schedule/assign.h"
+#include "roles/work_stealing.h"
 
 namespace roboss {
-
-namespace {
-
-constexpr double kCostTicks = 64;  // half-life of a robot's running mean cost
-constexpr double kNewRateShare = 0.03;
-constexpr double kNewSpentShare = 0.1;
-// What it costs a Simulator to get an island's states, and the ticks within which the move must pay off.
-constexpr double kMove_ns = 100'000;
-constexpr Tick kMovePays = 64;
-constexpr double kSend_ns = 30'000;  // the Controller's cost of sending one assignment
-
-std::vector<double> speeds_of(const Roster& roster, std::span<const SeatId> workers) {
-    std::vector<double> speeds;
-    for (const SeatId seat_id : workers) speeds.push_back(roster.seat(seat_id).speed());
-    return speeds;
-}
-
-/// assign() with seats instead of indices; only workers get islands.
-std::vector<SeatId> assign_to_seats(const Islands& islands, std::span<const float> cost, const Roster& roster,
-                                    std::span<const SeatId> holder, Tick ticks) {
-    const std::vector<SeatId> workers = roster.workers();
-    std::vector<std::uint32_t> index_of(roster.size(), kNowhere), simulator_of_robot(holder.size(), kNowhere);
-    for (std::uint32_t i = 0; i < workers.size(); ++i) index_of[workers[i]] = i;
-    for (std::size_t r = 0; r < holder.size(); ++r)
-        if (holder[r] < roster.size()) simulator_of_robot[r] = index_of[holder[r]];
-    const std::vector<double> speeds = speeds_of(roster, workers);
-    std::vector<SeatId> result = assign({islands, cost, simulator_of_robot, speeds,
-                                         kMove_ns / static_cast<double>(std::max(ticks, kMovePays)),
-                                         kSend_ns / static_cast<double>(ticks)});
-    for (SeatId& seat : result) seat = workers[seat];
-    return result;
-}
-
-}  // namespace
 
 void Controller::at_boundary(Bus& bus) {
     if (!started_) {
@@ -84,11 +49,11 @@ void Controller::start_window() {
     forecast_.islands(motions_, feed_.leaps(order_log_, tick(), until), until - tick(), options_.forecast,
                       round_->islands);
     const std::vector<SeatId> seat_of_island =
-        assign_to_seats(round_->islands, cost_, roster_, holders, until - tick());
+        costs_.assign_islands(round_->islands, roster_, holders, until - tick());
     round_->assign(round_->islands, seat_of_island, holders, roster_);
     feed_.give_rest(order_log_, *round_);
-    round_->send_dearest_first(cost_);
-    announce_expected_work();
+    round_->send_dearest_first(costs_.costs());
+    announce_expected_work(*round_, costs_, roster_, options_.stealing_least_ns);
     for (std::size_t r = 0; r < holders.size(); ++r)
         if (holders[r] != kAtController && holders[r] != round_->seat_of(RobotId(r))) ++counters_.migrations;
     keep_wanted(*round_);
@@ -147,8 +112,7 @@ void Controller::take_result(SeatId seat_id, const WindowResult& result) {
     if (!answered) return;
     const Assignment& assignment = answered->assignment;
     take_costs(*answered, result);
-    if (result.left > 0)
-        return share_out_rest(*answered, result.islands, assignment.until - static_cast<Tick>(result.left));
+    if (result.left > 0) return take_cut(*answered, result);
     const bool is_recovery = round_->span().recovery, first = !is_recovery && round_->repeats() == 0;
     for (const RobotResult& f : result.robots) {
         next_hashes_[f.robot.index()] = f.hash;
@@ -164,6 +128,13 @@ void Controller::take_result(SeatId seat_id, const WindowResult& result) {
     if (first)
         for (const EarlierBox& e : result.earlier) watch_.add({e.swept, e.robot.value}, false);
     round_->earlier.insert(round_->earlier.end(), result.earlier.begin(), result.earlier.end());
+}
+
+/// A Cut ended the assignment early; the rest of it is divided.
+void Controller::take_cut(const Round::Answered& answered, const WindowResult& result) {
+    const Tick at = answered.assignment.until - static_cast<Tick>(result.left);
+    share_out_rest(*round_, answered, result.islands, at, roster_, order_log_);
+    ++counters_.cuts;
 }
 
 /// Adds costs and outcomes of islands; those of the rest of a window to those before the Cut.
@@ -226,7 +197,7 @@ bool Controller::merge_touching() {
     round_->islands = std::move(all);
     counters_.robots_repeated += again.robots.size();
     const std::vector<SeatId> seat_of_island =
-        assign_to_seats(again, cost_, roster_, round_->seats(), round_->span().until - round_->span().from);
+        costs_.assign_islands(again, roster_, round_->seats(), round_->span().until - round_->span().from);
     round_->assign(again, seat_of_island, round_->seats(), roster_);
     give_all(order_log_, *round_);
     return true;
@@ -284,7 +255,8 @@ void Controller::drop_round() {
 void Controller::commit() {
     const Round& round = *round_;
     const Tick ticks = round.span().until - round.span().from;
-    learn_costs();
+    costs_.learn(round, roster_);
+    work_since_s_ += 1e-9 * round.window_busiest_ns();
     for (std::size_t i = 0; i < round.islands.count(); ++i) {
         const auto robots = round.islands.of(i);
         for (const RobotId robot : robots) {
@@ -308,63 +280,6 @@ void Controller::commit() {
     round_.reset();
     recorder_.committed(tick(), model_->hash, hashes_);
     queue_observations();
-}
-
-/// A robot's cost is in ns per tick on the mean Simulator. A Simulator's rate is its speed relative to the
-/// mean: it grows if its islands together cost less than their robots did recently on any Simulator.
-void Controller::learn_costs() {
-    const Round& round = *round_;
-    const auto ticks = static_cast<double>(round.span().until - round.span().from);
-    const auto share = static_cast<float>(costs_known_ ? 1 - std::exp2(-ticks / kCostTicks) : 1.0);
-    std::vector<double> expected_ns(roster_.size(), 0.0), spent_ns(roster_.size(), 0.0);
-    for (std::size_t i = 0; i < round.islands.count(); ++i) {
-        const auto robots = round.islands.of(i);
-        const SeatId seat_id = round.seat_of(robots.front()),
-                     last = round.last_seats()[robots.front().index()];
-        const auto cost_ns = static_cast<double>(round.outcome[robots.front().index()].cost_ns);
-        double expected = 0;
-        for (const RobotId robot : robots) expected += static_cast<double>(cost_[robot.index()]);
-        const double rate = 0.5 * (roster_.seat(seat_id).rate + roster_.seat(last).rate);
-        if (round.since(robots.front()) ==
-            round.span().from) {  // islands that two have stepped say nothing about either
-            expected_ns[seat_id] += ticks * expected / rate;
-            spent_ns[seat_id] += cost_ns;
-        }
-        const double each = rate * cost_ns / (ticks * static_cast<double>(robots.size()));
-        for (const RobotId robot : robots) {
-            float& cost = cost_[robot.index()];
-            cost += share * (static_cast<float>(std::max(each, 1e-3)) - cost);
-        }
-    }
-    if (std::exchange(costs_known_, true)) learn_rates(expected_ns, spent_ns);
-    double busiest_ns = 0;
-    for (SeatId seat_id = 0; seat_id < roster_.size(); ++seat_id) {
-        SimulatorSeat& seat = roster_.seat(seat_id);
-        const double spent = round.spent_ns(seat_id);
-        seat.spent_ns += kNewSpentShare * (spent / (ticks * seat.threads) - seat.spent_ns);
-        busiest_ns = std::max(busiest_ns, spent);
-    }
-    work_since_s_ += 1e-9 * busiest_ns;
-}
-
-/// Rates learn only differences between Simulators; a change that affects all of them belongs to the robots'
-/// costs.
-void Controller::learn_rates(std::span<const double> expected_ns, std::span<const double> spent_ns) {
-    double expected = 0, spent = 0;
-    for (std::size_t seat_id = 0; seat_id < spent_ns.size(); ++seat_id)
-        if (spent_ns[seat_id] > 0) expected += expected_ns[seat_id], spent += spent_ns[seat_id];
-    if (expected <= 0 || spent <= 0) return;
-    for (SeatId seat_id = 0; seat_id < roster_.size(); ++seat_id) {
-        if (spent_ns[seat_id] <= 0 || expected_ns[seat_id] <= 0) continue;
-        const double faster = expected_ns[seat_id] / spent_ns[seat_id] * spent / expected;
-        double& rate = roster_.seat(seat_id).rate;
-        rate = std::clamp(rate * (1 + kNewRateShare * (std::clamp(faster, 0.5, 2.0) - 1)), 0.01, 100.0);
-    }
-    double sum = 0;
-    const std::vector<SeatId> workers = roster_.workers();
-    for (const SeatId seat_id : workers) sum += roster_.seat(seat_id).rate;
-    for (const SeatId seat_id : workers)
-        roster_.seat(seat_id).rate *= static_cast<double>(workers.size()) / sum;
 }
 
 }  // namespace roboss

@@ -59,4 +59,15 @@ Address Roster::address_of(SeatId seat_id) const {
     return seat_id == kAtController ? kControllerAddress : seats_[seat_id].address;
 }
 
+double Roster::balance() const {
+    double sum = 0, busiest = 0, threads = 0;
+    for (const SeatId seat_id : workers()) {
+        const SimulatorSeat& seat = seats_[seat_id];
+        sum += seat.spent_ns * seat.threads;
+        busiest = std::max(busiest, seat.spent_ns);
+        threads += seat.threads;
+    }
+    return busiest > 0 ? sum / (threads * busiest) : 1;
+}
+
 }  // namespace roboss

@@ -56,6 +56,8 @@ class Roster {
     /// Threads of all workers.
     std::uint32_t threads() const;
     Address address_of(SeatId seat_id) const;
+    /// Load balance of the stepping in recent windows: 1 is perfect.
+    double balance() const;
 
   private:
     std::vector<SimulatorSeat> seats_;
