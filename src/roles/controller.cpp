@@ -33,23 +33,21 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
       directory_(model_->robots.size(), start.tick),
       target_(start.tick),
       costs_(*model_),
+      checkpoints_(model_, start.tick, std::move(start.states)),
+      recovery_(roster_, costs_, order_log_, checkpoints_, directory_),
       forecast_(model_),
       length_(options.window),
       views_(model_) {
     epoch_ = options_.before.epoch;
     window_ = options_.before.window;
-    const std::size_t n = model_->robots.size();
-    ROBOSS_CHECK(start.states.size() == n, "the starting point has not one state a robot");
     const ExactFloatScope exact;
-    for (std::size_t i = 0; i < n; ++i) {
-        hashes_.push_back(state_hash(RobotId(i), tick(), start.states[i]));
-        motions_.push_back(motion_of(*model_, RobotId(i), start.states[i]));
+    const std::vector<RobotState>& states = *checkpoints_.states();
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        hashes_.push_back(state_hash(RobotId(i), tick(), states[i]));
+        motions_.push_back(motion_of(*model_, RobotId(i), states[i]));
     }
     next_hashes_ = hashes_;
     for (const LoggedOrder& o : start.orders) order_log_.add(o.order, o.given_at);
-    base_.tick = tick();
-    base_.states = std::make_shared<std::vector<RobotState>>(std::move(start.states));
-    base_.touched.reset(n);
 }
 
 void Controller::advance(Bus& bus) {
@@ -59,8 +57,7 @@ void Controller::advance(Bus& bus) {
     notice_losses(bus);
     notice_client_losses(bus);
     if (round_ && round_->all_answered()) finish_round();
-    if (!round_)
-        views_.serve(bus, {epoch_, directory_, roster_, at_checkpoint() ? base_.states.get() : nullptr});
+    if (!round_) views_.serve(bus, {epoch_, directory_, roster_, checkpoint_here()});
     if (!round_) at_boundary(bus);
     if (round_) send_assignments(bus);
     advance_checkpoint(bus);
@@ -89,12 +86,9 @@ void Controller::handle(Bus& bus, Envelope& envelope) {
     } else if (const auto* alive = std::get_if<Heartbeat>(&envelope.message)) {
         heard_from(bus, from, alive->simulator);
     } else if (const auto* request = std::get_if<StateRequest>(&envelope.message)) {
-        serve(bus, from, *request);
+        checkpoints_.serve(bus, from, *request);
     } else if (const auto* reply = std::get_if<StateReply>(&envelope.message)) {
-        if (next_base_)
-            pull_.accept(*model_, *reply, [&](RobotId robot, RobotState&& s) {
-                (*next_base_->states)[robot.index()] = std::move(s);
-            });
+        checkpoints_.accept(*reply);
     } else if (const auto* client_reply = std::get_if<ClientReply>(&envelope.message)) {
         take_reply(bus, from, *client_reply);
     } else if (const auto* hello = std::get_if<Hello>(&envelope.message)) {
@@ -198,15 +192,6 @@ void Controller::take_leave(Bus& bus, const Address& from, const LeaveRequest& r
     seat.leaving = true;
 }
 
-void Controller::serve(Bus& bus, const Address& from, const StateRequest& request) const {
-    if (request.tick != base_.tick || request.window != 0) return;
-    StateReply reply;
-    reply.states.tick = request.tick;
-    for (const RobotId robot : request.robots)
-        if (robot.index() < base_.states->size()) append(reply.states, robot, (*base_.states)[robot.index()]);
-    bus.send(kControllerAddress, from, std::move(reply));
-}
-
 void Controller::dismiss(Bus& bus, const std::string& reason) {
     for (SeatId seat_id = 0; seat_id < roster_.size(); ++seat_id)
         if (roster_.alive(seat_id))
@@ -220,11 +205,6 @@ bool Controller::settled() const {
            std::all_of(clients_.seats().begin(), clients_.seats().end(), [this](const ClientSeat& seat) {
                return !seat.synchronous || seat.unanswered.empty() || seat.unanswered.front() >= tick();
            });
-}
-
-const std::vector<RobotState>* Controller::states() const {
-    if (base_.tick == tick()) return base_.states.get();
-    return next_base_ && next_base_->tick == tick() && pull_.complete() ? next_base_->states.get() : nullptr;
 }
 
 Result<> Controller::submit(const Order& order) {

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "bus/bus.h"
-#include "bus/state_pull.h"
 #include "journal/run_log.h"
+#include "roles/checkpoints.h"
 #include "roles/client_service.h"
 #include "roles/control_service.h"
 #include "roles/cost_model.h"
@@ -21,6 +21,7 @@
 #include "roles/order_feed.h"
 #include "roles/order_log.h"
 #include "roles/recorder.h"
+#include "roles/recovery.h"
 #include "roles/roster.h"
 #include "roles/round.h"
 #include "roles/run_notices.h"
@@ -109,15 +110,11 @@ struct MemberReport {
     Address address;
 };
 
-struct RecoveryCheckpoint {
-    Tick tick = 0;
-    std::shared_ptr<std::vector<RobotState>> states;  // by RobotId; never changed once it is complete
-    UnionFind touched;                                // connects robots that may have interacted since
-};
-
 class Controller {
   public:
     Controller(std::shared_ptr<const Model> model, const ControllerOptions& options, StartingPoint start);
+    Controller(const Controller&) = delete;
+    Controller& operator=(const Controller&) = delete;
 
     /// Handles the messages received and starts what is due. Never waits.
     void advance(Bus& bus);
@@ -147,8 +144,8 @@ class Controller {
     std::uint64_t robot_hash(RobotId robot) const { return hashes_[robot.index()]; }
     /// Fetches all states at tick(); only while resting (or failed). Then states() has them after some
     /// advances.
-    void request_states() { states_wanted_ = true; }
-    const std::vector<RobotState>* states() const;
+    void request_states() { checkpoints_.request(); }
+    const std::vector<RobotState>* states() const { return checkpoints_.states_at(tick()); }
 
     /// An order with a given tick, `apply_at` >= tick().
     Result<> submit(const Order& order);
@@ -203,7 +200,6 @@ class Controller {
     std::optional<SeatId> heard_from(Bus& bus, const Address& from);
     /// The seat of this id. A sender that is not alive there gets Expelled or Goodbye.
     std::optional<SeatId> heard_from(Bus& bus, const Address& from, SimulatorId id);
-    void serve(Bus& bus, const Address& from, const StateRequest& request) const;
 
     // controller_clients.cpp
     void take_client_hello(Bus& bus, const Address& from, const ClientHello& hello);
@@ -249,18 +245,17 @@ class Controller {
     void take_vanished(const Address& address, std::int64_t now_ms);
     void send_heartbeats(Bus& bus);
     void give_up(SeatId seat_id, const std::string& why);
-    void begin_checkpoint();
     void advance_checkpoint(Bus& bus);
     void finish_checkpoint();
     bool checkpoint_due() const;
     void begin_log_checkpoint();
     bool release_leaving_members(Bus& bus);
     void begin_recovery();
-    std::vector<RobotId> closure_of_lost();
-    void begin_leg(Tick from);
     void finish_leg();
     void fail_recovery(RobotId robot);
-    bool at_checkpoint() const { return base_.tick == tick(); }
+    const std::vector<RobotState>* checkpoint_here() const {
+        return checkpoints_.tick() == tick() ? checkpoints_.states().get() : nullptr;
+    }
 
     std::shared_ptr<const Model> model_;
     ControllerOptions options_;
@@ -279,6 +274,8 @@ class Controller {
     std::vector<std::uint64_t> hashes_, next_hashes_;  // by RobotId: committed; of the round
     std::vector<RobotMotion> motions_;                 // by RobotId, for the forecast
     CostModel costs_;
+    Checkpoints checkpoints_;
+    Recovery recovery_;
     Forecast forecast_;
     TouchWatch watch_;
     WindowLength length_;
@@ -291,13 +288,6 @@ class Controller {
     UnionFind sets_;
     Sweep sweep_;
 
-    RecoveryCheckpoint base_;
-    std::optional<RecoveryCheckpoint>
-        next_base_;  // being fetched, or waiting until nobody needs an earlier tick
-    StatePull pull_;
-    double work_since_s_ = 0;  // of the busiest Simulator since the last checkpoint
-    bool states_wanted_ = false;
-    std::vector<RobotId> recovering_;  // robots of the recovery under way, ascending
     bool observations_due_ = false;
     std::int64_t heartbeat_sent_ms_ = 0;
 

@@ -13,15 +13,15 @@ void Controller::at_boundary(Bus& bus) {
         started_ = roster_.workers().size() >= options_.simulators && clients_.all_joined();
         if (!started_) return;
     }
-    if (pull_.complete()) finish_checkpoint();
+    if (checkpoints_.fetched()) finish_checkpoint();
     if (failure()) {
-        if (states_wanted_) begin_checkpoint();
+        if (checkpoints_.requested()) checkpoints_.begin(directory_, roster_);
         return;
     }
     if (directory_.anything_lost(roster_)) return begin_recovery();
     if (release_leaving_members(bus)) return;
     begin_log_checkpoint();
-    if (states_wanted_ || checkpoint_due()) begin_checkpoint();
+    if (checkpoints_.requested() || checkpoint_due()) checkpoints_.begin(directory_, roster_);
     if (may_start_window()) start_window();
 }
 
@@ -256,15 +256,11 @@ void Controller::commit() {
     const Round& round = *round_;
     const Tick ticks = round.span().until - round.span().from;
     costs_.learn(round, roster_);
-    work_since_s_ += 1e-9 * round.window_busiest_ns();
+    checkpoints_.committed(round.islands, 1e-9 * round.window_busiest_ns());
     for (std::size_t i = 0; i < round.islands.count(); ++i) {
-        const auto robots = round.islands.of(i);
-        for (const RobotId robot : robots) {
-            base_.touched.unite(robots.front().value, robot.value);
-            if (next_base_) next_base_->touched.unite(robots.front().value, robot.value);
-        }
-        counters_.contacts += round.outcome[robots.front().index()].contacts;
-        counters_.static_contacts += round.outcome[robots.front().index()].static_contacts;
+        const IslandResult& outcome = round.outcome[round.islands.of(i).front().index()];
+        counters_.contacts += outcome.contacts;
+        counters_.static_contacts += outcome.static_contacts;
     }
     length_.committed(ticks, round.repeats() > 0, largest_share(), window_max());
     ++counters_.windows;
