@@ -3,20 +3,49 @@
 
 #include <algorithm>
 
+#include "core/check.h"
 #include "core/float_env.h"
-#include "wire/state_block.h"
+#include "roles/work_stealing.h"
 
 namespace roboss {
 
 namespace {
-constexpr float kGuessed_ns = 400;  // per tick and degree of freedom, until it is measured
+
+ClientServiceOptions client_options(const ControllerOptions& options) {
+    return {options.clients,        options.seed,           options.resend_ms,
+            options.client_loss_ms, options.client_gone_ms, options.before.went_back};
 }
+
+PlannerOptions planner_options(const ControllerOptions& options) {
+    return {options.window, options.window_max, options.forecast, options.ahead_least,
+            options.stealing_least_ns};
+}
+
+}  // namespace
 
 StartingPoint beginning_of(const Model& model) {
     StartingPoint start;
     for (std::size_t i = 0; i < model.robots.size(); ++i)
         start.states.push_back(initial_state(model, RobotId(i)));
     return start;
+}
+
+const char* name_of(Phase phase) {
+    switch (phase) {
+        case Phase::kWaiting:
+            return "waiting";
+        case Phase::kIdle:
+            return "idle";
+        case Phase::kStepping:
+            return "stepping";
+        case Phase::kRecovering:
+            return "recovering";
+        case Phase::kReleasing:
+            return "releasing";
+        case Phase::kFailed:
+            return "failed";
+    }
+    return "";
 }
 
 Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptions& options,
@@ -26,94 +55,97 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
       model_server_(model_, options.scene, options.before.models),
       control_(options.before.control),
       roster_(options.before.seats, options.before.first_id),
-      clients_(options.clients),
       recorder_(options.log, options.log_ticks, std::max(start.tick, start.logged_until),
                 std::move(start.answered)),
-      tick_(start.tick),
+      directory_(model_->robots.size(), start.tick),
+      clients_(model_, client_options(options), model_server_, order_log_, recorder_, directory_, notices_),
+      views_(model_),
+      costs_(*model_),
+      checkpoints_(model_, start.tick, std::move(start.states)),
+      recovery_(roster_, costs_, order_log_, checkpoints_, directory_),
+      planner_(model_, planner_options(options), *checkpoints_.states(), roster_, costs_, order_log_),
       target_(start.tick),
-      forecast_(model_),
-      length_(options.window) {
-    epoch_ = options_.before.epoch;
-    window_ = options_.before.window;
-    const std::size_t n = model_->robots.size();
-    ROBOSS_CHECK(start.states.size() == n, "the starting point has not one state a robot");
+      epoch_(options.before.epoch),
+      window_(options.before.window) {
     const ExactFloatScope exact;
-    for (std::size_t i = 0; i < n; ++i) {
-        hashes_.push_back(state_hash(RobotId(i), tick_, start.states[i]));
-        motions_.push_back(motion_of(*model_, RobotId(i), start.states[i]));
-        cost_.push_back(kGuessed_ns * static_cast<float>(4 + model_->type_of(RobotId(i)).nv));
-    }
+    const std::vector<RobotState>& states = *checkpoints_.states();
+    for (std::size_t i = 0; i < states.size(); ++i)
+        hashes_.push_back(state_hash(RobotId(i), tick(), states[i]));
     next_hashes_ = hashes_;
-    holder_.assign(n, kAtController);
     for (const LoggedOrder& o : start.orders) order_log_.add(o.order, o.given_at);
-    base_.tick = tick_;
-    base_.states = std::make_shared<std::vector<RobotState>>(std::move(start.states));
-    base_.touched.reset(n);
 }
 
 void Controller::advance(Bus& bus) {
     bus.drain(kControllerAddress, inbox_);
     for (Envelope& envelope : inbox_) handle(bus, envelope);
-    steal_work(bus);
+    if (round_) steal_work(bus, *round_, roster_);
     notice_losses(bus);
-    notice_client_losses(bus);
+    clients_.notice_losses(bus.now_ms());
     if (round_ && round_->all_answered()) finish_round();
-    if (!round_) serve_views(bus);
-    if (!round_) at_boundary(bus);
+    if (!round_) {
+        const bool has_states = checkpoints_.tick() == tick();
+        views_.serve(bus, {epoch_, directory_, roster_, has_states ? checkpoints_.states().get() : nullptr});
+        at_boundary(bus);
+    }
     if (round_) send_assignments(bus);
     advance_checkpoint(bus);
-    acknowledge(bus);
-    send_observations(bus, std::exchange(observations_due_, false));
+    clients_.acknowledge(bus);
+    clients_.send_observations(bus, roster_);
     send_heartbeats(bus);
+    check_phase();
 }
 
-void Controller::send_heartbeats(Bus& bus) {
-    const std::int64_t now = bus.now_ms();
-    if (now - heartbeat_sent_ms_ < options_.heartbeat_ms) return;
-    heartbeat_sent_ms_ = now;
-    for (SeatId seat_id = 0; seat_id < roster_.size(); ++seat_id)
-        if (roster_.alive(seat_id))
-            bus.send(kControllerAddress, roster_.address_of(seat_id), Heartbeat{roster_.id_of(seat_id)});
-    for (const ClientSeat& seat : clients_.seats())
-        if (seat.serves()) bus.send(kControllerAddress, seat.address, Heartbeat{});
+void Controller::enter(Phase phase) {
+    const bool allowed = phase == Phase::kIdle ? phase_ != Phase::kIdle && phase_ != Phase::kFailed
+                                               : phase_ == Phase::kIdle && phase != Phase::kWaiting;
+    ROBOSS_CHECK(allowed, std::string("from phase ") + name_of(phase_) + " to " + name_of(phase) +
+                              " at tick " + std::to_string(tick()));
+    phase_ = phase;
+}
+
+void Controller::check_phase() const {
+    const bool steps = phase_ == Phase::kStepping || phase_ == Phase::kRecovering;
+    ROBOSS_CHECK(round_.has_value() == steps, std::string(round_ ? "a window" : "no window") +
+                                                  " is in progress in phase " + name_of(phase_));
+    ROBOSS_CHECK(!round_ || round_->span().recovery == (phase_ == Phase::kRecovering),
+                 std::string("another kind of window is in progress in phase ") + name_of(phase_));
 }
 
 void Controller::handle(Bus& bus, Envelope& envelope) {
     const Address& from = envelope.from;
     if (const auto* result = std::get_if<WindowResult>(&envelope.message)) {
-        if (const auto seat_id = heard_from(bus, from)) take_result(*seat_id, *result);
+        if (const auto seat_id = roster_.heard_from(bus, from)) take_result(*seat_id, *result);
     } else if (const auto* late = std::get_if<Late>(&envelope.message)) {
-        if (const auto seat_id = heard_from(bus, from); seat_id && round_) round_->take_late(*seat_id, *late);
+        if (const auto seat_id = roster_.heard_from(bus, from); seat_id && round_)
+            round_->take_late(*seat_id, *late);
     } else if (const auto* alive = std::get_if<Heartbeat>(&envelope.message)) {
-        heard_from(bus, from, alive->simulator);
+        roster_.heard_from(bus, from, alive->simulator);
     } else if (const auto* request = std::get_if<StateRequest>(&envelope.message)) {
-        serve(bus, from, *request);
+        checkpoints_.serve(bus, from, *request);
     } else if (const auto* reply = std::get_if<StateReply>(&envelope.message)) {
-        if (next_base_)
-            pull_.accept(*model_, *reply, [&](RobotId robot, RobotState&& s) {
-                (*next_base_->states)[robot.index()] = std::move(s);
-            });
+        checkpoints_.accept(*reply);
     } else if (const auto* client_reply = std::get_if<ClientReply>(&envelope.message)) {
-        take_reply(bus, from, *client_reply);
+        counters_.orders_refused += clients_.take_reply(bus, from, *client_reply, scheduled_until());
     } else if (const auto* hello = std::get_if<Hello>(&envelope.message)) {
         take_hello(bus, from, *hello);
     } else if (const auto* client_hello = std::get_if<ClientHello>(&envelope.message)) {
-        take_client_hello(bus, from, *client_hello);
+        clients_.take_hello(bus, from, *client_hello, scheduled_until());
     } else if (const auto* leave = std::get_if<LeaveRequest>(&envelope.message)) {
         take_leave(bus, from, *leave);
     } else if (const auto* bye = std::get_if<ClientBye>(&envelope.message)) {
-        take_bye(bus, from, *bye);
+        clients_.take_bye(bus, from, *bye);
     } else if (const auto* asked = std::get_if<ControlRequest>(&envelope.message)) {
         control_.take(bus, from, *asked);
     } else if (const auto* wanted = std::get_if<ModelRequest>(&envelope.message)) {
         bus.send(kControllerAddress, from, model_server_.part(*wanted));
     } else if (const auto* view = std::get_if<ViewRequest>(&envelope.message)) {
-        take_view_request(bus, from, *view);
+        views_.take(bus, from, *view);
     }
 }
 
 void Controller::take_hello(Bus& bus, const Address& from, const Hello& hello) {
-    if (from.role != Role::kSimulator) return note_dropped("Hello", "its sender is not a Simulator");
+    if (from.role != Role::kSimulator)
+        return notices_.dropped("Hello", tick(), "its sender is not a Simulator");
     if (model_server_.is_earlier(hello.model_hash))
         return bus.send(kControllerAddress, from, ModelChanged{model_->hash});
     if (hello.model_hash != model_->hash)
@@ -124,8 +156,9 @@ void Controller::take_hello(Bus& bus, const Address& from, const Hello& hello) {
     const auto seat_id = roster_.seat_for(from, hello, bus.now_ms(), is_new);
     if (!seat_id) return;
     if (is_new)
-        notice("simulator " + std::to_string(*seat_id) + (hello.name.empty() ? "" : " (" + hello.name + ")") +
-               " joined at tick " + std::to_string(tick_));
+        notices_.add("simulator " + std::to_string(*seat_id) +
+                     (hello.name.empty() ? "" : " (" + hello.name + ")") + " joined at tick " +
+                     std::to_string(tick()));
     counters_.simulators = roster_.alive_count();
     bus.send(kControllerAddress, from, Welcome{roster_.id_of(*seat_id)});
 }
@@ -144,15 +177,11 @@ void Controller::start_log(RunLog* log, Tick log_ticks) {
     recorder_.start(log, log_ticks);
     for (std::size_t i = 0; i < clients_.seats().size(); ++i)
         if (clients_.seats()[i].joined) recorder_.joined(ClientId(i), clients_.seats()[i].name);
-    for (const LoggedOrder& o : order_log_.pending(tick_)) recorder_.order(o.order, o.given_at);
+    for (const LoggedOrder& o : order_log_.pending(tick())) recorder_.order(o.order, o.given_at);
 }
 
 bool Controller::waits_for_log() const {
-    return round_ && !round_->span().recovery && round_->all_answered() && !recorder_.may_commit();
-}
-
-void Controller::set_window(Tick ticks) {
-    length_ = WindowLength(ticks);
+    return phase_ == Phase::kStepping && round_->all_answered() && !recorder_.may_commit();
 }
 
 bool Controller::dismiss_simulator() {
@@ -162,87 +191,59 @@ bool Controller::dismiss_simulator() {
     return true;
 }
 
-std::optional<SeatId> Controller::heard_from(Bus& bus, const Address& from) {
-    const auto seat_id = roster_.seat_at(from);
-    if (seat_id) roster_.seat(*seat_id).heard_ms = bus.now_ms();
-    return seat_id;
-}
-
-std::optional<SeatId> Controller::heard_from(Bus& bus, const Address& from, SimulatorId id) {
-    // Seats of an earlier Controller: their holders have to join again.
-    const auto seat_id = roster_.seat_of(id);
-    if (!seat_id || roster_.seat(*seat_id).address != from) {
-        bus.send(kControllerAddress, from, Expelled{id});
-        return std::nullopt;
-    }
-    SimulatorSeat& seat = roster_.seat(*seat_id);
-    if (seat.alive) {
-        seat.heard_ms = bus.now_ms();
-    } else if (seat.leaving) {
-        bus.send(kControllerAddress, from, Goodbye{id});
-    } else {
-        bus.send(kControllerAddress, from, Expelled{id});
-    }
-    return seat.alive ? seat_id : std::nullopt;
-}
-
 void Controller::take_leave(Bus& bus, const Address& from, const LeaveRequest& request) {
-    const auto seat_id = heard_from(bus, from, request.simulator);
+    const auto seat_id = roster_.heard_from(bus, from, request.simulator);
     if (!seat_id) return;
     SimulatorSeat& seat = roster_.seat(*seat_id);
-    if (!seat.leaving) notice("simulator " + std::to_string(*seat_id) + " wants to leave");
+    if (!seat.leaving) notices_.add("simulator " + std::to_string(*seat_id) + " wants to leave");
     seat.leaving = true;
 }
 
-void Controller::serve(Bus& bus, const Address& from, const StateRequest& request) const {
-    if (request.tick != base_.tick || request.window != 0) return;
-    StateReply reply;
-    reply.states.tick = request.tick;
-    for (const RobotId robot : request.robots)
-        if (robot.index() < base_.states->size()) append(reply.states, robot, (*base_.states)[robot.index()]);
-    bus.send(kControllerAddress, from, std::move(reply));
-}
-
 void Controller::dismiss(Bus& bus, const std::string& reason) {
-    for (SeatId seat_id = 0; seat_id < roster_.size(); ++seat_id)
-        if (roster_.alive(seat_id))
-            bus.send(kControllerAddress, roster_.seat(seat_id).address, RunOver{reason});
-    for (const ClientSeat& seat : clients_.seats())
-        if (seat.joined) bus.send(kControllerAddress, seat.address, RunOver{reason});
+    roster_.dismiss(bus, reason);
+    clients_.dismiss(bus, reason);
 }
 
 bool Controller::settled() const {
-    return (resting() || !started_) &&
-           std::all_of(clients_.seats().begin(), clients_.seats().end(), [this](const ClientSeat& seat) {
-               return !seat.synchronous || seat.unanswered.empty() || seat.unanswered.front() >= tick_;
-           });
-}
-
-const std::vector<RobotState>* Controller::states() const {
-    if (base_.tick == tick_) return base_.states.get();
-    return next_base_ && next_base_->tick == tick_ && pull_.complete() ? next_base_->states.get() : nullptr;
+    return (resting() || !started()) && clients_.all_replied(tick());
 }
 
 Result<> Controller::submit(const Order& order) {
     if (Result<> checked = check_order(*model_, order); !checked) return checked;
-    if (order.apply_at < stampable())
+    const Tick earliest = clients_.stampable(scheduled_until());
+    if (order.apply_at < earliest)
         return Error{"an order for tick " + std::to_string(order.apply_at) +
-                         " comes too late, the world is at tick " + std::to_string(stampable()),
+                         " comes too late, the world is at tick " + std::to_string(earliest),
                      "give a later time", "too-late"};
     // given before this tick is observed: a save or a branch at this tick includes it
-    const Tick given_at = std::max(tick_, recorder_.logged_until()) - 1;
+    const Tick given_at = std::max(tick(), recorder_.logged_until()) - 1;
     if (order_log_.add(order, given_at)) recorder_.order(order, given_at);
     return Ok{};
 }
 
-void Controller::note_dropped(const char* message, const std::string& why) {
-    notice(std::string("dropped=") + message + " tick=" + std::to_string(tick_) + " reason=\"" + why + "\"");
-}
-
-void Controller::fail(Error error) {
-    if (failure_) return;
-    notice("stopped: " + error.message);
-    failure_ = std::move(error);
+std::vector<MemberReport> Controller::members() const {
+    std::vector<MemberReport> members(roster_.size());
+    double busiest_ns = 0;
+    for (const SeatId seat_id : roster_.workers())
+        busiest_ns = std::max(busiest_ns, roster_.seat(seat_id).spent_ns);
+    for (SeatId seat_id = 0; seat_id < roster_.size(); ++seat_id) {
+        const SimulatorSeat& seat = roster_.seat(seat_id);
+        MemberReport& member = members[seat_id];
+        member = {seat_id, seat.name, seat.threads, seat.alive, seat.leaving, 0, 0, 0, 0, seat.address};
+        if (!seat.alive) continue;
+        member.step_us = 1e-3 * seat.spent_ns;
+        member.load = busiest_ns > 0 ? seat.spent_ns / busiest_ns : 0;
+    }
+    for (const SeatId seat_id : directory_.holders())
+        if (seat_id < members.size()) ++members[seat_id].robots;
+    for (std::size_t i = 0; i < islands_.count(); ++i)
+        if (const SeatId seat_id = directory_.holder_of(islands_.of(i).front()); seat_id < members.size())
+            ++members[seat_id].islands;
+    // seats of the run before a rewind have no address
+    std::erase_if(members, [this](const MemberReport& member) {
+        return roster_.seat(member.number).address.role != Role::kSimulator;
+    });
+    return members;
 }
 
 }  // namespace roboss

@@ -2,9 +2,13 @@
 // their ticks, serves observations, and restores the states that a lost Simulator held. It steps nothing. The
 // committed tick, the robots' hashes there, the last checkpoint and the order log define the run; everything
 // else can be requested again.
+//
+// The parts, each a class of its own: Roster (Simulators), ClientService, ViewService, ModelServer,
+// ControlService, OrderLog and Recorder (what came in), StateDirectory (who has which state), CostModel and
+// WindowPlanner (who steps what), Round (a window in progress), Checkpoints and Recovery (losses). The
+// Controller decides when each acts.
 #pragma once
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,119 +16,48 @@
 #include <vector>
 
 #include "bus/bus.h"
-#include "bus/state_pull.h"
-#include "journal/run_log.h"
+#include "roles/checkpoints.h"
 #include "roles/client_service.h"
 #include "roles/control_service.h"
+#include "roles/controller_options.h"
+#include "roles/cost_model.h"
 #include "roles/model_server.h"
-#include "roles/order_feed.h"
 #include "roles/order_log.h"
 #include "roles/recorder.h"
+#include "roles/recovery.h"
 #include "roles/roster.h"
 #include "roles/round.h"
+#include "roles/run_notices.h"
+#include "roles/state_directory.h"
 #include "roles/view_service.h"
-#include "schedule/forecast.h"
-#include "schedule/touch_watch.h"
-#include "schedule/window_length.h"
-#include "wire/view_state.h"
+#include "roles/window_planner.h"
 
 namespace roboss {
 
-struct ControllerOptions {
-    Tick window = 0;      // ticks; 0: adaptive
-    Tick window_max = 0;  // limit of the adaptive length; 0: by the robots per worker (longest_window)
-    ForecastOptions forecast;
-    std::size_t simulators = 1;        // the first window waits for this many
-    std::vector<std::string> clients;  // and for these Clients; their ids are their indices here
-    std::uint64_t seed = 1;            // sent to Clients
-    std::int64_t resend_ms = 100;
-    std::size_t ahead_least = 500;  // orders of the next window that are worth sending ahead of it
-    /// Work stealing only in windows with at least this much work per Simulator.
-    double stealing_least_ns = 500'000;
-    std::int64_t heartbeat_ms = 250;  // heartbeat interval
-    std::int64_t loss_ms = 0;         // a Simulator silent for so long is considered lost; 0: never
-    std::int64_t client_loss_ms = 0;  // so is a Client that does not reply to an observation; 0: never
-    std::int64_t client_gone_ms = 0;  // and a Client that the Bus reports as vanished for so long; 0: never
-    Tick checkpoint_ticks = 0;        // between recovery checkpoints, at most; 0: none by ticks
-    double checkpoint_work_s =
-        0;  // stepping CPU time of the busiest Simulator between two of them; 0: none by work
-    /// State of the Controller that this one succeeds on the same Bus (after a rewind, say).
-    struct Before {
-        std::size_t seats = 0;  // never used again
-        /// Id of the first Simulator; a process of its own takes one that no other had.
-        std::uint32_t first_id = 0;
-        std::uint32_t epoch = 0;
-        std::uint64_t window = 0;
-        std::vector<std::uint64_t> models;  // hashes of earlier Models of the run
-        bool went_back = false;             // a rewind: Clients may have seen ticks that were discarded
-        ControlService control;
-    } before;
-    /// Makes the scene, in bytes for viewers; called when the first viewer requests it.
-    ModelServer::SceneOf scene;
-    RunLog* log = nullptr;  // outlives the Controller; null: nothing is logged
-    Tick log_ticks = 0;     // checkpoints for the log at multiples of so many ticks; 0: none
+/// What a Controller is doing. Only kStepping and kRecovering have a Round in progress.
+///
+///     kWaiting ----> kIdle <----> kStepping      a window is stepped, until it is committed or discarded
+///                      |  <-----> kRecovering    lost states are stepped again, leg by leg
+///                      |  <-----> kReleasing     Simulators leave once the Controller has their states
+///                      \--------> kFailed        for good
+///
+/// A loss ends kStepping and kRecovering at once. A failure (failure()) that is found in another phase is
+/// followed by kFailed at the next window boundary; tick() and the states are those before it.
+enum class Phase {
+    kWaiting,     // for the Simulators and Clients of the first window
+    kIdle,        // between windows: at the target, or until Clients reply or Simulators join
+    kStepping,    // a window
+    kRecovering,  // a leg of a recovery
+    kReleasing,   // waits for the states of leaving Simulators, or until nobody needs earlier ones
+    kFailed,
 };
-
-/// Where a run starts: the world's beginning, a saved run, or a journal.
-struct StartingPoint {
-    Tick tick = 0;
-    std::vector<RobotState> states;   // by RobotId
-    std::vector<LoggedOrder> orders;  // still to be applied
-    /// Up to here the run follows `orders`: no new order gets an earlier tick.
-    Tick logged_until = 0;
-    /// By ClientId: replies to observations up to this one are in `orders` already and are not accepted
-    /// again.
-    std::vector<Tick> answered;
-};
-StartingPoint beginning_of(const Model& model);
-
-struct Counters {
-    std::uint64_t windows = 0;           // committed
-    std::uint64_t windows_repeated = 0;  // of these, with islands merged and stepped again
-    std::uint64_t robots_repeated = 0;   // robots stepped again, summed over attempts
-    std::uint64_t islands = 0;           // summed over windows
-    std::uint64_t ticks = 0;             // committed by this run
-    std::uint64_t island_ticks = 0;      // islands times ticks: islands_mean = island_ticks / ticks
-    std::uint64_t contacts = 0, static_contacts = 0;  // summed over ticks
-    double step_cpu_s = 0;                            // all stepping, repeats included
-    double critical_cpu_s = 0;   // of the busiest Simulator of each attempt: a lower bound for many machines
-    std::uint64_t silences = 0;  // of the losses, those noticed by silence alone
-    std::uint64_t losses = 0, recoveries = 0, migrations = 0, checkpoints = 0, orders_refused = 0;
-    std::uint64_t orders_ahead = 0;  // sent ahead of the assignment of their window
-    std::uint64_t cuts = 0;          // late assignments of which others took a part (work stealing)
-    std::size_t simulators = 0, islands_now = 0;
-};
-
-/// A Simulator for status reports. Loads and times are running means over windows.
-struct MemberReport {
-    std::uint32_t number = 0;  // in the order of joining, from 0
-    std::string name;
-    std::uint32_t threads = 1;
-    bool alive = false, leaving = false;  // both false: lost; leaving and not alive: it has left
-    std::size_t robots = 0, islands = 0;  // that it has now
-    double step_us = 0;                   // stepping CPU time per tick and thread
-    double load = 0;                      // the same, relative to the busiest
-    Address address;
-};
-
-/// A committed tick whose states somebody still needs.
-struct WantedTick {
-    Tick tick = 0;
-    std::vector<SeatId> holder;  // by RobotId: seat, or kLost
-    std::vector<ClientId> clients;
-    bool checkpoint = false;
-    bool open() const { return checkpoint || !clients.empty(); }
-};
-
-struct RecoveryCheckpoint {
-    Tick tick = 0;
-    std::shared_ptr<std::vector<RobotState>> states;  // by RobotId; never changed once it is complete
-    UnionFind touched;                                // connects robots that may have interacted since
-};
+const char* name_of(Phase phase);
 
 class Controller {
   public:
     Controller(std::shared_ptr<const Model> model, const ControllerOptions& options, StartingPoint start);
+    Controller(const Controller&) = delete;
+    Controller& operator=(const Controller&) = delete;
 
     /// Handles the messages received and starts what is due. Never waits.
     void advance(Bus& bus);
@@ -133,20 +66,21 @@ class Controller {
     /// boundary.
     void run_until(Tick target) { target_ = target; }
     Tick target() const { return target_; }
-    Tick tick() const { return tick_; }  // committed
+    Tick tick() const { return directory_.tick(); }  // committed
     /// All members for whom the first window waits have joined.
-    bool started() const { return started_; }
+    bool started() const { return phase_ != Phase::kWaiting; }
+    Phase phase() const { return phase_; }
     /// At the target with no window in progress.
-    bool resting() const { return tick_ >= target_ && !round_ && started_; }
+    bool resting() const { return tick() >= target_ && !round_ && started(); }
     /// Resting, and every synchronous Client has replied to all observations before tick(): the run can be
     /// saved.
     bool settled() const;
     /// Failed, with no window in progress.
-    bool stopped() const { return failure_ && !round_; }
+    bool stopped() const { return failure() && !round_; }
     /// If set, the run cannot continue; tick() and states are those before the failure.
-    const std::optional<Error>& failure() const { return failure_; }
+    const std::optional<Error>& failure() const { return notices_.failure(); }
 
-    /// Tells everybody that the run is over; nobody answers after that.
+    /// Sends RunOver to everybody; nobody answers after that.
     void dismiss(Bus& bus, const std::string& reason);
 
     /// The 64-bit hash of the world at tick().
@@ -154,17 +88,17 @@ class Controller {
     std::uint64_t robot_hash(RobotId robot) const { return hashes_[robot.index()]; }
     /// Fetches all states at tick(); only while resting (or failed). Then states() has them after some
     /// advances.
-    void request_states() { states_wanted_ = true; }
-    const std::vector<RobotState>* states() const;
+    void request_states() { checkpoints_.request(); }
+    const std::vector<RobotState>* states() const { return checkpoints_.states_at(tick()); }
 
     /// An order with a given tick, `apply_at` >= tick().
     Result<> submit(const Order& order);
     /// Orders that a run saved at tick() takes along.
-    std::vector<LoggedOrder> pending_orders() { return order_log_.pending(tick_); }
+    std::vector<LoggedOrder> pending_orders() { return order_log_.pending(tick()); }
     /// Names of all Clients that ever joined, by ClientId.
-    std::vector<std::string> client_names() const;
+    std::vector<std::string> client_names() const { return clients_.names(); }
     /// Names of those that are here, without observers.
-    std::vector<std::string> clients_serving() const;
+    std::vector<std::string> clients_serving() const { return clients_.names_serving(); }
 
     /// Tick of the checkpoint for the log that is being fetched. The caller adds the memory of its control
     /// programs.
@@ -183,156 +117,91 @@ class Controller {
     /// Requests to the run: pause, rewind ...
     ControlService& control() { return control_; }
     /// Length of the next windows; 0: adaptive.
-    void set_window(Tick ticks);
+    void set_window(Tick ticks) { planner_.set_length(ticks); }
     /// Makes the Simulator with the highest number leave. False: there is only one.
     bool dismiss_simulator();
 
     const Counters& counters() const { return counters_; }
     /// What happened since the last call: losses, refusals, joins. One line each.
-    std::vector<std::string> take_notices() { return std::exchange(notices_, {}); }
+    std::vector<std::string> take_notices() { return notices_.take(); }
     /// Seat of the Simulator that holds the robot; for display.
-    std::uint32_t seat_of(RobotId robot) const { return holder_[robot.index()]; }
+    std::uint32_t seat_of(RobotId robot) const { return directory_.holder_of(robot); }
     const Islands& islands() const { return islands_; }
     /// All Simulators that hold or held a seat.
     std::vector<MemberReport> members() const;
     /// Load balance of the stepping in recent windows: 1 is perfect. The cost of messages is not included.
-    double balance() const;
+    double balance() const { return roster_.balance(); }
     /// Each robot's motion in the last window, by RobotId.
-    std::span<const RobotMotion> motions() const { return motions_; }
-    Tick window_ticks() const { return length_.ticks(); }
+    std::span<const RobotMotion> motions() const { return planner_.motions(); }
+    Tick window_ticks() const { return planner_.length(); }
 
   private:
-    // controller.cpp: messages in
+    void enter(Phase phase);
+    void check_phase() const;
+
+    // Messages in.
     void handle(Bus& bus, Envelope& envelope);
     void take_hello(Bus& bus, const Address& from, const Hello& hello);
     void take_leave(Bus& bus, const Address& from, const LeaveRequest& request);
-    /// The seat of the Simulator that is alive at this address.
-    std::optional<SeatId> heard_from(Bus& bus, const Address& from);
-    /// The seat of this id. A sender that is not alive there gets Expelled or Goodbye.
-    std::optional<SeatId> heard_from(Bus& bus, const Address& from, SimulatorId id);
-    void serve(Bus& bus, const Address& from, const StateRequest& request) const;
-    void fail(Error error);
-    /// Logs an invalid message.
-    void note_dropped(const char* message, const std::string& why);
-    void notice(std::string text) { notices_.push_back(std::move(text)); }
+    void take_result(SeatId seat_id, const WindowResult& result);
 
-    // controller_clients.cpp
-    void take_client_hello(Bus& bus, const Address& from, const ClientHello& hello);
-    void take_reply(Bus& bus, const Address& from, const ClientReply& reply);
-    void take_orders(ClientSeat& seat, const ClientReply& reply);
-    void take_bye(Bus& bus, const Address& from, const ClientBye& bye);
-    void queue_observations();
-    void queue_observation(ClientId id, Tick tick);
-    void forget(ClientId id, Tick tick);
-    void drop_client(ClientId id);
-    void notice_client_losses(Bus& bus);
-    bool stays_away(const ClientSeat& seat, std::int64_t now_ms) const;
-    void send_observations(Bus& bus, bool again_now);
-    WantedTick& want_at_this_tick();
-    void acknowledge(Bus& bus);
-    Tick scheduled_until() const { return round_ && !round_->span().recovery ? round_->span().until : tick_; }
-    /// The first tick at which a new order can apply.
-    Tick stampable() const { return std::max(scheduled_until(), recorder_.logged_until()); }
-
-    // controller_window.cpp
+    // controller_window.cpp: a window, from plan to commit
     void at_boundary(Bus& bus);
     bool may_start_window() const;
     void start_window();
-    void keep_wanted(Round& round) const;
-    Tick window_end(Tick from, Tick length, bool all_answered = false) const;
-    Tick window_max() const;
-    void look_ahead();
-    double largest_share() const;
+    WindowLimits limits_of_window(Tick from, bool all_answered) const;
     void send_assignments(Bus& bus);
-    void take_result(SeatId seat_id, const WindowResult& result);
-    void take_costs(const Round::Answered& answered, const WindowResult& result);
+    void add_costs(const Round::Answered& answered, const WindowResult& result);
     void finish_round();
-    bool merge_touching();
+    bool repeat_touched();
     void commit();
-    void learn_costs();
-    void learn_rates(std::span<const double> expected_ns, std::span<const double> spent_ns);
+    void count_window();
     const IslandResult* first_failure() const;
     void end_before(const IslandResult& failure);
-    void drop_round();
+    void discard_window();
     std::string part_of(RobotId robot, JointId joint) const;
+    /// The end of the window in progress, or else the committed tick.
+    Tick scheduled_until() const { return phase_ == Phase::kStepping ? round_->span().until : tick(); }
 
-    // controller_work_stealing.cpp: idle Simulators take over work of late ones
-    void announce_expected_work();
-    void steal_work(Bus& bus);
-    void share_out_rest(const Round::Answered& cut_short, std::span<const IslandResult> stepped, Tick at);
-
-    // controller_views.cpp
-    void take_view_request(Bus& bus, const Address& from, const ViewRequest& request);
-    void serve_views(Bus& bus);
-    void show(Bus& bus, const ViewService::Due& due);
-    void show_here(Bus& bus, const ViewDue& part);
-
-    // controller_recovery.cpp: checkpoints, leaving, losses
+    // controller_members.cpp: losses, leaving, checkpoints
     void notice_losses(Bus& bus);
-    void take_vanished(const Address& address, std::int64_t now_ms);
-    void send_heartbeats(Bus& bus);
     void give_up(SeatId seat_id, const std::string& why);
-    void begin_checkpoint();
-    void advance_checkpoint(Bus& bus);
-    void finish_checkpoint();
+    bool release_leaving_members(Bus& bus);
+    void begin_recovery();
+    void finish_leg();
     bool checkpoint_due() const;
     void begin_log_checkpoint();
-    bool release_leaving_members(Bus& bus);
-    bool anything_lost() const;
-    void begin_recovery();
-    std::vector<RobotId> closure_of_lost();
-    void begin_leg(Tick from);
-    void finish_leg();
-    bool is_lost(SeatId seat_id) const { return seat_id != kAtController && !roster_.alive(seat_id); }
+    void advance_checkpoint(Bus& bus);
+    void finish_checkpoint();
+    void send_heartbeats(Bus& bus);
 
     std::shared_ptr<const Model> model_;
     ControllerOptions options_;
+    Phase phase_ = Phase::kWaiting;
+    RunNotices notices_;
+    Counters counters_;
+
     ModelServer model_server_;
     ControlService control_;
     Roster roster_;
-    ClientService clients_;
     OrderLog order_log_;
-    OrderFeed feed_;
     Recorder recorder_;
+    StateDirectory directory_;  // and the committed tick
+    ClientService clients_;
+    ViewService views_;
 
-    Tick tick_ = 0, target_ = 0;
-    std::optional<Tick> ends_at_;  // in this tick a state becomes non-finite
-    bool started_ = false;
+    CostModel costs_;
+    Checkpoints checkpoints_;
+    Recovery recovery_;
+    WindowPlanner planner_;
+
+    Tick target_ = 0;
     std::vector<std::uint64_t> hashes_, next_hashes_;  // by RobotId: committed; of the round
-    std::vector<SeatId> holder_;                       // by RobotId: seat of its state at tick_
-    std::vector<RobotMotion> motions_;                 // by RobotId, for the forecast
-    std::vector<float> cost_;                          // by RobotId: ns a tick on the mean Simulator
-    bool costs_known_ = false;                         // measured, no longer guessed
-    Forecast forecast_;
-    TouchWatch watch_;
-    WindowLength length_;
-    Islands islands_;  // of the last window committed
-
-    std::optional<Round> round_;
+    Islands islands_;                                  // of the last window committed
+    std::optional<Round> round_;                       // in progress
     std::uint32_t epoch_ = 0;
     std::uint64_t window_ = 0;
-    std::vector<OwnedBox> boxes_;
-    UnionFind sets_;
-    Sweep sweep_;
-
-    RecoveryCheckpoint base_;
-    std::optional<RecoveryCheckpoint>
-        next_base_;  // being fetched, or waiting until nobody needs an earlier tick
-    StatePull pull_;
-    double work_since_s_ = 0;  // of the busiest Simulator since the last checkpoint
-    bool states_wanted_ = false;
-    std::vector<WantedTick> wants_;
-    std::vector<RobotId> recovering_;  // robots of the recovery under way, ascending
-    bool observations_due_ = false;
     std::int64_t heartbeat_sent_ms_ = 0;
-
-    ViewService views_;
-    std::uint64_t view_serial_ = 0;
-    std::optional<ViewLayout> view_layout_;  // made with the first view
-
-    std::optional<Error> failure_;
-    Counters counters_;
-    std::vector<std::string> notices_;
     std::vector<Envelope> inbox_;
 };
 

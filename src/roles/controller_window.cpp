@@ -1,137 +1,58 @@
-// A window: forecast, assign, send; then results, validation, repetition of islands that touched, commit.
+// A window: plan, send; then results, validation, repetition of islands that touched, commit.
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 #include <utility>
 
 #include "roles/controller.h"
-#include "schedule/assign.h"
+#include "roles/order_feed.h"
+#include "roles/work_stealing.h"
 
 namespace roboss {
 
-namespace {
-
-constexpr double kCostTicks = 64;  // half-life of a robot's running mean cost
-constexpr double kNewRateShare = 0.03;
-constexpr double kNewSpentShare = 0.1;
-// What it costs a Simulator to get an island's states, and the ticks within which the move must pay off.
-constexpr double kMove_ns = 100'000;
-constexpr Tick kMovePays = 64;
-constexpr double kSend_ns = 30'000;  // the Controller's cost of sending one assignment
-
-std::vector<double> speeds_of(const Roster& roster, std::span<const SeatId> workers) {
-    std::vector<double> speeds;
-    for (const SeatId seat_id : workers) speeds.push_back(roster.seat(seat_id).speed());
-    return speeds;
-}
-
-/// assign() with seats instead of indices; only workers get islands.
-std::vector<SeatId> assign_to_seats(const Islands& islands, std::span<const float> cost, const Roster& roster,
-                                    std::span<const SeatId> holder, Tick ticks) {
-    const std::vector<SeatId> workers = roster.workers();
-    std::vector<std::uint32_t> index_of(roster.size(), kNowhere), simulator_of_robot(holder.size(), kNowhere);
-    for (std::uint32_t i = 0; i < workers.size(); ++i) index_of[workers[i]] = i;
-    for (std::size_t r = 0; r < holder.size(); ++r)
-        if (holder[r] < roster.size()) simulator_of_robot[r] = index_of[holder[r]];
-    const std::vector<double> speeds = speeds_of(roster, workers);
-    std::vector<SeatId> result = assign({islands, cost, simulator_of_robot, speeds,
-                                         kMove_ns / static_cast<double>(std::max(ticks, kMovePays)),
-                                         kSend_ns / static_cast<double>(ticks)});
-    for (SeatId& seat : result) seat = workers[seat];
-    return result;
-}
-
-}  // namespace
-
 void Controller::at_boundary(Bus& bus) {
-    if (!started_) {
-        started_ = roster_.workers().size() >= options_.simulators && clients_.all_joined();
-        if (!started_) return;
+    if (phase_ == Phase::kWaiting) {
+        if (roster_.workers().size() < options_.simulators || !clients_.all_joined()) return;
+        enter(Phase::kIdle);
     }
-    if (pull_.complete()) finish_checkpoint();
-    if (failure_) {
-        if (states_wanted_) begin_checkpoint();
+    if (checkpoints_.fetched()) finish_checkpoint();
+    if (failure()) {
+        if (phase_ == Phase::kReleasing) enter(Phase::kIdle);
+        if (phase_ != Phase::kFailed) enter(Phase::kFailed);
+        if (checkpoints_.requested()) checkpoints_.begin(directory_, roster_);
         return;
     }
-    if (anything_lost()) return begin_recovery();
+    if (directory_.anything_lost(roster_)) return begin_recovery();
     if (release_leaving_members(bus)) return;
     begin_log_checkpoint();
-    if (states_wanted_ || checkpoint_due()) begin_checkpoint();
+    if (checkpoints_.requested() || checkpoint_due()) checkpoints_.begin(directory_, roster_);
     if (may_start_window()) start_window();
 }
 
 bool Controller::may_start_window() const {
-    return tick_ < target_ && !roster_.workers().empty() && clients_.limit(tick_) > tick_;
+    return tick() < target_ && !roster_.workers().empty() && clients_.limit(tick()) > tick();
 }
 
-Tick Controller::window_end(Tick from, Tick length, bool all_answered) const {
-    length = std::min(length, views_.window_max().value_or(length));
-    if (options_.window_max > 0) length = std::min(length, options_.window_max);
-    if (ends_at_ && *ends_at_ > from) length = std::min(length, *ends_at_ - from);
-    return std::min(
-        {from + length, target_, clients_.limit(from, all_answered), recorder_.next_checkpoint(from)});
-}
-
-Tick Controller::window_max() const {
-    return options_.window_max > 0 ? options_.window_max
-                                   : longest_window(model_->robots.size(), roster_.threads());
+WindowLimits Controller::limits_of_window(Tick from, bool all_answered) const {
+    return {std::min({target_, clients_.limit(from, all_answered), recorder_.next_checkpoint(from)}),
+            views_.window_max()};
 }
 
 void Controller::start_window() {
-    const Tick until = window_end(tick_, length_.ticks());
-    round_.emplace(RoundSpan{epoch_, ++window_, tick_, until, false}, model_->robots.size());
-    forecast_.islands(motions_, feed_.leaps(order_log_, tick_, until), until - tick_, options_.forecast,
-                      round_->islands);
-    const std::vector<SeatId> seat_of_island =
-        assign_to_seats(round_->islands, cost_, roster_, holder_, until - tick_);
-    round_->assign(round_->islands, seat_of_island, holder_, roster_);
-    feed_.give_rest(order_log_, *round_);
-    round_->send_dearest_first(cost_);
-    announce_expected_work();
-    for (std::size_t r = 0; r < holder_.size(); ++r)
-        if (holder_[r] != kAtController && holder_[r] != round_->seat_of(RobotId(r))) ++counters_.migrations;
-    keep_wanted(*round_);
-    recorder_.planned(until);
+    round_ = planner_.plan(epoch_, ++window_, limits_of_window(tick(), false), directory_);
+    enter(Phase::kStepping);
+    const std::span<const SeatId> holders = directory_.holders();
+    for (std::size_t r = 0; r < holders.size(); ++r)
+        if (holders[r] != kAtController && holders[r] != round_->seat_of(RobotId(r))) ++counters_.migrations;
+    recorder_.planned(round_->span().until);
 }
 
-void Controller::keep_wanted(Round& round) const {
-    if (!wants_.empty() && wants_.back().tick == round.span().from) {
-        std::vector<std::vector<RobotId>> robots(roster_.size());
-        for (std::size_t r = 0; r < holder_.size(); ++r)
-            if (holder_[r] < roster_.size()) robots[holder_[r]].emplace_back(r);
-        for (SeatId seat_id = 0; seat_id < robots.size(); ++seat_id)
-            if (!robots[seat_id].empty()) round.keep(seat_id, std::move(robots[seat_id]));
-    }
-    round.release_before(wants_.empty() ? round.span().from : wants_.front().tick);
-}
-
-/// While Simulators step there is time to send the orders of the next window.
+/// While Simulators step there is time to prepare the next window.
 void Controller::send_assignments(Bus& bus) {
     round_->send(bus, roster_, options_.resend_ms, [this](Assignment& assignment) {
         if (assignment.ahead != 0) give_all(order_log_, assignment);
     });
-    const RoundSpan& span = round_->span();
-    if (span.recovery || feed_.sent_in(span.window)) return;
-    look_ahead();
-    counters_.orders_ahead += feed_.send_ahead(bus, order_log_, *round_, roster_,
-                                               span.until + length_.ticks(), options_.ahead_least);
-}
-
-/// Prepares for the results to come: each is compared with the others as it arrives, and the next window is
-/// forecast, with the length that it will have if nothing is repeated and Clients have replied.
-void Controller::look_ahead() {
-    const RoundSpan& span = round_->span();
-    WindowLength next = length_;
-    next.committed(span.until - span.from, false, largest_share(), window_max());
-    watch_.begin(round_->islands);
-    const Tick until = window_end(span.until, next.ticks(), true);
-    forecast_.expect(model_->robots.size(), std::max<Tick>(until - span.until, 0), options_.forecast);
-}
-
-/// Robots of the largest island relative to an even share of one worker.
-double Controller::largest_share() const {
-    return static_cast<double>(round_->islands.largest()) * roster_.threads() /
-           static_cast<double>(std::max<std::size_t>(model_->robots.size(), 1));
+    if (phase_ == Phase::kRecovering || planner_.looked_ahead(*round_)) return;
+    counters_.orders_ahead += planner_.look_ahead(bus, *round_, limits_of_window(round_->span().until, true));
 }
 
 void Controller::take_result(SeatId seat_id, const WindowResult& result) {
@@ -139,32 +60,25 @@ void Controller::take_result(SeatId seat_id, const WindowResult& result) {
     bool fits = true;
     const std::optional<Round::Answered> answered = round_->answered_by(seat_id, result, fits);
     if (!fits)
-        note_dropped("WindowResult",
-                     "what simulator " + std::to_string(seat_id) + " answered does not match its assignment");
+        notices_.dropped(
+            "WindowResult", tick(),
+            "what simulator " + std::to_string(seat_id) + " answered does not match its assignment");
     if (!answered) return;
     const Assignment& assignment = answered->assignment;
-    take_costs(*answered, result);
-    if (result.left > 0)
-        return share_out_rest(*answered, result.islands, assignment.until - static_cast<Tick>(result.left));
-    const bool is_recovery = round_->span().recovery, first = !is_recovery && round_->repeats() == 0;
-    for (const RobotResult& f : result.robots) {
-        next_hashes_[f.robot.index()] = f.hash;
-        if (is_recovery) continue;
-        const auto span_s =
-            static_cast<float>(static_cast<double>(assignment.until - round_->since(f.robot)) * model_->dt_s);
-        RobotMotion& motion = motions_[f.robot.index()];
-        motion = {f.swept, unpack_position(f.position, f.swept), unpack_velocity(f.velocity), span_s};
-        if (!first) continue;
-        watch_.add({f.swept, f.robot.value}, true);
-        forecast_.add(f.robot, motion);
+    add_costs(*answered, result);
+    if (result.left > 0) {  // a Cut ended the assignment early; the rest of it is divided
+        const Tick at = assignment.until - static_cast<Tick>(result.left);
+        share_out_rest(*round_, *answered, result.islands, at, roster_, order_log_);
+        ++counters_.cuts;
+        return;
     }
-    if (first)
-        for (const EarlierBox& e : result.earlier) watch_.add({e.swept, e.robot.value}, false);
+    for (const RobotResult& f : result.robots) next_hashes_[f.robot.index()] = f.hash;
     round_->earlier.insert(round_->earlier.end(), result.earlier.begin(), result.earlier.end());
+    if (phase_ == Phase::kStepping) planner_.take_result(*round_, assignment, result);
 }
 
 /// Adds costs and outcomes of islands; those of the rest of a window to those before the Cut.
-void Controller::take_costs(const Round::Answered& answered, const WindowResult& result) {
+void Controller::add_costs(const Round::Answered& answered, const WindowResult& result) {
     const Assignment& assignment = answered.assignment;
     std::uint64_t cost_ns = 0;
     for (std::size_t i = 0; i < result.islands.size(); ++i) {
@@ -184,48 +98,16 @@ void Controller::take_costs(const Round::Answered& answered, const WindowResult&
 void Controller::finish_round() {
     if (waits_for_log()) return recorder_.hurry();
     counters_.critical_cpu_s += 1e-9 * round_->busiest_ns();
-    if (round_->span().recovery) return finish_leg();
-    if (merge_touching()) return;
+    if (phase_ == Phase::kRecovering) return finish_leg();
+    if (repeat_touched()) return;
     if (const IslandResult* failure = first_failure()) return end_before(*failure);
     commit();
 }
 
-bool Controller::merge_touching() {
-    if (watch_.all_apart()) return false;
-    watch_.stop();
-    const std::size_t n = model_->robots.size();
-    const Islands& before = round_->islands;
-    std::vector<std::size_t> size_before(n, 0);  // by root
-    sets_.reset(n);
-    for (std::size_t i = 0; i < before.count(); ++i) {
-        const auto robots = before.of(i);
-        size_before[robots.front().index()] = robots.size();
-        for (const RobotId robot : robots) sets_.unite(robots.front().value, robot.value);
-    }
-    boxes_.clear();
-    for (std::uint32_t r = 0; r < n; ++r) boxes_.push_back({motions_[r].swept, r});
-    for (const EarlierBox& e : round_->earlier) boxes_.push_back({e.swept, e.robot.value});
-    if (sweep_.unite_overlapping(boxes_, sets_) == 0) return false;
-
-    if (roster_.workers().empty()) return drop_round(), true;  // all want to leave
-    forecast_.forget();
-    Islands all, again;
-    collect_islands(sets_, all);
-    std::vector<bool> stepped_again(n, false);
-    for (std::size_t i = 0; i < all.count(); ++i) {
-        const auto robots = all.of(i);
-        if (robots.size() == size_before[robots.front().index()]) continue;
-        again.robots.insert(again.robots.end(), robots.begin(), robots.end());
-        again.offsets.push_back(static_cast<std::uint32_t>(again.robots.size()));
-        for (const RobotId robot : robots) stepped_again[robot.index()] = true;
-    }
-    std::erase_if(round_->earlier, [&](const EarlierBox& e) { return stepped_again[e.robot.index()]; });
-    round_->islands = std::move(all);
-    counters_.robots_repeated += again.robots.size();
-    const std::vector<SeatId> seat_of_island =
-        assign_to_seats(again, cost_, roster_, round_->seats(), round_->span().until - round_->span().from);
-    round_->assign(again, seat_of_island, round_->seats(), roster_);
-    give_all(order_log_, *round_);
+bool Controller::repeat_touched() {
+    if (!planner_.some_touched(*round_)) return false;
+    if (roster_.workers().empty()) return discard_window(), true;  // all want to leave
+    counters_.robots_repeated += planner_.repeat(*round_);
     return true;
 }
 
@@ -256,8 +138,8 @@ std::string Controller::part_of(RobotId robot, JointId joint) const {
 void Controller::end_before(const IslandResult& failure) {
     const Tick tick = failure.failed_at;
     if (tick > round_->span().from) {
-        ends_at_ = tick;
-        return drop_round();
+        planner_.end_at(tick);
+        return discard_window();
     }
     Error error{
         "the state is not finite after tick " + std::to_string(tick) + " (" +
@@ -265,104 +147,48 @@ void Controller::end_before(const IslandResult& failure) {
             " s): " + part_of(failure.failed, failure.failed_joint) +
             (failure.beyond_numbers ? " moves faster than can be computed" : " is infinite or no number"),
         "look for extreme orders or masses, or take a shorter step; the world up to tick " +
-            std::to_string(tick_) + " is intact and can be saved",
+            std::to_string(this->tick()) + " is intact and can be saved",
         failure.beyond_numbers ? "too-fast" : "not-finite"};
-    drop_round();
-    fail(std::move(error));
+    discard_window();
+    notices_.fail(std::move(error));
 }
 
-/// Discards the window; it is stepped again from its start, if at all.
-void Controller::drop_round() {
-    watch_.stop();
-    forecast_.forget();
+/// The window is stepped again from its start, if at all.
+void Controller::discard_window() {
+    planner_.discard();
     round_.reset();
+    enter(Phase::kIdle);
 }
 
 void Controller::commit() {
     const Round& round = *round_;
-    const Tick ticks = round.span().until - round.span().from;
-    learn_costs();
+    costs_.learn(round, roster_);
+    checkpoints_.committed(round.islands, 1e-9 * round.window_busiest_ns());
+    planner_.committed(round);
+    count_window();
+    directory_.commit(round.span().until, round.last_seats(), roster_);
+    hashes_ = next_hashes_;
+    islands_ = std::move(round_->islands);
+    round_.reset();
+    enter(Phase::kIdle);
+    recorder_.committed(tick(), model_->hash, hashes_);
+    clients_.queue_observations();
+}
+
+void Controller::count_window() {
+    const Round& round = *round_;
+    const auto ticks = static_cast<std::uint64_t>(round.span().until - round.span().from);
     for (std::size_t i = 0; i < round.islands.count(); ++i) {
-        const auto robots = round.islands.of(i);
-        for (const RobotId robot : robots) {
-            base_.touched.unite(robots.front().value, robot.value);
-            if (next_base_) next_base_->touched.unite(robots.front().value, robot.value);
-        }
-        counters_.contacts += round.outcome[robots.front().index()].contacts;
-        counters_.static_contacts += round.outcome[robots.front().index()].static_contacts;
+        const IslandResult& outcome = round.outcome[round.islands.of(i).front().index()];
+        counters_.contacts += outcome.contacts;
+        counters_.static_contacts += outcome.static_contacts;
     }
-    length_.committed(ticks, round.repeats() > 0, largest_share(), window_max());
     ++counters_.windows;
     counters_.windows_repeated += round.repeats() > 0 ? 1 : 0;
     counters_.islands += round.islands.count();
-    counters_.ticks += static_cast<std::uint64_t>(ticks);
-    counters_.island_ticks += static_cast<std::uint64_t>(ticks) * round.islands.count();
+    counters_.ticks += ticks;
+    counters_.island_ticks += ticks * round.islands.count();
     counters_.islands_now = round.islands.count();
-
-    holder_.assign(round.last_seats().begin(), round.last_seats().end());
-    hashes_ = next_hashes_;
-    tick_ = round.span().until;
-    islands_ = std::move(round_->islands);
-    round_.reset();
-    recorder_.committed(tick_, model_->hash, hashes_);
-    queue_observations();
-}
-
-/// A robot's cost is in ns per tick on the mean Simulator. A Simulator's rate is its speed relative to the
-/// mean: it grows if its islands together cost less than their robots did recently on any Simulator.
-void Controller::learn_costs() {
-    const Round& round = *round_;
-    const auto ticks = static_cast<double>(round.span().until - round.span().from);
-    const auto share = static_cast<float>(costs_known_ ? 1 - std::exp2(-ticks / kCostTicks) : 1.0);
-    std::vector<double> expected_ns(roster_.size(), 0.0), spent_ns(roster_.size(), 0.0);
-    for (std::size_t i = 0; i < round.islands.count(); ++i) {
-        const auto robots = round.islands.of(i);
-        const SeatId seat_id = round.seat_of(robots.front()),
-                     last = round.last_seats()[robots.front().index()];
-        const auto cost_ns = static_cast<double>(round.outcome[robots.front().index()].cost_ns);
-        double expected = 0;
-        for (const RobotId robot : robots) expected += static_cast<double>(cost_[robot.index()]);
-        const double rate = 0.5 * (roster_.seat(seat_id).rate + roster_.seat(last).rate);
-        if (round.since(robots.front()) ==
-            round.span().from) {  // islands that two have stepped say nothing about either
-            expected_ns[seat_id] += ticks * expected / rate;
-            spent_ns[seat_id] += cost_ns;
-        }
-        const double each = rate * cost_ns / (ticks * static_cast<double>(robots.size()));
-        for (const RobotId robot : robots) {
-            float& cost = cost_[robot.index()];
-            cost += share * (static_cast<float>(std::max(each, 1e-3)) - cost);
-        }
-    }
-    if (std::exchange(costs_known_, true)) learn_rates(expected_ns, spent_ns);
-    double busiest_ns = 0;
-    for (SeatId seat_id = 0; seat_id < roster_.size(); ++seat_id) {
-        SimulatorSeat& seat = roster_.seat(seat_id);
-        const double spent = round.spent_ns(seat_id);
-        seat.spent_ns += kNewSpentShare * (spent / (ticks * seat.threads) - seat.spent_ns);
-        busiest_ns = std::max(busiest_ns, spent);
-    }
-    work_since_s_ += 1e-9 * busiest_ns;
-}
-
-/// Rates learn only differences between Simulators; a change that affects all of them belongs to the robots'
-/// costs.
-void Controller::learn_rates(std::span<const double> expected_ns, std::span<const double> spent_ns) {
-    double expected = 0, spent = 0;
-    for (std::size_t seat_id = 0; seat_id < spent_ns.size(); ++seat_id)
-        if (spent_ns[seat_id] > 0) expected += expected_ns[seat_id], spent += spent_ns[seat_id];
-    if (expected <= 0 || spent <= 0) return;
-    for (SeatId seat_id = 0; seat_id < roster_.size(); ++seat_id) {
-        if (spent_ns[seat_id] <= 0 || expected_ns[seat_id] <= 0) continue;
-        const double faster = expected_ns[seat_id] / spent_ns[seat_id] * spent / expected;
-        double& rate = roster_.seat(seat_id).rate;
-        rate = std::clamp(rate * (1 + kNewRateShare * (std::clamp(faster, 0.5, 2.0) - 1)), 0.01, 100.0);
-    }
-    double sum = 0;
-    const std::vector<SeatId> workers = roster_.workers();
-    for (const SeatId seat_id : workers) sum += roster_.seat(seat_id).rate;
-    for (const SeatId seat_id : workers)
-        roster_.seat(seat_id).rate *= static_cast<double>(workers.size()) / sum;
 }
 
 }  // namespace roboss

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "bus/bus.h"
+#include "core/check.h"
 
 namespace roboss {
 
@@ -57,6 +57,70 @@ std::uint32_t Roster::threads() const {
 
 Address Roster::address_of(SeatId seat_id) const {
     return seat_id == kAtController ? kControllerAddress : seats_[seat_id].address;
+}
+
+double Roster::balance() const {
+    double sum = 0, busiest = 0, threads = 0;
+    for (const SeatId seat_id : workers()) {
+        const SimulatorSeat& seat = seats_[seat_id];
+        sum += seat.spent_ns * seat.threads;
+        busiest = std::max(busiest, seat.spent_ns);
+        threads += seat.threads;
+    }
+    return busiest > 0 ? sum / (threads * busiest) : 1;
+}
+
+std::optional<SeatId> Roster::heard_from(Bus& bus, const Address& from) {
+    const auto seat_id = seat_at(from);
+    if (seat_id) seats_[*seat_id].heard_ms = bus.now_ms();
+    return seat_id;
+}
+
+std::optional<SeatId> Roster::heard_from(Bus& bus, const Address& from, SimulatorId id) {
+    const auto seat_id = seat_of(id);
+    // A seat of an earlier Controller: its holder has to join again.
+    const bool is_known = seat_id && seats_[*seat_id].address == from;
+    if (is_known && seats_[*seat_id].alive) {
+        seats_[*seat_id].heard_ms = bus.now_ms();
+        return seat_id;
+    }
+    if (is_known && seats_[*seat_id].leaving) {
+        bus.send(kControllerAddress, from, Goodbye{id});
+    } else {
+        bus.send(kControllerAddress, from, Expelled{id});
+    }
+    return std::nullopt;
+}
+
+void Roster::give_up(SeatId seat_id) {
+    ROBOSS_CHECK(alive(seat_id), "simulator " + std::to_string(seat_id) + " is lost twice");
+    seats_[seat_id].alive = false;
+    seats_[seat_id].leaving = false;
+}
+
+std::vector<SeatId> Roster::leaving() const {
+    std::vector<SeatId> leaving;
+    for (SeatId seat_id = 0; seat_id < seats_.size(); ++seat_id)
+        if (seats_[seat_id].alive && seats_[seat_id].leaving) leaving.push_back(seat_id);
+    return leaving;
+}
+
+void Roster::release(Bus& bus, SeatId seat_id) {
+    ROBOSS_CHECK(alive(seat_id) && seats_[seat_id].leaving,
+                 "simulator " + std::to_string(seat_id) + " is released but did not want to leave");
+    seats_[seat_id].alive = false;
+    bus.send(kControllerAddress, seats_[seat_id].address, Goodbye{id_of(seat_id)});
+}
+
+void Roster::send_heartbeats(Bus& bus) const {
+    for (SeatId seat_id = 0; seat_id < seats_.size(); ++seat_id)
+        if (seats_[seat_id].alive)
+            bus.send(kControllerAddress, seats_[seat_id].address, Heartbeat{id_of(seat_id)});
+}
+
+void Roster::dismiss(Bus& bus, const std::string& reason) const {
+    for (const SimulatorSeat& seat : seats_)
+        if (seat.alive) bus.send(kControllerAddress, seat.address, RunOver{reason});
 }
 
 }  // namespace roboss

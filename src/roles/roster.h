@@ -1,5 +1,5 @@
-// The Simulators that the Controller knows. A seat is never given twice, so a message that names a lost
-// Simulator's seat is never taken for one from its successor.
+// Roster: the Simulators that the Controller knows, as they join, report, leave and are lost. A seat is never
+// given twice, so a message that names a lost Simulator's seat is never taken for one from its successor.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "wire/message.h"
+#include "bus/bus.h"
 
 namespace roboss {
 
@@ -47,6 +47,8 @@ class Roster {
     bool alive(SeatId seat_id) const { return seat_id < seats_.size() && seats_[seat_id].alive; }
     SimulatorSeat& seat(SeatId seat_id) { return seats_[seat_id]; }
     const SimulatorSeat& seat(SeatId seat_id) const { return seats_[seat_id]; }
+    /// A state with this holder is lost.
+    bool lost(SeatId holder) const { return holder != kAtController && !alive(holder); }
     std::size_t size() const { return seats_.size(); }
     std::size_t alive_count() const;
     /// Seats that can get work: alive and not leaving.
@@ -54,6 +56,22 @@ class Roster {
     /// Threads of all workers.
     std::uint32_t threads() const;
     Address address_of(SeatId seat_id) const;
+    /// A message came from this address. Returns the seat of the Simulator that is alive there.
+    std::optional<SeatId> heard_from(Bus& bus, const Address& from);
+    /// A message that names its sender came. One that is not alive there gets Expelled or Goodbye, and has no
+    /// seat.
+    std::optional<SeatId> heard_from(Bus& bus, const Address& from, SimulatorId id);
+    /// The Simulator is lost.
+    void give_up(SeatId seat_id);
+    /// Seats of those that are alive and want to leave.
+    std::vector<SeatId> leaving() const;
+    /// The Simulator of this seat may go; nothing depends on it any more.
+    void release(Bus& bus, SeatId seat_id);
+    void send_heartbeats(Bus& bus) const;
+    void dismiss(Bus& bus, const std::string& reason) const;
+
+    /// Load balance of the stepping in recent windows: 1 is perfect.
+    double balance() const;
 
   private:
     std::vector<SimulatorSeat> seats_;

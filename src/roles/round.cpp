@@ -182,6 +182,10 @@ double Round::busiest_ns() const {
     return busiest;
 }
 
+double Round::window_busiest_ns() const {
+    return spent_ns_.empty() ? 0 : *std::max_element(spent_ns_.begin(), spent_ns_.end());
+}
+
 void Round::expect(std::uint64_t due_ns) {
     for (Sent& sent : sent_) sent.assignment.due_ns = due_ns;
 }

@@ -64,6 +64,8 @@ class Round {
     void spend(SeatId seat_id, std::uint64_t cost_ns);
     double spent_ns(SeatId seat_id) const { return seat_id < spent_ns_.size() ? spent_ns_[seat_id] : 0; }
     double busiest_ns() const;
+    /// The maximum over the seats in the whole window.
+    double window_busiest_ns() const;
 
     // Work stealing: idle Simulators take over a part of a late one's assignment.
     /// The CPU time that each Simulator is expected to need for the window.

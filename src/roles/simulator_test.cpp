@@ -1,4 +1,4 @@
-// A Simulator drops assignments that it cannot step, says so, and goes on with those that it can.
+// A Simulator drops assignments that it cannot step, reports it, and goes on with those that it can.
 #include "roles/simulator.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ class AssignmentsFromTheWire : public testing::Test {
   protected:
     AssignmentsFromTheWire() {
         simulator.advance(bus);
-        say(Welcome{kId});
+        send(Welcome{kId});
     }
 
     /// All robots, each an island of its own, from the Controller.
@@ -47,7 +47,7 @@ class AssignmentsFromTheWire : public testing::Test {
         if (from == 0) assignment.hand_offs = {{kControllerAddress, assignment.robots}};
         return assignment;
     }
-    void say(Message message) {
+    void send(Message message) {
         bus.send(kControllerAddress, kSelf, std::move(message));
         simulator.advance(bus);
     }
@@ -65,7 +65,7 @@ class AssignmentsFromTheWire : public testing::Test {
                     reply.states.tick = request->tick;
                     for (const RobotId robot : request->robots)
                         append(reply.states, robot, sim.states[robot.index()]);
-                    say(reply);
+                    send(reply);
                 }
             }
             simulator.advance(bus);
@@ -73,7 +73,7 @@ class AssignmentsFromTheWire : public testing::Test {
         return 0;
     }
     void expect_dropped(const Assignment& wrong, const std::string& why) {
-        say(wrong);
+        send(wrong);
         EXPECT_EQ(answer(wrong.window), 0u) << why;
         const std::vector<std::string> notices = simulator.take_notices();
         ASSERT_EQ(notices.size(), 1u) << why;
@@ -90,11 +90,11 @@ class AssignmentsFromTheWire : public testing::Test {
 
 TEST_F(AssignmentsFromTheWire, OneOfRobotsThatAreNotHereIsDroppedAndTheNextOneIsStepped) {
     expect_dropped(assignment(1, 7, 9), "robot 0 is not here at tick 7");
-    say(assignment(2, 0, 4));
+    send(assignment(2, 0, 4));
     const std::uint64_t hash = answer(2);
     EXPECT_NE(hash, 0u);
     expect_dropped(assignment(3, 5, 9), "robot 0 is not here at tick 5");
-    say(assignment(4, 4, 8));
+    send(assignment(4, 4, 8));
     const std::uint64_t next = answer(4);
     for (int i = 0; i < 8; ++i) sim.step();
     EXPECT_EQ(next, state_hash(RobotId(0u), 8, sim.states[0]));
@@ -127,7 +127,7 @@ TEST_F(AssignmentsFromTheWire, OneThatMakesNoSenseIsDroppedByReason) {
         wrong.orders = orders;
         expect_dropped(wrong, "its orders are invalid");
     }
-    say(assignment(1, 0, 4));
+    send(assignment(1, 0, 4));
     EXPECT_NE(answer(1), 0u) << "the same attempt, without a flaw";
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "roles/send_views.h"
+
 namespace roboss {
 namespace {
 
@@ -24,7 +26,9 @@ bool ViewService::Pace::due(std::uint32_t interval_ms, Tick tick, std::int64_t n
     return true;
 }
 
-void ViewService::take(const Address& viewer, const ViewRequest& request, std::int64_t now_ms) {
+void ViewService::take(Bus& bus, const Address& viewer, const ViewRequest& request) {
+    if (request.model_hash != model_->hash)
+        return bus.send(kControllerAddress, viewer, ModelChanged{model_->hash});
     auto found = std::find_if(watchers_.begin(), watchers_.end(),
                               [&](const Watcher& w) { return w.viewer == viewer; });
     if (found == watchers_.end()) {
@@ -33,7 +37,7 @@ void ViewService::take(const Address& viewer, const ViewRequest& request, std::i
         found->viewer = viewer;
     }
     found->request = request;
-    found->heard_ms = now_ms;
+    found->heard_ms = bus.now_ms();
     found->view.asked_again = found->exact.asked_again = true;
 }
 
@@ -72,6 +76,55 @@ std::vector<ViewService::Due> ViewService::take_due(Tick tick, std::int64_t now_
         if (d.view || d.exact_all || !d.exact.empty()) due.push_back(std::move(d));
     }
     return due;
+}
+
+void ViewService::serve(Bus& bus, const Source& source) {
+    if (empty()) return;
+    const Tick tick = source.directory.tick();
+    note(tick, bus.now_ms());
+    const std::vector<Due> due = take_due(tick, bus.now_ms());
+    if (due.empty()) return;
+    ++serial_;
+    for (const Due& d : due) show(bus, source, d);
+}
+
+/// By seat; the last part is what the Controller has: at the beginning, and when a Simulator has left.
+std::vector<ViewDue> ViewService::parts_of(const Source& source, const Due& due) const {
+    const std::span<const SeatId> holders = source.directory.holders();
+    std::vector<ViewDue> parts(source.roster.size() + 1);
+    const auto part_of = [&](std::size_t r) -> ViewDue* {
+        if (holders[r] == kAtController) return source.here != nullptr ? &parts.back() : nullptr;
+        return source.roster.lost(holders[r]) ? nullptr : &parts[holders[r]];
+    };
+    for (std::size_t r = 0; r < holders.size(); ++r) {
+        ViewDue* part = part_of(r);
+        if (part == nullptr) continue;
+        if (due.view) part->robots.emplace_back(r);
+        if (due.exact_all) part->exact.emplace_back(r);
+    }
+    for (const RobotId robot : due.exact)
+        if (!due.exact_all && robot.index() < holders.size())
+            if (ViewDue* part = part_of(robot.index())) part->exact.push_back(robot);
+    return parts;
+}
+
+void ViewService::show(Bus& bus, const Source& source, const Due& due) {
+    std::vector<ViewDue> parts = parts_of(source, due);
+    for (SeatId seat_id = 0; seat_id < parts.size(); ++seat_id) {
+        ViewDue& part = parts[seat_id];
+        if (part.robots.empty() && part.exact.empty()) continue;
+        part.epoch = source.epoch;
+        part.serial = serial_;
+        part.tick = source.directory.tick();
+        part.viewer = due.viewer;
+        if (seat_id < source.roster.size()) {
+            bus.send(kControllerAddress, source.roster.address_of(seat_id), std::move(part));
+            continue;
+        }
+        if (!layout_) layout_.emplace(*model_);
+        const auto state = [&](RobotId robot) { return &(*source.here)[robot.index()]; };
+        send_views(*model_, *layout_, part, state, kControllerAddress, bus);
+    }
 }
 
 }  // namespace roboss

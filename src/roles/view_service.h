@@ -1,18 +1,36 @@
-// ViewService: which viewers subscribe to views of the world, and which views are due. A viewer repeats its
-// request each second and is dropped soon after its last one. Costs nothing without viewers.
+// ViewService: which viewers subscribe to views of the world, and which views are due; it asks the holders of
+// robots to send them. A viewer repeats its request each second and is dropped soon after its last one.
+// Nothing of this is kept, awaited or sent again. Costs nothing without viewers.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
-#include "wire/message.h"
+#include "bus/bus.h"
+#include "roles/state_directory.h"
+#include "wire/view_state.h"
 
 namespace roboss {
 
 class ViewService {
   public:
-    void take(const Address& viewer, const ViewRequest& request, std::int64_t now_ms);
+    explicit ViewService(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
+
+    /// Subscribes the viewer. One with another Model gets ModelChanged.
+    void take(Bus& bus, const Address& viewer, const ViewRequest& request);
     bool empty() const { return watchers_.empty(); }
+
+    /// The committed world between two windows.
+    struct Source {
+        std::uint32_t epoch = 0;
+        const StateDirectory& directory;
+        const Roster& roster;
+        const std::vector<RobotState>* here =
+            nullptr;  // states that the Controller has; null: of another tick
+    };
+    /// Makes the holders of robots send the views that are due.
+    void serve(Bus& bus, const Source& source);
 
     struct Due {
         Address viewer;
@@ -24,7 +42,7 @@ class ViewService {
     /// request (views may get lost).
     std::vector<Due> take_due(Tick tick, std::int64_t now_ms);
 
-    /// To be called between windows, before take_due(): measures the speed of the run.
+    /// Measures the speed of the run. To be called between windows, before take_due().
     void note(Tick tick, std::int64_t now_ms);
     /// Windows should be no longer than this, so that viewers see the world move. None: no viewers, or the
     /// speed is not known yet.
@@ -44,6 +62,12 @@ class ViewService {
         std::int64_t heard_ms = 0;
         Pace view, exact;
     };
+    void show(Bus& bus, const Source& source, const Due& due);
+    std::vector<ViewDue> parts_of(const Source& source, const Due& due) const;
+
+    std::shared_ptr<const Model> model_;
+    std::uint64_t serial_ = 0;          // of the views sent
+    std::optional<ViewLayout> layout_;  // made with the first view that the Controller sends itself
     std::vector<Watcher> watchers_;
     Tick from_ = 0;  // start of the current measurement
     std::optional<std::int64_t> from_ms_;

@@ -52,7 +52,7 @@ TEST(WindowStepper, StepsTheOthersToTheEndWhenOneFails) {
 }
 
 /// Two Simulators' stores: the first is cut short at `cut`, keeps the first `kept` of the balls for the rest,
-/// and gives the others to the second. Together they say what one says that stepped all to the end.
+/// and gives the others to the second. Together they report what one does that steps all to the end.
 TEST(WindowStepper, WhatACutLeavesIsSteppedOnBySomebodyElseToTheSameStates) {
     constexpr Tick kCut = 5, kUntil = 12;
     constexpr std::size_t kBalls = 6, kKept = 4;

@@ -1,10 +1,10 @@
-// Work stealing within a window: the cost of islands is known to a tenth at best, so of many Simulators one
-// is always late. It reports this (Late). When others are idle it gets a Cut, and the rest of its assignment
-// is split between it and them, from the tick that it has reached.
+// Costs of the rest are those of the ticks before the Cut.
+#include "roles/work_stealing.h"
+
 #include <algorithm>
 #include <numeric>
 
-#include "roles/controller.h"
+#include "roles/order_feed.h"
 #include "schedule/assign.h"
 
 namespace roboss {
@@ -32,50 +32,43 @@ std::vector<float> cost_of_rest(const Islands& part, std::span<const IslandResul
 
 }  // namespace
 
-/// Sets the expected CPU time, so that Simulators that need longer report it.
-void Controller::announce_expected_work() {
-    if (!costs_known_ || roster_.workers().size() < 2) return;
-    double work = 0, speed = 0;
-    for (const float cost : cost_) work += static_cast<double>(cost);
-    for (const SeatId seat_id : roster_.workers()) speed += roster_.seat(seat_id).speed();
-    const RoundSpan& span = round_->span();
-    const double due_ns = work * static_cast<double>(span.until - span.from) / speed;
-    if (due_ns >= options_.stealing_least_ns) round_->expect(whole_ns(due_ns));
+void announce_expected_work(Round& round, const CostModel& costs, const Roster& roster, double least_ns) {
+    const double due_ns = costs.even_share_ns(roster, round.span().until - round.span().from);
+    if (due_ns > 0 && due_ns >= least_ns) round.expect(whole_ns(due_ns));
 }
 
-void Controller::steal_work(Bus& bus) {
-    if (!round_ || round_->span().recovery || round_->repeats() > 0) return;
-    const std::vector<Round::LateSeat> late = round_->late();
+void steal_work(Bus& bus, Round& round, const Roster& roster) {
+    if (round.span().recovery || round.repeats() > 0) return;
+    const std::vector<Round::LateSeat> late = round.late();
     if (late.empty()) return;
-    std::vector<SeatId> idle = round_->idle(roster_);
+    std::vector<SeatId> idle = round.idle(roster);
     const std::size_t each = std::max<std::size_t>(idle.size() / late.size(), 1);
     for (const Round::LateSeat& seat : late) {
         if (idle.empty()) return;
         const std::size_t n = std::min({each, idle.size(), seat.islands - 1});
-        round_->cut(bus, roster_, seat.seat_id, {idle.end() - static_cast<std::ptrdiff_t>(n), idle.end()});
+        round.cut(bus, roster, seat.seat_id, {idle.end() - static_cast<std::ptrdiff_t>(n), idle.end()});
         idle.resize(idle.size() - n);
     }
 }
 
-void Controller::share_out_rest(const Round::Answered& cut_short, std::span<const IslandResult> stepped,
-                                Tick at) {
+void share_out_rest(Round& round, const Round::Answered& cut_short, std::span<const IslandResult> stepped,
+                    Tick at, const Roster& roster, OrderLog& order_log) {
     const Assignment& assignment = cut_short.assignment;
     const Islands part{assignment.island_offsets, assignment.robots};
     std::vector<SeatId> seats = cut_short.helpers;
     seats.push_back(cut_short.seat_id);
     std::vector<double> speeds;
     for (const SeatId seat : seats)
-        speeds.push_back(roster_.seat(seat).speed() / roster_.seat(cut_short.seat_id).rate);
-    const std::vector<float> cost = cost_of_rest(part, stepped, at - assignment.from, model_->robots.size());
+        speeds.push_back(roster.seat(seat).speed() / roster.seat(cut_short.seat_id).rate);
+    const std::vector<float> cost = cost_of_rest(part, stepped, at - assignment.from, round.seats().size());
     const std::vector<std::uint32_t> stays(cost.size(), static_cast<std::uint32_t>(seats.size() - 1));
     const auto left = static_cast<double>(assignment.until - at);
     std::vector<SeatId> seat_of_island = assign({part, cost, stays, speeds, kHandOver_ns / left});
-    for (std::uint32_t& seat : seat_of_island) seat = seats[seat];
+    for (SeatId& seat : seat_of_island) seat = seats[seat];
     const double due_ns = left * std::accumulate(cost.begin(), cost.end(), 0.0) /
                           std::accumulate(speeds.begin(), speeds.end(), 0.0);
-    round_->assign_rest(cut_short, at, seat_of_island, whole_ns(due_ns), roster_,
-                        [this](Assignment& rest) { give_all(order_log_, rest); });
-    ++counters_.cuts;
+    round.assign_rest(cut_short, at, seat_of_island, whole_ns(due_ns), roster,
+                      [&order_log](Assignment& rest) { give_all(order_log, rest); });
 }
 
 }  // namespace roboss

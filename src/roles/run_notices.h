@@ -1,0 +1,36 @@
+// RunNotices: what happened in a run, one line each for its owner, and the error that ends the run.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/result.h"
+#include "core/types.h"
+
+namespace roboss {
+
+class RunNotices {
+  public:
+    void add(std::string text) { lines_.push_back(std::move(text)); }
+    /// An invalid message that was ignored at `tick`.
+    void dropped(const char* message, Tick tick, const std::string& why) {
+        add(std::string("dropped=") + message + " tick=" + std::to_string(tick) + " reason=\"" + why + "\"");
+    }
+    /// The run cannot continue. Only the first error counts.
+    void fail(Error error) {
+        if (failure_) return;
+        add("stopped: " + error.message);
+        failure_ = std::move(error);
+    }
+    const std::optional<Error>& failure() const { return failure_; }
+    /// The lines since the last call.
+    std::vector<std::string> take() { return std::exchange(lines_, {}); }
+
+  private:
+    std::vector<std::string> lines_;
+    std::optional<Error> failure_;
+};
+
+}  // namespace roboss
