@@ -13,16 +13,18 @@ namespace {
 
 const RobotId kRover(0u);
 
-/// A car with one sensor of each kind, in the order of SensorKind.
+/// A car with a laser, a GPS receiver of 10 Hz, a compass, an odometer and a camera.
 std::shared_ptr<const Model> rover_world() {
     ModelSpec rover = car();
-    for (const SensorKind kind : {SensorKind::kLaser, SensorKind::kGps, SensorKind::kCompass,
-                                  SensorKind::kOdometer, SensorKind::kUnsupported}) {
+    LaserSpec laser;
+    laser.range_max = 10;
+    for (const SensorParameters& parameters :
+         {SensorParameters(laser), SensorParameters(GpsSpec{}), SensorParameters(CompassSpec{}),
+          SensorParameters(OdometerSpec{}), SensorParameters(UnsupportedSensor{})}) {
         SensorSpec sensor;
-        sensor.name = "sensor_" + std::to_string(static_cast<int>(kind));
-        sensor.kind = kind, sensor.sdf_type = "thermal_camera";
-        sensor.samples = sensor.vertical_samples = 1, sensor.range_max = 10;
-        if (kind == SensorKind::kGps) sensor.update_rate_hz = 10;
+        sensor.name = "sensor_" + std::to_string(rover.links[0].sensors.size());
+        sensor.parameters = parameters, sensor.sdf_type = "thermal_camera";
+        if (sensor.as<GpsSpec>() != nullptr) sensor.update_rate_hz = 10;
         rover.links[0].sensors.push_back(sensor);
     }
     World world = empty_world(1e-3);

@@ -33,7 +33,7 @@ class ControlProgram {
 };
 
 /// Version of this interface; the loader refuses a library built against another one.
-inline constexpr int kControlProgramAbi = 6;
+inline constexpr int kControlProgramAbi = 7;
 
 }  // namespace roboss
 

@@ -3,9 +3,13 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "model/model.h"
 #include "model/robot_state.h"
+#include "sensors/readings.h"
 
 namespace roboss::sensors_test {
 
@@ -44,6 +48,44 @@ inline RobotType cart_type() {
     type.nq = 8, type.nv = 7;
     type.initial_q = {0.25};
     return type;
+}
+
+/// The parameters of a sensor, and where it stands on its link.
+template <class Kind>
+struct Mounted : Kind {
+    Pose X_LS;
+};
+
+inline SensorSpec sensor(const std::string& name, const SensorParameters& parameters, const Pose& X_LS = {}) {
+    SensorSpec spec;
+    spec.name = name;
+    spec.parameters = parameters;
+    spec.X_LS = X_LS;
+    return spec;
+}
+
+/// All states of a small world at one tick, as a Client has them.
+class KnownStates final : public SensorSources {
+  public:
+    KnownStates(std::shared_ptr<const Model> model, std::vector<const RobotState*> states)
+        : model_(std::move(model)), states_(std::move(states)) {}
+    RayScene& ray_scene() override {
+        if (!rays_) rays_ = std::make_unique<RayScene>(model_), rays_->update(states_);
+        return *rays_;
+    }
+
+  private:
+    std::shared_ptr<const Model> model_;
+    std::vector<const RobotState*> states_;
+    std::unique_ptr<RayScene> rays_;
+};
+
+/// A reading of sensor `sensor` of robot `robot`; the test fails if there is none.
+template <class Reading>
+Reading read_as(const std::shared_ptr<const Model>& model, const std::vector<const RobotState*>& states,
+                std::size_t sensor, Tick tick = 0, std::uint64_t seed = 1, std::size_t robot = 0) {
+    KnownStates sources(model, states);
+    return measure_as<Reading>({*model, RobotId(robot), sensor, *states[robot], tick, seed, sources}).value();
 }
 
 inline void add_sensor(RobotType& type, std::size_t link, const SensorSpec& spec) {
