@@ -136,7 +136,7 @@ Result<> Client::restore_samples(const std::string& bytes) {
     return Ok{};
 }
 
-StepProbe& Client::probe() {
+StepProbe& Client::step_probe() {
     if (!probe_) probe_ = std::make_unique<StepProbe>(model());
     if (probe_->tick() == tick()) return *probe_;
     std::vector<const RobotState*> states;
@@ -146,12 +146,12 @@ StepProbe& Client::probe() {
 }
 
 std::span<const ContactReport> Client::contacts() {
-    return probe().contacts();
+    return step_probe().contacts();
 }
 
 std::vector<JointReaction> Client::joint_reactions(RobotId robot) {
     (void)known(robot);
-    return probe().joint_reactions(robot);
+    return step_probe().joint_reactions(robot);
 }
 
 }  // namespace roboss

@@ -81,6 +81,7 @@ class Client : private SensorSources {
     CompassReading compass(RobotId robot, std::size_t sensor) {
         return reading<CompassReading>(robot, sensor);
     }
+    ImuReading imu(RobotId robot, std::size_t sensor) { return reading<ImuReading>(robot, sensor); }
 
     // --- forces, of the tick that begins now as long as no order takes effect at it (physics/probe.h). The
     // first question of a tick costs about as much as a step of the whole world.
@@ -102,7 +103,7 @@ class Client : private SensorSources {
     RayScene& ray_scene() override = 0;
 
   private:
-    StepProbe& probe();
+    StepProbe& step_probe() override;
     const RobotType& known_type(RobotId robot, LinkId link) const;
     Sample sample(RobotId robot, std::size_t sensor, const SensorKind& asked);
     Sample measure(RobotId robot, std::size_t sensor);

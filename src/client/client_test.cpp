@@ -13,14 +13,15 @@ namespace {
 
 const RobotId kRover(0u);
 
-/// A car with a laser, a GPS receiver of 10 Hz, a compass, an odometer and a camera.
+/// A car with a laser, a GPS receiver of 10 Hz, a compass, an odometer, a camera and an IMU.
 std::shared_ptr<const Model> rover_world() {
     ModelSpec rover = car();
     LaserSpec laser;
     laser.range_max = 10;
     for (const SensorParameters& parameters :
          {SensorParameters(laser), SensorParameters(GpsSpec{}), SensorParameters(CompassSpec{}),
-          SensorParameters(OdometerSpec{}), SensorParameters(UnsupportedSensor{})}) {
+          SensorParameters(OdometerSpec{}), SensorParameters(UnsupportedSensor{}),
+          SensorParameters(ImuSpec{})}) {
         SensorSpec sensor;
         sensor.name = "sensor_" + std::to_string(rover.links[0].sensors.size());
         sensor.parameters = parameters, sensor.sdf_type = "thermal_camera";
@@ -77,10 +78,11 @@ TEST_F(Questions, AnswersSensorsOfTheRightKind) {
     EXPECT_NO_THROW((void)client.gps(kRover, 1)) << "a held sample";
     EXPECT_NO_THROW((void)client.compass(kRover, 2));
     EXPECT_NO_THROW((void)client.odometer(kRover, 3));
+    EXPECT_NEAR(norm(client.imu(kRover, 5).specific_force_S), 0, 1e-9) << "it falls";
 }
 
 TEST_F(Questions, RefusesASensorThatTheRobotDoesNotHave) {
-    for (const std::size_t sensor : {std::size_t{5}, std::size_t{99}, ~std::size_t{0}})
+    for (const std::size_t sensor : {std::size_t{6}, std::size_t{99}, ~std::size_t{0}})
         expect_refused(
             [&] { (void)client.laser(kRover, sensor); },
             {"robot 'rover' has no sensor number " + std::to_string(sensor), "0 'sensor_0'", "4 'sensor_4'"});

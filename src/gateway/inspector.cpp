@@ -172,6 +172,17 @@ RayScene& Inspector::ray_scene() {
     return *rays_;
 }
 
+StepProbe& Inspector::step_probe() {
+    ROBOSS_CHECK(complete(), "a step needs robots whose states are not here");
+    if (!probe_) probe_ = std::make_unique<StepProbe>(*scene_->model);
+    if (probe_->tick() != tick_) {
+        std::vector<const RobotState*> states;
+        for (const auto& state : states_) states.push_back(&*state);
+        probe_->step(tick_, states);
+    }
+    return *probe_;
+}
+
 /// Also after a rewind to before its last sample.
 bool Inspector::is_due(RobotId robot, std::size_t sensor) const {
     const Sample* held = samples_.find({robot.value, static_cast<std::uint32_t>(sensor)});
@@ -220,14 +231,8 @@ std::string Inspector::robot(RobotId robot) {
 
 std::string Inspector::contacts() {
     const Model& model = *scene_->model;
-    if (!probe_) probe_ = std::make_unique<StepProbe>(model);
-    if (probe_->tick() != tick_) {
-        std::vector<const RobotState*> states;
-        for (const auto& state : states_) states.push_back(&*state);
-        probe_->step(tick_, states);
-    }
     Json list = Json::array();
-    for (const ContactReport& c : probe_->contacts()) {
+    for (const ContactReport& c : step_probe().contacts()) {
         const Vec3 force = (c.normal * c.impulse + c.friction) * (1 / model.dt_s);
         list.push_back({{"a", c.robot_a.value},
                         {"b", c.robot_b.valid() ? static_cast<std::int64_t>(c.robot_b.value) : -1},

@@ -85,6 +85,27 @@ TEST(Sensors, OurOdometerAndGyrocompassAreRead) {
     EXPECT_NE(first(compass).as<CompassSpec>(), nullptr);
 }
 
+TEST(Sensors, AnImuHasNoiseForEachAxisAndNamesWhatItDoesNotMeasure) {
+    const Loaded loaded = with_sensor(
+        "<sensor name='s' type='imu'><imu><angular_velocity><y><noise type='gaussian'><stddev>0.01</stddev>"
+        "</noise></y></angular_velocity><linear_acceleration><z><noise type='gaussian'><mean>0.1</mean>"
+        "<bias_mean>0.2</bias_mean><bias_stddev>0.3</bias_stddev></noise></z></linear_acceleration>"
+        "<enable_orientation>0</enable_orientation></imu></sensor>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
+    const ImuSpec imu = first_as<ImuSpec>(loaded);
+    EXPECT_EQ(imu.angular_velocity_x, NoiseSpec{});
+    EXPECT_EQ(imu.angular_velocity_y.stddev, 0.01);
+    EXPECT_EQ(imu.linear_acceleration_z, (NoiseSpec{0.1, 0, 0.2, 0.3, 0}));
+    const Loaded oriented = with_sensor(
+        "<sensor name='s' type='imu'><imu><enable_orientation>1</enable_orientation>"
+        "<orientation_reference_frame><localization>ENU</localization></orientation_reference_frame></imu>"
+        "</sensor>");
+    EXPECT_EQ(oriented.diagnostics.items().size(), 2u) << oriented.text();
+    EXPECT_NE(oriented.find("ignored-element"), nullptr);
+    EXPECT_TRUE(with_sensor("<sensor name='s' type='imu'/>").diagnostics.items().empty());
+}
+
 TEST(Sensors, AnOdometerOfAJointThatIsNotThereIsAnError) {
     EXPECT_NE(with_sensor("<roboss:sensor name='o' type='odometer'><joint>k</joint></roboss:sensor>")
                   .find("unknown-joint"),
@@ -96,7 +117,8 @@ TEST(Sensors, AnOdometerOfAJointThatIsNotThereIsAnError) {
 TEST(Sensors, OthersAreKeptAndReportedOnceAKind) {
     const Loaded loaded = with_sensor(
         "<sensor name='c1' type='camera'><camera><image><width>oops</width></image></camera></sensor>"
-        "<sensor name='c2' type='camera'/><sensor name='i' type='imu'/><sensor name='n' type='air_speed'/>");
+        "<sensor name='c2' type='camera'/><sensor name='i' type='altimeter'/><sensor name='n' "
+        "type='air_speed'/>");
     ASSERT_TRUE(loaded.world);
     EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
     EXPECT_EQ(loaded.diagnostics.items().size(), 3u) << loaded.text();

@@ -13,6 +13,7 @@
 #include "math/pose.h"
 #include "sensor_kinds/compass.h"
 #include "sensor_kinds/gps.h"
+#include "sensor_kinds/imu.h"
 #include "sensor_kinds/kind.h"
 #include "sensor_kinds/laser.h"
 #include "sensor_kinds/odometer.h"
@@ -36,7 +37,7 @@ struct SensorKindList {
 };
 
 /// All kinds of sensors that are simulated.
-using SensorKinds = SensorKindList<LaserSpec, GpsSpec, CompassSpec, OdometerSpec>;
+using SensorKinds = SensorKindList<LaserSpec, GpsSpec, CompassSpec, OdometerSpec, ImuSpec>;
 
 using SensorParameters = SensorKinds::Parameters;
 /// A reading of any kind.

@@ -55,5 +55,6 @@ Result<LaserReading> read(const LaserSpec& laser, const SensorQuery& query);
 Result<GpsReading> read(const GpsSpec& gps, const SensorQuery& query);
 Result<CompassReading> read(const CompassSpec& compass, const SensorQuery& query);
 Result<OdometerReading> read(const OdometerSpec& odometer, const SensorQuery& query);
+Result<ImuReading> read(const ImuSpec& imu, const SensorQuery& query);
 
 }  // namespace roboss

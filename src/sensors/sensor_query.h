@@ -9,6 +9,7 @@
 namespace roboss {
 
 class RayScene;
+class StepProbe;
 
 /// What several sensors share at a tick, built when the first of them asks. Clients and the viewer's gateway
 /// implement it.
@@ -17,6 +18,8 @@ class SensorSources {
     virtual ~SensorSources() = default;
     /// The shapes of all robots at the tick of the query.
     virtual RayScene& ray_scene() = 0;
+    /// The states of all robots at the tick of the query, and one tick later if no order takes effect at it.
+    virtual StepProbe& step_probe() = 0;
 };
 
 /// Sensor number `sensor` (of RobotType::sensors) of a robot in `state` at `tick`, in a run with this seed.
