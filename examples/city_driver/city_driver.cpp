@@ -23,16 +23,17 @@ struct Controls {
     std::size_t left_motor = 0, right_motor = 0;  // in RobotState::motors
 };
 
-std::optional<std::size_t> sensor_of_kind(const roboss::RobotType& type, roboss::SensorKind kind) {
+template <class Kind>
+std::optional<std::size_t> sensor_of_kind(const roboss::RobotType& type) {
     for (std::size_t i = 0; i < type.sensors.size(); ++i)
-        if (type.sensors[i].spec.kind == kind) return i;
+        if (type.sensors[i].spec.as<Kind>() != nullptr) return i;
     return std::nullopt;
 }
 
 std::optional<Controls> controls_of(const roboss::RobotType& type) {
-    const auto laser = sensor_of_kind(type, roboss::SensorKind::kLaser);
-    const auto gps = sensor_of_kind(type, roboss::SensorKind::kGps);
-    const auto compass = sensor_of_kind(type, roboss::SensorKind::kCompass);
+    const auto laser = sensor_of_kind<roboss::LaserSpec>(type);
+    const auto gps = sensor_of_kind<roboss::GpsSpec>(type);
+    const auto compass = sensor_of_kind<roboss::CompassSpec>(type);
     if (!laser || !gps || !compass) return std::nullopt;
     Controls controls{*laser, *gps, *compass, {}, 0, 0};
     for (std::size_t i = 0; i < kWheelNames.size(); ++i) {
@@ -87,7 +88,8 @@ void CityDriver::drive_robot(roboss::Client& client, roboss::RobotId car, const 
     const roboss::LaserReading laser = client.laser(car, controls.laser);
     const roboss::GpsReading gps = client.gps(car, controls.gps);
     const roboss::CompassReading compass = client.compass(car, controls.compass);
-    const roboss::SensorSpec& spec = client.model().type_of(car).sensors[controls.laser].spec;
+    const roboss::LaserSpec& spec =
+        *client.model().type_of(car).sensors[controls.laser].spec.as<roboss::LaserSpec>();
     const roboss::RobotState& state = client.state(car);
 
     const roboss::Vec3 ahead = roboss::rotate(compass.q_WS, roboss::Vec3{1, 0, 0});

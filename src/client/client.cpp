@@ -3,19 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <stdexcept>
-#include <variant>
-
-#include "client/measure.h"
 
 namespace roboss {
 
 namespace {
-
-constexpr const char* kKindNames[] = {"a laser", "a GPS receiver", "a compass",
-                                      "an odometer"};  // in the order of Sample
-static_assert(std::size(kKindNames) == std::variant_size_v<Sample>);
 
 [[noreturn]] void refuse(const std::string& message, const std::string& remedy) {
     throw std::invalid_argument(Error{message, remedy}.text());
@@ -49,20 +41,6 @@ const RobotType& Client::known_type(RobotId robot, LinkId link) const {
     if (link.index() < type.links.size()) return type;
     refuse(name + " has no link number " + std::to_string(link.value),
            what_it_has(type.links, [](const Link& l) { return l.name; }));
-}
-
-const SensorSpec& Client::known_sensor(RobotId robot, std::size_t sensor) const {
-    const std::string name = called(known(robot));
-    const std::vector<SensorInfo>& sensors = model().type_of(robot).sensors;
-    if (sensor >= sensors.size())
-        refuse(name + " has no sensor number " + std::to_string(sensor),
-               what_it_has(sensors, [](const SensorInfo& s) { return s.spec.name; }));
-    const SensorSpec& spec = sensors[sensor].spec;
-    if (spec.kind == SensorKind::kUnsupported)
-        refuse("sensor " + std::to_string(sensor) + " '" + spec.name + "' of " + name +
-                   " is of a kind that measures nothing (" + spec.sdf_type + ")",
-               "`roboss check` lists the sensors that measure");
-    return spec;
 }
 
 Transform Client::pose(RobotId robot, LinkId link) const {
@@ -109,24 +87,27 @@ Result<> Client::set_joint(RobotId robot, JointId joint, MotorMode mode, double 
 }
 
 Sample Client::measure(RobotId robot, std::size_t sensor) {
-    return roboss::measure({model(), robot, sensor, state(robot), tick(), seed()},
-                           [this]() -> RayScene& { return ray_scene(); });
+    Result<Sample> measured = roboss::measure({model(), robot, sensor, state(robot), tick(), seed(), *this});
+    if (!measured) refuse(measured.error().message, measured.error().remedy);
+    return std::move(measured).value();
 }
 
 /// The sample that the sensor holds, or a new one where it has no rate or holds none yet.
-template <class Reading>
-Reading Client::sampled(RobotId robot, std::size_t sensor) {
-    const SensorSpec& spec = known_sensor(robot, sensor);
-    const std::size_t asked = Sample(Reading{}).index(), is = static_cast<std::size_t>(spec.kind);
-    if (is != asked)
-        refuse("sensor " + std::to_string(sensor) + " '" + spec.name + "' of " + called(known(robot)) +
-                   " is read as " + kKindNames[asked],
-               std::string("it is ") + kKindNames[is]);
+Sample Client::sample(RobotId robot, std::size_t sensor, const SensorKind& asked) {
+    const std::string name = called(known(robot));
+    const std::vector<SensorInfo>& sensors = model().type_of(robot).sensors;
+    if (sensor >= sensors.size())
+        refuse(name + " has no sensor number " + std::to_string(sensor),
+               what_it_has(sensors, [](const SensorInfo& s) { return s.spec.name; }));
+    const SensorSpec& spec = sensors[sensor].spec;
+    if (spec.measures() && spec.kind().number != asked.number)
+        refuse("sensor " + std::to_string(sensor) + " '" + spec.name + "' of " + name + " is read as " +
+                   asked.phrase,
+               std::string("it is ") + spec.kind().phrase);
     const HeldSamples::Key key{robot.value, static_cast<std::uint32_t>(sensor)};
-    const Sample* held = samples_.find(key);
-    if (held != nullptr) return std::get<Reading>(*held);
+    if (const Sample* held = samples_.find(key)) return *held;
     Sample fresh = measure(robot, sensor);
-    return std::get<Reading>(spec.update_rate_hz > 0 ? samples_.put(key, std::move(fresh)) : fresh);
+    return spec.update_rate_hz > 0 ? samples_.put(key, std::move(fresh)) : fresh;
 }
 
 void Client::renew_samples() {
@@ -145,9 +126,8 @@ Result<> Client::restore_samples(const std::string& bytes) {
     for (const auto& [key, held] : samples.all()) {
         const bool known = key.first < model().robots.size() &&
                            key.second < model().type_of(RobotId(key.first)).sensors.size();
-        const SensorKind kind = known ? model().type_of(RobotId(key.first)).sensors[key.second].spec.kind
-                                      : SensorKind::kUnsupported;
-        if (kind == SensorKind::kUnsupported || static_cast<std::size_t>(kind) != held.sample.index())
+        if (!known || model().type_of(RobotId(key.first)).sensors[key.second].spec.kind().number !=
+                          number_of(held.sample))
             return Error{"a saved run holds a sample of a sensor that this world does not have",
                          "continue it with the world that it was saved with"};
     }
@@ -156,23 +136,7 @@ Result<> Client::restore_samples(const std::string& bytes) {
     return Ok{};
 }
 
-LaserReading Client::laser(RobotId robot, std::size_t sensor) {
-    return sampled<LaserReading>(robot, sensor);
-}
-
-OdometerReading Client::odometer(RobotId robot, std::size_t sensor) {
-    return sampled<OdometerReading>(robot, sensor);
-}
-
-GpsReading Client::gps(RobotId robot, std::size_t sensor) {
-    return sampled<GpsReading>(robot, sensor);
-}
-
-CompassReading Client::compass(RobotId robot, std::size_t sensor) {
-    return sampled<CompassReading>(robot, sensor);
-}
-
-StepProbe& Client::probe() {
+StepProbe& Client::step_probe() {
     if (!probe_) probe_ = std::make_unique<StepProbe>(model());
     if (probe_->tick() == tick()) return *probe_;
     std::vector<const RobotState*> states;
@@ -182,12 +146,12 @@ StepProbe& Client::probe() {
 }
 
 std::span<const ContactReport> Client::contacts() {
-    return probe().contacts();
+    return step_probe().contacts();
 }
 
 std::vector<JointReaction> Client::joint_reactions(RobotId robot) {
     (void)known(robot);
-    return probe().joint_reactions(robot);
+    return step_probe().joint_reactions(robot);
 }
 
 }  // namespace roboss

@@ -32,10 +32,8 @@ struct ControlAnswer {
 /// Queries of a robot, link, joint or sensor that does not exist, or of a sensor of another kind, throw
 /// std::invalid_argument, which names what was asked and what there is. If a ControlProgram does not catch
 /// it, the run ends with that text.
-class Client {
+class Client : private SensorSources {
   public:
-    virtual ~Client() = default;
-
     // --- the world
     // -------------------------------------------------------------------------------------------------
     virtual const Model& model() const = 0;
@@ -65,15 +63,25 @@ class Client {
     virtual std::vector<ControlAnswer> take_control_answers() = 0;
 
     // --- sensors: `sensor` is an index into RobotType::sensors
-    // ------------------------------------------------------ Readings include the sensor's noise, a pure
-    // function of (seed, robot, sensor, tick of the measurement). A sensor without <update_rate> measures
-    // when it is asked. One with it measures when it is asked for the first time, and from then on at the
-    // first observation at which a new sample is due (samples_begun), asked or not; in between it says that
-    // one again.
-    LaserReading laser(RobotId robot, std::size_t sensor);
-    OdometerReading odometer(RobotId robot, std::size_t sensor);
-    GpsReading gps(RobotId robot, std::size_t sensor);
-    CompassReading compass(RobotId robot, std::size_t sensor);
+    /// A reading with the sensor's noise, a pure function of (seed, robot, sensor, tick of the measurement).
+    /// Units and frames: src/sensor_kinds. A sensor without <update_rate> measures when it is asked. One with
+    /// it measures when it is asked for the first time, and from then on at the first observation at which a
+    /// new sample is due (samples_begun), asked or not; in between it repeats that one.
+    /// @throws std::invalid_argument if there is no such robot or sensor, if the sensor is of another kind,
+    /// or if it cannot measure.
+    template <class Reading>
+    Reading reading(RobotId robot, std::size_t sensor) {
+        return std::get<Reading>(sample(robot, sensor, kind_of_reading<Reading>()));
+    }
+    LaserReading laser(RobotId robot, std::size_t sensor) { return reading<LaserReading>(robot, sensor); }
+    OdometerReading odometer(RobotId robot, std::size_t sensor) {
+        return reading<OdometerReading>(robot, sensor);
+    }
+    GpsReading gps(RobotId robot, std::size_t sensor) { return reading<GpsReading>(robot, sensor); }
+    CompassReading compass(RobotId robot, std::size_t sensor) {
+        return reading<CompassReading>(robot, sensor);
+    }
+    ImuReading imu(RobotId robot, std::size_t sensor) { return reading<ImuReading>(robot, sensor); }
 
     // --- forces, of the tick that begins now as long as no order takes effect at it (physics/probe.h). The
     // first question of a tick costs about as much as a step of the whole world.
@@ -91,16 +99,14 @@ class Client {
     const Robot& known(RobotId robot) const;
     /// Implementations call it when a new observation is shown.
     void renew_samples();
-    /// The scene for rays at the observed tick; built when the first laser of a tick asks.
-    virtual RayScene& ray_scene() = 0;
+    /// The scene for rays at the observed tick; built when the first sensor of a tick asks.
+    RayScene& ray_scene() override = 0;
 
   private:
-    StepProbe& probe();
+    StepProbe& step_probe() override;
     const RobotType& known_type(RobotId robot, LinkId link) const;
-    const SensorSpec& known_sensor(RobotId robot, std::size_t sensor) const;
+    Sample sample(RobotId robot, std::size_t sensor, const SensorKind& asked);
     Sample measure(RobotId robot, std::size_t sensor);
-    template <class Reading>
-    Reading sampled(RobotId robot, std::size_t sensor);
     HeldSamples samples_;
     std::unique_ptr<StepProbe> probe_;  // made by the first question
 };

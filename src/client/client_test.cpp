@@ -13,16 +13,19 @@ namespace {
 
 const RobotId kRover(0u);
 
-/// A car with one sensor of each kind, in the order of SensorKind.
+/// A car with a laser, a GPS receiver of 10 Hz, a compass, an odometer, a camera and an IMU.
 std::shared_ptr<const Model> rover_world() {
     ModelSpec rover = car();
-    for (const SensorKind kind : {SensorKind::kLaser, SensorKind::kGps, SensorKind::kCompass,
-                                  SensorKind::kOdometer, SensorKind::kUnsupported}) {
+    LaserSpec laser;
+    laser.range_max = 10;
+    for (const SensorParameters& parameters :
+         {SensorParameters(laser), SensorParameters(GpsSpec{}), SensorParameters(CompassSpec{}),
+          SensorParameters(OdometerSpec{}), SensorParameters(UnsupportedSensor{}),
+          SensorParameters(ImuSpec{})}) {
         SensorSpec sensor;
-        sensor.name = "sensor_" + std::to_string(static_cast<int>(kind));
-        sensor.kind = kind, sensor.sdf_type = "thermal_camera";
-        sensor.samples = sensor.vertical_samples = 1, sensor.range_max = 10;
-        if (kind == SensorKind::kGps) sensor.update_rate_hz = 10;
+        sensor.name = "sensor_" + std::to_string(rover.links[0].sensors.size());
+        sensor.parameters = parameters, sensor.sdf_type = "thermal_camera";
+        if (sensor.as<GpsSpec>() != nullptr) sensor.update_rate_hz = 10;
         rover.links[0].sensors.push_back(sensor);
     }
     World world = empty_world(1e-3);
@@ -75,10 +78,11 @@ TEST_F(Questions, AnswersSensorsOfTheRightKind) {
     EXPECT_NO_THROW((void)client.gps(kRover, 1)) << "a held sample";
     EXPECT_NO_THROW((void)client.compass(kRover, 2));
     EXPECT_NO_THROW((void)client.odometer(kRover, 3));
+    EXPECT_NEAR(norm(client.imu(kRover, 5).specific_force_S), 0, 1e-9) << "it falls";
 }
 
 TEST_F(Questions, RefusesASensorThatTheRobotDoesNotHave) {
-    for (const std::size_t sensor : {std::size_t{5}, std::size_t{99}, ~std::size_t{0}})
+    for (const std::size_t sensor : {std::size_t{6}, std::size_t{99}, ~std::size_t{0}})
         expect_refused(
             [&] { (void)client.laser(kRover, sensor); },
             {"robot 'rover' has no sensor number " + std::to_string(sensor), "0 'sensor_0'", "4 'sensor_4'"});

@@ -15,65 +15,47 @@ using wire::Writer;
 
 constexpr std::uint32_t kFormat = 1;
 
+/// Writes or reads the values of a reading.
 template <class A>
-void put_vector(A& a, Of<A, Vec3>& p) {
-    field(a, p.x), field(a, p.y), field(a, p.z);
-}
+struct FieldArchive {
+    A& a;
 
-template <class A>
-void put_numbers(A& a, Of<A, std::vector<double>>& values) {
-    if constexpr (A::kReading)
-        values.resize(a.count(sizeof(double)));
-    else
-        a.count(values.size());
-    for (auto& x : values) field(a, x);
-}
-
-template <class A>
-void put_reading(A& a, Of<A, LaserReading>& r) {
-    field(a, r.samples), field(a, r.vertical_samples), put_numbers(a, r.ranges), field(a, r.tick);
-}
-
-template <class A>
-void put_reading(A& a, Of<A, GpsReading>& r) {
-    put_vector(a, r.p_W), put_vector(a, r.v_W), field(a, r.geodetic);
-    field(a, r.latitude_rad), field(a, r.longitude_rad), field(a, r.altitude_m), field(a, r.tick);
-}
-
-template <class A>
-void put_reading(A& a, Of<A, CompassReading>& r) {
-    field(a, r.q_WS.w), field(a, r.q_WS.x), field(a, r.q_WS.y), field(a, r.q_WS.z);
-    put_vector(a, r.angular_velocity_S), put_vector(a, r.magnetic_field_S);
-    field(a, r.heading_rad), field(a, r.tick);
-}
-
-template <class A>
-void put_reading(A& a, Of<A, OdometerReading>& r) {
-    put_numbers(a, r.joint_positions), put_numbers(a, r.joint_velocities);
-    field(a, r.distance), field(a, r.speed), field(a, r.tick);
-}
-
-Sample empty_sample(std::uint32_t kind, Reader& reader) {
-    switch (kind) {
-        case 0:
-            return LaserReading{};
-        case 1:
-            return GpsReading{};
-        case 2:
-            return CompassReading{};
-        case 3:
-            return OdometerReading{};
-        default:
-            reader.fail("a sample is of no known kind");
-            return LaserReading{};
+    void put(Of<A, double>& value) const { field(a, value); }
+    void put(Of<A, int>& value) const { field(a, value); }
+    void put(Of<A, bool>& value) const { field(a, value); }
+    void put(Of<A, Vec3>& p) const { field(a, p.x), field(a, p.y), field(a, p.z); }
+    void put(Of<A, Quat>& q) const { field(a, q.w), field(a, q.x), field(a, q.y), field(a, q.z); }
+    void put(Of<A, std::vector<double>>& values) const {
+        if constexpr (A::kReading)
+            values.resize(a.count(sizeof(double)));
+        else
+            a.count(values.size());
+        for (auto& x : values) field(a, x);
     }
+    template <class Value>
+    void operator()(const ReadingField&, Value& value) const {
+        put(value);
+    }
+};
+
+void write_sample(Writer& a, const Sample& sample) {
+    visit_fields(sample, FieldArchive<Writer>{a});
+    const Tick tick = taken_at(sample);
+    field(a, tick);
+}
+
+Sample read_sample(Reader& a, std::uint32_t kind) {
+    Sample sample;
+    if (!make_sample(kind, sample)) {
+        a.fail("a sample is of no known kind");
+        return sample;
+    }
+    visit_fields(sample, FieldArchive<Reader>{a});
+    std::visit([&a](auto& reading) { field(a, reading.tick); }, sample);
+    return sample;
 }
 
 }  // namespace
-
-Tick taken_at(const Sample& sample) {
-    return std::visit([](const auto& reading) { return reading.tick; }, sample);
-}
 
 std::int64_t samples_begun(double rate_hz, double dt_s, Tick tick) {
     constexpr double kRounding = 1e-6;  // of a sample: 20 Hz at 1 ms is every fiftieth tick
@@ -112,9 +94,9 @@ std::string HeldSamples::bytes_before(Tick tick) const {
                                                             : nullptr;
         if (sample == nullptr) continue;
         any = true;
-        const auto kind = static_cast<std::uint32_t>(sample->index());
+        const std::uint32_t kind = number_of(*sample);
         field(writer, key.first), field(writer, key.second), field(writer, kind);
-        std::visit([&](const auto& reading) { put_reading(writer, reading); }, *sample);
+        write_sample(writer, *sample);
     }
     if (!any) return {};
     const std::vector<std::uint8_t> bytes = writer.take();
@@ -131,9 +113,7 @@ Result<> HeldSamples::restore(const std::string& bytes) {
         Key key;
         std::uint32_t kind = 0;
         field(reader, key.first), field(reader, key.second), field(reader, kind);
-        Sample sample = empty_sample(kind, reader);
-        std::visit([&](auto& reading) { put_reading(reader, reading); }, sample);
-        held[key] = {std::move(sample), {}};
+        held[key] = {read_sample(reader, kind), {}};
     }
     if (reader.failed())
         return Error{"the sensors' samples in a saved run cannot be read: " + reader.failure(),

@@ -6,18 +6,11 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 
 #include "core/result.h"
-#include "sensors/readings.h"
+#include "sensor_kinds/sensor_spec.h"
 
 namespace roboss {
-
-/// In the order of SensorKind.
-using Sample = std::variant<LaserReading, GpsReading, CompassReading, OdometerReading>;
-
-/// At which tick it was measured.
-Tick taken_at(const Sample& sample);
 
 /// How many samples a sensor of this rate has begun by a tick. Sample k (from 0) is due at the first tick not
 /// before k / rate, whether or not the rate divides the ticks of a second; so in the long run the rate is

@@ -11,7 +11,7 @@ bool needs_everybody(const Model& model, RobotId robot) {
     const std::vector<SensorInfo>& sensors = model.type_of(robot).sensors;
     return model.robots.size() <= kSmallWorld ||
            std::any_of(sensors.begin(), sensors.end(),
-                       [](const SensorInfo& s) { return s.spec.kind == SensorKind::kLaser; });
+                       [](const SensorInfo& s) { return s.spec.kind().needs_all_states; });
 }
 
 namespace {

@@ -7,7 +7,6 @@
 #include <numbers>
 #include <span>
 
-#include "client/measure.h"
 #include "physics/kinematics.h"
 #include "wire/state_block.h"
 
@@ -58,6 +57,19 @@ Json joint_json(const RobotType& type, const RobotState& state, JointId id, doub
         {"position", std::move(position)}, {"velocity", std::move(velocity)}, {"motors", std::move(motors)}};
 }
 
+Json json_of(const Quat& q) {
+    return {json_of(q.w), json_of(q.x), json_of(q.y), json_of(q.z)};
+}
+
+/// A reading as its kind names its values (src/sensor_kinds). The overloads below add what pages draw.
+template <class Reading>
+Json json_of(const Reading& reading) {
+    Json json = Json::object();
+    reading.fields([&](const ReadingField& field, const auto& value) { json[field.name] = json_of(value); },
+                   reading);
+    return json;
+}
+
 Json json_of(const LaserReading& reading) {
     return {{"ranges", json_of(reading.ranges)}};
 }
@@ -80,20 +92,12 @@ Json json_of(const GpsReading& reading) {
 Json json_of(const CompassReading& reading) {
     const Quat& q = reading.q_WS;
     const double yaw = std::atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z));
-    return {{"yaw", json_of(yaw)},
-            {"heading", json_of(reading.heading_rad)},
-            {"orientation", {json_of(q.w), json_of(q.x), json_of(q.y), json_of(q.z)}},
-            {"angular_velocity", json_of(reading.angular_velocity_S)},
-            {"magnetic_field", json_of(reading.magnetic_field_S)}};
+    Json json{{"yaw", json_of(yaw)}};
+    json.update(json_of<CompassReading>(reading));
+    return json;
 }
 
-Json json_of(const OdometerReading& reading) {
-    return {{"distance", json_of(reading.distance)},
-            {"speed", json_of(reading.speed)},
-            {"joints", json_of(reading.joint_positions)}};
-}
-
-/// nullptr: a sensor of a kind that nothing reads.
+/// nullptr: it measures nothing.
 Json json_of(const Sample* sample, double dt_s) {
     if (sample == nullptr) return Json::object();
     Json json = std::visit([](const auto& reading) { return json_of(reading); }, *sample);
@@ -155,8 +159,9 @@ bool Inspector::shows(RobotId robot) const {
     return complete() || !needs_everybody(*scene_->model, robot);
 }
 
-RayScene* Inspector::rays() {
-    if (!complete()) return nullptr;
+/// Asked for by sensors of robots that it shows().
+RayScene& Inspector::ray_scene() {
+    ROBOSS_CHECK(complete(), "a sensor looks at robots whose states are not here");
     if (!rays_) rays_ = std::make_unique<RayScene>(scene_->model);
     if (rays_tick_ != tick_) {
         std::vector<const RobotState*> states;
@@ -164,7 +169,18 @@ RayScene* Inspector::rays() {
         rays_->update(states);
         rays_tick_ = tick_;
     }
-    return rays_.get();
+    return *rays_;
+}
+
+StepProbe& Inspector::step_probe() {
+    ROBOSS_CHECK(complete(), "a step needs robots whose states are not here");
+    if (!probe_) probe_ = std::make_unique<StepProbe>(*scene_->model);
+    if (probe_->tick() != tick_) {
+        std::vector<const RobotState*> states;
+        for (const auto& state : states_) states.push_back(&*state);
+        probe_->step(tick_, states);
+    }
+    return *probe_;
 }
 
 /// Also after a rewind to before its last sample.
@@ -173,16 +189,17 @@ bool Inspector::is_due(RobotId robot, std::size_t sensor) const {
     if (held == nullptr || taken_at(*held) > tick_) return true;
     const Model& model = *scene_->model;
     const double rate = model.type_of(robot).sensors[sensor].spec.update_rate_hz;
-    return rate == 0 || sample_is_due(rate, model.dt_s, taken_at(*held), tick_);
+    return rate <= 0 || sample_is_due(rate, model.dt_s, taken_at(*held), tick_);
 }
 
 const Sample* Inspector::sample(RobotId robot, std::size_t sensor) {
-    if (scene_->model->type_of(robot).sensors[sensor].spec.kind == SensorKind::kUnsupported) return nullptr;
     const HeldSamples::Key key(robot.value, static_cast<std::uint32_t>(sensor));
-    if (is_due(robot, sensor))
-        samples_.put(
-            key, measure({*scene_->model, robot, sensor, *states_[robot.index()], tick_, scene_->file.seed},
-                         [this]() -> RayScene& { return *rays(); }));
+    if (is_due(robot, sensor)) {
+        Result<Sample> measured = measure(
+            {*scene_->model, robot, sensor, *states_[robot.index()], tick_, scene_->file.seed, *this});
+        if (!measured) return nullptr;
+        samples_.put(key, std::move(measured).value());
+    }
     return samples_.find(key);
 }
 
@@ -214,14 +231,8 @@ std::string Inspector::robot(RobotId robot) {
 
 std::string Inspector::contacts() {
     const Model& model = *scene_->model;
-    if (!probe_) probe_ = std::make_unique<StepProbe>(model);
-    if (probe_->tick() != tick_) {
-        std::vector<const RobotState*> states;
-        for (const auto& state : states_) states.push_back(&*state);
-        probe_->step(tick_, states);
-    }
     Json list = Json::array();
-    for (const ContactReport& c : probe_->contacts()) {
+    for (const ContactReport& c : step_probe().contacts()) {
         const Vec3 force = (c.normal * c.impulse + c.friction) * (1 / model.dt_s);
         list.push_back({{"a", c.robot_a.value},
                         {"b", c.robot_b.valid() ? static_cast<std::int64_t>(c.robot_b.value) : -1},

@@ -15,7 +15,7 @@
 
 namespace roboss {
 
-class Inspector {
+class Inspector : private SensorSources {
   public:
     void begin(std::shared_ptr<const ShownScene> scene);
     void take(const StateBlock& block);
@@ -31,7 +31,8 @@ class Inspector {
     std::string contacts();
 
   private:
-    RayScene* rays();
+    RayScene& ray_scene() override;
+    StepProbe& step_probe() override;
     bool is_due(RobotId robot, std::size_t sensor) const;
     /// What it measured last, now if it is due; nullptr: nothing reads it.
     const Sample* sample(RobotId robot, std::size_t sensor);

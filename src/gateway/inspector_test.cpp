@@ -13,29 +13,24 @@ namespace {
 
 using Json = nlohmann::json;
 
-SensorSpec sensor(const std::string& name, SensorKind kind) {
-    SensorSpec spec;
-    spec.name = name;
-    spec.kind = kind;
-    return spec;
-}
+using sensors_test::sensor;
 
 class InspectorTest : public testing::Test {
   protected:
     InspectorTest() {
         RobotType type = sensors_test::cart_type();
-        SensorSpec laser = sensor("scan", SensorKind::kLaser);
+        LaserSpec laser;
         laser.samples = 3;
         laser.min_angle = -1, laser.max_angle = 1;
         laser.range_min = 0.1, laser.range_max = 20;
         laser.noise.stddev = 0.01;
-        sensors_test::add_sensor(type, 1, laser);
-        sensors_test::add_sensor(type, 1, sensor("place", SensorKind::kGps));
-        sensors_test::add_sensor(type, 1, sensor("north", SensorKind::kCompass));
-        SensorSpec odometer = sensor("way", SensorKind::kOdometer);
+        sensors_test::add_sensor(type, 1, sensor("scan", laser));
+        sensors_test::add_sensor(type, 1, sensor("position", GpsSpec{}));
+        sensors_test::add_sensor(type, 1, sensor("north", CompassSpec{}));
+        OdometerSpec odometer;
         odometer.joints = {"axle"};
         odometer.wheel_radius = 0.1;
-        sensors_test::add_sensor(type, 0, odometer);
+        sensors_test::add_sensor(type, 0, sensor("distance", odometer));
         const auto made = sensors_test::model_of(type, 2);
         Transform wall;
         wall.p = {6, 0, 0};
@@ -91,15 +86,13 @@ TEST_F(InspectorTest, TellsOfARobotWhatAClientReads) {
     EXPECT_NEAR(robot["contacts"][0]["normal_force"], 3, 1e-12);
     EXPECT_EQ(robot["all_contacts"], true);
 
-    RayScene rays(model);
     const std::vector<const RobotState*> all = {&states[0], &states[1]};
-    rays.update(all);
-    const LaserReading laser = read_laser(*model, RobotId(0u), 0, states[0], 40, 77, rays);
+    const auto laser = sensors_test::read_as<LaserReading>(model, all, 0, 40, 77);
     ASSERT_EQ(robot["sensors"][0]["ranges"].size(), 3u);
     EXPECT_EQ(robot["sensors"][0]["ranges"][1], laser.ranges[1]) << "noise included";
     EXPECT_NEAR(laser.ranges[1], 5.9, 0.2);
     EXPECT_TRUE(robot["sensors"][0]["ranges"][0].is_null()) << "nothing there: JSON has no infinity";
-    const GpsReading gps = read_gps(*model, RobotId(0u), 1, states[0], 40, 77);
+    const auto gps = sensors_test::read_as<GpsReading>(model, all, 1, 40, 77);
     EXPECT_EQ(robot["sensors"][1]["position"][2], gps.p_W.z);
     EXPECT_EQ(robot["sensors"][1]["geodetic"], false);
     EXPECT_NEAR(robot["sensors"][2]["yaw"], 0.1, 1e-9);

@@ -191,13 +191,8 @@ class TypeCheck {
     }
 
     bool sensors_fit() const {
-        constexpr int kBeamsMax = 1 << 24;
         return std::all_of(t_.sensors.begin(), t_.sensors.end(), [&](const SensorInfo& info) {
-            const SensorSpec& s = info.spec;
-            return info.link.index() < t_.links.size() && s.kind >= SensorKind::kLaser &&
-                   s.kind <= SensorKind::kUnsupported && s.samples >= 0 && s.samples <= kBeamsMax &&
-                   s.vertical_samples >= 0 && s.vertical_samples <= kBeamsMax &&
-                   static_cast<std::int64_t>(s.samples) * s.vertical_samples <= kBeamsMax;
+            return info.link.index() < t_.links.size() && problems_of(info.spec).empty();
         });
     }
 

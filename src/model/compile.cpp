@@ -21,7 +21,7 @@ struct CompiledPrototype {
 bool has_sensors(const ModelSpec& spec) {
     return std::any_of(spec.links.begin(), spec.links.end(), [](const LinkSpec& link) {
         return std::any_of(link.sensors.begin(), link.sensors.end(),
-                           [](const SensorSpec& s) { return s.kind != SensorKind::kUnsupported; });
+                           [](const SensorSpec& s) { return s.measures(); });
     });
 }
 

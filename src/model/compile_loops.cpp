@@ -143,7 +143,7 @@ void report_loop(const JointSpec& joint, const ModelSpec& model, Diagnostics& di
     const std::string name = "joint '" + joint.name + "' of model '" + model.name + "'";
     for (const LinkSpec& link : model.links)
         for (const SensorSpec& sensor : link.sensors)
-            if (std::count(sensor.joints.begin(), sensor.joints.end(), joint.name) > 0)
+            if (const auto read = joints_read(sensor); std::count(read.begin(), read.end(), joint.name) > 0)
                 diagnostics.warning(joint.where, "loop-odometer",
                                     name + " closes a loop: sensor '" + sensor.name +
                                         "' reads its angle within (-pi, pi] only",

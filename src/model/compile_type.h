@@ -24,6 +24,7 @@ RobotType sensor_stand(const ModelSpec& spec);
 
 Material to_material(const SurfaceSpec& surface);
 void add_to_hash(Hash& hash, const Material& material);
+void add_to_hash(Hash& hash, const SensorInfo& sensor);
 
 /// Projected areas of the link's shapes along its axes, times their coefficients (m^2).
 Vec3 drag_area(const LinkSpec& link);

@@ -22,7 +22,10 @@ std::set<std::string> joints_in_use(const ModelSpec& spec) {
                     used.insert(hinge.name);
     }
     for (const LinkSpec& link : spec.links)
-        for (const SensorSpec& sensor : link.sensors) used.insert(sensor.joints.begin(), sensor.joints.end());
+        for (const SensorSpec& sensor : link.sensors) {
+            const std::vector<std::string> read = joints_read(sensor);
+            used.insert(read.begin(), read.end());
+        }
     return used;
 }
 

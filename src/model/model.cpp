@@ -84,21 +84,6 @@ void add_drag(Hash& hash, const LinkDrag& drag) {
     hash.add(drag.linear), add(hash, drag.wind ? 1 : 0);
 }
 
-void add_sensor(Hash& hash, const SensorInfo& info) {
-    const SensorSpec& s = info.spec;
-    hash.add(std::string_view(s.name)), hash.add(std::string_view(s.sdf_type)), add(hash, s.X_LS.p);
-    for (double x : {s.X_LS.q.w, s.X_LS.q.x, s.X_LS.q.y, s.X_LS.q.z, s.update_rate_hz, s.min_angle,
-                     s.max_angle, s.vertical_min_angle, s.vertical_max_angle, s.range_min, s.range_max,
-                     s.range_resolution, s.wheel_radius})
-        hash.add(x);
-    for (const NoiseSpec& n : {s.noise, s.gyro_noise, s.position_horizontal_noise, s.position_vertical_noise,
-                               s.velocity_horizontal_noise, s.velocity_vertical_noise})
-        for (double x : {n.mean, n.stddev, n.bias_mean, n.bias_stddev, n.precision}) hash.add(x);
-    for (int x : {static_cast<int>(s.kind), s.samples, s.vertical_samples, static_cast<int>(info.link.value)})
-        add(hash, x);
-    for (const std::string& joint : s.joints) hash.add(std::string_view(joint));
-}
-
 }  // namespace
 
 std::uint64_t type_hash(const RobotType& type) {
@@ -109,7 +94,7 @@ std::uint64_t type_hash(const RobotType& type) {
     for (const Dof& dof : type.dofs) add_dof(hash, dof);
     for (const BodyShape& shape : type.shapes) add_shape(hash, shape);
     for (const LinkDrag& drag : type.drags) add_drag(hash, drag);
-    for (const SensorInfo& sensor : type.sensors) add_sensor(hash, sensor);
+    for (const SensorInfo& sensor : type.sensors) add_to_hash(hash, sensor);
     for (const Link& link : type.links) add_link(hash, link);
     for (const Joint& joint : type.joints)
         hash.add(std::string_view(joint.name)), add(hash, joint.v_index), add(hash, joint.reversed ? 1 : 0),

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <type_traits>
 
 #include <support/robots.h>
 
@@ -20,7 +21,9 @@ World base_world() {
     m.links[1].collisions.push_back(cylinder_shape(0.1, 0.2, surface(0.5)));
     SensorSpec sensor;
     sensor.name = "laser";
-    sensor.kind = SensorKind::kLaser;
+    LaserSpec laser;
+    laser.range_max = 10;
+    sensor.parameters = laser;
     m.links[2].sensors.push_back(sensor);
     place(world, m, "robot");
     return world;
@@ -57,6 +60,13 @@ SurfaceSpec& robot_surface(World& w) {
 }
 SensorSpec& sensor(World& w) {
     return robot(w).links[2].sensors[0];
+}
+LaserSpec& laser(World& w) {
+    return *sensor(w).as<LaserSpec>();
+}
+/// Gives the robot a sensor with these parameters instead.
+void replace(World& w, const SensorParameters& parameters) {
+    sensor(w).parameters = parameters;
 }
 
 TEST(ModelHash, IsTheSameForTheSameWorld) {
@@ -164,19 +174,48 @@ TEST(ModelHash, ChangesWithJointsAndMotors) {
 TEST(ModelHash, ChangesWithSensors) {
     expect_each_changes_the_hash({
         {"name", [](World& w) { sensor(w).name = "eye"; }},
-        {"kind", [](World& w) { sensor(w).kind = SensorKind::kGps; }},
+        {"kind", [](World& w) { replace(w, GpsSpec{}); }},
         {"place", [](World& w) { sensor(w).X_LS.p.x = 1; }},
         {"turn", [](World& w) { sensor(w).X_LS.q = from_rpy(0, 0, 1); }},
         {"rate", [](World& w) { sensor(w).update_rate_hz = 5; }},
-        {"samples", [](World& w) { sensor(w).samples = 5; }},
-        {"vertical samples", [](World& w) { sensor(w).vertical_samples = 5; }},
-        {"angles", [](World& w) { sensor(w).max_angle = 1; }},
-        {"range", [](World& w) { sensor(w).range_max = 9; }},
-        {"noise", [](World& w) { sensor(w).noise.stddev = 0.1; }},
-        {"gyro noise", [](World& w) { sensor(w).gyro_noise.stddev = 0.1; }},
+        {"samples", [](World& w) { laser(w).samples = 5; }},
+        {"vertical samples", [](World& w) { laser(w).vertical_samples = 5; }},
+        {"angles", [](World& w) { laser(w).max_angle = 1; }},
+        {"range", [](World& w) { laser(w).range_max = 9; }},
+        {"noise", [](World& w) { laser(w).noise.stddev = 0.1; }},
         {"link",
          [](World& w) { robot(w).links[3].sensors.push_back(sensor(w)), robot(w).links[2].sensors.clear(); }},
     });
+}
+
+TEST(ModelHash, ChangesWithEveryParameterOfEverySensor) {
+    const auto changes = [](const SensorParameters& kind) {
+        std::size_t count = 0;
+        visit_parameters(kind, [&](const Parameter&, const auto&) { ++count; });
+        World plain = base_world();
+        replace(plain, kind);
+        for (std::size_t changed = 0; changed < count; ++changed) {
+            SensorParameters other = kind;
+            std::size_t at = 0;
+            const char* name = "";
+            visit_parameters(other, [&]<class Value>(const Parameter& parameter, Value& value) {
+                if (at++ != changed) return;
+                name = parameter.name;
+                if constexpr (std::is_same_v<Value, NoiseSpec>)
+                    value.bias_stddev = 0.5;
+                else if constexpr (std::is_same_v<Value, JointNames>)
+                    value = {"slider"};
+                else
+                    value = 7;
+            });
+            World world = base_world();
+            replace(world, other);
+            EXPECT_NE(hash_of(world), hash_of(plain)) << name;
+        }
+    };
+    [&]<class... Kinds>(std::in_place_type_t<std::variant<Kinds...>>) {
+        (changes(Kinds{}), ...);
+    }(std::in_place_type<SensorParameters>);
 }
 
 TEST(ModelHash, ChangesWithTheAccuracy) {

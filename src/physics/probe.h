@@ -26,6 +26,9 @@ class StepProbe {
     void step(Tick tick, std::span<const RobotState* const> states);
     Tick tick() const { return tick_; }  // -1: not stepped yet
 
+    /// The robot's state at the end of the tick.
+    const RobotState& state_after(RobotId robot) const { return after_[robot.index()]; }
+
     /// By (robot_a, robot_b, shapes).
     std::span<const ContactReport> contacts() const { return contacts_; }
     /// Of all joints, in the order of RobotType::joints: those that move a body, those that close a loop, and

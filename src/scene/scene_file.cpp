@@ -54,11 +54,6 @@ const char* name_of(JointSpecKind kind) {
     return kNames[static_cast<std::size_t>(kind)];
 }
 
-const char* name_of(SensorKind kind) {
-    static constexpr const char* kNames[] = {"laser", "gps", "compass", "odometer", "unsupported"};
-    return kNames[static_cast<std::size_t>(kind)];
-}
-
 /// Pictures by their hash; null: nothing lies over the colour.
 Json json_of(const SceneFinish& finish, const Scene& scene) {
     Json o;
@@ -140,21 +135,32 @@ Json json_of(const RobotType& type, const Joint& joint) {
             {"max_velocity", std::move(speed)}};
 }
 
+/// Writes the parameters that a viewer draws by, not the noise.
+struct ParameterWriter {
+    Json& o;
+    void operator()(const Parameter& p, double value) const { o[p.name] = bound_of(value); }
+    void operator()(const Parameter& p, int value) const { o[p.name] = value; }
+    void operator()(const Parameter& p, const JointNames& names) const { o[p.name] = names; }
+    void operator()(const Parameter&, const NoiseSpec&) const {}
+};
+
+/// The units of a sensor's readings by their names.
+Json units_of(const SensorSpec& spec) {
+    Json units = Json::object();
+    Sample sample;
+    if (!make_sample(spec.kind().number, sample)) return units;
+    visit_fields(sample, [&](const ReadingField& field, const auto&) { units[field.name] = field.unit; });
+    return units;
+}
+
 Json json_of(const SensorInfo& sensor) {
     const SensorSpec& spec = sensor.spec;
     Json o{{"name", spec.name},
-           {"kind", name_of(spec.kind)},
+           {"kind", spec.kind().name},
            {"link", sensor.link.value},
-           {"frame", json_of(spec.X_LS)}};
-    if (spec.kind != SensorKind::kLaser) return o;
-    o["samples"] = spec.samples;
-    o["min_angle"] = spec.min_angle;
-    o["max_angle"] = spec.max_angle;
-    o["vertical_samples"] = spec.vertical_samples;
-    o["vertical_min_angle"] = spec.vertical_min_angle;
-    o["vertical_max_angle"] = spec.vertical_max_angle;
-    o["range_min"] = spec.range_min;
-    o["range_max"] = bound_of(spec.range_max);
+           {"frame", json_of(spec.X_LS)},
+           {"units", units_of(spec)}};
+    visit_parameters(spec.parameters, ParameterWriter{o});
     return o;
 }
 

@@ -476,7 +476,7 @@ TEST(LoadWorld, AStaticModelStaysStaticAndKeepsItsSensors) {
     ASSERT_TRUE(loaded.world) << loaded.text();
     EXPECT_TRUE(loaded.world->prototypes[0].is_static);
     ASSERT_EQ(loaded.world->prototypes[0].links[0].sensors.size(), 1u);
-    EXPECT_EQ(loaded.world->prototypes[0].links[0].sensors[0].kind, SensorKind::kLaser);
+    EXPECT_NE(loaded.world->prototypes[0].links[0].sensors[0].as<LaserSpec>(), nullptr);
 }
 
 TEST(LoadWorld, TwoThousandSixWheeledCarsLoadQuickly) {

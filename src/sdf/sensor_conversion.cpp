@@ -1,5 +1,8 @@
-// Sensors: laser (ray, lidar and their gpu_ names), gps, and our odometer and gyrocompass.
-#include <cmath>
+// Sensors: the elements that each kind names for its parameters (src/sensor_kinds), read into them.
+#include <cstring>
+#include <optional>
+#include <string_view>
+#include <utility>
 
 #include "sdf/conversion.h"
 
@@ -32,83 +35,140 @@ NoiseSpec read_noise(const Element& noise, const Import& import) {
     return spec;
 }
 
-struct Scan {
-    int samples = 1;
-    double min_angle = 0, max_angle = 0;
+/// Calls found(part) for each part of "a|b|c".
+template <class Found>
+void for_each_part(std::string_view text, char separator, Found&& found) {
+    while (!text.empty()) {
+        const std::size_t end = text.find(separator);
+        found(std::string(text.substr(0, end)));
+        text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
+    }
+}
+
+bool is_one_of(std::string_view names, const std::string& name) {
+    bool found = false;
+    for_each_part(names, '|', [&](const std::string& one) { found |= one == name; });
+    return found;
+}
+
+/// The element that holds the parameters of a sensor of this kind; none if it is not written.
+Element block_of(const Element& sensor, const SensorKind& kind) {
+    if (*kind.block == '\0') return sensor;
+    Element block;
+    for_each_part(kind.block, '|', [&](const std::string& name) {
+        if (!block) block = sensor.child(name.c_str());
+    });
+    return block;
+}
+
+/// Reads the elements of a sensor's parameters. What is not written keeps its value.
+struct ParameterReader {
+    const Element& block;
+    const std::string& scope;
+    const Import& import;
+
+    void operator()(const Parameter& p, double& value) const {
+        const auto [parent, name] = place_of(p.element);
+        const Finite finite = p.infinite ? Finite::kInfinityAllowed : Finite::kRequired;
+        value = std::strcmp(p.unit, "rad") == 0 ? import.reader.angle(parent, name.c_str(), value)
+                                                : import.reader.number(parent, name.c_str(), value, finite);
+    }
+    void operator()(const Parameter& p, int& value) const {
+        const auto [parent, name] = place_of(p.element);
+        value = import.reader.integer(parent, name.c_str(), value);
+    }
+    void operator()(const Parameter& p, NoiseSpec& noise) const {
+        const auto [parent, name] = place_of(p.element);
+        noise = read_noise(parent.child(name.c_str()), import);
+    }
+    void operator()(const Parameter& p, JointNames& joints) const {
+        const auto [parent, name] = place_of(p.element);
+        for (const auto joint : parent.node.children(name.c_str()))
+            joints.push_back(scope + joint.text().get());
+    }
+
+    /// The element that holds the last one of a path, and the last one's name.
+    std::pair<Element, std::string> place_of(const char* path) const {
+        Element parent = block;
+        std::string name;
+        for_each_part(path, '/', [&](const std::string& part) {
+            if (!name.empty()) parent = parent.child(name.c_str());
+            name = part;
+        });
+        return {parent, name};
+    }
 };
 
-Scan read_scan(const Element& scan, const Import& import) {
-    Scan result;
-    if (!scan) return result;
-    result.samples = import.reader.integer(scan, "samples", 1);
-    result.min_angle = import.reader.angle(scan, "min_angle", 0);
-    result.max_angle = import.reader.angle(scan, "max_angle", 0);
-    if (result.samples < 1) {
+bool is_neutral(const std::string& text, std::string_view neutral) {
+    const std::optional<double> number = parse_number(text);
+    bool found = false;
+    for_each_part(neutral, '|', [&](const std::string& value) {
+        found |= value == text || (number && number == parse_number(value));
+    });
+    return found;
+}
+
+void report_ignored(const ParameterReader& reader, const SensorKind& kind) {
+    for (const IgnoredElement& ignored : kind.ignored) {
+        const auto [parent, name] = reader.place_of(ignored.element);
+        const Element element = parent.child(name.c_str());
+        if (!element || is_neutral(element.node.text().get(), ignored.neutral)) continue;
+        reader.import.diagnostics().note(
+            element.where(), "ignored-element",
+            "<" + name + "> of " + kind.phrase + " has no effect: " + ignored.why, ignored.remedy);
+    }
+}
+
+bool is_ours(const Element& sensor) {
+    return std::strcmp(sensor.node.name(), "roboss:sensor") == 0;
+}
+
+/// "a or b": the types of <roboss:sensor>.
+std::string own_types() {
+    std::string types;
+    (void)parameters_of_kind([&](const SensorKind& kind) {
+        if (kind.ours) types += (types.empty() ? "" : " or ") + std::string(kind.sdf_types);
+        return false;
+    });
+    return types;
+}
+
+void report_unsupported(const Element& sensor, const SensorSpec& spec, const Import& import) {
+    if (is_ours(sensor))
         import.diagnostics().error(
-            scan.where(), "bad-value",
-            "<samples> is " + std::to_string(result.samples) + "; a laser needs at least 1",
-            "Write the number of beams.");
-        result.samples = 1;
-    }
-    if (import.reader.number(scan, "resolution", 1) != 1) {
-        import.diagnostics().note(
-            scan.where(), "scan-resolution",
-            "<resolution> of a scan is ignored: every one of the <samples> is a beam of its own");
-    }
-    return result;
+            sensor.where(), "sensor",
+            "<roboss:sensor> '" + spec.name + "' has the type '" + spec.sdf_type + "', which is not known",
+            "Use " + own_types() + ", or a <sensor> of SDFormat.");
+    else
+        import.diagnostics().warning(
+            sensor.where(), "sensor-to-come",
+            "sensors of type '" + spec.sdf_type + "' are still to come; they measure nothing");
 }
 
-void read_laser(const Element& sensor, const Import& import, SensorSpec& spec) {
-    const Element ray = sensor.child("lidar") ? sensor.child("lidar") : sensor.child("ray");
-    if (!ray) {
+SensorParameters read_parameters(const Element& sensor, const SensorSpec& spec, const std::string& scope,
+                                 const Import& import) {
+    const bool ours = is_ours(sensor);
+    SensorParameters parameters = parameters_of_kind([&](const SensorKind& kind) {
+        return kind.ours == ours && is_one_of(kind.sdf_types, spec.sdf_type);
+    });
+    if (std::holds_alternative<UnsupportedSensor>(parameters)) {
+        report_unsupported(sensor, spec, import);
+        return parameters;
+    }
+    const SensorKind& kind =
+        std::visit([](const auto& p) -> const SensorKind& { return p.kKind; }, parameters);
+    const Element block = block_of(sensor, kind);
+    if (!block && kind.block_required) {
         import.diagnostics().warning(sensor.where(), "sensor",
-                                     "laser '" + spec.name + "' has no <lidar> (or <ray>) element",
-                                     "Add <lidar> with <scan> and <range>.");
-        spec.kind = SensorKind::kUnsupported;
-        return;
+                                     "sensor '" + spec.name + "' of type '" + spec.sdf_type + "' has no <" +
+                                         std::string(kind.block) + "> element and measures nothing",
+                                     "Add the element with its parameters.");
+        return UnsupportedSensor{};
     }
-    const Scan horizontal = read_scan(ray.child("scan").child("horizontal"), import);
-    const Scan vertical = read_scan(ray.child("scan").child("vertical"), import);
-    spec.samples = horizontal.samples;
-    spec.min_angle = horizontal.min_angle;
-    spec.max_angle = horizontal.max_angle;
-    spec.vertical_samples = vertical.samples;
-    spec.vertical_min_angle = vertical.min_angle;
-    spec.vertical_max_angle = vertical.max_angle;
-    const Element range = ray.child("range");
-    spec.range_min = import.reader.number(range, "min", 0);
-    spec.range_max = import.reader.number(range, "max", 0, Finite::kInfinityAllowed);
-    spec.range_resolution = import.reader.number(range, "resolution", 0);
-    if (!(spec.range_min >= 0 && spec.range_max > spec.range_min)) {
-        import.diagnostics().error(range ? range.where() : ray.where(), "bad-value",
-                                   "the range of laser '" + spec.name + "' is from " +
-                                       std::to_string(spec.range_min) + " to " +
-                                       std::to_string(spec.range_max) + " m: it sees nothing",
-                                   "Write <range> with 0 <= <min> < <max>.");
-    }
-    spec.noise = read_noise(ray.child("noise"), import);
-}
-
-void read_gps(const Element& sensor, const Import& import, SensorSpec& spec) {
-    const Element gps = sensor.child("navsat") ? sensor.child("navsat") : sensor.child("gps");
-    const Element position = gps.child("position_sensing"), velocity = gps.child("velocity_sensing");
-    spec.position_horizontal_noise = read_noise(position.child("horizontal").child("noise"), import);
-    spec.position_vertical_noise = read_noise(position.child("vertical").child("noise"), import);
-    spec.velocity_horizontal_noise = read_noise(velocity.child("horizontal").child("noise"), import);
-    spec.velocity_vertical_noise = read_noise(velocity.child("vertical").child("noise"), import);
-}
-
-void read_odometer(const Element& sensor, const std::string& scope, const Import& import, SensorSpec& spec) {
-    for (const auto joint : sensor.node.children("joint")) spec.joints.push_back(scope + joint.text().get());
-    spec.wheel_radius = import.reader.number(sensor, "wheel_radius", 0);
-    if (spec.joints.empty()) {
-        import.diagnostics().error(sensor.where(), "sensor", "odometer '" + spec.name + "' names no joint",
-                                   "Add <joint>NAME</joint> for every wheel it counts.");
-    }
-}
-
-bool is_laser(const std::string& type) {
-    return type == "ray" || type == "lidar" || type == "gpu_ray" || type == "gpu_lidar";
+    const ParameterReader reader{block, scope, import};
+    visit_parameters(parameters, reader);
+    report_ignored(reader, kind);
+    return parameters;
 }
 
 }  // namespace
@@ -121,31 +181,7 @@ SensorSpec convert_sensor(const Element& sensor, const Pose& X_LS, const std::st
     spec.where = sensor.where();
     spec.X_LS = X_LS;
     spec.update_rate_hz = import.reader.number(sensor, "update_rate", 0);
-    const bool ours = std::string(sensor.node.name()) == "roboss:sensor";
-    if (!ours && is_laser(spec.sdf_type)) {
-        spec.kind = SensorKind::kLaser;
-        read_laser(sensor, import, spec);
-    } else if (!ours && (spec.sdf_type == "gps" || spec.sdf_type == "navsat")) {
-        spec.kind = SensorKind::kGps;
-        read_gps(sensor, import, spec);
-    } else if (ours && spec.sdf_type == "odometer") {
-        spec.kind = SensorKind::kOdometer;
-        read_odometer(sensor, scope, import, spec);
-        spec.noise = read_noise(sensor.child("noise"), import);
-    } else if (ours && spec.sdf_type == "gyrocompass") {
-        spec.kind = SensorKind::kCompass;
-        spec.noise = read_noise(sensor.child("noise"), import);
-        spec.gyro_noise = read_noise(sensor.child("gyro").child("noise"), import);
-    } else if (ours) {
-        import.diagnostics().error(
-            sensor.where(), "sensor",
-            "<roboss:sensor> '" + spec.name + "' has the type '" + spec.sdf_type + "', which is not known",
-            "Use odometer or gyrocompass, or a <sensor> of SDFormat.");
-    } else {
-        import.diagnostics().warning(
-            sensor.where(), "sensor-to-come",
-            "sensors of type '" + spec.sdf_type + "' are still to come; they measure nothing");
-    }
+    spec.parameters = read_parameters(sensor, spec, scope, import);
     return spec;
 }
 

@@ -20,6 +20,13 @@ const SensorSpec& first(const Loaded& loaded) {
     return loaded.world->prototypes.at(0).links.at(0).sensors.at(0);
 }
 
+template <class Kind>
+Kind first_as(const Loaded& loaded) {
+    const Kind* kind = first(loaded).as<Kind>();
+    EXPECT_NE(kind, nullptr) << first(loaded).kind().name;
+    return kind == nullptr ? Kind{} : *kind;
+}
+
 TEST(Sensors, ALaserHasItsScanRangeAndNoise) {
     for (const std::string type : {"ray", "lidar", "gpu_ray", "gpu_lidar"}) {
         const Loaded loaded = with_sensor(
@@ -33,11 +40,10 @@ TEST(Sensors, ALaserHasItsScanRangeAndNoise) {
             "<noise><type>gaussian</type><mean>0.1</mean><stddev>0.02</stddev></noise></ray></sensor>");
         ASSERT_TRUE(loaded.world) << loaded.text();
         EXPECT_TRUE(loaded.diagnostics.items().empty()) << type << "\n" << loaded.text();
-        const SensorSpec& s = first(loaded);
-        EXPECT_EQ(s.kind, SensorKind::kLaser);
-        EXPECT_EQ(s.sdf_type, type);
-        EXPECT_EQ(s.X_LS.p.z, 0.5);
-        EXPECT_EQ(s.update_rate_hz, 20);
+        EXPECT_EQ(first(loaded).sdf_type, type);
+        EXPECT_EQ(first(loaded).X_LS.p.z, 0.5);
+        EXPECT_EQ(first(loaded).update_rate_hz, 20);
+        const LaserSpec s = first_as<LaserSpec>(loaded);
         EXPECT_EQ(s.samples, 181);
         EXPECT_EQ(s.min_angle, -1.5);
         EXPECT_EQ(s.vertical_samples, 4);
@@ -57,8 +63,7 @@ TEST(Sensors, AGpsHasFourNoises) {
                     "3</stddev></noise></horizontal><vertical>" + noise +
                     "4</stddev></noise></vertical></velocity_sensing></navsat></sensor>");
     ASSERT_TRUE(loaded.world) << loaded.text();
-    const SensorSpec& s = first(loaded);
-    EXPECT_EQ(s.kind, SensorKind::kGps);
+    const GpsSpec s = first_as<GpsSpec>(loaded);
     EXPECT_EQ(s.position_horizontal_noise.stddev, 1);
     EXPECT_EQ(s.position_vertical_noise.stddev, 2);
     EXPECT_EQ(s.velocity_horizontal_noise.stddev, 3);
@@ -71,31 +76,53 @@ TEST(Sensors, OurOdometerAndGyrocompassAreRead) {
         "<noise type='gaussian'><stddev>0.01</stddev></noise></roboss:sensor>");
     ASSERT_TRUE(odometer.world);
     EXPECT_TRUE(odometer.diagnostics.items().empty()) << odometer.text();
-    EXPECT_EQ(first(odometer).kind, SensorKind::kOdometer);
-    EXPECT_EQ(first(odometer).joints, std::vector<std::string>{"j"});
-    EXPECT_EQ(first(odometer).wheel_radius, 0.3);
-    EXPECT_EQ(first(odometer).noise.stddev, 0.01);
+    const OdometerSpec o = first_as<OdometerSpec>(odometer);
+    EXPECT_EQ(o.joints, JointNames{"j"});
+    EXPECT_EQ(o.wheel_radius, 0.3);
+    EXPECT_EQ(o.noise.stddev, 0.01);
     const Loaded compass =
         with_sensor("<roboss:sensor name='g' type='gyrocompass'><pose>0 0 0 0 0 1</pose></roboss:sensor>");
-    EXPECT_EQ(first(compass).kind, SensorKind::kCompass);
+    EXPECT_NE(first(compass).as<CompassSpec>(), nullptr);
+}
+
+TEST(Sensors, AnImuHasNoiseForEachAxisAndNamesWhatItDoesNotMeasure) {
+    const Loaded loaded = with_sensor(
+        "<sensor name='s' type='imu'><imu><angular_velocity><y><noise type='gaussian'><stddev>0.01</stddev>"
+        "</noise></y></angular_velocity><linear_acceleration><z><noise type='gaussian'><mean>0.1</mean>"
+        "<bias_mean>0.2</bias_mean><bias_stddev>0.3</bias_stddev></noise></z></linear_acceleration>"
+        "<enable_orientation>0</enable_orientation></imu></sensor>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
+    const ImuSpec imu = first_as<ImuSpec>(loaded);
+    EXPECT_EQ(imu.angular_velocity_x, NoiseSpec{});
+    EXPECT_EQ(imu.angular_velocity_y.stddev, 0.01);
+    EXPECT_EQ(imu.linear_acceleration_z, (NoiseSpec{0.1, 0, 0.2, 0.3, 0}));
+    const Loaded oriented = with_sensor(
+        "<sensor name='s' type='imu'><imu><enable_orientation>1</enable_orientation>"
+        "<orientation_reference_frame><localization>ENU</localization></orientation_reference_frame></imu>"
+        "</sensor>");
+    EXPECT_EQ(oriented.diagnostics.items().size(), 2u) << oriented.text();
+    EXPECT_NE(oriented.find("ignored-element"), nullptr);
+    EXPECT_TRUE(with_sensor("<sensor name='s' type='imu'/>").diagnostics.items().empty());
 }
 
 TEST(Sensors, AnOdometerOfAJointThatIsNotThereIsAnError) {
     EXPECT_NE(with_sensor("<roboss:sensor name='o' type='odometer'><joint>k</joint></roboss:sensor>")
                   .find("unknown-joint"),
               nullptr);
-    EXPECT_NE(with_sensor("<roboss:sensor name='o' type='odometer'/>").find("sensor"), nullptr);
+    EXPECT_NE(with_sensor("<roboss:sensor name='o' type='odometer'/>").find("bad-sensor"), nullptr);
     EXPECT_NE(with_sensor("<roboss:sensor name='o' type='nose'/>").find("sensor"), nullptr);
 }
 
 TEST(Sensors, OthersAreKeptAndReportedOnceAKind) {
     const Loaded loaded = with_sensor(
         "<sensor name='c1' type='camera'><camera><image><width>oops</width></image></camera></sensor>"
-        "<sensor name='c2' type='camera'/><sensor name='i' type='imu'/><sensor name='n' type='air_speed'/>");
+        "<sensor name='c2' type='camera'/><sensor name='i' type='altimeter'/><sensor name='n' "
+        "type='air_speed'/>");
     ASSERT_TRUE(loaded.world);
     EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
     EXPECT_EQ(loaded.diagnostics.items().size(), 3u) << loaded.text();
-    EXPECT_EQ(first(loaded).kind, SensorKind::kUnsupported);
+    EXPECT_FALSE(first(loaded).measures());
     EXPECT_EQ(first(loaded).sdf_type, "camera");
 }
 

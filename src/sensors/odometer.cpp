@@ -1,8 +1,6 @@
-// The odometer: joint encoders, and with a wheel radius the way and speed that they amount to. Its noise is a
-// fraction of the way: mean and bias are an error of the wheel's radius, kept through the run; the draw of
-// each tick disturbs the speed only (over a way of many ticks such draws cancel out).
-#include "core/check.h"
-#include "core/float_env.h"
+// The odometer: joint encoders, and with a wheel radius the distance and speed that they amount to. Its noise
+// is a fraction: mean and bias are an error of the wheel's radius, kept through the run; the draw of each
+// tick disturbs the speed only (over many ticks such draws cancel out).
 #include "physics/kinematics.h"
 #include "sensors/readings.h"
 #include "sensors/sensor_noise.h"
@@ -18,34 +16,44 @@ double start_of(const Model& model, RobotId robot, JointId id) {
     return joint_state(type, initial_state(model, robot), id).position;
 }
 
+/// The joint that an odometer reads. It may be missing: in a model of several connected parts each part is a
+/// robot of its own, with its own joints.
+Result<JointId> joint_read(const SensorQuery& query, const std::string& name) {
+    const RobotType& type = query.type();
+    const std::string sensor = "odometer '" + query.info().spec.name + "' of robot '" +
+                               query.model.robots[query.robot.index()].name + "'";
+    const std::optional<JointId> id = type.find_joint(name);
+    if (!id)
+        return Error{sensor + " reads joint '" + name + "', which this robot does not have",
+                     "put the odometer on a link that this joint moves or carries"};
+    if (type.joints[id->index()].nv != 1)
+        return Error{sensor + " reads joint '" + name + "', which does not have one axis",
+                     "let it read revolute, continuous, prismatic or screw joints"};
+    return *id;
+}
+
 }  // namespace
 
-OdometerReading read_odometer(const Model& model, RobotId robot, std::size_t sensor, const RobotState& state,
-                              Tick tick, std::uint64_t seed) {
-    const ExactFloatScope exact;
-    const RobotType& type = model.type_of(robot);
-    ROBOSS_CHECK(sensor < type.sensors.size(), type.name + " has no sensor number " + std::to_string(sensor));
-    const SensorSpec& spec = type.sensors[sensor].spec;
-    ROBOSS_CHECK(spec.kind == SensorKind::kOdometer, spec.name + " is no odometer");
+Result<OdometerReading> read(const OdometerSpec& spec, const SensorQuery& query) {
     OdometerReading reading;
-    reading.tick = tick;
-    double way = 0, speed = 0;
+    double angle = 0, speed = 0;  // rad, rad/s, summed over the joints
     for (const std::string& name : spec.joints) {
-        const std::optional<JointId> id = type.find_joint(name);
-        ROBOSS_CHECK(id.has_value(), spec.name + " reads the unknown joint " + name);
-        const Joint& joint = type.joints[id->index()];
-        ROBOSS_CHECK(joint.nv == 1, spec.name + " reads joint " + name + ", which has not one axis");
-        const JointState at = joint_state(type, state, *id);
+        if (query.type().is_static) {  // nothing of a static model moves
+            reading.joint_positions.push_back(0), reading.joint_velocities.push_back(0);
+            continue;
+        }
+        const Result<JointId> id = joint_read(query, name);
+        if (!id) return id.error();
+        const JointState at = joint_state(query.type(), query.state, id.value());
         reading.joint_positions.push_back(at.position);
         reading.joint_velocities.push_back(at.velocity);
-        way += at.position - start_of(model, robot, *id);
+        angle += at.position - start_of(query.model, query.robot, id.value());
         speed += at.velocity;
     }
     if (spec.wheel_radius == 0.0 || spec.joints.empty()) return reading;
     const double metres = spec.wheel_radius / static_cast<double>(spec.joints.size());
-    const SensorMoment moment{seed, robot, sensor, tick};
-    reading.distance = way * metres * (1.0 + sensor_bias(spec.noise, moment, 0));
-    reading.speed = speed * metres * noisy_value(1.0, spec.noise, moment, 0, 0);
+    reading.distance = angle * metres * (1.0 + sensor_bias(spec.noise, query, 0));
+    reading.speed = speed * metres * noisy_value(1.0, spec.noise, query, 0, 0);
     return reading;
 }
 

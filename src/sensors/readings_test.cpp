@@ -17,10 +17,8 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr double kDegree = kPi / 180.0;
 const RobotId kFirst(std::size_t{0});
 
-SensorSpec laser_spec() {
-    SensorSpec spec;
-    spec.name = "laser";
-    spec.kind = SensorKind::kLaser;
+Mounted<LaserSpec> laser_spec() {
+    Mounted<LaserSpec> spec;
     spec.samples = 5;
     spec.min_angle = -0.5 * kPi, spec.max_angle = 0.5 * kPi;
     spec.range_min = 0.1, spec.range_max = 20;
@@ -30,26 +28,26 @@ SensorSpec laser_spec() {
 /// A cart with one sensor on its mast (1 m up).
 struct OneSensor {
     std::shared_ptr<Model> model;
-    RobotState state = cart_at({});
+    RobotState state = cart_at({}), parked = cart_at({{0, 0, -50}, {}});
 
-    explicit OneSensor(const SensorSpec& spec, std::size_t link = 1) {
+    template <class Kind>
+    explicit OneSensor(const Mounted<Kind>& spec, std::size_t link = 1) {
         RobotType type = cart_type();
-        add_sensor(type, link, spec);
+        add_sensor(type, link, sensor("sensor", static_cast<const Kind&>(spec), spec.X_LS));
         model = model_of(type, 3);
     }
+    template <class Reading>
+    Reading read(Tick tick = 0, std::uint64_t seed = 1, std::size_t robot = 0) const {
+        std::vector<const RobotState*> states(3, &parked);
+        states[robot] = &state;
+        return read_as<Reading>(model, states, 0, tick, seed, robot);
+    }
     LaserReading laser(Tick tick, std::uint64_t seed, RobotId robot = kFirst) const {
-        RayScene scene(model);
-        const RobotState parked = cart_at({{0, 0, -50}, {}});
-        const RobotState* states[] = {&state, &parked, &parked};
-        scene.update(states);
-        return read_laser(*model, robot, 0, state, tick, seed, scene);
+        return read<LaserReading>(tick, seed, robot.index());
     }
-    GpsReading gps(Tick tick = 0, std::uint64_t seed = 1) const {
-        return read_gps(*model, kFirst, 0, state, tick, seed);
-    }
-    CompassReading compass(Tick tick = 0, std::uint64_t seed = 1) const {
-        return read_compass(*model, kFirst, 0, state, tick, seed);
-    }
+    GpsReading gps(Tick tick = 0) const { return read<GpsReading>(tick); }
+    CompassReading compass(Tick tick = 0) const { return read<CompassReading>(tick); }
+    OdometerReading odometer(Tick tick = 0) const { return read<OdometerReading>(tick); }
 };
 
 /// A wall whose near face is at x = 4 (world), 40 m wide and high.
@@ -71,7 +69,7 @@ TEST(Laser, BeamsRunFromRightToLeft) {
 }
 
 TEST(Laser, RowsRunFromBelowToAbove) {
-    SensorSpec spec = laser_spec();
+    Mounted<LaserSpec> spec = laser_spec();
     spec.samples = 1, spec.min_angle = spec.max_angle = 0;
     spec.vertical_samples = 3, spec.vertical_min_angle = -kPi / 4, spec.vertical_max_angle = kPi / 4;
     OneSensor cart(spec, 1);
@@ -84,7 +82,7 @@ TEST(Laser, RowsRunFromBelowToAbove) {
 }
 
 TEST(Laser, FollowsTheRobotAndItsOwnPlaceOnTheLink) {
-    SensorSpec spec = laser_spec();
+    Mounted<LaserSpec> spec = laser_spec();
     spec.samples = 1, spec.min_angle = spec.max_angle = 0;
     spec.X_LS = {{0.5, 0, 0}, from_rpy(0, 0, kPi)};  // half a metre ahead, looking back
     OneSensor cart(spec);
@@ -95,7 +93,7 @@ TEST(Laser, FollowsTheRobotAndItsOwnPlaceOnTheLink) {
 }
 
 TEST(Laser, TooNearIsMinusInfinityAndTooFarPlusInfinity) {
-    SensorSpec spec = laser_spec();
+    Mounted<LaserSpec> spec = laser_spec();
     spec.samples = 1, spec.min_angle = spec.max_angle = 0;
     spec.range_min = 1, spec.range_max = 3;
     OneSensor cart(spec);
@@ -108,7 +106,7 @@ TEST(Laser, TooNearIsMinusInfinityAndTooFarPlusInfinity) {
 }
 
 TEST(Laser, RangesAreMultiplesOfTheResolution) {
-    SensorSpec spec = laser_spec();
+    Mounted<LaserSpec> spec = laser_spec();
     spec.range_resolution = 0.25;
     OneSensor cart(spec);
     add_wall(*cart.model);
@@ -116,7 +114,7 @@ TEST(Laser, RangesAreMultiplesOfTheResolution) {
 }
 
 TEST(Laser, NoiseHasTheMeanAndDeviationOfTheFile) {
-    SensorSpec spec = laser_spec();
+    Mounted<LaserSpec> spec = laser_spec();
     spec.samples = 501, spec.min_angle = -0.2, spec.max_angle = 0.2;
     spec.noise.mean = 0.02, spec.noise.stddev = 0.05;
     OneSensor noisy(spec);
@@ -139,7 +137,7 @@ TEST(Laser, NoiseHasTheMeanAndDeviationOfTheFile) {
 }
 
 TEST(Laser, BiasIsDrawnOnceForEachSensorOfARun) {
-    SensorSpec spec = laser_spec();
+    Mounted<LaserSpec> spec = laser_spec();
     spec.samples = 1, spec.min_angle = spec.max_angle = 0;
     spec.noise.bias_mean = 0.5, spec.noise.bias_stddev = 0.1;
     OneSensor cart(spec);
@@ -153,7 +151,7 @@ TEST(Laser, BiasIsDrawnOnceForEachSensorOfARun) {
 }
 
 TEST(Laser, SameSeedSameReading) {
-    SensorSpec spec = laser_spec();
+    Mounted<LaserSpec> spec = laser_spec();
     spec.noise.stddev = 0.05;
     OneSensor cart(spec);
     add_wall(*cart.model);
@@ -162,10 +160,8 @@ TEST(Laser, SameSeedSameReading) {
     EXPECT_NE(cart.laser(7, 3).ranges, cart.laser(7, 4).ranges);
 }
 
-SensorSpec odometer_spec() {
-    SensorSpec spec;
-    spec.name = "odometer";
-    spec.kind = SensorKind::kOdometer;
+Mounted<OdometerSpec> odometer_spec() {
+    Mounted<OdometerSpec> spec;
     spec.joints = {"axle"};
     spec.wheel_radius = 0.1;
     return spec;
@@ -175,7 +171,7 @@ TEST(Odometer, WayIsTheWheelsTurnSinceTheStart) {
     OneSensor cart(odometer_spec());
     cart.state.q[7] = 0.25 + 30;  // starts at 0.25
     cart.state.v[6] = 4;
-    const OdometerReading reading = read_odometer(*cart.model, kFirst, 0, cart.state, 0, 1);
+    const OdometerReading reading = cart.odometer();
     ASSERT_EQ(reading.joint_positions.size(), 1u);
     EXPECT_EQ(reading.joint_positions[0], 30.25);
     EXPECT_EQ(reading.joint_velocities[0], 4);
@@ -184,24 +180,24 @@ TEST(Odometer, WayIsTheWheelsTurnSinceTheStart) {
 }
 
 TEST(Odometer, WithoutAWheelRadiusThereAreOnlyAngles) {
-    SensorSpec spec = odometer_spec();
+    Mounted<OdometerSpec> spec = odometer_spec();
     spec.wheel_radius = 0;
     OneSensor cart(spec);
     cart.state.q[7] = 3, cart.state.v[6] = 2;
-    const OdometerReading reading = read_odometer(*cart.model, kFirst, 0, cart.state, 0, 1);
+    const OdometerReading reading = cart.odometer();
     EXPECT_EQ(reading.joint_positions[0], 3);
     EXPECT_EQ(reading.distance, 0);
     EXPECT_EQ(reading.speed, 0);
 }
 
 TEST(Odometer, NoiseIsAFractionOfTheWay) {
-    SensorSpec spec = odometer_spec();
+    Mounted<OdometerSpec> spec = odometer_spec();
     spec.noise.mean = 0.02, spec.noise.stddev = 0.1;
     OneSensor cart(spec);
     cart.state.q[7] = 0.25 + 1000, cart.state.v[6] = 10;
     double sum = 0, squares = 0;
     for (Tick tick = 0; tick < 20000; ++tick) {
-        const OdometerReading reading = read_odometer(*cart.model, kFirst, 0, cart.state, tick, 1);
+        const OdometerReading reading = cart.odometer(tick);
         EXPECT_DOUBLE_EQ(reading.distance, 102);
         sum += reading.speed, squares += reading.speed * reading.speed;
     }
@@ -210,10 +206,8 @@ TEST(Odometer, NoiseIsAFractionOfTheWay) {
     EXPECT_NEAR(std::sqrt(squares / 20000 - mean * mean), 0.1, 0.003);
 }
 
-SensorSpec gps_spec() {
-    SensorSpec spec;
-    spec.name = "gps";
-    spec.kind = SensorKind::kGps;
+Mounted<GpsSpec> gps_spec() {
+    Mounted<GpsSpec> spec;
     spec.X_LS.p = {0.3, 0, 0};
     return spec;
 }
@@ -229,7 +223,7 @@ TEST(Gps, ReadsThePlaceAndSpeedOfTheAntenna) {
 }
 
 TEST(Gps, GivesLatitudeAndLongitudeWhereTheWorldHasThem) {
-    SensorSpec spec = gps_spec();
+    Mounted<GpsSpec> spec = gps_spec();
     spec.X_LS.p = {};
     OneSensor cart(spec);
     cart.model->spherical = SphericalCoordinates{52.25 * kDegree, 21 * kDegree, 100, 0};
@@ -244,7 +238,7 @@ TEST(Gps, GivesLatitudeAndLongitudeWhereTheWorldHasThem) {
 }
 
 TEST(Gps, TheWorldsHeadingTurnsItsAxes) {
-    SensorSpec spec = gps_spec();
+    Mounted<GpsSpec> spec = gps_spec();
     spec.X_LS.p = {};
     OneSensor cart(spec);
     cart.model->spherical = SphericalCoordinates{0, 0, 0, 0.5 * kPi};  // world x points north
@@ -255,7 +249,7 @@ TEST(Gps, TheWorldsHeadingTurnsItsAxes) {
 }
 
 TEST(Gps, NoiseIsApartForHorizontalAndVertical) {
-    SensorSpec spec = gps_spec();
+    Mounted<GpsSpec> spec = gps_spec();
     spec.position_horizontal_noise.stddev = 2;
     spec.position_vertical_noise.stddev = 5;
     spec.velocity_vertical_noise.mean = 0.5;
@@ -275,10 +269,8 @@ TEST(Gps, NoiseIsApartForHorizontalAndVertical) {
     EXPECT_NEAR(xy / 20000, 0, 0.1);
 }
 
-SensorSpec compass_spec() {
-    SensorSpec spec;
-    spec.name = "compass";
-    spec.kind = SensorKind::kCompass;
+Mounted<CompassSpec> compass_spec() {
+    Mounted<CompassSpec> spec;
     return spec;
 }
 
@@ -293,7 +285,7 @@ TEST(Compass, HeadingIsClockwiseFromWorldYWithoutSphericalCoordinates) {
 }
 
 TEST(Compass, GyroReadsInSensorAxes) {
-    SensorSpec spec = compass_spec();
+    Mounted<CompassSpec> spec = compass_spec();
     spec.X_LS.q = from_rpy(0, 0, 0.5 * kPi);
     OneSensor cart(spec);
     cart.state.v = {1, 2, 3, 0, 0, 0, 0};
@@ -301,7 +293,7 @@ TEST(Compass, GyroReadsInSensorAxes) {
 }
 
 TEST(Compass, TheGyroHasNoiseOfItsOwnOnEachAxis) {
-    SensorSpec spec = compass_spec();
+    Mounted<CompassSpec> spec = compass_spec();
     spec.noise.stddev = 0.3;  // of the angle: it leaves the gyro alone
     OneSensor calm(spec);
     EXPECT_EQ(norm(calm.compass(5).angular_velocity_S), 0);
@@ -328,7 +320,7 @@ TEST(Compass, TheGyroHasNoiseOfItsOwnOnEachAxis) {
 }
 
 TEST(Compass, FeelsTheWorldsMagneticField) {
-    SensorSpec spec = compass_spec();
+    Mounted<CompassSpec> spec = compass_spec();
     spec.X_LS.q = axis_angle({0, 0, 1}, 0.5 * kPi);
     OneSensor cart(spec);
     cart.model->magnetic_field_T = {2e-5, 1e-6, -4e-5};
@@ -355,7 +347,7 @@ TEST(Compass, NorthIsThatOfTheSensorsOwnPlace) {
 }
 
 TEST(Compass, NoiseTurnsHeadingAndOrientationTogether) {
-    SensorSpec spec = compass_spec();
+    Mounted<CompassSpec> spec = compass_spec();
     spec.noise.stddev = 0.1;
     OneSensor cart(spec);
     double squares = 0;
@@ -367,6 +359,43 @@ TEST(Compass, NoiseTurnsHeadingAndOrientationTogether) {
         squares += error * error;
     }
     EXPECT_NEAR(std::sqrt(squares / 20000), 0.1, 0.003);
+}
+
+TEST(Measure, RefusesWhatIsNotThereInWords) {
+    OdometerSpec elsewhere, welded;
+    elsewhere.joints = {"axle", "tail"};
+    welded.joints = {"mast_joint"};
+    RobotType type = cart_type();
+    add_sensor(type, 0, sensor("gps", GpsSpec{}));
+    add_sensor(type, 0, sensor("camera", UnsupportedSensor{}));
+    add_sensor(type, 0, sensor("of_another_part", elsewhere));
+    add_sensor(type, 0, sensor("of_a_weld", welded));
+    const auto model = model_of(type, 1);
+    const RobotState state = cart_at({});
+    KnownStates sources(model, {&state});
+    const auto refused = [&](std::size_t robot, std::size_t number, const std::string& words) {
+        const Result<Sample> sample = measure({*model, RobotId(robot), number, state, 0, 1, sources});
+        ASSERT_FALSE(sample) << words;
+        EXPECT_NE(sample.error().text().find(words), std::string::npos) << sample.error().text();
+    };
+    refused(1, 0, "no robot number 1");
+    refused(0, 4, "'cart_0' has no sensor number 4");
+    refused(0, 1, "'camera' of robot 'cart_0' is of a kind that measures nothing");
+    refused(0, 2, "reads joint 'tail', which this robot does not have");
+    refused(0, 3, "reads joint 'mast_joint', which does not have one axis");
+    const SensorQuery gps{*model, kFirst, 0, state, 0, 1, sources};
+    EXPECT_TRUE(measure_as<GpsReading>(gps));
+    const Result<LaserReading> wrong = measure_as<LaserReading>(gps);
+    ASSERT_FALSE(wrong);
+    EXPECT_NE(wrong.error().text().find("is read as a laser"), std::string::npos) << wrong.error().text();
+}
+
+TEST(Odometer, OfAStaticModelStandsStill) {
+    OneSensor cart(odometer_spec());
+    RobotType& type = cart.model->types[0];
+    type.is_static = true, type.joints.clear();
+    EXPECT_EQ(cart.odometer().joint_positions, std::vector<double>{0});
+    EXPECT_EQ(cart.odometer().distance, 0);
 }
 
 }  // namespace

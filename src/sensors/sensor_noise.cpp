@@ -5,23 +5,23 @@
 namespace roboss {
 namespace {
 
-NoiseStream stream_of(const SensorMoment& moment, Tick tick) {
-    return {moment.seed, moment.robot.value, static_cast<std::uint32_t>(moment.sensor), tick};
+NoiseStream stream_of(const SensorQuery& query, Tick tick) {
+    return {query.seed, query.robot.value, static_cast<std::uint32_t>(query.sensor), tick};
 }
 
 }  // namespace
 
-double sensor_bias(const NoiseSpec& noise, const SensorMoment& moment, std::uint64_t channel) {
+double sensor_bias(const NoiseSpec& noise, const SensorQuery& query, std::uint64_t channel) {
     double bias = noise.mean + noise.bias_mean;
     if (noise.bias_stddev != 0.0)
-        bias += noise.bias_stddev * random_gaussian(stream_of(moment, kOncePerRun), 2 * channel);
+        bias += noise.bias_stddev * random_gaussian(stream_of(query, kOncePerRun), 2 * channel);
     return bias;
 }
 
-double noisy_value(double value, const NoiseSpec& noise, const SensorMoment& moment, std::uint64_t channel,
+double noisy_value(double value, const NoiseSpec& noise, const SensorQuery& query, std::uint64_t channel,
                    std::uint64_t index) {
-    double noisy = value + sensor_bias(noise, moment, channel);
-    if (noise.stddev != 0.0) noisy += noise.stddev * random_gaussian(stream_of(moment, moment.tick), index);
+    double noisy = value + sensor_bias(noise, query, channel);
+    if (noise.stddev != 0.0) noisy += noise.stddev * random_gaussian(stream_of(query, query.tick), index);
     return rounded_to(noisy, noise.precision);
 }
 

@@ -5,25 +5,17 @@
 #include <cstdint>
 
 #include "core/noise.h"
-#include "world/world.h"
+#include "sensors/sensor_query.h"
 
 namespace roboss {
 
-/// The sensor at one tick: where its random numbers come from.
-struct SensorMoment {
-    std::uint64_t seed = 0;
-    RobotId robot;
-    std::size_t sensor = 0;
-    Tick tick = 0;
-};
-
-/// mean + bias: what all readings of this sensor share. `channel` tells a sensor's quantities apart (0 for a
-/// laser's range).
-double sensor_bias(const NoiseSpec& noise, const SensorMoment& moment, std::uint64_t channel);
+/// mean + bias: what all readings of this sensor share. `channel` distinguishes a sensor's quantities (0 for
+/// a laser's range).
+double sensor_bias(const NoiseSpec& noise, const SensorQuery& query, std::uint64_t channel);
 
 /// value + mean + bias + a draw of this tick, rounded to a multiple of `precision` where that is given (SDF's
-/// gaussian_quantized). `index` tells the draws of one reading apart.
-double noisy_value(double value, const NoiseSpec& noise, const SensorMoment& moment, std::uint64_t channel,
+/// gaussian_quantized). `index` distinguishes the draws of one reading.
+double noisy_value(double value, const NoiseSpec& noise, const SensorQuery& query, std::uint64_t channel,
                    std::uint64_t index);
 
 /// value rounded to a multiple of `step`; the value itself if step is 0.

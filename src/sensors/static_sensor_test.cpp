@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "model/order.h"
-#include "sensors/readings.h"
+#include "sensors/test_model.h"
 
 namespace roboss {
 namespace {
@@ -25,8 +25,9 @@ std::shared_ptr<const Model> mast_before_wall() {
     ModelSpec mast = static_box("mast", {0.2, 0.2, 2});
     SensorSpec lidar;
     lidar.name = "lidar";
-    lidar.kind = SensorKind::kLaser;
-    lidar.range_max = 50;
+    LaserSpec beam;
+    beam.range_max = 50;
+    lidar.parameters = beam;
     lidar.X_LS = {{0, 0, 0.5}, {}};
     mast.links[0].sensors = {lidar};
     world.prototypes = {mast, static_box("wall", {0.5, 10, 3})};
@@ -42,10 +43,7 @@ TEST(StaticSensor, IsReadAndDoesNotSeeItsOwnMast) {
     EXPECT_EQ(model->statics.size(), 2u);
     const RobotId mast(std::size_t{0});
     const RobotState state = initial_state(*model, mast);
-    RayScene scene(model);
-    const RobotState* states[] = {&state};
-    scene.update(states);
-    const LaserReading reading = read_laser(*model, mast, 0, state, 0, 1, scene);
+    const LaserReading reading = sensors_test::read_as<LaserReading>(model, {&state}, 0);
     ASSERT_EQ(reading.ranges.size(), 1u);
     EXPECT_DOUBLE_EQ(reading.ranges[0], 3.75) << "from x = 1 to the wall's face at x = 4.75";
 }

@@ -3,9 +3,14 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "model/model.h"
 #include "model/robot_state.h"
+#include "physics/probe.h"
+#include "sensors/readings.h"
 
 namespace roboss::sensors_test {
 
@@ -44,6 +49,50 @@ inline RobotType cart_type() {
     type.nq = 8, type.nv = 7;
     type.initial_q = {0.25};
     return type;
+}
+
+/// The parameters of a sensor, and where it stands on its link.
+template <class Kind>
+struct Mounted : Kind {
+    Pose X_LS;
+};
+
+inline SensorSpec sensor(const std::string& name, const SensorParameters& parameters, const Pose& X_LS = {}) {
+    SensorSpec spec;
+    spec.name = name;
+    spec.parameters = parameters;
+    spec.X_LS = X_LS;
+    return spec;
+}
+
+/// All states of a small world at one tick, as a Client has them.
+class KnownStates final : public SensorSources {
+  public:
+    KnownStates(std::shared_ptr<const Model> model, std::vector<const RobotState*> states, Tick tick = 0)
+        : model_(std::move(model)), states_(std::move(states)), tick_(tick) {}
+    RayScene& ray_scene() override {
+        if (!rays_) rays_ = std::make_unique<RayScene>(model_), rays_->update(states_);
+        return *rays_;
+    }
+    StepProbe& step_probe() override {
+        if (probe_.tick() < 0) probe_.step(tick_, states_);
+        return probe_;
+    }
+
+  private:
+    std::shared_ptr<const Model> model_;
+    std::vector<const RobotState*> states_;
+    Tick tick_ = 0;
+    std::unique_ptr<RayScene> rays_;
+    StepProbe probe_{*model_};
+};
+
+/// A reading of sensor `sensor` of robot `robot`; the test fails if there is none.
+template <class Reading>
+Reading read_as(const std::shared_ptr<const Model>& model, const std::vector<const RobotState*>& states,
+                std::size_t sensor, Tick tick = 0, std::uint64_t seed = 1, std::size_t robot = 0) {
+    KnownStates sources(model, states, tick);
+    return measure_as<Reading>({*model, RobotId(robot), sensor, *states[robot], tick, seed, sources}).value();
 }
 
 inline void add_sensor(RobotType& type, std::size_t link, const SensorSpec& spec) {

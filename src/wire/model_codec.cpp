@@ -13,7 +13,7 @@ namespace roboss {
 namespace wire {
 namespace {
 
-constexpr std::uint32_t kModelVersion = 4;
+constexpr std::uint32_t kModelVersion = 5;
 
 /// A Writer and a Reader that know the shared hulls and surfaces, to which shapes point.
 struct ModelWriter : Writer {
@@ -51,6 +51,21 @@ void pointer(ModelReader& a, const std::vector<std::shared_ptr<const T>>& all, c
     a.scalar(index);
     if (index > all.size()) a.fail("a shape points to a mesh that is not there");
     value = index == 0 || a.failed() ? nullptr : all[index - 1].get();
+}
+
+/// Which kind of sensor it is; its parameters follow.
+void kind(ModelWriter& a, const SensorParameters& parameters) {
+    a.scalar(std::visit([](const auto& p) { return p.kKind.number; }, parameters));
+}
+void kind(ModelReader& a, SensorParameters& parameters) {
+    std::uint32_t number = 0;
+    a.scalar(number);
+    bool known = false;
+    parameters = parameters_of_kind([&](const SensorKind& k) {
+        known |= k.number == number;
+        return k.number == number;
+    });
+    if (!known) a.fail("a sensor is of no known kind");
 }
 
 // clang-format off
@@ -93,12 +108,12 @@ template <class A> void field(A& a, Of<A, LinkDrag>& m) { fields(a, m.link, m.ar
 template <class A> void field(A& a, Of<A, NoiseSpec>& m) {
     fields(a, m.mean, m.stddev, m.bias_mean, m.bias_stddev, m.precision);
 }
+template <class A> void field(A& a, Of<A, JointNames>& m) { field(a, static_cast<Of<A, std::vector<std::string>>&>(m)); }
 template <class A> void field(A& a, Of<A, SensorInfo>& m) {
     auto& s = m.spec;
-    fields(a, m.link, s.name, s.kind, s.sdf_type, s.X_LS, s.update_rate_hz, s.samples, s.vertical_samples, s.min_angle, s.max_angle,
-           s.vertical_min_angle, s.vertical_max_angle, s.range_min, s.range_max, s.range_resolution, s.noise, s.gyro_noise,
-           s.position_horizontal_noise, s.position_vertical_noise, s.velocity_horizontal_noise, s.velocity_vertical_noise, s.joints,
-           s.wheel_radius);
+    fields(a, m.link, s.name, s.sdf_type, s.X_LS, s.update_rate_hz);
+    kind(a, s.parameters);
+    visit_parameters(s.parameters, [&a](const Parameter&, auto& value) { field(a, value); });
 }
 template <class A> void field(A& a, Of<A, RobotType>& m) {
     fields(a, m.name, m.free_base, m.is_static, m.self_collide, m.may_sleep, m.X_RB, m.bodies, m.dofs, m.dof_parent, m.links, m.joints,
@@ -134,7 +149,8 @@ template <class A> void field(A& a, Of<A, Model>& m) {
 [[maybe_unused]] void know_fields(const Shape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const BodyShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4] = m; }
 [[maybe_unused]] void know_fields(const LinkDrag& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3] = m; }
-[[maybe_unused]] void know_fields(const SensorSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17, f18, f19, f20, f21, f22] = m; }
+[[maybe_unused]] void know_fields(const SensorSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
+[[maybe_unused]] void know_fields(const NoiseSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4] = m; }
 [[maybe_unused]] void know_fields(const SensorInfo& m) { [[maybe_unused]] const auto& [f0, f1] = m; }
 [[maybe_unused]] void know_fields(const RobotType& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17, f18, f19, f20, f21, f22, f23] = m; }
 [[maybe_unused]] void know_fields(const Robot& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3] = m; }

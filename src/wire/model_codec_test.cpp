@@ -5,6 +5,7 @@
 
 #include <cstring>
 #include <random>
+#include <type_traits>
 
 #include <support/mechanisms.h>
 #include <support/meshes.h>
@@ -14,13 +15,29 @@
 namespace roboss::test {
 namespace {
 
-SensorSpec laser() {
-    SensorSpec sensor;
-    sensor.name = "eye";
-    sensor.kind = SensorKind::kLaser;
-    sensor.samples = 7, sensor.min_angle = -1, sensor.max_angle = 1, sensor.range_max = 5;
-    sensor.noise.stddev = 0.01;
-    return sensor;
+/// One sensor of each kind, no parameter as it is by default.
+std::vector<SensorSpec> sensors_of_all_kinds() {
+    std::vector<SensorSpec> sensors;
+    const auto add = [&](SensorParameters parameters) {
+        double next = 1;
+        visit_parameters(parameters, [&]<class Value>(const Parameter&, Value& value) {
+            if constexpr (std::is_same_v<Value, NoiseSpec>)
+                value.mean = ++next, value.stddev = ++next, value.bias_mean = ++next,
+                value.bias_stddev = ++next, value.precision = ++next;
+            else if constexpr (std::is_same_v<Value, JointNames>)
+                value = {"one", "other"};
+            else
+                value = static_cast<Value>(++next);
+        });
+        SensorSpec& sensor = sensors.emplace_back();
+        sensor.name = sensor.sdf_type = parameters.index() == 0 ? "camera" : "eye";
+        sensor.update_rate_hz = 20, sensor.X_LS.p.x = 0.5;
+        sensor.parameters = std::move(parameters);
+    };
+    [&]<class... Kinds>(std::in_place_type_t<std::variant<Kinds...>>) {
+        (add(Kinds{}), ...);
+    }(std::in_place_type<SensorParameters>);
+    return sensors;
 }
 
 /// Every kind of joint, loops, gears, hulls, a mesh, a height field, drag, sensors.
@@ -34,7 +51,7 @@ World rich_world() {
     place(world, scenery(heightmap_shape(5, 4, heights, 40, 30, surface(0.8))), "land");
     place(world, scenery(mesh_shape(box_mesh({1, 1, 0.4}), surface(0.5))), "block", {{3, 0, 0.2}, {}});
     ModelSpec mixed = mixed_tree();
-    mixed.links[0].sensors.push_back(laser());
+    mixed.links[0].sensors = sensors_of_all_kinds();
     mixed.links[0].drag.acts = true;
     mixed.links[0].drag.coefficient = 1;
     place(world, car(), "car", {{0, 0, 0.3}, {}});
@@ -92,9 +109,12 @@ TEST(ModelCodec, WhatIsSharedAndWhatIsMeasuredAreThere) {
     EXPECT_EQ(copy.types.size(), model->types.size()) << "two cars are of one type";
     EXPECT_EQ(copy.find_robot("other_car"), model->find_robot("other_car"));
     const RobotType& mixed = copy.type_of(*copy.find_robot("mixed"));
-    ASSERT_EQ(mixed.sensors.size(), 1u);
-    EXPECT_EQ(mixed.sensors[0].spec.samples, 7);
-    EXPECT_EQ(mixed.sensors[0].spec.noise.stddev, 0.01);
+    const std::vector<SensorSpec> sensors = sensors_of_all_kinds();
+    ASSERT_EQ(mixed.sensors.size(), sensors.size());
+    for (std::size_t i = 0; i < sensors.size(); ++i)
+        EXPECT_EQ(mixed.sensors[i].spec.parameters, sensors[i].parameters) << i;
+    EXPECT_EQ(mixed.sensors[1].spec.X_LS.p.x, 0.5);
+    EXPECT_EQ(mixed.sensors[1].spec.update_rate_hz, 20);
     for (std::size_t i = 0; i < model->hulls.size(); ++i) {
         EXPECT_EQ(copy.hulls[i]->hash, model->hulls[i]->hash);
         EXPECT_EQ(copy.hulls[i]->radius, model->hulls[i]->radius);

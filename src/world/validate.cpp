@@ -1,4 +1,5 @@
 // Judges a World: what no physics could make sense of is an error, what looks like a slip is a warning.
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -189,14 +190,24 @@ class ModelCheck {
 
     void check_sensors(const LinkSpec& link) {
         for (const SensorSpec& sensor : link.sensors) {
-            for (const std::string& joint : sensor.joints) {
-                if (joints_.count(joint)) continue;
-                diagnostics_.error(sensor.where, "unknown-joint",
-                                   named("sensor", sensor.name) + " reads the joint '" + joint +
-                                       "', which the model does not have",
-                                   "Check the name.");
-            }
+            const std::string name = named("sensor", sensor.name);
+            for (const SensorProblem& problem : problems_of(sensor))
+                diagnostics_.error(sensor.where, "bad-sensor", name + " " + problem.text, problem.remedy);
+            for (const std::string& joint : joints_read(sensor)) check_joint_read(sensor, name, joint);
         }
+    }
+
+    void check_joint_read(const SensorSpec& sensor, const std::string& name, const std::string& joint) {
+        const auto read = std::find_if(model_.joints.begin(), model_.joints.end(),
+                                       [&](const JointSpec& j) { return j.name == joint; });
+        if (read == model_.joints.end())
+            diagnostics_.error(sensor.where, "unknown-joint",
+                               name + " reads the joint '" + joint + "', which the model does not have",
+                               "Check the name.");
+        else if (read->axes.size() != 1)
+            diagnostics_.error(sensor.where, "bad-sensor",
+                               name + " reads the joint '" + joint + "', which does not have one axis",
+                               "Let it read revolute, continuous, prismatic or screw joints.");
     }
 
     std::string named(const std::string& kind, const std::string& name) const {

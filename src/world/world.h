@@ -14,6 +14,7 @@
 
 #include "core/diagnostics.h"
 #include "math/pose.h"
+#include "sensor_kinds/sensor_spec.h"
 
 namespace roboss {
 
@@ -115,33 +116,6 @@ struct VisualSpec {
     Vec3 rgb{0.7, 0.7, 0.7};
     double alpha = 1.0;
     FinishSpec finish{};
-};
-
-/// Gaussian noise as in SDF <noise type="gaussian">; all zero: none.
-struct NoiseSpec {
-    double mean = 0, stddev = 0, bias_mean = 0, bias_stddev = 0, precision = 0;
-};
-
-enum class SensorKind { kLaser, kGps, kCompass, kOdometer, kUnsupported };
-
-struct SensorSpec {
-    std::string name;
-    SensorKind kind = SensorKind::kUnsupported;
-    std::string sdf_type;       // as written, e.g. "gpu_lidar"
-    Pose X_LS;                  // sensor in link
-    double update_rate_hz = 0;  // samples a second; 0: one whenever it is asked
-    // laser: beams span [min_angle, max_angle] about the sensor's z (horizontal) and y (vertical) axes
-    int samples = 1, vertical_samples = 1;
-    double min_angle = 0, max_angle = 0, vertical_min_angle = 0, vertical_max_angle = 0;
-    double range_min = 0, range_max = 0, range_resolution = 0;
-    NoiseSpec noise;       // laser range, m; compass: rad; odometer: fraction of the way
-    NoiseSpec gyro_noise;  // of the compass' gyro, each axis by itself, rad/s
-    NoiseSpec position_horizontal_noise, position_vertical_noise;  // gps, m
-    NoiseSpec velocity_horizontal_noise, velocity_vertical_noise;  // gps, m/s
-    // odometer (<roboss:odometer>): joints read, wheel radius in m (0: angle only)
-    std::vector<std::string> joints;
-    double wheel_radius = 0;
-    SourceLocation where;
 };
 
 /// Resistance of the air (SDF <enable_wind>, <roboss:drag>).

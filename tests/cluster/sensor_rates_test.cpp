@@ -19,12 +19,16 @@ const RobotId kBox(0u);
 std::shared_ptr<const Model> flying_box() {
     ModelSpec box = solid_box(1, {0.4, 0.2, 0.1}, surface(0.5));
     SensorSpec gps, laser, compass;
-    gps.name = "gps", gps.kind = SensorKind::kGps, gps.update_rate_hz = kGpsRate;
-    gps.position_horizontal_noise.stddev = 0.1;
-    laser.name = "laser", laser.kind = SensorKind::kLaser, laser.update_rate_hz = kLaserRate;
-    laser.samples = 5, laser.min_angle = -1, laser.max_angle = 1, laser.range_max = 30,
-    laser.noise.stddev = 0.01;
-    compass.name = "compass", compass.kind = SensorKind::kCompass, compass.noise.stddev = 0.1;
+    GpsSpec antenna;
+    antenna.position_horizontal_noise.stddev = 0.1;
+    gps.name = "gps", gps.parameters = antenna, gps.update_rate_hz = kGpsRate;
+    LaserSpec beams;
+    beams.samples = 5, beams.min_angle = -1, beams.max_angle = 1, beams.range_max = 30,
+    beams.noise.stddev = 0.01;
+    laser.name = "laser", laser.parameters = beams, laser.update_rate_hz = kLaserRate;
+    CompassSpec needle;
+    needle.noise.stddev = 0.1;
+    compass.name = "compass", compass.parameters = needle;
     box.links[0].sensors = {gps, laser, compass};
     World world = empty_world(kDt, {});
     place(world, box, "box");

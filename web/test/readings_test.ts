@@ -46,6 +46,21 @@ test("every number of a report has a key, a unit and its value", () => {
     assert.equal(new Set(flat.map((one) => one.key)).size, flat.length);
 });
 
+test("a sensor of any kind shows its numbers and vectors with their units", () => {
+    const sensor = { name: "imu", kind: "imu", link: 0, frame: IDENTITY, units: { specific_force: "m/s²" } };
+    const report = { ...REPORT, sensors: [{ specific_force: [0, 1, 9.8], temperature: 20, taken: 1 }] };
+    const shown = readings(typeOf([], [], { joints: [JOINT], sensors: [sensor] }), report).sensors[0];
+    assert.deepEqual(
+        shown.map((one) => [one.label, one.unit, one.value]),
+        [
+            ["imu specific_force x", "m/s²", 0],
+            ["imu specific_force y", "m/s²", 1],
+            ["imu specific_force z", "m/s²", 9.8],
+            ["imu temperature", "", 20],
+        ],
+    );
+});
+
 test("a curve forgets what a rewind undid", () => {
     const curve = { times: [] as number[], values: [] as (number | null)[] };
     for (const time of [1, 2, 3, 2.5]) append(curve, time, time * 10);

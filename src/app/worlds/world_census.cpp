@@ -51,22 +51,6 @@ const char* to_text(GeometryKind kind) {
     return "?";
 }
 
-const char* to_text(SensorKind kind) {
-    switch (kind) {
-        case SensorKind::kLaser:
-            return "laser";
-        case SensorKind::kGps:
-            return "gps";
-        case SensorKind::kCompass:
-            return "gyrocompass";
-        case SensorKind::kOdometer:
-            return "odometer";
-        case SensorKind::kUnsupported:
-            return "unsupported";
-    }
-    return "?";
-}
-
 WorldCensus take_census(const World& world) {
     std::vector<std::size_t> times(world.prototypes.size(), 0);
     for (const ModelInstance& instance : world.instances) ++times[instance.prototype];
@@ -86,7 +70,7 @@ WorldCensus take_census(const World& world) {
         census.links += model.links.size() * times[i];
         for (const JointSpec& joint : model.joints) census.joints[to_text(joint.kind)] += times[i];
         for (const LinkSpec& link : model.links) {
-            for (const SensorSpec& sensor : link.sensors) census.sensors[to_text(sensor.kind)] += times[i];
+            for (const SensorSpec& sensor : link.sensors) census.sensors[sensor.kind().name] += times[i];
         }
     }
     return census;

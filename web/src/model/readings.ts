@@ -1,6 +1,6 @@
 // Every number that a robot's report holds, under a key that stays the same: what the inspector shows and plots draw.
 import { toRollPitchYaw } from "../kinematics/pose";
-import type { RobotReport, SensorReport, TypeInfo } from "../wire/messages";
+import type { RobotReport, SensorInfo, SensorReport, TypeInfo } from "../wire/messages";
 
 export interface Reading {
     key: string;
@@ -76,7 +76,10 @@ const SENSOR_UNITS: Record<string, string> = {
 const PLACE_NAMES = ["latitude", "longitude", "altitude"];
 const COURSE_NAMES = ["east", "north", "up"];
 
-function sensorReadings(name: string, told: SensorReport): Reading[] {
+/** What is not shown as it comes: parts of it are shown under other names. */
+const SHOWN_OTHERWISE = ["ranges", "position", "velocity", "world", "taken"];
+
+function sensorReadings({ name, units }: SensorInfo, told: SensorReport): Reading[] {
     const found: Reading[] = [],
         add = (field: string, unit: string, value: unknown) =>
             found.push({
@@ -97,8 +100,13 @@ function sensorReadings(name: string, told: SensorReport): Reading[] {
     }
     if (Array.isArray(told.velocity))
         told.velocity.forEach((value, k) => add(COURSE_NAMES[k] ?? String(k), "m/s", value));
-    for (const [field, value] of Object.entries(told))
-        if (typeof value === "number" && field !== "taken") add(field, SENSOR_UNITS[field] ?? "", value);
+    for (const [field, value] of Object.entries(told)) {
+        const unit = units?.[field] ?? SENSOR_UNITS[field] ?? "";
+        if (SHOWN_OTHERWISE.includes(field)) continue;
+        if (typeof value === "number") add(field, unit, value);
+        else if (Array.isArray(value) && value.length === 3)
+            AXES.forEach((axis, k) => add(`${field} ${axis}`, unit, value[k]));
+    }
     return found;
 }
 
@@ -111,7 +119,7 @@ export function readings(
         joints: jointReadings(type, report),
         sensors: type.sensors.map((sensor, k) => {
             const told = report.sensors[k];
-            return told === null || told === undefined ? [] : sensorReadings(sensor.name, told);
+            return told === null || told === undefined ? [] : sensorReadings(sensor, told);
         }),
     };
 }

@@ -65,6 +65,8 @@ export interface SensorInfo {
     kind: string;
     link: number;
     frame: PoseArray;
+    /** Of its readings, by name. */
+    units?: Record<string, string>;
     samples?: number;
     min_angle?: number;
     max_angle?: number;

@@ -1,0 +1,83 @@
+// What a sensor adds to the Model hash. The first four kinds are hashed as one record of all their
+// parameters, where those that a kind does not have count as zero (samples: as one): so Models keep their
+// hashes. Parameters of later kinds follow by name and value, in the order of their kind.
+#include <array>
+#include <string_view>
+#include <type_traits>
+
+#include "model/compile_type.h"
+
+namespace roboss {
+namespace {
+
+void add(Hash& hash, const NoiseSpec& n) {
+    for (double x : {n.mean, n.stddev, n.bias_mean, n.bias_stddev, n.precision}) hash.add(x);
+}
+
+void add(Hash& hash, int value) {
+    hash.add(static_cast<std::uint64_t>(static_cast<std::int64_t>(value)));
+}
+
+/// The record; parameters that are not in it go to `rest`.
+struct Record {
+    std::array<std::pair<std::string_view, double>, 8> numbers{{{"min_angle", 0},
+                                                                {"max_angle", 0},
+                                                                {"vertical_min_angle", 0},
+                                                                {"vertical_max_angle", 0},
+                                                                {"range_min", 0},
+                                                                {"range_max", 0},
+                                                                {"range_resolution", 0},
+                                                                {"wheel_radius", 0}}};
+    std::array<std::pair<std::string_view, NoiseSpec>, 6> noises{{{"noise", {}},
+                                                                  {"gyro_noise", {}},
+                                                                  {"position_horizontal_noise", {}},
+                                                                  {"position_vertical_noise", {}},
+                                                                  {"velocity_horizontal_noise", {}},
+                                                                  {"velocity_vertical_noise", {}}}};
+    std::array<std::pair<std::string_view, int>, 2> counts{{{"samples", 1}, {"vertical_samples", 1}}};
+    JointNames joints;
+    Hash rest;
+    bool has_rest = false;
+
+    void operator()(const Parameter& p, double value) { put(numbers, p, value); }
+    void operator()(const Parameter& p, int value) { put(counts, p, value); }
+    void operator()(const Parameter& p, const NoiseSpec& noise) { put(noises, p, noise); }
+    void operator()(const Parameter&, const JointNames& names) { joints = names; }
+
+  private:
+    template <class Slots, class Value>
+    void put(Slots& slots, const Parameter& parameter, const Value& value) {
+        for (auto& [name, slot] : slots)
+            if (name == parameter.name) {
+                slot = value;
+                return;
+            }
+        has_rest = true;
+        rest.add(std::string_view(parameter.name));
+        if constexpr (std::is_same_v<Value, double>)
+            rest.add(value);
+        else
+            add(rest, value);
+    }
+};
+
+}  // namespace
+
+void add_to_hash(Hash& hash, const SensorInfo& info) {
+    const SensorSpec& s = info.spec;
+    Record record;
+    visit_parameters(s.parameters, record);
+    hash.add(std::string_view(s.name)), hash.add(std::string_view(s.sdf_type));
+    for (double x : {s.X_LS.p.x, s.X_LS.p.y, s.X_LS.p.z, s.X_LS.q.w, s.X_LS.q.x, s.X_LS.q.y, s.X_LS.q.z,
+                     s.update_rate_hz})
+        hash.add(x);
+    for (const auto& [name, value] : record.numbers) hash.add(value);
+    for (const auto& [name, noise] : record.noises) add(hash, noise);
+    add(hash, static_cast<int>(s.kind().number));
+    for (const auto& [name, count] : record.counts) add(hash, count);
+    add(hash, static_cast<int>(info.link.value));
+    for (const std::string& joint : record.joints) hash.add(std::string_view(joint));
+    if (record.has_rest) hash.add(record.rest.value());
+}
+
+}  // namespace roboss

@@ -1,0 +1,87 @@
+// The laser range finder: a fan or grid of beams (SDF: ray, lidar and their gpu_ names).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/types.h"
+#include "sensor_kinds/kind.h"
+
+namespace roboss {
+
+struct LaserReading {
+    int samples = 0, vertical_samples = 0;
+    /// m, row by row (vertical angle ascending), within a row by ascending horizontal angle. +infinity:
+    /// nothing within range_max; -infinity: something nearer than range_min.
+    std::vector<double> ranges;
+    Tick tick = 0;  ///< of the measurement, as in all readings
+
+    template <class Visitor, class Self>
+    static void fields(Visitor&& visit, Self& r) {
+        visit({"samples"}, r.samples);
+        visit({"vertical_samples"}, r.vertical_samples);
+        visit({"ranges", "m"}, r.ranges);
+    }
+};
+
+/// Beam (row, column) points along (cos e cos a, cos e sin a, sin e) of the sensor frame, with a in
+/// [min_angle, max_angle] and e in the vertical range, both ends included; a single sample points along the
+/// smaller end. Surfaces are seen from both sides. Noise is added first, then the range is rounded to
+/// range_resolution, then clamped to [range_min, range_max]. Whether a beam is out of range is judged without
+/// noise.
+struct LaserSpec {
+    using Reading = LaserReading;
+
+    int samples = 1, vertical_samples = 1;
+    double min_angle = 0, max_angle = 0;                        ///< rad, about the sensor's z
+    double vertical_min_angle = 0, vertical_max_angle = 0;      ///< rad, above the sensor's xy plane
+    double range_min = 0, range_max = 0, range_resolution = 0;  ///< m
+    NoiseSpec noise;                                            ///< m
+
+    static constexpr IgnoredElement kIgnored[] = {
+        {"scan/horizontal/resolution", "1", "every one of the <samples> is a beam of its own"},
+        {"scan/vertical/resolution", "1", "every one of the <samples> is a beam of its own"},
+    };
+    static constexpr SensorKind kKind{.number = 0,
+                                      .name = "laser",
+                                      .phrase = "a laser",
+                                      .sdf_types = "ray|lidar|gpu_ray|gpu_lidar",
+                                      .block = "lidar|ray",
+                                      .block_required = true,
+                                      .needs_all_states = true,
+                                      .ignored = kIgnored};
+
+    template <class Visitor, class Self>
+    static void parameters(Visitor&& visit, Self& s) {
+        visit({"samples", "scan/horizontal/samples"}, s.samples);
+        visit({"min_angle", "scan/horizontal/min_angle", "rad"}, s.min_angle);
+        visit({"max_angle", "scan/horizontal/max_angle", "rad"}, s.max_angle);
+        visit({"vertical_samples", "scan/vertical/samples"}, s.vertical_samples);
+        visit({"vertical_min_angle", "scan/vertical/min_angle", "rad"}, s.vertical_min_angle);
+        visit({"vertical_max_angle", "scan/vertical/max_angle", "rad"}, s.vertical_max_angle);
+        visit({"range_min", "range/min", "m"}, s.range_min);
+        visit({"range_max", "range/max", "m", true}, s.range_max);
+        visit({"range_resolution", "range/resolution", "m"}, s.range_resolution);
+        visit({"noise", "noise", "m"}, s.noise);
+    }
+
+    friend bool operator==(const LaserSpec&, const LaserSpec&) = default;
+
+    void check(std::vector<SensorProblem>& problems) const {
+        constexpr std::int64_t kBeamsMax = 1 << 24;
+        if (samples < 1 || vertical_samples < 1)
+            problems.push_back({"has " + std::to_string(samples) + " x " + std::to_string(vertical_samples) +
+                                    " <samples>; a laser needs at least 1 x 1",
+                                "Write the number of beams."});
+        else if (samples > kBeamsMax || vertical_samples > kBeamsMax / samples)
+            problems.push_back(
+                {"has more than " + std::to_string(kBeamsMax) + " beams", "Write fewer <samples>."});
+        if (!(range_min >= 0 && range_max > range_min))
+            problems.push_back({"has a range from " + std::to_string(range_min) + " to " +
+                                    std::to_string(range_max) + " m: it sees nothing",
+                                "Write <range> with 0 <= <min> < <max>."});
+    }
+};
+
+}  // namespace roboss

@@ -1,0 +1,34 @@
+// Finds the sensor that a query names, and the function of its kind.
+#include "core/float_env.h"
+#include "sensors/readings.h"
+
+namespace roboss {
+
+Result<Sample> measure(const SensorQuery& query) {
+    const Model& model = query.model;
+    if (query.robot.index() >= model.robots.size())
+        return Error{"there is no robot number " + std::to_string(query.robot.value),
+                     "the world has " + std::to_string(model.robots.size()) + " robots, counted from 0"};
+    const std::string robot = "robot '" + model.robots[query.robot.index()].name + "'";
+    if (query.sensor >= query.type().sensors.size())
+        return Error{robot + " has no sensor number " + std::to_string(query.sensor),
+                     "it has " + std::to_string(query.type().sensors.size()) + ", counted from 0"};
+    const SensorSpec& spec = query.info().spec;
+    const ExactFloatScope exact;
+    return std::visit(
+        [&]<class Kind>(const Kind& parameters) -> Result<Sample> {
+            if constexpr (requires { typename Kind::Reading; }) {
+                auto reading = read(parameters, query);
+                if (!reading) return reading.error();
+                reading.value().tick = query.tick;
+                return Sample(std::move(reading).value());
+            } else {
+                return Error{"sensor " + std::to_string(query.sensor) + " '" + spec.name + "' of " + robot +
+                                 " is of a kind that measures nothing (" + spec.sdf_type + ")",
+                             "`roboss check` lists the sensors that measure"};
+            }
+        },
+        spec.parameters);
+}
+
+}  // namespace roboss

@@ -1,0 +1,39 @@
+// SensorQuery: everything that a reading is computed from.
+#pragma once
+
+#include <cstdint>
+
+#include "model/model.h"
+#include "model/robot_state.h"
+
+namespace roboss {
+
+class RayScene;
+class StepProbe;
+
+/// What several sensors share at a tick, built when the first of them asks. Clients and the viewer's gateway
+/// implement it.
+class SensorSources {
+  public:
+    virtual ~SensorSources() = default;
+    /// The shapes of all robots at the tick of the query.
+    virtual RayScene& ray_scene() = 0;
+    /// The states of all robots at the tick of the query, and one tick later if no order takes effect at it.
+    virtual StepProbe& step_probe() = 0;
+};
+
+/// Sensor number `sensor` (of RobotType::sensors) of a robot in `state` at `tick`, in a run with this seed.
+struct SensorQuery {
+    const Model& model;
+    RobotId robot;
+    std::size_t sensor = 0;
+    const RobotState& state;
+    Tick tick = 0;
+    std::uint64_t seed = 0;
+    SensorSources& sources;
+
+    const RobotType& type() const { return model.type_of(robot); }
+    const SensorInfo& info() const { return type().sensors[sensor]; }
+};
+
+}  // namespace roboss
