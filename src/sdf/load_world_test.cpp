@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "sdf/test_files.h"
+#include "world/joint_type.h"
 
 namespace roboss {
 namespace {

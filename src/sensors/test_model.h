@@ -6,6 +6,7 @@
 
 #include "model/model.h"
 #include "model/robot_state.h"
+#include "world/joint_type.h"
 
 namespace roboss::sensors_test {
 

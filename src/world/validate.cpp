@@ -2,6 +2,7 @@
 #include <cmath>
 #include <set>
 
+#include "world/joint_type.h"
 #include "world/world.h"
 
 namespace roboss {
@@ -143,7 +144,7 @@ class ModelCheck {
         if (!is_finite(joint.X_MJ))
             diagnostics_.error(joint.where, "not-finite", name + " has a pose that is not finite",
                                "Correct its <pose>.");
-        if (joint.kind == JointSpecKind::kScrew &&
+        if (joint_type(joint.kind).count(JointKind::kScrew) > 0 &&
             !(std::isfinite(joint.screw_pitch) && joint.screw_pitch != 0)) {
             diagnostics_.error(joint.where, "bad-pitch", name + " has a thread without pitch",
                                "Write <screw_thread_pitch> in metres a turn, other than 0.");

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 
+#include "world/joint_type.h"
 #include "world/world.h"
 
 namespace roboss {
