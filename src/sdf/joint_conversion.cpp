@@ -7,18 +7,42 @@
 #include <limits>
 #include <sdf/JointAxis.hh>
 
+#include "sdf/known_children.h"
 #include "world/joint_type.h"
 
 namespace roboss::sdf_import {
 namespace {
 
+/// A type that SDFormat lacks: <roboss:joint type="...">, within a joint of some other type for other
+/// programs.
+std::optional<JointSpecKind> kind_of(const Element& extension, const Import& import) {
+    const std::string name = extension.node.attribute("type").value();
+    const auto kind = find_joint_type(name);
+    if (kind && joint_type(*kind).is_extension) return kind;
+    std::string known;
+    for (const JointType& type : joint_types())
+        if (type.is_extension) known += (known.empty() ? "\"" : ", \"") + std::string(type.name) + "\"";
+    import.diagnostics().error(extension.where(), "joint-type",
+                               "<roboss:joint> has the type '" + name + "', which is not known",
+                               "Known: " + known + "; write SDFormat's own types in the <joint>.");
+    return std::nullopt;
+}
+
 /// libsdformat takes upper and lower case for the same.
-std::optional<JointSpecKind> kind_of(const sdf::Joint& joint, const Element& source) {
+std::optional<JointSpecKind> kind_of(const sdf::Joint& joint, const Element& source, const Import& import) {
     if (joint.Type() == sdf::JointType::INVALID) return std::nullopt;  // libsdformat has said so
+    if (const Element extension = source.child("roboss:joint")) return kind_of(extension, import);
     std::string name = source.node.attribute("type").value();
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return find_joint_type(name);
+}
+
+constexpr const char* kAxisChildren[] = {"limit", "dynamics", "initial_position", "mimic", "roboss:motor"};
+
+/// Of the <joint> itself, else of <roboss:joint>.
+bool is_sdf_axis(std::string_view name) {
+    return name == "axis" || name == "axis2";
 }
 
 bool has_stiffness(const AxisSpec& spec) {
@@ -120,12 +144,35 @@ Vec3 direction_of(const sdf::JointAxis* axis) {
     return length > 1e-12 && std::isfinite(length) ? direction / length : Vec3{0, 0, 1};
 }
 
+/// Axes of <roboss:joint> have no <xyz>: they are at right angles to <axis> and to each other, right-handed.
+/// The first is the coordinate axis of the joint frame that follows <axis> (x follows z), or lies as near to
+/// it as it can.
+void direct_axes(const JointType& type, JointSpec& spec) {
+    const auto given = type.find_axis("axis");
+    if (!given) return;
+    const Vec3 normal = spec.axes[*given].xyz;
+    std::size_t largest = 0;
+    for (const std::size_t k : {1, 2})
+        if (std::fabs(normal[k]) >= std::fabs(normal[largest])) largest = k;
+    Vec3 across;
+    across[(largest + 1) % 3] = 1;
+    across = normalized(across - normal * dot(across, normal));
+    for (std::size_t k = 0; k < type.axes.size(); ++k) {
+        if (is_sdf_axis(type.axes[k])) continue;
+        spec.axes[k].xyz = across;
+        across = cross(normal, across);
+    }
+}
+
 AxisSpec read_axis(const sdf::Joint& joint, const Element& source, const std::string& name,
                    const JointType& type, const std::string& scope, const Import& import) {
-    const Element axis = source.child(name.c_str());
+    const bool of_extension = !is_sdf_axis(name);
+    const Element axis = (of_extension ? source.child("roboss:joint") : source).child(name.c_str());
     AxisSpec spec;
     spec.xyz = direction_of(joint.Axis(name == "axis2" ? 1 : 0));
-    if (!axis) {
+    if (of_extension) {
+        if (axis) report_unknown_children(axis, kAxisChildren, import.diagnostics());
+    } else if (!axis) {
         import.diagnostics().warning(
             source.where(), "missing-axis",
             "joint '" + joint.Name() + "' has no <" + name + ">; z of its frame is used",
@@ -240,7 +287,7 @@ std::string link_name(const std::string& written, const std::string& scope, Reso
 
 std::optional<JointSpec> convert_joint(const sdf::Joint& joint, const Element& source, const Pose& X_MJ,
                                        const std::string& scope, const Import& import) {
-    const auto kind = kind_of(joint, source);
+    const auto kind = kind_of(joint, source, import);
     if (!kind) return std::nullopt;
     const JointType& type = joint_type(*kind);
     JointSpec spec;
@@ -254,6 +301,7 @@ std::optional<JointSpec> convert_joint(const sdf::Joint& joint, const Element& s
                            [&](std::string& name) { return joint.ResolveChildLink(name); });
     for (const std::string_view axis : type.axes)
         spec.axes.push_back(read_axis(joint, source, std::string(axis), type, scope, import));
+    direct_axes(type, spec);
     if (type.count(JointKind::kRevolute) == 2) turn_parallel_axis(spec, import);
     if (type.count(JointKind::kScrew) > 0) spec.screw_pitch = screw_pitch(source, import);
     if (type.couples && !read_gearbox(source, scope, import, spec)) return std::nullopt;

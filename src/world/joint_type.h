@@ -32,8 +32,9 @@ struct JointType {
     std::span<const JointKind> motions{};
     /// The element of the file that holds the numbers of each axis; orders count axes in this order.
     std::span<const std::string_view> axes{};
-    bool endless = false;  // its axes have no limits
-    bool couples = false;  // ties the motions of other joints together and connects no links
+    bool endless = false;       // its axes have no limits
+    bool is_extension = false;  // SDFormat has no such type: <roboss:joint type="name"> within a <joint>
+    bool couples = false;       // ties the motions of other joints together and connects no links
 
     bool welds() const { return motions.empty() && !couples; }
     /// Moves, but about no axis of its own: no limits, positions or followers, the same damping in all

@@ -153,6 +153,11 @@ class ModelCheck {
             diagnostics_.error(joint.where, "bad-dynamics", name + " has a negative damping",
                                "Write values of at least 0.");
         }
+        if (joint.axes.size() == 3 &&
+            norm(cross(joint.axes[0].xyz, joint.axes[1].xyz) - joint.axes[2].xyz) > 1e-9) {
+            diagnostics_.error(joint.where, "bad-axes", name + " has axes that are not at right angles",
+                               "Give three unit vectors at right angles, right-handed.");
+        }
         for (const AxisSpec& axis : joint.axes) check_axis(joint, axis);
     }
 
