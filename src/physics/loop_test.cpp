@@ -183,7 +183,7 @@ TEST_P(LoopReading, PositionsAndVelocitiesAreThoseOfItsLinks) {
 INSTANTIATE_TEST_SUITE_P(Kinds, LoopReading,
                          testing::Values(JointSpecKind::kRevolute, JointSpecKind::kPrismatic,
                                          JointSpecKind::kScrew, JointSpecKind::kUniversal,
-                                         JointSpecKind::kBall));
+                                         JointSpecKind::kBall, JointSpecKind::kPlanar));
 
 }  // namespace
 }  // namespace roboss::test

@@ -12,10 +12,12 @@ namespace {
 constexpr JointKind kHinge[] = {JointKind::kRevolute};
 constexpr JointKind kTwoHinges[] = {JointKind::kRevolute, JointKind::kRevolute};
 constexpr JointKind kSlide[] = {JointKind::kPrismatic};
+constexpr JointKind kInPlane[] = {JointKind::kPrismatic, JointKind::kPrismatic, JointKind::kRevolute};
 constexpr JointKind kBall[] = {JointKind::kBall};
 constexpr JointKind kThread[] = {JointKind::kScrew};
 
 constexpr std::string_view kAxis[] = {"axis"};
+constexpr std::string_view kPlaneAxes[] = {"x", "y", "axis"};  // <axis> is the plane's normal
 constexpr std::string_view kTwoAxes[] = {"axis", "axis2"};
 
 constexpr JointType kRows[] = {
@@ -28,6 +30,7 @@ constexpr JointType kRows[] = {
     {.name = "universal", .motions = kTwoHinges, .axes = kTwoAxes},
     {.name = "revolute2", .motions = kTwoHinges, .axes = kTwoAxes},
     {.name = "gearbox", .axes = kTwoAxes, .couples = true},
+    {.name = "planar", .motions = kInPlane, .axes = kPlaneAxes, .is_extension = true},
 };
 
 }  // namespace

@@ -23,7 +23,8 @@ enum class JointSpecKind : int {
     kScrew,
     kUniversal,
     kRevolute2,
-    kGearbox
+    kGearbox,
+    kPlanar
 };
 
 struct JointType {
