@@ -175,7 +175,7 @@ struct MimicSpec {
     std::string joint;  // the leader's
     int axis = 0;
     double multiplier = 1, offset = 0, reference = 0;
-    std::string element;  // of the leader's axis (JointType::axes); empty: `axis` counts
+    std::string element;  // of the leader's axis, if its type has it (JointType::axes); else `axis` counts
 };
 
 inline constexpr double kUnlimited = 1e15;  // from here on there is no limit: SDF writes 1e16
