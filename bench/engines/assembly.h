@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engines/engine.h"
+#include "world/joint_type.h"
 
 namespace roboss::bench {
 

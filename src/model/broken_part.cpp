@@ -4,7 +4,9 @@
 #include <initializer_list>
 
 #include "model/accuracy.h"
+#include "model/joint_motion.h"
 #include "model/seal.h"
+#include "world/joint_type.h"
 
 namespace roboss {
 namespace {
@@ -28,19 +30,20 @@ bool sensible(const Shape& shape, bool scenery) {
     return true;
 }
 
-int axes_of(JointSpecKind kind) {
-    switch (kind) {
-        case JointSpecKind::kFixed:
-        case JointSpecKind::kGearbox:
-            return 0;
-        case JointSpecKind::kBall:
-            return 3;
-        case JointSpecKind::kUniversal:
-        case JointSpecKind::kRevolute2:
-            return 2;
-        default:
-            return 1;
-    }
+bool known(JointSpecKind kind) {
+    return static_cast<std::size_t>(kind) < joint_types().size();
+}
+
+/// Coordinates and velocities of a joint in the tree.
+struct Width {
+    int q = 0, v = 0;
+};
+
+Width width_of(JointSpecKind kind) {
+    Width width;
+    for (const JointKind motion : joint_type(kind).motions)
+        width.q += joint_traits(motion).nq, width.v += joint_traits(motion).nv;
+    return width;
 }
 
 constexpr std::size_t kEntriesMax = 1u << 26;
@@ -70,13 +73,13 @@ class TypeCheck {
             const bool base = t_.free_base && i == 0;
             if (!within(body.parent, i, -1) || !finite(body.X_PJ)) return false;
             if (base ? body.joint != JointKind::kFree || body.nv != 6 || body.q_index != 0
-                     : body.joint == JointKind::kFree || body.joint > JointKind::kScrew || body.q_index != nq)
+                     : body.joint == JointKind::kFree || body.joint > kLastJointKind || body.q_index != nq)
                 return false;
-            const bool ball = body.joint == JointKind::kBall;
-            if (body.v_index != nv || (!base && body.nv != (ball ? 3 : 1))) return false;
+            const JointTraits& traits = joint_traits(body.joint);
+            if (body.v_index != nv || body.nv != traits.nv) return false;
             if (t_.free_base && !base && body.parent < 0) return false;
             nv += body.nv;
-            nq += base ? 0 : ball ? 4 : 1;
+            nq += base ? 0 : traits.nq;
         }
         return (!t_.free_base || !t_.bodies.empty()) && nq == t_.nq && nv == t_.nv;
     }
@@ -132,12 +135,12 @@ class TypeCheck {
         std::size_t motors = t_.dofs.size();
         for (std::size_t i = 0; i < t_.loops.size(); ++i) {
             const LoopJoint& loop = t_.loops[i];
-            if (loop.kind > JointSpecKind::kGearbox || loop.joint.index() >= t_.joints.size()) return false;
+            if (!known(loop.kind) || loop.joint.index() >= t_.joints.size()) return false;
             if (t_.joints[loop.joint.index()].loop != static_cast<int>(i)) return false;
             if (!on_body(loop.body_a) || !on_body(loop.body_b) || loop.body_a == loop.body_b) return false;
             if (!on_link(loop.link_a, loop.body_a) || !on_link(loop.link_b, loop.body_b)) return false;
             if (!finite(loop.X_AJ) || !finite(loop.X_BJ)) return false;
-            if (loop.dofs.size() != static_cast<std::size_t>(axes_of(loop.kind))) return false;
+            if (loop.dofs.size() != static_cast<std::size_t>(width_of(loop.kind).v)) return false;
             if (loop.motor_index < 0 || static_cast<std::size_t>(loop.motor_index) != motors) return false;
             for (const Dof& dof : loop.dofs)
                 if (dof.body != loop.body_b || dof.joint != loop.joint) return false;
@@ -149,8 +152,7 @@ class TypeCheck {
     bool joints_fit() const {
         for (std::size_t i = 0; i < t_.joints.size(); ++i) {
             const Joint& joint = t_.joints[i];
-            if (joint.kind > JointSpecKind::kGearbox || !within(joint.body, t_.bodies.size(), -1) ||
-                !is_finite(joint.p_BJ))
+            if (!known(joint.kind) || !within(joint.body, t_.bodies.size(), -1) || !is_finite(joint.p_BJ))
                 return false;
             if (joint.loop != -1) {
                 if (!within(joint.loop, t_.loops.size())) return false;
@@ -165,10 +167,10 @@ class TypeCheck {
 
     bool tree_joint_fits(const Joint& joint) const {
         if (joint.nv == 0) return true;
-        if (joint.nv != axes_of(joint.kind) || joint.body < 0) return false;
+        const Width width = width_of(joint.kind);
+        if (joint.nv != width.v || joint.body < 0) return false;
         if (joint.v_index < t_.base_nv() || joint.v_index > t_.nv - joint.nv) return false;
-        const int width = joint.kind == JointSpecKind::kBall ? 4 : joint.nv;
-        return joint.q_index >= 7 && joint.q_index <= t_.nq - width;
+        return joint.q_index >= 7 && joint.q_index <= t_.nq - width.q;
     }
 
     bool couplings_fit() const {

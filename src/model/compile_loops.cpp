@@ -5,6 +5,9 @@
 #include <cmath>
 #include <optional>
 
+#include "model/joint_motion.h"
+#include "world/joint_type.h"
+
 namespace roboss {
 namespace {
 
@@ -15,10 +18,6 @@ const JointSpec* find_joint(const ModelSpec& spec, const std::string& name) {
     for (const JointSpec& joint : spec.joints)
         if (joint.name == name) return &joint;
     return nullptr;
-}
-
-bool is_hinge(const JointSpec& joint) {
-    return joint.kind == JointSpecKind::kRevolute || joint.kind == JointSpecKind::kContinuous;
 }
 
 std::string called(const JointSpec& joint, const ModelSpec& spec) {
@@ -37,7 +36,7 @@ std::optional<GearHinge> find_gear_hinge(const ModelSpec& spec, const JointSpec&
     for (const JointSpec& hinge : spec.joints) {
         const bool forward = hinge.parent == gearbox.gearbox_reference && hinge.child == end;
         const bool backward = hinge.child == gearbox.gearbox_reference && hinge.parent == end;
-        if (!is_hinge(hinge) || hinge.axes.empty() || !(forward || backward)) continue;
+        if (!joint_type(hinge.kind).is_hinge() || hinge.axes.empty() || !(forward || backward)) continue;
         const double cosine =
             dot(rotate(gearbox.X_MJ.q, gearbox.axes[axis].xyz), rotate(hinge.X_MJ.q, hinge.axes[0].xyz));
         if (1 - std::fabs(cosine) <= kAligned) return GearHinge{&hinge, (cosine > 0) == forward ? 1.0 : -1.0};
@@ -74,30 +73,37 @@ void find_gearbox(const ModelSpec& spec, const JointSpec& gearbox, std::vector<C
     found.push_back(coupling);
 }
 
+/// The axis of the leader; nullopt: it has no such coordinate.
+std::optional<std::size_t> leader_axis(const JointSpec& leader, const MimicSpec& mimic) {
+    const JointType& type = joint_type(leader.kind);
+    const auto by_number = static_cast<std::size_t>(mimic.axis);
+    const std::size_t axis = type.find_axis(mimic.element).value_or(by_number);
+    return !type.couples && axis < leader.axes.size() ? std::optional(axis) : std::nullopt;
+}
+
 void find_mimic(const ModelSpec& spec, const JointSpec& joint, std::size_t axis,
                 std::vector<CouplingSpec>& found, Diagnostics& diagnostics) {
     const MimicSpec& mimic = *joint.axes[axis].mimic;
     const JointSpec* leader = find_joint(spec, mimic.joint);
-    const bool known = leader != nullptr && mimic.axis >= 0 &&
-                       static_cast<std::size_t>(mimic.axis) < leader->axes.size() &&
-                       leader->kind != JointSpecKind::kGearbox;
-    const bool itself = leader == &joint && static_cast<std::size_t>(mimic.axis) == axis;
-    if (!known || itself) {
+    const auto led_by = leader != nullptr ? leader_axis(*leader, mimic) : std::nullopt;
+    const bool itself = leader == &joint && led_by == axis;
+    if (!led_by || itself) {
         diagnostics.error(joint.where, "mimic-leader",
                           called(joint, spec) + " mimics " +
                               (itself ? "itself"
-                                      : "axis " + std::to_string(mimic.axis) + " of '" + mimic.joint +
-                                            "', which the model does not have"),
+                                      : (mimic.element.empty() ? "axis " + std::to_string(mimic.axis)
+                                                               : "<" + mimic.element + ">") +
+                                            " of '" + mimic.joint + "', which the model does not have"),
                           "Name another joint of the model and one of its axes.");
         return;
     }
-    found.push_back({joint.name, mimic.joint, static_cast<int>(axis), mimic.axis, mimic.multiplier,
-                     mimic.offset - mimic.multiplier * mimic.reference, joint.where});
+    found.push_back({joint.name, mimic.joint, static_cast<int>(axis), static_cast<int>(*led_by),
+                     mimic.multiplier, mimic.offset - mimic.multiplier * mimic.reference, joint.where});
 }
 
 /// Index in RobotType::dofs; nullopt where the joint has no coordinate in the tree.
 std::optional<int> dof_index(const RobotType& type, const Joint& joint, int axis) {
-    if (joint.loop >= 0 || axis >= joint.nv || joint.kind == JointSpecKind::kBall) return std::nullopt;
+    if (joint.loop >= 0 || axis >= joint.nv || joint_type(joint.kind).is_isotropic()) return std::nullopt;
     return static_cast<int>(type.motor_index(joint, axis));
 }
 
@@ -131,10 +137,11 @@ LoopJoint to_loop_joint(const JointSpec& spec, const Transform& X_MA, const Tran
     loop.X_BJ = inverse(X_MB) * X_MJ;
     if (!spec.axes.empty()) loop.axis_J = spec.axes[0].xyz;
     if (spec.axes.size() > 1) loop.axis2_J = spec.axes[1].xyz;
-    if (spec.kind == JointSpecKind::kScrew) loop.pitch = spec.screw_pitch;
-    for (const AxisSpec& axis : spec.axes)
-        loop.dofs.push_back(to_dof(axis, spec.kind == JointSpecKind::kContinuous));
-    if (spec.kind == JointSpecKind::kBall) loop.dofs.resize(3);
+    const JointType& type = joint_type(spec.kind);
+    for (const JointKind motion : type.motions)
+        if (joint_traits(motion).has_pitch) loop.pitch = spec.screw_pitch;
+    for (const AxisSpec& axis : spec.axes) loop.dofs.push_back(to_dof(axis, type.endless));
+    if (type.is_isotropic()) loop.dofs.resize(3);
     for (Dof& dof : loop.dofs) dof.damping += spec.ball_damping;
     return loop;
 }
@@ -150,8 +157,10 @@ void report_loop(const JointSpec& joint, const ModelSpec& model, Diagnostics& di
                                     "Let it read other joints of the loop, or leave one of them unread.");
     diagnostics.note(joint.where, "kinematic-loop",
                      name + " closes a kinematic loop: conditions between its two links keep it together");
-    const bool turns = joint.kind != JointSpecKind::kPrismatic && joint.kind != JointSpecKind::kContinuous;
-    for (const AxisSpec& axis : joint.axes) {
+    const JointType& type = joint_type(joint.kind);
+    for (std::size_t k = 0; k < joint.axes.size() && k < type.motions.size(); ++k) {
+        const AxisSpec& axis = joint.axes[k];
+        const bool turns = joint_traits(type.motions[k]).turns && !type.endless;
         if (axis.initial_position != 0)
             diagnostics.warning(joint.where, "loop-start",
                                 name + " closes a loop; its <initial_position> is ignored",
@@ -181,7 +190,7 @@ void report_immobile(const JointSpec& joint, const std::string& model, Diagnosti
 std::vector<CouplingSpec> find_couplings(const ModelSpec& spec, Diagnostics& diagnostics) {
     std::vector<CouplingSpec> found;
     for (const JointSpec& joint : spec.joints) {
-        if (joint.kind == JointSpecKind::kGearbox) {
+        if (joint_type(joint.kind).couples) {
             find_gearbox(spec, joint, found, diagnostics);
             continue;
         }

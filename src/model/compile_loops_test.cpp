@@ -111,12 +111,12 @@ TEST(CompileLoops, StartThatCannotCloseMovesOrIsAnError) {
     m = row_of_three();
     m.joints.push_back(joint(JointSpecKind::kPrismatic, "ab", "a", "b", at_x(0.5), {1, 0, 0}));
     m.joints.push_back(joint(JointSpecKind::kContinuous, "bc", "b", "c", at_x(1.5), {1, 0, 0}));
-    m.joints[0].axes[0].mimic = MimicSpec{"bc", 0, 0.0, 0.2, 0};
-    m.joints[1].axes[0].mimic = MimicSpec{"ab", 0, 0.0, 0.1, 0};
+    m.joints[0].axes[0].mimic = MimicSpec{"bc", 0, 0.0, 0.2, 0, {}};
+    m.joints[1].axes[0].mimic = MimicSpec{"ab", 0, 0.0, 0.1, 0, {}};
     const Compiled both = compile_one(m);
     EXPECT_NE(both.model, nullptr) << "two constants are no contradiction";
-    m.joints[1].axes[0].mimic = MimicSpec{"ab", 0, 1.0, 0.1, 0};
-    m.joints[0].axes[0].mimic = MimicSpec{"bc", 0, 1.0, 0.2, 0};
+    m.joints[1].axes[0].mimic = MimicSpec{"ab", 0, 1.0, 0.1, 0, {}};
+    m.joints[0].axes[0].mimic = MimicSpec{"bc", 0, 1.0, 0.2, 0, {}};
     const Compiled none = compile_one(m);
     EXPECT_EQ(none.model, nullptr);
     EXPECT_TRUE(has(none.diagnostics, "open-loop"));
@@ -124,16 +124,16 @@ TEST(CompileLoops, StartThatCannotCloseMovesOrIsAnError) {
 
 TEST(CompileLoops, MimicOfWhatIsNotThereIsAnError) {
     ModelSpec m = ring();
-    m.joints[0].axes[0].mimic = MimicSpec{"nobody", 0, 1, 0, 0};
+    m.joints[0].axes[0].mimic = MimicSpec{"nobody", 0, 1, 0, 0, {}};
     EXPECT_TRUE(has(compile_one(m).diagnostics, "mimic-leader"));
-    m.joints[0].axes[0].mimic = MimicSpec{"hinge_1", 1, 1, 0, 0};
+    m.joints[0].axes[0].mimic = MimicSpec{"hinge_1", 1, 1, 0, 0, {}};
     EXPECT_TRUE(has(compile_one(m).diagnostics, "mimic-leader")) << "a hinge has no second axis";
-    m.joints[0].axes[0].mimic = MimicSpec{"hinge_0", 0, 1, 0, 0};
+    m.joints[0].axes[0].mimic = MimicSpec{"hinge_0", 0, 1, 0, 0, {}};
     EXPECT_TRUE(has(compile_one(m).diagnostics, "mimic-leader")) << "itself";
     ModelSpec apart = row_of_three();
     apart.joints.push_back(joint(JointSpecKind::kRevolute, "wa", "world", "a", {}, {0, 0, 1}));
     apart.joints.push_back(joint(JointSpecKind::kRevolute, "bc", "b", "c", at_x(1.5), {0, 0, 1}));
-    apart.joints[1].axes[0].mimic = MimicSpec{"wa", 0, 1, 0, 0};
+    apart.joints[1].axes[0].mimic = MimicSpec{"wa", 0, 1, 0, 0, {}};
     EXPECT_TRUE(has(compile_one(apart).diagnostics, "coupling-apart"));
 }
 

@@ -9,6 +9,8 @@
 #include "model/compile_loops.h"
 #include "model/compile_type.h"
 #include "model/joint_graph.h"
+#include "model/joint_motion.h"
+#include "world/joint_type.h"
 
 namespace roboss {
 namespace {
@@ -143,7 +145,7 @@ class PartBuilder {
         joint.kind = spec.kind;
         const int body_a = body_of_link_[parent], body_b = body_of_link_[child];
         if (body_a == body_b) {  // other joints weld the two links together
-            if (spec.kind != JointSpecKind::kFixed) report_immobile(spec, spec_.name, diagnostics_);
+            if (!joint_type(spec.kind).welds()) report_immobile(spec, spec_.name, diagnostics_);
             type.joints.push_back(joint);
             return;
         }
@@ -160,10 +162,12 @@ class PartBuilder {
         report_loop(spec, spec_, diagnostics_);
     }
 
-    static JointKind kind_of(JointSpecKind kind) {
-        return kind == JointSpecKind::kPrismatic ? JointKind::kPrismatic
-               : kind == JointSpecKind::kScrew   ? JointKind::kScrew
-                                                 : JointKind::kRevolute;
+    /// The numbers of motion k; nullopt: the file's joint lacks them.
+    static std::optional<AxisSpec> axis_of(const JointSpec& spec, const JointType& type, std::size_t k) {
+        if (!type.is_isotropic()) return k < spec.axes.size() ? std::optional(spec.axes[k]) : std::nullopt;
+        AxisSpec each;
+        each.damping = spec.ball_damping;
+        return each;
     }
 
     int add_joint(const JointEdge& edge, int parent_body) {
@@ -174,18 +178,11 @@ class PartBuilder {
         joint.reversed = edge.reversed;
         const JointId id(part_.type.joints.size());
         int body = parent_body;
-        if (spec.kind == JointSpecKind::kBall) {
-            AxisSpec each;
-            each.damping = spec.ball_damping;
-            body = add_body(parent_body, spec, JointKind::kBall, each, edge.reversed, id, joint);
-        } else if (spec.kind != JointSpecKind::kFixed) {
-            const JointKind kind = kind_of(spec.kind);
-            const std::size_t axes =
-                spec.kind == JointSpecKind::kUniversal || spec.kind == JointSpecKind::kRevolute2 ? 2 : 1;
-            for (std::size_t a = 0; a < axes && a < spec.axes.size(); ++a) {
-                const std::size_t pick = edge.reversed ? std::min(axes, spec.axes.size()) - 1 - a : a;
-                body = add_body(body, spec, kind, spec.axes[pick], edge.reversed, id, joint);
-            }
+        const JointType& type = joint_type(spec.kind);
+        for (std::size_t k = 0; k < type.motions.size(); ++k) {
+            const std::size_t pick = edge.reversed ? type.motions.size() - 1 - k : k;
+            if (const auto axis = axis_of(spec, type, pick))
+                body = add_body(body, spec, type.motions[pick], *axis, edge.reversed, id, joint);
         }
         joint.body = body == parent_body ? -1 : body;
         if (joint.body < 0) joint.p_BJ = inverse(placed(body)) * spec.X_MJ.p;
@@ -202,27 +199,27 @@ class PartBuilder {
         body.joint = kind;
         body.X_PJ = parent < 0 ? X_MJ : between(X_MB_[static_cast<std::size_t>(parent)], X_MJ);
         body.axis_J = reversed ? -axis.xyz : axis.xyz;
-        if (kind == JointKind::kScrew) body.pitch = spec.screw_pitch;
-        body.reversed_ball = reversed && kind == JointKind::kBall;
+        const JointTraits& traits = joint_traits(kind);
+        if (traits.has_pitch) body.pitch = spec.screw_pitch;
+        body.reversed_ball = reversed && traits.is_quaternion;
         body.q_index = type.nq;
         body.v_index = type.nv;
-        body.nv = kind == JointKind::kBall ? 3 : 1;
+        body.nv = traits.nv;
         if (joint.v_index < 0) joint.q_index = body.q_index, joint.v_index = body.v_index;
         joint.nv += body.nv;
         const int index = static_cast<int>(type.bodies.size());
         const int parent_dof = parent < 0 ? -1 : last_dof(type.bodies[static_cast<std::size_t>(parent)]);
         for (int k = 0; k < body.nv; ++k) {
             type.dof_parent.push_back(k == 0 ? parent_dof : type.nv + k - 1);
-            type.dofs.push_back(
-                to_dof(axis, kind == JointKind::kBall || spec.kind == JointSpecKind::kContinuous));
+            type.dofs.push_back(to_dof(axis, joint_type(spec.kind).endless));
             type.dofs.back().body = index, type.dofs.back().joint = id;
         }
-        if (kind == JointKind::kBall) {
+        if (traits.is_quaternion) {
             type.initial_q.insert(type.initial_q.end(), {1.0, 0.0, 0.0, 0.0});
         } else {
             type.initial_q.push_back(axis.initial_position);
         }
-        type.nq += kind == JointKind::kBall ? 4 : 1;
+        type.nq += traits.nq;
         type.nv += body.nv;
         type.bodies.push_back(body);
         X_MB_.push_back(X_MJ);

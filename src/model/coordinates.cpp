@@ -1,8 +1,6 @@
 // See coordinates.h.
 #include "model/coordinates.h"
 
-#include "model/joint_motion.h"
-
 namespace roboss {
 
 void place_tree(const RobotType& type, std::span<const double> q, TreePlacement& placement) {

@@ -5,34 +5,18 @@
 #include <vector>
 
 #include "math/spatial.h"
+#include "model/joint_motion.h"
 #include "model/model.h"
 
 namespace roboss {
-
-/// Turns the quaternion at q[i] by a rotation vector.
-template <class T>
-void turn(std::span<T> q, std::size_t i, const Vec3T<T>& rotation) {
-    const QuatT<T> x = normalized(exponential(rotation) * QuatT<T>{q[i], q[i + 1], q[i + 2], q[i + 3]});
-    q[i] = x.w, q[i + 1] = x.x, q[i + 2] = x.y, q[i + 3] = x.z;
-}
 
 /// q := q moved by dt * v; rotations exactly by the rotation vector dt * w. Over T: one robot, or a few in
 /// lanes.
 template <class T>
 void advance_coordinates(const RobotType& type, std::span<const T> v, double dt, std::span<T> q) {
-    const auto rotation = [&](std::size_t k) { return Vec3T<T>{v[k], v[k + 1], v[k + 2]} * T(dt); };
-    for (const Body& body : type.bodies) {
-        const auto i = static_cast<std::size_t>(body.q_index);
-        const auto k = static_cast<std::size_t>(body.v_index);
-        if (body.joint == JointKind::kFree) {
-            for (std::size_t a = 0; a < 3; ++a) q[a] += dt * v[k + 3 + a];
-            turn(q, 3, rotation(k));
-        } else if (body.joint == JointKind::kBall) {
-            turn(q, i, rotation(k));
-        } else {
-            q[i] += dt * v[k];
-        }
-    }
+    for (const Body& body : type.bodies)
+        visit_joint(body.joint,
+                    [&](auto joint) { joint.advance(v.data() + body.v_index, dt, q.data() + body.q_index); });
 }
 
 /// Poses of all bodies and motion axes, about the base origin O in world axes.

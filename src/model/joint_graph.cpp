@@ -5,6 +5,8 @@
 #include <numeric>
 #include <set>
 
+#include "world/joint_type.h"
+
 namespace roboss {
 namespace {
 
@@ -14,7 +16,7 @@ std::set<std::string> joints_in_use(const ModelSpec& spec) {
     for (const JointSpec& joint : spec.joints) {
         for (const AxisSpec& axis : joint.axes)
             if (axis.mimic) used.insert({joint.name, axis.mimic->joint});
-        if (joint.kind != JointSpecKind::kGearbox) continue;
+        if (!joint_type(joint.kind).couples) continue;
         for (const JointSpec& hinge : spec.joints)
             for (const std::string& end : {joint.parent, joint.child})
                 if ((hinge.parent == joint.gearbox_reference && hinge.child == end) ||
@@ -31,10 +33,11 @@ std::set<std::string> joints_in_use(const ModelSpec& spec) {
 
 /// How much a joint should be in the tree.
 int worth(const JointSpec& joint, bool in_use) {
-    if (joint.kind == JointSpecKind::kFixed) return 100;
+    const JointType& type = joint_type(joint.kind);
+    if (type.welds()) return 100;
     int sum = in_use ? 50 : 0;
     for (const AxisSpec& axis : joint.axes) {
-        const bool limited = joint.kind != JointSpecKind::kContinuous && axis.has_limits();
+        const bool limited = !type.endless && axis.has_limits();
         if (axis.position_gain > 0 || axis.velocity_gain > 0 || axis.armature > 0) sum += 8;
         if (limited || axis.friction > 0 || axis.initial_position != 0) sum += 4;
         if (axis.damping > 0 || axis.spring_stiffness > 0) sum += 2;
@@ -62,7 +65,7 @@ std::vector<char> span_joints(const ModelSpec& spec) {
     for (std::size_t j : order) {
         const JointSpec& joint = spec.joints[j];
         const auto parent = node_index(spec, joint.parent), child = link_index(spec, joint.child);
-        if (joint.kind == JointSpecKind::kGearbox || !parent || !child) continue;
+        if (joint_type(joint.kind).couples || !parent || !child) continue;
         const std::size_t a = root_of(group, *parent), b = root_of(group, *child);
         if (a == b) continue;
         group[std::max(a, b)] = std::min(a, b);
@@ -92,7 +95,7 @@ JointGraph build_joint_graph(const ModelSpec& spec) {
     const std::vector<char> in_tree = span_joints(spec);
     for (std::size_t j = 0; j < spec.joints.size(); ++j) {
         const JointSpec& joint = spec.joints[j];
-        if (joint.kind == JointSpecKind::kGearbox) continue;  // couples joints, connects nothing
+        if (joint_type(joint.kind).couples) continue;
         const auto parent = node_index(spec, joint.parent), child = link_index(spec, joint.child);
         if (!child || !parent) continue;  // reported by validate()
         graph.is_child[*child] = 1;

@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "model/joint_motion.h"
+#include "world/joint_type.h"
+
 namespace roboss {
 namespace {
 
@@ -88,11 +91,31 @@ double angle_about(const Vec3& axis, const Vec3& x, const Vec3& y) {
     return fixed_atan2(dot(side, y), dot(x, y) - dot(axis, x) * dot(axis, y));
 }
 
-double hinge_angle(const LoopJoint& loop, const Mat3& R_AJ, const Mat3& R_BJ) {
+double hinge_angle(const Vec3& axis_J, const Mat3& R_AJ, const Mat3& R_BJ) {
     Vec3 x, y;
-    tangents(loop.axis_J, x, y);
-    return angle_about(R_AJ * loop.axis_J, R_AJ * x, R_BJ * x);
+    tangents(axis_J, x, y);
+    return angle_about(R_AJ * axis_J, R_AJ * x, R_BJ * x);
 }
+
+Vec3 axis_of(const LoopJoint& loop, std::size_t k) {
+    return k == 0 ? loop.axis_J : k == 1 ? loop.axis2_J : cross(loop.axis_J, loop.axis2_J);
+}
+
+/// What a joint leaves free, counted over the motions that it consists of.
+struct Freedom {
+    explicit Freedom(const LoopJoint& loop) : motions(joint_type(loop.kind).motions) {
+        for (std::size_t k = 0; k < motions.size(); ++k) {
+            const JointTraits& traits = joint_traits(motions[k]);
+            if (traits.slides) ++slides, slide_axis = axis_of(loop, k);
+            if (traits.turns) turns += traits.nv, turn_axis = axis_of(loop, k);
+            has_pitch |= traits.has_pitch;
+        }
+    }
+    std::span<const JointKind> motions;
+    int slides = 0, turns = 0;
+    bool has_pitch = false;
+    Vec3 slide_axis, turn_axis;  // of the last one
+};
 
 void add_universal(const LoopJoint& loop, const Mat3& R_AJ, const Mat3& R_BJ, FreeDirections& out) {
     const Vec3 a1 = R_AJ * loop.axis_J, a2 = R_BJ * loop.axis2_J;
@@ -106,65 +129,49 @@ void add_universal(const LoopJoint& loop, const Mat3& R_AJ, const Mat3& R_BJ, Fr
 
 ClosureRows closure_rows(const LoopJoint& loop, const BodyKinematics& a, const BodyKinematics& b) {
     Relative relative(loop, a, b);
+    const Freedom freedom(loop);
     Vec3 side, up;
-    tangents(loop.axis_J, side, up);
-    const bool slides = loop.kind == JointSpecKind::kPrismatic || loop.kind == JointSpecKind::kScrew;
-    if (slides) {
+    if (freedom.slides == 0) {
+        for (const Vec3& u : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) relative.keep_together(u);
+    } else if (freedom.slides == 1) {
+        tangents(freedom.slide_axis, side, up);
         relative.keep_together(side), relative.keep_together(up);
     } else {
-        for (const Vec3& u : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) relative.keep_together(u);
+        relative.keep_together(cross(loop.axis_J, loop.axis2_J));
     }
-    switch (loop.kind) {
-        case JointSpecKind::kFixed:
-        case JointSpecKind::kPrismatic:
-            for (std::size_t k = 0; k < 3; ++k) relative.keep_angle(k);
-            break;
-        case JointSpecKind::kUniversal:
-        case JointSpecKind::kRevolute2:
-            relative.keep_product(loop.axis2_J, loop.axis_J, dot(loop.axis_J, loop.axis2_J));
-            break;
-        case JointSpecKind::kScrew:
-            relative.keep_thread(hinge_angle(loop, a.X_OB.R * loop.X_AJ.R, b.X_OB.R * loop.X_BJ.R));
-            [[fallthrough]];
-        case JointSpecKind::kRevolute:
-        case JointSpecKind::kContinuous:
-            relative.keep_product(loop.axis_J, side, 0), relative.keep_product(loop.axis_J, up, 0);
-            break;
-        case JointSpecKind::kBall:
-        case JointSpecKind::kGearbox:
-            break;
+    if (freedom.turns == 0) {
+        for (std::size_t k = 0; k < 3; ++k) relative.keep_angle(k);
+    } else if (freedom.turns == 1) {
+        const Vec3& axis = freedom.turn_axis;
+        tangents(axis, side, up);
+        if (freedom.has_pitch)
+            relative.keep_thread(hinge_angle(axis, a.X_OB.R * loop.X_AJ.R, b.X_OB.R * loop.X_BJ.R));
+        relative.keep_product(axis, side, 0), relative.keep_product(axis, up, 0);
+    } else if (freedom.turns == 2) {
+        relative.keep_product(loop.axis2_J, loop.axis_J, dot(loop.axis_J, loop.axis2_J));
     }
     return relative.rows;
 }
 
 FreeDirections free_directions(const LoopJoint& loop, const Transform& X_OA, const Transform& X_OB) {
     const Transform A = X_OA * loop.X_AJ, B = X_OB * loop.X_BJ;
-    const Vec3 axis = A.R * loop.axis_J;
+    const Freedom freedom(loop);
     FreeDirections out;
-    switch (loop.kind) {
-        case JointSpecKind::kRevolute:
-        case JointSpecKind::kContinuous:
-        case JointSpecKind::kScrew:
-            out.directions[0] = {hinge_angle(loop, A.R, B.R), {axis, {}}};
-            out.count = 1;
-            break;
-        case JointSpecKind::kPrismatic:
-            out.directions[0] = {dot(axis, B.p - A.p), {cross(B.p, axis), axis}};
-            out.count = 1;
-            break;
-        case JointSpecKind::kUniversal:
-        case JointSpecKind::kRevolute2:
-            add_universal(loop, A.R, B.R, out);
-            break;
-        case JointSpecKind::kBall: {
-            const Vec3 turn = logarithm(to_quat(transpose(A.R) * B.R));
-            for (std::size_t k = 0; k < 3; ++k) out.directions[k] = {turn[k], {A.R.col(k), {}}};
-            out.count = 3;
-            break;
+    if (freedom.turns == 2) {
+        add_universal(loop, A.R, B.R, out);
+    } else if (freedom.turns == 3) {
+        const Vec3 turn = logarithm(to_quat(transpose(A.R) * B.R));
+        for (std::size_t k = 0; k < 3; ++k) out.directions[k] = {turn[k], {A.R.col(k), {}}};
+        out.count = 3;
+    } else {
+        for (const JointKind motion : freedom.motions) {
+            const Vec3 axis_J = axis_of(loop, out.count), axis = A.R * axis_J;
+            FreeDirection& direction = out.directions[out.count++];
+            if (joint_traits(motion).turns)
+                direction = {hinge_angle(axis_J, A.R, B.R), {axis, {}}};
+            else
+                direction = {dot(axis, B.p - A.p), {cross(B.p, axis), axis}};
         }
-        case JointSpecKind::kFixed:
-        case JointSpecKind::kGearbox:
-            break;
     }
     return out;
 }

@@ -40,7 +40,7 @@ class Mobility {
         if (!type_.has_equalities()) return;
         std::vector<double> q(static_cast<std::size_t>(type_.nq), 0.0);
         for (const Body& body : type_.bodies)
-            if (body.joint == JointKind::kBall) q[static_cast<std::size_t>(body.q_index)] = 1;
+            if (joint_traits(body.joint).is_quaternion) q[static_cast<std::size_t>(body.q_index)] = 1;
         q[3] = 1;
         place_tree(type_, q, placement_);
         for (LoopJoint& loop : type_.loops) measure(loop);
@@ -104,21 +104,17 @@ class Mobility {
             const Transform& X = X_WB_[static_cast<std::size_t>(i)];
             const Vec3 arm = centre - X.p;
             const auto first = static_cast<std::size_t>(body.v_index);
-            if (body.joint == JointKind::kPrismatic) {
-                columns[first].linear = X.R * body.axis_J;
-            } else if (body.joint == JointKind::kRevolute) {
-                const Vec3 axis = X.R * body.axis_J;
-                columns[first] = {axis, cross(axis, arm)};
-            } else if (body.joint == JointKind::kScrew) {
-                const Vec3 axis = X.R * body.axis_J;
-                columns[first] = {axis, cross(axis, arm) + axis * body.pitch};
-            } else {
-                for (std::size_t k = 0; k < 3; ++k) {
-                    Vec3 axis;
-                    axis[k] = 1;
-                    columns[first + k] = {axis, cross(axis, arm)};
-                    if (body.joint == JointKind::kFree) columns[first + 3 + k].linear = axis;
-                }
+            if (body.nv == 1) {
+                Spatial motion;
+                joint_axes(body, X.R, {X.R, X.p - centre}, &motion);
+                columns[first] = {motion.angular, motion.linear};
+                continue;
+            }
+            for (std::size_t k = 0; k < 3; ++k) {
+                Vec3 axis;
+                axis[k] = 1;
+                columns[first + k] = {axis, cross(axis, arm)};
+                if (body.nv == 6) columns[first + 3 + k].linear = axis;
             }
         }
         return columns;

@@ -6,6 +6,7 @@
 
 #include "core/hash.h"
 #include "model/compile_type.h"
+#include "world/joint_type.h"
 
 namespace roboss {
 namespace {
@@ -39,7 +40,7 @@ void add_body(Hash& hash, const Body& body) {
     add(hash, body.inertia_C), add(hash, body.p_BC), add(hash, body.p_BG);
     for (double x : {body.mass, body.gravity_mass, body.inverse_mass_linear, body.inverse_inertia_angular})
         hash.add(x);
-    if (body.joint == JointKind::kScrew) hash.add(body.pitch);
+    if (body.pitch != 0) hash.add(body.pitch);
     if (body.reversed_ball) add(hash, 1);
 }
 
@@ -103,6 +104,10 @@ std::uint64_t type_hash(const RobotType& type) {
     for (const LoopJoint& loop : type.loops) add_loop(hash, loop);
     for (const CoordinateCoupling& coupling : type.couplings) add_coupling(hash, coupling);
     return hash.value();
+}
+
+int Joint::axis_offset(int axis) const {
+    return reversed && !joint_type(kind).is_isotropic() ? nv - 1 - axis : axis;
 }
 
 std::optional<LinkId> RobotType::find_link(const std::string& wanted) const {

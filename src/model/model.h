@@ -27,13 +27,15 @@
 
 namespace roboss {
 
-enum class JointKind : std::uint8_t { kFree, kRevolute, kPrismatic, kBall, kScrew };
+/// How a body moves on its parent (world/joint_kind.h). Zero is kFree, the base of a robot that nothing
+/// fixes.
+enum class JointKind : std::uint8_t;
 
 /// A rigid body of the tree. Its frame B sits at its joint: X_PB(q) = X_PJ * motion(q); bodies come parents
 /// first.
 struct Body {
     int parent = -1;  // -1: the base frame (fixed base) or the world (body 0 of a free base)
-    JointKind joint = JointKind::kFree;
+    JointKind joint{};
     Transform X_PJ;
     Vec3 axis_J{0, 0, 1};
     double pitch = 0;  // of a screw: way along the axis, m per radian
@@ -81,33 +83,31 @@ struct Link {
 
 struct Joint {
     std::string name;
-    JointSpecKind kind = JointSpecKind::kFixed;
-    int body = -1;     // the body it moves; -1 for fixed
+    JointSpecKind kind{};
+    int body = -1;     // the (last) body it moves; -1 for fixed
     int q_index = -1;  // first coordinate, -1 for fixed
     int v_index = -1;
     int nv = 0;
     bool reversed =
-        false;      // the tree walks it from child to parent: of two axes, the second comes first in q and v
+        false;  // the tree walks it from child to parent: of several axes, the last comes first in q and v
     int loop = -1;  // in RobotType::loops if it closes one: then it has no place in q and v
     Vec3 p_BJ{};    // fixed: its origin in the body that its two links are of
 
-    /// Where axis `axis` of the file stands behind q_index and v_index (joints of one or two axes).
-    int axis_offset(int axis) const {
-        return reversed && kind != JointSpecKind::kBall ? nv - 1 - axis : axis;
-    }
+    /// Where axis `axis` of the file stands behind q_index and v_index.
+    int axis_offset(int axis) const;
 };
 
 /// A joint that closes a kinematic loop: it is not in the tree; rows keep its two frames together.
 struct LoopJoint {
     JointId joint;
-    JointSpecKind kind = JointSpecKind::kFixed;
+    JointSpecKind kind{};
     int body_a = -1, body_b = -1;  // of the file's parent and child; -1: the fixed base
     int link_a = -1, link_b = -1;  // the file's parent and child; -1: the world
     Transform X_AJ, X_BJ;          // the joint's frame in both; they coincide when the joint is at zero
-    Vec3 axis_J{0, 0, 1}, axis2_J{0, 1, 0};
-    double pitch = 0;       // of a screw, m per radian
-    std::vector<Dof> dofs;  // its free directions
-    int motor_index = 0;    // of the first of them in RobotState::motors
+    Vec3 axis_J{0, 0, 1}, axis2_J{0, 1, 0};  // a third one is at right angles to both
+    double pitch = 0;                        // of a screw, m per radian
+    std::vector<Dof> dofs;                   // its free directions
+    int motor_index = 0;                     // of the first of them in RobotState::motors
     // 1/kg and 1/(kg m^2): mobility of B against A at the joint, at the zero pose.
     double inverse_mass = 0, inverse_inertia = 0;
 };

@@ -8,6 +8,8 @@
 #include <iterator>
 #include <tuple>
 
+#include "world/joint_type.h"
+
 namespace roboss {
 namespace {
 
@@ -105,8 +107,9 @@ struct Check {
                              std::to_string(joint.nv) + " degrees of freedom; axis " +
                              std::to_string(a.axis) + " is not one of them",
                          joint.nv == 0 ? "fixed joints take no orders" : "count axes from 0"};
-        if (joint.kind == JointSpecKind::kBall && a.mode == MotorMode::kPosition)
-            return Error{"ball joint '" + joint.name + "' takes no position order per axis",
+        if (joint_type(joint.kind).is_isotropic() && a.mode == MotorMode::kPosition)
+            return Error{std::string(joint_type(joint.kind).name) + " joint '" + joint.name +
+                             "' takes no position order per axis",
                          "order its velocity or effort"};
         if (!std::isfinite(a.target) || std::isnan(a.max_effort))
             return Error{"order for joint '" + joint.name + "' of " + called(model, order) + " is not finite",

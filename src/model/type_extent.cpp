@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "model/compile_type.h"
+#include "model/joint_motion.h"
 
 namespace roboss {
 namespace {
@@ -16,11 +17,11 @@ Mat3 point_inertia(double mass, const Vec3& d) {
 }
 
 /// How far the joint of a body can slide along its axis.
-double slide_of(const RobotType& type, const Body& body) {
-    const double way = body.joint == JointKind::kPrismatic ? 1.0 : std::fabs(body.pitch);  // per unit
-    if (way == 0) return 0.0;
+double slide_range(const RobotType& type, const Body& body) {
+    const double per_unit = std::fabs(slide_of(body));
+    if (per_unit == 0) return 0.0;
     const Dof& dof = type.dofs[static_cast<std::size_t>(body.v_index - type.base_nv())];
-    return way * std::max(std::fabs(dof.lower), std::fabs(dof.upper));
+    return per_unit * std::max(std::fabs(dof.lower), std::fabs(dof.upper));
 }
 
 bool loop_joins(const RobotType& type, int a, int b) {
@@ -56,7 +57,7 @@ double reach_of(const RobotType& type) {
         const Body& body = type.bodies[b];
         if (body.joint == JointKind::kFree) continue;
         double& e = extent[static_cast<std::size_t>(body.parent + 1)];
-        e = std::max(e, norm(body.X_PJ.p) + slide_of(type, body) + extent[b + 1]);
+        e = std::max(e, norm(body.X_PJ.p) + slide_range(type, body) + extent[b + 1]);
     }
     return std::max(extent[0], extent.size() > 1 && type.free_base ? extent[1] : 0.0);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/joint_motion.h"
 #include "physics/robot_work.h"
 
 namespace roboss {
@@ -22,15 +23,15 @@ JointShare joint_share(const RobotType& type, const RobotState& state) {
     JointShare share;
     for (const Body& body : type.bodies) {
         if (body.joint == JointKind::kFree) continue;
+        const JointTraits& traits = joint_traits(body.joint);
+        const double displacement = std::fabs(slide_of(body));
         for (int k = 0; k < body.nv; ++k) {
             const double rate = std::fabs(state.v[static_cast<std::size_t>(body.v_index + k)]);
-            if (body.joint != JointKind::kPrismatic) share.turning += rate;
-            if (body.joint == JointKind::kPrismatic) share.sliding += rate;
-            if (body.joint == JointKind::kScrew) share.sliding += std::fabs(body.pitch) * rate;
+            if (traits.turns) share.turning += rate;
+            if (traits.slides) share.sliding += displacement * rate;
         }
-        if (body.joint != JointKind::kPrismatic && body.joint != JointKind::kScrew) continue;
+        if (!traits.slides) continue;
         const Dof& dof = type.dofs[static_cast<std::size_t>(body.v_index - type.base_nv())];
-        const double displacement = body.joint == JointKind::kPrismatic ? 1.0 : std::fabs(body.pitch);
         const double q = std::fabs(state.q[static_cast<std::size_t>(body.q_index)]);
         share.slid += displacement * std::max(0.0, q - std::max(std::fabs(dof.lower), std::fabs(dof.upper)));
     }

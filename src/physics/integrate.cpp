@@ -12,47 +12,19 @@
 namespace roboss {
 namespace {
 
-Quat get_quat(std::span<const double> q, std::size_t i) {
-    return {q[i], q[i + 1], q[i + 2], q[i + 3]};
-}
-
-void put_quat(std::span<double> q, std::size_t i, const Quat& x) {
-    q[i] = x.w, q[i + 1] = x.x, q[i + 2] = x.y, q[i + 3] = x.z;
-}
-
-Quat quat_rate(const Vec3& w, const Quat& q) {
-    const Quat r = Quat{0, w.x, w.y, w.z} * q;
-    return {0.5 * r.w, 0.5 * r.x, 0.5 * r.y, 0.5 * r.z};
-}
-
-Vec3 get_vec(std::span<const double> v, std::size_t i) {
-    return {v[i], v[i + 1], v[i + 2]};
-}
-
 /// dq/dt of all coordinates; `rate` has the size of q.
 void coordinate_rate(const RobotType& type, std::span<const double> q, std::span<const double> v,
                      std::span<double> rate) {
     std::fill(rate.begin(), rate.end(), 0.0);
-    for (const Body& body : type.bodies) {
-        const auto i = static_cast<std::size_t>(body.q_index);
-        const auto k = static_cast<std::size_t>(body.v_index);
-        if (body.joint == JointKind::kFree) {
-            for (std::size_t a = 0; a < 3; ++a) rate[a] = v[k + 3 + a];
-            put_quat(rate, 3, quat_rate(get_vec(v, k), get_quat(q, 3)));
-        } else if (body.joint == JointKind::kBall) {
-            put_quat(rate, i, quat_rate(get_vec(v, k), get_quat(q, i)));
-        } else {
-            rate[i] = v[k];
-        }
-    }
+    for (const Body& body : type.bodies)
+        visit_joint(body.joint, [&](auto joint) {
+            joint.rate(q.data() + body.q_index, v.data() + body.v_index, rate.data() + body.q_index);
+        });
 }
 
 void normalise(const RobotType& type, std::span<double> q) {
-    for (const Body& body : type.bodies) {
-        if (body.joint == JointKind::kFree) put_quat(q, 3, normalized(get_quat(q, 3)));
-        const auto i = static_cast<std::size_t>(body.q_index);
-        if (body.joint == JointKind::kBall) put_quat(q, i, normalized(get_quat(q, i)));
-    }
+    for (const Body& body : type.bodies)
+        visit_joint(body.joint, [&](auto joint) { joint.normalise(q.data() + body.q_index); });
 }
 
 /// Adds what loops and couplings accelerate: so much that their second derivatives are zero.

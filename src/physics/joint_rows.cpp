@@ -7,6 +7,7 @@
 #include "model/coordinates.h"
 #include "model/loop_closure.h"
 #include "physics/drag.h"
+#include "world/joint_type.h"
 
 namespace roboss {
 namespace {
@@ -54,9 +55,8 @@ class LoopRowWriter {
 };
 
 /// The angle nearest to `aim`: without limits any number of turns is the same.
-double near(double angle, double aim, const LoopJoint& loop, const Dof& dof) {
-    const bool turns = loop.kind == JointSpecKind::kRevolute || loop.kind == JointSpecKind::kContinuous;
-    if (!turns || std::isfinite(dof.lower) || std::isfinite(dof.upper)) return angle;
+double near(double angle, double aim, bool turns_alone, const Dof& dof) {
+    if (!turns_alone || std::isfinite(dof.lower) || std::isfinite(dof.upper)) return angle;
     return aim + wrap_angle(angle - aim);
 }
 
@@ -85,25 +85,29 @@ bool add_loop_axes(const Model& model, const RobotWork& robot, const LoopJoint& 
     };
     LoopRowWriter writer(robot, loop, offset, rows);
     const FreeDirections free = free_directions(loop, placed(loop.body_a), placed(loop.body_b));
+    const JointType& type = joint_type(loop.kind);
+    const bool one_hinge = type.count(JointKind::kRevolute) == 1;
     Lockstep<double> alone;
     bool corrects = false;
     for (std::size_t k = 0; k < free.count; ++k) {
         const FreeDirection& direction = free.directions[k];
         const Dof& dof = loop.dofs[k];
+        const bool turns_alone = one_hinge && type.motions[k] == JointKind::kRevolute;
         MotorSetpoint& motor = robot.state->motors[static_cast<std::size_t>(loop.motor_index) + k];
         const AxisState axis{dof,
                              motor,
-                             near(direction.position, motor.target, loop, dof),
+                             near(direction.position, motor.target, turns_alone, dof),
                              writer.rate(direction.wrench),
                              model.dt_s,
                              model.accuracy.compliance * dof.inverse_inertia,
-                             loop.kind != JointSpecKind::kBall};
+                             !type.is_isotropic()};
         buffer.clear();
         corrects |= add_axis_rows(axis, alone, buffer);
         for (std::size_t r = 0; r < buffer.size(); ++r)
             writer.add(buffer[r], direction.wrench, buffer[r].compliance > axis.dof.inverse_inertia,
                        r == 0 && has_hard_motor(axis) ? &motor : nullptr);
-        add_spring(axis, near(direction.position, dof.spring_reference, loop, dof), direction.wrench, writer);
+        add_spring(axis, near(direction.position, dof.spring_reference, turns_alone, dof), direction.wrench,
+                   writer);
     }
     return corrects;
 }

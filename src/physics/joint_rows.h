@@ -2,6 +2,7 @@
 // loops, gearboxes, mimic joints and the axes of loop joints over several.
 #pragma once
 
+#include "model/joint_motion.h"
 #include "physics/axis_rows.h"
 #include "physics/equality.h"
 
@@ -26,7 +27,7 @@ AxisStateT<T> tree_axis(const Model& model, const RobotType& type, const JointSt
                         std::size_t d) {
     const Dof& dof = type.dofs[d];
     const Body& body = type.bodies[static_cast<std::size_t>(dof.body)];
-    const bool has_position = body.joint != JointKind::kBall;
+    const bool has_position = joint_traits(body.joint).has_positions();
     return {dof,
             state.motors[d],
             has_position ? state.q[static_cast<std::size_t>(body.q_index)] : T(0),

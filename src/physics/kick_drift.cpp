@@ -205,7 +205,7 @@ class KickDrift {
             const Dof& dof = type_.dofs[d];
             const Body& body = body_of(dof);
             const std::size_t i = dof_index(d);
-            if (held.locked[i] || body.joint == JointKind::kBall) continue;
+            if (held.locked[i] || !joint_traits(body.joint).has_positions()) continue;
             if (dof.limit_stiffness * dt * dt * dof.inverse_inertia < 1) continue;
             const double q0 = held.q_start[static_cast<std::size_t>(body.q_index)];
             const double q1 = state_.q[static_cast<std::size_t>(body.q_index)], v0 = held.v_start[i];

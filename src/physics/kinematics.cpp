@@ -3,6 +3,7 @@
 
 #include "model/loop_closure.h"
 #include "physics/robot_work.h"
+#include "world/joint_type.h"
 
 namespace roboss {
 namespace {
@@ -61,7 +62,7 @@ JointState joint_state(const RobotType& type, const RobotState& state, JointId i
     const auto offset = static_cast<std::size_t>(joint.axis_offset(axis));
     const auto q = static_cast<std::size_t>(joint.q_index),
                v = static_cast<std::size_t>(joint.v_index) + offset;
-    if (joint.kind != JointSpecKind::kBall) return {state.q[q + offset], state.v[v]};
+    if (!joint_type(joint.kind).is_isotropic()) return {state.q[q + offset], state.v[v]};
     const Vec3 turned = logarithm(Quat{state.q[q], state.q[q + 1], state.q[q + 2], state.q[q + 3]});
     return {turned[offset], state.v[v]};
 }

@@ -115,7 +115,7 @@ class LaneState {
         using std::floor;
         const Dof& dof = type.dofs[d];
         const Body& body = type.bodies[static_cast<std::size_t>(dof.body)];
-        if (body.joint != JointKind::kRevolute || dof.spring_stiffness != 0 || std::isfinite(dof.lower) ||
+        if (!joint_traits(body.joint).is_periodic || dof.spring_stiffness != 0 || std::isfinite(dof.lower) ||
             std::isfinite(dof.upper))
             return;
         const auto i = static_cast<std::size_t>(body.q_index);

@@ -5,6 +5,7 @@
 #include <bit>
 #include <functional>
 
+#include <support/mechanisms.h>
 #include <support/meshes.h>
 #include <support/robots.h>
 #include <support/scenes.h>
@@ -131,6 +132,23 @@ TEST(Lanes, ArmsOnFixedBasesFollowTheirServosAlike) {
 }
 
 /// Servos with gains, far from their targets and near: at their bounds, at their maximum velocity, below.
+TEST(Lanes, PendulumsOnPlanarJointsAlike) {
+    ModelSpec m = one_link(link("puck", 2.0, Mat3::diagonal(0.06, 0.07, 0.1)));
+    m.joints.push_back(planar_joint("plane", "world", "puck", {{}, from_rpy(0.2, 0, 0)}, {0, 0, 1}));
+    m.links.push_back(rod("rod", 1.0, 0.6, {{0.05, 0.02, 0}, {}}));
+    m.joints.push_back(
+        joint(JointSpecKind::kRevolute, "hinge", "puck", "rod", m.links.back().X_ML, {0.3, 1, 0}));
+    const Drive drive = [](Simulation& sim) {
+        for (std::size_t r = 0; r < sim.states.size(); ++r) {
+            if (sim.tick == 0) sim.states[r].v[3] = 1.0 + 0.1 * static_cast<double>(r);
+            if (sim.tick % 100 != 0) continue;
+            sim.set_motor(r, 0, MotorMode::kVelocity, 0.2 * static_cast<double>(r % 4));
+            sim.set_motor(r, 2, MotorMode::kEffort, 0.1);
+        }
+    };
+    compare(scattered(m, 11, 2.0), drive, 300);
+}
+
 TEST(Lanes, ArmsWithGainsFollowAlike) {
     World world = scattered(arm(), 11, 2.0);
     for (JointSpec& j : world.prototypes.back().joints)

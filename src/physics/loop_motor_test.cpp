@@ -181,7 +181,7 @@ TEST(DrivenGearbox, StallsAtItsForceTimesTheRatio) {
 
 TEST(DrivenMimic, FollowerGoesAlongAndLoadsTheLeader) {
     ModelSpec m = two_wheels(true);
-    m.joints[1].axes[0].mimic = MimicSpec{"small", 0, 0.5, 0, 0};
+    m.joints[1].axes[0].mimic = MimicSpec{"small", 0, 0.5, 0, 0, {}};
     Simulation sim(with(m, 1e-3, {}));
     sim.states[0].motors[0] = {MotorMode::kPosition, 1.2, 5};
     sim.run(3);

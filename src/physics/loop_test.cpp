@@ -117,7 +117,7 @@ TEST(Gearbox, StandstillWheelIsPulledAlong) {
 
 TEST(Mimic, FollowsWithMultiplierOffsetAndReference) {
     ModelSpec m = two_wheels();
-    m.joints[1].axes[0].mimic = MimicSpec{"small", 0, -0.5, 0.1, 0.2};
+    m.joints[1].axes[0].mimic = MimicSpec{"small", 0, -0.5, 0.1, 0.2, {}};
     Simulation sim(with(m, 1e-3, {}));
     const auto expected = [&] { return -0.5 * (sim.states[0].q[7] - 0.2) + 0.1; };
     EXPECT_NEAR(sim.states[0].q[8], expected(), 1e-12) << "from the start";
@@ -156,12 +156,15 @@ TEST_P(LoopReading, PositionsAndVelocitiesAreThoseOfItsLinks) {
         Transform expected;
         if (j.kind == JointSpecKind::kBall)
             expected.R = to_matrix(exponential(Vec3{read(0).position, read(1).position, read(2).position}));
-        else if (j.kind != JointSpecKind::kPrismatic)
-            expected.R = to_matrix(axis_angle(j.axes[0].xyz, read(0).position));
-        if (j.kind == JointSpecKind::kPrismatic) expected.p = j.axes[0].xyz * read(0).position;
-        if (j.kind == JointSpecKind::kScrew) expected.p = j.axes[0].xyz * (j.screw_pitch * read(0).position);
-        if (j.kind == JointSpecKind::kUniversal)
-            expected.R = expected.R * to_matrix(axis_angle(j.axes[1].xyz, read(1).position));
+        for (std::size_t k = 0; k < j.axes.size(); ++k) {
+            const JointKind motion = joint_type(j.kind).motions[k];
+            const double position = read(static_cast<int>(k)).position;
+            if (motion != JointKind::kPrismatic)
+                expected.R = expected.R * to_matrix(axis_angle(j.axes[k].xyz, position));
+            else
+                expected.p += j.axes[k].xyz * position;
+            if (motion == JointKind::kScrew) expected.p = j.axes[k].xyz * (j.screw_pitch * position);
+        }
         EXPECT_LT(norm(X.p - expected.p), 1e-10);
         for (std::size_t r = 0; r < 3; ++r) EXPECT_LT(norm(X.R.row(r) - expected.R.row(r)), 1e-10);
         if (j.kind == JointSpecKind::kBall) continue;  // its velocity is no rate of the rotation vector
@@ -180,7 +183,7 @@ TEST_P(LoopReading, PositionsAndVelocitiesAreThoseOfItsLinks) {
 INSTANTIATE_TEST_SUITE_P(Kinds, LoopReading,
                          testing::Values(JointSpecKind::kRevolute, JointSpecKind::kPrismatic,
                                          JointSpecKind::kScrew, JointSpecKind::kUniversal,
-                                         JointSpecKind::kBall));
+                                         JointSpecKind::kBall, JointSpecKind::kPlanar));
 
 }  // namespace
 }  // namespace roboss::test

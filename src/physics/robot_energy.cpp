@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/joint_motion.h"
 #include "physics/body_impulses.h"
 
 namespace roboss {
@@ -85,7 +86,7 @@ BodySums sum_placed_bodies(const Model& model, std::span<const double> q, std::s
         const double rate = v[d + static_cast<std::size_t>(type.base_nv())];
         sums.kinetic += 0.5 * dof.armature * rate * rate;
         const Body& body = type.bodies[static_cast<std::size_t>(dof.body)];
-        if (body.joint != JointKind::kBall)
+        if (joint_traits(body.joint).has_positions())
             sums.potential += joint_potential(dof, q[static_cast<std::size_t>(body.q_index)]);
     }
     if (arm == Vec3{}) return sums;

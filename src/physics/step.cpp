@@ -106,7 +106,7 @@ JointId broken_joint(const RobotType& type, const RobotState& state) {
     for (std::size_t b = 0; b < type.bodies.size(); ++b) {
         const Body& body = type.bodies[b];
         if (body.joint == JointKind::kFree) continue;
-        const std::size_t width = body.joint == JointKind::kBall ? 4 : 1;
+        const auto width = static_cast<std::size_t>(joint_traits(body.joint).nq);
         if (broken(state.q, body.q_index, width) ||
             broken(state.v, body.v_index, static_cast<std::size_t>(body.nv)))
             return joint_of_body(type, static_cast<int>(b));

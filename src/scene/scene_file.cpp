@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/hash.h"
+#include "model/joint_motion.h"
 #include "wire/archive.h"
 #include "wire/view_state.h"
+#include "world/joint_type.h"
 
 namespace roboss {
 namespace {
@@ -40,17 +42,6 @@ Json bound_of(double value) {
 const char* name_of(SceneShapeKind kind) {
     static constexpr const char* kNames[] = {"plane",   "box",       "sphere", "cylinder",
                                              "capsule", "ellipsoid", "mesh"};
-    return kNames[static_cast<std::size_t>(kind)];
-}
-
-const char* name_of(JointKind kind) {
-    static constexpr const char* kNames[] = {"free", "revolute", "prismatic", "ball", "screw"};
-    return kNames[static_cast<std::size_t>(kind)];
-}
-
-const char* name_of(JointSpecKind kind) {
-    static constexpr const char* kNames[] = {"fixed", "revolute",  "continuous", "prismatic", "ball",
-                                             "screw", "universal", "revolute2",  "gearbox"};
     return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -104,15 +95,31 @@ Json json_of(const std::vector<SceneShape>& shapes, const Scene& scene) {
     return list;
 }
 
+/// How the page interpolates a body's coordinates.
+const char* course_of(const JointTraits& joint) {
+    return joint.is_quaternion ? "quaternion" : joint.is_periodic ? "circle" : "line";
+}
+
 Json json_of(const Body& body) {
-    const int width = body.joint == JointKind::kFree ? 0 : body.joint == JointKind::kBall ? 4 : 1;
+    const JointTraits& joint = joint_traits(body.joint);
+    const bool base = body.joint == JointKind::kFree;
     return {{"parent", body.parent},
-            {"joint", name_of(body.joint)},
+            {"joint", joint.name},
             {"frame", json_of(body.X_PJ)},
             {"axis", json_of(body.axis_J)},
-            {"pitch", tidy(body.pitch)},
-            {"q", width == 0 ? 0 : body.q_index - 7},
-            {"width", width}};
+            {"turn", joint.turns ? 1 : 0},
+            {"slide", tidy(slide_of(body))},
+            {"course", base ? "none" : course_of(joint)},
+            {"q", base ? 0 : body.q_index - 7},
+            {"width", base ? 0 : joint.nq}};
+}
+
+/// Of the position along each axis of the joint.
+Json units_of(const JointType& type) {
+    Json units = Json::array();
+    for (const JointKind motion : type.motions)
+        for (int k = 0; k < joint_traits(motion).nv; ++k) units.push_back(joint_traits(motion).unit);
+    return units;
 }
 
 Json json_of(const RobotType& type, const Joint& joint) {
@@ -125,9 +132,10 @@ Json json_of(const RobotType& type, const Joint& joint) {
         speed.push_back(bound_of(dof.max_velocity));
     }
     return {{"name", joint.name},
-            {"kind", name_of(joint.kind)},
+            {"kind", joint_type(joint.kind).name},
             {"body", joint.body},
             {"axes", joint.nv},
+            {"units", units_of(joint_type(joint.kind))},
             {"q", joint.q_index < 0 ? -1 : joint.q_index - 7},
             {"lower", std::move(lower)},
             {"upper", std::move(upper)},

@@ -156,12 +156,10 @@ TEST(Scene, PicturesAreListedOnceByTheirContentAndMeshesKeepTheirPlacesInThem) {
 Pose motion_of(const Json& body, const std::vector<double>& q) {
     const Vec3 axis{body["axis"][0], body["axis"][1], body["axis"][2]};
     const std::size_t at = body["q"];
-    const std::string joint = body["joint"];
-    if (joint == "revolute") return {{}, axis_angle(axis, q[at])};
-    if (joint == "prismatic") return {axis * q[at], {}};
-    if (joint == "screw") return {axis * (q[at] * body["pitch"].get<double>()), axis_angle(axis, q[at])};
-    if (joint == "ball") return {{}, normalized(Quat{q[at], q[at + 1], q[at + 2], q[at + 3]})};
-    return {};
+    if (body["course"] == "none") return {};
+    if (body["course"] == "quaternion") return {{}, normalized(Quat{q[at], q[at + 1], q[at + 2], q[at + 3]})};
+    return {axis * (q[at] * body["slide"].get<double>()),
+            axis_angle(axis, q[at] * body["turn"].get<double>())};
 }
 
 struct ShownRobot {

@@ -4,6 +4,7 @@
 
 #include "sdf/conversion.h"
 #include "sdf/known_children.h"
+#include "world/joint_type.h"
 
 namespace roboss::sdf_import {
 namespace {
@@ -20,9 +21,19 @@ ExtensionElement kept(const Element& element) {
 bool is_ours_here(const char* parent, const char* name) {
     const auto is = [](const char* a, const char* b) { return std::strcmp(a, b) == 0; };
     if (is(name, "roboss:sensor") || is(name, "roboss:drag")) return is(parent, "link");
+    if (is(name, "roboss:joint")) return is(parent, "joint");
     if (is(name, "roboss:motor")) return is(parent, "joint") || is(parent, "axis") || is(parent, "axis2");
     if (is(name, "roboss:rolling_friction")) return is(parent, "collision") || is(parent, "surface");
     return false;
+}
+
+/// Its children are the axes of its type.
+void report_joint(const Element& element, const Import& import) {
+    const auto kind = find_joint_type(element.node.attribute("type").value());
+    if (!kind) return;  // reported with the joint
+    std::vector<const char*> axes;
+    for (const std::string_view axis : joint_type(*kind).axes) axes.push_back(axis.data());
+    report_unknown_children(element, axes, import.diagnostics());
 }
 
 void report_extension(const Element& element, const Import& import) {
@@ -30,14 +41,16 @@ void report_extension(const Element& element, const Import& import) {
     if (is_foreign(name)) return report_foreign(element, import.diagnostics());
     if (is_ours_here(parent.c_str(), name.c_str())) {
         if (name == "roboss:motor") report_unknown_children(element, kMotor, import.diagnostics());
+        if (name == "roboss:joint") report_joint(element, import);
         if (name == "roboss:drag") report_unknown_children(element, kDrag, import.diagnostics());
         return;
     }
-    import.diagnostics().warning(
-        element.where(), "unknown-extension",
-        "<" + name + "> in <" + parent + "> is not known and is ignored",
-        "Known: <roboss:sensor> and <roboss:drag> in a link, <roboss:motor> in a joint or axis, "
-        "<roboss:rolling_friction> in a collision or surface.");
+    import.diagnostics().warning(element.where(), "unknown-extension",
+                                 "<" + name + "> in <" + parent + "> is not known and is ignored",
+                                 "Known: <roboss:sensor> and <roboss:drag> in a link, <roboss:joint> in a "
+                                 "joint, <roboss:motor> in a joint "
+                                 "or axis, "
+                                 "<roboss:rolling_friction> in a collision or surface.");
 }
 
 }  // namespace

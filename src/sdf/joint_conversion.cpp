@@ -1,51 +1,48 @@
 // Joints: type, links and frames from libsdformat, numbers of the axes and <roboss:motor> from the source.
 #include "sdf/joint_conversion.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <sdf/JointAxis.hh>
 
+#include "sdf/known_children.h"
+#include "world/joint_type.h"
+
 namespace roboss::sdf_import {
 namespace {
 
-std::optional<JointSpecKind> kind_of(sdf::JointType type) {
-    switch (type) {
-        case sdf::JointType::FIXED:
-            return JointSpecKind::kFixed;
-        case sdf::JointType::REVOLUTE:
-            return JointSpecKind::kRevolute;
-        case sdf::JointType::CONTINUOUS:
-            return JointSpecKind::kContinuous;
-        case sdf::JointType::PRISMATIC:
-            return JointSpecKind::kPrismatic;
-        case sdf::JointType::BALL:
-            return JointSpecKind::kBall;
-        case sdf::JointType::SCREW:
-            return JointSpecKind::kScrew;
-        case sdf::JointType::UNIVERSAL:
-            return JointSpecKind::kUniversal;
-        case sdf::JointType::REVOLUTE2:
-            return JointSpecKind::kRevolute2;
-        case sdf::JointType::GEARBOX:
-            return JointSpecKind::kGearbox;
-        case sdf::JointType::INVALID:
-            return std::nullopt;
-    }
+/// A type that SDFormat lacks: <roboss:joint type="...">, within a joint of some other type for other
+/// programs.
+std::optional<JointSpecKind> kind_of(const Element& extension, const Import& import) {
+    const std::string name = extension.node.attribute("type").value();
+    const auto kind = find_joint_type(name);
+    if (kind && joint_type(*kind).is_extension) return kind;
+    std::string known;
+    for (const JointType& type : joint_types())
+        if (type.is_extension) known += (known.empty() ? "\"" : ", \"") + std::string(type.name) + "\"";
+    import.diagnostics().error(extension.where(), "joint-type",
+                               "<roboss:joint> has the type '" + name + "', which is not known",
+                               "Known: " + known + "; write SDFormat's own types in the <joint>.");
     return std::nullopt;
 }
 
-unsigned axes_of(JointSpecKind kind) {
-    switch (kind) {
-        case JointSpecKind::kFixed:
-        case JointSpecKind::kBall:
-            return 0;
-        case JointSpecKind::kUniversal:
-        case JointSpecKind::kRevolute2:
-        case JointSpecKind::kGearbox:
-            return 2;
-        default:
-            return 1;
-    }
+/// libsdformat takes upper and lower case for the same.
+std::optional<JointSpecKind> kind_of(const sdf::Joint& joint, const Element& source, const Import& import) {
+    if (joint.Type() == sdf::JointType::INVALID) return std::nullopt;  // libsdformat has said so
+    if (const Element extension = source.child("roboss:joint")) return kind_of(extension, import);
+    std::string name = source.node.attribute("type").value();
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return find_joint_type(name);
+}
+
+constexpr const char* kAxisChildren[] = {"limit", "dynamics", "initial_position", "mimic", "roboss:motor"};
+
+/// Of the <joint> itself, else of <roboss:joint>.
+bool is_sdf_axis(std::string_view name) {
+    return name == "axis" || name == "axis2";
 }
 
 bool has_stiffness(const AxisSpec& spec) {
@@ -130,7 +127,9 @@ std::optional<MimicSpec> read_mimic(const Element& mimic, const std::string& sco
     if (!mimic) return std::nullopt;
     MimicSpec spec;
     spec.joint = scope + mimic.node.attribute("joint").value();
-    spec.axis = std::string_view(mimic.node.attribute("axis").value()) == "axis2" ? 1 : 0;
+    const std::string axis = mimic.node.attribute("axis").value();
+    spec.axis = axis == "axis2" ? 1 : 0;
+    spec.element = axis.empty() ? "axis" : axis;
     spec.multiplier = reader.number(mimic, "multiplier", 1);
     spec.offset = reader.number(mimic, "offset", 0);
     spec.reference = reader.number(mimic, "reference", 0);
@@ -145,16 +144,39 @@ Vec3 direction_of(const sdf::JointAxis* axis) {
     return length > 1e-12 && std::isfinite(length) ? direction / length : Vec3{0, 0, 1};
 }
 
-AxisSpec read_axis(const sdf::Joint& joint, const Element& source, unsigned index, JointSpecKind kind,
-                   const std::string& scope, const Import& import) {
-    const Element axis = source.child(index == 0 ? "axis" : "axis2");
+/// Axes of <roboss:joint> have no <xyz>: they are at right angles to <axis> and to each other, right-handed.
+/// The first is the coordinate axis of the joint frame that follows <axis> (x follows z), or lies as near to
+/// it as it can.
+void direct_axes(const JointType& type, JointSpec& spec) {
+    const auto given = type.find_axis("axis");
+    if (!given) return;
+    const Vec3 normal = spec.axes[*given].xyz;
+    std::size_t largest = 0;
+    for (const std::size_t k : {1, 2})
+        if (std::fabs(normal[k]) >= std::fabs(normal[largest])) largest = k;
+    Vec3 across;
+    across[(largest + 1) % 3] = 1;
+    across = normalized(across - normal * dot(across, normal));
+    for (std::size_t k = 0; k < type.axes.size(); ++k) {
+        if (is_sdf_axis(type.axes[k])) continue;
+        spec.axes[k].xyz = across;
+        across = cross(normal, across);
+    }
+}
+
+AxisSpec read_axis(const sdf::Joint& joint, const Element& source, const std::string& name,
+                   const JointType& type, const std::string& scope, const Import& import) {
+    const bool of_extension = !is_sdf_axis(name);
+    const Element axis = (of_extension ? source.child("roboss:joint") : source).child(name.c_str());
     AxisSpec spec;
-    spec.xyz = direction_of(joint.Axis(index));
-    if (!axis) {
-        import.diagnostics().warning(source.where(), "missing-axis",
-                                     "joint '" + joint.Name() + "' has no <" +
-                                         (index == 0 ? "axis" : "axis2") + ">; z of its frame is used",
-                                     "Add it, with <xyz>.");
+    spec.xyz = direction_of(joint.Axis(name == "axis2" ? 1 : 0));
+    if (of_extension) {
+        if (axis) report_unknown_children(axis, kAxisChildren, import.diagnostics());
+    } else if (!axis) {
+        import.diagnostics().warning(
+            source.where(), "missing-axis",
+            "joint '" + joint.Name() + "' has no <" + name + ">; z of its frame is used",
+            "Add it, with <xyz>.");
     } else {
         import.reader.vector(axis, "xyz", {0, 0, 1});
     }
@@ -164,7 +186,7 @@ AxisSpec read_axis(const sdf::Joint& joint, const Element& source, unsigned inde
     read_motor(source.child("roboss:motor"), import.reader, spec);
     read_motor(axis.child("roboss:motor"), import.reader, spec);
     spec.mimic = read_mimic(axis.child("mimic"), scope, import.reader);
-    if (kind == JointSpecKind::kContinuous)
+    if (type.endless)
         drop_limits(joint, axis.child("limit"), spec, import);
     else
         report_softness(axis.child("limit"), spec, import);
@@ -188,22 +210,24 @@ void report_unused_axis(JointSpec& spec, const Element& source, const char* name
     read_dynamics(axis.child("dynamics"), import.reader, says);
     says.initial_position = import.reader.number(axis, "initial_position", 0);
     // A ball joint has no axis to turn about, but damping can be the same in all directions.
-    if (spec.kind == JointSpecKind::kBall) std::swap(spec.ball_damping, says.damping);
+    const bool is_isotropic = joint_type(spec.kind).is_isotropic();
+    if (is_isotropic) std::swap(spec.ball_damping, says.damping);
     const bool soft = has_stiffness(says) || has_dissipation(says);
     const bool moved = axis.child("roboss:motor") || axis.child("mimic");
     if (!says.says_more() && !soft && !moved) return;
-    import.diagnostics().warning(
-        axis.where(), "unused-axis",
-        "joint '" + std::string(source.name()) + "' of type '" + source.node.attribute("type").value() +
-            "' has no <" + name + ">: its limits, " + (spec.kind == JointSpecKind::kBall ? "" : "damping, ") +
-            "friction, springs, initial position, motor and mimic are ignored",
-        "Use a joint with that axis, or several hinges in a row.");
+    import.diagnostics().warning(axis.where(), "unused-axis",
+                                 "joint '" + std::string(source.name()) + "' of type '" +
+                                     source.node.attribute("type").value() + "' has no <" + name +
+                                     ">: its limits, " + (is_isotropic ? "" : "damping, ") +
+                                     "friction, springs, initial position, motor and mimic are ignored",
+                                 "Use a joint with that axis, or several hinges in a row.");
 }
 
 void report_unused(JointSpec& spec, const Element& source, const Import& import) {
-    if (axes_of(spec.kind) < 1) report_unused_axis(spec, source, "axis", import);
-    if (axes_of(spec.kind) < 2) report_unused_axis(spec, source, "axis2", import);
-    if (const Element motor = source.child("roboss:motor"); motor && axes_of(spec.kind) == 0) {
+    const JointType& type = joint_type(spec.kind);
+    for (const char* name : {"axis", "axis2"})
+        if (!type.find_axis(name)) report_unused_axis(spec, source, name, import);
+    if (const Element motor = source.child("roboss:motor"); motor && type.axes.empty()) {
         import.diagnostics().warning(motor.where(), "unused-motor",
                                      "joint '" + spec.name + "' of type '" +
                                          source.node.attribute("type").value() +
@@ -263,8 +287,9 @@ std::string link_name(const std::string& written, const std::string& scope, Reso
 
 std::optional<JointSpec> convert_joint(const sdf::Joint& joint, const Element& source, const Pose& X_MJ,
                                        const std::string& scope, const Import& import) {
-    const auto kind = kind_of(joint.Type());
-    if (!kind) return std::nullopt;  // libsdformat has said so
+    const auto kind = kind_of(joint, source, import);
+    if (!kind) return std::nullopt;
+    const JointType& type = joint_type(*kind);
     JointSpec spec;
     spec.name = scope + joint.Name();
     spec.kind = *kind;
@@ -274,11 +299,12 @@ std::optional<JointSpec> convert_joint(const sdf::Joint& joint, const Element& s
                             [&](std::string& name) { return joint.ResolveParentLink(name); });
     spec.child = link_name(joint.ChildLinkName(), scope,
                            [&](std::string& name) { return joint.ResolveChildLink(name); });
-    for (unsigned i = 0; i < axes_of(*kind); ++i)
-        spec.axes.push_back(read_axis(joint, source, i, *kind, scope, import));
-    if (axes_of(*kind) == 2 && *kind != JointSpecKind::kGearbox) turn_parallel_axis(spec, import);
-    if (*kind == JointSpecKind::kScrew) spec.screw_pitch = screw_pitch(source, import);
-    if (*kind == JointSpecKind::kGearbox && !read_gearbox(source, scope, import, spec)) return std::nullopt;
+    for (const std::string_view axis : type.axes)
+        spec.axes.push_back(read_axis(joint, source, std::string(axis), type, scope, import));
+    direct_axes(type, spec);
+    if (type.count(JointKind::kRevolute) == 2) turn_parallel_axis(spec, import);
+    if (type.count(JointKind::kScrew) > 0) spec.screw_pitch = screw_pitch(source, import);
+    if (type.couples && !read_gearbox(source, scope, import, spec)) return std::nullopt;
     report_unused(spec, source, import);
     return spec;
 }

@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "sdf/test_files.h"
+#include "world/joint_type.h"
 
 namespace roboss {
 namespace {
@@ -163,6 +164,54 @@ TEST(LoadWorld, PitchOfAScrewIsReadInBothOfItsUnits) {
     EXPECT_DOUBLE_EQ(pitch_of("<screw_thread_pitch>0.01</screw_thread_pitch>"), 0.01 / (2 * kPi))
         << "metres a turn";
     EXPECT_DOUBLE_EQ(pitch_of("<thread_pitch>50</thread_pitch>"), -0.02) << "radians a metre, left-handed";
+}
+
+Loaded load_planar(const std::string& type, const std::string& axes, const std::string& normal = "0 0 1") {
+    return load_elements("<model name='m'>" + link("a") + link("b") +
+                         "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><xyz>" +
+                         normal +
+                         "</xyz><dynamics><damping>0.3</damping></dynamics></axis><roboss:joint type='" +
+                         type + "'>" + axes + "</roboss:joint></joint></model>");
+}
+
+TEST(LoadWorld, ReadsAPlanarJoint) {
+    const Loaded loaded =
+        load_planar("planar",
+                    "<x><limit><lower>-1</lower><upper>2</upper><effort>7</effort></limit></x>"
+                    "<y><dynamics><damping>0.2</damping></dynamics><initial_position>0.4</initial_position>"
+                    "<roboss:motor><position_gain>50</position_gain></roboss:motor></y>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
+    const JointSpec& joint = loaded.world->prototypes[0].joints[0];
+    EXPECT_EQ(joint.kind, JointSpecKind::kPlanar);
+    ASSERT_EQ(joint.axes.size(), 3u);
+    expect_near(joint.axes[0].xyz, {1, 0, 0});
+    expect_near(joint.axes[1].xyz, {0, 1, 0});
+    expect_near(joint.axes[2].xyz, {0, 0, 1});
+    EXPECT_EQ(joint.axes[0].lower, -1);
+    EXPECT_EQ(joint.axes[0].upper, 2);
+    EXPECT_EQ(joint.axes[0].max_effort, 7);
+    EXPECT_EQ(joint.axes[1].damping, 0.2);
+    EXPECT_EQ(joint.axes[1].initial_position, 0.4);
+    EXPECT_EQ(joint.axes[1].position_gain, 50);
+    EXPECT_EQ(joint.axes[2].damping, 0.3);
+}
+
+TEST(LoadWorld, AxesOfAPlaneAreRightHandedForAnyNormal) {
+    for (const char* normal : {"1 0 0", "0 1 0", "0 0 -1", "0.3 -0.5 0.2"}) {
+        const Loaded loaded = load_planar("planar", "", normal);
+        ASSERT_TRUE(loaded.world) << loaded.text();
+        const auto& axes = loaded.world->prototypes[0].joints[0].axes;
+        expect_near(cross(axes[0].xyz, axes[1].xyz), axes[2].xyz);
+        EXPECT_NEAR(dot(axes[0].xyz, axes[2].xyz), 0, 1e-15);
+    }
+}
+
+TEST(LoadWorld, WrongJointExtensionsAreReported) {
+    EXPECT_NE(load_planar("plane", "").find("joint-type"), nullptr);
+    EXPECT_NE(load_planar("prismatic", "").find("joint-type"), nullptr) << "SDFormat has that one";
+    EXPECT_NE(load_planar("planar", "<z/>").find("unknown-element"), nullptr);
+    EXPECT_NE(load_planar("planar", "<x><damping>1</damping></x>").find("unknown-element"), nullptr);
 }
 
 TEST(LoadWorld, ReadsAGearbox) {

@@ -50,6 +50,15 @@ void add_mimics(pugi::xml_node robot, std::string& sdf) {
     }
 }
 
+/// Gives the joints their own types back, on the same line.
+void add_joint_types(const std::map<std::string, std::string>& types, std::string& sdf) {
+    for (const auto& [name, type] : types) {
+        const std::size_t at = sdf.find("<joint name='" + name + "'");
+        const std::size_t end = at == std::string::npos ? at : sdf.find('>', at);
+        if (end != std::string::npos) sdf.insert(end + 1, "<roboss:joint type='" + type + "'/>");
+    }
+}
+
 /// For each line of the SDF the line of the URDF link or joint it came from (the robot's until the first).
 std::vector<int> map_lines(const SourceFile& urdf, const std::string& sdf) {
     std::map<std::string, int> line_of;
@@ -81,6 +90,7 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
     repaired.append_copy(urdf.root());
     const pugi::xml_node robot = repaired.document_element();
     repair_urdf(robot, urdf, diagnostics);
+    const auto joint_types = replace_joint_types(robot, urdf, diagnostics);
     sdf::Errors errors;
     std::string text;
     std::vector<ConsoleLine> printed;
@@ -115,6 +125,7 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
         return nullptr;
     }
     add_mimics(robot, text);
+    add_joint_types(joint_types, text);
     std::vector<int> lines = map_lines(urdf, text);
     return SourceFile::from_text(urdf.path(), std::move(text), std::move(lines), diagnostics);
 }

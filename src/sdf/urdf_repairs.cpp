@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sdf/element_reader.h"
+#include "world/joint_type.h"
 
 namespace roboss::sdf_import {
 namespace {
@@ -72,6 +73,29 @@ void rename_joints(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& di
 void repair_urdf(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics) {
     mend_inertials(robot, urdf, diagnostics);
     rename_joints(robot, urdf, diagnostics);
+}
+
+std::map<std::string, std::string> replace_joint_types(pugi::xml_node robot, const SourceFile& urdf,
+                                                       Diagnostics& diagnostics) {
+    std::map<std::string, std::string> types;
+    auto source = urdf.root().child("joint");
+    for (auto joint = robot.child("joint"); joint;
+         joint = joint.next_sibling("joint"), source = source.next_sibling("joint")) {
+        const std::string name = joint.attribute("name").value(), type = joint.attribute("type").value();
+        const auto kind = find_joint_type(type);
+        if (!kind || !joint_type(*kind).is_extension) continue;
+        types[name] = type;
+        joint.attribute("type").set_value("continuous");
+        for (const char* element : {"limit", "dynamics", "mimic"}) {
+            if (!joint.remove_child(element)) continue;
+            diagnostics.warning(urdf.where(source), "unused-axis",
+                                "joint '" + name + "' of type '" + type +
+                                    "': URDF does not say which of its axes <" + element +
+                                    "> means; it is ignored",
+                                "Write the robot in SDFormat, with <roboss:joint type=\"" + type + "\">.");
+        }
+    }
+    return types;
 }
 
 }  // namespace roboss::sdf_import

@@ -2,7 +2,9 @@
 // into what libsdformat takes.
 #pragma once
 
+#include <map>
 #include <pugixml.hpp>
+#include <string>
 
 #include "core/diagnostics.h"
 #include "sdf/source_file.h"
@@ -14,5 +16,10 @@ namespace roboss::sdf_import {
 /// - an inertial with a mass but without moments gets moments of 0, which compile() mends;
 /// - a joint with the name of a link gets "_joint" behind it: SDFormat has one set of names for both.
 void repair_urdf(pugi::xml_node robot, const SourceFile& urdf, Diagnostics& diagnostics);
+
+/// Joints whose type SDFormat lacks (<roboss:joint>), by name. libsdformat would leave them out: in `robot`
+/// they become continuous ones with the same axis.
+std::map<std::string, std::string> replace_joint_types(pugi::xml_node robot, const SourceFile& urdf,
+                                                       Diagnostics& diagnostics);
 
 }  // namespace roboss::sdf_import

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "sdf/test_files.h"
+#include "world/joint_type.h"
 
 namespace roboss {
 namespace {
@@ -73,6 +74,33 @@ TEST(Urdf, MimicJointsFollow) {
     hand.replace(hand.find("'-0.5'"), 6, "'half'");
     const Loaded broken = load_text(hand, "hand.urdf");
     EXPECT_NE(broken.text().find("hand.urdf:9: error"), std::string::npos) << broken.text();
+}
+
+TEST(Urdf, PlanarJointHasItsThreeAxes) {
+    std::string table = kArm;
+    const std::string puck =
+        "<link name='puck'><inertial><mass value='1'/><inertia ixx='0.1' iyy='0.1' izz='0.1' ixy='0' ixz='0' "
+        "iyz='0'/></inertial></link>\n"
+        "<joint name='slide' type='planar'><origin xyz='0 0 0.3'/><parent link='upper'/><child link='puck'/>"
+        "<axis xyz='1 0 0'/><dynamics damping='0.1'/></joint>\n";
+    table.insert(table.find("</robot>"), puck);
+    const Loaded loaded = load_text(table, "table.urdf");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
+    ASSERT_NE(loaded.find("unused-axis"), nullptr) << "damping of which axis?";
+    EXPECT_EQ(loaded.find("unused-axis")->where.line, 9);
+    const auto& joints = loaded.world->prototypes.at(0).joints;
+    const auto slide =
+        std::find_if(joints.begin(), joints.end(), [](const JointSpec& j) { return j.name == "slide"; });
+    ASSERT_NE(slide, joints.end());
+    EXPECT_EQ(slide->kind, JointSpecKind::kPlanar);
+    EXPECT_EQ(slide->parent, "upper");
+    EXPECT_NEAR(slide->X_MJ.p.z, 0.5, 1e-12);
+    ASSERT_EQ(slide->axes.size(), 3u);
+    EXPECT_EQ(slide->axes[0].xyz, (Vec3{0, 1, 0})) << "y follows x";
+    EXPECT_EQ(slide->axes[1].xyz, (Vec3{0, 0, 1}));
+    EXPECT_EQ(slide->axes[2].xyz, (Vec3{1, 0, 0}));
+    EXPECT_EQ(slide->axes[2].damping, 0);
 }
 
 TEST(Urdf, CanBeIncludedInAWorld) {

@@ -11,6 +11,7 @@
 #include "model/robot_state.h"
 #include "physics/probe.h"
 #include "sensors/readings.h"
+#include "world/joint_type.h"
 
 namespace roboss::sensors_test {
 

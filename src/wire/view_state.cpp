@@ -6,6 +6,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "model/joint_motion.h"
 #include "wire/viewer_protocol.h"
 
 namespace roboss {
@@ -19,12 +20,13 @@ constexpr double kRangeOfUnlimited_m = 100;
 constexpr double kRangeOfUnlimited_rad = 64 * kPi;
 
 double range_of(const RobotType& type, const Body& body) {
-    if (body.joint == JointKind::kRevolute) return kPi;
-    if (body.joint == JointKind::kBall) return 1;
+    const JointTraits& joint = joint_traits(body.joint);
+    if (joint.is_periodic) return kPi;
+    if (joint.is_quaternion) return 1;
     const Dof& dof = type.dofs[static_cast<std::size_t>(body.v_index - type.base_nv())];
     const double reach = std::max(std::abs(dof.lower), std::abs(dof.upper));
     constexpr double kSlack = 1.05;  // soft limits give way
-    const double unlimited = body.joint == JointKind::kScrew ? kRangeOfUnlimited_rad : kRangeOfUnlimited_m;
+    const double unlimited = joint.turns ? kRangeOfUnlimited_rad : kRangeOfUnlimited_m;
     return reach > 0 && reach < unlimited ? kSlack * reach : unlimited;
 }
 
@@ -49,7 +51,7 @@ std::vector<double> view_ranges(const RobotType& type) {
     std::vector<double> ranges;
     for (const Body& body : type.bodies) {
         if (body.joint == JointKind::kFree) continue;
-        const std::size_t width = body.joint == JointKind::kBall ? 4 : 1;
+        const auto width = static_cast<std::size_t>(joint_traits(body.joint).nq);
         ranges.insert(ranges.end(), width, range_of(type, body));
     }
     return ranges;
@@ -62,8 +64,8 @@ ViewLayout::ViewLayout(const Model& model) {
             coordinates.push_back({Coordinate::Kind::kLinear, protocol::kStateCoordinateScale / range});
         for (const Body& body : type.bodies) {
             const auto first = static_cast<std::size_t>(std::max(body.q_index - 7, 0));
-            if (body.joint == JointKind::kRevolute) coordinates[first].kind = Coordinate::Kind::kAngle;
-            if (body.joint == JointKind::kBall && body.reversed_ball)
+            if (joint_traits(body.joint).is_periodic) coordinates[first].kind = Coordinate::Kind::kAngle;
+            if (body.reversed_ball)
                 for (std::size_t k = 1; k < 4; ++k)
                     coordinates[first + k].kind = Coordinate::Kind::kConjugate;
         }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "world/joint_type.h"
 #include "world/world.h"
 
 namespace roboss {
@@ -144,7 +145,7 @@ class ModelCheck {
         if (!is_finite(joint.X_MJ))
             diagnostics_.error(joint.where, "not-finite", name + " has a pose that is not finite",
                                "Correct its <pose>.");
-        if (joint.kind == JointSpecKind::kScrew &&
+        if (joint_type(joint.kind).count(JointKind::kScrew) > 0 &&
             !(std::isfinite(joint.screw_pitch) && joint.screw_pitch != 0)) {
             diagnostics_.error(joint.where, "bad-pitch", name + " has a thread without pitch",
                                "Write <screw_thread_pitch> in metres a turn, other than 0.");
@@ -152,6 +153,11 @@ class ModelCheck {
         if (!(joint.ball_damping >= 0)) {
             diagnostics_.error(joint.where, "bad-dynamics", name + " has a negative damping",
                                "Write values of at least 0.");
+        }
+        if (joint.axes.size() == 3 &&
+            norm(cross(joint.axes[0].xyz, joint.axes[1].xyz) - joint.axes[2].xyz) > 1e-9) {
+            diagnostics_.error(joint.where, "bad-axes", name + " has axes that are not at right angles",
+                               "Give three unit vectors at right angles, right-handed.");
         }
         for (const AxisSpec& axis : joint.axes) check_axis(joint, axis);
     }

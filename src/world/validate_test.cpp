@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 
+#include "world/joint_type.h"
 #include "world/world.h"
 
 namespace roboss {
@@ -139,6 +140,17 @@ TEST(Validate, AScrewMustHaveAPitch) {
     };
     EXPECT_TRUE(findings([&](World& w) { make_screw(w, -0.1); }).items().empty());
     expect_one("bad-pitch", Severity::kError, 9, [&](World& w) { make_screw(w, 0.0); });
+}
+
+TEST(Validate, AxesOfAPlanarJointMustBeAtRightAngles) {
+    const auto make_planar = [](World& w, const Vec3& x) {
+        joint(w).kind = JointSpecKind::kPlanar;
+        joint(w).axes.resize(3);
+        joint(w).axes[0].xyz = x, joint(w).axes[1].xyz = {0, 1, 0};
+    };
+    EXPECT_TRUE(findings([&](World& w) { make_planar(w, {1, 0, 0}); }).items().empty());
+    expect_one("bad-axes", Severity::kError, 9, [&](World& w) { make_planar(w, {-1, 0, 0}); });
+    expect_one("bad-axes", Severity::kError, 9, [&](World& w) { make_planar(w, {0.8, 0.6, 0}); });
 }
 
 TEST(Validate, ShapesMustHaveASize) {

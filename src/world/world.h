@@ -141,23 +141,15 @@ struct LinkSpec {
     SourceLocation where;
 };
 
-enum class JointSpecKind {
-    kFixed,
-    kRevolute,
-    kContinuous,
-    kPrismatic,
-    kBall,
-    kScrew,
-    kUniversal,
-    kRevolute2,
-    kGearbox
-};
+/// The types and what each means: world/joint_type.h. Zero is a fixed joint.
+enum class JointSpecKind : int;
 
 /// A joint axis that follows another: position = multiplier * (leader's position - reference) + offset.
 struct MimicSpec {
     std::string joint;  // the leader's
     int axis = 0;
     double multiplier = 1, offset = 0, reference = 0;
+    std::string element;  // of the leader's axis, if its type has it (JointType::axes); else `axis` counts
 };
 
 inline constexpr double kUnlimited = 1e15;  // from here on there is no limit: SDF writes 1e16
@@ -190,11 +182,11 @@ struct AxisSpec {
 
 struct JointSpec {
     std::string name;
-    JointSpecKind kind = JointSpecKind::kFixed;
+    JointSpecKind kind{};
     std::string parent;  // link name or "world"
     std::string child;
     Pose X_MJ;                   // joint frame in the model frame, all joints at zero
-    std::vector<AxisSpec> axes;  // 0 (fixed, ball), 1, or 2 (universal, revolute2)
+    std::vector<AxisSpec> axes;  // as JointType::axes
     double screw_pitch = 0;      // m per radian
     double ball_damping = 0;     // N m s/rad, in all directions
     // Gearbox: angle of the child against the reference link = -ratio * angle of the parent against it.

@@ -30,7 +30,7 @@ std::vector<Mechanism> constrained_mechanisms() {
     floating.free_base = true;
     ball.last = JointSpecKind::kBall;
     ModelSpec mimic = two_wheels(true);
-    mimic.joints[1].axes[0].mimic = MimicSpec{"small", 0, -0.5, 0.1, 0.2};
+    mimic.joints[1].axes[0].mimic = MimicSpec{"small", 0, -0.5, 0.1, 0.2, {}};
     std::vector<Mechanism> all{{"four_bar", four_bar()},
                                {"four_bar_ball", four_bar(ball)},
                                {"four_bar_on_a_free_plate", four_bar(floating)},

@@ -5,6 +5,7 @@
 
 #include "model/coordinates.h"
 #include "physics/kinematics.h"
+#include "world/joint_type.h"
 
 namespace roboss::test {
 namespace {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "math/quat.h"
+#include "world/joint_type.h"
 
 namespace roboss::test {
 namespace {

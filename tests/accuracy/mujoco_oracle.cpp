@@ -4,6 +4,7 @@
 #include "core/check.h"
 #include "mjcf.h"
 #include "mujoco_load.h"
+#include "world/joint_kind.h"
 
 namespace roboss::test {
 namespace {

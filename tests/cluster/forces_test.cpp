@@ -129,7 +129,7 @@ TEST(Forces, AFollowersHingeBearsTheTorqueOfItsMimic) {
         m.joints.push_back(
             joint(JointSpecKind::kRevolute, "hinge_" + name, "base", name, m.links.back().X_ML, {0, 0, 1}));
     }
-    m.joints[2].axes[0].mimic = MimicSpec{"hinge_a", 0, 2.0, 0, 0};
+    m.joints[2].axes[0].mimic = MimicSpec{"hinge_a", 0, 2.0, 0, 0, {}};
     place(world, m, "pair");
     int asked = 0;
     run(world, 0.1, [&](Client& client) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "world/joint_type.h"
+
 namespace roboss::test {
 
 namespace {

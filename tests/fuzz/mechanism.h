@@ -6,6 +6,7 @@
 
 #include <support/random.h>
 
+#include "world/joint_type.h"
 #include "world/world.h"
 
 namespace roboss::fuzz {

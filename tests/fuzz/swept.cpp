@@ -6,6 +6,7 @@
 
 #include "geometry/collide.h"
 #include "math/quat.h"
+#include "world/joint_kind.h"
 
 namespace roboss::fuzz {
 namespace {

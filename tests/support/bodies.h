@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "world/joint_type.h"
 #include "world/world.h"
 
 namespace roboss::test {

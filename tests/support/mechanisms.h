@@ -19,6 +19,16 @@ inline LinkSpec rod_between(const std::string& name, const Vec3& from, const Vec
     return l;
 }
 
+/// Two directions in the plane, then its normal (unit, in the joint frame).
+inline JointSpec planar_joint(std::string name, std::string parent, std::string child, const Pose& X_MJ,
+                              const Vec3& normal) {
+    JointSpec j = joint(JointSpecKind::kPlanar, std::move(name), std::move(parent), std::move(child), X_MJ);
+    j.axes.resize(3);
+    tangents(normal, j.axes[0].xyz, j.axes[1].xyz);
+    j.axes[2].xyz = normal;
+    return j;
+}
+
 struct FourBarOptions {
     bool free_base = false;
     JointSpecKind last = JointSpecKind::kRevolute;  // the joint that closes the loop
@@ -133,6 +143,8 @@ inline ModelSpec ring_of_all_kinds(JointSpecKind closing) {
     add(JointSpecKind::kContinuous, "turn", 6, {0.4, 0.1, -1});
     JointSpec last = joint(closing, "closing", "base", "tip", {{0.02, 0.2, 0.05}, from_rpy(0.1, 0.4, -0.2)},
                            {0.3, -0.2, 1});
+    if (closing == JointSpecKind::kPlanar)
+        last = planar_joint("closing", "base", "tip", last.X_MJ, last.axes[0].xyz);
     if (closing == JointSpecKind::kBall) last.axes.clear();
     if (closing == JointSpecKind::kScrew) last.screw_pitch = -0.11;
     if (closing == JointSpecKind::kUniversal) {

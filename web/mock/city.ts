@@ -36,11 +36,13 @@ export function seeded(seed: number): () => number {
 }
 
 const at = (x: number, y: number, z: number): PoseArray => [x, y, z, 1, 0, 0, 0];
+const HINGE = { turn: 1, slide: 0, course: "circle" } as const;
+const SLIDE = { turn: 0, slide: 1, course: "line" } as const;
 const LYING: PoseArray = [0, 0, 0, Math.SQRT1_2, Math.SQRT1_2, 0, 0];
 
 function carType(name: string, rgb: [number, number, number]): TypeInfo {
     const bodies: BodyInfo[] = [
-        { parent: -1, joint: "free", frame: at(0, 0, 0), axis: [0, 0, 1], pitch: 0, q: 0, width: 0 },
+        { parent: -1, frame: at(0, 0, 0), axis: [0, 0, 1], turn: 1, slide: 0, course: "none", q: 0, width: 0 },
     ];
     const chassis: Visual = { name: "body", shape: "box", size: [0.4, 0.2, 0.1], frame: at(0, 0, 0), rgb, alpha: 1 };
     const links = [{ name: "chassis", body: 0, frame: at(0, 0, 0), visuals: [chassis], collisions: [chassis] }];
@@ -50,10 +52,9 @@ function carType(name: string, rgb: [number, number, number]): TypeInfo {
             y = k % 2 === 0 ? TRACK_HALF : -TRACK_HALF;
         bodies.push({
             parent: 0,
-            joint: "revolute",
             frame: at(x, y, -0.03),
             axis: [0, 1, 0],
-            pitch: 0,
+            ...HINGE,
             q: k,
             width: 1,
         });
@@ -72,6 +73,7 @@ function carType(name: string, rgb: [number, number, number]): TypeInfo {
             kind: "continuous",
             body: k + 1,
             axes: 1,
+            units: ["rad"],
             q: k,
             lower: [null],
             upper: [null],
@@ -149,9 +151,9 @@ function craneType(): TypeInfo {
         reach: 5,
         origin: at(0, 0, 0),
         bodies: [
-            { parent: -1, joint: "revolute", frame: at(0, 0, 0.4), axis: [0, 0, 1], pitch: 0, q: 0, width: 1 },
-            { parent: 0, joint: "revolute", frame: at(0, 0, 3.5), axis: [0, 1, 0], pitch: 0, q: 1, width: 1 },
-            { parent: 1, joint: "prismatic", frame: at(2.9, 0, 0), axis: [0, 0, -1], pitch: 0, q: 2, width: 1 },
+            { parent: -1, frame: at(0, 0, 0.4), axis: [0, 0, 1], ...HINGE, q: 0, width: 1 },
+            { parent: 0, frame: at(0, 0, 3.5), axis: [0, 1, 0], ...HINGE, q: 1, width: 1 },
+            { parent: 1, frame: at(2.9, 0, 0), axis: [0, 0, -1], ...SLIDE, q: 2, width: 1 },
         ],
         links: [
             { name: "foot", body: -1, frame: at(0, 0, 0), visuals: [foot], collisions: [foot] },
@@ -165,6 +167,7 @@ function craneType(): TypeInfo {
                 kind: "continuous",
                 body: 0,
                 axes: 1,
+                units: ["rad"],
                 q: 0,
                 lower: [null],
                 upper: [null],
@@ -176,6 +179,7 @@ function craneType(): TypeInfo {
                 kind: "revolute",
                 body: 1,
                 axes: 1,
+                units: ["rad"],
                 q: 1,
                 lower: [-0.9],
                 upper: [0.3],
@@ -187,6 +191,7 @@ function craneType(): TypeInfo {
                 kind: "prismatic",
                 body: 2,
                 axes: 1,
+                units: ["m"],
                 q: 2,
                 lower: [0],
                 upper: [2.4],

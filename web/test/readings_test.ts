@@ -12,6 +12,7 @@ const JOINT: JointInfo = {
     kind: "revolute",
     body: 0,
     axes: 1,
+    units: ["rad"],
     q: 0,
     lower: [-1],
     upper: [2],

@@ -1,20 +1,19 @@
 // Scenes and State messages for the unit tests, written byte by byte from the protocol's text, not by the page's own code.
 import { Fleet } from "../src/model/fleet";
-import type { BodyInfo, JointKind, PoseArray, SceneInfo, TypeInfo } from "../src/wire/messages";
+import type { BodyInfo, PoseArray, SceneInfo, TypeInfo } from "../src/wire/messages";
 
 export const IDENTITY: PoseArray = [0, 0, 0, 1, 0, 0, 0];
 
-export function body(joint: JointKind, parent: number, q: number, more: Partial<BodyInfo> = {}): BodyInfo {
-    return {
-        parent,
-        joint,
-        frame: IDENTITY,
-        axis: [0, 0, 1],
-        pitch: 0,
-        q,
-        width: joint === "free" ? 0 : joint === "ball" ? 4 : 1,
-        ...more,
-    };
+const MOTIONS = {
+    free: { turn: 1, slide: 0, course: "none", width: 0 },
+    revolute: { turn: 1, slide: 0, course: "circle", width: 1 },
+    prismatic: { turn: 0, slide: 1, course: "line", width: 1 },
+    screw: { turn: 1, slide: 0.02, course: "line", width: 1 },
+    ball: { turn: 1, slide: 0, course: "quaternion", width: 4 },
+} as const;
+
+export function body(joint: keyof typeof MOTIONS, parent: number, q: number, more: Partial<BodyInfo> = {}): BodyInfo {
+    return { parent, frame: IDENTITY, axis: [0, 0, 1], q, ...MOTIONS[joint], ...more };
 }
 
 export function typeOf(bodies: BodyInfo[], ranges: number[], more: Partial<TypeInfo> = {}): TypeInfo {

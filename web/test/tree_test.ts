@@ -41,7 +41,7 @@ test("an arm of two revolute joints reaches where trigonometry says", () => {
 });
 
 test("a screw goes its pitch for each radian that it turns", () => {
-    const screw = typeOf([body("screw", -1, 0, { axis: [0, 0, 1], pitch: 0.02 })], [Math.PI], { free_base: false });
+    const screw = typeOf([body("screw", -1, 0, { axis: [0, 0, 1], slide: 0.02 })], [Math.PI], { free_base: false });
     assert.equal(
         close(placed(screw, IDENTITY, [1.5], 0), [0, 0, 0.03, Math.cos(0.75), 0, 0, Math.sin(0.75)], 1e-12),
         "",

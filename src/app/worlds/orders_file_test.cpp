@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "world/joint_type.h"
+
 namespace roboss {
 namespace {
 

@@ -1,31 +1,9 @@
 // Each prototype is counted once and multiplied by its instances.
 #include "app/worlds/world_census.h"
 
-namespace roboss {
+#include "world/joint_type.h"
 
-const char* to_text(JointSpecKind kind) {
-    switch (kind) {
-        case JointSpecKind::kFixed:
-            return "fixed";
-        case JointSpecKind::kRevolute:
-            return "revolute";
-        case JointSpecKind::kContinuous:
-            return "continuous";
-        case JointSpecKind::kPrismatic:
-            return "prismatic";
-        case JointSpecKind::kBall:
-            return "ball";
-        case JointSpecKind::kScrew:
-            return "screw";
-        case JointSpecKind::kUniversal:
-            return "universal";
-        case JointSpecKind::kRevolute2:
-            return "revolute2";
-        case JointSpecKind::kGearbox:
-            return "gearbox";
-    }
-    return "?";
-}
+namespace roboss {
 
 const char* to_text(GeometryKind kind) {
     switch (kind) {
@@ -68,7 +46,8 @@ WorldCensus take_census(const World& world) {
         census.robots += times[i];
         census.robot_types += times[i] > 0 ? 1 : 0;
         census.links += model.links.size() * times[i];
-        for (const JointSpec& joint : model.joints) census.joints[to_text(joint.kind)] += times[i];
+        for (const JointSpec& joint : model.joints)
+            census.joints[std::string(joint_type(joint.kind).name)] += times[i];
         for (const LinkSpec& link : model.links) {
             for (const SensorSpec& sensor : link.sensors) census.sensors[sensor.kind().name] += times[i];
         }

@@ -20,7 +20,6 @@ struct WorldCensus {
 
 WorldCensus take_census(const World& world);
 
-const char* to_text(JointSpecKind kind);
 const char* to_text(GeometryKind kind);
 
 }  // namespace roboss

@@ -11,17 +11,18 @@ function writeMotion(body: BodyInfo, q: Numbers, at: number): void {
         axis = body.axis;
     motion[0] = motion[1] = motion[2] = motion[4] = motion[5] = motion[6] = 0;
     motion[3] = 1;
-    if (body.joint === "ball") {
+    if (body.course === "quaternion") {
         for (let k = 0; k < 4; ++k) motion[3 + k] = q[at + body.q + k];
         return;
     }
-    if (body.joint === "revolute" || body.joint === "screw") {
-        const s = Math.sin(value / 2);
-        motion[3] = Math.cos(value / 2);
+    if (body.turn !== 0) {
+        const half = (body.turn * value) / 2,
+            s = Math.sin(half);
+        motion[3] = Math.cos(half);
         for (let k = 0; k < 3; ++k) motion[4 + k] = axis[k] * s;
     }
-    const way = body.joint === "prismatic" ? value : body.joint === "screw" ? body.pitch * value : 0;
-    if (way !== 0) for (let k = 0; k < 3; ++k) motion[k] = axis[k] * way;
+    const displacement = body.slide * value;
+    if (displacement !== 0) for (let k = 0; k < 3; ++k) motion[k] = axis[k] * displacement;
 }
 
 /** Poses of all bodies of one robot into `out`, seven numbers each; the base frame comes first (body -1), then body 0, ... */
@@ -38,7 +39,7 @@ export function placeBodies(
     for (let b = 0; b < bodies.length; ++b) {
         const body = bodies[b],
             at = (b + 1) * POSE_WIDTH;
-        if (body.joint === "free") {
+        if (body.course === "none") {
             for (let k = 0; k < POSE_WIDTH; ++k) out[at + k] = base[baseAt + k];
             continue;
         }

@@ -12,15 +12,11 @@ export const enum Course {
 function courses(type: TypeInfo, count: number): Uint8Array {
     const found = new Uint8Array(count).fill(Course.Circle);
     for (const body of type.bodies) {
-        if (body.joint === "prismatic" || body.joint === "screw") found[body.q] = Course.Line;
-        if (body.joint !== "ball") continue;
+        if (body.course === "line") found[body.q] = Course.Line;
+        if (body.course !== "quaternion") continue;
         found[body.q] = Course.QuaternionStart;
         for (let k = 1; k < 4; ++k) found[body.q + k] = Course.QuaternionRest;
     }
-    // A screw's coordinate is an angle; it runs along a line only where its range is more than a turn.
-    for (const body of type.bodies)
-        if (body.joint === "screw" && Math.abs((type.ranges[body.q] ?? Math.PI) - Math.PI) < 1e-6)
-            found[body.q] = Course.Circle;
     return found;
 }
 

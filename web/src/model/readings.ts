@@ -1,6 +1,6 @@
 // Every number that a robot's report holds, under a key that stays the same: what the inspector shows and plots draw.
 import { toRollPitchYaw } from "../kinematics/pose";
-import type { RobotReport, SensorInfo, SensorReport, TypeInfo } from "../wire/messages";
+import type { JointInfo, RobotReport, SensorInfo, SensorReport, TypeInfo } from "../wire/messages";
 
 export interface Reading {
     key: string;
@@ -29,19 +29,19 @@ function baseReadings(report: RobotReport): Reading[] {
     return found;
 }
 
-/** Length or angle: the unit of an axis of this kind of joint. */
-export function jointUnit(kind: string): string {
-    return kind === "prismatic" ? "m" : "rad";
+/** Length or angle: the unit of an axis. */
+export function axisUnit(joint: JointInfo, axis: number): string {
+    return joint.units[axis] ?? "rad";
 }
 
 function jointReadings(type: TypeInfo, report: RobotReport): Reading[] {
     const found: Reading[] = [];
     type.joints.forEach((joint, j) => {
-        const told = report.joints[j],
-            unit = jointUnit(joint.kind);
+        const told = report.joints[j];
         for (let axis = 0; axis < joint.axes; ++axis) {
             const name = joint.axes > 1 ? `${joint.name} ${axis + 1}` : joint.name,
-                key = `joint.${joint.name}.${axis}`;
+                key = `joint.${joint.name}.${axis}`,
+                unit = axisUnit(joint, axis);
             found.push({
                 key: `${key}.position`,
                 label: `${name} position`,

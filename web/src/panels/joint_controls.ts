@@ -1,6 +1,6 @@
 // One joint axis a block: where it is between its limits, what its motor does, and a slider that orders it about.
 import type { Reading } from "../model/readings";
-import { jointUnit } from "../model/readings";
+import { axisUnit } from "../model/readings";
 import type { RunLink } from "../model/run_link";
 import { h, setText } from "../ui/dom";
 import { fixed } from "../ui/numbers";
@@ -16,7 +16,7 @@ const ORDER_INTERVAL_MS = 50;
 export function sliderRange(joint: JointInfo, axis: number, mode: Mode): [number, number] {
     const lower = joint.lower[axis] ?? null,
         upper = joint.upper[axis] ?? null,
-        length = joint.kind === "prismatic";
+        length = axisUnit(joint, axis) === "m";
     if (mode === "position") return [lower ?? (length ? -1 : -Math.PI), upper ?? (length ? 1 : Math.PI)];
     const most =
         (mode === "velocity" ? joint.max_velocity[axis] : joint.max_effort[axis]) ??
@@ -114,7 +114,7 @@ class AxisControl {
             upper = this.joint.upper[this.axis] ?? null;
         if (position !== undefined && lower !== null && upper !== null && upper > lower)
             this.bar.style.left = `${100 * Math.max(0, Math.min(1, (position - lower) / (upper - lower)))}%`;
-        const unit = jointUnit(this.joint.kind),
+        const unit = axisUnit(this.joint, this.axis),
             units: Record<string, string> = {
                 velocity: `${unit}/s`,
                 position: unit,

@@ -28,14 +28,17 @@ export interface Visual {
     finish?: Finish;
 }
 
-export type JointKind = "free" | "revolute" | "prismatic" | "ball" | "screw";
+/** Which way a body's coordinates go from one value to another; "none": the base, which has no joint coordinates. */
+export type Course = "none" | "line" | "circle" | "quaternion";
 
 export interface BodyInfo {
     parent: number;
-    joint: JointKind;
     frame: PoseArray;
     axis: Triple;
-    pitch: number;
+    /** Radians about the axis and metres along it per unit of the coordinate. */
+    turn: number;
+    slide: number;
+    course: Course;
     q: number;
     width: number;
 }
@@ -53,6 +56,8 @@ export interface JointInfo {
     kind: string;
     body: number;
     axes: number;
+    /** Of the position along each axis: "rad" or "m". */
+    units: string[];
     q: number;
     lower: (number | null)[];
     upper: (number | null)[];
