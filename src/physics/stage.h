@@ -43,7 +43,7 @@ using StageNow = std::uint64_t (*)();  // a monotone time in ns
 /// Who wants to know the times of a run's steps; nobody: `now` is null, and nothing is measured.
 struct StageMeter {
     StageNow now = nullptr;
-    std::function<void(const StageTimes&)> add;  // called with the sum of each window's steps
+    std::function<void(const StageTimes&)> add{};  // called with the sum of each window's steps
 
     explicit operator bool() const { return now != nullptr; }
 };

@@ -32,7 +32,7 @@ struct SteppingOptions {
     std::function<void(double)> counted;  // called with counted work, in ns, as it is done; may be empty
     std::size_t lanes = kMostLanes;       // robots stepped at once, at most
     std::size_t look_up = 64;             // robots times ticks between two calls of `between` in lockstep
-    StageMeter stages;
+    StageMeter stages{};
 };
 
 class WindowStepper {

@@ -31,7 +31,7 @@ struct SimulationOptions {
     std::vector<std::string> clients_awaited;
     unsigned threads = 1;            // that step islands, shared by the Simulators of this process
     std::size_t lanes = kMostLanes;  // most robots of a type stepped at once
-    StageMeter stages;               // who measures the stages of the steps in this process
+    StageMeter stages{};             // who measures the stages of the steps in this process
     std::string world_file;          // for saved runs
     /// Called in every round: advances a viewer, say. No result may depend on it.
     std::function<void(Bus&)> observer;
