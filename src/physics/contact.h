@@ -51,6 +51,16 @@ inline std::span<const NearMiss> misses_of(std::uint32_t robot, std::span<const 
     return {first, last};
 }
 
+/// Likewise of sorted contacts.
+inline std::span<Contact> contacts_of(std::uint32_t robot, std::span<Contact> sorted) {
+    const int own = static_cast<int>(robot);
+    const auto first = std::lower_bound(sorted.begin(), sorted.end(), own,
+                                        [](const Contact& c, int r) { return c.robot_a < r; });
+    auto last = first;
+    while (last != sorted.end() && last->robot_a == own) ++last;
+    return {first, last};
+}
+
 struct Course;
 struct Manifold;
 struct SweepBuffers;

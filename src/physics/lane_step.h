@@ -15,6 +15,7 @@
 #include "physics/lane_state.h"
 #include "physics/newton.h"
 #include "physics/sleep.h"
+#include "physics/tick.h"
 #include "physics/tree_hessian.h"
 #include "physics/turns_far.h"
 #include "physics/warm_start.h"
@@ -26,27 +27,44 @@ class LaneStep final : public LaneStepper {
   public:
     std::size_t width() const override { return kLanesOf<T>; }
 
-    unsigned step(const Model& model, std::span<const LaneRobot> robots, StepReport& report) override {
-        Lockstep<T> together;
-        work_.type = &model.type_of(robots[0].id);
-        state_.gather(*work_.type, robots, together);
-        place(model, robots, together);
-        if (!together.any()) return 0;
-        take_contacts(model, together);
-        add_rows(model, together);
-        solve(model, together);
-        leave_free_robots(together);
-        leave_far_turning_robots(model, together);
-        state_.advance(*work_.type, model.dt_s, displacement_, solution_);
-        leave(state_.not_finite(), together);
-        for (std::size_t i = 0; i < robots.size(); ++i)
-            if (is_in(together, i)) scatter(model, i, robots[i], report);
-        return together.present();
+    unsigned step(const Model& model, std::span<const LaneRobot> robots, StepReport& report,
+                  StageClock& clock) override {
+        Batch batch{*this, model, robots, report};
+        return step_robots(batch, clock) ? batch.together.present() : 0;
     }
 
   private:
     using Mask = MaskOf<T>;
     using Wide = WideOf<T>;
+
+    /// The stages of a batch, called by step_robots (tick.h) in this order. Its robots touch no others and do
+    /// not sleep, and all lanes are one contact island. `together`: the lanes that are still in.
+    struct Batch {
+        LaneStep& kernel;
+        const Model& model;
+        std::span<const LaneRobot> robots;
+        StepReport& result;
+        Lockstep<T> together{};
+
+        bool forward_kinematics() { return kernel.place(model, robots, together); }
+        void wake_left_sleepers() {}
+        void find_pairs() {}
+        void wake_touched_sleepers() {}
+        bool find_contacts() { return kernel.find_contacts(model, robots, together); }
+        void build_contact_islands() {}
+        template <class StepIsland>
+        void for_each_contact_island(StepIsland&& step) {
+            step(*this);
+        }
+        bool has_rows() const { return true; }
+        void build_rows() { kernel.add_rows(model, together); }
+        void solve_velocities() { kernel.solve(model, together); }
+        void solve_displacements() { kernel.find_displacement(model, together); }
+        void integrate() { kernel.integrate(model, together); }
+        void guard() {}         // whose energy or momentum is guarded has left
+        void put_to_sleep() {}  // who is slow enough has left
+        void report() { kernel.scatter(model, robots, together, result); }
+    };
 
     static bool is_in(const Lockstep<T>& together, std::size_t lane) {
         return (together.present() >> lane & 1u) != 0;
@@ -63,10 +81,11 @@ class LaneStep final : public LaneStepper {
         leave(LaneTraits<Wide>::bits(m), together);
     }
 
-    /// Bodies and shapes in lanes, contacts lane by lane. What might fall asleep or turns fast leaves. All
-    /// robots come with contacts, or none.
-    void place(const Model& model, std::span<const LaneRobot> robots, Lockstep<T>& together) {
+    /// Bodies and shapes in lanes. What might fall asleep or turns fast leaves; false if all do.
+    bool place(const Model& model, std::span<const LaneRobot> robots, Lockstep<T>& together) {
+        work_.type = &model.type_of(robots[0].id);
         const RobotType& type = *work_.type;
+        state_.gather(type, robots, together);
         placed().type = &type;
         forward_kinematics<Wide>(type, state_.q(), placed());
         forward_velocities<Wide>(type, state_.v(), placed());
@@ -75,8 +94,14 @@ class LaneStep final : public LaneStepper {
         if (model.sleep || !has_contacts) place_shapes<Wide>(type, model.dt_s, state_.q(), placed());
         if (model.sleep) leave_where(placed().speed <= Wide(kRestSpeed), together);
         if (!has_contacts) leave_where(!is_finite(placed()), together);
+        return together.any();
+    }
+
+    /// On one plane in lanes, else lane by lane, then gathered. All robots come with contacts, or none.
+    bool find_contacts(const Model& model, std::span<const LaneRobot> robots, Lockstep<T>& together) {
+        const bool has_contacts = robots[0].has_contacts;
         on_plane_ = !has_contacts && find_on_plane(model, robots, together);
-        if (on_plane_) return;
+        if (on_plane_) return together.any();
         for (std::size_t lane = 0; lane < robots.size(); ++lane) {
             if (!is_in(together, lane)) continue;
             if (has_contacts) {
@@ -86,7 +111,10 @@ class LaneStep final : public LaneStepper {
                 if (!found_.find(model, lane)) together.leave(lane);
             }
         }
-        leave(~found_.alike(model, type, together.present()), together);
+        leave(~found_.alike(model, *work_.type, together.present()), together);
+        if (!together.any()) return false;
+        take_contacts(model, together);
+        return true;
     }
 
     /// Poses and velocities, in doubles.
@@ -231,7 +259,6 @@ class LaneStep final : public LaneStepper {
 
     /// What all lanes have in common from the first of them, the rest lane by lane.
     void take_contacts(const Model& model, const Lockstep<T>& together) {
-        if (on_plane_) return;
         const auto first = static_cast<std::size_t>(std::countr_zero(together.present()));
         contacts_.resize(found_.count(first)), surfaces_.clear(), velocities_.clear();
         for (std::size_t c = 0; c < contacts_.size(); ++c) {
@@ -306,11 +333,13 @@ class LaneStep final : public LaneStepper {
         row.slip.target_1 -= dot(frame.t1, velocity), row.slip.target_2 -= dot(frame.t2, velocity);
     }
 
-    /// Velocities and displacement of the tick, and what motors and contacts gave.
+    SolveProblem<T> problem(const Model& model) {
+        return {model.accuracy, {&robot_, 1}, {&kOffset, 1}, rows_};
+    }
+
+    /// Velocities of the tick, and what motors and contacts gave.
     void solve(const Model& model, Lockstep<T>& together) {
-        const Mechanics<T>* robot = &work_;
-        const int offset = 0;
-        SolveProblem<T> problem{model.accuracy, {&robot, 1}, {&offset, 1}, rows_};
+        const SolveProblem<T> problem = this->problem(model);
         if constexpr (kIsFloat<T>)  // what the tick changes of the velocities
             solution_.assign(state_.v().size(), T(0));
         else
@@ -321,8 +350,18 @@ class LaneStep final : public LaneStepper {
         pushed_ = false;
         take_impulses();
         leave_isolated_robots(together);
+    }
+
+    void find_displacement(const Model& model, Lockstep<T>& together) {
         displacement_ = solution_;
-        if (together.any() && together(split_)) solve_displacement(problem, together);
+        if (together.any() && together(split_)) solve_displacement(problem(model), together);
+        leave_free_robots(together);
+        leave_far_turning_robots(model, together);
+    }
+
+    void integrate(const Model& model, Lockstep<T>& together) {
+        state_.advance(*work_.type, model.dt_s, displacement_, solution_);
+        leave(state_.not_finite(), together);
     }
 
     void take_impulses() {
@@ -355,7 +394,7 @@ class LaneStep final : public LaneStepper {
     }
 
     /// What moves freely and nothing pushes keeps its momentum: it takes the kick-drift step
-    /// (group_step.cpp).
+    /// (contact_island.cpp).
     void leave_isolated_robots(Lockstep<T>& together) {
         if (work_.type->free_base) leave_where(!pushed_, together);
     }
@@ -402,6 +441,12 @@ class LaneStep final : public LaneStepper {
         }
     }
 
+    void scatter(const Model& model, std::span<const LaneRobot> robots, const Lockstep<T>& together,
+                 StepReport& report) {
+        for (std::size_t i = 0; i < robots.size(); ++i)
+            if (is_in(together, i)) scatter(model, i, robots[i], report);
+    }
+
     void scatter(const Model& model, std::size_t i, const LaneRobot& robot, StepReport& report) {
         RobotState& state = *robot.state;
         state_.scatter(i, state);
@@ -439,8 +484,11 @@ class LaneStep final : public LaneStepper {
         report.contacts += static_cast<int>(count);
     }
 
+    static constexpr int kOffset = 0;
+
     Mechanics<T> work_;
-    Mechanics<Wide> placed_;  // floats: poses and velocities
+    const Mechanics<T>* robot_ = &work_;  // as the solver wants it
+    Mechanics<Wide> placed_;              // floats: poses and velocities
     LaneState<T> state_;
     std::vector<T> solution_, displacement_;              // of floats, what is added to the velocities before
     std::vector<T> whole_solution_, whole_displacement_;  // of floats, in all

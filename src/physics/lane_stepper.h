@@ -8,8 +8,10 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "core/check.h"
 #include "physics/contact.h"
 #include "physics/step.h"
 
@@ -34,7 +36,8 @@ class LaneStepper {
     /// Steps at most width() robots, awake, of one type that fits. Bit i of the result: robots[i] was
     /// stepped; the others are untouched. Of robots whose contacts are given, these and the bound are left to
     /// the caller: to remember, to count.
-    virtual unsigned step(const Model& model, std::span<const LaneRobot> robots, StepReport& report) = 0;
+    virtual unsigned step(const Model& model, std::span<const LaneRobot> robots, StepReport& report,
+                          StageClock& clock) = 0;
 };
 
 /// Robots that wait, by type, until a register is full. They have numbers of the caller.
@@ -44,16 +47,17 @@ class LaneQueue {
         waiting_.resize(std::max(waiting_.size(), types));
         for (std::vector<std::uint32_t>& batch : waiting_) batch.clear();
     }
-    /// Robot i waits; once there are enough, step(batch) steps and clears them. False if step says so.
+    /// Robot i waits; once there are enough, step(batch) steps and clears them.
     template <class Step>
-    bool add(std::size_t type, std::uint32_t i, std::size_t width, Step&& step) {
+    void add(std::size_t type, std::uint32_t i, std::size_t width, Step&& step) {
         waiting_[type].push_back(i);
-        return waiting_[type].size() < width || step(waiting_[type]);
+        if (waiting_[type].size() >= width) step(waiting_[type]);
     }
     /// Steps those who still wait.
     template <class Step>
-    bool finish(Step&& step) {
-        return std::ranges::all_of(waiting_, [&](auto& batch) { return batch.empty() || step(batch); });
+    void finish(Step&& step) {
+        for (std::vector<std::uint32_t>& batch : waiting_)
+            if (!batch.empty()) step(batch);
     }
 
   private:
@@ -73,24 +77,26 @@ struct LaneSteppers {
 };
 
 /// Steps a batch in lanes, each robot as lane_of(i) says; then visit(i, whether it was stepped) for each of
-/// them until one is false. The batch is empty afterwards.
+/// them. The batch is empty afterwards.
 template <class LaneOf, class Visit>
-bool step_batch(const LaneSteppers& steppers, const Model& model, std::vector<std::uint32_t>& batch,
-                StepReport& report, LaneOf&& lane_of, Visit&& visit) {
+void step_batch(const LaneSteppers& steppers, const Model& model, std::vector<std::uint32_t>& batch,
+                StepReport& report, StageClock& clock, LaneOf&& lane_of, Visit&& visit) {
+    ROBOSS_CHECK(!batch.empty() && batch.size() <= std::min(kMostLanes, steppers.width()),
+                 std::to_string(batch.size()) + " robots");
     std::array<LaneRobot, kMostLanes> robots;
     std::ranges::transform(batch, robots.begin(), lane_of);
-    unsigned stepped =
-        batch.size() > 1 ? steppers.lanes->step(model, std::span(robots).first(batch.size()), report) : 0;
+    unsigned stepped = 0;
+    if (batch.size() > 1)
+        stepped = steppers.lanes->step(model, std::span(robots).first(batch.size()), report, clock);
     for (std::size_t k = 0; steppers.in_floats() && k < batch.size(); ++k)
-        if ((stepped >> k & 1u) == 0) stepped |= steppers.single->step(model, {&robots[k], 1}, report) << k;
-    bool good = true;
-    for (std::size_t k = 0; k < batch.size() && good; ++k) good = visit(batch[k], (stepped >> k & 1u) != 0);
+        if ((stepped >> k & 1u) == 0)
+            stepped |= steppers.single->step(model, {&robots[k], 1}, report, clock) << k;
+    for (std::size_t k = 0; k < batch.size(); ++k) visit(batch[k], (stepped >> k & 1u) != 0);
     batch.clear();
-    return good;
 }
 
 /// Whether a robot may be stepped in lanes at all: no loops, couplings or drag, no contact with itself, no
-/// wrench; no lone body (what slides without turning is stepped apart, see group_step.cpp), and nothing
+/// wrench; no lone body (what slides without turning is stepped apart, see contact_island.cpp), and nothing
 /// without a driven motor (its energy is guarded, see kick_drift.h and island_guard.h).
 bool fits_lanes(const RobotType& type, const RobotState& state);
 

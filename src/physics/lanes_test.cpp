@@ -242,9 +242,11 @@ double share_in_lanes(Precision precision, std::size_t width) {
     for (std::size_t r = 0; r < sim.states.size(); ++r)
         robots.push_back({sim.ids[r], &sim.states[r], &sim.bounds[r], false, {}});
     StepReport report;
+    StageClock clock;
     int stepped = 0;
     constexpr int kTicks = 250;
-    for (int i = 0; i < kTicks; ++i) stepped += std::popcount(stepper->step(*sim.model, robots, report));
+    for (int i = 0; i < kTicks; ++i)
+        stepped += std::popcount(stepper->step(*sim.model, robots, report, clock));
     EXPECT_GE(report.contacts, stepped * 4);
     return stepped / (static_cast<double>(kTicks) * static_cast<double>(width));
 }

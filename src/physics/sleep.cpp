@@ -82,8 +82,13 @@ bool will_touch(const Model& model, std::span<RobotWork> robots, std::uint32_t a
     });
 }
 
-bool wake_touched(const Model& model, std::span<RobotWork> robots, ContactFinder& finder,
-                  WakeBuffers& buffers) {
+bool any_sleeps(std::span<const RobotWork> robots) {
+    return std::ranges::any_of(robots, [](const RobotWork& work) { return work.asleep; });
+}
+
+/// True if any was.
+bool wake_touched_once(const Model& model, std::span<RobotWork> robots, ContactFinder& finder,
+                       WakeBuffers& buffers) {
     bool woken = false;
     for (const auto& [a, b] : finder.pairs()) {
         if (robots[a].asleep == robots[b].asleep) continue;
@@ -179,19 +184,19 @@ void fall_asleep(const Model& model, std::span<RobotWork> robots, std::span<cons
 
 }  // namespace
 
-void wake_sleepers(const Model& model, std::span<RobotWork> robots, ContactFinder& finder,
-                   WakeBuffers& buffers) {
-    const bool any = std::any_of(robots.begin(), robots.end(), [](const RobotWork& w) { return w.asleep; });
-    if (any) {
-        note_places(robots, buffers);
-        for (std::uint32_t i = 0; i < robots.size(); ++i)
-            if (robots[i].asleep && lost_a_neighbour(robots, robots[i], buffers))
-                wake_from(model, robots, i, buffers);
-    }
-    finder.find_pairs(robots);
-    if (!any) return;
+void wake_left(const Model& model, std::span<RobotWork> robots, WakeBuffers& buffers) {
+    if (!any_sleeps(robots)) return;
+    note_places(robots, buffers);
+    for (std::uint32_t i = 0; i < robots.size(); ++i)
+        if (robots[i].asleep && lost_a_neighbour(robots, robots[i], buffers))
+            wake_from(model, robots, i, buffers);
+}
+
+void wake_touched(const Model& model, std::span<RobotWork> robots, ContactFinder& finder,
+                  WakeBuffers& buffers) {
+    if (!any_sleeps(robots)) return;
     // The woken may touch others; pairs of two sleepers were left out.
-    while (wake_touched(model, robots, finder, buffers)) finder.find_pairs(robots);
+    while (wake_touched_once(model, robots, finder, buffers)) finder.find_pairs(robots);
 }
 
 void settle_island(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,

@@ -36,9 +36,13 @@ struct WakeBuffers {
     std::vector<Contact> contacts;
 };
 
-/// Wakes all sleepers that must wake at this tick and places them; `finder` then knows the pairs of robots.
-void wake_sleepers(const Model& model, std::span<RobotWork> robots, ContactFinder& finder,
-                   WakeBuffers& buffers);
+/// Wakes the sleepers of which a neighbour is gone or awake, and all that are joined to them.
+void wake_left(const Model& model, std::span<RobotWork> robots, WakeBuffers& buffers);
+
+/// Wakes the sleepers that an awake robot touches, and so on; `finder` knows the pairs of robots, before and
+/// afterwards.
+void wake_touched(const Model& model, std::span<RobotWork> robots, ContactFinder& finder,
+                  WakeBuffers& buffers);
 
 /// Counts the ticks that the robots of a contact island have been at rest, and puts it to sleep when all are.
 /// `members` index `robots`; `contacts` are the island's, solved.

@@ -114,11 +114,11 @@ TEST(Sleep, TakingTheLowestAwayWakesTheRestAlsoWhenItIsSteppedElsewhere) {
         std::vector<Order> orders;
         if (i == 0) orders = {order_for(together, 0, SetPose{{{30, 0, 0.1}, {}}})};
         together.step(orders);
-        std::vector<Aabb> bounds(5);
+        std::vector<Aabb> bounds(4), bound(1);
         const std::span<const RobotId> ids(apart.ids);
         const std::span<RobotState* const> states(apart.pointers);
         step_island(*apart.model, apart.tick, ids.subspan(1), states.subspan(1), orders, bounds, here);
-        step_island(*apart.model, apart.tick, ids.first(1), states.first(1), orders, bounds, there);
+        step_island(*apart.model, apart.tick, ids.first(1), states.first(1), orders, bound, there);
         ++apart.tick;
         ASSERT_EQ(together.hash(), apart.hash()) << "tick " << i;
     }

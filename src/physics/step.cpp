@@ -1,20 +1,19 @@
-// step_island: orders, then the robots that may meet others, some groups at a time, then each of the rest by
-// itself, or a few of one type in lanes; so that a robot needs no memory between ticks but its state.
+// step_island: the first two stages of a tick for all robots, then the others batch by batch (tick.h).
 #include "physics/step.h"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <utility>
+#include <string>
 
+#include "core/check.h"
 #include "core/float_env.h"
 #include "core/make_room.h"
 #include "core/union_find.h"
 #include "physics/coarse_bound.h"
-#include "physics/group_step.h"
 #include "physics/lane_stepper.h"
 #include "physics/meetings.h"
-#include "physics/sleep.h"
+#include "physics/robot_group.h"
+#include "physics/tick.h"
 
 namespace roboss {
 
@@ -29,11 +28,20 @@ struct StepScratch::Impl {
     std::vector<std::uint32_t> near, batch;  // `near`: who may meet others, or sleeps, set by set
     std::vector<char> is_near, ordered, moved_freely;
     std::vector<float> efforts;
-    std::vector<ContactReport> contacts;
+    StageNow now = nullptr;  // nullptr: stages are not measured
+    StageClock clock;
     std::unique_ptr<LaneStepper> lanes = make_lane_stepper(Precision::kDouble, kMostLanes);
     std::unique_ptr<LaneStepper> float_lanes = make_lane_stepper(Precision::kFloat, kMostLanes);
     std::unique_ptr<LaneStepper> single = make_single_stepper();
     LaneQueue queue;
+
+    /// Forgets the last call.
+    void start(const Model& model, std::size_t robots) {
+        group.contact_reports.clear(), group.reactions.clear();
+        group.lanes = steppers(model);
+        moved_freely.assign(robots, 0);
+        efforts.assign(robots, 0);
+    }
 
     /// The steppers for a model.
     LaneSteppers steppers(const Model& model) const {
@@ -51,16 +59,25 @@ namespace {
 
 using Impl = StepScratch::Impl;
 
-/// A sleeper's box is in its state; the rest of it is computed only if something comes near.
-void place(const Model& model, RobotId id, RobotState& state, RobotWork& work) {
-    if (!state.rest.asleep) return place_robot(model, id, state, work);
-    work.id = id;
-    work.type = &model.type_of(id);
-    work.state = &state;
-    work.contacts = 0;
-    work.touches_robot = work.pushed = work.held = work.placed = false;
-    work.asleep = true;
-    work.box = state.rest.bound;
+/// What callers owe: broken by none but our own code, for states and assignments of others are checked where
+/// they come in.
+void check_input(const Model& model, Tick tick, std::span<const RobotId> robots,
+                 std::span<RobotState* const> states, std::span<const Order> orders,
+                 std::span<const Aabb> bounds) {
+    ROBOSS_CHECK(model.dt_s > 0, std::to_string(model.dt_s));
+    ROBOSS_CHECK(states.size() == robots.size() && bounds.size() == robots.size(),
+                 std::to_string(robots.size()) + " robots, " + std::to_string(states.size()) + " states");
+    for (std::size_t i = 0; i < robots.size(); ++i) {
+        ROBOSS_CHECK(i == 0 || robots[i - 1] < robots[i], "robot " + std::to_string(robots[i].value));
+        const RobotType& type = model.type_of(robots[i]);
+        ROBOSS_CHECK(states[i]->q.size() == static_cast<std::size_t>(type.nq) &&
+                         states[i]->v.size() == static_cast<std::size_t>(type.nv) &&
+                         states[i]->motors.size() == type.motor_count(),
+                     "the state of robot " + std::to_string(robots[i].value));
+    }
+    for (const Order& order : orders)
+        ROBOSS_CHECK(order.apply_at == tick, "an order for tick " + std::to_string(order.apply_at) +
+                                                 " at tick " + std::to_string(tick));
 }
 
 /// Marks the robots that have an order at this tick.
@@ -74,64 +91,6 @@ void apply_orders(const Model& model, std::span<const RobotId> robots, std::span
         apply_order(model, order, *states[i]);
         ordered[i] = 1;
     }
-}
-
-bool is_finite(const RobotState& state) {
-    double sum = 0;
-    for (double x : state.q) sum += x - x;
-    for (double x : state.v) sum += x - x;
-    return sum == 0;
-}
-
-void expire_wrenches(Tick tick, RobotState& state) {
-    std::erase_if(state.wrenches, [&](const TimedWrench& w) { return w.until <= tick + 1; });
-}
-
-/// The joint of the tree that moves a body; none: the base.
-JointId joint_of_body(const RobotType& type, int body) {
-    for (std::size_t j = 0; j < type.joints.size(); ++j)
-        if (type.joints[j].body == body && type.joints[j].loop < 0) return JointId(j);
-    return JointId();
-}
-
-/// Of the first body whose coordinates or velocities are not finite.
-JointId broken_joint(const RobotType& type, const RobotState& state) {
-    const auto broken = [](const std::vector<double>& values, int first, std::size_t count) {
-        const auto begin = values.begin() + first;
-        return !std::all_of(begin, begin + static_cast<std::ptrdiff_t>(count),
-                            [](double x) { return std::isfinite(x); });
-    };
-    if (broken(state.q, 0, 7) || broken(state.v, 0, static_cast<std::size_t>(type.base_nv())))
-        return JointId();
-    for (std::size_t b = 0; b < type.bodies.size(); ++b) {
-        const Body& body = type.bodies[b];
-        if (body.joint == JointKind::kFree) continue;
-        const auto width = static_cast<std::size_t>(joint_traits(body.joint).nq);
-        if (broken(state.q, body.q_index, width) ||
-            broken(state.v, body.v_index, static_cast<std::size_t>(body.nv)))
-            return joint_of_body(type, static_cast<int>(b));
-    }
-    return JointId();
-}
-
-/// See StepReport::not_finite.
-void note_failure(const RobotWork& work, bool beyond_numbers, JointId joint, StepReport& report) {
-    const bool is_first =
-        !report.not_finite.valid() ||
-        std::pair(!beyond_numbers, work.id) < std::pair(!report.beyond_numbers, report.not_finite);
-    if (!is_first) return;
-    report.not_finite = work.id;
-    report.not_finite_joint = joint;
-    report.beyond_numbers = beyond_numbers;
-}
-
-/// A robot so fast that its displacement in one tick is not finite: it would meet everybody, and spoil them.
-/// The body of its first such part, -1: the base; none: it is not so fast.
-std::optional<int> body_beyond_numbers(const RobotWork& work) {
-    if (!is_finite(work.origin)) return -1;
-    for (std::size_t i = 0; i < work.shapes.size(); ++i)
-        if (!std::isfinite(work.shapes[i].margin)) return work.type->shapes[i].body;
-    return std::nullopt;
 }
 
 constexpr float kEffort = 2;  // of a step beside its Newton iterations
@@ -192,130 +151,73 @@ void find_near(const Model& model, std::span<const RobotId> robots, std::span<Ro
     s.joined.sort_by_set(s.near);
 }
 
-/// Who touched whom, for read_contacts.
-void keep_contacts(std::span<const RobotWork> robots, std::span<const Contact> contacts,
-                   std::vector<ContactReport>& reports) {
-    for (const Contact& c : contacts) {
-        if (c.impulse <= 0) continue;
-        const RobotWork& a = robots[static_cast<std::size_t>(c.robot_a)];
-        ContactReport report;
-        report.robot_a = a.id;
-        report.link_a = a.type->shapes[c.shape_a].link;
-        if (c.robot_b >= 0) {
-            const RobotWork& b = robots[static_cast<std::size_t>(c.robot_b)];
-            report.robot_b = b.id;
-            report.link_b = b.type->shapes[c.shape_b].link;
-        } else {
-            report.scenery = c.shape_b;
-        }
-        report.p_W = c.p_W, report.shift_b = c.shift_b, report.normal = c.normal, report.gap = c.gap;
-        report.impulse = c.impulse, report.friction = c.friction, report.moment = c.moment;
-        reports.push_back(report);
-    }
+/// Steps the chosen robots, which may meet each other and no others.
+void step_group(const StepCall& call, std::span<const std::uint32_t> chosen, std::span<RobotWork> works,
+                Impl& s) {
+    s.group.tried_alone = works.data() == s.alone.data();
+    const int before = call.report.iterations;
+    RobotGroup group(call, chosen, works, s.group);
+    if (!step_robots(group, call.clock)) return;
+    share_effort(chosen, call.report.iterations - before, s.efforts);
+    for (std::size_t k = 0; k < chosen.size(); ++k) s.moved_freely[chosen[k]] = !works[k].held;
 }
 
-/// One call of step_island.
-struct Call {
-    const Model& model;
-    Tick tick;
-    std::span<const RobotId> robots;
-    std::span<RobotState* const> states;
-    std::span<Aabb> bounds;
+/// Steps those who may meet, some sets at a time: so few that what is computed of them stays in the cache, so
+/// many that lanes are filled.
+void step_groups(const StepCall& call, Impl& s) {
+    constexpr std::size_t kTogether = 16;
+    std::size_t first = 0, last = 0;
+    const auto step_some = [&] {
+        const std::span<std::uint32_t> some = std::span(s.near).subspan(first, last - first);
+        std::sort(some.begin(), some.end());
+        make_room(s.works, some.size());
+        if (s.works.size() < some.size()) s.works.resize(some.size());
+        first = last;
+        if (!some.empty()) step_group(call, some, std::span(s.works).first(some.size()), s);
+    };
+    s.joined.for_each_set(s.near, [&](std::span<const std::uint32_t> set) {
+        last += set.size();
+        if (last - first >= kTogether) step_some();
+    });
+    step_some();
+}
 
-    /// False if a robot cannot be stepped.
-    bool place_all(std::span<const std::uint32_t> chosen, std::span<RobotWork> works, Impl& s,
-                   StepReport& report) const {
-        for (std::size_t k = 0; k < chosen.size(); ++k) {
-            const std::uint32_t i = chosen[k];
-            place(model, robots[i], *states[i], works[k]);
-            works[k].ordered = s.ordered[i] != 0;
-            bounds[i] = works[k].box;
-        }
-        bool fine = true;
-        for (const RobotWork& work : works) {
-            if (work.asleep) continue;
-            const std::optional<int> body = body_beyond_numbers(work);
-            if (!body) continue;
-            note_failure(work, true, joint_of_body(*work.type, *body), report);
-            fine = false;
-        }
-        return fine;
-    }
-
-    /// Steps the chosen robots, which may meet each other and nobody else; not if one of them is beyond
-    /// numbers.
-    void step(std::span<const std::uint32_t> chosen, std::span<RobotWork> works, Impl& s,
-              StepReport& report) const {
-        if (!place_all(chosen, works, s, report)) return;
-        const int before = report.iterations;
-        s.group.tried_alone = works.data() == s.alone.data();
-        step_group(model, works, s.group, report);
-        share_effort(chosen, report.iterations - before, s.efforts);
-        for (std::size_t k = 0; k < chosen.size(); ++k) {
-            s.moved_freely[chosen[k]] = !works[k].held;
-            report.placed += works[k].placed ? 1 : 0;
-            if (works[k].asleep) continue;
-            RobotState& state = *states[chosen[k]];
-            expire_wrenches(tick, state);
-            if (!is_finite(state)) note_failure(works[k], false, broken_joint(*works[k].type, state), report);
-        }
-        if (s.group.keep_reactions) keep_contacts(works, s.group.contacts, s.contacts);
-    }
-
-    /// Steps a robot that meets nobody, or lets it wait until there are enough of its type.
-    void step_alone(std::uint32_t i, Impl& s, StepReport& report) const {
-        const std::size_t type = model.robots[robots[i].index()].type.index();
-        if (!s.group.lanes || s.group.keep_reactions || !fits_lanes(model.types[type], *states[i]))
-            return step({&i, 1}, s.alone, s, report);
-        s.queue.add(type, i, s.group.lanes.width(),
-                    [&](auto& batch) { return step_in_lanes(batch, s, report); });
-    }
-
-    /// True: the batch that comes next is to be stepped too.
-    bool step_in_lanes(std::vector<std::uint32_t>& batch, Impl& s, StepReport& report) const {
-        const int before = report.iterations;
-        s.batch = batch;
-        step_batch(
-            s.group.lanes, model, batch, report,
-            [&](std::uint32_t i) {
-                return LaneRobot{robots[i], states[i], &bounds[i], false, {}};
-            },
-            [&](std::uint32_t i, bool stepped) {
-                report.placed += stepped ? 1 : 0;
-                if (!stepped) step({&i, 1}, s.alone, s, report);
-                return true;
-            });
-        share_effort(s.batch, report.iterations - before, s.efforts);
-        return true;
-    }
-
-    /// Steps those who may meet, some sets at a time: so few that what is computed of them stays in the
-    /// cache, so many that lanes are filled.
-    void step_near(Impl& s, StepReport& report) const {
-        constexpr std::size_t kTogether = 16;
-        std::size_t first = 0, last = 0;
-        const auto step_some = [&] {
-            const std::span<std::uint32_t> some = std::span(s.near).subspan(first, last - first);
-            std::sort(some.begin(), some.end());
-            make_room(s.works, some.size());
-            if (s.works.size() < some.size()) s.works.resize(some.size());
-            first = last;
-            if (!some.empty()) step(some, std::span(s.works).first(some.size()), s, report);
-        };
-        s.joined.for_each_set(s.near, [&](std::span<const std::uint32_t> set) {
-            last += set.size();
-            if (last - first >= kTogether) step_some();
+/// Steps robots of one type that meet nobody in lanes, and those that cannot go so each by itself.
+void step_in_lanes(const StepCall& call, std::vector<std::uint32_t>& batch, Impl& s) {
+    const int before = call.report.iterations;
+    s.batch = batch;
+    step_batch(
+        s.group.lanes, call.model, batch, call.report, call.clock,
+        [&](std::uint32_t i) {
+            return LaneRobot{call.robots[i], call.states[i], &call.bounds[i], false, {}};
+        },
+        [&](std::uint32_t i, bool stepped) {
+            call.report.placed += stepped ? 1 : 0;
+            if (!stepped) step_group(call, {&i, 1}, s.alone, s);
         });
-        step_some();
-    }
+    share_effort(s.batch, call.report.iterations - before, s.efforts);
+}
 
-    void step_all_alone(Impl& s, StepReport& report) const {
-        s.queue.start(model.types.size());
-        for (std::uint32_t i = 0; i < robots.size(); ++i)
-            if (!s.is_near[i]) step_alone(i, s, report);
-        s.queue.finish([&](auto& batch) { return step_in_lanes(batch, s, report); });
+/// Steps each robot that meets nobody by itself, or with others of its type in lanes.
+void step_lone_robots(const StepCall& call, Impl& s) {
+    const Model& model = call.model;
+    const auto step_lanes = [&](std::vector<std::uint32_t>& batch) { step_in_lanes(call, batch, s); };
+    s.queue.start(model.types.size());
+    for (std::uint32_t i = 0; i < call.robots.size(); ++i) {
+        if (s.is_near[i]) continue;
+        const std::size_t type = model.robots[call.robots[i].index()].type.index();
+        if (s.group.lanes && !s.group.keep_reactions && fits_lanes(model.types[type], *call.states[i]))
+            s.queue.add(type, i, s.group.lanes.width(), step_lanes);
+        else
+            step_group(call, {&i, 1}, s.alone, s);
     }
-};
+    s.queue.finish(step_lanes);
+}
+
+/// By robot; groups come in another order.
+void sort_contact_reports(std::vector<ContactReport>& reports) {
+    std::ranges::stable_sort(reports, {}, &ContactReport::robot_a);
+}
 
 }  // namespace
 
@@ -330,22 +232,21 @@ Aabb interaction_bound(const Model& model, RobotId robot, const RobotState& stat
 StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> robots,
                        std::span<RobotState* const> states, std::span<const Order> orders,
                        std::span<Aabb> bounds, StepScratch& scratch) {
+    check_input(model, tick, robots, states, orders, bounds);
     const ExactFloatScope exact;
     Impl& s = scratch.impl();
     StepReport report;
-    s.contacts.clear(), s.group.reactions.clear();
-    s.group.lanes = s.steppers(model);
-    s.moved_freely.assign(robots.size(), 0);
-    s.efforts.assign(robots.size(), 0);
+    s.clock.start(s.now, report.stages);
+    s.start(model, robots.size());
+    s.clock.enter(Stage::kOrders);
     apply_orders(model, robots, states, orders, s.ordered);
+    s.clock.enter(Stage::kBroadPhase);
     find_near(model, robots, states, s);
-    const Call call{model, tick, robots, states, bounds};
-    call.step_near(s, report);
-    call.step_all_alone(s, report);
-    if (s.group.keep_reactions)
-        std::stable_sort(
-            s.contacts.begin(), s.contacts.end(),
-            [](const ContactReport& a, const ContactReport& b) { return a.robot_a < b.robot_a; });
+    const StepCall call{model, tick, robots, states, bounds, s.ordered, report, s.clock};
+    step_groups(call, s);       // batches of robots that may meet: step_robots (tick.h)
+    step_lone_robots(call, s);  // batches of robots that meet nobody: likewise
+    sort_contact_reports(s.group.contact_reports);
+    s.clock.stop();
     return report;
 }
 
@@ -353,6 +254,10 @@ void StepScratch::use_lanes(std::size_t most) {
     most = std::min(most, kMostLanes);
     impl_->lanes = make_lane_stepper(Precision::kDouble, most);
     impl_->float_lanes = make_lane_stepper(Precision::kFloat, most);
+}
+
+void StepScratch::measure_stages(StageNow now) {
+    impl_->now = now;
 }
 
 std::size_t StepScratch::lanes(Precision precision) const {
@@ -365,7 +270,7 @@ void StepScratch::keep_reactions(bool keep) {
 }
 
 std::span<const ContactReport> read_contacts(StepScratch& scratch) {
-    return scratch.impl().contacts;
+    return scratch.impl().group.contact_reports;
 }
 
 std::span<const LoopReaction> read_loop_reactions(StepScratch& scratch) {

@@ -12,6 +12,7 @@
 #include "model/model.h"
 #include "model/order.h"
 #include "model/robot_state.h"
+#include "physics/stage.h"
 
 namespace roboss {
 
@@ -33,6 +34,7 @@ struct StepReport {
     RobotId not_finite;
     JointId not_finite_joint;  // whose coordinate or velocity it is; not valid: the base's
     bool beyond_numbers = false;
+    StageTimes stages;  // zero unless they are measured (StepScratch::measure_stages)
 };
 
 inline constexpr std::size_t kMostLanes = 16;  // robots that any processor steps at once
@@ -51,6 +53,9 @@ class StepScratch {
     /// From now on at most so many robots of a type are stepped at once in lanes (lane_stepper.h), as far as
     /// this processor can; 1: none. At first as many as it can. No bit depends on it.
     void use_lanes(std::size_t most);
+    /// From now on each step reports how long its stages take by this clock; nullptr: not. No bit depends on
+    /// it.
+    void measure_stages(StageNow now);
     /// How many are.
     std::size_t lanes(Precision precision = Precision::kDouble) const;
     struct Impl;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "roles/window_job.h"
 
@@ -31,8 +32,12 @@ WindowStepper::WindowStepper(std::shared_ptr<const Model> model, ThreadPool& poo
       pool_(pool),
       options_(std::move(options)),
       scratch_(pool.threads()),
+      stage_times_(pool.threads()),
       lane_groups_(pool.threads()) {
-    for (StepScratch& scratch : scratch_) scratch.use_lanes(options_.lanes);
+    for (StepScratch& scratch : scratch_) {
+        scratch.use_lanes(options_.lanes);
+        scratch.measure_stages(options_.stages.now);
+    }
 }
 
 WindowStepper::~WindowStepper() = default;
@@ -95,12 +100,20 @@ WindowResult WindowStepper::step(const Assignment& assignment, StateStore& store
     pool_.run(
         batch_offsets_.size() - 1, [&](std::size_t b, std::size_t worker) { step_batch(job, b, worker); },
         [&] { between({}); });
+    report_stages();
     if (job.result.left > 0) return std::move(job.result);
     for (auto& boxes : earlier_) {
         job.result.earlier.insert(job.result.earlier.end(), boxes.begin(), boxes.end());
         boxes.clear();
     }
     return std::move(job.result);
+}
+
+void WindowStepper::report_stages() {
+    if (!options_.stages) return;
+    StageTimes all;
+    for (StageTimes& times : stage_times_) all += std::exchange(times, {});
+    options_.stages.add(all);
 }
 
 void WindowStepper::step_batch(Job& job, std::size_t batch, std::size_t worker) {
@@ -149,6 +162,7 @@ bool WindowStepper::step_tick(Job& job, std::size_t island, Tick tick, std::span
     const StepReport report =
         step_island(*model_, tick, robots, std::span(states_).subspan(first, robots.size()), orders,
                     std::span(bounds_).subspan(first, robots.size()), scratch_[worker]);
+    stage_times_[worker] += report.stages;
     sweep(job, island, orders);
     for (const float effort : read_efforts(scratch_[worker])) count(island, effort);
     IslandResult& outcome = job.result.islands[island];
@@ -229,6 +243,7 @@ bool WindowStepper::step_lane_group(Job& job, Tick tick, std::size_t worker) {
     }
     const StepReport report =
         step_island(*model_, tick, c.robots, c.states, c.orders, c.bounds, scratch_[worker]);
+    stage_times_[worker] += report.stages;
     for (std::size_t i = 0; i < c.islands.size(); ++i)
         bounds_[job.assignment.island_offsets[c.islands[i]]] = c.bounds[i];
     for (const std::uint32_t i : c.islands) sweep(job, i, c.orders);

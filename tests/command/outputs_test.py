@@ -54,6 +54,24 @@ class Outputs(unittest.TestCase):
         self.assertRegex(data["state_hash"], "^[0-9a-f]{16}$")
         self.assertIn(data["state_hash"], done.stdout)
 
+    def test_stage_times_are_measured_on_all_threads_and_change_no_bit(self):
+        world, run = WORLDS / "pile.sdf", ["--duration", 0.2, "--simulators", 2, "--threads", 2]
+        measured = summary(world, *run, "--stage-times")
+        plain = summary(world, *run)
+        self.assertEqual(measured["state_hash"], plain["state_hash"])
+        self.assertNotIn("stage_times_s", plain)
+        times = measured["stage_times_s"]
+        for stage in ("orders", "forward kinematics", "narrow phase", "constraint rows", "solve velocities", "integrate"):
+            self.assertGreater(times[stage], 0, stage)
+        self.assertLess(sum(times.values()), 2 * measured["wall_time_s"], "no more than two threads have")
+        text = roboss("run", world, *run, "--stage-times").stdout
+        self.assertRegex(text, r"solve velocities +[0-9.]+ +[0-9.]+ +[0-9.]+ +[0-9.]+\n")
+
+    def test_stage_times_of_other_processes_are_refused(self):
+        done = roboss("run", WORLDS / "pile.sdf", "--duration", 0.1, "--processes", 2, "--stage-times")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("--stage-times", done.stderr + done.stdout)
+
     def test_accuracy_and_profile_of_the_command_line_are_part_of_the_model(self):
         world = FOLDER / "profiles.sdf"
         world.write_text("""<sdf version="1.9"><world name="w">

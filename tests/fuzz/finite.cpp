@@ -1,9 +1,10 @@
-// Property: finite input gives finite states.
+// Property: finite input gives finite states, and the invariants of states hold after each tick.
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
 #include "fuzz/property.h"
+#include "physics/invariants.h"
 
 namespace roboss::fuzz {
 
@@ -23,7 +24,12 @@ Finding run_finite(const Request& request) {
         }
         if (fastest > finding.figure) finding.figure = fastest, finding.tick = motion.tick();
         const RobotId broken = find_not_finite(motion.states());
-        if (!broken.valid()) continue;
+        if (!broken.valid()) {
+            finding.text = check_invariants(motion.model(), motion.states());
+            if (finding.text.empty()) continue;
+            finding.failed = true, finding.tick = motion.tick();
+            break;
+        }
         finding.failed = true;
         finding.figure = std::numeric_limits<double>::infinity(), finding.tick = motion.tick();
         finding.text = "robot " + motion.model().robots[broken.index()].name + " is not finite";

@@ -40,7 +40,7 @@ std::vector<Property> make_properties() {
          10,
          run_momentum},
         {"finite",
-         "no state becomes infinite or not a number",
+         "no state becomes infinite or not a number; the invariants of states hold after each tick",
          "fastest base or joint, rad/s or m/s",
          any,
          {1e-3, 2e-3, 4e-3, 5e-3},

@@ -11,6 +11,27 @@
 
 namespace roboss {
 
+namespace {
+
+double seconds(std::uint64_t ns) {
+    return 1e-9 * static_cast<double>(ns);
+}
+
+/// How long each stage took, summed over threads.
+std::string stage_table(const StageTimes& times, double ticks, double robot_ticks) {
+    const auto row = [&](const char* name, std::uint64_t ns) {
+        const double s = seconds(ns), all_s = seconds(times.sum());
+        return fmt::format("{:<19}{:>10.1f}{:>13.3f}{:>20.3f}{:>9.1f}\n", name, s * 1e3,
+                           ticks > 0 ? s * 1e6 / ticks : 0.0, robot_ticks > 0 ? s * 1e6 / robot_ticks : 0.0,
+                           all_s > 0 ? 100 * s / all_s : 0.0);
+    };
+    std::string text = "stage                total ms   us per tick   us per robot-tick  share %\n";
+    for (std::size_t i = 0; i < kStages; ++i) text += row(stage_name(Stage(i)), times.ns[i]);
+    return text + row("all", times.sum());
+}
+
+}  // namespace
+
 std::string to_json(const Summary& s) {
     nlohmann::ordered_json o;
     o["world"] = s.world;
@@ -33,11 +54,15 @@ std::string to_json(const Summary& s) {
     o["cuts"] = s.cuts;
     o["model_hash"] = to_hex(s.model_hash);
     o["state_hash"] = to_hex(s.state_hash);
+    if (s.stages)
+        for (std::size_t i = 0; i < kStages; ++i)
+            o["stage_times_s"][stage_name(Stage(i))] = seconds(s.stages->ns[i]);
     return o.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string to_text(const Summary& s) {
-    return fmt::format(
+    const auto ticks = static_cast<double>(s.ticks), robot_ticks = ticks * static_cast<double>(s.robots);
+    std::string text = fmt::format(
         "world             {}\n"
         "robots            {}\n"
         "simulated         {:.3f} s ({} steps of {:g} ms), world time now {:.3f} s\n"
@@ -48,13 +73,12 @@ std::string to_text(const Summary& s) {
         "simulators        {} at the end, {} lost, {} robots migrated\n"
         "model hash        {}\n"
         "state hash        {}\n",
-        s.world, s.robots, static_cast<double>(s.ticks) * s.dt_s, s.ticks, s.dt_s * 1e3, s.sim_time_s,
-        s.wall_time_s, s.real_time_factor, s.step_cpu_s,
-        s.ticks > 0 && s.robots > 0
-            ? s.step_cpu_s * 1e6 / (static_cast<double>(s.ticks) * static_cast<double>(s.robots))
-            : 0.0,
-        s.windows, s.windows_repeated, s.islands_mean, s.contacts_mean, s.building_contacts_mean,
-        s.simulators, s.losses, s.migrations, to_hex(s.model_hash), to_hex(s.state_hash));
+        s.world, s.robots, ticks * s.dt_s, s.ticks, s.dt_s * 1e3, s.sim_time_s, s.wall_time_s,
+        s.real_time_factor, s.step_cpu_s, robot_ticks > 0 ? s.step_cpu_s * 1e6 / robot_ticks : 0.0, s.windows,
+        s.windows_repeated, s.islands_mean, s.contacts_mean, s.building_contacts_mean, s.simulators, s.losses,
+        s.migrations, to_hex(s.model_hash), to_hex(s.state_hash));
+    if (s.stages) text += stage_table(*s.stages, ticks, robot_ticks);
+    return text;
 }
 
 Result<> write_json(const Summary& summary, const std::string& file) {

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "core/result.h"
 #include "core/types.h"
+#include "physics/stage.h"
 
 namespace roboss {
 
@@ -27,6 +29,7 @@ struct Summary {
                   migrations = 0;  // of Simulators; of runs of recovery; of robots
     std::uint64_t cuts = 0;        // windows of a straggler that others took over in part (work stealing)
     std::size_t simulators = 0;    // at the end
+    std::optional<StageTimes> stages;
 };
 
 std::string to_json(const Summary& summary);

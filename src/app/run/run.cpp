@@ -26,6 +26,11 @@ void print(const Diagnostics& diagnostics, const std::string& world) {
         fmt::print(stderr, "{} notes about this world; `roboss check {}` prints them\n", notes, world);
 }
 
+std::uint64_t now_ns() {
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
+}
+
 /// Ids of an earlier, killed Controller of this run may still be in use by its Simulators.
 std::uint32_t first_simulator_id() {
     constexpr int kSeatBits = 12;
@@ -137,11 +142,12 @@ bool Run::open_gateway() {
     return true;
 }
 
-SimulationOptions Run::simulation_options(const SavedRun* from) const {
+SimulationOptions Run::simulation_options(const SavedRun* from) {
     SimulationOptions options;
     options.simulators = static_cast<std::size_t>(o_.simulators);
     options.threads = static_cast<unsigned>(threads_of_each(o_.threads, 1));
     options.lanes = o_.lanes;
+    if (o_.stage_times) options.stages = {now_ns, [this](const StageTimes& times) { stage_times_ += times; }};
     options.world_file = o_.world;
     options.controller.seed = o_.seed.value_or(from != nullptr ? from->seed : 0);
     options.controller.window = o_.window == "auto" ? 0 : static_cast<Tick>(std::stod(o_.window));
@@ -241,6 +247,7 @@ Summary Run::summary(double wall_s) const {
     s.migrations = c.migrations;
     s.cuts = c.cuts;
     s.simulators = c.simulators;
+    if (o_.stage_times) s.stages = stage_times_;
     return s;
 }
 

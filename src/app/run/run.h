@@ -49,7 +49,7 @@ class Run {
         bool back = false;  // in time
     };
     Result<> start_again(std::shared_ptr<const Model> model, const SavedRun& from, const Turn& turn);
-    SimulationOptions simulation_options(const SavedRun* from) const;
+    SimulationOptions simulation_options(const SavedRun* from);
     bool open_gateway();
     /// Here, or by `roboss view` elsewhere.
     bool is_shown() const { return !o_.viewer.headless || o_.is_controller; }
@@ -123,6 +123,7 @@ class Run {
         }
     } pace_;
     TrafficMeter traffic_;
+    StageTimes stage_times_;          // of the steps in this process
     std::vector<ControlCall> calls_;  // requests to be served
     std::vector<std::string> notices_;
     Tick busy_until_ = 0;  // to which requests wait: the run is being brought to its start

@@ -147,6 +147,9 @@ void add_watch_options(CLI::App& command, RunOptions& o, ViewerDefault viewer) {
         .add_option("--hash-every", o.hash_every_s, "simulated time between two prints of the state hash, s")
         ->check(CLI::PositiveNumber);
     command.add_option("--json", o.json, "write the summary as JSON to this file");
+    command.add_flag("--stage-times", o.stage_times,
+                     "measure how long each stage of the steps takes; the summary has a table of it (of the "
+                     "Simulators in this process; docs/performance.md)");
     command
         .add_option(
             "--log", o.log,
@@ -237,7 +240,8 @@ void add_run_options(CLI::App& command, RunOptions& o) {
             "number of Simulators, each as a separate process on this computer; if one fails, the end of "
             "its output is printed")
         ->check(CLI::Range(1, 100))
-        ->excludes(simulators);
+        ->excludes(simulators)
+        ->excludes("--stage-times");
 }
 
 void add_replay_options(CLI::App& command, RunOptions& o) {

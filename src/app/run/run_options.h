@@ -44,6 +44,7 @@ struct RunOptions {
     std::string contacts;  // CSV
     double contacts_every_s = 0;
     double hash_every_s = 0;
+    bool stage_times = false;
     std::string json;
     std::string log;  // a file, or - for standard error
     double log_every_s = 10;

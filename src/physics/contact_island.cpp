@@ -1,9 +1,11 @@
-// See group_step.h.
-#include "physics/group_step.h"
+// See contact_island.h.
+#include "physics/contact_island.h"
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "core/check.h"
 #include "core/make_room.h"
 #include "physics/drag.h"
 #include "physics/fast_turning.h"
@@ -13,23 +15,6 @@
 
 namespace roboss {
 namespace {
-
-/// Joins robots in contact, or that may come into contact; `members` are the robots that are awake, contact
-/// island by contact island.
-void build_contact_islands(GroupScratch& s, std::span<const RobotWork> robots) {
-    s.islands.reset(robots.size());
-    for (const Contact& c : s.contacts)
-        if (c.robot_b >= 0)
-            s.islands.unite(static_cast<std::uint32_t>(c.robot_a), static_cast<std::uint32_t>(c.robot_b));
-    for (const NearMiss& miss : s.finder.near_misses())
-        if (miss.robot_b >= 0)
-            s.islands.unite(static_cast<std::uint32_t>(miss.robot_a),
-                            static_cast<std::uint32_t>(miss.robot_b));
-    s.members.clear();
-    for (std::uint32_t i = 0; i < robots.size(); ++i)
-        if (!robots[i].asleep) s.members.push_back(i);
-    s.islands.sort_by_set(s.members);
-}
 
 /// Marks the robots that a contact pushes, in their velocity or displacement.
 void mark_pushed(std::span<RobotWork> robots, GroupScratch& s) {
@@ -143,15 +128,6 @@ void finish_island(const Model& model, std::span<RobotWork> robots, GroupScratch
         if (work.type->has_equalities())
             s.free_buffer.projection.close_coordinates(*work.type, work.state->q);
     }
-}
-
-/// Contacts of the robot: they are sorted by their first robot.
-std::span<Contact> contacts_of(std::uint32_t robot, std::span<Contact> contacts) {
-    const auto first = std::lower_bound(contacts.begin(), contacts.end(), static_cast<int>(robot),
-                                        [](const Contact& c, int r) { return c.robot_a < r; });
-    auto last = first;
-    while (last != contacts.end() && last->robot_a == static_cast<int>(robot)) ++last;
-    return {first, last};
 }
 
 /// Gathers rows and first guess of one contact island; true if the displacement of the tick needs a solution
@@ -359,123 +335,80 @@ bool start_guard(const Model& model, std::span<RobotWork> robots, GroupScratch& 
     return s.guard.start(model, robots, island, s.free_buffer.work);
 }
 
-void solve_island(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
-                  std::span<const std::uint32_t> members, StepReport& report) {
-    s.island_contacts.clear();
-    if (members.size() == 1) {
-        RobotWork& work = robots[members[0]];
-        if (work.type->nv == 0) return;
-        if (work.contacts == 0 && flies(model, work, s)) return advance_freely(model, work, s.free_buffer);
-    }
-    const bool split = gather_island(model, robots, s, members, s.contacts);
-    s.v_before = s.v;
-    const SolveReport solved =
-        s.solver.solve({model.accuracy, s.island_robots, s.island_offsets, s.rows}, s.v);
-    report.iterations += solved.iterations;
-    report.residual = std::max(report.residual, solved.residual);
-    const bool drifts = choose_drifting(model, robots, s, members);
-    take_impulses(s);
-    const bool bounces = throws_back(s.rows);
-    if (split) {
-        s.displacement = s.v;
-        for (ContactRow& row : s.rows.contacts) row.slip.bound = row.slip.coefficient * row.normal.impulse;
-        solve_displacement(model, s, report);
-        limit_correction(robots, s, members);
-    } else {
-        take_mean_displacement(robots, s, members, drifts, model.dt_s);
-    }
-    mark_pushed(robots, s);
-    stop_late_hits(model, robots, s, members, split, report);
-    mark_touched(robots, s);
-    s.gained_moment = {};
-    const bool guards = start_guard(model, robots, s, members, bounces, drifts);
-    finish_island(model, robots, s, members, s.displacement);
-    const auto moved_well = [&](std::uint32_t m) {
-        return is_plausible(robots[m].state->q) && is_plausible(robots[m].state->v);
-    };
-    if (s.look.may_push_out() && std::ranges::all_of(members, moved_well)) s.look.push_out(robots, model);
-    if (!s.anchored)
-        if (const Vec3 moment = late_moment(s) - s.gained_moment; moment != Vec3{})
-            turn_island(model, robots, members, moment, s.free_buffer.work);
-    if (guards) s.guard.finish(model, robots, members, s.free_buffer.work);
-}
-
-void count_contacts(const Model& model, std::span<const Contact> contacts, StepReport& report) {
-    for (const Contact& c : contacts) {
-        if (c.impulse <= 0) continue;
-        ++report.contacts;
-        if (c.robot_b < 0 && model.statics[c.shape_b].shape.kind != ShapeKind::kPlane)
-            ++report.static_contacts;
-    }
-}
-
-/// Robots that stand on the same ground have contacts alike; who leans on something too is mostly the only
-/// one of its lanes.
-bool touches_one_thing(std::span<const Contact> contacts) {
-    return std::ranges::all_of(contacts, [&](const Contact& c) { return c.shape_b == contacts[0].shape_b; });
-}
-
-/// The contact islands of a group, each by itself, or those of one robot a few at a time in lanes.
-struct IslandStepper {
-    const Model& model;
-    std::span<RobotWork> robots;
-    GroupScratch& s;
-    StepReport& report;
-
-    void step(std::span<const std::uint32_t> members) const {
-        solve_island(model, robots, s, members, report);
-        settle_island(model, robots, members, s.island_contacts);
-    }
-
-    /// A robot that touches nobody may wait until there are enough of its type. In floats it must: whether it
-    /// is stepped so hangs on nothing but itself and on who touches it.
-    bool goes_in_lanes(std::span<const std::uint32_t> members) const {
-        const RobotWork& work = robots[members[0]];
-        if (!s.lanes || s.tried_alone || s.keep_reactions || members.size() > 1 || work.touches_robot)
-            return false;
-        if (!misses_of(members[0], s.finder.near_misses()).empty()) return false;
-        if (!fits_lanes(*work.type, *work.state)) return false;
-        return s.lanes.in_floats() ||
-               (robots.size() > 1 && touches_one_thing(contacts_of(members[0], s.contacts)));
-    }
-
-    void step_or_wait(std::span<const std::uint32_t> members) const {
-        if (!goes_in_lanes(members)) return step(members);
-        s.queue.add(model.robots[robots[members[0]].id.index()].type.index(), members[0], s.lanes.width(),
-                    [&](auto& batch) { return step_in_lanes(batch); });
-    }
-
-    bool step_in_lanes(std::vector<std::uint32_t>& batch) const {
-        return step_batch(
-            s.lanes, model, batch, report,
-            [&](std::uint32_t i) {
-                return LaneRobot{robots[i].id, robots[i].state, nullptr, true, contacts_of(i, s.contacts)};
-            },
-            [&](std::uint32_t i, bool stepped) {
-                if (stepped)
-                    robots[i].held = true;
-                else
-                    step({&i, 1});
-                return true;
-            });
-    }
-};
-
 }  // namespace
 
-void step_group(const Model& model, std::span<RobotWork> robots, GroupScratch& s, StepReport& report) {
-    wake_sleepers(model, robots, s.finder, s.wake);
-    s.finder.find(model, robots, s.keep_reactions, s.contacts);
-    recall_impulses(robots, s.contacts);
-    build_contact_islands(s, robots);
-    s.queue.start(model.types.size());
-    report.asleep += static_cast<int>(robots.size() - s.members.size());
-    const IslandStepper islands{model, robots, s, report};
-    s.islands.for_each_set(s.members,
-                           [&](std::span<const std::uint32_t> members) { islands.step_or_wait(members); });
-    s.queue.finish([&](auto& batch) { return islands.step_in_lanes(batch); });
-    remember_impulses(robots, s.contacts);
-    count_contacts(model, s.contacts, report);
+ContactIsland::ContactIsland(const Model& model, std::span<RobotWork> robots,
+                             std::span<const std::uint32_t> members, GroupScratch& scratch,
+                             StepReport& report)
+    : model_(model), robots_(robots), members_(members), s_(scratch), report_(report) {
+    ROBOSS_CHECK(!members.empty(), "a contact island without robots");
+    s_.island_contacts.clear();
+    if (members.size() > 1) return;
+    const RobotWork& work = robots[members[0]];
+    has_rows_ = work.type->nv > 0 && (work.contacts > 0 || !flies(model, work, s_));
+}
+
+void ContactIsland::build_rows() {
+    needs_displacement_ = gather_island(model_, robots_, s_, members_, s_.contacts);
+    s_.v_before = s_.v;
+    ROBOSS_CHECK(s_.rows.contacts.size() == s_.island_contacts.size() &&
+                     s_.rows.contacts.size() == s_.island_surfaces.size(),
+                 std::to_string(s_.rows.contacts.size()) + " contact rows, " +
+                     std::to_string(s_.island_contacts.size()) + " contacts");
+}
+
+void ContactIsland::solve_velocities() {
+    const SolveReport solved =
+        s_.solver.solve({model_.accuracy, s_.island_robots, s_.island_offsets, s_.rows}, s_.v);
+    report_.iterations += solved.iterations;
+    report_.residual = std::max(report_.residual, solved.residual);
+    ROBOSS_CHECK(s_.v.size() == s_.v_before.size(), std::to_string(s_.v.size()));
+    drifts_ = choose_drifting(model_, robots_, s_, members_);
+    take_impulses(s_);
+    bounces_ = throws_back(s_.rows);
+}
+
+void ContactIsland::solve_displacements() {
+    if (needs_displacement_) {
+        s_.displacement = s_.v;
+        for (ContactRow& row : s_.rows.contacts) row.slip.bound = row.slip.coefficient * row.normal.impulse;
+        solve_displacement(model_, s_, report_);
+        limit_correction(robots_, s_, members_);
+    } else {
+        take_mean_displacement(robots_, s_, members_, drifts_, model_.dt_s);
+    }
+    mark_pushed(robots_, s_);
+    stop_late_hits(model_, robots_, s_, members_, needs_displacement_, report_);
+    mark_touched(robots_, s_);
+}
+
+void ContactIsland::integrate() {
+    if (!has_rows_) {
+        RobotWork& work = robots_[members_[0]];
+        if (work.type->nv > 0) advance_freely(model_, work, s_.free_buffer);
+        return;
+    }
+    s_.gained_moment = {};
+    guards_energy_ = start_guard(model_, robots_, s_, members_, bounces_, drifts_);
+    ROBOSS_CHECK(s_.displacement.size() == s_.v.size(), std::to_string(s_.displacement.size()));
+    finish_island(model_, robots_, s_, members_, s_.displacement);
+}
+
+void ContactIsland::guard() {
+    if (!has_rows_) return;
+    const auto moved_well = [&](std::uint32_t m) {
+        return is_plausible(robots_[m].state->q) && is_plausible(robots_[m].state->v);
+    };
+    if (s_.look.may_push_out() && std::ranges::all_of(members_, moved_well))
+        s_.look.push_out(robots_, model_);
+    if (!s_.anchored)
+        if (const Vec3 moment = late_moment(s_) - s_.gained_moment; moment != Vec3{})
+            turn_island(model_, robots_, members_, moment, s_.free_buffer.work);
+    if (guards_energy_) s_.guard.finish(model_, robots_, members_, s_.free_buffer.work);
+}
+
+void ContactIsland::put_to_sleep() {
+    settle_island(model_, robots_, members_, s_.island_contacts);
 }
 
 }  // namespace roboss

@@ -1,5 +1,4 @@
-// One group of robots of which some may meet: their contacts, then each contact island by itself, then the
-// new states.
+// The buffers of a group of robots that may meet (RobotGroup) and of its contact islands (ContactIsland).
 #pragma once
 
 #include <span>
@@ -19,11 +18,12 @@
 
 namespace roboss {
 
-/// Buffers of a group's step; the contacts stay until the next one.
+/// Kept from tick to tick; the contacts stay until the next group.
 struct GroupScratch {
     bool keep_reactions =
         false;  // then robots with loops do not move freely, for then nothing knows their loads
     std::vector<LoopReaction> reactions;
+    std::vector<ContactReport> contact_reports;
     LaneSteppers lanes;        // for robots that touch nobody
     bool tried_alone = false;  // the group is one robot that lanes and floats did not step
     LaneQueue queue;
@@ -50,8 +50,5 @@ struct GroupScratch {
     FreeBuffer free_buffer;
     WakeBuffers wake;
 };
-
-/// Steps the robots, which are placed or asleep; wakes whom it must. A robot alone costs no search for pairs.
-void step_group(const Model& model, std::span<RobotWork> robots, GroupScratch& scratch, StepReport& report);
 
 }  // namespace roboss

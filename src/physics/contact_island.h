@@ -1,0 +1,42 @@
+// One contact island in one tick: robots of a group that are connected by contacts or near misses. It is
+// solved by itself, so nothing depends on the other robots of the group.
+#pragma once
+
+#include "physics/group_scratch.h"
+
+namespace roboss {
+
+/// The stages of an island, called by step_robots (tick.h) in the order in which they are declared. Rows,
+/// velocities and displacements pass from stage to stage in the group's scratch.
+class ContactIsland {
+  public:
+    /// `members`, awake, index `robots`, the group's.
+    ContactIsland(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
+                  GroupScratch& scratch, StepReport& report);
+
+    /// False: one robot that nothing touches and no row drives, or that cannot move.
+    bool has_rows() const { return has_rows_; }
+    void build_rows();
+    /// Also finds which members take the kick-drift step, and stores the warm-start impulses.
+    void solve_velocities();
+    /// What the members move by, and what stops them before they hit something that they did not touch.
+    void solve_displacements();
+    void integrate();
+    /// Moves apart what sank in by turning; returns momentum and energy to what contacts and gravity give.
+    void guard();
+    void put_to_sleep();
+
+  private:
+    const Model& model_;
+    std::span<RobotWork> robots_;
+    std::span<const std::uint32_t> members_;
+    GroupScratch& s_;
+    StepReport& report_;
+    bool has_rows_ = true;
+    bool needs_displacement_ = false;  // it is solved for by itself
+    bool drifts_ = false;              // a member takes the kick-drift step
+    bool bounces_ = false;             // throws_back
+    bool guards_energy_ = false;
+};
+
+}  // namespace roboss

@@ -1,0 +1,135 @@
+// See robot_group.h.
+#include "physics/robot_group.h"
+
+#include <algorithm>
+#include <string>
+
+#include "core/check.h"
+#include "physics/step_failure.h"
+
+namespace roboss {
+namespace {
+
+/// A sleeper's box is in its state; the rest of it is computed only if something comes near.
+void place(const Model& model, RobotId id, RobotState& state, RobotWork& work) {
+    if (!state.rest.asleep) return place_robot(model, id, state, work);
+    work.id = id;
+    work.type = &model.type_of(id);
+    work.state = &state;
+    work.contacts = 0;
+    work.touches_robot = work.pushed = work.held = work.placed = false;
+    work.asleep = true;
+    work.box = state.rest.bound;
+}
+
+void count_contacts(const Model& model, std::span<const Contact> contacts, StepReport& report) {
+    for (const Contact& c : contacts) {
+        if (c.impulse <= 0) continue;
+        ++report.contacts;
+        if (c.robot_b < 0 && model.statics[c.shape_b].shape.kind != ShapeKind::kPlane)
+            ++report.static_contacts;
+    }
+}
+
+void expire_wrenches(Tick tick, RobotState& state) {
+    std::erase_if(state.wrenches, [&](const TimedWrench& w) { return w.until <= tick + 1; });
+}
+
+/// Robots that stand on the same ground have contacts alike; who leans on something too is mostly the only
+/// one of its lanes.
+bool touches_one_thing(std::span<const Contact> contacts) {
+    return std::ranges::all_of(contacts, [&](const Contact& c) { return c.shape_b == contacts[0].shape_b; });
+}
+
+}  // namespace
+
+bool RobotGroup::forward_kinematics() {
+    ROBOSS_CHECK(robots_.size() == chosen_.size(), std::to_string(chosen_.size()) + " robots");
+    ROBOSS_CHECK(std::ranges::is_sorted(chosen_), "robots of a group");
+    for (std::size_t k = 0; k < chosen_.size(); ++k) {
+        const std::uint32_t i = chosen_[k];
+        place(call_.model, call_.robots[i], *call_.states[i], robots_[k]);
+        robots_[k].ordered = call_.ordered[i] != 0;
+        call_.bounds[i] = robots_[k].box;
+    }
+    bool fine = true;
+    for (const RobotWork& work : robots_) {
+        if (work.asleep) continue;
+        const std::optional<int> body = body_beyond_numbers(work);
+        if (!body) continue;
+        note_beyond_numbers(work, *body, call_.report);
+        fine = false;
+    }
+    return fine;
+}
+
+bool RobotGroup::find_contacts() {
+    s_.finder.find(call_.model, robots_, s_.keep_reactions, s_.contacts);
+    ROBOSS_CHECK(std::ranges::is_sorted(s_.contacts, {}, &Contact::robot_a), "contacts");
+    recall_impulses(robots_, s_.contacts);
+    return true;
+}
+
+/// Joins robots in contact, or that may come into contact; `members` are the robots that are awake, contact
+/// island by contact island.
+void RobotGroup::build_contact_islands() {
+    s_.islands.reset(robots_.size());
+    const auto join = [&](int a, int b) {
+        if (b >= 0) s_.islands.unite(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+    };
+    for (const Contact& c : s_.contacts) join(c.robot_a, c.robot_b);
+    for (const NearMiss& miss : s_.finder.near_misses()) join(miss.robot_a, miss.robot_b);
+    s_.members.clear();
+    for (std::uint32_t i = 0; i < robots_.size(); ++i)
+        if (!robots_[i].asleep) s_.members.push_back(i);
+    s_.islands.sort_by_set(s_.members);
+}
+
+/// A robot that touches nobody may wait until there are enough of its type. In floats it must: whether it is
+/// stepped so hangs on nothing but itself and on who touches it.
+bool RobotGroup::goes_in_lanes(std::span<const std::uint32_t> members) const {
+    const RobotWork& work = robots_[members[0]];
+    if (!s_.lanes || s_.tried_alone || s_.keep_reactions || members.size() > 1 || work.touches_robot)
+        return false;
+    if (!misses_of(members[0], s_.finder.near_misses()).empty()) return false;
+    if (!fits_lanes(*work.type, *work.state)) return false;
+    return s_.lanes.in_floats() ||
+           (robots_.size() > 1 && touches_one_thing(contacts_of(members[0], s_.contacts)));
+}
+
+void RobotGroup::report() {
+    StepReport& report = call_.report;
+    remember_impulses(robots_, s_.contacts);
+    count_contacts(call_.model, s_.contacts, report);
+    report.asleep += static_cast<int>(robots_.size() - s_.members.size());
+    for (RobotWork& work : robots_) {
+        report.placed += work.placed ? 1 : 0;
+        if (work.asleep) continue;
+        expire_wrenches(call_.tick, *work.state);
+        if (!is_finite(*work.state)) note_not_finite(work, report);
+    }
+    if (s_.keep_reactions) keep_contact_reports();
+}
+
+/// Who touched whom, for read_contacts.
+void RobotGroup::keep_contact_reports() {
+    for (const Contact& c : s_.contacts) {
+        if (c.impulse <= 0) continue;
+        const RobotWork& a = robots_[static_cast<std::size_t>(c.robot_a)];
+        ContactReport report;
+        report.robot_a = a.id;
+        report.link_a = a.type->shapes[c.shape_a].link;
+        if (c.robot_b >= 0) {
+            const RobotWork& b = robots_[static_cast<std::size_t>(c.robot_b)];
+            report.robot_b = b.id;
+            report.link_b = b.type->shapes[c.shape_b].link;
+        } else {
+            report.scenery = c.shape_b;
+        }
+        report.p_W = c.p_W, report.shift_b = c.shift_b, report.normal = c.normal, report.gap = c.gap;
+        report.impulse = c.impulse, report.friction = c.friction, report.moment = c.moment;
+        s_.contact_reports.push_back(report);
+    }
+}
+
+}  // namespace roboss

@@ -1,0 +1,77 @@
+// A group of robots that may meet each other and no others: one kind of batch of a tick (tick.h).
+#pragma once
+
+#include "physics/contact_island.h"
+
+namespace roboss {
+
+/// One call of step_island, as its batches see it.
+struct StepCall {
+    const Model& model;
+    Tick tick;
+    std::span<const RobotId> robots;
+    std::span<RobotState* const> states;
+    std::span<Aabb> bounds;
+    const std::vector<char>& ordered;  // by robot: an order changed it at this tick
+    StepReport& report;
+    StageClock& clock;
+};
+
+/// The stages of a group, called by step_robots in the order in which they are declared.
+class RobotGroup {
+  public:
+    /// `chosen`, ascending, index the call's robots; `works`: buffers for as many. A group of one costs no
+    /// search for pairs.
+    RobotGroup(const StepCall& call, std::span<const std::uint32_t> chosen, std::span<RobotWork> works,
+               GroupScratch& scratch)
+        : call_(call), chosen_(chosen), robots_(works), s_(scratch) {}
+
+    /// False if a robot is beyond numbers: then it is reported, and none is stepped.
+    bool forward_kinematics();
+    void wake_left_sleepers() { wake_left(call_.model, robots_, s_.wake); }
+    void find_pairs() { s_.finder.find_pairs(robots_); }
+    void wake_touched_sleepers() { wake_touched(call_.model, robots_, s_.finder, s_.wake); }
+    bool find_contacts();
+    void build_contact_islands();
+    /// step(ContactIsland&) for each; those of one robot go in lanes where they can, a few at a time.
+    template <class StepIsland>
+    void for_each_contact_island(StepIsland&& step);
+    void report();
+
+  private:
+    bool goes_in_lanes(std::span<const std::uint32_t> members) const;
+    void keep_contact_reports();
+
+    const StepCall& call_;
+    std::span<const std::uint32_t> chosen_;
+    std::span<RobotWork> robots_;
+    GroupScratch& s_;
+};
+
+template <class StepIsland>
+void RobotGroup::for_each_contact_island(StepIsland&& step) {
+    const Model& model = call_.model;
+    const auto step_one = [&](std::span<const std::uint32_t> members) {
+        ContactIsland island(model, robots_, members, s_, call_.report);
+        step(island);
+    };
+    const auto lane_of = [&](std::uint32_t i) {
+        return LaneRobot{robots_[i].id, robots_[i].state, nullptr, true, contacts_of(i, s_.contacts)};
+    };
+    const auto step_lanes = [&](std::vector<std::uint32_t>& batch) {
+        step_batch(s_.lanes, model, batch, call_.report, call_.clock, lane_of,
+                   [&](std::uint32_t i, bool stepped) {
+                       if (!stepped) return step_one({&i, 1});
+                       robots_[i].held = true;
+                   });
+    };
+    s_.queue.start(model.types.size());
+    s_.islands.for_each_set(s_.members, [&](std::span<const std::uint32_t> members) {
+        if (!goes_in_lanes(members)) return step_one(members);
+        const std::size_t type = model.robots[robots_[members[0]].id.index()].type.index();
+        s_.queue.add(type, members[0], s_.lanes.width(), step_lanes);
+    });
+    s_.queue.finish(step_lanes);
+}
+
+}  // namespace roboss
