@@ -2,10 +2,9 @@
 // (broad phase) into batches that cannot affect each other. Then step_robots goes through the stages of a
 // batch. There are two kinds:
 // - RobotGroup (robot_group.h): robots that may meet each other; one contact island after the other.
-// - LaneStep<T> (lane_step.h): robots of one type that touch no other robot, in the lanes of a register; T is
-// several
-//   doubles, several floats or one float. All lanes together are one island: their decisions must be equal,
-//   and a robot whose decisions differ from the others' leaves, for a batch of its own.
+// - LaneStep<T> (lane_step.h): robots of one type that touch no other robot, in the lanes of a register. T
+//   holds several doubles, several floats or one float. All lanes together are one island: their decisions
+//   must be equal, and a robot that decides otherwise leaves for a batch of its own.
 #pragma once
 
 #include "physics/stage.h"

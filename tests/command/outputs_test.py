@@ -55,7 +55,7 @@ class Outputs(unittest.TestCase):
         self.assertIn(data["state_hash"], done.stdout)
 
     def test_stage_times_are_measured_on_all_threads_and_change_no_bit(self):
-        world, run = WORLDS / "pile.sdf", ["--duration", 0.2, "--simulators", 2, "--threads", 2]
+        world, run = WORLDS / "pile.sdf", ["--duration", 0.6, "--simulators", 2, "--threads", 2]
         measured = summary(world, *run, "--stage-times")
         plain = summary(world, *run)
         self.assertEqual(measured["state_hash"], plain["state_hash"])

@@ -21,8 +21,11 @@ void TrafficMeter::take(std::span<const Flow> flows, std::int64_t now_ms) {
     rates_.clear();
     for (const auto& [member, sums] : now) {
         const Sums& then = before_[member];
-        rates_[member] = {rate(sums.messages_in, then.messages_in), rate(sums.bytes_in, then.bytes_in),
-                          rate(sums.messages_out, then.messages_out), rate(sums.bytes_out, then.bytes_out)};
+        MessageRate& rates = rates_[member];
+        rates.messages_in = rate(sums.messages_in, then.messages_in);
+        rates.messages_out = rate(sums.messages_out, then.messages_out);
+        rates.bytes_in = rate(sums.bytes_in, then.bytes_in);
+        rates.bytes_out = rate(sums.bytes_out, then.bytes_out);
     }
     before_ = std::move(now);
     taken_ms_ = now_ms;
