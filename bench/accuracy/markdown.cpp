@@ -153,10 +153,10 @@ void write_misses(Text& text, const Results& all) {
 const char* const kIntroduction = R"(# Accuracy
 
 Motions with a known truth: a closed form, a reference converged in long double, or that nothing should move. Every case
-runs on RoBOSS and on the engines that Debian 12 packages, in the same run, through one interface
-(`bench/engines/engine.h`); velocities and poses of all engines are read alike, and energies summed alike. This page is
-written by the program; `./bench.sh accuracy` makes it again (`--list` names the cases, `--case NAME` runs some,
-`--json FILE` writes the rows for programs).
+runs on RoBOSS and on the engines that Debian 12 packages (random trees and shots also on MuJoCo 4), in the same run,
+through one interface (`bench/engines/engine.h`); velocities and poses of all engines are read alike, and energies
+summed alike. This page is written by the program; `./bench.sh accuracy` makes it again (`--list` names the cases,
+`--case NAME` runs some, `--json FILE` writes the rows for programs).
 
 How to read the tables: figures are errors unless the unit says otherwise, and `✗` marks one that does not keep the
 bound in the column *must*. The bounds are for RoBOSS, at its default accuracy. The peers, set up as in the benchmark of

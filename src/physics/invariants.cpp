@@ -54,8 +54,8 @@ class StateCheck {
         if (!all_finite(state.v)) return "a velocity is not finite";
         if (!is_unit(state.q, 3)) return "the base's quaternion has not unit length";
         for (const Body& body : type.bodies)
-            if (body.joint == JointKind::kBall && !is_unit(state.q, static_cast<std::size_t>(body.q_index)))
-                return "a ball joint's quaternion has not unit length";
+            if (joint_traits(body.joint).nq == 4 && !is_unit(state.q, static_cast<std::size_t>(body.q_index)))
+                return "a joint's quaternion has not unit length";
         return {};
     }
 

@@ -1,6 +1,6 @@
-// One tick of one island: the pure function of DESIGN. The result of a robot depends on (model, states,
-// orders) only, never on which other robots happen to share the island: two robots affect each other only if
-// their interaction bounds meet.
+// One tick of one island: a pure function (ARCHITECTURE.md, "One step"). The result of a robot depends on
+// (model, states, orders) only, never on which other robots happen to share the island: two robots affect
+// each other only if their interaction bounds meet.
 #pragma once
 
 #include <memory>

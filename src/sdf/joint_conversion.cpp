@@ -241,9 +241,10 @@ void report_unused(JointSpec& spec, const Element& source, const Import& import)
             "Soft limits: <limit><stiffness> and <dissipation>.");
     }
     for (const auto node : source.node.children("sensor")) {
-        import.diagnostics().warning({source.source->where(node)}, "sensor-to-come",
-                                     "sensors of type '" + std::string(node.attribute("type").value()) +
-                                         "' are still to come; they measure nothing");
+        import.diagnostics().warning(
+            {source.source->where(node)}, "joint-sensor",
+            "sensors of type '" + std::string(node.attribute("type").value()) + "' in a <joint> are not read",
+            "Put the sensor in a <link>, or read joint reactions in a program.");
     }
 }
 

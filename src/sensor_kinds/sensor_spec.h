@@ -1,5 +1,5 @@
 // SensorSpec: a sensor of a link with the parameters of its kind. Here a kind of sensor is registered; hash,
-// wire, SDF, viewer, checks and Clients reach all kinds through the list below (docs/sensors.md, "A new
+// wire, SDF, viewer, checks and Clients reach all kinds through the list below (ARCHITECTURE.md, "A new
 // sensor").
 #pragma once
 

@@ -18,9 +18,13 @@ FaultyCluster::FaultyCluster(std::shared_ptr<const Model> model, ControllerOptio
 }
 
 void FaultyCluster::add_program(const std::string& name, const ControlOptions& options) {
+    add_program(name, std::make_unique<DrivingProgram>(options));
+}
+
+void FaultyCluster::add_program(const std::string& name, std::unique_ptr<ControlProgram> program) {
     options_.clients.push_back(name);
-    hosts_.push_back(std::make_unique<ProgramHost>(model_, Address{Role::kClient, ++instance_}, name,
-                                                   std::make_unique<DrivingProgram>(options)));
+    hosts_.push_back(
+        std::make_unique<ProgramHost>(model_, Address{Role::kClient, ++instance_}, name, std::move(program)));
 }
 
 void FaultyCluster::add_simulator() {

@@ -25,7 +25,8 @@ class FaultyCluster {
     FaultyCluster(std::shared_ptr<const Model> model, ControllerOptions options, const FaultOptions& faults,
                   const Trouble& trouble, std::size_t simulators);
 
-    void add_program(const std::string& name, const ControlOptions& options);
+    void add_program(const std::string& name, const ControlOptions& options);  // a DrivingProgram
+    void add_program(const std::string& name, std::unique_ptr<ControlProgram> program);
     void add_simulator();
     void kill(std::size_t i);
     void kill_all();

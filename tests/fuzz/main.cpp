@@ -30,6 +30,8 @@ Examples:
   roboss-fuzz --property energy --seeds 0..1000        one property, a thousand seeds
   roboss-fuzz --property energy --kind tree --dt 0.004 --spin 30 --seeds 0..60
   roboss-fuzz --property energy --seed 17              replays one seed and prints a line per tick
+  roboss-fuzz world 17                                 one seed, all properties of a world
+  roboss-fuzz cluster 17                               one seed, a cluster with faults and losses
   roboss-fuzz --seeds 0..10000 --json soak.json        the soak of docs/testing.md (an hour or two)
   roboss-fuzz --list                                   properties and kinds of world
 
@@ -40,11 +42,33 @@ Exit codes: 0 all hold, 1 a seed fails (or a file could not be written), 2 wrong
 struct Options {
     std::vector<std::string> properties{"all"}, kinds;
     std::string seeds = "0..48", json;
-    std::optional<std::uint64_t> seed;
+    std::optional<std::uint64_t> seed, one_seed;
     std::optional<double> dt_s, spin, speed, seconds;
     unsigned jobs = 1, every = 1;
     bool list = false;
 };
+
+/// Those of one world in one process.
+std::vector<std::string> world_properties() {
+    std::vector<std::string> names;
+    for (const Property& p : properties())
+        if (p.name != "cluster") names.push_back(p.name);
+    return names;
+}
+
+/// `world SEED` and `cluster SEED`: one seed in words that a bug report can hold.
+void add_commands(CLI::App& app, Options& o) {
+    const auto add = [&](const char* name, const char* what, std::vector<std::string> properties) {
+        CLI::App* sub = app.add_subcommand(name, what);
+        sub->add_option("seed", o.one_seed, "the seed")->required();
+        sub->callback([&o, properties = std::move(properties)] {
+            o.properties = properties;
+            o.seeds = std::to_string(*o.one_seed) + ".." + std::to_string(*o.one_seed + 1);
+        });
+    };
+    add("world", "check all properties of one world, with the invariants of its states", world_properties());
+    add("cluster", "run one cluster with faults and losses, and compare its state hash", {"cluster"});
+}
 
 struct Range {
     std::uint64_t from = 0, until = 0;
@@ -280,6 +304,7 @@ int main(int argc, char** argv) {
     CLI::App app("Checks properties of the engine on random worlds.", "roboss-fuzz");
     roboss::fuzz::Options options;
     roboss::fuzz::add_options(app, options);
+    roboss::fuzz::add_commands(app, options);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

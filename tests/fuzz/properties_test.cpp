@@ -67,6 +67,10 @@ TEST(Property, NothingPassesThroughAnything) {
     expect_holds({"tunnel", 114, 0});
 }
 
+TEST(Property, AClusterWithFaultsEndsWithTheUndisturbedHash) {
+    expect_holds({"cluster", 40, 0.2});
+}
+
 TEST(Property, HashIsTheSameInFiveConfigurations) {
     expect_holds({"hash", 48, 0.3, {"fleet", "wild", "crowd", "room", "loop", "coupled"}});
 }

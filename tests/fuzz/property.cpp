@@ -1,6 +1,8 @@
 #include "fuzz/property.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <iterator>
 
 #include "fuzz/shot.h"
 
@@ -66,6 +68,13 @@ std::vector<Property> make_properties() {
          {2, 5, 20, 50, 100},
          0,
          run_tunnel},
+    };
+}
+
+/// Those of whole runs.
+std::vector<Property> make_run_properties() {
+    const auto any = kinds_where([](const SceneKind&) { return true; });
+    return {
         {"hash",
          "the state hash is the same for any threads, lanes, Simulators, windows and grouping",
          "configurations of five whose hash differs from the first",
@@ -75,6 +84,15 @@ std::vector<Property> make_properties() {
          {0},
          0.5,
          run_hash},
+        {"cluster",
+         "a cluster with faults and losses ends with the state hash of the undisturbed run",
+         "Simulators lost",
+         any,
+         {1e-3, 2e-3, 4e-3, 5e-3},
+         {1, 10, 30},
+         {0},
+         0.3,
+         run_cluster},
     };
 }
 
@@ -94,7 +112,11 @@ std::vector<std::string> kinds_where(bool (*wanted)(const SceneKind&)) {
 }
 
 std::span<const Property> properties() {
-    static const std::vector<Property> all = make_properties();
+    static const std::vector<Property> all = [] {
+        std::vector<Property> list = make_properties();
+        std::ranges::move(make_run_properties(), std::back_inserter(list));
+        return list;
+    }();
     return all;
 }
 

@@ -60,5 +60,6 @@ Finding run_finite(const Request& request);
 Finding run_ghost(const Request& request);
 Finding run_tunnel(const Request& request);
 Finding run_hash(const Request& request);
+Finding run_cluster(const Request& request);
 
 }  // namespace roboss::fuzz

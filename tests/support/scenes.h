@@ -1,5 +1,6 @@
-// Random crowds of boxes, spheres, cylinders and cars near each other, and the exact grouping of DESIGN:
-// islands by the interaction bounds that a step puts out, stepped again when two of them meet.
+// Random crowds of boxes, spheres, cylinders and cars near each other, and the exact grouping of
+// ARCHITECTURE.md ("Many Simulators"): islands by the interaction bounds that a step puts out, stepped again
+// when two of them meet.
 #pragma once
 
 #include <algorithm>

@@ -33,7 +33,7 @@ const char* const kControllerFooter = R"(Examples:
   roboss simulator
   roboss controller world.sdf --interface eth0 --simulators 12          then, on each other computer
   roboss simulator --interface eth0 --threads 8
-  roboss controller worlds/city.sdf --await-client driver               then
+  roboss controller worlds/city.sdf --local 1 --simulators 0 --await-client driver     then
   roboss client build/release/lib/roboss_city_driver.so --name driver
 
 Simulators receive the compiled world from the Controller; they need no file. Killing a Simulator causes a short stall.

@@ -1,61 +1,16 @@
 // The inspector of the selected robot: where it is and how it moves, joints and motors with their controls, sensors and
 // contacts. Rows are made once a robot; each report changes only their numbers.
 import type { Plotted } from "../model/plotted";
-import { type Reading, readings } from "../model/readings";
+import { readings } from "../model/readings";
 import type { RunLink } from "../model/run_link";
 import type { ViewerState, World } from "../model/viewer_state";
-import { h, iconButton, setText } from "../ui/dom";
+import { h } from "../ui/dom";
 import { fixed } from "../ui/numbers";
 import type { RobotReport } from "../wire/messages";
 import { JointControls } from "./joint_controls";
+import { ReadingRows } from "./reading_rows";
 import { SensorViews } from "./sensor_views";
 import { velocityPad } from "./velocity_pad";
-
-export class ReadingRows {
-    private readonly values = new Map<string, HTMLElement>();
-    private readonly buttons = new Map<string, HTMLButtonElement>();
-
-    constructor(
-        private readonly robot: number,
-        private readonly plotted: Plotted,
-    ) {}
-
-    /** `shown`: what the row says where its place already says the rest. */
-    row(reading: Reading, shown = reading.label): HTMLElement {
-        const value = h("span", { class: "value" }),
-            button = iconButton("plot", `Plot ${reading.label}`, () => {
-                this.plotted.toggle(this.robot, reading.key, reading.label, reading.unit);
-                this.mark();
-            });
-        this.values.set(reading.key, value);
-        this.buttons.set(reading.key, button);
-        this.mark();
-        return h(
-            "div",
-            { class: "reading" },
-            h("span", { class: "label" }, shown),
-            value,
-            h("span", { class: "unit" }, reading.unit),
-            button,
-        );
-    }
-
-    show(list: readonly Reading[]): void {
-        for (const reading of list) {
-            const element = this.values.get(reading.key);
-            if (element !== undefined)
-                setText(
-                    element,
-                    fixed(reading.value, reading.unit !== "°" ? 3 : reading.key.startsWith("angle") ? 1 : 6),
-                );
-        }
-    }
-
-    mark(): void {
-        for (const [key, button] of this.buttons)
-            button.setAttribute("aria-pressed", String(this.plotted.has(this.robot, key)));
-    }
-}
 
 function section(title: string, ...content: (Node | null)[]): HTMLElement {
     return h("details", { class: "section", open: true }, h("summary", {}, title), ...content);

@@ -6,7 +6,7 @@ import { h, setText } from "../ui/dom";
 import { fixed } from "../ui/numbers";
 import { throttled } from "../ui/throttle";
 import type { JointInfo, MotorReport, RobotReport, TypeInfo } from "../wire/messages";
-import type { ReadingRows } from "./inspector";
+import type { ReadingRows } from "./reading_rows";
 
 const modes = ["velocity", "position", "effort", "passive"] as const;
 type Mode = (typeof modes)[number];

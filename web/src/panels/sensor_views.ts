@@ -3,7 +3,7 @@ import type { Reading } from "../model/readings";
 import { h } from "../ui/dom";
 import type { RobotReport, SensorInfo, TypeInfo } from "../wire/messages";
 import { beamAngle } from "../overlays/beams";
-import type { ReadingRows } from "./inspector";
+import type { ReadingRows } from "./reading_rows";
 
 const MAP_PX = 132;
 

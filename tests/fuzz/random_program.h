@@ -1,0 +1,46 @@
+// A control program that gives random orders, by seed.
+#pragma once
+
+#include "client/control_program.h"
+#include "fuzz/mechanism.h"
+
+namespace roboss::fuzz {
+
+/// Gives random orders of every level; what it does depends on what it sees.
+class RandomProgram : public ControlProgram {
+  public:
+    explicit RandomProgram(std::uint64_t seed) : seed_(seed) {}
+    void control(Client& client) override {
+        Random random(seed_ * 1000 + calls_++);
+        const Model& model = client.model();
+        for (int i = 0; i < 3; ++i) {
+            const RobotId robot(
+                static_cast<std::size_t>(random.integer(0, static_cast<int>(model.robots.size()) - 1)));
+            if (!give_order(client, robot, random).ok()) ++refused_;
+        }
+    }
+
+  private:
+    Result<> give_order(Client& client, RobotId robot, Random& random) {
+        const RobotType& type = client.model().type_of(robot);
+        const RobotState& state = client.state(robot);
+        const double pull = state.q[0] - state.q[1];
+        const int pick = random.integer(0, 9);
+        if (pick < 6 && !type.joints.empty()) {
+            const JointId joint(
+                static_cast<std::size_t>(random.integer(0, static_cast<int>(type.joints.size()) - 1)));
+            return client.set_joint(robot, joint, MotorMode::kVelocity, random.uniform(-8, 8) + pull, 5);
+        }
+        if (pick < 9)
+            return client.apply_wrench(robot, LinkId(std::size_t{0}), random.vector(5) + Vec3{pull, 0, 0}, {},
+                                       0.02);
+        Pose X_WR = base_pose(state);  // a leap over whoever is near
+        X_WR.p += random.vector(1);
+        return client.set_pose(robot, X_WR);
+    }
+
+    std::uint64_t seed_, calls_ = 0;
+    std::size_t refused_ = 0;
+};
+
+}  // namespace roboss::fuzz
