@@ -24,11 +24,13 @@ namespace roboss {
 
 /// Answer to a request to the run.
 struct ControlAnswer {
-    ControlAction request;
-    ControlOutcome outcome;
-    bool done() const { return is_done(outcome); }
+    ControlAction request;                          ///< the request as it was sent
+    ControlOutcome outcome;                         ///< its result, or the reason of its refusal
+    bool done() const { return is_done(outcome); }  ///< false: the request was refused
 };
 
+/// A control program's view of the run: observed states, orders, requests to the run, and sensors.
+///
 /// Queries of a robot, link, joint or sensor that does not exist, or of a sensor of another kind, throw
 /// std::invalid_argument, which names what was asked and what there is. If a ControlProgram does not catch
 /// it, the run ends with that text.
@@ -36,9 +38,11 @@ class Client : private SensorSources {
   public:
     // --- the world
     // -------------------------------------------------------------------------------------------------
-    virtual const Model& model() const = 0;
-    virtual Tick tick() const = 0;  // the tick observed now
+    virtual const Model& model() const = 0;  ///< the compiled world
+    virtual Tick tick() const = 0;           // the tick observed now
+    /// Simulated time of the observation since the start of the world, s.
     double time_s() const { return static_cast<double>(tick()) * model().dt_s; }
+    /// The robot's whole state at tick().
     virtual const RobotState& state(RobotId robot) const = 0;
     virtual std::uint64_t seed() const = 0;  // of the run; for noise and for the program's own random numbers
     Transform pose(RobotId robot, LinkId link) const;  // X_WL
@@ -49,38 +53,53 @@ class Client : private SensorSources {
 
     // --- orders (checked at once; an Error says what is wrong and nothing is sent)
     // -----------------------------------
+    /// Puts the robot (SDF model) frame at X_WR; joint coordinates and all velocities stay.
     Result<> set_pose(RobotId robot, const Pose& X_WR);
+    /// Velocity of the base's origin in m/s and angular velocity of the base in rad/s, both in world axes. An
+    /// Error if the base is fixed.
     Result<> set_velocity(RobotId robot, const Vec3& linear, const Vec3& angular);
+    /// Force in N at the link's centre of mass and torque in N m, both in world axes. They act for
+    /// `duration_s`, in (0, 1e9], rounded to ticks, and for at least one tick.
     Result<> apply_wrench(RobotId robot, LinkId link, const Vec3& force, const Vec3& torque,
                           double duration_s);
+    /// Setpoint of one axis of a joint; it holds until the next one. The mode gives the unit of `target`:
+    /// kVelocity rad/s or m/s, kPosition rad or m, kEffort N m or N; kPassive ignores it. `max_effort` in N m
+    /// or N bounds the motor; negative: the joint's own bound.
     Result<> set_joint(RobotId robot, JointId joint, MotorMode mode, double target, double max_effort = -1,
                        int axis = 0);
+    /// Any of the four kinds above as data (model/order.h). An Error says why check_order() refuses it.
     virtual Result<> order(RobotId robot, const Action& action) = 0;
 
     // --- control of the run itself (wire/control.h), as by `roboss control`: control(PauseRun{})
     /// A request takes effect at the end of the current window; its answer comes some time later.
     virtual void control(ControlAction request) = 0;
+    /// The answers that have arrived since the last call.
     virtual std::vector<ControlAnswer> take_control_answers() = 0;
 
     // --- sensors: `sensor` is an index into RobotType::sensors
     /// A reading with the sensor's noise, a pure function of (seed, robot, sensor, tick of the measurement).
-    /// Units and frames: src/sensor_kinds. A sensor without <update_rate> measures when it is asked. One with
-    /// it measures when it is asked for the first time, and from then on at the first observation at which a
-    /// new sample is due (samples_begun), asked or not; in between it repeats that one.
+    /// Units and frames: src/sensor_kinds. A sensor without `<update_rate>` measures when it is asked. One
+    /// with it measures when it is asked for the first time, and from then on at the first observation at
+    /// which a new sample is due (samples_begun), asked or not; in between it repeats that one.
     /// @throws std::invalid_argument if there is no such robot or sensor, if the sensor is of another kind,
     /// or if it cannot measure.
     template <class Reading>
     Reading reading(RobotId robot, std::size_t sensor) {
         return std::get<Reading>(sample(robot, sensor, kind_of_reading<Reading>()));
     }
+    /// reading<LaserReading>().
     LaserReading laser(RobotId robot, std::size_t sensor) { return reading<LaserReading>(robot, sensor); }
+    /// reading<OdometerReading>().
     OdometerReading odometer(RobotId robot, std::size_t sensor) {
         return reading<OdometerReading>(robot, sensor);
     }
+    /// reading<GpsReading>().
     GpsReading gps(RobotId robot, std::size_t sensor) { return reading<GpsReading>(robot, sensor); }
+    /// reading<CompassReading>().
     CompassReading compass(RobotId robot, std::size_t sensor) {
         return reading<CompassReading>(robot, sensor);
     }
+    /// reading<ImuReading>().
     ImuReading imu(RobotId robot, std::size_t sensor) { return reading<ImuReading>(robot, sensor); }
 
     // --- forces, of the tick that begins now as long as no order takes effect at it (physics/probe.h). The
@@ -91,7 +110,10 @@ class Client : private SensorSources {
     std::vector<JointReaction> joint_reactions(RobotId robot);
 
     // --- the held samples of sensors with an <update_rate>, for saved runs
+    /// The samples that were held before the observation at `tick`, as bytes; empty: none.
     std::string samples_before(Tick tick) const { return samples_.bytes_before(tick); }
+    /// Replaces the held samples by those of samples_before(). An Error if the bytes are damaged, or if a
+    /// sensor is missing or of another kind in this world; it changes nothing.
     Result<> restore_samples(const std::string& bytes);
 
   protected:

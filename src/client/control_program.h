@@ -10,15 +10,19 @@
 
 namespace roboss {
 
+/// When a control program runs, and when its orders take effect. Times are rounded to ticks.
 struct ControlOptions {
-    double period_s = 0.02;   // control period: how often control() is called, in simulated time
+    double period_s = 0.02;   // control period: control() is called once in each, in simulated time; > 0
     double latency_s = -1;    // from observation to effect of its orders; negative: one period
     bool synchronous = true;  // the world waits for this Client's reply each period
 };
 
+/// Base class of control programs. Derive from it, implement control(), and export the class with
+/// ROBOSS_CONTROL_PROGRAM.
 class ControlProgram {
   public:
     virtual ~ControlProgram() = default;
+    /// Asked before start(). A run with invalid options is refused.
     virtual ControlOptions options() const { return {}; }
     /// Once, before the first control(); the state is that of the first observation.
     virtual void start(Client&) {}
@@ -29,6 +33,7 @@ class ControlProgram {
     /// gives it to restore(), after start(), when it continues; so a program that remembers anything must
     /// have both for saved runs to continue exactly.
     virtual std::string memory() const { return {}; }
+    /// Takes the bytes that memory() returned. It is not called if they were empty.
     virtual void restore(const std::string&) {}
 };
 

@@ -12,10 +12,12 @@
 
 namespace roboss {
 
+/// A run at the beginning of `tick`: states, orders that have not taken effect yet, and the memory of its
+/// control programs.
 struct SavedRun {
-    std::string world_file;  // as it was given; for messages
-    std::uint64_t seed = 0;
-    Tick tick = 0;
+    std::string world_file;           // as it was given; for messages
+    std::uint64_t seed = 0;           // of the run: for sensor noise and control programs
+    Tick tick = 0;                    // at which the run continues
     std::vector<RobotState> states;   // by RobotId
     std::vector<LoggedOrder> orders;  // that take effect at `tick` or later
     ClientMemory memory;              // memory of each control program
@@ -30,8 +32,11 @@ struct SavedRun {
 
 /// Hash of the world in the file: what state_hash a run has at this tick.
 std::uint64_t state_hash_of(const Model& model, Tick tick, const std::vector<RobotState>& states);
+/// The same, of a saved run.
 std::uint64_t state_hash_of(const Model& model, const SavedRun& run);
 
+/// Writes the run as a journal of one checkpoint. An Error if the file cannot be written; a file that was at
+/// `path` before then stays as it is.
 Result<> save_run(const std::string& path, const Model& model, const SavedRun& run);
 
 /// Loads the end of the file. Errors: no such file, not a journal, another format version,

@@ -13,10 +13,12 @@ namespace roboss {
 
 /// What a joint passes to its child link, in the mean over the tick: with the motor's share.
 struct JointReaction {
-    JointId joint;
-    Vec3 force, torque;  // N, N m about the joint's origin, world axes
+    JointId joint;  ///< of the robot's type
+    Vec3 force,     ///< N, world axes
+        torque;     ///< N m about the joint's origin, world axes
 };
 
+/// Contacts and joint reactions of one tick, found by stepping copies of all robots' states.
 class StepProbe {
   public:
     /// The model must outlive the probe.
@@ -24,7 +26,8 @@ class StepProbe {
 
     /// states[i] is that of RobotId i at `tick`.
     void step(Tick tick, std::span<const RobotState* const> states);
-    Tick tick() const { return tick_; }  // -1: not stepped yet
+    /// The tick that was stepped last; -1: not stepped yet.
+    Tick tick() const { return tick_; }
 
     /// The robot's state at the end of the tick.
     const RobotState& state_after(RobotId robot) const { return after_[robot.index()]; }

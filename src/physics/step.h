@@ -21,6 +21,7 @@ namespace roboss {
 /// the tick's orders.
 Aabb interaction_bound(const Model& model, RobotId robot, const RobotState& state);
 
+/// What step_island() did in one tick, over all robots of the call.
 struct StepReport {
     int contacts = 0;         // contact points that carried force
     int static_contacts = 0;  // of these, with static scenery other than planes (buildings, walls)
@@ -32,9 +33,9 @@ struct StepReport {
     /// (`beyond_numbers`); the run must stop. Of several the lowest; those beyond numbers come first, for
     /// they keep others of the call from being stepped. So it does not depend on who shares the call.
     RobotId not_finite;
-    JointId not_finite_joint;  // whose coordinate or velocity it is; not valid: the base's
-    bool beyond_numbers = false;
-    StageTimes stages;  // zero unless they are measured (StepScratch::measure_stages)
+    JointId not_finite_joint;     // whose coordinate or velocity it is; not valid: the base's
+    bool beyond_numbers = false;  // found before the step, so it was not made
+    StageTimes stages;            // zero unless they are measured (StepScratch::measure_stages)
 };
 
 inline constexpr std::size_t kMostLanes = 16;  // robots that any processor steps at once
@@ -44,7 +45,8 @@ class StepScratch {
   public:
     StepScratch();
     ~StepScratch();
-    StepScratch(StepScratch&&) noexcept;
+    StepScratch(StepScratch&&) noexcept;  ///< Takes the buffers over.
+    /// Takes the buffers over.
     StepScratch& operator=(StepScratch&&) noexcept;
     /// From now on steps keep what contacts and loops bear, for read_contacts and read_loop_reactions. A
     /// robot with loops that nothing pushes is then stepped with rows, not by the Runge-Kutta method, which
@@ -56,9 +58,10 @@ class StepScratch {
     /// From now on each step reports how long its stages take by this clock; nullptr: not. No bit depends on
     /// it.
     void measure_stages(StageNow now);
-    /// How many are.
+    /// Most robots of a type that are stepped at once in numbers of this precision.
     std::size_t lanes(Precision precision = Precision::kDouble) const;
     struct Impl;
+    /// The buffers, for the files of the step.
     Impl& impl() { return *impl_; }
 
   private:
@@ -67,8 +70,10 @@ class StepScratch {
 
 /// One contact point that carried an impulse.
 struct ContactReport {
-    RobotId robot_a, robot_b;   // robot_b not valid: static scenery
-    LinkId link_a, link_b;      // link_b not valid: static scenery
+    RobotId robot_a,            // robot A of the pair
+        robot_b;                // robot B; not valid: static scenery
+    LinkId link_a,              // of robot A, that is touched
+        link_b;                 // of robot B; not valid: static scenery
     std::uint32_t scenery = 0;  // index in Model::statics, if it is that
     Vec3 p_W;                   // m, where A is pushed, at the beginning of the tick
     Vec3 shift_b;               // m, from there to where B is: not zero if they come together in the tick
@@ -85,7 +90,7 @@ std::span<const ContactReport> read_contacts(StepScratch& scratch);
 
 /// Part of what a joint that closes a loop passed on in a tick: by its conditions, its motor, its limits ...
 struct LoopReaction {
-    RobotId robot;
+    RobotId robot;    // that has the loop
     int loop = 0;     // in RobotType::loops
     Spatial impulse;  // N m s and N s on its body B, about the robot's origin at the beginning of the tick
 };

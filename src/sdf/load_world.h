@@ -12,11 +12,12 @@
 
 namespace roboss {
 
+/// Where load_world() looks for files, and what it reads.
 struct LoadOptions {
     /// Folders in which model://, package://, file:// and relative URIs are looked for, before those of the
     /// environment (docs/worlds.md).
     std::vector<std::string> search_paths;
-    /// Name of the <physics> profile to use; empty: the one with default="true", else the first.
+    /// Name of the `<physics>` profile to use; empty: the one with `default="true"`, else the first.
     std::string profile{};
     /// Reads also what is only drawn: meshes and pictures of visuals. Without, such files are looked for, not
     /// opened.

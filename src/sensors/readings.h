@@ -14,6 +14,7 @@ namespace roboss {
 /// Rays against the static scenery and every robot (Embree, pinned to one instruction set, robust mode).
 class RayScene {
   public:
+    /// Contains the static scenery; robots appear with the first update().
     explicit RayScene(std::shared_ptr<const Model> model);
     ~RayScene();
     RayScene(const RayScene&) = delete;
@@ -21,11 +22,13 @@ class RayScene {
 
     /// Moves every robot's shapes to its state; states[i] belongs to RobotId i.
     void update(std::span<const RobotState* const> states);
+    /// One ray, in the world frame.
     struct Ray {
-        Vec3 origin_W, direction_W;  ///< m; the direction is a unit vector
-        double max_range = 0;        ///< m
-        RobotId self;                ///< robot that carries the sensor; none: everything is seen
-        LinkId ignore_self_link;     ///< that link's own shapes are not seen
+        Vec3 origin_W,            ///< m
+            direction_W;          ///< unit vector
+        double max_range = 0;     ///< m; hits beyond it do not count
+        RobotId self;             ///< robot that carries the sensor; none: everything is seen
+        LinkId ignore_self_link;  ///< that link's own shapes are not seen
     };
     /// Distance of the nearest hit of each ray, in m, or +infinity. Both spans have the same size.
     void cast(std::span<const Ray> rays, std::span<double> distances);
@@ -36,8 +39,8 @@ class RayScene {
 };
 
 /// The reading of one sensor. An Error names a robot or sensor that does not exist, a sensor that measures
-/// nothing, or why this one cannot measure. The sensor is read at the tick given, whatever its <update_rate>:
-/// a Client holds samples in between (client/held_samples.h).
+/// nothing, or why this one cannot measure. The sensor is read at the tick given, whatever its
+/// `<update_rate>`: a Client holds samples in between (client/held_samples.h).
 Result<Sample> measure(const SensorQuery& query);
 
 /// The same as a reading of a known type; an Error also where the sensor is of another kind.

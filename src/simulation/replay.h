@@ -9,28 +9,33 @@
 
 namespace roboss {
 
+/// How a run is stepped again. No result depends on it.
 struct ReplayOptions {
-    unsigned threads = 1;
-    Tick window = 0;  // 0: adaptive
+    unsigned threads = 1;  // that step islands
+    Tick window = 0;       // synchronization interval in ticks; 0: adaptive
 };
 
-/// A Simulation at this checkpoint, whose orders are those of the branch up to `until`.
+/// A Simulation at this checkpoint, whose orders are those of the branch up to `until`. An Error if the
+/// journal's entries cannot be read.
 Result<std::unique_ptr<Simulation>> replay_from(const Journal& journal, const Branch& branch,
                                                 const CheckpointEntry& entry,
                                                 const std::shared_ptr<const Model>& model, Tick until,
                                                 const ReplayOptions& options);
 
-/// The same, run to `tick` from the nearest checkpoint before; it can go on to `until`.
+/// The same, run to `tick` from the nearest checkpoint before; it can go on to `until`. An Error also if
+/// there is no checkpoint at or before `tick`.
 Result<std::unique_ptr<Simulation>> replay_at(const Journal& journal, const Branch& branch,
                                               const std::shared_ptr<const Model>& model, Tick tick,
                                               Tick until, const ReplayOptions& options);
 
 /// From one checkpoint where a branch's hash is known to the next.
 struct Stretch {
-    BranchId branch = 0;
-    Tick from = 0, until = 0;
-    std::uint64_t kept = 0, found = 0;
-    bool good() const { return kept == found; }
+    BranchId branch = 0;                         ///< of the journal
+    Tick from = 0,                               ///< tick of the checkpoint that it begins at
+        until = 0;                               ///< tick at which the hashes are compared
+    std::uint64_t kept = 0,                      ///< hash of the world at `until` in the journal
+        found = 0;                               ///< hash of the world at `until` when stepped again
+    bool good() const { return kept == found; }  ///< stepping again gave the same state
 };
 
 /// Steps every stretch of the branch again, from its first checkpoint to the last tick whose hash is known;

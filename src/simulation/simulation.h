@@ -20,14 +20,17 @@
 
 namespace roboss {
 
+/// A control program of this process, and its name as a Client.
 struct NamedProgram {
-    std::string name;  // unique in the run
-    std::unique_ptr<ControlProgram> program;
+    std::string name;                         // unique in the run
+    std::unique_ptr<ControlProgram> program;  // not null
 };
 
+/// Options of a Simulation, its roles in this process, and those it waits for.
 struct SimulationOptions {
     std::size_t simulators = 1;          // in this process
     std::size_t simulators_awaited = 0;  // in others: the first window waits for them too
+    /// Names of Clients in other processes: the first window waits for them too.
     std::vector<std::string> clients_awaited;
     unsigned threads = 1;            // that step islands, shared by the Simulators of this process
     std::size_t lanes = kMostLanes;  // most robots of a type stepped at once
@@ -38,10 +41,12 @@ struct SimulationOptions {
     ControllerOptions controller;  // its `simulators` and `clients` are set from here
 };
 
+/// A run: a world that advances tick by tick, with its Clients and Simulators.
 class Simulation {
   public:
     /// At the world's beginning, or where `from` was saved. Orders with equal ticks sort by the programs'
     /// positions, awaited Clients last. `bus`: null if all members are in this process.
+    /// An Error: there is no Simulator, two Clients have the same name, or a program's options are invalid.
     static Result<std::unique_ptr<Simulation>> create(std::shared_ptr<const Model> model,
                                                       const SimulationOptions& options,
                                                       std::vector<NamedProgram> programs = {},
@@ -56,19 +61,23 @@ class Simulation {
     /// false ends the run at the next window's end (at once if it waits for its first Simulators).
     Result<> run_until(Tick target, const std::function<bool()>& go_on = {});
 
-    Tick tick() const { return controller_.tick(); }
+    Tick tick() const { return controller_.tick(); }  ///< committed: the world is at its beginning
+    /// Simulated time at tick() since the start of the world, s.
     double time_s() const { return static_cast<double>(tick()) * model_->dt_s; }
-    const Model& model() const { return *model_; }
-    std::uint64_t seed() const { return seed_; }
+    const Model& model() const { return *model_; }  ///< the compiled world
+    std::uint64_t seed() const { return seed_; }    ///< of the run: for sensor noise and control programs
+    /// Hash of the world at tick(): of the model and all states.
     std::uint64_t hash() const { return controller_.hash(); }
     /// All states at tick(), by RobotId. Valid until the next run_until().
     const std::vector<RobotState>& states();
-    /// All contact points of the tick that begins at tick(), as long as no order takes effect at it; and what
-    /// the joints of a robot bear in it (physics/probe.h). Valid until the next run_until().
+    /// All contact points of the tick that begins at tick(), as long as no order takes effect at it
+    /// (physics/probe.h). Valid until the next run_until().
     std::span<const ContactReport> contacts() { return probe().contacts(); }
+    /// What the joints of the robot bear in the same tick.
     std::vector<JointReaction> joint_reactions(RobotId robot) { return probe().joint_reactions(robot); }
     /// Everything needed to continue exactly.
     SavedRun saved_run();
+    /// Writes saved_run() to a file. An Error if that fails.
     Result<> save(const std::string& path) { return save_run(path, *model_, saved_run()); }
     /// Logs the run from now on, with checkpoints at multiples of log_ticks. The log of a new branch begins
     /// with a checkpoint here.
@@ -78,20 +87,24 @@ class Simulation {
     std::vector<std::string> clients_elsewhere() const;
     /// Advances all roles once while the run rests: members join and leave, requests are accepted.
     void serve();
-    /// Adds a Simulator in this process, or makes one leave; false: there is only one left.
+    /// Adds a Simulator in this process.
     void add_simulator();
+    /// Makes the Simulator with the last seat leave; false: there is only one left.
     bool remove_simulator();
     /// Ends this Simulation and returns its Bus for the next one. (It must not be used after that.)
     std::unique_ptr<Bus> release_bus() { return std::move(bus_); }
 
+    /// Counts of windows, islands, losses and so on since this Simulation was made.
     const Counters& counters() const { return controller_.counters(); }
     /// What happened since the last call, one line each: for the log.
     std::vector<std::string> take_notices();
+    /// Connects the roles; lives until release_bus() or the end of this Simulation.
     Bus& bus() { return *bus_; }
 
     // --- requests to the run itself (wire/control.h); the owner of the run executes them
     /// Those that came since the last call.
     std::vector<ControlCall> take_control_calls() { return controller_.control().take_calls(); }
+    /// Sends the outcome of a request to the Client that made it.
     void answer(const ControlCall& call, ControlOutcome outcome) {
         controller_.control().answer(*bus_, call, std::move(outcome));
     }
@@ -103,13 +116,17 @@ class Simulation {
     void dismiss(const std::string& reason) { controller_.dismiss(*bus_, reason); }
 
     // --- how the run is distributed, for display
+    /// All Simulators and Clients that the first window waits for have joined.
     bool started() const { return controller_.started(); }
+    /// All Simulators that have joined so far, those that left or were lost included.
     std::vector<MemberReport> members() const { return controller_.members(); }
     /// Seat of the Simulator that holds the robot: MemberReport::number, if that is a member.
     std::uint32_t seat_of(RobotId robot) const { return controller_.seat_of(robot); }
+    /// Islands of the last window.
     const Islands& islands() const { return controller_.islands(); }
     /// Each robot's motion in the last window, by RobotId.
     std::span<const RobotMotion> motions() const { return controller_.motions(); }
+    /// Length of the next window in ticks.
     Tick window_ticks() const { return controller_.window_ticks(); }
     /// Load balance of the stepping in recent windows: 1 is perfect.
     double balance() const { return controller_.balance(); }
