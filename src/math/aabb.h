@@ -9,13 +9,16 @@
 
 namespace roboss {
 
+/// Box with edges along the axes; m. A new one is empty.
 template <class T>
 struct AabbT {
-    static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    Vec3T<T> min{kInfinity, kInfinity, kInfinity};
-    Vec3T<T> max{-kInfinity, -kInfinity, -kInfinity};
+    static constexpr double kInfinity = std::numeric_limits<double>::infinity();  ///< bound of the empty box
+    Vec3T<T> min{kInfinity, kInfinity, kInfinity};                                ///< lowest corner
+    Vec3T<T> max{-kInfinity, -kInfinity, -kInfinity};                             ///< highest corner
 
+    /// Whether it holds no point.
     bool empty() const { return min.x > max.x; }
+    /// Grows to hold p.
     void include(const Vec3T<T>& p) {
         min = {smaller(min.x, p.x), smaller(min.y, p.y), smaller(min.z, p.z)};
         max = {larger(max.x, p.x), larger(max.y, p.y), larger(max.z, p.z)};
@@ -25,11 +28,14 @@ struct AabbT {
         min = {smaller(min.x, b.min.x), smaller(min.y, b.min.y), smaller(min.z, b.min.z)};
         max = {larger(max.x, b.max.x), larger(max.y, b.max.y), larger(max.z, b.max.z)};
     }
+    /// Larger by `margin` (m) on every side.
     AabbT inflated(const T& margin) const {
         const Vec3T<T> m{margin, margin, margin};
         return {min - m, max + m};
     }
+    /// Compares all members.
     friend bool operator==(const AabbT&, const AabbT&) = default;
+    /// Centre; not of an empty box.
     Vec3T<T> centre() const { return (min + max) * T(0.5); }
 };
 

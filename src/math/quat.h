@@ -9,22 +9,30 @@
 
 namespace roboss {
 
+/// Quaternion w + xi + yj + zk; a new one is the identity. Rotations are unit quaternions.
 template <class T>
 struct QuatT {
-    T w{1}, x{}, y{}, z{};
+    T w{1},   ///< real part
+        x{},  ///< of i
+        y{},  ///< of j
+        z{};  ///< of k
 
+    /// Hamilton product: q_AC = q_AB * q_BC.
     friend QuatT operator*(const QuatT& a, const QuatT& b) {
         return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
                 a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
     }
+    /// Compares all members.
     friend bool operator==(const QuatT&, const QuatT&) = default;
 };
 
+/// Inverse of a unit quaternion: q_BA from q_AB.
 template <class T>
 QuatT<T> conjugate(const QuatT<T>& q) {
     return {q.w, -q.x, -q.y, -q.z};
 }
 
+/// Unit quaternion; q must not be zero.
 template <class T>
 QuatT<T> normalized(const QuatT<T>& q) {
     using std::sqrt;
@@ -32,6 +40,7 @@ QuatT<T> normalized(const QuatT<T>& q) {
     return {q.w * s, q.x * s, q.y * s, q.z * s};
 }
 
+/// v_A = rotate(q_AB, v_B); q is a unit quaternion.
 template <class T>
 Vec3T<T> rotate(const QuatT<T>& q, const Vec3T<T>& v) {
     const Vec3T<T> u{q.x, q.y, q.z};
@@ -39,6 +48,7 @@ Vec3T<T> rotate(const QuatT<T>& q, const Vec3T<T>& v) {
     return v + t * q.w + cross(u, t);
 }
 
+/// R_AB of the unit quaternion q_AB.
 template <class T>
 Mat3T<T> to_matrix(const QuatT<T>& q) {
     const T xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z;
@@ -59,6 +69,7 @@ QuatT<T> axis_angle(const Vec3T<T>& axis, const T& angle) {
     return {h.cos, axis.x * h.sin, axis.y * h.sin, axis.z * h.sin};
 }
 
+/// By lane: a where m holds, else b.
 template <class T>
 QuatT<T> select(const MaskOf<T>& m, const QuatT<T>& a, const QuatT<T>& b) {
     return {select(m, a.w, b.w), select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};

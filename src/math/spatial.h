@@ -7,17 +7,23 @@
 
 namespace roboss {
 
+/// A motion (rad/s, m/s) or a force (N m, N).
 template <class T>
 struct SpatialT {
-    Vec3T<T> angular, linear;
+    Vec3T<T> angular,  ///< angular velocity, or moment about O
+        linear;        ///< velocity at O, or force
 
+    /// Sum.
     friend SpatialT operator+(const SpatialT& a, const SpatialT& b) {
         return {a.angular + b.angular, a.linear + b.linear};
     }
+    /// Difference.
     friend SpatialT operator-(const SpatialT& a, const SpatialT& b) {
         return {a.angular - b.angular, a.linear - b.linear};
     }
+    /// Both parts times s.
     friend SpatialT operator*(const SpatialT& a, T s) { return {a.angular * s, a.linear * s}; }
+    /// Adds b.
     SpatialT& operator+=(const SpatialT& b) { return angular += b.angular, linear += b.linear, *this; }
 };
 
@@ -42,11 +48,18 @@ SpatialT<T> cross_force(const SpatialT<T>& a, const SpatialT<T>& f) {
 /// Symmetric 3x3 matrix.
 template <class T>
 struct Sym3T {
-    T xx{}, yy{}, zz{}, xy{}, xz{}, yz{};
+    T xx{},    ///< row 0, column 0
+        yy{},  ///< row 1, column 1
+        zz{},  ///< row 2, column 2
+        xy{},  ///< row 0, column 1
+        xz{},  ///< row 0, column 2
+        yz{};  ///< row 1, column 2
 
+    /// Adds b.
     Sym3T& operator+=(const Sym3T& b) {
         return xx += b.xx, yy += b.yy, zz += b.zz, xy += b.xy, xz += b.xz, yz += b.yz, *this;
     }
+    /// Matrix times vector.
     friend Vec3T<T> operator*(const Sym3T& m, const Vec3T<T>& v) {
         return {m.xx * v.x + m.xy * v.y + m.xz * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z,
                 m.xz * v.x + m.yz * v.y + m.zz * v.z};
@@ -73,10 +86,11 @@ template <class T>
 /// Inertia about O of everything rigid so far: mass, first moment (mass times centre), second moment.
 template <class T>
 struct SpatialInertiaT {
-    T mass{};
-    Vec3T<T> moment;   // mass * centre of mass, from O
-    Sym3T<T> inertia;  // about O
+    T mass{};          ///< kg
+    Vec3T<T> moment;   ///< kg m, mass * centre of mass, from O
+    Sym3T<T> inertia;  ///< kg m^2, about O
 
+    /// Adds another rigid body's, about the same O.
     SpatialInertiaT& operator+=(const SpatialInertiaT& b) {
         return mass += b.mass, moment += b.moment, inertia += b.inertia, *this;
     }

@@ -11,16 +11,20 @@
 
 namespace roboss {
 
+/// One member of Accuracy and its range.
 struct AccuracyNumber {
-    const char* name;  // as in <roboss:accuracy>
-    const char* meaning;
-    double low, high;
-    double Accuracy::*real;  // one of the two is set
-    int Accuracy::*whole;
+    const char* name;        ///< as in `<roboss:accuracy>`
+    const char* meaning;     ///< for people: what it does
+    double low,              ///< smallest value allowed
+        high;                ///< largest value allowed
+    double Accuracy::*real;  ///< one of the two is set
+    int Accuracy::*whole;    ///< the member, if it is an int; else nullptr
 
+    /// Its value in `a`.
     double get(const Accuracy& a) const { return real != nullptr ? a.*real : a.*whole; }
 };
 
+/// All numbers.
 std::span<const AccuracyNumber> accuracy_numbers();
 
 /// "fast", "standard" or "high"; nullopt for any other name.

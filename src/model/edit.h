@@ -14,10 +14,11 @@
 
 namespace roboss {
 
+/// The new Model, and how to get there from the old one.
 struct ModelEdit {
-    std::shared_ptr<const Model> model;
-    std::vector<RobotId> now;      // by the old RobotId: the new one; not valid: it is gone
-    bool scenery_changed = false;  // all sleepers wake
+    std::shared_ptr<const Model> model;  ///< the new one
+    std::vector<RobotId> now;            ///< by the old RobotId: the new one; not valid: it is gone
+    bool scenery_changed = false;        ///< all sleepers wake
 };
 
 /// The accuracy set anew, after the world's own and in this order of settings and numbers.

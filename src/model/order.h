@@ -12,43 +12,52 @@ namespace roboss {
 
 /// Level 1: puts the robot (SDF model) frame at X_WR; joints keep their coordinates, velocities are kept.
 struct SetPose {
-    Pose X_WR;
+    Pose X_WR;  ///< robot (SDF model) frame in the world
+    /// Compares all members.
     friend bool operator==(const SetPose&, const SetPose&) = default;
 };
 
 /// Level 2: base velocity in world axes (of the base origin). Only for free bases.
 struct SetVelocity {
-    Vec3 linear, angular;
+    Vec3 linear,  ///< m/s, of the base origin, world axes
+        angular;  ///< rad/s, world axes
+    /// Compares all members.
     friend bool operator==(const SetVelocity&, const SetVelocity&) = default;
 };
 
 /// Level 3: force at the link's centre of mass and torque, world axes, for `duration` ticks (at least 1).
 struct ApplyWrench {
-    LinkId link;
-    Vec3 force, torque;
-    Tick duration = 1;
+    LinkId link;        ///< that the wrench acts on
+    Vec3 force,         ///< N, world axes, at the centre of mass
+        torque;         ///< N m, world axes
+    Tick duration = 1;  ///< ticks
+    /// Compares all members.
     friend bool operator==(const ApplyWrench&, const ApplyWrench&) = default;
 };
 
 /// Level 4: latches a setpoint of one degree of freedom of a joint. A negative max_effort means the joint's
 /// own bound.
 struct SetJoint {
-    JointId joint;
-    int axis = 0;
-    MotorMode mode = MotorMode::kVelocity;
-    double target = 0;
-    double max_effort = -1;
+    JointId joint;                          ///< of the robot's type
+    int axis = 0;                           ///< which of its axes, from 0
+    MotorMode mode = MotorMode::kVelocity;  ///< what `target` is
+    double target = 0;                      ///< rad/s, rad, N m (or m/s, m, N), by `mode`
+    double max_effort = -1;                 ///< N m or N
+    /// Compares all members.
     friend bool operator==(const SetJoint&, const SetJoint&) = default;
 };
 
+/// What an order does.
 using Action = std::variant<SetPose, SetVelocity, ApplyWrench, SetJoint>;
 
+/// An action on one robot at one tick.
 struct Order {
-    Tick apply_at = 0;  // applied at the start of this tick, before the step apply_at -> apply_at + 1
-    ClientId client;
-    std::uint64_t sequence = 0;  // per Client, ascending
-    RobotId robot;
-    Action action;
+    Tick apply_at = 0;  ///< applied at the start of this tick, before the step apply_at -> apply_at + 1
+    ClientId client;    ///< who asks for it
+    std::uint64_t sequence = 0;  ///< per Client, ascending
+    RobotId robot;               ///< that it acts on
+    Action action;               ///< what it does
+    /// Compares all members.
     friend bool operator==(const Order&, const Order&) = default;
 };
 
@@ -56,12 +65,13 @@ struct Order {
 /// little that sums and products of a step stay numbers. One order beyond them would end the run for
 /// everybody.
 struct OrderLimits {
-    double position = 1e9;   // m: coordinates of a pose; rad or m: target of a joint's position
-    double speed = 1e5;      // m/s: of a base; m/s or rad/s: target of a joint's velocity
-    double turn_rate = 1e5;  // rad/s, of a base
-    double force = 1e9;      // N: on a link; N or N m: target of a joint's effort
-    double torque = 1e9;     // N m, on a link
+    double position = 1e9;   ///< m: coordinates of a pose; rad or m: target of a joint's position
+    double speed = 1e5;      ///< m/s: of a base; m/s or rad/s: target of a joint's velocity
+    double turn_rate = 1e5;  ///< rad/s, of a base
+    double force = 1e9;      ///< N: on a link; N or N m: target of a joint's effort
+    double torque = 1e9;     ///< N m, on a link
 };
+/// The limits in force.
 inline constexpr OrderLimits kOrderLimits;
 
 /// Canonical order: (apply_at, client, sequence).

@@ -12,25 +12,35 @@
 
 namespace roboss {
 
-enum class MotorMode : std::uint32_t { kPassive, kVelocity, kPosition, kEffort };
+/// What a motor does.
+enum class MotorMode : std::uint32_t {
+    kPassive,   ///< nothing
+    kVelocity,  ///< holds a velocity
+    kPosition,  ///< holds a position
+    kEffort     ///< gives a torque or force
+};
 
 /// The latched order of one joint degree of freedom.
 template <class T>
 struct MotorSetpointT {
-    MotorMode mode = MotorMode::kPassive;
-    T target = 0;      // rad/s, rad, N m (or m/s, m, N)
-    T max_effort = 0;  // bound in force, N m or N
-    T impulse = 0;     // that it gave in the last tick, N m s or N s
-    T load = 0;        // the smaller of the last two impulses, of one sign: what a hard motor starts from
+    MotorMode mode = MotorMode::kPassive;  ///< what `target` is
+    T target = 0;                          ///< rad/s, rad, N m (or m/s, m, N)
+    T max_effort = 0;                      ///< bound in force, N m or N
+    T impulse = 0;                         ///< that it gave in the last tick, N m s or N s
+    T load = 0;  ///< the smaller of the last two impulses, of one sign: what a hard motor starts from
+    /// Compares all members.
     friend bool operator==(const MotorSetpointT&, const MotorSetpointT&) = default;
 };
+/// In doubles, as it is kept.
 using MotorSetpoint = MotorSetpointT<double>;
 
 /// A force on a link's centre of mass and a torque, world axes, while tick < until.
 struct TimedWrench {
-    LinkId link;
-    Vec3 force, torque;
-    Tick until = 0;
+    LinkId link;     ///< that the wrench acts on
+    Vec3 force,      ///< N, world axes
+        torque;      ///< N m, world axes
+    Tick until = 0;  ///< first tick without it
+    /// Compares all members.
     friend bool operator==(const TimedWrench&, const TimedWrench&) = default;
 };
 
@@ -38,40 +48,46 @@ struct TimedWrench {
 /// that its rows start from. Owned by the lower robot id of the pair; dropped at the first tick without the
 /// contact. Kept sorted by key (the first four members).
 struct ContactMemory {
-    std::uint32_t other_robot = 0;  // RobotId of the other, Id::kNone for static scenery
-    std::uint32_t shape = 0;        // of this robot
-    std::uint32_t other_shape = 0;  // of the other robot or of Model::statics
-    std::uint32_t feature = 0;
-    double impulse = 0;  // normal, N s
-    double load = 0;     // the smaller of the last two normal impulses, N s: what is no blow
-    Vec3 friction;       // N s, world axes
+    std::uint32_t other_robot = 0;  ///< RobotId of the other, Id::kNone for static scenery
+    std::uint32_t shape = 0;        ///< of this robot
+    std::uint32_t other_shape = 0;  ///< of the other robot or of Model::statics
+    std::uint32_t feature = 0;      ///< names the same point on the same pair of shapes from tick to tick
+    double impulse = 0;             ///< normal, N s
+    double load = 0;                ///< the smaller of the last two normal impulses, N s: what is no blow
+    Vec3 friction;                  ///< N s, world axes
+    /// Compares all members.
     friend bool operator==(const ContactMemory&, const ContactMemory&) = default;
 };
 
 /// How long the robot has been at rest, and what a sleeper keeps (physics/sleep.h). A state with default
 /// values is awake and moving.
 struct Rest {
-    std::uint32_t still_ticks = 0;  // at rest so long, counted up to what sleep takes
-    bool asleep = false;
-    std::vector<std::uint32_t> neighbours;  // RobotIds that the sleeper touches, ascending
-    Aabb bound;                             // the sleeper's interaction bound
+    std::uint32_t still_ticks = 0;          ///< at rest so long, counted up to what sleep takes
+    bool asleep = false;                    ///< whether it sleeps
+    std::vector<std::uint32_t> neighbours;  ///< RobotIds that the sleeper touches, ascending
+    Aabb bound;                             ///< the sleeper's interaction bound
+    /// Compares all members.
     friend bool operator==(const Rest&, const Rest&) = default;
 };
 
+/// State of one robot at the start of a tick.
 struct RobotState {
-    std::vector<double> q;  // see model.h
-    std::vector<double> v;
-    std::vector<MotorSetpoint> motors;  // RobotType::motor_count()
-    std::vector<TimedWrench> wrenches;
-    std::vector<ContactMemory> contacts;
-    Rest rest;
+    std::vector<double> q;                ///< see model.h
+    std::vector<double> v;                ///< velocities, see model.h
+    std::vector<MotorSetpoint> motors;    ///< RobotType::motor_count()
+    std::vector<TimedWrench> wrenches;    ///< in force, in the order in which they came
+    std::vector<ContactMemory> contacts;  ///< of the last tick, sorted
+    Rest rest;                            ///< sleep
+    /// Compares all members.
     friend bool operator==(const RobotState&, const RobotState&) = default;
 };
 
+/// State of a robot at the start of the world.
 RobotState initial_state(const Model& model, RobotId robot);
 
 /// Pose of body 0 (free base) or of the base frame.
 Pose base_pose(const RobotState& state);
+/// Sets it; joints and velocities stay.
 void set_base_pose(RobotState& state, const Pose& X_WB);
 
 /// Hash of one robot's whole state with its id and the tick.
