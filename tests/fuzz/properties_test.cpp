@@ -68,7 +68,7 @@ TEST(Property, NothingPassesThroughAnything) {
 }
 
 TEST(Property, AClusterWithFaultsEndsWithTheUndisturbedHash) {
-    expect_holds({"cluster", 40, 0.2});
+    expect_holds({"cluster", 200, 0.3});
 }
 
 TEST(Property, HashIsTheSameInFiveConfigurations) {
