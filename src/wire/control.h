@@ -15,89 +15,127 @@
 namespace roboss {
 
 // --- requests. Those that change nothing:
+/// Asks for RunStatus.
 struct GetStatus {
     bool robots = false;  // with the names of all robots, which are many
+    /// Compares all members.
     friend bool operator==(const GetStatus&, const GetStatus&) = default;
 };
+/// Asks for RobotGroups.
 struct GetGroups {
+    /// Compares all members.
     friend bool operator==(const GetGroups&, const GetGroups&) = default;
 };
+/// Asks for RobotBounds.
 struct GetBounds {
+    /// Compares all members.
     friend bool operator==(const GetBounds&, const GetBounds&) = default;
 };
 
 // --- requests that do not change the result:
+/// Pauses at the end of the current window.
 struct PauseRun {
+    /// Compares all members.
     friend bool operator==(const PauseRun&, const PauseRun&) = default;
 };
+/// Continues a paused run.
 struct ResumeRun {
+    /// Compares all members.
     friend bool operator==(const ResumeRun&, const ResumeRun&) = default;
 };
 /// Advances by this many ticks, then pauses.
 struct StepRun {
     Tick ticks = 1;
+    /// Compares all members.
     friend bool operator==(const StepRun&, const StepRun&) = default;
 };
+/// Sets the wanted speed.
 struct SetSpeed {
-    enum class Kind : std::uint8_t { kFactor, kMax, kWorld };
-    Kind kind = Kind::kFactor;  // kMax: as fast as possible; kWorld: as the world file says
+    /// How the speed is given.
+    enum class Kind : std::uint8_t {
+        kFactor,  ///< by `factor`
+        kMax,     ///< as fast as possible
+        kWorld,   ///< as the world file says
+    };
+    Kind kind = Kind::kFactor;  ///< which of them
     double factor = 1;          // simulated seconds per real second, > 0; of kFactor
+    /// Compares all members.
     friend bool operator==(const SetSpeed&, const SetSpeed&) = default;
 };
 /// Sets the synchronization interval.
 struct SetWindow {
     Tick ticks = 0;  // 0: adaptive
+    /// Compares all members.
     friend bool operator==(const SetWindow&, const SetWindow&) = default;
 };
+/// Starts one more Simulator.
 struct AddSimulator {
+    /// Compares all members.
     friend bool operator==(const AddSimulator&, const AddSimulator&) = default;
 };
+/// Makes a Simulator leave; refused if it is the only one.
 struct RemoveSimulator {
+    /// Compares all members.
     friend bool operator==(const RemoveSimulator&, const RemoveSimulator&) = default;
 };
 /// Kills a Simulator process that the run started, to watch the run recover.
 struct KillSimulator {
     std::uint32_t id = 0;  // MemberStatus::id
+    /// Compares all members.
     friend bool operator==(const KillSimulator&, const KillSimulator&) = default;
 };
+/// Saves the run to a file.
 struct SaveRun {
     std::string file;  // on the Controller's computer
+    /// Compares all members.
     friend bool operator==(const SaveRun&, const SaveRun&) = default;
 };
+/// Ends the run as if its duration were over.
 struct QuitRun {
+    /// Compares all members.
     friend bool operator==(const QuitRun&, const QuitRun&) = default;
 };
 
 // --- requests that change the world at a tick. With a journal each starts a new branch:
+/// Continues from an earlier time of the journal, in a new branch.
 struct RewindRun {
     std::int64_t branch = 0;  // of the journal; 0: the current one
     double time_s = 0;        // >= 0
+    /// Compares all members.
     friend bool operator==(const RewindRun&, const RewindRun&) = default;
 };
 /// Changes the numbers of <roboss:accuracy>.
 struct ChangeAccuracy {
+    /// A number by its name.
     struct Number {
-        std::string name;
-        double value = 0;
+        std::string name;  ///< as in <roboss:accuracy>
+        double value = 0;  ///< in its range
+        /// Compares all members.
         friend bool operator==(const Number&, const Number&) = default;
     };
-    std::string setting;  // "fast", "standard", "high"; empty: as it is
-    std::vector<Number> numbers;
+    std::string setting;          // "fast", "standard", "high"; empty: as it is
+    std::vector<Number> numbers;  ///< besides the setting
+    /// Compares all members.
     friend bool operator==(const ChangeAccuracy&, const ChangeAccuracy&) = default;
 };
 /// Adds the models of an SDF or URDF file. The request carries the content, since the file may be on another
 /// computer; files that it refers to are looked up on the Controller's.
 struct AddModels {
-    std::string file, content;
-    Pose X_WA;         // of the file's world frame
-    std::string name;  // in the world; empty: the name in the file
+    std::string file;     ///< its name, for messages
+    std::string content;  ///< SDF or URDF
+    Pose X_WA;            // of the file's world frame
+    std::string name;     // in the world; empty: the name in the file
+    /// Compares all members.
     friend bool operator==(const AddModels&, const AddModels&) = default;
 };
+/// Removes robots by name.
 struct RemoveRobots {
-    std::vector<std::string> names;
+    std::vector<std::string> names;  ///< in the world
+    /// Compares all members.
     friend bool operator==(const RemoveRobots&, const RemoveRobots&) = default;
 };
 
+/// A request to the run.
 using ControlAction = std::variant<GetStatus, GetGroups, GetBounds, PauseRun, ResumeRun, StepRun, SetSpeed,
                                    SetWindow, AddSimulator, RemoveSimulator, KillSimulator, SaveRun, QuitRun,
                                    RewindRun, ChangeAccuracy, AddModels, RemoveRobots>;
@@ -112,73 +150,101 @@ const char* broken_rule(const ControlAction& action);
 // --- replies
 /// Messages and bytes per second to and from the Controller.
 struct MessageRate {
-    double messages_in = 0, messages_out = 0;
-    double bytes_in = 0, bytes_out = 0;
+    double messages_in = 0;   ///< to the Controller
+    double messages_out = 0;  ///< from the Controller
+    double bytes_in = 0;      ///< to the Controller
+    double bytes_out = 0;     ///< from the Controller
+    /// Compares all members.
     friend bool operator==(const MessageRate&, const MessageRate&) = default;
 };
-enum class MemberState : std::uint8_t { kActive, kLeaving, kLeft, kLost };
+/// Where a Simulator stands.
+enum class MemberState : std::uint8_t {
+    kActive,   ///< it takes part
+    kLeaving,  ///< it hands over its states
+    kLeft,     ///< it has left
+    kLost,     ///< it failed or was silent for too long
+};
+/// A Simulator of the run.
 struct MemberStatus {
-    std::uint32_t id = 0;  // in the order of joining, from 0
-    std::string name;
-    MemberState state = MemberState::kActive;
-    std::uint32_t threads = 1;
-    std::uint64_t robots = 0, islands = 0;  // that it has now
-    double step_us = 0;                     // stepping CPU time per tick and thread
-    double load = 0;                        // the same, relative to the busiest Simulator
-    MessageRate messages;
+    std::uint32_t id = 0;                      // in the order of joining, from 0
+    std::string name;                          ///< host and process
+    MemberState state = MemberState::kActive;  ///< where it stands
+    std::uint32_t threads = 1;                 ///< that step
+    std::uint64_t robots = 0;                  ///< that it has now
+    std::uint64_t islands = 0;                 ///< that it has now
+    double step_us = 0;                        // stepping CPU time per tick and thread
+    double load = 0;                           // the same, relative to the busiest Simulator
+    MessageRate messages;                      ///< of this member
+    /// Compares all members.
     friend bool operator==(const MemberStatus&, const MemberStatus&) = default;
 };
+/// The run at its committed tick.
 struct RunStatus {
-    std::string world;
-    Tick tick = 0;
-    double time_s = 0;
-    bool paused = false;
+    std::string world;           ///< the world file
+    Tick tick = 0;               ///< committed
+    double time_s = 0;           ///< simulated time of that tick
+    bool paused = false;         ///< by a request
     double speed = 0;            // simulated seconds per real second that are wanted; 0: as fast as possible
     std::uint64_t islands = 0;   // of the last window
     std::int64_t window = 0;     // ticks of the next window
     std::uint64_t windows = 0;   // committed
     std::uint64_t repeated = 0;  // of these, stepped again with islands merged
     double efficiency = 1;       // mean load of the Simulators, relative to the busiest
-    double step_cpu_s = 0;
-    std::uint64_t losses = 0, recoveries = 0, migrations = 0, cuts = 0;
-    MessageRate messages;  // of all members
-    std::uint64_t model_hash = 0, state_hash = 0;
+    double step_cpu_s = 0;       ///< CPU time of all stepping, s
+    std::uint64_t losses = 0;    ///< Simulators lost
+    std::uint64_t recoveries = 0;       ///< of lost states
+    std::uint64_t migrations = 0;       ///< of robots between Simulators
+    std::uint64_t cuts = 0;             ///< windows with work stealing
+    MessageRate messages;               // of all members
+    std::uint64_t model_hash = 0;       ///< of the Model
+    std::uint64_t state_hash = 0;       ///< of the world at `tick`
     std::int64_t branch = 0;            // of the journal; 0: there is none
     double first_s = 0;                 // the journal's first time
     std::vector<MemberStatus> members;  // Simulators that hold or held a seat
     std::vector<std::string> robots;    // by RobotId, if they were requested
-    std::uint64_t robot_count = 0;
+    std::uint64_t robot_count = 0;      ///< robots in the world
+    /// Compares all members.
     friend bool operator==(const RunStatus&, const RunStatus&) = default;
 };
 /// By RobotId.
 struct RobotGroups {
-    std::uint64_t model_hash = 0;
+    std::uint64_t model_hash = 0;         ///< of the Model whose robots these are
     std::vector<std::int32_t> simulator;  // id of the robot's Simulator; -1: none yet
     std::vector<std::int32_t> island;     // lowest RobotId of its island; -1: none yet
+    /// Compares all members.
     friend bool operator==(const RobotGroups&, const RobotGroups&) = default;
 };
 /// By RobotId: the box that the robot swept in the last window, with its contact margin, m, world axes.
 struct RobotBounds {
-    std::uint64_t model_hash = 0;
-    std::vector<Box32> boxes;
+    std::uint64_t model_hash = 0;  ///< of the Model whose robots these are
+    std::vector<Box32> boxes;      ///< by RobotId
+    /// Compares all members.
     friend bool operator==(const RobotBounds&, const RobotBounds&) = default;
 };
 /// The request was carried out.
 struct ControlDone {
     Tick tick = 0;     // at which it took effect
     std::string text;  // for people
+    /// Compares all members.
     friend bool operator==(const ControlDone&, const ControlDone&) = default;
 };
 /// The request was refused; nothing has changed. Fields as in Error.
 struct ControlRefused {
-    std::string message, remedy, code;
+    std::string message;  ///< what is wrong
+    std::string remedy;   ///< what to do about it
+    std::string code;     ///< for programs
     ControlRefused() = default;
+    /// From an Error.
     ControlRefused(const Error& e) : message(e.message), remedy(e.remedy), code(e.code) {}
+    /// The same as an Error.
     Error error() const { return {message, remedy, code}; }
+    /// Compares all members.
     friend bool operator==(const ControlRefused&, const ControlRefused&) = default;
 };
+/// What became of a request.
 using ControlOutcome = std::variant<ControlDone, ControlRefused, RunStatus, RobotGroups, RobotBounds>;
 
+/// False if the request was refused.
 inline bool is_done(const ControlOutcome& outcome) {
     return !std::holds_alternative<ControlRefused>(outcome);
 }
