@@ -45,7 +45,7 @@ struct ResumeRun {
 };
 /// Advances by this many ticks, then pauses.
 struct StepRun {
-    Tick ticks = 1;
+    Tick ticks = 1;  ///< at least 1
     /// Compares all members.
     friend bool operator==(const StepRun&, const StepRun&) = default;
 };

@@ -27,6 +27,7 @@ enum class JointSpecKind : int {
     kPlanar
 };
 
+/// A row of the table: what a joint of a file is made of.
 struct JointType {
     std::string_view name;  // SDFormat's, URDF's and the viewer's
     /// From the parent to the child; each moves a body of the tree. Motion k has axis k, but for a ball.
@@ -34,14 +35,17 @@ struct JointType {
     /// The element of the file that holds the numbers of each axis; orders count axes in this order.
     std::span<const std::string_view> axes{};
     bool endless = false;       // its axes have no limits
-    bool is_extension = false;  // SDFormat has no such type: <roboss:joint type="name"> within a <joint>
+    bool is_extension = false;  // SDFormat has no such type: <roboss:joint type="name"> within a `joint`
     bool couples = false;       // ties the motions of other joints together and connects no links
 
+    /// It has no motion: its links are one body.
     bool welds() const { return motions.empty() && !couples; }
     /// Moves, but about no axis of its own: no limits, positions or followers, the same damping in all
     /// directions.
     bool is_isotropic() const { return !motions.empty() && axes.empty(); }
+    /// Its only motion is a rotation about one axis.
     bool is_hinge() const { return motions.size() == 1 && motions[0] == JointKind::kRevolute; }
+    /// How many of its motions are of this kind.
     std::size_t count(JointKind motion) const {
         return static_cast<std::size_t>(std::count(motions.begin(), motions.end(), motion));
     }
