@@ -71,8 +71,7 @@ void Checkpoints::begin(StateDirectory& directory, const Roster& roster) {
     if (next_) return;
     requested_ = false;
     if (base_.tick == directory.tick() || directory.anything_lost(roster)) return;
-    next_.emplace();
-    next_->tick = directory.tick();
+    next_ = Checkpoint{directory.tick(), nullptr, {}};
     next_->touched.reset(model_->robots.size());
     directory.want_checkpoint();
     work_s_ = 0;
