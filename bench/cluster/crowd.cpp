@@ -6,7 +6,7 @@
 
 #include "cluster/virtual_network.h"
 #include "physics/step.h"
-#include "roles/controller.h"
+#include "roles/controller/controller.h"
 
 namespace roboss::bench {
 namespace {

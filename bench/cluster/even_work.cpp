@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "core/thread_cpu.h"
-#include "roles/state_store.h"
-#include "roles/window_stepper.h"
+#include "roles/simulator/state_store.h"
+#include "roles/simulator/window_stepper.h"
 
 namespace roboss::bench {
 namespace {

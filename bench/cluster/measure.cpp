@@ -7,7 +7,7 @@
 
 #include "cluster/even_work.h"
 #include "cluster/virtual_cluster.h"
-#include "roles/window_stepper.h"
+#include "roles/simulator/window_stepper.h"
 
 namespace roboss::bench {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "cluster/virtual_network.h"
-#include "roles/controller.h"
-#include "roles/simulator.h"
+#include "roles/controller/controller.h"
+#include "roles/simulator/simulator.h"
 
 namespace roboss::bench {
 

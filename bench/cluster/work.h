@@ -9,7 +9,7 @@
 
 #include "journal/log_entries.h"
 #include "model/model.h"
-#include "roles/controller.h"
+#include "roles/controller/controller.h"
 #include "simulation/simulation.h"
 
 namespace roboss::bench {

@@ -7,7 +7,7 @@
 #include "core/check.h"
 #include "engines/engine.h"
 #include "engines/makers.h"
-#include "physics/kinematics.h"
+#include "physics/dynamics/kinematics.h"
 #include "physics/step.h"
 
 namespace roboss::bench {

@@ -15,7 +15,7 @@
 #include "model/model.h"
 #include "model/order.h"
 #include "model/robot_state.h"
-#include "physics/kinematics.h"
+#include "physics/dynamics/kinematics.h"
 #include "physics/probe.h"
 #include "sensors/readings.h"
 #include "wire/control.h"

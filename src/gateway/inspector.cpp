@@ -7,7 +7,7 @@
 #include <numbers>
 #include <span>
 
-#include "physics/kinematics.h"
+#include "physics/dynamics/kinematics.h"
 #include "wire/state_block.h"
 
 namespace roboss {

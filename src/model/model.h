@@ -134,7 +134,7 @@ struct CoordinateCoupling {
     double inverse_inertia = 0;  ///< 1/(kg m^2) or 1/kg, mobility of the difference at the zero pose
 };
 
-/// Friction, bounce and softness of one shape. How two of them combine: physics/surface_pair.h.
+/// Friction, bounce and softness of one shape. How two of them combine: physics/contact/surface_pair.h.
 struct Material {
     double mu = 1,                ///< friction coefficient, along direction_S
         mu2 = 1;                  ///< across direction_S

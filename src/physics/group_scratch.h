@@ -5,15 +5,15 @@
 #include <vector>
 
 #include "core/union_find.h"
-#include "physics/contact_rows.h"
-#include "physics/integrate.h"
-#include "physics/island_guard.h"
-#include "physics/joint_rows.h"
-#include "physics/lane_stepper.h"
-#include "physics/row_split.h"
-#include "physics/second_look.h"
+#include "physics/contact/contact_rows.h"
+#include "physics/contact/island_guard.h"
+#include "physics/contact/second_look.h"
+#include "physics/dynamics/integrate.h"
+#include "physics/dynamics/joint_rows.h"
+#include "physics/lanes/lane_stepper.h"
 #include "physics/sleep.h"
-#include "physics/solver.h"
+#include "physics/solver/row_split.h"
+#include "physics/solver/solver.h"
 #include "physics/step.h"
 
 namespace roboss {

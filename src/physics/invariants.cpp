@@ -6,9 +6,9 @@
 #include <tuple>
 
 #include "model/joint_motion.h"
-#include "physics/robot_work.h"
-#include "physics/surface_pair.h"
-#include "physics/tree_factor.h"
+#include "physics/contact/surface_pair.h"
+#include "physics/dynamics/robot_work.h"
+#include "physics/dynamics/tree_factor.h"
 
 namespace roboss {
 namespace {

@@ -1,8 +1,8 @@
 # Lanes: one translation unit for each instruction set, built for it alone. g++ 12 sees uninitialised values inside its own
 # intrinsics (bug 105593).
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  set_source_files_properties(${CMAKE_SOURCE_DIR}/src/physics/lanes_avx2.cpp PROPERTIES COMPILE_OPTIONS "-mavx2")
-  set_source_files_properties(${CMAKE_SOURCE_DIR}/src/physics/lanes_avx512.cpp PROPERTIES
+  set_source_files_properties(${CMAKE_SOURCE_DIR}/src/physics/lanes/lanes_avx2.cpp PROPERTIES COMPILE_OPTIONS "-mavx2")
+  set_source_files_properties(${CMAKE_SOURCE_DIR}/src/physics/lanes/lanes_avx512.cpp PROPERTIES
     COMPILE_OPTIONS "-mavx512f;-mavx512dq;-mavx512vl")
 endif()
 # The solver's short loops cost up to 2 % more or less by where they happen to lie.

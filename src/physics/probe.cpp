@@ -3,9 +3,9 @@
 #include "physics/probe.h"
 
 #include "core/float_env.h"
-#include "physics/drag.h"
-#include "physics/integrate.h"
-#include "physics/robot_work.h"
+#include "physics/dynamics/drag.h"
+#include "physics/dynamics/integrate.h"
+#include "physics/dynamics/robot_work.h"
 
 namespace roboss {
 namespace {

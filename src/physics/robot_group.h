@@ -1,7 +1,7 @@
 // A group of robots that may meet each other and no others: one kind of batch of a tick (tick.h).
 #pragma once
 
-#include "physics/contact_island.h"
+#include "physics/contact/contact_island.h"
 
 namespace roboss {
 

@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-#include "physics/contact.h"
+#include "physics/contact/contact.h"
 
 namespace roboss {
 

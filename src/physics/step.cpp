@@ -9,9 +9,9 @@
 #include "core/float_env.h"
 #include "core/make_room.h"
 #include "core/union_find.h"
-#include "physics/coarse_bound.h"
-#include "physics/lane_stepper.h"
-#include "physics/meetings.h"
+#include "physics/contact/coarse_bound.h"
+#include "physics/contact/meetings.h"
+#include "physics/lanes/lane_stepper.h"
 #include "physics/robot_group.h"
 #include "physics/tick.h"
 

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "physics/robot_work.h"
+#include "physics/dynamics/robot_work.h"
 #include "physics/step.h"
 
 namespace roboss {

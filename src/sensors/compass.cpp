@@ -1,7 +1,7 @@
 // The gyrocompass: orientation, turning rate, and the heading against true north at the sensor's own position
 // (the meridians of a wide world are not parallel). Its noise (rad) turns the reading about the vertical;
 // heading and orientation agree.
-#include "physics/kinematics.h"
+#include "physics/dynamics/kinematics.h"
 #include "sensors/geodesy.h"
 #include "sensors/readings.h"
 #include "sensors/sensor_noise.h"

@@ -1,6 +1,6 @@
 // The GPS receiver: position and velocity with their own horizontal (world x, y) and vertical (world z)
 // noise; latitude, longitude and altitude follow from the noisy position.
-#include "physics/kinematics.h"
+#include "physics/dynamics/kinematics.h"
 #include "sensors/geodesy.h"
 #include "sensors/readings.h"
 #include "sensors/sensor_noise.h"

@@ -1,7 +1,7 @@
 // The IMU. The acceleration is the change of the sensor's velocity over the tick that begins at the observed
 // states, which the probe steps: a state holds velocities but no accelerations, and a Client does not see
 // every tick.
-#include "physics/kinematics.h"
+#include "physics/dynamics/kinematics.h"
 #include "physics/probe.h"
 #include "sensors/readings.h"
 #include "sensors/sensor_noise.h"

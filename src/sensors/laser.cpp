@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/fixed_math.h"
-#include "physics/kinematics.h"
+#include "physics/dynamics/kinematics.h"
 #include "sensors/readings.h"
 #include "sensors/sensor_noise.h"
 

@@ -1,7 +1,7 @@
 // The odometer: joint encoders, and with a wheel radius the distance and speed that they amount to. Its noise
 // is a fraction: mean and bias are an error of the wheel's radius, kept through the run; the draw of each
 // tick disturbs the speed only (over many ticks such draws cancel out).
-#include "physics/kinematics.h"
+#include "physics/dynamics/kinematics.h"
 #include "sensors/readings.h"
 #include "sensors/sensor_noise.h"
 

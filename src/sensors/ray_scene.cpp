@@ -6,7 +6,7 @@
 
 #include "core/check.h"
 #include "core/float_env.h"
-#include "physics/kinematics.h"
+#include "physics/dynamics/kinematics.h"
 #include "sensors/ray_shape.h"
 #include "sensors/ray_tree.h"
 #include "sensors/readings.h"

@@ -15,8 +15,8 @@
 #include "journal/run_log.h"
 #include "journal/saved_run.h"
 #include "physics/probe.h"
-#include "roles/controller.h"
-#include "roles/simulator.h"
+#include "roles/controller/controller.h"
+#include "roles/simulator/simulator.h"
 
 namespace roboss {
 

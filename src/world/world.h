@@ -69,7 +69,7 @@ struct GeometrySpec {
 };
 
 /// How a collision rubs, bounces and gives way (SDF `<surface>`). How two of them combine:
-/// physics/surface_pair.h.
+/// physics/contact/surface_pair.h.
 struct SurfaceSpec {
     double mu = 1.0;                 ///< friction coefficient, SDF `<ode><mu>`
     double mu2 = 1.0;                ///< across `fdir1`, SDF `<ode><mu2>`; without `fdir1` it has no effect

@@ -8,9 +8,9 @@
 #include <support/robots.h>
 
 #include "model/coordinates.h"
-#include "physics/equality.h"
-#include "physics/robot_work.h"
-#include "physics/tree_factor.h"
+#include "physics/dynamics/equality.h"
+#include "physics/dynamics/robot_work.h"
+#include "physics/dynamics/tree_factor.h"
 
 namespace roboss::test {
 

@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 
 #include "model/coordinates.h"
-#include "physics/kinematics.h"
+#include "physics/dynamics/kinematics.h"
 #include "world/joint_type.h"
 
 namespace roboss::test {

@@ -7,8 +7,8 @@
 
 #include "accelerations.h"
 #include "mujoco_oracle.h"
-#include "physics/robot_work.h"
-#include "physics/tree_factor.h"
+#include "physics/dynamics/robot_work.h"
+#include "physics/dynamics/tree_factor.h"
 
 namespace roboss::test {
 namespace {

@@ -8,8 +8,8 @@
 #include "accelerations.h"
 #include "dense_dynamics.h"
 #include "model/coordinates.h"
-#include "physics/equality.h"
-#include "physics/tree_factor.h"
+#include "physics/dynamics/equality.h"
+#include "physics/dynamics/tree_factor.h"
 
 namespace roboss::test {
 namespace {

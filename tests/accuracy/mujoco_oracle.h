@@ -9,7 +9,7 @@
 
 #include "model/model.h"
 #include "model/robot_state.h"
-#include "physics/kinematics.h"
+#include "physics/dynamics/kinematics.h"
 
 namespace roboss::test {
 

@@ -3,8 +3,8 @@
 
 #include "bus/faulty_bus.h"
 #include "client/bus_client.h"
-#include "roles/controller.h"
-#include "roles/simulator.h"
+#include "roles/controller/controller.h"
+#include "roles/simulator/simulator.h"
 #include "test_worlds.h"
 
 namespace roboss::test {

@@ -8,8 +8,8 @@
 
 #include "bus/faulty_bus.h"
 #include "client/program_host.h"
-#include "roles/controller.h"
-#include "roles/simulator.h"
+#include "roles/controller/controller.h"
+#include "roles/simulator/simulator.h"
 
 namespace roboss::test {
 

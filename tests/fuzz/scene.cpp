@@ -10,7 +10,7 @@
 
 #include "core/check.h"
 #include "model/accuracy.h"
-#include "physics/equality.h"
+#include "physics/dynamics/equality.h"
 
 namespace roboss::fuzz {
 namespace {

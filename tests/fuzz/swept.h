@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "physics/robot_work.h"
+#include "physics/dynamics/robot_work.h"
 
 namespace roboss::fuzz {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "model/loop_closure.h"
-#include "physics/robot_work.h"
+#include "physics/dynamics/robot_work.h"
 
 namespace roboss::test {
 

@@ -12,7 +12,7 @@
 
 #include <support/random.h>
 
-#include "physics/kinematics.h"
+#include "physics/dynamics/kinematics.h"
 #include "physics/step.h"
 
 namespace roboss::test {

@@ -10,7 +10,7 @@
 #include "app/processes/member.h"
 #include "app/processes/threads.h"
 #include "core/hash.h"
-#include "roles/simulator.h"
+#include "roles/simulator/simulator.h"
 
 namespace roboss {
 namespace {

@@ -2,7 +2,7 @@
 #include "app/output/trace_file.h"
 
 #include "app/output/cannot_write.h"
-#include "physics/kinematics.h"
+#include "physics/dynamics/kinematics.h"
 
 namespace roboss {
 

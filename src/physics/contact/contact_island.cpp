@@ -1,0 +1,414 @@
+// See contact_island.h.
+#include "physics/contact/contact_island.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/check.h"
+#include "core/make_room.h"
+#include "physics/dynamics/drag.h"
+#include "physics/dynamics/fast_turning.h"
+#include "physics/dynamics/velocity_forces.h"
+#include "physics/dynamics/warm_start.h"
+#include "physics/solver/row_math.h"
+
+namespace roboss {
+namespace {
+
+/// Marks the robots that a contact pushes, in their velocity or displacement.
+void mark_pushed(std::span<RobotWork> robots, GroupScratch& s) {
+    for (std::size_t c = 0; c < s.rows.contacts.size(); ++c) {
+        const Contact& contact = *s.island_contacts[c];
+        if (contact.impulse <= 0 && s.rows.contacts[c].normal.impulse <= 0) continue;
+        robots[static_cast<std::size_t>(contact.robot_a)].pushed = true;
+        if (contact.robot_b >= 0) robots[static_cast<std::size_t>(contact.robot_b)].pushed = true;
+    }
+}
+
+bool flies(const Model& model, const RobotWork& work, const GroupScratch& s) {
+    return moves_freely(model, work) && !(s.keep_reactions && !work.type->loops.empty());
+}
+
+/// Marks the robots that another robot or scenery pushes, by the impulses of the last solution, and notes
+/// whether the island is anchored: pushed by something that does not move freely.
+void mark_touched(std::span<const RobotWork> robots, GroupScratch& s) {
+    const auto is_fixed = [&](int robot) {
+        return robot < 0 || !robots[static_cast<std::size_t>(robot)].type->free_base;
+    };
+    for (std::size_t c = 0; c < s.rows.contacts.size(); ++c) {
+        const Contact& contact = *s.island_contacts[c];
+        if (s.rows.contacts[c].normal.impulse <= 0 || contact.robot_a == contact.robot_b) continue;
+        s.anchored |= is_fixed(contact.robot_a) || is_fixed(contact.robot_b);
+        s.touched[static_cast<std::size_t>(contact.robot_a)] = 1;
+        if (contact.robot_b >= 0) s.touched[static_cast<std::size_t>(contact.robot_b)] = 1;
+    }
+}
+
+/// Which members drift, and, if any does (then true), the split of the solved impulses. Where nothing pushes
+/// an island from outside its momentum is to stay, and that of its energy that no motor gives: then all
+/// drift. Others do where they turn fast.
+bool choose_drifting(const Model& model, std::span<const RobotWork> robots, GroupScratch& s,
+                     std::span<const std::uint32_t> members) {
+    s.touched.resize(robots.size());
+    for (const std::uint32_t m : members) s.touched[m] = 0;
+    s.anchored = false;
+    mark_touched(robots, s);
+    s.drifts.assign(members.size(), 0);
+    bool any = false;
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        const RobotWork& work = robots[members[m]];
+        if (work.type->nv == 0 || drag_is_stiff(model, work)) continue;
+        const bool kept = s.touched[members[m]]
+                              ? !s.anchored
+                              : work.type->free_base || !is_driven<double>(work.state->motors);
+        if (!kept && !turns_fast<double>(work, model.dt_s)) continue;
+        s.drifts[m] = 1;
+        any = true;
+    }
+    if (any)
+        split_rows({model.accuracy, s.island_robots, s.island_offsets, s.rows}, s.v_before, s.v, model.dt_s,
+                   s.split);
+    return any;
+}
+
+/// Solves for the displacement of the tick, from what stands there.
+void solve_displacement(const Model& model, GroupScratch& s, StepReport& report) {
+    const IslandSolver::Problem problem{model.accuracy, s.island_robots, s.island_offsets, s.rows, true};
+    report.iterations += s.solver.solve(problem, s.displacement).iterations;
+}
+
+/// N m s: what the rows of swept contacts between robots lack of conserving angular momentum. They push both
+/// robots at the place of the impact, but with the arms that it has from where the bodies are at the
+/// beginning.
+Vec3 late_moment(const GroupScratch& s) {
+    Vec3 moment;
+    for (const Contact* c : s.island_contacts) {
+        if (c->time == 0 || c->robot_a == c->robot_b || c->robot_b < 0) continue;
+        const Vec3 push = c->normal * c->impulse + c->friction;
+        moment += cross(c->shift_b, push);
+    }
+    return moment;
+}
+
+/// Moves one member by the kick-drift step.
+void drift(const Model& model, RobotWork& work, std::size_t member, bool touched,
+           std::span<const double> displacement, GroupScratch& s) {
+    const auto offset = static_cast<std::size_t>(s.island_offsets[member]);
+    const auto nv = static_cast<std::size_t>(work.type->nv);
+    const auto own = [&](const auto& array) { return std::span(array).subspan(offset, nv); };
+    SolvedTick solved;
+    solved.velocity = own(s.v), solved.displacement = displacement.subspan(offset, nv);
+    solved.kick = own(s.split.kick), solved.load = own(s.split.load), solved.locked = own(s.split.locked);
+    solved.held = own(s.split.held);
+    solved.isolated = !touched;
+    solved.passive = is_passive(work);
+    s.gained_moment += advance_kick_drift(model, work, solved, s.free_buffer);
+}
+
+/// Writes the solved velocities into the states and moves the coordinates. A robot that is near something but
+/// not pushed moves freely, else a ball would lose height in every tick that it spends close to the ground.
+void finish_island(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
+                   std::span<const std::uint32_t> members, std::span<const double> displacement) {
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        RobotWork& work = robots[members[m]];
+        const auto offset = static_cast<std::size_t>(s.island_offsets[m]);
+        const auto nv = static_cast<std::size_t>(work.type->nv);
+        if (!work.pushed && flies(model, work, s)) {
+            advance_freely(model, work, s.free_buffer);
+            continue;
+        }
+        work.held = true;
+        if (s.drifts[m]) {
+            drift(model, work, m, s.touched[members[m]] != 0, displacement, s);
+            continue;
+        }
+        std::copy_n(s.v.begin() + static_cast<std::ptrdiff_t>(offset), nv, work.state->v.begin());
+        advance_coordinates<double>(*work.type, displacement.subspan(offset, nv), model.dt_s, work.state->q);
+        if (work.type->has_equalities())
+            s.free_buffer.projection.close_coordinates(*work.type, work.state->q);
+    }
+}
+
+/// Gathers rows and first guess of one contact island; true if the displacement of the tick needs a solution
+/// of its own.
+bool gather_island(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
+                   std::span<const std::uint32_t> members, std::span<Contact> contacts) {
+    s.island_robots.clear(), s.island_offsets.clear();
+    s.island_surfaces.clear(), s.rows.clear(), s.v.clear();
+    s.offsets.resize(robots.size());
+    bool split = false;
+    for (std::uint32_t m : members) {
+        RobotWork& work = robots[m];
+        const int offset = static_cast<int>(s.v.size());
+        s.offsets[m] = offset;
+        s.island_robots.push_back(&work);
+        s.island_offsets.push_back(offset);
+        compute_impulse(model, model.dt_s, 1.0, work.state->q, work.state->v, work);
+        compute_mass_matrix<double>(*work.type, model.dt_s, work);
+        limit_velocity_forces(model, work, s.free_buffer);
+        split |= add_joint_rows(model, work, offset, s.buffer, s.rows);
+        s.v.insert(s.v.end(), work.state->v.begin(), work.state->v.end());
+    }
+    for (std::uint32_t m : members) {
+        const std::span<Contact> own = contacts_of(m, contacts);
+        make_room(s.rows.contacts, s.rows.contacts.size() + own.size());
+        make_room(s.island_surfaces, s.island_surfaces.size() + own.size());
+        for (Contact& c : own) {
+            const SurfacePair& surface = s.island_surfaces.emplace_back(surface_of(model, robots, c));
+            split |= add_contact_row(model, c, surface, robots, s.offsets, s.rows);
+            add_angular_row(model, c, surface, robots, s.offsets, s.rows);
+            s.island_contacts.push_back(&c);
+        }
+    }
+    return split;
+}
+
+/// The solved impulses, into motors and contacts: what the next tick starts from.
+void take_impulses(GroupScratch& s) {
+    for (const JointRow& row : s.rows.joints)
+        if (row.motor != nullptr) store_warm_start(row.impulse, *row.motor);
+    for (const CouplingRow& row : s.rows.couplings)
+        if (row.motor != nullptr) store_warm_start(row.impulse, *row.motor);
+    if (s.keep_reactions)
+        for (const CouplingRow& row : s.rows.couplings)
+            if (row.loop >= 0) s.reactions.push_back({row.robot, row.loop, row.wrench * row.impulse});
+    for (std::size_t c = 0; c < s.rows.contacts.size(); ++c)
+        take_impulse(s.rows.contacts[c], s.island_surfaces[c].friction, *s.island_contacts[c]);
+    for (const AngularRow& row : s.rows.angulars) {
+        Contact& contact = *s.island_contacts[row.contact];
+        Vec3 t1, t2;
+        tangents(contact.normal, t1, t2);
+        contact.moment =
+            contact.normal * row.spin.impulse + t1 * row.roll.impulse_1 + t2 * row.roll.impulse_2;
+    }
+}
+
+/// The displacement of the whole island goes back towards its velocity, by one share, so that it still fits
+/// at every contact.
+void limit_correction(std::span<const RobotWork> robots, GroupScratch& s,
+                      std::span<const std::uint32_t> members) {
+    double share = 1;
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        const std::vector<double>& before = robots[members[m]].state->v;
+        const auto part = [&](const std::vector<double>& v) {
+            return std::span(v).subspan(static_cast<std::size_t>(s.island_offsets[m]), before.size());
+        };
+        share = std::min(share, share_of_correction<double>(before, part(s.v), part(s.displacement)));
+    }
+    if (share == 1) return;
+    for (std::size_t i = 0; i < s.v.size(); ++i)
+        s.displacement[i] = s.v[i] + share * (s.displacement[i] - s.v[i]);
+}
+
+/// Lone bodies that hardly turn, before and after the tick.
+bool slides_only(std::span<const RobotWork> robots, const GroupScratch& s,
+                 std::span<const std::uint32_t> members) {
+    constexpr double kTurning = 1e-3;  // rad/s
+    for (std::size_t m = 0; m < members.size(); ++m) {
+        const RobotType& type = *robots[members[m]].type;
+        if (type.nv == 0) continue;
+        if (!type.free_base || type.nv != 6) return false;
+        const auto offset = static_cast<std::size_t>(s.island_offsets[m]);
+        for (std::size_t i = offset; i < offset + 3; ++i)
+            if (std::fabs(s.v_before[i]) > kTurning || std::fabs(s.v[i]) > kTurning) return false;
+    }
+    return true;
+}
+
+/// True if every contact is hard and no normal velocity changes: nothing new touches, nothing lifts off.
+bool contacts_are_steady(const GroupScratch& s, double dt) {
+    constexpr double kNothing = 1e-10;  // m, in the displacement of a tick
+    const ContactColumns& columns = s.rows.columns;
+    for (const ContactRow& row : s.rows.contacts) {
+        if (row.soft) return false;
+        double change = 0;
+        for (std::size_t k = row.first; k < row.last; ++k) {
+            const auto dof = static_cast<std::size_t>(columns.dof[k]);
+            change += columns.n[k] * (s.v[dof] - s.v_before[dof]);
+        }
+        if (std::fabs(change) * dt > 2 * kNothing) return false;
+    }
+    return true;
+}
+
+/// What slides without turning moves by the mean of its velocities before and after the tick, which is exact
+/// while it speeds up or slows down evenly. Only there, for no force on it depends on its place; where one
+/// does (whatever rocks, swings or hangs on a spring) this would add energy to the motion in each tick.
+void take_mean_displacement(std::span<const RobotWork> robots, GroupScratch& s,
+                            std::span<const std::uint32_t> members, bool drifts, double dt) {
+    const bool even = !drifts && slides_only(robots, s, members) && contacts_are_steady(s, dt);
+    s.displacement.resize(s.v.size());
+    for (std::size_t i = 0; i < s.v.size(); ++i)
+        s.displacement[i] = even ? 0.5 * (s.v_before[i] + s.v[i]) : s.v[i];
+}
+
+/// False for what the second look cannot compute with: it ends the run, or soon will.
+bool is_plausible(std::span<const double> x) {
+    constexpr double kMost = 1e7;  // m, rad, m/s, rad/s
+    return std::ranges::all_of(x, [](double each) { return std::fabs(each) < kMost; });
+}
+
+/// From now on no contact asks for more than the displacement gives, and friction is that of the velocities.
+void hold_displacement(GroupScratch& s, bool split) {
+    for (ContactRow& row : s.rows.contacts) {
+        const jacobian::Along<double> u =
+            jacobian::along(s.rows.columns, row.first, row.last, s.displacement);
+        row.normal.position_target = std::min(row.normal.position_target, u.n);
+        if (!split) row.slip.bound = row.slip.coefficient * row.normal.impulse;
+    }
+}
+
+/// Stops the displacement at the first hit. Where robots hit only each other, their centre of mass goes on:
+/// it is their motion relative to it that stops.
+void stop_at_first_hit(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
+                       std::span<const std::uint32_t> members) {
+    const double share = s.look.first_time() / model.dt_s;
+    const auto flies = [&](int robot) {
+        return robot >= 0 && robots[static_cast<std::size_t>(robot)].type->free_base;
+    };
+    const bool free = !s.anchored && std::ranges::all_of(s.look.hits(), [&](const Contact& hit) {
+        return flies(hit.robot_a) && flies(hit.robot_b);
+    });
+    BodySums all;
+    for (std::size_t m = 0; free && m < members.size(); ++m) {
+        const RobotWork& robot = robots[members[m]];
+        if (!robot.type->free_base) continue;
+        const auto own = std::span(s.displacement)
+                             .subspan(static_cast<std::size_t>(s.island_offsets[m]),
+                                      static_cast<std::size_t>(robot.type->nv));
+        s.free_buffer.work.type = robot.type, s.free_buffer.work.state = robot.state;
+        all += sum_bodies(model, robot.state->q, own, robot.origin, s.free_buffer.work);
+    }
+    const Vec3 common = all.inertia.mass > 0 ? all.momentum.linear * (1.0 / all.inertia.mass) : Vec3{};
+    for (double& x : s.displacement) x *= share;
+    for (std::size_t m = 0; free && m < members.size(); ++m) {
+        if (!robots[members[m]].type->free_base) continue;
+        const auto linear = static_cast<std::size_t>(s.island_offsets[m]) + 3;
+        for (std::size_t i = 0; i < 3; ++i) s.displacement[linear + i] += (1 - share) * common[i];
+    }
+}
+
+/// Keeps the displacement from what it would hit beyond the contacts that it was solved for. What a few
+/// rounds do not settle stops at the first hit.
+void stop_late_hits(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
+                    std::span<const std::uint32_t> members, bool split, StepReport& report) {
+    constexpr int kRounds = 4;
+    s.look.clear();
+    if (!is_plausible(s.displacement)) return;
+    const std::size_t found = s.island_contacts.size();
+    for (int round = 0; round <= kRounds; ++round) {
+        const SolvedIsland island{model,
+                                  robots,
+                                  members,
+                                  s.offsets,
+                                  s.finder.near_misses(),
+                                  {s.island_contacts.data(), found},
+                                  s.displacement,
+                                  s.finder.free_courses()};
+        if (!s.look.find(island, round == 0)) break;
+        if (round == kRounds) {
+            stop_at_first_hit(model, robots, s, members);
+            break;
+        }
+        if (round == 0) hold_displacement(s, split);
+        for (const Contact& hit : s.look.hits()) {
+            if (hit.robot_b < 0) continue;
+            robots[static_cast<std::size_t>(hit.robot_a)].touches_robot = true;
+            robots[static_cast<std::size_t>(hit.robot_b)].touches_robot = true;
+        }
+        s.look.add_rows(island, s.rows, s.island_surfaces);
+        solve_displacement(model, s, report);
+    }
+    s.island_contacts.resize(found);
+    for (Contact& hit : s.look.hits()) s.island_contacts.push_back(&hit);
+    if (s.island_contacts.size() > found) mark_pushed(robots, s);
+}
+
+/// True if the island's energy is to be guarded.
+bool start_guard(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
+                 std::span<const std::uint32_t> members, bool bounces, bool drifts) {
+    IslandGuard::Island island{members,           s.island_offsets,  s.v_before,
+                               s.island_surfaces, s.island_contacts, s.rows};
+    island.touched = std::ranges::any_of(members, [&](std::uint32_t m) { return s.touched[m] != 0; });
+    island.anchored = s.anchored, island.bounces = bounces, island.drifts = drifts;
+    return s.guard.start(model, robots, island, s.free_buffer.work);
+}
+
+}  // namespace
+
+ContactIsland::ContactIsland(const Model& model, std::span<RobotWork> robots,
+                             std::span<const std::uint32_t> members, GroupScratch& scratch,
+                             StepReport& report)
+    : model_(model), robots_(robots), members_(members), s_(scratch), report_(report) {
+    ROBOSS_CHECK(!members.empty(), "a contact island without robots");
+    s_.island_contacts.clear();
+    if (members.size() > 1) return;
+    const RobotWork& work = robots[members[0]];
+    has_rows_ = work.type->nv > 0 && (work.contacts > 0 || !flies(model, work, s_));
+}
+
+void ContactIsland::build_rows() {
+    needs_displacement_ = gather_island(model_, robots_, s_, members_, s_.contacts);
+    s_.v_before = s_.v;
+    ROBOSS_CHECK(s_.rows.contacts.size() == s_.island_contacts.size() &&
+                     s_.rows.contacts.size() == s_.island_surfaces.size(),
+                 std::to_string(s_.rows.contacts.size()) + " contact rows, " +
+                     std::to_string(s_.island_contacts.size()) + " contacts");
+}
+
+void ContactIsland::solve_velocities() {
+    const SolveReport solved =
+        s_.solver.solve({model_.accuracy, s_.island_robots, s_.island_offsets, s_.rows}, s_.v);
+    report_.iterations += solved.iterations;
+    report_.residual = std::max(report_.residual, solved.residual);
+    ROBOSS_CHECK(s_.v.size() == s_.v_before.size(), std::to_string(s_.v.size()));
+    drifts_ = choose_drifting(model_, robots_, s_, members_);
+    take_impulses(s_);
+    bounces_ = throws_back(s_.rows);
+}
+
+void ContactIsland::solve_displacements() {
+    if (needs_displacement_) {
+        s_.displacement = s_.v;
+        for (ContactRow& row : s_.rows.contacts) row.slip.bound = row.slip.coefficient * row.normal.impulse;
+        solve_displacement(model_, s_, report_);
+        limit_correction(robots_, s_, members_);
+    } else {
+        take_mean_displacement(robots_, s_, members_, drifts_, model_.dt_s);
+    }
+    mark_pushed(robots_, s_);
+    stop_late_hits(model_, robots_, s_, members_, needs_displacement_, report_);
+    mark_touched(robots_, s_);
+}
+
+void ContactIsland::integrate() {
+    if (!has_rows_) {
+        RobotWork& work = robots_[members_[0]];
+        if (work.type->nv > 0) advance_freely(model_, work, s_.free_buffer);
+        return;
+    }
+    s_.gained_moment = {};
+    guards_energy_ = start_guard(model_, robots_, s_, members_, bounces_, drifts_);
+    ROBOSS_CHECK(s_.displacement.size() == s_.v.size(), std::to_string(s_.displacement.size()));
+    finish_island(model_, robots_, s_, members_, s_.displacement);
+}
+
+void ContactIsland::guard() {
+    if (!has_rows_) return;
+    const auto moved_well = [&](std::uint32_t m) {
+        return is_plausible(robots_[m].state->q) && is_plausible(robots_[m].state->v);
+    };
+    if (s_.look.may_push_out() && std::ranges::all_of(members_, moved_well))
+        s_.look.push_out(robots_, model_);
+    if (!s_.anchored)
+        if (const Vec3 moment = late_moment(s_) - s_.gained_moment; moment != Vec3{})
+            turn_island(model_, robots_, members_, moment, s_.free_buffer.work);
+    if (guards_energy_) s_.guard.finish(model_, robots_, members_, s_.free_buffer.work);
+}
+
+void ContactIsland::put_to_sleep() {
+    settle_island(model_, robots_, members_, s_.island_contacts);
+}
+
+}  // namespace roboss

@@ -1,0 +1,93 @@
+// Friction bounds follow the normal impulses: in steps between Newton's, or together with the velocities.
+#pragma once
+
+#include "physics/solver/row_math.h"
+
+namespace roboss {
+namespace friction {
+
+/// Moves a friction bound towards what the normal impulse allows. Where more friction means less pressure the
+/// plain update swings for ever between two values, so a swing that hardly shrinks halves the step.
+template <class T>
+void update_bound(const T& wanted, T& bound, T& last_error, T& relaxation) {
+    constexpr double kSlowest = 0.05, kRecovery = 1.2;
+    const T error = wanted - bound;
+    const MaskOf<T> swings = (error * last_error < T(0)) & (magnitude(error) > 0.8 * magnitude(last_error));
+    relaxation = select(swings, larger(0.5 * relaxation, T(kSlowest)), smaller(kRecovery * relaxation, T(1)));
+    last_error = error;
+    bound += relaxation * error;
+}
+
+/// The disc's bound follows the normal impulse; returns the change of its impulse if it did so at full step.
+template <class T>
+T update_disc(FrictionDiscT<T>& disc, const T& normal_impulse) {
+    if (disc.coefficient == 0) return 0;
+    const T wanted = disc.coefficient * normal_impulse;
+    const TangentialT<T> before = impulse_at(disc, disc.u_1, disc.u_2, disc.bound);
+    const TangentialT<T> after = impulse_at(disc, disc.u_1, disc.u_2, wanted);
+    update_bound(wanted, disc.bound, disc.bound_error, disc.relaxation);
+    return magnitude(after.t1 - before.t1) + magnitude(after.t2 - before.t2);
+}
+
+template <class T>
+void update_spin(AngularRowT<T>& row, const T& normal_impulse) {
+    update_bound(row.torsional * normal_impulse, row.spin.high, row.spin_error, row.spin_relaxation);
+    row.spin.low = -row.spin.high;
+}
+
+/// All friction bounds follow the normal impulses; returns how much friction that would change at full step,
+/// relative to the largest normal impulse (moments are compared by the radius that their coefficient is).
+template <class T>
+T update_bounds(IslandRowsT<T>& rows) {
+    T largest = 0, change = 0;
+    for (ContactRowT<T>& row : rows.contacts) {
+        largest = larger(largest, row.normal.impulse);
+        change = larger(change, update_disc(row.slip, row.normal.impulse));
+    }
+    for (AngularRowT<T>& row : rows.angulars) {
+        const T normal = rows.contacts[row.contact].normal.impulse;
+        if (row.torsional > 0) {
+            change = larger(change, magnitude(row.torsional * normal - row.spin.high) / T(row.torsional));
+            update_spin(row, normal);
+        }
+        if (row.roll.coefficient > 0)
+            change = larger(change, update_disc(row.roll, normal) / T(row.roll.coefficient));
+    }
+    return select(largest > T(0), change / largest, T(0));
+}
+
+/// Every friction bound as the normal impulse at the present velocity says.
+template <class T>
+void tie_bounds(IslandRowsT<T>& rows) {
+    for (ContactRowT<T>& row : rows.contacts)
+        row.slip.bound = row.slip.coefficient * impulse_at(row.normal, row.normal.u);
+    for (AngularRowT<T>& row : rows.angulars) {
+        const BoundedRowT<T>& normal = rows.contacts[row.contact].normal;
+        const T impulse = impulse_at(normal, normal.u);
+        row.roll.bound = row.roll.coefficient * impulse;
+        row.spin.high = row.torsional * impulse, row.spin.low = -row.spin.high;
+    }
+}
+
+/// Derivatives of sliding friction by the normal velocity; true where anything slides.
+template <class T>
+MaskOf<T> couple_bounds(IslandRowsT<T>& rows) {
+    using std::sqrt;
+    MaskOf<T> slides = false;
+    for (ContactRowT<T>& row : rows.contacts) {
+        FrictionDiscT<T>& disc = row.slip;
+        const MaskOf<T> pressed = (!equal(row.normal.d, T(0))) & (disc.bound > T(0));
+        if (!any(pressed)) continue;
+        const T speed = sqrt(disc.u_1 * disc.u_1 + disc.u_2 * disc.u_2);
+        const MaskOf<T> here = pressed & is_sliding(disc, speed);
+        if (!any(here)) continue;
+        const T share = -disc.coefficient * row.normal.d / speed;
+        disc.d_1n = select(here, share * disc.u_1, disc.d_1n);
+        disc.d_2n = select(here, share * disc.u_2, disc.d_2n);
+        slides = slides | here;
+    }
+    return slides;
+}
+
+}  // namespace friction
+}  // namespace roboss

@@ -1,0 +1,384 @@
+// See second_look.h.
+#include "physics/contact/second_look.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/make_room.h"
+#include "geometry/collide.h"
+#include "physics/contact/island_guard.h"
+
+namespace roboss {
+namespace {
+
+NearMiss pair_of(const Contact& c) {
+    return {c.robot_a, c.robot_b, c.shape_a, c.shape_b};
+}
+
+bool is_plane(const Model& model, const Contact& c) {
+    return c.robot_b < 0 && model.statics[c.shape_b].shape.kind == ShapeKind::kPlane;
+}
+
+/// Upper bound of what turns_far asks, from the joints' velocities alone.
+bool may_turn_far(const RobotType& type, std::span<const double> displacement, double dt) {
+    constexpr double kArc = 2e-4;  // m
+    double turning = 0;
+    for (std::size_t i = 0; i < displacement.size(); ++i)
+        if (!type.free_base || i < 3 || i > 5) turning += std::fabs(displacement[i]);
+    return 0.5 * turning * turning * dt * dt * type.reach > kArc;
+}
+
+/// Whether the robot's points may move further than their speeds before the tick say, by more than is allowed
+/// for anyhow.
+bool is_struck(const RobotWork& robot, std::span<const double> displacement, double dt) {
+    double change = 0;
+    for (std::size_t i = 0; i < displacement.size(); ++i) {
+        const bool is_linear = robot.type->free_base && i >= 3 && i < 6;
+        change += std::fabs(displacement[i] - robot.state->v[i]) *
+                  (is_linear ? 1.0 : std::max(1.0, robot.type->reach));
+    }
+    return robot.pushed && change * dt > kBaseMargin;
+}
+
+double speed_of(const Course& c) {
+    return norm(c.velocity(c.X.p, 0)) + c.turning;
+}
+
+/// 1/kg: how easily a robot is moved as a whole; 0 if it stands on a fixed base.
+double inverse_mass_of(const RobotWork& robot) {
+    if (!robot.type->free_base) return 0;
+    double mass = 0;
+    for (const Body& body : robot.type->bodies) mass += body.mass;
+    return mass > 0 ? 1 / mass : 0;
+}
+
+void shift_base(const Vec3& by, RobotState& state) {
+    state.q[0] += by.x, state.q[1] += by.y, state.q[2] += by.z;
+}
+
+}  // namespace
+
+/// Whether a contact or a hit found already pushes the robot.
+bool SecondLook::is_pushed(const SolvedIsland& island, int robot) const {
+    return island.robots[static_cast<std::size_t>(robot)].pushed ||
+           std::ranges::any_of(
+               hits_, [&](const Contact& hit) { return hit.robot_a == robot || hit.robot_b == robot; });
+}
+
+/// Whether what happens to the robot in this tick may differ from what was known before solving.
+bool SecondLook::is_bent(const SolvedIsland& island, int robot) const {
+    if (robot < 0) return false;
+    const auto i = static_cast<std::size_t>(robot);
+    const RobotWork& work = island.robots[i];
+    const bool lone = work.type->nv == 6 && work.type->free_base;
+    return is_pushed(island, robot) || !(lone || island.free_courses.knows(island.model, work, i));
+}
+
+/// The robot with the velocities of its displacement.
+const Mechanics<double>& SecondLook::moved(const SolvedIsland& island, int robot) {
+    const auto i = static_cast<std::size_t>(robot);
+    const RobotWork& work = island.robots[i];
+    Mechanics<double>& to = moved_[i];
+    if (is_moved_[i]) return to;
+    is_moved_[i] = 1;
+    to.type = work.type, to.origin = work.origin;
+    to.bodies = work.bodies, to.axes = work.axes, to.shapes = work.shapes;
+    const auto first = static_cast<std::size_t>(island.offsets[i]);
+    if (work.type->nv > 0)
+        forward_velocities<double>(
+            *work.type, island.displacement.subspan(first, static_cast<std::size_t>(work.type->nv)), to);
+    return to;
+}
+
+Course SecondLook::course(const SolvedIsland& island, int robot, std::uint32_t shape) {
+    if (robot < 0) {
+        const StaticShape& scenery = island.model.statics[shape];
+        return resting_course(scenery.shape, scenery.X_WS);
+    }
+    const auto i = static_cast<std::size_t>(robot);
+    if (!is_pushed(island, robot))
+        if (const auto free = island.free_courses.find(island.model, island.robots[i], i, shape))
+            return *free;
+    return course_of(moved(island, robot), shape);
+}
+
+void SecondLook::add(const SolvedIsland& island, const NearMiss& pair, const Course& a, const Course& b,
+                     double t, const Vec3& normal, const Vec3& p_W, double gap) {
+    const auto body = [&](int robot, std::uint32_t shape) {
+        return robot < 0 ? -1 : island.robots[static_cast<std::size_t>(robot)].type->shapes[shape].body;
+    };
+    make_room(hits_, hits_.size() + 1);
+    Contact& c = hits_.emplace_back();
+    c.robot_a = pair.robot_a, c.robot_b = pair.robot_b;
+    c.shape_a = pair.shape_a, c.shape_b = pair.shape_b;
+    c.body_a = body(pair.robot_a, pair.shape_a), c.body_b = body(pair.robot_b, pair.shape_b);
+    c.normal = normal, c.p_W = p_W, c.gap = gap;
+    take_back(a, b, t, c);
+}
+
+/// The planes of a surface that hold a shape already.
+void SecondLook::hold_planes(const SolvedIsland& island, const NearMiss& pair) {
+    buffers_.held.clear();
+    const auto i = static_cast<std::size_t>(pair.robot_a);
+    const Course before = known_course(island.model, island.robots[i], i, pair.shape_a, island.free_courses);
+    for (const Contact* c : island.contacts)
+        if (pair_of(*c) == pair) buffers_.held.push_back({c->normal, c->p_W + before.shift(c->time)});
+}
+
+void SecondLook::find_missed(const SolvedIsland& island, const NearMiss& pair) {
+    const Model& model = island.model;
+    if (!is_bent(island, pair.robot_a) && !is_bent(island, pair.robot_b)) return;
+    const Course a = course(island, pair.robot_a, pair.shape_a);
+    const Course b = course(island, pair.robot_b, pair.shape_b);
+    if (b.shape->kind == ShapeKind::kSurface) {
+        const double margin = speed_of(a) * model.dt_s + 2 * kBaseMargin;
+        hold_planes(island, pair);
+        const TriangleSurface& surface = *b.shape->surface;
+        const auto t = time_of_impact(a, surface, b.X, model.dt_s, kDeep, margin, buffers_.held,
+                                      buffers_.there.triangles);
+        if (!t) return;
+        find_met(*a.shape, a.at(*t), surface, b.X, margin, buffers_);
+        for (const SurfaceContact& c : buffers_.met) add(island, pair, a, b, *t, c.n_W, c.p_W, c.gap);
+        return;
+    }
+    add_first_hit(island, pair, a, b);
+}
+
+/// Where two convex shapes meet first. False if they do not.
+bool SecondLook::add_first_hit(const SolvedIsland& island, const NearMiss& pair, const Course& a,
+                               const Course& b) {
+    const double dt = island.model.dt_s, margin = (speed_of(a) + speed_of(b)) * dt + 2 * kBaseMargin;
+    Manifold m = collide(*a.shape, a.X, *b.shape, b.X, margin);
+    if (m.count == 0) return false;
+    const auto t = time_of_impact(a, b, dt, kDeep, margin, m);
+    if (!t) return false;
+    for (int i = 0; i < m.count; ++i) {
+        const ContactPoint& p = m.points[static_cast<std::size_t>(i)];
+        add(island, pair, a, b, *t, m.n_W, p.p_W, p.gap);
+    }
+    return true;
+}
+
+/// A robot that another one strikes may move further than contacts were searched for. So far only scenery is
+/// looked for: another robot there may be none of the group.
+void SecondLook::find_struck(const SolvedIsland& island, std::uint32_t robot) {
+    const RobotWork& work = island.robots[robot];
+    const Model& model = island.model;
+    const Mechanics<double>& to = moved(island, static_cast<int>(robot));
+    for (std::size_t s = 0; s < work.shapes.size(); ++s) {
+        const BodyShape& shape = work.type->shapes[s];
+        if (shape.body < 0) continue;
+        const double reach = speed_of(course_of(to, s)) * model.dt_s + kBaseMargin;
+        if (reach <= work.shapes[s].margin) continue;
+        model.static_bvh.query(bounds(shape.shape, work.shapes[s].X_WS).inflated(reach), scenery_);
+        for (const std::uint32_t i : scenery_) {
+            const StaticShape& scenery = model.statics[i];
+            const NearMiss pair{static_cast<int>(robot), -1, static_cast<std::uint32_t>(s), i};
+            const bool is_known =
+                std::ranges::binary_search(island.near_misses, pair) ||
+                std::ranges::any_of(island.contacts, [&](const Contact* c) { return pair_of(*c) == pair; });
+            if (is_known || scenery.shape.kind == ShapeKind::kPlane) continue;
+            if (may_collide(shape.material, scenery.material)) find_missed(island, pair);
+        }
+    }
+}
+
+/// The least gap of two shapes at time t, if they overlap.
+double SecondLook::gap_at(const Course& a, const Course& b, double t) {
+    if (b.shape->kind != ShapeKind::kSurface)
+        return least_gap(collide(*a.shape, a.at(t), *b.shape, b.at(t), 0));
+    collide_surface(*a.shape, a.at(t), *b.shape->surface, b.X, 0, buffers_.there);
+    double gap = 0;
+    for (const SurfaceContact& c : buffers_.there.points) gap = std::min(gap, c.gap);
+    return gap;
+}
+
+/// The last time before two shapes first sink deeper than `least`, if they do in the tick.
+std::optional<double> SecondLook::time_of_sinking(const Course& a, const Course& b, double dt, double least) {
+    constexpr int kParts = 8, kHalvings = 6;
+    const auto sinks = [&](double t) { return gap_at(a, b, t) < least - kDeep; };
+    double low = 0, high = 0;
+    for (int part = 1; part <= kParts && (high == 0 || !sinks(high)); ++part)
+        low = high, high = part == kParts ? dt : part * dt / kParts;
+    if (high == dt && !sinks(dt)) return std::nullopt;
+    for (int i = 0; i < kHalvings; ++i) {
+        const double middle = 0.5 * (low + high);
+        (sinks(middle) ? high : low) = middle;
+    }
+    return low;
+}
+
+/// `contacts`: of one pair of shapes. At the end of the tick no point may be deeper than it was at its
+/// beginning. Where a thin shape has come out behind the other, the end says nothing of where it went in.
+void SecondLook::find_turned(const SolvedIsland& island, std::span<const Contact* const> contacts) {
+    const NearMiss pair = pair_of(*contacts.front());
+    const double dt = island.model.dt_s;
+    double least = 0;
+    for (const Contact* c : contacts) least = std::min(least, c->gap);
+    const Course a = course(island, pair.robot_a, pair.shape_a);
+    const Course b = course(island, pair.robot_b, pair.shape_b);
+    const auto turns = [&](const Course& c) { return turns_far<double>(*c.shape, c.X.R, c.angular, dt); };
+    if (!turns(a) && !turns(b)) return;
+    if (first_) turned_.push_back({pair, least, contacts.front()->normal});
+    const std::size_t known = hits_.size();
+    const auto see = [&](const Vec3& normal, const Vec3& p_W, double gap) {
+        if (gap < least - kDeep) add(island, pair, a, b, dt, normal, p_W, gap - least);
+    };
+    const auto set_time = [&] {
+        if (hits_.size() == known) return;
+        const double time = time_of_sinking(a, b, dt, least).value_or(dt);
+        for (std::size_t h = known; h < hits_.size(); ++h) hits_[h].time = time;
+    };
+    if (b.shape->kind == ShapeKind::kSurface) {
+        collide_surface(*a.shape, a.at(dt), *b.shape->surface, b.X, 0, buffers_.there);
+        for (const SurfaceContact& c : buffers_.there.points) see(c.n_W, c.p_W, c.gap);
+        if (!buffers_.there.points.empty()) return set_time();
+        const std::optional<double> t = time_of_sinking(a, b, dt, least);
+        if (!t) return;
+        collide_surface(*a.shape, a.at(*t), *b.shape->surface, b.X, kDeep, buffers_.there);
+        for (const SurfaceContact& c : buffers_.there.points)
+            add(island, pair, a, b, *t, c.n_W, c.p_W, c.gap - least);
+        return;
+    }
+    const Manifold m = collide(*a.shape, a.at(dt), *b.shape, b.at(dt), 0);
+    const bool is_behind =
+        std::ranges::all_of(contacts, [&](const Contact* c) { return dot(c->normal, m.n_W) < 0; });
+    if (m.count > 0 && is_behind && add_first_hit(island, pair, a, b)) return;
+    for (int i = 0; i < m.count; ++i)
+        see(m.n_W, m.points[static_cast<std::size_t>(i)].p_W, m.points[static_cast<std::size_t>(i)].gap);
+    set_time();
+}
+
+/// False if there is nothing to look at.
+bool SecondLook::start(const SolvedIsland& island) {
+    const std::size_t count = island.robots.size();
+    if (moved_.size() < count) moved_.resize(count), is_moved_.resize(count), turns_.resize(count);
+    bool any = false;
+    strikes_ = false;
+    for (const std::uint32_t m : island.members) {
+        const RobotType& type = *island.robots[m].type;
+        const auto nv = static_cast<std::size_t>(type.nv);
+        const auto displacement =
+            island.displacement.subspan(static_cast<std::size_t>(island.offsets[m]), nv);
+        is_moved_[m] = 0;
+        turns_[m] = may_turn_far(type, displacement, island.model.dt_s);
+        strikes_ |= island.members.size() > 1 && is_struck(island.robots[m], displacement, island.model.dt_s);
+        any |= turns_[m] != 0 || !misses_of(m, island.near_misses).empty();
+    }
+    return any || strikes_;
+}
+
+bool SecondLook::find(const SolvedIsland& island, bool first) {
+    if (first) hits_.clear(), turned_.clear();
+    known_ = hits_.size(), first_ = first;
+    if (!start(island)) return false;
+    for (const std::uint32_t m : island.members)
+        for (const NearMiss& pair : misses_of(m, island.near_misses)) find_missed(island, pair);
+    for (const std::uint32_t m : island.members)
+        if (strikes_) find_struck(island, m);
+    const auto turns = [&](int robot) { return robot >= 0 && turns_[static_cast<std::size_t>(robot)] != 0; };
+    for (std::size_t c = 0; c < island.contacts.size();) {
+        const Contact& contact = *island.contacts[c];
+        std::size_t end = c + 1;
+        while (end < island.contacts.size() && pair_of(*island.contacts[end]) == pair_of(contact)) ++end;
+        if (!is_plane(island.model, contact) && (turns(contact.robot_a) || turns(contact.robot_b)))
+            find_turned(island, island.contacts.subspan(c, end - c));
+        c = end;
+    }
+    watch_hits();
+    return hits_.size() > known_;
+}
+
+/// What was hit is looked at after the motion too.
+void SecondLook::watch_hits() {
+    for (std::size_t h = known_; h < hits_.size(); ++h) {
+        const NearMiss pair = pair_of(hits_[h]);
+        const auto is_known = [&](const Turned& turned) { return turned.pair == pair; };
+        if (std::ranges::none_of(turned_, is_known)) turned_.push_back({pair, 0, hits_[h].normal});
+    }
+}
+
+double SecondLook::first_time() const {
+    double first = hits_[known_].time;
+    for (std::size_t h = known_; h < hits_.size(); ++h) first = std::min(first, hits_[h].time);
+    return first;
+}
+
+const ShapeWork& SecondLook::placed(const RobotWork& robot, std::uint32_t shape) {
+    forward_kinematics<double>(*robot.type, robot.state->q, placed_);
+    place_shapes<double>(*robot.type, 0, robot.state->q, placed_);
+    return placed_.shapes[shape];
+}
+
+/// True if something was moved. Of two robots that are free the lighter one gives way more.
+bool SecondLook::push_out(std::span<RobotWork> robots, const Model& model, const Turned& turned) {
+    const NearMiss& pair = turned.pair;
+    RobotWork& a = robots[static_cast<std::size_t>(pair.robot_a)];
+    const Shape& shape = a.type->shapes[pair.shape_a].shape;
+    const Transform X = placed(a, pair.shape_a).X_WS;
+    Vec3 normal;
+    double deepest = turned.least - kDeep;
+    const auto see = [&](const Vec3& n, double gap) {
+        if (gap < deepest) deepest = gap, normal = n;
+    };
+    RobotWork* b = pair.robot_b < 0 ? nullptr : &robots[static_cast<std::size_t>(pair.robot_b)];
+    const Shape& other =
+        b == nullptr ? model.statics[pair.shape_b].shape : b->type->shapes[pair.shape_b].shape;
+    if (other.kind == ShapeKind::kSurface) {
+        collide_surface(shape, X, *other.surface, model.statics[pair.shape_b].X_WS, 0, buffers_.there);
+        for (const SurfaceContact& c : buffers_.there.points) see(c.n_W, c.gap);
+    } else {
+        const Transform X_other =
+            b == nullptr ? model.statics[pair.shape_b].X_WS : placed(*b, pair.shape_b).X_WS;
+        const Manifold m = collide(shape, X, other, X_other, 0);
+        see(m.n_W, least_gap(m));
+    }
+    const double inverse_mass_a = inverse_mass_of(a),
+                 inverse_mass_b = b == nullptr || b == &a ? 0 : inverse_mass_of(*b);
+    if (normal == Vec3{} || inverse_mass_a + inverse_mass_b == 0 || b == &a) return false;
+    if (dot(normal, turned.normal) <= 0) return false;  // the way out of the other side
+    const Vec3 push = normal * ((turned.least - deepest) / (inverse_mass_a + inverse_mass_b));
+    if (inverse_mass_a == 0 || inverse_mass_b == 0) {
+        shift_base(push * inverse_mass_a, *a.state);
+        if (inverse_mass_b > 0) shift_base(push * -inverse_mass_b, *b->state);
+    } else {
+        move_apart(model, robots, pair, push * inverse_mass_a, push * -inverse_mass_b);
+    }
+    return true;
+}
+
+/// Moves two free robots and keeps their common angular momentum: it would change by move x momentum.
+void SecondLook::move_apart(const Model& model, std::span<RobotWork> robots, const NearMiss& pair,
+                            const Vec3& move_a, const Vec3& move_b) {
+    const std::array both{static_cast<std::uint32_t>(pair.robot_a), static_cast<std::uint32_t>(pair.robot_b)};
+    const Vec3 origin = robots[both[0]].origin;
+    const Spatial before = sum_robots(model, robots, both, origin, placed_).momentum;
+    shift_base(move_a, *robots[both[0]].state), shift_base(move_b, *robots[both[1]].state);
+    const BodySums sums = sum_robots(model, robots, both, origin, placed_);
+    const Spatial missing{before.angular - sums.momentum.angular, before.linear - sums.momentum.linear};
+    add_momentum(robots, both, sums, missing, origin);
+}
+
+void SecondLook::push_out(std::span<RobotWork> robots, const Model& model) {
+    constexpr int kRounds = 4;
+    for (int round = 0; round < kRounds; ++round) {
+        bool any = false;
+        for (const Turned& turned : turned_) any |= push_out(robots, model, turned);
+        if (!any) return;
+    }
+}
+
+void SecondLook::add_rows(const SolvedIsland& island, IslandRows& rows, std::vector<SurfacePair>& surfaces) {
+    make_room(rows.contacts, rows.contacts.size() + hits_.size() - known_);
+    make_room(surfaces, surfaces.size() + hits_.size() - known_);
+    for (std::size_t h = known_; h < hits_.size(); ++h) {
+        const Contact& c = hits_[h];
+        const SurfacePair& surface = surfaces.emplace_back(surface_of(island.model, island.robots, c));
+        add_contact_row(island.model, c, surface, island.robots, island.offsets, rows);
+        ContactRow& row = rows.contacts.back();
+        row.normal.target = row.normal.position_target = -c.gap / island.model.dt_s;
+        row.normal.compliance = row.inverse_effective_mass * new_compliance<double>(island.model.accuracy);
+    }
+}
+
+}  // namespace roboss

@@ -1,0 +1,192 @@
+// See equality.h.
+#include "physics/dynamics/equality.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "model/coordinates.h"
+#include "model/loop_closure.h"
+#include "physics/dynamics/tree_factor.h"
+
+namespace roboss {
+namespace {
+
+// A row whose free mobility, given the others, is below this share of its nominal one counts as implied by
+// them: hinges of a planar linkage that are parallel to 3e-4 rad do not lock it.
+constexpr double kImplied = 1e-7;
+constexpr double kClosed = 1e-14;  // m or rad
+constexpr double kStepMax = 0.2;   // rad or m, of one Newton step
+constexpr int kNewtonMax = 4;      // of one tick
+
+BodyKinematics motion_of(const RobotWork& work, std::span<const double> q, int body) {
+    if (body < 0) return {{to_matrix(Quat{q[3], q[4], q[5], q[6]}), {}}, {}, {}};
+    const BodyWork& b = work.bodies[static_cast<std::size_t>(body)];
+    return {{b.X_WB.R, b.X_WB.p - work.origin}, b.velocity, b.bias};
+}
+
+void add_loop(const RobotWork& work, std::span<const double> q, std::size_t index, Equalities& out) {
+    const LoopJoint& loop = work.type->loops[index];
+    const ClosureRows closure =
+        closure_rows(loop, motion_of(work, q, loop.body_a), motion_of(work, q, loop.body_b));
+    for (const ClosureRow& condition : closure.all()) {
+        EqualityRow row;
+        row.first = out.columns.size();
+        visit_between(*work.type, loop.body_a, loop.body_b, [&](std::size_t k, double sign) {
+            out.columns.push_back({static_cast<int>(k), sign * dot(work.axes[k], condition.wrench)});
+        });
+        row.last = out.columns.size();
+        row.error = condition.error, row.curvature = condition.curvature;
+        row.mobility = condition.mobility;
+        row.loop = static_cast<int>(index), row.wrench = condition.wrench;
+        out.rows.push_back(row);
+    }
+}
+
+void add_coupling(const RobotType& type, std::span<const double> q, const CoordinateCoupling& coupling,
+                  Equalities& out) {
+    const auto value = [&](int dof) {
+        const Dof& d = type.dofs[static_cast<std::size_t>(dof)];
+        return q[static_cast<std::size_t>(type.bodies[static_cast<std::size_t>(d.body)].q_index)];
+    };
+    EqualityRow row;
+    row.first = out.columns.size();
+    out.columns.push_back({type.base_nv() + coupling.follower, 1.0});
+    out.columns.push_back({type.base_nv() + coupling.leader, -coupling.multiplier});
+    row.last = out.columns.size();
+    row.error = value(coupling.follower) - coupling.multiplier * value(coupling.leader) - coupling.offset;
+    row.mobility = coupling.inverse_inertia;
+    out.rows.push_back(row);
+}
+
+}  // namespace
+
+void gather_equalities(const RobotWork& work, std::span<const double> q, Equalities& equalities) {
+    equalities.columns.clear(), equalities.rows.clear();
+    for (std::size_t i = 0; i < work.type->loops.size(); ++i) add_loop(work, q, i, equalities);
+    for (const CoordinateCoupling& coupling : work.type->couplings)
+        add_coupling(*work.type, q, coupling, equalities);
+}
+
+double times_row(const Equalities& equalities, const EqualityRow& row, std::span<const double> x) {
+    double sum = 0;
+    for (std::size_t c = row.first; c < row.last; ++c)
+        sum += equalities.columns[c].j * x[static_cast<std::size_t>(equalities.columns[c].dof)];
+    return sum;
+}
+
+void EqualitySolver::prepare(const RobotType& type, std::span<const double> factor,
+                             const Equalities& equalities) {
+    n_ = static_cast<std::size_t>(type.nv), m_ = equalities.rows.size();
+    y_.assign(m_ * n_, 0.0);
+    a_.resize(m_ * m_);
+    scale_.resize(m_);
+    for (std::size_t i = 0; i < m_; ++i) {
+        const EqualityRow& row = equalities.rows[i];
+        scale_[i] = row.mobility > 0 ? 1.0 / std::sqrt(row.mobility) : 0.0;
+        double* const y = y_.data() + i * n_;
+        for (std::size_t c = row.first; c < row.last; ++c)
+            y[equalities.columns[c].dof] = equalities.columns[c].j * scale_[i];
+        tree_solve(type.paths, factor.data(), y);
+    }
+    for (std::size_t i = 0; i < m_; ++i)
+        for (std::size_t j = 0; j < m_; ++j)
+            a_[i * m_ + j] = scale_[i] * times_row(equalities, equalities.rows[i], {y_.data() + j * n_, n_});
+    this->factor();
+}
+
+/// L in the lower triangle of a_, rows and columns in the order of order_; stops where only implied rows are
+/// left.
+void EqualitySolver::factor() {
+    order_.resize(m_);
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    const auto at = [&](std::size_t i, std::size_t j) -> double& { return a_[order_[i] * m_ + order_[j]]; };
+    for (rank_ = 0; rank_ < m_; ++rank_) {
+        const std::size_t k = rank_;
+        std::size_t best = k;
+        for (std::size_t i = k + 1; i < m_; ++i)
+            if (at(i, i) > at(best, best)) best = i;
+        if (!(at(best, best) > kImplied)) return;
+        std::swap(order_[k], order_[best]);
+        const double pivot = std::sqrt(at(k, k));
+        at(k, k) = pivot;
+        for (std::size_t i = k + 1; i < m_; ++i) at(i, k) /= pivot;
+        for (std::size_t i = k + 1; i < m_; ++i)
+            for (std::size_t j = k + 1; j < m_; ++j)
+                at(i, j) -= at(i, k) * at(j, k);  // both triangles: rows swap
+    }
+}
+
+void EqualitySolver::solve(std::span<const double> wanted, std::span<double> change) {
+    const auto at = [&](std::size_t i, std::size_t j) { return a_[order_[i] * m_ + order_[j]]; };
+    x_.resize(rank_);
+    for (std::size_t i = 0; i < rank_; ++i) {
+        x_[i] = wanted[order_[i]] * scale_[order_[i]];
+        for (std::size_t k = 0; k < i; ++k) x_[i] -= at(i, k) * x_[k];
+        x_[i] /= at(i, i);
+    }
+    for (std::size_t i = rank_; i-- > 0;) {
+        for (std::size_t k = i + 1; k < rank_; ++k) x_[i] -= at(k, i) * x_[k];
+        x_[i] /= at(i, i);
+    }
+    std::fill(change.begin(), change.end(), 0.0);
+    for (std::size_t i = 0; i < rank_; ++i) {
+        const double* const y = y_.data() + order_[i] * n_;
+        for (std::size_t k = 0; k < n_; ++k) change[k] += x_[i] * y[k];
+    }
+}
+
+void leave_out_locked(std::span<const char> locked, Equalities& equalities) {
+    if (locked.empty()) return;
+    for (EqualityColumn& column : equalities.columns)
+        if (locked[static_cast<std::size_t>(column.dof)]) column.j = 0;
+}
+
+void EqualityProjection::place(const RobotType& type, std::span<const double> q) {
+    work_.type = &type;
+    forward_kinematics<double>(type, q, work_);
+    for (BodyWork& body : work_.bodies) body.velocity = body.bias = {};
+    gather_equalities(work_, q, equalities_);
+    wanted_.resize(equalities_.rows.size());
+    change_.resize(static_cast<std::size_t>(type.nv));
+}
+
+void EqualityProjection::prepare(const RobotType& type, std::span<const char> locked) {
+    compute_inertias(type, work_);
+    compute_mass_matrix<double>(type, 0.0, work_);
+    lock_rows(type.paths, locked, work_.mass_matrix.data());
+    leave_out_locked(locked, equalities_);
+    tree_factor(type.paths, work_.mass_matrix.data());
+    solver_.prepare(type, work_.mass_matrix, equalities_);
+}
+
+void EqualityProjection::close_coordinates(const RobotType& type, std::span<double> q,
+                                           std::span<const char> locked) {
+    for (int i = 0; i < kNewtonMax; ++i) {
+        place(type, q);
+        double largest = 0;
+        for (std::size_t r = 0; r < wanted_.size(); ++r) {
+            wanted_[r] = -equalities_.rows[r].error;
+            largest = std::max(largest, std::fabs(wanted_[r]));
+        }
+        if (largest <= kClosed) return;
+        prepare(type, locked);
+        solver_.solve(wanted_, change_);
+        double step = 0;
+        for (const double x : change_) step = std::max(step, std::fabs(x));
+        advance_coordinates<double>(type, change_, step > kStepMax ? kStepMax / step : 1.0, q);
+        if (step <= kClosed) return;
+    }
+}
+
+void EqualityProjection::close_velocities(const RobotType& type, std::span<const double> q,
+                                          std::span<double> v, std::span<const char> locked) {
+    place(type, q);
+    for (std::size_t r = 0; r < wanted_.size(); ++r)
+        wanted_[r] = -times_row(equalities_, equalities_.rows[r], v);
+    prepare(type, locked);
+    solver_.solve(wanted_, change_);
+    for (std::size_t k = 0; k < v.size(); ++k) v[k] += change_[k];
+}
+
+}  // namespace roboss

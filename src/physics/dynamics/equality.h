@@ -1,0 +1,80 @@
+// Equalities: what loops, gearboxes and mimic joints ask of one robot's velocities, always and in both
+// directions. They become rows of the contact island's solver where something else pushes too; where nothing
+// does, they are solved exactly here, and here the coordinates are put back onto them after each tick.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "physics/dynamics/robot_work.h"
+
+namespace roboss {
+
+/// One column of a row's Jacobian.
+struct EqualityColumn {
+    int dof = 0;  // in the robot's v
+    double j = 0;
+};
+
+struct EqualityRow {
+    std::size_t first = 0, last = 0;  // columns
+    double error = 0;                 // m or rad
+    double curvature = 0;             // second derivative of the error with all joint accelerations zero
+    double mobility = 0;              // scale of J M^-1 J^T
+    int loop = -1;                    // in RobotType::loops, if it is of one
+    Spatial wrench;                   // of a loop: on its body B about O, per unit of impulse
+};
+
+struct Equalities {
+    std::vector<EqualityColumn> columns;
+    std::vector<EqualityRow> rows;
+};
+
+/// All equalities of a placed robot (moved, too, if the curvatures are wanted) at coordinates q.
+void gather_equalities(const RobotWork& work, std::span<const double> q, Equalities& equalities);
+
+/// Takes locked degrees of freedom (none: empty) out of the rows.
+void leave_out_locked(std::span<const char> locked, Equalities& equalities);
+
+/// J x of one row.
+double times_row(const Equalities& equalities, const EqualityRow& row, std::span<const double> x);
+
+/// Solves J M^-1 J^T impulses = wanted by Cholesky's method with diagonal pivoting. Rows that others imply
+/// (a planar linkage in space has three of them) are met with those, and get no impulse.
+class EqualitySolver {
+  public:
+    /// `factor`: of the mass matrix, by tree_factor.
+    void prepare(const RobotType& type, std::span<const double> factor, const Equalities& equalities);
+    /// change = M^-1 J^T impulses, such that J change = wanted.
+    void solve(std::span<const double> wanted, std::span<double> change);
+
+  private:
+    void factor();
+
+    std::size_t n_ = 0, m_ = 0, rank_ = 0;
+    std::vector<double> y_;      // m x n: M^-1 J^T, a row each
+    std::vector<double> a_;      // m x m, scaled to mobility 1
+    std::vector<double> scale_;  // of each row
+    std::vector<std::size_t> order_;
+    std::vector<double> x_;
+};
+
+/// Puts a robot's coordinates and velocities back onto its equalities, with the least change in the metric
+/// of its mass: momentum stays. Degrees of freedom that are `locked` do not move.
+class EqualityProjection {
+  public:
+    void close_coordinates(const RobotType& type, std::span<double> q, std::span<const char> locked = {});
+    void close_velocities(const RobotType& type, std::span<const double> q, std::span<double> v,
+                          std::span<const char> locked = {});
+
+  private:
+    void prepare(const RobotType& type, std::span<const char> locked);
+    void place(const RobotType& type, std::span<const double> q);
+
+    RobotWork work_;
+    Equalities equalities_;
+    EqualitySolver solver_;
+    std::vector<double> wanted_, change_;
+};
+
+}  // namespace roboss

@@ -1,0 +1,177 @@
+// Coordinates and their rates; quaternions are integrated as four numbers with q' = 1/2 w q and normalised,
+// which keeps the method's order (Hairer, Lubich, Wanner 2006, IV.4: projection after the step).
+#include "physics/dynamics/integrate.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "physics/dynamics/joint_rows.h"
+#include "physics/dynamics/tree_factor.h"
+
+namespace roboss {
+namespace {
+
+/// dq/dt of all coordinates; `rate` has the size of q.
+void coordinate_rate(const RobotType& type, std::span<const double> q, std::span<const double> v,
+                     std::span<double> rate) {
+    std::fill(rate.begin(), rate.end(), 0.0);
+    for (const Body& body : type.bodies)
+        visit_joint(body.joint, [&](auto joint) {
+            joint.rate(q.data() + body.q_index, v.data() + body.v_index, rate.data() + body.q_index);
+        });
+}
+
+void normalise(const RobotType& type, std::span<double> q) {
+    for (const Body& body : type.bodies)
+        visit_joint(body.joint, [&](auto joint) { joint.normalise(q.data() + body.q_index); });
+}
+
+/// Adds what loops and couplings accelerate: so much that their second derivatives are zero.
+void add_equality_acceleration(std::span<const double> q, std::span<const char> locked, FreeBuffer& free) {
+    RobotWork& work = free.work;
+    const RobotType& type = *work.type;
+    gather_equalities(work, q, free.equalities);
+    leave_out_locked(locked, free.equalities);
+    free.solver.prepare(type, work.mass_matrix, free.equalities);
+    free.wanted.clear();
+    for (const EqualityRow& row : free.equalities.rows)
+        free.wanted.push_back(-row.curvature - times_row(free.equalities, row, work.velocity));
+    free.change.resize(work.velocity.size());
+    free.solver.solve(free.wanted, free.change);
+    for (std::size_t i = 0; i < free.change.size(); ++i) work.velocity[i] += free.change[i];
+}
+
+/// Damping and springs of the tree's joints, as forces at (q, v). Springs stand in `impulse` already; where
+/// they are stiff, the steady force holds both.
+void add_joint_forces(const Model& model, std::span<const double> q, std::span<const double> v,
+                      bool has_stiff, RobotWork& work) {
+    const RobotType& type = *work.type;
+    for (std::size_t d = 0; d < type.dofs.size(); ++d) {
+        const Dof& dof = type.dofs[d];
+        const std::size_t i = d + static_cast<std::size_t>(type.base_nv());
+        if (!has_stiff || !is_stiff(dof, model.dt_s)) {
+            work.impulse[i] -= dof.damping * v[i];
+        } else if (dof.spring_stiffness != 0) {
+            const Body& body = type.bodies[static_cast<std::size_t>(dof.body)];
+            work.impulse[i] +=
+                dof.spring_stiffness * (q[static_cast<std::size_t>(body.q_index)] - dof.spring_reference);
+        }
+    }
+}
+
+/// Acceleration of the robot at (q, v) with what acts on it evenly, into its work's velocity.
+void free_acceleration(const Model& model, const SteadyRows& rows, std::span<const double> q,
+                       std::span<const double> v, FreeBuffer& free) {
+    RobotWork& buffer = free.work;
+    const RobotType& type = *buffer.type;
+    forward_kinematics<double>(type, q, buffer);
+    forward_velocities<double>(type, v, buffer);
+    compute_impulse(model, 1.0, 0.0, q, v, buffer);
+    compute_mass_matrix<double>(type, 0.0, buffer);
+    add_joint_forces(model, q, v, rows.has_stiff, buffer);
+    for (std::size_t i = 0; i < rows.force.size(); ++i) buffer.impulse[i] += rows.force[i];
+    for (std::size_t i = 0; i < rows.locked.size(); ++i)
+        if (rows.locked[i]) buffer.impulse[i] = 0;
+    lock_rows(type.paths, rows.locked, buffer.mass_matrix.data());
+    tree_factor(type.paths, buffer.mass_matrix.data());
+    buffer.velocity = buffer.impulse;
+    tree_solve(type.paths, buffer.mass_matrix.data(), buffer.velocity.data());
+    if (type.has_equalities()) add_equality_acceleration(q, rows.locked, free);
+}
+
+/// Into so many parts the tick is cut: no body turns further in one than the method follows to a millionth.
+int parts_of_tick(const RobotType& type, double fastest, double dt) {
+    constexpr double kTurnOfBody = 0.1, kTurnOfTree = 0.25;  // rad: of the methods of fourth and sixth order
+    constexpr double kPartsMax = 64;
+    const double turn = type.dofs.empty() ? kTurnOfBody : kTurnOfTree;
+    return static_cast<int>(std::ceil(std::clamp(std::sqrt(fastest) * dt / turn, 1.0, kPartsMax)));
+}
+
+/// An explicit Runge-Kutta method: stage s starts from the rates of those before it, weighed by `from[s]`.
+struct Method {
+    std::size_t stages;
+    std::array<std::array<double, 6>, 7> from;
+    std::array<double, 7> weight;
+};
+
+/// The classical method, of fourth order.
+constexpr Method kClassical{
+    4, {{{}, {0.5}, {0.0, 0.5}, {0.0, 0.0, 1.0}}}, {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6}};
+
+/// Of sixth order with the fewest stages that one can have (Butcher, On Runge-Kutta processes of high order,
+/// 1964).
+constexpr Method kButcher{7,
+                          {{{},
+                            {1.0 / 3},
+                            {0.0, 2.0 / 3},
+                            {1.0 / 12, 1.0 / 3, -1.0 / 12},
+                            {-1.0 / 16, 9.0 / 8, -3.0 / 16, -3.0 / 8},
+                            {0.0, 9.0 / 8, -3.0 / 8, -3.0 / 4, 1.0 / 2},
+                            {9.0 / 44, -9.0 / 11, 63.0 / 44, 18.0 / 11, 0.0, -16.0 / 11}}},
+                          {11.0 / 120, 0.0, 27.0 / 40, 27.0 / 40, -4.0 / 15, -4.0 / 15, 11.0 / 120}};
+
+/// Links on joints whip each other round far faster than they swing; a lone body has nothing that does.
+const Method& method_of(const RobotType& type) {
+    return type.dofs.empty() ? kClassical : kButcher;
+}
+
+/// to = from + dt * (rates of the stages, weighed); `rates` holds one stage after the other.
+void add_rates(std::span<const double> from, double dt, std::span<const double> weights,
+               std::span<const double> rates, std::span<double> sum, std::span<double> to) {
+    const std::size_t size = from.size();
+    std::fill(sum.begin(), sum.end(), 0.0);
+    for (std::size_t stage = 0; stage < weights.size(); ++stage) {
+        if (weights[stage] == 0) continue;
+        const auto rate = rates.subspan(stage * size, size);
+        for (std::size_t i = 0; i < size; ++i) sum[i] += weights[stage] * rate[i];
+    }
+    for (std::size_t i = 0; i < size; ++i) to[i] = from[i] + dt * sum[i];
+}
+
+/// One step of the method, of length `dt`.
+void advance_part(const Model& model, double dt, const SteadyRows& rows, RobotWork& work,
+                  FreeBuffer& buffer) {
+    const RobotType& type = *work.type;
+    const Method& method = method_of(type);
+    RobotState& state = *work.state;
+    const std::size_t nq = state.q.size(), nv = state.v.size();
+    for (auto* sized_q : {&buffer.q, &buffer.q_sum}) sized_q->resize(nq);
+    for (auto* sized_v : {&buffer.v, &buffer.v_sum}) sized_v->resize(nv);
+    buffer.q_rates.resize(method.stages * nq), buffer.v_rates.resize(method.stages * nv);
+    buffer.work.type = work.type;
+    buffer.work.state = work.state;
+    for (std::size_t stage = 0; stage < method.stages; ++stage) {
+        const auto weights = std::span(method.from[stage]).first(stage);
+        add_rates(state.q, dt, weights, buffer.q_rates, buffer.q_sum, buffer.q);
+        add_rates(state.v, dt, weights, buffer.v_rates, buffer.v_sum, buffer.v);
+        normalise(type, buffer.q);
+        coordinate_rate(type, buffer.q, buffer.v, std::span(buffer.q_rates).subspan(stage * nq, nq));
+        free_acceleration(model, rows, buffer.q, buffer.v, buffer);
+        std::copy(buffer.work.velocity.begin(), buffer.work.velocity.end(),
+                  buffer.v_rates.begin() + static_cast<std::ptrdiff_t>(stage * nv));
+    }
+    const auto weights = std::span(method.weight).first(method.stages);
+    add_rates(state.q, dt, weights, buffer.q_rates, buffer.q_sum, state.q);
+    add_rates(state.v, dt, weights, buffer.v_rates, buffer.v_sum, state.v);
+    normalise(type, state.q);
+    if (!type.has_equalities()) return;
+    buffer.projection.close_coordinates(type, state.q, rows.locked);
+    buffer.projection.close_velocities(type, state.q, state.v, rows.locked);
+}
+
+}  // namespace
+
+double fastest_turn(const Mechanics<double>& work) {
+    double fastest = 0;
+    for (const BodyWork& body : work.bodies) fastest = std::max(fastest, norm_squared(body.velocity.angular));
+    return fastest;
+}
+
+void advance_steadily(const Model& model, RobotWork& work, const SteadyRows& rows, double fastest,
+                      FreeBuffer& buffer) {
+    const int parts = parts_of_tick(*work.type, fastest, model.dt_s);
+    for (int i = 0; i < parts; ++i) advance_part(model, model.dt_s / parts, rows, work, buffer);
+}
+
+}  // namespace roboss

@@ -1,0 +1,45 @@
+// Solves one contact island: velocities that balance momentum with all bounded rows and exact isotropic
+// Coulomb friction.
+//
+// For fixed friction bounds the solution minimises a convex, piecewise quadratic potential over the
+// velocities,
+//     1/2 v^T M v - p^T v + sum of row potentials(J v),
+// which Newton's method with an exact line search finds in a few iterations whatever the mass ratios (Todorov
+// 2014; Castro, Permenter, Han 2022). The bounds mu * normal impulse start from the last tick and are updated
+// until they agree with the normal impulses (Haslinger's fixed point): then Coulomb's law holds exactly, with
+// no pyramid and no lifting while sliding.
+#pragma once
+
+#include <vector>
+
+#include "physics/solver/hessian.h"
+#include "physics/solver/newton.h"
+
+namespace roboss {
+
+struct SolveReport {
+    int iterations = 0;
+    double residual = 0;  // relative, of the momentum balance
+};
+
+class IslandSolver : Newton<double, Hessian> {
+  public:
+    using Problem = SolveProblem<double>;
+
+    /// v (size n) starts as the velocities before the tick and ends as the solution; the rows end with their
+    /// impulses.
+    SolveReport solve(const Problem& problem, std::vector<double>& v);
+
+  private:
+    using Report = SolveReportT<double>;
+    void solve_any(const Problem& p, std::vector<double>& v, Report& report);
+    // interior_point.cpp
+    void interior_point(const Problem& p, std::vector<double>& v, Report& report);
+    double longest_step(const Problem& p, double mu);
+    double interior_step(const Problem& p, double mu, std::vector<double>& v);
+
+    std::vector<double> start_bounds_;  // friction bounds of the last tick
+    std::vector<double> changes_;       // interior point: steps of the impulses
+};
+
+}  // namespace roboss

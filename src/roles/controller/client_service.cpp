@@ -1,0 +1,298 @@
+// Replies in, observations out.
+#include "roles/controller/client_service.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace roboss {
+
+namespace {
+
+/// The first multiple of `period` that is not before `tick`.
+Tick next_multiple(Tick tick, Tick period) {
+    return (tick + period - 1) / period * period;
+}
+
+}  // namespace
+
+ClientService::ClientService(std::shared_ptr<const Model> model, const ClientServiceOptions& options,
+                             const ModelServer& model_server, OrderLog& order_log, Recorder& recorder,
+                             StateDirectory& directory, RunNotices& notices)
+    : model_(std::move(model)),
+      options_(options),
+      model_server_(model_server),
+      order_log_(order_log),
+      recorder_(recorder),
+      directory_(directory),
+      notices_(notices) {
+    for (const std::string& name : options_.expected) seats_.emplace_back().name = name;
+}
+
+void ClientService::take_hello(Bus& bus, const Address& from, const ClientHello& hello,
+                               Tick scheduled_until) {
+    const Tick tick = directory_.tick();
+    if (from.role != Role::kClient)
+        return notices_.dropped("ClientHello", tick, "its sender is not a Client");
+    if (model_server_.is_earlier(hello.model_hash))
+        return bus.send(kControllerAddress, from, ModelChanged{model_->hash});
+    if (hello.model_hash != model_->hash)
+        return bus.send(kControllerAddress, from, Refused{"its world is not this run's"});
+    // The run follows a log, which has its replies so far.
+    const bool follows_log = scheduled_until < recorder_.logged_until();
+    ClientHello new_hello = hello;
+    if (options_.went_back) {  // its replies were for a discarded history
+        new_hello.expected = -1;
+        new_hello.acknowledged = new_hello.last_reply;
+    }
+    bool is_new = false;
+    const ClientId id = seat_for(from, new_hello, follows_log ? tick : scheduled_until, is_new);
+    ClientSeat& seat = seats_[id.index()];
+    seat.vanished_ms.reset();
+    bus.send(kControllerAddress, from, ClientWelcome{id, seat.first, options_.seed});
+    if (!is_new) return;
+    notices_.add("client '" + seat.name + "' joined at tick " + std::to_string(tick));
+    recorder_.joined(id, seat.name);
+    if (seat.observer) recorder_.gone(id);
+    const bool is_stepping = scheduled_until > tick;
+    if (!is_stepping && observes(seat, tick)) queue_observation(id);
+}
+
+ClientId ClientService::seat_for(const Address& address, const ClientHello& hello, Tick earliest,
+                                 bool& is_new) {
+    auto seat = std::find_if(seats_.begin(), seats_.end(),
+                             [&](const ClientSeat& s) { return s.joined && s.address == address; });
+    is_new = seat == seats_.end();
+    if (is_new) {
+        seat = std::find_if(seats_.begin(), seats_.end(),
+                            [&](const ClientSeat& s) { return !s.joined && s.name == hello.name; });
+        if (seat == seats_.end()) seat = seats_.insert(seats_.end(), ClientSeat{});
+        seat->name = hello.name;
+        seat->address = address;
+        seat->period = hello.period;
+        seat->latency = hello.latency;
+        seat->synchronous = hello.synchronous;
+        seat->observer = hello.observer;
+        seat->joined = true;
+        seat->first = next_multiple(std::max(earliest, hello.expected), hello.period);
+        seat->last_reply = seat->acknowledged = hello.acknowledged;
+        seat->reply_awaited = hello.last_reply;
+    }
+    return ClientId(static_cast<std::size_t>(seat - seats_.begin()));
+}
+
+ClientSeat* ClientService::joined_at(Bus& bus, const Address& from, ClientId id) {
+    ClientSeat* seat = id.index() < seats_.size() ? &seats_[id.index()] : nullptr;
+    if (seat != nullptr && seat->joined && seat->address == from) return seat;
+    // A seat of an earlier Controller: its holder has to join again.
+    bus.send(kControllerAddress, from, ClientUnknown{id});
+    return nullptr;
+}
+
+std::size_t ClientService::take_reply(Bus& bus, const Address& from, const ClientReply& reply,
+                                      Tick scheduled_until) {
+    ClientSeat* seat = joined_at(bus, from, reply.client);
+    if (seat == nullptr || !seat->serves()) return 0;
+    seat->heard_ms = bus.now_ms();
+    seat->vanished_ms.reset();
+    std::size_t refused = 0;
+    if (reply.number == seat->last_reply + 1) {
+        seat->last_reply = reply.number;
+        if (!recorder_.has_reply(reply.client, seat->synchronous, reply.observed))
+            refused = take_orders(*seat, reply, scheduled_until);
+        std::erase_if(seat->unanswered, [&](Tick tick) { return tick == reply.observed; });
+        directory_.forget(reply.client, reply.observed);
+    }
+    // An acknowledged reply is never lost: with a log, it is logged first.
+    seat->acknowledge_at = recorder_.given();
+    return refused;
+}
+
+Tick ClientService::stampable(Tick scheduled_until) const {
+    return std::max(scheduled_until, recorder_.logged_until());
+}
+
+std::size_t ClientService::take_orders(ClientSeat& seat, const ClientReply& reply, Tick scheduled_until) {
+    seat.refused.clear();
+    const Tick earliest = stampable(scheduled_until);
+    const Tick apply_at = seat.synchronous ? std::max(reply.observed + seat.latency, earliest) : earliest;
+    for (const ClientOrder& given : reply.orders) {
+        const Order order{apply_at, reply.client, given.sequence, given.robot, given.action};
+        if (Result<> checked = check_order(*model_, order); !checked) {
+            seat.refused.push_back({given.sequence, checked.error().text()});
+            notices_.add("order " + std::to_string(given.sequence) + " of client '" + seat.name +
+                         "' refused: " + checked.error().message);
+            continue;
+        }
+        order_log_.add(order, reply.observed);
+        recorder_.order(order, reply.observed);
+    }
+    recorder_.reply(reply.client, reply.observed);
+    return seat.refused.size();
+}
+
+void ClientService::acknowledge(Bus& bus) {
+    for (std::size_t i = 0; i < seats_.size(); ++i) {
+        ClientSeat& seat = seats_[i];
+        if (!seat.acknowledge_at || !recorder_.safe(*seat.acknowledge_at)) continue;
+        seat.acknowledge_at.reset();
+        seat.acknowledged = seat.last_reply;
+        bus.send(kControllerAddress, seat.address, ReplyAck{ClientId(i), seat.last_reply, seat.refused});
+    }
+}
+
+void ClientService::take_bye(Bus& bus, const Address& from, const ClientBye& bye) {
+    ClientSeat* seat = joined_at(bus, from, bye.client);
+    if (seat == nullptr || bye.number > seat->last_reply + 1) return;
+    const bool is_news = !seat->gone && bye.number > seat->last_reply;
+    if (is_news) {
+        seat->last_reply = bye.number;
+        drop(bye.client);
+    }
+    seat->acknowledge_at = recorder_.given();
+    if (!is_news) return;
+    if (bye.failed)
+        notices_.fail({"client '" + seat->name + "' failed at tick " + std::to_string(directory_.tick()) +
+                           ": " + bye.reason,
+                       "fix the control program; the world up to this tick is intact and can be saved",
+                       "client-failed"});
+    else
+        notices_.add("client '" + seat->name + "' left");
+}
+
+void ClientService::drop(ClientId id) {
+    ClientSeat& seat = seats_[id.index()];
+    seat.gone = true;
+    recorder_.gone(id);
+    for (const Tick tick : std::exchange(seat.unanswered, {})) directory_.forget(id, tick);
+}
+
+void ClientService::take_vanished(const Address& address, std::int64_t now_ms) {
+    for (ClientSeat& seat : seats_)
+        if (seat.serves() && seat.address == address && !seat.vanished_ms) seat.vanished_ms = now_ms;
+}
+
+bool ClientService::stays_away(const ClientSeat& seat, std::int64_t now_ms) const {
+    const auto beyond = [](std::int64_t for_ms, std::int64_t limit_ms) {
+        return limit_ms > 0 && for_ms > limit_ms;
+    };
+    return beyond(now_ms - seat.heard_ms, options_.loss_ms) ||
+           (seat.vanished_ms && beyond(now_ms - *seat.vanished_ms, options_.gone_ms));
+}
+
+void ClientService::notice_losses(std::int64_t now_ms) {
+    for (std::size_t i = 0; i < seats_.size(); ++i) {
+        ClientSeat& seat = seats_[i];
+        if (seat.unanswered.empty()) seat.heard_ms = now_ms;
+        if (!seat.serves() || !stays_away(seat, now_ms)) continue;
+        drop(ClientId(i));
+        const std::string what = "client '" + seat.name + "' " +
+                                 (seat.vanished_ms ? "has vanished, " : "has not answered for ") +
+                                 std::to_string(now_ms - seat.vanished_ms.value_or(seat.heard_ms)) + " ms" +
+                                 (seat.vanished_ms ? " ago" : "");
+        if (seat.synchronous)
+            notices_.fail({what + " at tick " + std::to_string(directory_.tick()),
+                           "see why it hangs; the world up to this tick is intact and can be saved",
+                           "client-lost"});
+        else
+            notices_.add(what + " and is given up");
+    }
+}
+
+void ClientService::queue_observations() {
+    for (std::size_t i = 0; i < seats_.size(); ++i)
+        if (observes(seats_[i], directory_.tick())) queue_observation(ClientId(i));
+}
+
+void ClientService::queue_observation(ClientId id) {
+    ClientSeat& seat = seats_[id.index()];
+    if (!seat.synchronous && !seat.unanswered.empty())
+        return;  // it is busy with an earlier observation; the world does not wait
+    seat.unanswered.push_back(directory_.tick());
+    seat.sent_ms = 0;
+    directory_.want(id);
+    due_ = true;
+}
+
+void ClientService::send_observations(Bus& bus, const Roster& roster) {
+    const bool at_once = std::exchange(due_, false);
+    const std::int64_t now = bus.now_ms();
+    for (std::size_t i = 0; i < seats_.size(); ++i) {
+        ClientSeat& seat = seats_[i];
+        if (seat.unanswered.empty() || (!at_once && now - seat.sent_ms < options_.resend_ms)) continue;
+        seat.sent_ms = now;
+        for (const WantedTick& want : directory_.wanted()) {
+            if (std::find(want.clients.begin(), want.clients.end(), ClientId(i)) == want.clients.end())
+                continue;
+            Observation observation = observation_of(want, roster);
+            observation.last_reply = seat.acknowledged;
+            bus.send(kControllerAddress, seat.address, std::move(observation));
+        }
+    }
+}
+
+/// Robots whose states are lost are left out until they are recovered; then the observation is sent again.
+Observation ClientService::observation_of(const WantedTick& want, const Roster& roster) const {
+    Observation observation{want.tick, 0, {}};
+    std::vector<SeatId> seats;
+    for (std::size_t r = 0; r < want.holders.size(); ++r) {
+        if (roster.lost(want.holders[r])) continue;
+        auto seat_id = std::find(seats.begin(), seats.end(), want.holders[r]);
+        if (seat_id == seats.end()) {
+            seat_id = seats.insert(seats.end(), want.holders[r]);
+            observation.holders.push_back({roster.address_of(want.holders[r]), {}});
+        }
+        observation.holders[static_cast<std::size_t>(seat_id - seats.begin())].robots.emplace_back(r);
+    }
+    return observation;
+}
+
+void ClientService::send_heartbeats(Bus& bus) const {
+    for (const ClientSeat& seat : seats_)
+        if (seat.serves()) bus.send(kControllerAddress, seat.address, Heartbeat{});
+}
+
+void ClientService::dismiss(Bus& bus, const std::string& reason) const {
+    for (const ClientSeat& seat : seats_)
+        if (seat.joined) bus.send(kControllerAddress, seat.address, RunOver{reason});
+}
+
+bool ClientService::all_joined() const {
+    return std::all_of(seats_.begin(), seats_.end(), [](const ClientSeat& s) { return s.joined; });
+}
+
+bool ClientService::all_replied(Tick tick) const {
+    return std::all_of(seats_.begin(), seats_.end(), [tick](const ClientSeat& seat) {
+        return !seat.synchronous || seat.unanswered.empty() || seat.unanswered.front() >= tick;
+    });
+}
+
+Tick ClientService::limit(Tick tick, bool all_answered) const {
+    Tick limit = std::numeric_limits<Tick>::max();
+    for (const ClientSeat& seat : seats_) {
+        if (!seat.serves()) continue;
+        if (!all_answered && seat.synchronous && seat.last_reply < seat.reply_awaited) return tick;
+        const Tick next = std::max(next_multiple(tick + 1, seat.period), seat.first);
+        if (next > tick) limit = std::min(limit, next);
+        if (!seat.synchronous) continue;
+        Tick open = seat.unanswered.empty() ? next : seat.unanswered.front();
+        if (all_answered) open = observes(seat, tick) ? tick : next;
+        limit = std::min(limit, open + seat.latency);
+    }
+    return limit;
+}
+
+std::vector<std::string> ClientService::names() const {
+    std::vector<std::string> names;
+    for (const ClientSeat& seat : seats_) names.push_back(seat.name);
+    return names;
+}
+
+std::vector<std::string> ClientService::names_serving() const {
+    std::vector<std::string> names;
+    for (const ClientSeat& seat : seats_)
+        if (seat.serves() && !seat.observer) names.push_back(seat.name);
+    return names;
+}
+
+}  // namespace roboss

@@ -1,0 +1,182 @@
+// How far the world may go is what its Clients allow; their replies are accepted in order and acknowledged.
+#include "roles/controller/client_service.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include <support/robots.h>
+#include <support/scripted_bus.h>
+#include <support/simulation.h>
+
+namespace roboss::test {
+namespace {
+
+constexpr Tick kNever = std::numeric_limits<Tick>::max();
+const Address kA{Role::kClient, 7}, kB{Role::kClient, 8};
+
+World one_ball() {
+    World world = empty_world(1e-3);
+    place(world, solid_sphere(1.0, 0.1, surface(0.5)), "ball", {{0, 0, 1}, {}});
+    return world;
+}
+
+/// A Simulator has the robot; windows are committed by hand.
+class Clients : public testing::Test {
+  protected:
+    Clients() {
+        bool is_new = false;
+        (void)roster.seat_for({Role::kSimulator, 1}, {0, 1, ""}, 0, is_new);
+        options.loss_ms = 1000;
+    }
+    void join(const Address& address, const std::string& name, Tick period, Tick latency,
+              bool synchronous = true) {
+        service().take_hello(bus, address, {name, sim.model->hash, period, latency, synchronous},
+                             directory.tick());
+    }
+    void commit(Tick tick) {
+        directory.commit(tick, std::vector<SeatId>{0}, roster);
+        service().queue_observations();
+    }
+    std::size_t reply(const Address& address, ClientId id, std::uint64_t number, Tick observed,
+                      const std::vector<ClientOrder>& orders = {}) {
+        return service().take_reply(bus, address, {id, number, observed, orders}, directory.tick());
+    }
+    ClientService& service() {
+        if (!service_)
+            service_.emplace(sim.model, options, model_server, order_log, recorder, directory, notices);
+        return *service_;
+    }
+
+    const Simulation sim{one_ball()};
+    ScriptedBus bus;
+    Roster roster;
+    OrderLog order_log;
+    Recorder recorder{nullptr, 0, 0, {}};
+    StateDirectory directory{1, 0};
+    RunNotices notices;
+    ModelServer model_server{sim.model, nullptr, {5}};
+    ClientServiceOptions options;
+    std::optional<ClientService> service_;
+};
+
+TEST_F(Clients, ExpectedOnesGetTheirSeatsWhoeverComesFirst) {
+    options.expected = {"a", "b"};
+    join(kB, "b", 10, 10);
+    EXPECT_EQ(bus.take<ClientWelcome>(kB).at(0).client, ClientId(1u));
+    EXPECT_FALSE(service().all_joined());
+    join(kA, "a", 10, 10);
+    EXPECT_EQ(bus.take<ClientWelcome>(kA).at(0).client, ClientId(0u));
+    EXPECT_TRUE(service().all_joined());
+    join(kB, "b", 10, 10);
+    EXPECT_EQ(bus.take<ClientWelcome>(kB).at(0).client, ClientId(1u)) << "the hello came twice";
+    EXPECT_EQ(notices.take().size(), 2u);
+    directory.commit(13, std::vector<SeatId>{0}, roster);
+    join({Role::kClient, 9}, "c", 10, 10);
+    EXPECT_EQ(service().seats().at(2).first, 20);
+    EXPECT_EQ(service().names(), (std::vector<std::string>{"a", "b", "c"}));
+}
+
+TEST_F(Clients, WithAnotherWorldAreRefused) {
+    service().take_hello(bus, kA, {"a", 5, 1, 1, true}, 0);
+    EXPECT_EQ(bus.take<ModelChanged>(kA).size(), 1u);
+    service().take_hello(bus, kA, {"a", sim.model->hash + 1, 1, 1, true}, 0);
+    EXPECT_EQ(bus.take<Refused>(kA).size(), 1u);
+    EXPECT_TRUE(service().names().empty());
+}
+
+TEST_F(Clients, LimitWindowsToTheNextObservationAndToWhereOrdersMayStillCome) {
+    EXPECT_EQ(service().limit(5), kNever);
+    directory.commit(3, std::vector<SeatId>{0}, roster);
+    join(kA, "a", 10, 4);
+    EXPECT_EQ(service().limit(3), 10);
+    commit(10);
+    EXPECT_EQ(service().limit(10), 14) << "its orders may apply from tick 14 on";
+    EXPECT_EQ(service().limit(14), 14) << "waits for its reply";
+    reply(kA, ClientId(0u), 1, 10);
+    EXPECT_EQ(service().limit(14), 20);
+    service().take_bye(bus, kA, {ClientId(0u), 2, false, ""});
+    EXPECT_EQ(service().limit(14), kNever);
+}
+
+TEST_F(Clients, AFreeRunningOneMakesBoundariesButNobodyWaits) {
+    join(kA, "a", 10, 0, false);
+    commit(10);
+    EXPECT_EQ(service().limit(10), 20);
+    EXPECT_EQ(service().limit(19), 20);
+    EXPECT_TRUE(service().all_replied(20));
+}
+
+TEST_F(Clients, GetAnObservationUntilTheyReply) {
+    join(kA, "a", 10, 10);
+    bus.take<ClientWelcome>(kA);
+    service().send_observations(bus, roster);
+    const auto first = bus.take<Observation>(kA);
+    ASSERT_EQ(first.size(), 1u);
+    EXPECT_EQ(first[0].tick, 0);
+    EXPECT_EQ(first[0].holders.at(0).source, kControllerAddress);
+    service().send_observations(bus, roster);
+    EXPECT_TRUE(bus.take<Observation>(kA).empty()) << "not yet again";
+    service().holders_changed();
+    service().send_observations(bus, roster);
+    EXPECT_EQ(bus.take<Observation>(kA).size(), 1u);
+    bus.time_ms += options.resend_ms;
+    service().send_observations(bus, roster);
+    EXPECT_EQ(bus.take<Observation>(kA).size(), 1u);
+    EXPECT_FALSE(service().all_replied(10));
+    reply(kA, ClientId(0u), 1, 0);
+    EXPECT_TRUE(directory.wanted().empty());
+    bus.time_ms += options.resend_ms;
+    service().send_observations(bus, roster);
+    EXPECT_TRUE(bus.take<Observation>(kA).empty());
+}
+
+TEST_F(Clients, RepliesAreAcceptedInOrderAndOnce) {
+    join(kA, "a", 1, 3);
+    const std::vector<ClientOrder> orders{{1, RobotId(0u), SetVelocity{}}, {2, RobotId(9u), SetVelocity{}}};
+    EXPECT_EQ(reply(kA, ClientId(0u), 2, 0, orders), 0u) << "the first one is missing";
+    EXPECT_EQ(order_log.size(), 0u);
+    EXPECT_EQ(reply(kA, ClientId(0u), 1, 0, orders), 1u) << "there is no robot 9";
+    EXPECT_EQ(reply(kA, ClientId(0u), 1, 0, orders), 0u);
+    ASSERT_EQ(order_log.pending(1).size(), 1u);
+    EXPECT_EQ(order_log.pending(1)[0].order.apply_at, 3);
+    service().acknowledge(bus);
+    const auto acks = bus.take<ReplyAck>(kA);
+    ASSERT_EQ(acks.size(), 1u);
+    EXPECT_EQ(acks[0].number, 1u);
+    EXPECT_EQ(acks[0].refused.size(), 1u);
+    reply(kB, ClientId(0u), 2, 1);
+    EXPECT_EQ(bus.take<ClientUnknown>(kB).size(), 1u) << "not its address";
+}
+
+TEST_F(Clients, ASynchronousOneThatIsSilentEndsTheRun) {
+    join(kA, "a", 10, 10);
+    service().notice_losses(1000);
+    EXPECT_FALSE(notices.failure());
+    service().notice_losses(1001);
+    ASSERT_TRUE(notices.failure());
+    EXPECT_EQ(notices.failure()->code, "client-lost");
+    EXPECT_TRUE(directory.wanted().empty());
+}
+
+TEST_F(Clients, AVanishedOneIsGivenUpAfterAWhile) {
+    options.loss_ms = 0;
+    options.gone_ms = 50;
+    join(kA, "a", 10, 10, false);
+    service().take_vanished(kA, 100);
+    service().notice_losses(150);
+    EXPECT_EQ(service().names_serving().size(), 1u);
+    service().notice_losses(151);
+    EXPECT_TRUE(service().names_serving().empty());
+    EXPECT_FALSE(notices.failure());
+}
+
+TEST_F(Clients, AFailureOfOneEndsTheRun) {
+    join(kA, "a", 10, 10);
+    service().take_bye(bus, kA, {ClientId(0u), 1, true, "no wheels"});
+    ASSERT_TRUE(notices.failure());
+    EXPECT_EQ(notices.failure()->code, "client-failed");
+}
+
+}  // namespace
+}  // namespace roboss::test

@@ -1,0 +1,35 @@
+// A request is handed out once, however often it comes, and answered each time.
+#include "roles/controller/control_service.h"
+
+#include <gtest/gtest.h>
+
+#include "bus/in_process_bus.h"
+
+namespace roboss {
+namespace {
+
+TEST(ControlService, HandsARequestOutOnceAndAnswersItAsOftenAsItComes) {
+    InProcessBus bus;
+    ControlService service;
+    const Address requester{Role::kClient, 7};
+    const ControlRequest pause{1, PauseRun{}};
+    service.take(bus, requester, pause);
+    service.take(bus, requester, pause);
+    const std::vector<ControlCall> calls = service.take_calls();
+    ASSERT_EQ(calls.size(), 1u);
+    EXPECT_TRUE(service.take_calls().empty());
+    service.answer(bus, calls[0], ControlDone{5, "paused"});
+    service.take(bus, requester, pause);
+    std::vector<Envelope> inbox;
+    bus.drain(requester, inbox);
+    ASSERT_EQ(inbox.size(), 2u);
+    for (const Envelope& envelope : inbox)
+        EXPECT_EQ(std::get<ControlReply>(envelope.message), (ControlReply{1, ControlDone{5, "paused"}}));
+    service.take(bus, requester, {2, ResumeRun{}});
+    service.take(bus, requester, pause);  // a late copy
+    service.take(bus, Address{Role::kClient, 8}, {1, PauseRun{}});
+    EXPECT_EQ(service.take_calls().size(), 2u);
+}
+
+}  // namespace
+}  // namespace roboss
