@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <support/compiling.h>
+#include <support/mechanisms.h>
 #include <support/robots.h>
 
 #include "model/robot_state.h"
@@ -240,6 +241,27 @@ TEST(Compile, LinksOfOneRobotCollideOnlyIfAskedAndNotWithTheirNeighbours) {
     EXPECT_TRUE(compile_one(m).type().self_pairs.empty());
     m.self_collide = true;
     EXPECT_EQ(compile_one(m).type().self_pairs, (std::vector<std::pair<int, int>>{{0, 2}}));
+}
+
+/// Joints of several motions have bodies between their links that carry nothing.
+TEST(Compile, LinksOnBothSidesOfAJointOfSeveralMotionsAreNeighbours) {
+    const std::vector<std::pair<int, int>> ends{{0, 2}};
+    for (const bool turned : {false, true}) {
+        ModelSpec m = row_of_three();
+        m.self_collide = true;
+        m.joints.push_back(planar_joint("ab", "a", "b", at_x(0.5), {0, 0, 1}));
+        m.joints.push_back(joint(JointSpecKind::kUniversal, "bc", "b", "c", at_x(1.5), {0, 0, 1}));
+        m.joints.back().axes.resize(2);
+        m.joints.back().axes[1].xyz = {0, 1, 0};
+        for (JointSpec& j : m.joints)
+            if (turned) std::swap(j.parent, j.child);
+        const Compiled c = compile_one(m);
+        ASSERT_EQ(c.model->robots.size(), 1u);
+        EXPECT_EQ(c.type().bodies.size(), 6u);
+        EXPECT_EQ(c.type().self_pairs, ends);
+        m.joints.back().kind = JointSpecKind::kRevolute2;
+        EXPECT_EQ(compile_one(m).type().self_pairs, ends);
+    }
 }
 
 }  // namespace

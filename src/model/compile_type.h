@@ -40,7 +40,7 @@ void mend_inertia(RobotType& type, const ModelSpec& spec, const std::vector<std:
 /// Radius of the sphere about the base origin that holds every shape in every pose.
 double reach_of(const RobotType& type);
 
-/// Fills RobotType::self_pairs: shapes of bodies that no joint joins.
+/// Fills RobotType::self_pairs: shapes of bodies that no joint joins. Needs RobotType::links.
 void add_self_pairs(RobotType& type);
 
 /// Fills Body::inverse_mass_linear, inverse_inertia_angular and Dof::inverse_inertia from the mass matrix at

@@ -24,6 +24,22 @@ double slide_range(const RobotType& type, const Body& body) {
     return per_unit * std::max(std::fabs(dof.lower), std::fabs(dof.upper));
 }
 
+/// For each body the nearest one before it, towards the base, that carries a link. A joint of several motions
+/// puts bodies without links between the two that it joins.
+std::vector<int> parents_with_links(const RobotType& type) {
+    std::vector<char> has_link(type.bodies.size(), 0);
+    for (const Link& link : type.links)
+        if (link.body >= 0) has_link[static_cast<std::size_t>(link.body)] = 1;
+    std::vector<int> parents;
+    for (const Body& body : type.bodies) {
+        int parent = body.parent;
+        while (parent >= 0 && !has_link[static_cast<std::size_t>(parent)])
+            parent = type.bodies[static_cast<std::size_t>(parent)].parent;
+        parents.push_back(parent);
+    }
+    return parents;
+}
+
 bool loop_joins(const RobotType& type, int a, int b) {
     return std::any_of(type.loops.begin(), type.loops.end(), [&](const LoopJoint& loop) {
         return (loop.body_a == a && loop.body_b == b) || (loop.body_a == b && loop.body_b == a);
@@ -63,7 +79,8 @@ double reach_of(const RobotType& type) {
 }
 
 void add_self_pairs(RobotType& type) {
-    const auto parent = [&](int b) { return b < 0 ? -2 : type.bodies[static_cast<std::size_t>(b)].parent; };
+    const std::vector<int> parents = parents_with_links(type);
+    const auto parent = [&](int b) { return b < 0 ? -2 : parents[static_cast<std::size_t>(b)]; };
     for (std::size_t a = 0; a < type.shapes.size(); ++a) {
         for (std::size_t b = a + 1; b < type.shapes.size(); ++b) {
             const int ba = type.shapes[a].body, bb = type.shapes[b].body;
