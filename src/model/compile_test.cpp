@@ -264,5 +264,34 @@ TEST(Compile, LinksOnBothSidesOfAJointOfSeveralMotionsAreNeighbours) {
     }
 }
 
+SensorSpec wheel_counter(const std::string& joint) {
+    OdometerSpec odometer;
+    odometer.joints = {joint};
+    SensorSpec sensor;
+    sensor.name = "counter", sensor.sdf_type = "odometer", sensor.parameters = odometer;
+    return sensor;
+}
+
+TEST(Compile, RefusesASensorThatReadsAJointOfAnotherPart) {
+    ModelSpec m = row_of_three();
+    m.joints.push_back(joint(JointSpecKind::kRevolute, "bc", "b", "c", at_x(1.5), {0, 0, 1}));
+    m.links[1].sensors.push_back(wheel_counter("bc"));
+    EXPECT_FALSE(compile_one(m).diagnostics.has_errors()) << "b and c are one robot";
+    m.links[1].sensors.clear();
+    m.links[0].sensors.push_back(wheel_counter("bc"));
+    const Compiled apart = compile_one(m);
+    EXPECT_TRUE(has(apart.diagnostics, "joint-of-another-part"));
+    EXPECT_TRUE(apart.diagnostics.has_errors());
+}
+
+TEST(Compile, RefusesASensorThatReadsAJointBetweenWeldedLinks) {
+    ModelSpec m = row_of_three();
+    m.joints.push_back(joint(JointSpecKind::kFixed, "ab", "a", "b", at_x(0.5)));
+    m.joints.push_back(joint(JointSpecKind::kFixed, "bc", "b", "c", at_x(1.5)));
+    m.joints.push_back(joint(JointSpecKind::kRevolute, "ac", "a", "c", at_x(1), {0, 0, 1}));
+    m.links[0].sensors.push_back(wheel_counter("ac"));
+    EXPECT_TRUE(has(compile_one(m).diagnostics, "bad-sensor"));
+}
+
 }  // namespace
 }  // namespace roboss::test

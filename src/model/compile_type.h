@@ -37,6 +37,9 @@ void add_mass(Body& body, const Link& link);
 void mend_inertia(RobotType& type, const ModelSpec& spec, const std::vector<std::size_t>& links,
                   Diagnostics& diagnostics);
 
+/// Reports sensors that read a joint of another part of their model, or one that is left without motion.
+void check_joints_read(const RobotType& type, const std::string& robot, Diagnostics& diagnostics);
+
 /// Radius of the sphere about the base origin that holds every shape in every pose.
 double reach_of(const RobotType& type);
 
