@@ -59,6 +59,33 @@ void add_joint_types(const std::map<std::string, std::string>& types, std::strin
     }
 }
 
+/// The elements of a transmission with their texts, but for the joints that it names.
+void list_parts(pugi::xml_node parent, std::string& parts) {
+    for (const auto node : parent.children()) {
+        if (node.type() != pugi::node_element) continue;
+        if (const std::string name = node.name(); name != "joint" && name != "actuator")
+            parts += (parts.empty() ? "<" : ", <") + name + "> " + node.text().get();
+        list_parts(node, parts);
+    }
+}
+
+/// libsdformat leaves transmissions out silently.
+void report_transmissions(const SourceFile& urdf, Diagnostics& diagnostics) {
+    for (const auto node : urdf.root().children("transmission")) {
+        std::string joints, parts;
+        for (const auto joint : node.children("joint"))
+            joints += " '" + std::string(joint.attribute("name").value()) + "'";
+        list_parts(node, parts);
+        diagnostics.note(urdf.where(node), "transmission",
+                         "transmission '" + std::string(node.attribute("name").value()) +
+                             "' has no effect: motors act on the joint" + joints +
+                             " itself, without gears and hardware interface. Ignored: " +
+                             (parts.empty() ? "all of it" : parts),
+                         "Give setpoints and limits at the joint; write a rotor's inertia, times the square "
+                         "of the reduction, as <armature> of <roboss:motor> in SDFormat.");
+    }
+}
+
 /// For each line of the SDF the line of the URDF link or joint it came from (the robot's until the first).
 std::vector<int> map_lines(const SourceFile& urdf, const std::string& sdf) {
     std::map<std::string, int> line_of;
@@ -90,6 +117,7 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
     repaired.append_copy(urdf.root());
     const pugi::xml_node robot = repaired.document_element();
     repair_urdf(robot, urdf, diagnostics);
+    report_transmissions(urdf, diagnostics);
     const auto joint_types = replace_joint_types(robot, urdf, diagnostics);
     sdf::Errors errors;
     std::string text;

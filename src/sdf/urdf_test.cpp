@@ -103,6 +103,36 @@ TEST(Urdf, PlanarJointHasItsThreeAxes) {
     EXPECT_EQ(slide->axes[2].damping, 0);
 }
 
+TEST(Urdf, FloatingJointIsAnErrorAtTheJoint) {
+    std::string free = kArm;
+    free.insert(free.find("</robot>"),
+                "<link name='ball'><inertial><mass value='1'/><inertia ixx='0.1' iyy='0.1' izz='0.1' ixy='0' "
+                "ixz='0' iyz='0'/></inertial></link>\n<joint name='free' type='floating'><parent link='upper'/>"
+                "<child link='ball'/></joint>\n");
+    const Loaded loaded = load_text(free, "free.urdf");
+    EXPECT_TRUE(loaded.diagnostics.has_errors());
+    EXPECT_FALSE(loaded.world && !loaded.world->instances.empty()) << "the robot is left out";
+    EXPECT_NE(loaded.text().find("free.urdf:9: error"), std::string::npos) << loaded.text();
+}
+
+TEST(Urdf, TransmissionHasNoEffectAndANoteSaysSo) {
+    std::string geared = kArm;
+    geared.insert(geared.find("</robot>"),
+                  "<transmission name='gear'><type>transmission_interface/SimpleTransmission</type>"
+                  "<joint name='shoulder'><hardwareInterface>EffortJointInterface</hardwareInterface></joint>"
+                  "<actuator name='motor'><mechanicalReduction>50</mechanicalReduction></actuator>"
+                  "</transmission>\n");
+    const Loaded loaded = load_text(geared, "geared.urdf");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    const Diagnostic* note = loaded.find("transmission");
+    ASSERT_NE(note, nullptr) << loaded.text();
+    EXPECT_EQ(note->severity, Severity::kNote);
+    EXPECT_EQ(note->where.line, 9);
+    for (const char* part : {"'gear'", "'shoulder'", "<hardwareInterface> EffortJointInterface",
+                             "<mechanicalReduction> 50"})
+        EXPECT_NE(note->message.find(part), std::string::npos) << note->message;
+}
+
 TEST(Urdf, CanBeIncludedInAWorld) {
     const TestFolder folder;
     folder.write("arm.urdf", kArm);
