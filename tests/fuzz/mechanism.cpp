@@ -1,6 +1,7 @@
 #include "fuzz/mechanism.h"
 
 #include <cmath>
+#include <span>
 #include <string>
 
 #include <support/bodies.h>
@@ -158,6 +159,25 @@ ModelSpec named(const std::string& name) {
     return m;
 }
 
+/// Turns half of these joints into planar ones in one mechanism of eight. The numbers come from a stream of
+/// their own, so a seed's other mechanisms are what they were before planar joints were drawn.
+void make_some_planar(const Random& after, const MechanismOptions& options, std::span<JointSpec> joints) {
+    if (!options.planar) return;
+    Random seed = after;
+    Random random(static_cast<std::uint64_t>(seed.integer(0, 1 << 30)));
+    if (!chance(random, 0.125)) return;
+    for (JointSpec& joint : joints) {
+        const Vec3 normal = direction(random);
+        if (!chance(random, 0.5)) continue;
+        joint = test::planar_joint(joint.name, joint.parent, joint.child, joint.X_MJ, normal);
+        if (options.bare) continue;
+        for (std::size_t k = 0; k < joint.axes.size(); ++k) {
+            vary_axis(random, k < 2, joint.axes[k]);
+            if (!options.stores) store_nothing(joint.axes[k]);
+        }
+    }
+}
+
 ModelSpec random_ring(Random& random, const MechanismOptions& options) {
     ModelSpec m = named("ring");
     const int links = random.integer(3, 5);  // behind the base
@@ -172,6 +192,7 @@ ModelSpec random_ring(Random& random, const MechanismOptions& options) {
     m.links.push_back(random_link(random, link_name(0), {{}, random.rotation()}, options));
     for (int i = 1; i <= links; ++i)
         add_limb(random, options, i, i - 1, kinds[static_cast<std::size_t>(i - 1)], m);
+    make_some_planar(random, options, m.joints);
     const Vec3 middle = (m.links.front().X_ML.p + m.links.back().X_ML.p) * 0.5;
     m.joints.push_back(bare_joint(random, closing, "closing", link_name(0), link_name(links),
                                   {middle + random.vector(0.05), random.rotation()}));
@@ -194,6 +215,7 @@ ModelSpec random_tree(Random& random, const MechanismOptions& options) {
         const int parent = options.fixed_base && i == 0 ? -1 : random.integer(0, i - 1);
         add_limb(random, options, i, parent, random_kind(random, options), m);
     }
+    make_some_planar(random, options, m.joints);
     return m;
 }
 

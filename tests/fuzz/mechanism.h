@@ -20,11 +20,12 @@ struct MechanismOptions {
     bool stores = true;  // springs, soft limits and rotors, which hold energy besides the links
     std::vector<JointSpecKind> kinds{JointSpecKind::kRevolute, JointSpecKind::kPrismatic,
                                      JointSpecKind::kBall, JointSpecKind::kUniversal, JointSpecKind::kScrew};
+    bool planar = true;           // besides `kinds`, planar joints in one mechanism of eight
     bool shapes = false;          // a collision on every link
     double restitution_most = 0;  // of 40 % of the shapes
 };
 
-/// A tree of revolute, prismatic, ball, universal and screw joints with random frames, inertias, limits,
+/// A tree of revolute, prismatic, ball, universal, screw and planar joints with random frames, inertias, limits,
 /// damping, friction, springs and rotor inertias. No motor drives it. A free base is one of its links.
 ModelSpec random_tree(Random& random, const MechanismOptions& options);
 
