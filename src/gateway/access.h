@@ -21,7 +21,7 @@ Result<ListenAddress> parse_listen_address(const std::string& text);
 /// zone).
 bool is_loopback(std::string_view host);
 
-/// Everything that decides about a request, as its headers say.
+/// Everything that decides about a request, read from its headers.
 struct Visitor {
     std::string_view host, origin, target, cookie;
     bool wants_socket = false;

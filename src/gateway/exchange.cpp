@@ -88,7 +88,7 @@ void Exchange::show(StateBlock exact) {
     ring(lock);
 }
 
-void Exchange::say(Line line) {
+void Exchange::send(Line line) {
     std::unique_lock lock(mutex_);
     if (lines_.size() >= kLinesMax) return;
     lines_.push_back(std::move(line));

@@ -32,7 +32,7 @@ struct WatchRequest {
 /// small world it costs little.
 bool needs_everybody(const Model& model, RobotId robot);
 
-/// Words or an order of a page.
+/// A control request or an order of a page.
 struct PageCall {
     std::uint64_t page = 0;
     std::int64_t id = 0;
@@ -75,14 +75,14 @@ class Exchange {
     bool call(PageCall call);
 
     // --- the run's side
-    /// Cheap; true if anything was said since the last take.
+    /// Cheap; true if a page asked for anything since the last take.
     bool stirred() const { return stirred_.load(std::memory_order_acquire); }
     WatchRequest take_watch_request();
     std::vector<PageCall> take_calls();
     void show(std::shared_ptr<const ShownScene> scene);
     void show(const Address& sender, ViewStates views);
     void show(StateBlock exact);
-    void say(Line line);
+    void send(Line line);
 
   private:
     void ring(std::unique_lock<std::mutex>& lock);

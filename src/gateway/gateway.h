@@ -41,7 +41,7 @@ class Gateway {
     void advance(Bus& bus);
     /// Refusals and such, one line each, since the last call.
     std::vector<std::string> take_notices();
-    /// Why the run is over, as far as it was said; empty: it is not.
+    /// Why the run is over, if a reason was sent; empty: it is not over.
     const std::string& over() const;
     GatewayLoad load() const;
 

@@ -106,7 +106,7 @@ Json json_of(const Sample* sample, double dt_s) {
 }
 
 /// From what states remember: against whom, and how hard along the normal. The lower RobotId of a pair
-/// remembers it, so of a lower robot only what is known is told.
+/// remembers it, so of a lower robot only what is known is reported.
 Json contacts_json(RobotId robot, std::span<const std::optional<RobotState>> states, double dt_s) {
     Json list = Json::array();
     const auto add = [&](std::int64_t other, const ContactMemory& contact) {

@@ -1,4 +1,4 @@
-// What pages may say is understood; anything else is refused by name.
+// Valid requests of pages are understood; anything else is refused by name.
 #include "gateway/page_request.h"
 
 #include <gtest/gtest.h>

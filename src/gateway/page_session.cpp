@@ -1,4 +1,4 @@
-// Beast does the protocol; here is what may be said and when.
+// Beast does the protocol; this file decides what is sent, and when.
 #include "gateway/page_session.h"
 
 #include <boost/asio/buffer.hpp>
@@ -102,11 +102,11 @@ void PageSession::take(const std::string& text) {
 
 bool PageSession::greet() {
     if (!open_ || std::exchange(greeted_, true)) return false;
-    say(core_.hello(), false);
+    send(core_.hello(), false);
     return true;
 }
 
-void PageSession::say(std::string text, bool may_miss) {
+void PageSession::send(std::string text, bool may_miss) {
     if (!open_ || (may_miss && lines_.size() >= kLinesMissAt)) return;
     if (lines_.size() >= kLinesMax) return end("it does not read its replies");
     lines_.push_back(std::move(text));

@@ -31,10 +31,10 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
     std::uint64_t sent_bytes() const { return sent_bytes_; }
     bool open() const { return open_; }
 
-    /// Says hello, once; false: it has been said.
+    /// Sends the hello line, once; false: it has been sent.
     bool greet();
     /// A line of text. `may_miss`: it is dropped where others wait already.
-    void say(std::string text, bool may_miss);
+    void send(std::string text, bool may_miss);
     /// The world has moved: a State is sent when it is due.
     void show_state();
     /// The scene is another one: the next State is whole.

@@ -194,20 +194,20 @@ void RunWatcher::show_status(const RunStatus& status, std::int64_t asked_at_ms) 
     const double wall_s = 1e-3 * static_cast<double>(asked_at_ms - std::exchange(status_at_ms_, asked_at_ms));
     const double simulated_s = status.time_s - std::exchange(status_time_s_, status.time_s);
     const bool known = wall_s > 0 && wall_s < 10 && simulated_s >= 0;
-    exchange_->say({Line::To::kStatus, 0, true, [status, factor = known ? simulated_s / wall_s : 0.0]() {
+    exchange_->send({Line::To::kStatus, 0, true, [status, factor = known ? simulated_s / wall_s : 0.0]() {
                         return status_line(status, factor);
                     }});
 }
 
 void RunWatcher::show_groups(const RobotGroups& groups, const ShownScene& scene) {
     if (groups.model_hash != scene.model->hash) return;
-    exchange_->say({Line::To::kGroups, 0, true,
+    exchange_->send({Line::To::kGroups, 0, true,
                     [groups, number = scene.number]() { return groups_line(groups, number); }});
 }
 
 void RunWatcher::show_bounds(const RobotBounds& bounds, const ShownScene& scene) {
     if (bounds.model_hash != scene.model->hash) return;
-    exchange_->say({Line::To::kBounds, 0, true, [bounds, tick = tick_, number = scene.number]() {
+    exchange_->send({Line::To::kBounds, 0, true, [bounds, tick = tick_, number = scene.number]() {
                         return bounds_line(bounds, tick, number);
                     }});
 }
@@ -224,7 +224,7 @@ void RunWatcher::answer(std::uint64_t page, std::int64_t id, const ControlOutcom
 }
 
 void RunWatcher::answer(std::uint64_t page, std::int64_t id, bool done, std::string text, std::string code) {
-    exchange_->say(
+    exchange_->send(
         {Line::To::kPage, page, false, [id, done, text = std::move(text), code = std::move(code)]() {
              Json line{{"type", "answer"}, {"id", id}, {"done", done}, {"text", text}};
              if (!code.empty()) line["code"] = code;
@@ -233,7 +233,7 @@ void RunWatcher::answer(std::uint64_t page, std::int64_t id, bool done, std::str
 }
 
 void RunWatcher::serve(Bus& bus, PageCall& call) {
-    if (const auto* order_said = std::get_if<PageOrder>(&call.what)) return order(bus, call, *order_said);
+    if (const auto* page_order = std::get_if<PageOrder>(&call.what)) return order(bus, call, *page_order);
     if (control_.questions.size() >= kQuestionsMax)
         return answer(call.page, call.id, false, "too many requests are waiting for replies", "busy");
     Result<ControlAction> parsed = parse_control(std::get<ControlArguments>(call.what).words);
@@ -244,7 +244,7 @@ void RunWatcher::serve(Bus& bus, PageCall& call) {
          }});
 }
 
-void RunWatcher::order(Bus& bus, const PageCall& call, const PageOrder& said) {
+void RunWatcher::order(Bus& bus, const PageCall& call, const PageOrder& wanted) {
     if (!scene_ || outdated_)
         return answer(call.page, call.id, false, "the scene has changed and is being fetched");
     if (!client_) {
@@ -257,16 +257,16 @@ void RunWatcher::order(Bus& bus, const PageCall& call, const PageOrder& said) {
         sequence_ = 0;
     }
     Result<> given = Error{"", ""};
-    if (const auto* wrench = std::get_if<PageWrench>(&said.action)) {
-        given = client_->apply_wrench(said.robot, wrench->link, wrench->force, wrench->torque,
+    if (const auto* wrench = std::get_if<PageWrench>(&wanted.action)) {
+        given = client_->apply_wrench(wanted.robot, wrench->link, wrench->force, wrench->torque,
                                       wrench->duration_s);
     } else {
         std::visit(
             [&](const auto& action) {
                 if constexpr (!std::is_same_v<std::decay_t<decltype(action)>, PageWrench>)
-                    given = client_->order(said.robot, action);
+                    given = client_->order(wanted.robot, action);
             },
-            said.action);
+            wanted.action);
     }
     if (!given) return answer(call.page, call.id, ControlRefused(given.error()));
     orders_.push_back({call.page, ++sequence_, call.id});

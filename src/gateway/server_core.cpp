@@ -1,4 +1,4 @@
-// The gateway's thread: news come from the run's side, pages are told.
+// The gateway's thread: it takes news from the run's thread and sends them to pages.
 #include <boost/asio/post.hpp>
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -155,7 +155,7 @@ void ServerCore::call(PageSession& page, PageRequest&& request) {
     }
     const std::int64_t id = call.id;
     if (exchange_->call(std::move(call))) return;
-    page.say(
+    page.send(
         nlohmann::json{{"type", "answer"}, {"id", id}, {"done", false}, {"text", "too many requests at once"}}
             .dump(),
         false);
@@ -189,45 +189,45 @@ void ServerCore::take_news() {
     News news = exchange_->take_news();
     if (news.scene) {
         scene_ = news.scene;
-        tell_scene();
+        send_scene();
     }
-    tell_states(news);
+    send_states(news);
     for (const StateBlock& block : news.exact) inspector_.take(block);
-    if (!news.exact.empty()) tell_exact();
-    tell_lines(news.lines);
+    if (!news.exact.empty()) send_exact();
+    send_lines(news.lines);
 }
 
-void ServerCore::tell_scene() {
+void ServerCore::send_scene() {
     order_log_.begin(scene_);
     inspector_.begin(scene_);
     for (const auto& waiter : std::exchange(scene_waiters_, {})) (*waiter)();
     const std::string text = nlohmann::json{{"type", "scene"}, {"scene", scene_->number}}.dump();
     for (const auto& [number, page] : std::map(pages_)) {
         page->begin_scene();
-        if (!page->greet()) page->say(text, false);
+        if (!page->greet()) page->send(text, false);
     }
     watch_changed();
 }
 
 /// Views of several Simulators come in parts: a State waits a moment for the last one.
-void ServerCore::tell_states(const News& news) {
+void ServerCore::send_states(const News& news) {
     bool taken = false;
     for (const ViewStates& views : news.views) taken = order_log_.take(views, steady_ms()) || taken;
     if (!taken) return;
-    const auto tell = [this] {
+    const auto show = [this] {
         for (const auto& [number, page] : std::map(pages_)) page->show_state();
     };
     if (order_log_.complete()) {
         late_.cancel();
-        return tell();
+        return show();
     }
     late_.expires_after(kLatePart);
-    late_.async_wait([tell](boost::system::error_code error) {
-        if (!error) tell();
+    late_.async_wait([show](boost::system::error_code error) {
+        if (!error) show();
     });
 }
 
-void ServerCore::tell_exact() {
+void ServerCore::send_exact() {
     std::map<RobotId, std::string> robots;
     std::string contacts;
     for (const auto& [number, page] : std::map(pages_)) {
@@ -235,32 +235,32 @@ void ServerCore::tell_exact() {
             if (!inspector_.shows(robot)) continue;
             std::string& text = robots[robot];
             if (text.empty()) text = inspector_.robot(robot);
-            page->say(text, true);
+            page->send(text, true);
         }
         if (!page->watch().contacts || !inspector_.complete()) continue;
         if (contacts.empty()) contacts = inspector_.contacts();
-        page->say(contacts, true);
+        page->send(contacts, true);
     }
 }
 
-void ServerCore::tell_lines(std::vector<Line>& lines) {
+void ServerCore::send_lines(std::vector<Line>& lines) {
     for (const Line& line : lines) {
-        std::string text;  // made for the first who hears it
+        std::string text;  // made for the first page that gets it
         for (const auto& [number, page] : std::map(pages_)) {
-            const bool hears = line.to == Line::To::kPage     ? number == line.page
+            const bool gets_it = line.to == Line::To::kPage     ? number == line.page
                                : line.to == Line::To::kGroups ? page->watch().groups
                                : line.to == Line::To::kBounds ? page->watch().bounds
                                                               : true;
-            if (!hears) continue;
+            if (!gets_it) continue;
             if (text.empty()) text = line.make();
             if (text.empty()) break;
-            std::string said = text;
-            if (line.to == Line::To::kStatus && said.size() > 2) {
-                said.pop_back();
-                said += ",\"viewers\":" + std::to_string(pages_.size()) +
+            std::string sent = text;
+            if (line.to == Line::To::kStatus && sent.size() > 2) {
+                sent.pop_back();
+                sent += ",\"viewers\":" + std::to_string(pages_.size()) +
                         ",\"sent_bytes\":" + std::to_string(page->sent_bytes()) + "}";
             }
-            page->say(std::move(said), line.may_miss);
+            page->send(std::move(sent), line.may_miss);
         }
     }
 }
@@ -273,8 +273,8 @@ void ServerCore::notice(std::string text) {
 
 std::vector<std::string> ServerCore::take_notices() {
     const std::scoped_lock lock(mutex_);
-    const bool may_tell = notices_left_out_ > 0 && notice_rate_.take(steady_ms());
-    if (const std::size_t n = may_tell ? std::exchange(notices_left_out_, 0) : 0; n > 0)
+    const bool may_report = notices_left_out_ > 0 && notice_rate_.take(steady_ms());
+    if (const std::size_t n = may_report ? std::exchange(notices_left_out_, 0) : 0; n > 0)
         notices_.push_back("viewer: " + std::to_string(n) +
                            " more such messages are left out [rate-limited]");
     return std::exchange(notices_, {});

@@ -61,10 +61,10 @@ class ServerCore {
     void serve();
     void accept();
     void take_news();
-    void tell_scene();
-    void tell_lines(std::vector<Line>& lines);
-    void tell_states(const News& news);
-    void tell_exact();
+    void send_scene();
+    void send_lines(std::vector<Line>& lines);
+    void send_states(const News& news);
+    void send_exact();
     void measure();
 
     GatewayOptions options_;

@@ -1,4 +1,4 @@
-// What the log says of a run.
+// What the log reports of a run.
 #include "app/output/event_log.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Robots that were added look as their own world says, under the name and at the place where they were put;
+// Robots that were added look as in their own world, under the name and at the place where they were put;
 // earlier Models look as they did.
 #include "app/viewer/model_visuals.h"
 

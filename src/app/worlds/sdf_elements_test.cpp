@@ -277,10 +277,10 @@ TEST(SdfElements, EachHasItsEffectOrADiagnosticWithItsLine) {
         const std::string text = world_with(element.in, element.text, element.version);
         const Outcome with = load(text);
         ASSERT_NE(base.hash, 0u) << (base.diagnostics.empty() ? "" : to_text(base.diagnostics[0]));
-        std::string said;
+        std::string reported;
         bool named = false;
         for (const Diagnostic& d : with.diagnostics) {
-            said += to_text(d) + "\n";
+            reported += to_text(d) + "\n";
             // a block is reported at its own line or at that of the element that holds it, one line above
             const int line = line_of(text, element.text);
             named |= *element.named != '\0' && to_text(d).find(element.named) != std::string::npos &&
@@ -290,7 +290,7 @@ TEST(SdfElements, EachHasItsEffectOrADiagnosticWithItsLine) {
         EXPECT_TRUE(*element.named == '\0' ? effect : named)
             << element.text << " (SDFormat " << element.version
             << "): " << (effect ? "has an effect" : "has no effect") << "\n"
-            << said;
+            << reported;
     }
 }
 
