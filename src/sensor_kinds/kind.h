@@ -11,9 +11,12 @@ namespace roboss {
 /// Gaussian noise as in SDF's <noise type="gaussian">, in the unit of the value that it disturbs; all zero:
 /// none.
 struct NoiseSpec {
-    double mean = 0, stddev = 0;            ///< of the draw of each measurement
-    double bias_mean = 0, bias_stddev = 0;  ///< of a bias that is drawn once per run
-    double precision = 0;                   ///< gaussian_quantized: readings are multiples of it; 0: any
+    double mean = 0,        ///< of the draw of each measurement
+        stddev = 0;         ///< of the draw of each measurement
+    double bias_mean = 0,   ///< of a bias that is drawn once per run
+        bias_stddev = 0;    ///< of a bias that is drawn once per run
+    double precision = 0;   ///< gaussian_quantized: readings are multiples of it; 0: any
+    /// Compares all members.
     friend bool operator==(const NoiseSpec&, const NoiseSpec&) = default;
 };
 
@@ -24,7 +27,7 @@ struct JointNames : std::vector<std::string> {
 
 /// One parameter of a kind of sensor: its name in code, hashes and the viewer's JSON, and its element in SDF.
 struct Parameter {
-    const char* name;
+    const char* name;       ///< unique in its kind
     const char* element;    ///< path below SensorKind::block, e.g. "scan/horizontal/samples"
     const char* unit = "";  ///< "rad": the element may have degrees="true"
     bool infinite = false;  ///< whether infinity is a value of it
@@ -32,8 +35,8 @@ struct Parameter {
 
 /// One value of a reading: its name in the viewer's JSON, and its unit ("" for counts, ratios and rotations).
 struct ReadingField {
-    const char* name;
-    const char* unit = "";
+    const char* name;       ///< unique in its reading
+    const char* unit = "";  ///< "" for counts, ratios and rotations
 };
 
 /// An element of SDF that this kind of sensor does not honour. It is reported where it is written with
@@ -41,13 +44,14 @@ struct ReadingField {
 struct IgnoredElement {
     const char* element;  ///< path below SensorKind::block
     const char* neutral;  ///< the value that means nothing; "": none
-    const char* why;
-    const char* remedy = "";
+    const char* why;          ///< continues "<element> has no effect: "
+    const char* remedy = "";  ///< what to write instead; "": nothing
 };
 
+/// What a kind of sensor states about itself.
 struct SensorKind {
-    std::uint32_t
-        number;          ///< in Model hashes, on the wire and in saved runs: never changed, never used again
+    /// In Model hashes, on the wire and in saved runs: never changed, never used again.
+    std::uint32_t number;
     const char* name;    ///< in the viewer's JSON and in `roboss check`
     const char* phrase;  ///< for messages: "a laser"
     const char* sdf_types;   ///< values of <sensor type="...">, separated by |
@@ -55,13 +59,13 @@ struct SensorKind {
     const char* block = "";  ///< the child element that holds the parameters, or "first|second"; "": none
     bool block_required = false;    ///< without it the sensor measures nothing
     bool needs_all_states = false;  ///< a reading depends on the states of other robots
-    std::span<const IgnoredElement> ignored{};
+    std::span<const IgnoredElement> ignored{};  ///< elements that have no effect
 };
 
 /// Why a sensor cannot measure with these parameters.
 struct SensorProblem {
     std::string text;  ///< continues "sensor 'x' ...", e.g. "has 0 beams"
-    std::string remedy;
+    std::string remedy;  ///< what to do about it
 };
 
 }  // namespace roboss

@@ -10,13 +10,16 @@
 
 namespace roboss {
 
+/// What a laser measures.
 struct LaserReading {
-    int samples = 0, vertical_samples = 0;
+    int samples = 0,           ///< beams of a row
+        vertical_samples = 0;  ///< rows
     /// m, row by row (vertical angle ascending), within a row by ascending horizontal angle. +infinity:
     /// nothing within range_max; -infinity: something nearer than range_min.
     std::vector<double> ranges;
     Tick tick = 0;  ///< of the measurement, as in all readings
 
+    /// Calls visit(ReadingField, value) for each value, always in the same order.
     template <class Visitor, class Self>
     static void fields(Visitor&& visit, Self& r) {
         visit({"samples"}, r.samples);
@@ -31,18 +34,25 @@ struct LaserReading {
 /// range_resolution, then clamped to [range_min, range_max]. Whether a beam is out of range is judged without
 /// noise.
 struct LaserSpec {
-    using Reading = LaserReading;
+    using Reading = LaserReading;  ///< what it measures
 
-    int samples = 1, vertical_samples = 1;
-    double min_angle = 0, max_angle = 0;                        ///< rad, about the sensor's z
-    double vertical_min_angle = 0, vertical_max_angle = 0;      ///< rad, above the sensor's xy plane
-    double range_min = 0, range_max = 0, range_resolution = 0;  ///< m
-    NoiseSpec noise;                                            ///< m
+    int samples = 1,                ///< beams of a row
+        vertical_samples = 1;       ///< rows
+    double min_angle = 0,           ///< rad, about the sensor's z
+        max_angle = 0;              ///< rad, about the sensor's z
+    double vertical_min_angle = 0,  ///< rad, above the sensor's xy plane
+        vertical_max_angle = 0;     ///< rad, above the sensor's xy plane
+    double range_min = 0,           ///< m
+        range_max = 0,              ///< m
+        range_resolution = 0;       ///< m; 0: any
+    NoiseSpec noise;                ///< m
 
+    /// Its elements of SDF that have no effect.
     static constexpr IgnoredElement kIgnored[] = {
         {"scan/horizontal/resolution", "1", "every one of the <samples> is a beam of its own"},
         {"scan/vertical/resolution", "1", "every one of the <samples> is a beam of its own"},
     };
+    /// What this kind states about itself.
     static constexpr SensorKind kKind{.number = 0,
                                       .name = "laser",
                                       .phrase = "a laser",
@@ -52,6 +62,7 @@ struct LaserSpec {
                                       .needs_all_states = true,
                                       .ignored = kIgnored};
 
+    /// Calls visit(Parameter, value) for each parameter, always in the same order.
     template <class Visitor, class Self>
     static void parameters(Visitor&& visit, Self& s) {
         visit({"samples", "scan/horizontal/samples"}, s.samples);
@@ -66,8 +77,10 @@ struct LaserSpec {
         visit({"noise", "noise", "m"}, s.noise);
     }
 
+    /// Compares all members.
     friend bool operator==(const LaserSpec&, const LaserSpec&) = default;
 
+    /// Adds why it cannot measure, if it cannot.
     void check(std::vector<SensorProblem>& problems) const {
         constexpr std::int64_t kBeamsMax = 1 << 24;
         if (samples < 1 || vertical_samples < 1)

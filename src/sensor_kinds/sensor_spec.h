@@ -22,44 +22,54 @@ namespace roboss {
 
 /// A sensor of a type that is not simulated. It is kept, and measures nothing.
 struct UnsupportedSensor {
+    /// What this kind states about itself.
     static constexpr SensorKind kKind{
         .number = 4, .name = "unsupported", .phrase = "a sensor that measures nothing", .sdf_types = ""};
+    /// It has none.
     template <class Visitor, class Self>
     static void parameters(Visitor&&, Self&) {}
+    /// There is nothing to check.
     void check(std::vector<SensorProblem>&) const {}
+    /// Compares all members.
     friend bool operator==(const UnsupportedSensor&, const UnsupportedSensor&) = default;
 };
 
+/// A list of kinds, and what follows from it.
 template <class... Specs>
 struct SensorKindList {
-    using Parameters = std::variant<UnsupportedSensor, Specs...>;
-    using Sample = std::variant<typename Specs::Reading...>;
+    using Parameters = std::variant<UnsupportedSensor, Specs...>;  ///< of any kind
+    using Sample = std::variant<typename Specs::Reading...>;       ///< a reading of any kind
 };
 
 /// All kinds of sensors that are simulated.
 using SensorKinds = SensorKindList<LaserSpec, GpsSpec, CompassSpec, OdometerSpec, ImuSpec>;
 
+/// Parameters of any kind.
 using SensorParameters = SensorKinds::Parameters;
 /// A reading of any kind.
 using Sample = SensorKinds::Sample;
 
+/// A sensor of a link.
 struct SensorSpec {
-    std::string name;
+    std::string name;             ///< unique in its link
     std::string sdf_type;         ///< as written, e.g. "gpu_lidar"
     Pose X_LS;                    ///< sensor in link
     double update_rate_hz = 0;    ///< samples a second; 0: one whenever it is asked
     SensorParameters parameters;  ///< of its kind
-    SourceLocation where;
+    SourceLocation where;         ///< in the file
 
+    /// The kind that it is of.
     const SensorKind& kind() const {
         return std::visit([](const auto& p) -> const SensorKind& { return p.kKind; }, parameters);
     }
+    /// Whether its kind is simulated.
     bool measures() const { return !std::holds_alternative<UnsupportedSensor>(parameters); }
     /// The parameters if it is of this kind, else nullptr: `spec.as<LaserSpec>()`.
     template <class Kind>
     const Kind* as() const {
         return std::get_if<Kind>(&parameters);
     }
+    /// The same, to be changed.
     template <class Kind>
     Kind* as() {
         return std::get_if<Kind>(&parameters);
@@ -71,6 +81,7 @@ template <class Visitor>
 void visit_parameters(const SensorParameters& parameters, Visitor&& visitor) {
     std::visit([&](const auto& p) { p.parameters(visitor, p); }, parameters);
 }
+/// The same with values that may be changed.
 template <class Visitor>
 void visit_parameters(SensorParameters& parameters, Visitor&& visitor) {
     std::visit([&](auto& p) { p.parameters(visitor, p); }, parameters);
@@ -81,6 +92,7 @@ template <class Visitor>
 void visit_fields(const Sample& sample, Visitor&& visitor) {
     std::visit([&](const auto& reading) { reading.fields(visitor, reading); }, sample);
 }
+/// The same with values that may be changed.
 template <class Visitor>
 void visit_fields(Sample& sample, Visitor&& visitor) {
     std::visit([&](auto& reading) { reading.fields(visitor, reading); }, sample);

@@ -11,10 +11,11 @@
 
 namespace roboss {
 
+/// Options of a Controller.
 struct ControllerOptions {
     Tick window = 0;      // ticks; 0: adaptive
     Tick window_max = 0;  // limit of the adaptive length; 0: by the robots per worker (longest_window)
-    ForecastOptions forecast;
+    ForecastOptions forecast;          // of the islands of a window
     std::size_t simulators = 1;        // the first window waits for this many
     std::vector<std::string> clients;  // and for these Clients; their ids are their indices here
     std::uint64_t seed = 1;            // sent to Clients
@@ -27,19 +28,19 @@ struct ControllerOptions {
     std::int64_t client_loss_ms = 0;  // so is a Client that does not reply to an observation; 0: never
     std::int64_t client_gone_ms = 0;  // and a Client that the Bus reports as vanished for so long; 0: never
     Tick checkpoint_ticks = 0;        // between recovery checkpoints, at most; 0: none by ticks
-    double checkpoint_work_s =
-        0;  // stepping CPU time of the busiest Simulator between two of them; 0: none by work
+    /// Stepping CPU time of the busiest Simulator between two of them; 0: none by work.
+    double checkpoint_work_s = 0;
     /// State of the Controller that this one succeeds on the same Bus (after a rewind, say).
     struct Before {
         std::size_t seats = 0;  // never used again
         /// Id of the first Simulator; a process of its own takes one that no other had.
         std::uint32_t first_id = 0;
-        std::uint32_t epoch = 0;
-        std::uint64_t window = 0;
+        std::uint32_t epoch = 0;            // of the assignments
+        std::uint64_t window = 0;           // number of the last window
         std::vector<std::uint64_t> models;  // hashes of earlier Models of the run
         bool went_back = false;             // a rewind: Clients may have seen ticks that were discarded
-        ControlService control;
-    } before;
+        ControlService control;             // requests, and answers that may have to be repeated
+    } before;  ///< none: it is the first
     /// Makes the scene, in bytes for viewers; called when the first viewer requests it.
     ModelServer::SceneOf scene;
     RunLog* log = nullptr;  // outlives the Controller; null: nothing is logged
@@ -57,8 +58,10 @@ struct StartingPoint {
     /// again.
     std::vector<Tick> answered;
 };
+/// The world's beginning: tick 0, no orders.
 StartingPoint beginning_of(const Model& model);
 
+/// Counts since a Simulation was made.
 struct Counters {
     std::uint64_t windows = 0;           // committed
     std::uint64_t windows_repeated = 0;  // of these, with islands merged and stepped again
@@ -66,26 +69,34 @@ struct Counters {
     std::uint64_t islands = 0;           // summed over windows
     std::uint64_t ticks = 0;             // committed by this run
     std::uint64_t island_ticks = 0;      // islands times ticks: islands_mean = island_ticks / ticks
-    std::uint64_t contacts = 0, static_contacts = 0;  // summed over ticks
-    double step_cpu_s = 0;                            // all stepping, repeats included
+    std::uint64_t contacts = 0;          // between robots, summed over ticks
+    std::uint64_t static_contacts = 0;   // with scenery, summed over ticks
+    double step_cpu_s = 0;               // all stepping, repeats included
     double critical_cpu_s = 0;   // of the busiest Simulator of each attempt: a lower bound for many machines
-    std::uint64_t silences = 0;  // of the losses, those noticed by silence alone
-    std::uint64_t losses = 0, recoveries = 0, migrations = 0, checkpoints = 0, orders_refused = 0;
-    std::uint64_t orders_ahead = 0;  // sent ahead of the assignment of their window
-    std::uint64_t cuts = 0;          // late assignments of which others took a part (work stealing)
-    std::size_t simulators = 0, islands_now = 0;
+    std::uint64_t silences = 0;        // of the losses, those noticed by silence alone
+    std::uint64_t losses = 0;          // Simulators lost
+    std::uint64_t recoveries = 0;      // of lost states
+    std::uint64_t migrations = 0;      // of robots between Simulators
+    std::uint64_t checkpoints = 0;     // for recovery
+    std::uint64_t orders_refused = 0;  // of Clients
+    std::uint64_t orders_ahead = 0;    // sent ahead of the assignment of their window
+    std::uint64_t cuts = 0;            // late assignments of which others took a part (work stealing)
+    std::size_t simulators = 0;        // that are alive
+    std::size_t islands_now = 0;       // of the last window
 };
 
 /// A Simulator for status reports. Loads and times are running means over windows.
 struct MemberReport {
     std::uint32_t number = 0;  // in the order of joining, from 0
-    std::string name;
-    std::uint32_t threads = 1;
-    bool alive = false, leaving = false;  // both false: lost; leaving and not alive: it has left
-    std::size_t robots = 0, islands = 0;  // that it has now
+    std::string name;           // where it runs
+    std::uint32_t threads = 1;  // that step
+    bool alive = false;         // neither lost nor gone
+    bool leaving = false;       // it wants to leave; if it is not alive: it has left
+    std::size_t robots = 0;     // that it has now
+    std::size_t islands = 0;    // that it has now
     double step_us = 0;                   // stepping CPU time per tick and thread
     double load = 0;                      // the same, relative to the busiest
-    Address address;
+    Address address;                      // on the Bus
 };
 
 }  // namespace roboss
