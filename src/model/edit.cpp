@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <set>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "model/accuracy.h"
 #include "model/seal.h"
@@ -28,6 +30,51 @@ TypeId place_of_type(Model& model, const RobotType& type) {
         if (model.types[i].hash == type.hash && model.types[i].name == type.name) return TypeId(i);
     model.types.push_back(type);
     return TypeId(model.types.size() - 1);
+}
+
+std::vector<char> types_in_use(const Model& model) {
+    std::vector<char> used(model.types.size(), 0);
+    for (const Robot& robot : model.robots) used[robot.type.index()] = 1;
+    return used;
+}
+
+/// Removes the types that these robots had and nobody has any more. `used`: before the edit.
+void remove_types(Model& model, const std::vector<char>& used) {
+    const std::vector<char> still = types_in_use(model);
+    std::vector<TypeId> now(model.types.size());
+    std::vector<RobotType> types;
+    for (std::size_t i = 0; i < model.types.size(); ++i) {
+        if (used[i] && !still[i]) continue;
+        now[i] = TypeId(types.size());
+        types.push_back(std::move(model.types[i]));
+    }
+    model.types = std::move(types);
+    for (Robot& robot : model.robots) robot.type = now[robot.type.index()];
+}
+
+/// Keeps the hulls and surfaces that shapes point to, each once.
+void remove_unused_shapes(Model& model) {
+    std::unordered_set<const void*> used;
+    const auto use = [&](const Shape& shape) { used.insert({shape.hull, shape.surface}); };
+    for (const RobotType& type : model.types)
+        for (const BodyShape& shape : type.shapes) use(shape.shape);
+    for (const StaticShape& shape : model.statics) use(shape.shape);
+    const auto is_unused = [&](const auto& held) { return used.erase(held.get()) == 0; };
+    std::erase_if(model.hulls, is_unused);
+    std::erase_if(model.surfaces, is_unused);
+}
+
+/// The robots with this name; "x*": those whose names begin with x.
+std::vector<std::uint32_t> find_robots(const Model& model,
+                                       const std::unordered_map<std::string_view, std::uint32_t>& by_name,
+                                       const std::string& name) {
+    if (const auto found = by_name.find(name); found != by_name.end()) return {found->second};
+    std::vector<std::uint32_t> found;
+    if (!name.ends_with('*')) return found;
+    const std::string_view start = std::string_view(name).substr(0, name.size() - 1);
+    for (std::uint32_t i = 0; i < model.robots.size(); ++i)
+        if (model.robots[i].name.starts_with(start)) found.push_back(i);
+    return found;
 }
 
 Error taken(const std::string& name) {
@@ -61,10 +108,12 @@ Result<ModelEdit> with_models(const Model& model, const Model& addition, const P
     std::uint32_t family = 0;
     for (const Robot& robot : model.robots) family = std::max(family, robot.family + 1);
     const std::size_t first = model.robots.size();
+    std::unordered_set<std::string_view> names;
+    for (const Robot& robot : model.robots) names.insert(robot.name);
     for (const Robot& robot : addition.robots) {
         Robot added = robot;
         added.name = name_in_model(addition, robot.name, name);
-        if (model.find_robot(added.name)) return taken(added.name);
+        if (names.contains(added.name)) return taken(added.name);
         added.type = place_of_type(*changed, addition.types[robot.type.index()]);
         added.X_WR = X_WA * robot.X_WR;
         added.X_WR.q = normalized(added.X_WR.q);
@@ -80,17 +129,20 @@ Result<ModelEdit> with_models(const Model& model, const Model& addition, const P
     }
     changed->hulls.insert(changed->hulls.end(), addition.hulls.begin(), addition.hulls.end());
     changed->surfaces.insert(changed->surfaces.end(), addition.surfaces.begin(), addition.surfaces.end());
+    remove_unused_shapes(*changed);
     return sealed(std::move(changed), all_stay(model), !addition.statics.empty());
 }
 
 Result<ModelEdit> without_robots(const Model& model, const std::vector<std::string>& names) {
+    std::unordered_map<std::string_view, std::uint32_t> by_name;
+    for (std::uint32_t i = 0; i < model.robots.size(); ++i) by_name.emplace(model.robots[i].name, i);
     std::set<std::uint32_t> gone;
     for (const std::string& name : names) {
-        const std::optional<RobotId> robot = model.find_robot(name);
-        if (!robot)
+        const std::vector<std::uint32_t> robots = find_robots(model, by_name, name);
+        if (robots.empty())
             return Error{"there is no robot '" + name + "' in the world",
                          "see `roboss control status` for their names"};
-        gone.insert(robot->value);
+        gone.insert(robots.begin(), robots.end());
     }
     auto changed = std::make_shared<Model>(model);
     changed->robots.clear();
@@ -104,6 +156,8 @@ Result<ModelEdit> without_robots(const Model& model, const std::vector<std::stri
         if (shape.robot.valid()) shape.robot = now[shape.robot.index()];
         if (!shape.robot.valid()) shape.link = LinkId();
     }
+    remove_types(*changed, types_in_use(model));
+    remove_unused_shapes(*changed);
     return sealed(std::move(changed), std::move(now), false);
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <support/meshes.h>
 #include <support/robots.h>
 
 namespace roboss::test {
@@ -93,6 +94,48 @@ TEST(ModelEdit, ComingAndGoingLeavesTheModelAsItWas) {
     ASSERT_EQ(gone.value().model->robots.size(), model->robots.size());
     for (std::size_t i = 0; i < model->robots.size(); ++i)
         EXPECT_EQ(gone.value().model->type_of(RobotId(i)).hash, model->type_of(RobotId(i)).hash);
+    EXPECT_EQ(gone.value().model->types.size(), model->types.size()) << "nobody is a spider any more";
+    EXPECT_EQ(gone.value().model->hash, model->hash);
+}
+
+TEST(ModelEdit, RemovingByTheBeginningOfANameRemovesAllOfThem) {
+    World boxes = base_world();
+    for (int i = 0; i < 3; ++i)
+        place(boxes, solid_box(1, {0.2, 0.2, 0.2}, surface(0.5)), "crowd::" + std::to_string(i),
+              {{1.0 * i, 5, 1}, {}});
+    const auto model = made(boxes);
+    const Result<ModelEdit> edit = without_robots(*model, {"crowd::*", "arm"});
+    ASSERT_TRUE(edit.ok()) << edit.error().text();
+    ASSERT_EQ(edit.value().model->robots.size(), 2u);
+    EXPECT_EQ(edit.value().model->robots[1].name, "box");
+    EXPECT_FALSE(without_robots(*model, {"nobody*"}).ok());
+}
+
+/// Hulls come with every addition; those of a type that is there already are not kept.
+TEST(ModelEdit, ManyRoundsOfComingAndGoingLeaveNothingBehind) {
+    World guests = empty_world(1e-3);
+    ModelSpec gem = solid_box(1, {0.2, 0.2, 0.2}, surface(0.5));
+    gem.name = "gem";
+    gem.links[0].collisions = {mesh_shape(ball_mesh(0.1, 0), surface(0.5))};
+    for (int i = 0; i < 20; ++i)
+        place(guests, gem, "gem" + std::to_string(i), {{1.0 * i, 5, 1}, {}});
+    const auto addition = made(guests);
+    ASSERT_GT(addition->hulls.size(), 0u);
+    const auto start = made(base_world());
+    std::shared_ptr<const Model> model = start;
+    for (int round = 0; round < 100; ++round) {
+        const Result<ModelEdit> come = with_models(*model, *made(guests), {}, "guests");
+        ASSERT_TRUE(come.ok()) << come.error().text();
+        const Result<ModelEdit> more = with_models(*come.value().model, *made(guests), {}, "others");
+        ASSERT_TRUE(more.ok()) << more.error().text();
+        EXPECT_EQ(more.value().model->hulls.size(), addition->hulls.size());
+        const Result<ModelEdit> gone = without_robots(*more.value().model, {"guests::*", "others::*"});
+        ASSERT_TRUE(gone.ok()) << gone.error().text();
+        model = gone.value().model;
+        ASSERT_EQ(model->hash, start->hash);
+        ASSERT_EQ(model->types.size(), start->types.size());
+        ASSERT_EQ(model->hulls.size(), start->hulls.size());
+    }
 }
 
 TEST(ModelEdit, AccuracyIsSetWithinItsBounds) {
