@@ -1,5 +1,5 @@
-// Requests of pages, from JSON to plain data (docs/viewer-protocol.md). Pages are not trusted: what violates the
-// protocol is an Error that names it.
+// Requests of pages, from JSON to plain data (docs/viewer-protocol.md). Pages are not trusted: what violates
+// the protocol is an Error that names it.
 #pragma once
 
 #include <cstdint>

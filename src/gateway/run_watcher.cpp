@@ -195,21 +195,21 @@ void RunWatcher::show_status(const RunStatus& status, std::int64_t asked_at_ms) 
     const double simulated_s = status.time_s - std::exchange(status_time_s_, status.time_s);
     const bool known = wall_s > 0 && wall_s < 10 && simulated_s >= 0;
     exchange_->send({Line::To::kStatus, 0, true, [status, factor = known ? simulated_s / wall_s : 0.0]() {
-                        return status_line(status, factor);
-                    }});
+                         return status_line(status, factor);
+                     }});
 }
 
 void RunWatcher::show_groups(const RobotGroups& groups, const ShownScene& scene) {
     if (groups.model_hash != scene.model->hash) return;
     exchange_->send({Line::To::kGroups, 0, true,
-                    [groups, number = scene.number]() { return groups_line(groups, number); }});
+                     [groups, number = scene.number]() { return groups_line(groups, number); }});
 }
 
 void RunWatcher::show_bounds(const RobotBounds& bounds, const ShownScene& scene) {
     if (bounds.model_hash != scene.model->hash) return;
     exchange_->send({Line::To::kBounds, 0, true, [bounds, tick = tick_, number = scene.number]() {
-                        return bounds_line(bounds, tick, number);
-                    }});
+                         return bounds_line(bounds, tick, number);
+                     }});
 }
 
 void RunWatcher::answer(std::uint64_t page, std::int64_t id, const ControlOutcome& outcome) {

@@ -248,9 +248,9 @@ void ServerCore::send_lines(std::vector<Line>& lines) {
         std::string text;  // made for the first page that gets it
         for (const auto& [number, page] : std::map(pages_)) {
             const bool gets_it = line.to == Line::To::kPage     ? number == line.page
-                               : line.to == Line::To::kGroups ? page->watch().groups
-                               : line.to == Line::To::kBounds ? page->watch().bounds
-                                                              : true;
+                                 : line.to == Line::To::kGroups ? page->watch().groups
+                                 : line.to == Line::To::kBounds ? page->watch().bounds
+                                                                : true;
             if (!gets_it) continue;
             if (text.empty()) text = line.make();
             if (text.empty()) break;

@@ -32,8 +32,8 @@ std::string name_in_model(const Model& addition, const std::string& old, const s
 Result<ModelEdit> with_models(const Model& model, const Model& addition, const Pose& X_WA,
                               const std::string& name);
 
-/// Without these robots; "x*" names all whose names begin with x. Types, hulls and surfaces that only they had
-/// go with them; their scenery, if any, stays.
+/// Without these robots; "x*" names all whose names begin with x. Types, hulls and surfaces that only they
+/// had go with them; their scenery, if any, stays.
 Result<ModelEdit> without_robots(const Model& model, const std::vector<std::string>& names);
 
 /// States by the new RobotIds; of those that came: their initial state. Contacts with robots that are gone

@@ -117,8 +117,7 @@ TEST(ModelEdit, ManyRoundsOfComingAndGoingLeaveNothingBehind) {
     ModelSpec gem = solid_box(1, {0.2, 0.2, 0.2}, surface(0.5));
     gem.name = "gem";
     gem.links[0].collisions = {mesh_shape(ball_mesh(0.1, 0), surface(0.5))};
-    for (int i = 0; i < 20; ++i)
-        place(guests, gem, "gem" + std::to_string(i), {{1.0 * i, 5, 1}, {}});
+    for (int i = 0; i < 20; ++i) place(guests, gem, "gem" + std::to_string(i), {{1.0 * i, 5, 1}, {}});
     const auto addition = made(guests);
     ASSERT_GT(addition->hulls.size(), 0u);
     const auto start = made(base_world());

@@ -105,10 +105,11 @@ TEST(Urdf, PlanarJointHasItsThreeAxes) {
 
 TEST(Urdf, FloatingJointIsAnErrorAtTheJoint) {
     std::string free = kArm;
-    free.insert(free.find("</robot>"),
-                "<link name='ball'><inertial><mass value='1'/><inertia ixx='0.1' iyy='0.1' izz='0.1' ixy='0' "
-                "ixz='0' iyz='0'/></inertial></link>\n<joint name='free' type='floating'><parent link='upper'/>"
-                "<child link='ball'/></joint>\n");
+    free.insert(
+        free.find("</robot>"),
+        "<link name='ball'><inertial><mass value='1'/><inertia ixx='0.1' iyy='0.1' izz='0.1' ixy='0' "
+        "ixz='0' iyz='0'/></inertial></link>\n<joint name='free' type='floating'><parent link='upper'/>"
+        "<child link='ball'/></joint>\n");
     const Loaded loaded = load_text(free, "free.urdf");
     EXPECT_TRUE(loaded.diagnostics.has_errors());
     EXPECT_FALSE(loaded.world && !loaded.world->instances.empty()) << "the robot is left out";
@@ -128,8 +129,8 @@ TEST(Urdf, TransmissionHasNoEffectAndANoteSaysSo) {
     ASSERT_NE(note, nullptr) << loaded.text();
     EXPECT_EQ(note->severity, Severity::kNote);
     EXPECT_EQ(note->where.line, 9);
-    for (const char* part : {"'gear'", "'shoulder'", "<hardwareInterface> EffortJointInterface",
-                             "<mechanicalReduction> 50"})
+    for (const char* part :
+         {"'gear'", "'shoulder'", "<hardwareInterface> EffortJointInterface", "<mechanicalReduction> 50"})
         EXPECT_NE(note->message.find(part), std::string::npos) << note->message;
 }
 

@@ -16,7 +16,7 @@ struct CompassReading {
     Vec3 angular_velocity_S;  ///< rad/s, sensor axes
     Vec3 magnetic_field_S;    ///< T, sensor axes: the world's field, without noise
     double heading_rad = 0;   ///< of the sensor's x axis, clockwise from north, 0 .. 2 pi
-    Tick tick = 0;  ///< of the measurement
+    Tick tick = 0;            ///< of the measurement
 
     /// Calls visit(ReadingField, value) for each value, always in the same order.
     template <class Visitor, class Self>

@@ -12,13 +12,13 @@ namespace roboss {
 
 /// What a GPS receiver measures.
 struct GpsReading {
-    Vec3 p_W;               ///< m, world frame
-    Vec3 v_W;               ///< m/s, world axes
-    bool geodetic = false;  ///< the world has spherical coordinates: the next three are set (WGS84)
-    double latitude_rad = 0,   ///< rad, north
-        longitude_rad = 0,     ///< rad, east
-        altitude_m = 0;        ///< m above the ellipsoid
-    Tick tick = 0;  ///< of the measurement
+    Vec3 p_W;                 ///< m, world frame
+    Vec3 v_W;                 ///< m/s, world axes
+    bool geodetic = false;    ///< the world has spherical coordinates: the next three are set (WGS84)
+    double latitude_rad = 0,  ///< rad, north
+        longitude_rad = 0,    ///< rad, east
+        altitude_m = 0;       ///< m above the ellipsoid
+    Tick tick = 0;            ///< of the measurement
 
     /// Calls visit(ReadingField, value) for each value, always in the same order.
     template <class Visitor, class Self>

@@ -17,7 +17,7 @@ struct ImuReading {
     /// tick.
     Vec3 specific_force_S;
     Vec3 angular_velocity_S;  ///< rad/s, sensor axes, at `tick`
-    Tick tick = 0;  ///< of the measurement
+    Tick tick = 0;            ///< of the measurement
 
     /// Calls visit(ReadingField, value) for each value, always in the same order.
     template <class Visitor, class Self>
@@ -31,9 +31,9 @@ struct ImuReading {
 struct ImuSpec {
     using Reading = ImuReading;  ///< what it measures
 
-    NoiseSpec angular_velocity_x,  ///< rad/s
-        angular_velocity_y,        ///< rad/s
-        angular_velocity_z;        ///< rad/s
+    NoiseSpec angular_velocity_x,     ///< rad/s
+        angular_velocity_y,           ///< rad/s
+        angular_velocity_z;           ///< rad/s
     NoiseSpec linear_acceleration_x,  ///< m/s^2
         linear_acceleration_y,        ///< m/s^2
         linear_acceleration_z;        ///< m/s^2

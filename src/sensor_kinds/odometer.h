@@ -15,7 +15,7 @@ struct OdometerReading {
     std::vector<double> joint_velocities;  ///< rad/s (m/s)
     double distance = 0;  ///< m, mean over the wheels since the start; 0 without a wheel radius
     double speed = 0;     ///< m/s
-    Tick tick = 0;  ///< of the measurement
+    Tick tick = 0;        ///< of the measurement
 
     /// Calls visit(ReadingField, value) for each value, always in the same order.
     template <class Visitor, class Self>

@@ -25,8 +25,9 @@ struct MechanismOptions {
     double restitution_most = 0;  // of 40 % of the shapes
 };
 
-/// A tree of revolute, prismatic, ball, universal, screw and planar joints with random frames, inertias, limits,
-/// damping, friction, springs and rotor inertias. No motor drives it. A free base is one of its links.
+/// A tree of revolute, prismatic, ball, universal, screw and planar joints with random frames, inertias,
+/// limits, damping, friction, springs and rotor inertias. No motor drives it. A free base is one of its
+/// links.
 ModelSpec random_tree(Random& random, const MechanismOptions& options);
 
 /// A mechanism with one kinematic loop and at least one internal degree of freedom: a chain of random joints

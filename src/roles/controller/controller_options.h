@@ -13,10 +13,10 @@ namespace roboss {
 
 /// Options of a Controller.
 struct ControllerOptions {
-    Tick window = 0;      // ticks; 0: adaptive
-    Tick window_max = 0;  // limit of the adaptive length; 0: by the robots per worker (longest_window)
-    ForecastOptions forecast;          // of the islands of a window
-    std::size_t simulators = 1;        // the first window waits for this many
+    Tick window = 0;             // ticks; 0: adaptive
+    Tick window_max = 0;         // limit of the adaptive length; 0: by the robots per worker (longest_window)
+    ForecastOptions forecast;    // of the islands of a window
+    std::size_t simulators = 1;  // the first window waits for this many
     std::vector<std::string> clients;  // and for these Clients; their ids are their indices here
     std::uint64_t seed = 1;            // sent to Clients
     std::int64_t resend_ms = 100;
@@ -40,7 +40,7 @@ struct ControllerOptions {
         std::vector<std::uint64_t> models;  // hashes of earlier Models of the run
         bool went_back = false;             // a rewind: Clients may have seen ticks that were discarded
         ControlService control;             // requests, and answers that may have to be repeated
-    } before;  ///< none: it is the first
+    } before;                               ///< none: it is the first
     /// Makes the scene, in bytes for viewers; called when the first viewer requests it.
     ModelServer::SceneOf scene;
     RunLog* log = nullptr;  // outlives the Controller; null: nothing is logged
@@ -73,8 +73,8 @@ struct Counters {
     std::uint64_t static_contacts = 0;   // with scenery, summed over ticks
     double step_cpu_s = 0;               // all stepping, repeats included
     double critical_cpu_s = 0;   // of the busiest Simulator of each attempt: a lower bound for many machines
-    std::uint64_t silences = 0;        // of the losses, those noticed by silence alone
-    std::uint64_t losses = 0;          // Simulators lost
+    std::uint64_t silences = 0;  // of the losses, those noticed by silence alone
+    std::uint64_t losses = 0;    // Simulators lost
     std::uint64_t recoveries = 0;      // of lost states
     std::uint64_t migrations = 0;      // of robots between Simulators
     std::uint64_t checkpoints = 0;     // for recovery
@@ -87,16 +87,16 @@ struct Counters {
 
 /// A Simulator for status reports. Loads and times are running means over windows.
 struct MemberReport {
-    std::uint32_t number = 0;  // in the order of joining, from 0
+    std::uint32_t number = 0;   // in the order of joining, from 0
     std::string name;           // where it runs
     std::uint32_t threads = 1;  // that step
     bool alive = false;         // neither lost nor gone
     bool leaving = false;       // it wants to leave; if it is not alive: it has left
     std::size_t robots = 0;     // that it has now
     std::size_t islands = 0;    // that it has now
-    double step_us = 0;                   // stepping CPU time per tick and thread
-    double load = 0;                      // the same, relative to the busiest
-    Address address;                      // on the Bus
+    double step_us = 0;         // stepping CPU time per tick and thread
+    double load = 0;            // the same, relative to the busiest
+    Address address;            // on the Bus
 };
 
 }  // namespace roboss
