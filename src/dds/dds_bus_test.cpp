@@ -169,7 +169,10 @@ TEST(DdsBus, WhoJoinsTheNetworkAfreshIsFoundAgain) {
         EXPECT_EQ(b->heard_ms(kOne).has_value(), i > 0);
         EXPECT_TRUE(gets_through(*a, kOne, *b, kTwo)) << i;
         EXPECT_TRUE(gets_through(*b, kTwo, *a, kOne)) << i;
-        i % 2 == 0 ? a->reconnect() : b->reconnect();
+        if (i % 2 == 0)
+            a->reconnect();
+        else
+            b->reconnect();
     }
 }
 

@@ -113,7 +113,7 @@ TEST(Urdf, FloatingJointIsAnErrorAtTheJoint) {
     const Loaded loaded = load_text(free, "free.urdf");
     EXPECT_TRUE(loaded.diagnostics.has_errors());
     EXPECT_FALSE(loaded.world && !loaded.world->instances.empty()) << "the robot is left out";
-    EXPECT_NE(loaded.text().find("free.urdf:9: error"), std::string::npos) << loaded.text();
+    EXPECT_NE(loaded.text().find("free.urdf:8: error"), std::string::npos) << loaded.text();
 }
 
 TEST(Urdf, TransmissionHasNoEffectAndANoteSaysSo) {
@@ -128,7 +128,7 @@ TEST(Urdf, TransmissionHasNoEffectAndANoteSaysSo) {
     const Diagnostic* note = loaded.find("transmission");
     ASSERT_NE(note, nullptr) << loaded.text();
     EXPECT_EQ(note->severity, Severity::kNote);
-    EXPECT_EQ(note->where.line, 9);
+    EXPECT_EQ(note->where.line, 8);
     for (const char* part :
          {"'gear'", "'shoulder'", "<hardwareInterface> EffortJointInterface", "<mechanicalReduction> 50"})
         EXPECT_NE(note->message.find(part), std::string::npos) << note->message;

@@ -25,7 +25,7 @@ std::vector<SensorSpec> sensors_of_all_kinds() {
                 value.mean = ++next, value.stddev = ++next, value.bias_mean = ++next,
                 value.bias_stddev = ++next, value.precision = ++next;
             else if constexpr (std::is_same_v<Value, JointNames>)
-                value = {"one", "other"};
+                value = {"slide", "wrist"};
             else
                 value = static_cast<Value>(++next);
         });

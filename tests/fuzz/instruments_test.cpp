@@ -149,7 +149,7 @@ TEST(Generators, MakeEveryKindOfJointAndEveryForce) {
             }
         }
     }
-    EXPECT_EQ(kinds.size(), 5u);
+    EXPECT_EQ(kinds.size(), 6u);
     for (const int count : {limits, soft, damping, friction, springs, rotors}) EXPECT_GT(count, 20);
 }
 
