@@ -169,10 +169,8 @@ TEST(DdsBus, WhoJoinsTheNetworkAfreshIsFoundAgain) {
         EXPECT_EQ(b->heard_ms(kOne).has_value(), i > 0);
         EXPECT_TRUE(gets_through(*a, kOne, *b, kTwo)) << i;
         EXPECT_TRUE(gets_through(*b, kTwo, *a, kOne)) << i;
-        if (i % 2 == 0)
-            a->reconnect();
-        else
-            b->reconnect();
+        const Result<> reconnected = i % 2 == 0 ? a->reconnect() : b->reconnect();
+        EXPECT_TRUE(reconnected) << i;
     }
 }
 
