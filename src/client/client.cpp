@@ -86,6 +86,23 @@ Result<> Client::set_joint(RobotId robot, JointId joint, MotorMode mode, double 
     return order(robot, SetJoint{joint, axis, mode, target, max_effort});
 }
 
+Result<> Client::command(RobotId robot, const std::string& name, std::vector<double> values) {
+    const std::vector<ChannelInfo>& channels = model().types[known(robot).type.index()].channels;
+    const auto found = model().type_of(robot).find_channel(name);
+    if (!found)
+        refuse(called(known(robot)) + " has no command '" + name + "'",
+               what_it_has(channels, [](const ChannelInfo& c) { return c.channel.name; }));
+    return order(robot, Command{static_cast<std::uint32_t>(*found), std::move(values)});
+}
+
+Result<> Client::attach(RobotId robot, LinkId link, RobotId other, LinkId other_link) {
+    return order(robot, Attach{.link = link, .other = other, .other_link = other_link});
+}
+
+Result<> Client::detach(RobotId robot, RobotId other) {
+    return order(robot, Detach{other});
+}
+
 Sample Client::measure(RobotId robot, std::size_t sensor) {
     Result<Sample> measured = roboss::measure({model(), robot, sensor, state(robot), tick(), seed(), *this});
     if (!measured) refuse(measured.error().message, measured.error().remedy);

@@ -67,7 +67,14 @@ class Client : private SensorSources {
     /// or N bounds the motor; negative: the joint's own bound.
     Result<> set_joint(RobotId robot, JointId joint, MotorMode mode, double target, double max_effort = -1,
                        int axis = 0);
-    /// Any of the four kinds above as data (model/order.h). An Error says why check_order() refuses it.
+    /// Latches a command of the robot's on-board controllers, e.g. "cmd_vel"; `roboss check` lists names,
+    /// values and units. Of a list: row by row.
+    Result<> command(RobotId robot, const std::string& name, std::vector<double> values);
+    /// Attaches a link of `other` to a link of the robot, as they stand (model/order.h, Attach).
+    Result<> attach(RobotId robot, LinkId link, RobotId other, LinkId other_link);
+    /// Loosens the bonds by which the robot holds `other`.
+    Result<> detach(RobotId robot, RobotId other);
+    /// Any of the kinds above as data (model/order.h). An Error says why check_order() refuses it.
     virtual Result<> order(RobotId robot, const Action& action) = 0;
 
     // --- control of the run itself (wire/control.h), as by `roboss control`: control(PauseRun{})

@@ -79,6 +79,7 @@ class PartBuilder {
         for (std::size_t j : graph_.cut) add_loop(j);
         add_couplings(couplings_, type, diagnostics_);
         add_links();
+        add_onboard(spec_, is_main, part_.type, diagnostics_);
         mend_inertia(part_.type, spec_, links, diagnostics_);
         finish();
         return std::move(part_);

@@ -25,6 +25,13 @@ RobotType sensor_stand(const ModelSpec& spec);
 Material to_material(const SurfaceSpec& surface);
 void add_to_hash(Hash& hash, const Material& material);
 void add_to_hash(Hash& hash, const SensorInfo& sensor);
+void add_to_hash(Hash& hash, const OnboardInfo& onboard);
+
+/// Adds the on-board controllers of `spec` whose joints and links are in this part (those that name none: to
+/// the main part), their channels and memory. A controller that cannot run is left out with a warning.
+void add_onboard(const ModelSpec& spec, bool is_main, RobotType& type, Diagnostics& diagnostics);
+/// Fills what follows from RobotType::onboard and channels: indices into the state, and its sizes.
+void lay_out_onboard(RobotType& type);
 
 /// Projected areas of the link's shapes along its axes, times their coefficients (m^2).
 Vec3 drag_area(const LinkSpec& link);

@@ -175,6 +175,8 @@ std::vector<RobotState> carry_over(const ModelEdit& edit, const std::vector<Robo
         });
         for (ContactMemory& c : state.contacts)
             if (c.other_robot != RobotId::kNone) c.other_robot = edit.now[c.other_robot].value;
+        std::erase_if(state.bonds, [&](const Bond& bond) { return is_gone(bond.other); });
+        for (Bond& bond : state.bonds) bond.other = edit.now[bond.other].value;
         auto& neighbours = state.rest.neighbours;
         if (edit.scenery_changed || std::any_of(neighbours.begin(), neighbours.end(), is_gone))
             state.rest = {};
@@ -185,6 +187,15 @@ std::vector<RobotState> carry_over(const ModelEdit& edit, const std::vector<Robo
 
 bool carry_over(const ModelEdit& edit, Order& order) {
     order.robot = edit.now[order.robot.index()];
+    const auto stays = [&](RobotId& other) {
+        if (other.valid()) other = edit.now[other.index()];
+        return other.valid();
+    };
+    if (auto* attach = std::get_if<Attach>(&order.action); attach != nullptr && !stays(attach->other))
+        return false;
+    if (auto* detach = std::get_if<Detach>(&order.action);
+        detach != nullptr && detach->other.valid() && !stays(detach->other))
+        return false;
     return order.robot.valid();
 }
 

@@ -28,6 +28,10 @@ std::set<std::string> joints_in_use(const ModelSpec& spec) {
             const std::vector<std::string> read = joints_read(sensor);
             used.insert(read.begin(), read.end());
         }
+    for (const OnboardSpec& onboard : spec.onboard) {
+        const std::vector<std::string> named = joints_named(onboard.parameters);
+        used.insert(named.begin(), named.end());
+    }
     return used;
 }
 

@@ -103,6 +103,7 @@ std::uint64_t type_hash(const RobotType& type) {
     hash.add(std::span<const double>(type.initial_q));
     for (const LoopJoint& loop : type.loops) add_loop(hash, loop);
     for (const CoordinateCoupling& coupling : type.couplings) add_coupling(hash, coupling);
+    for (const OnboardInfo& onboard : type.onboard) add_to_hash(hash, onboard);
     return hash.value();
 }
 
@@ -123,6 +124,12 @@ std::optional<JointId> RobotType::find_joint(const std::string& wanted) const {
 std::optional<std::size_t> RobotType::find_sensor(const std::string& wanted) const {
     for (std::size_t i = 0; i < sensors.size(); ++i)
         if (sensors[i].spec.name == wanted) return i;
+    return std::nullopt;
+}
+
+std::optional<std::size_t> RobotType::find_channel(const std::string& wanted) const {
+    for (std::size_t i = 0; i < channels.size(); ++i)
+        if (channels[i].channel.name == wanted) return i;
     return std::nullopt;
 }
 

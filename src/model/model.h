@@ -179,6 +179,33 @@ struct SensorInfo {
     LinkId link;      ///< that carries it
 };
 
+/// One axis of a joint that an on-board controller names.
+struct AxisRef {
+    JointId joint;        ///< in RobotType::joints
+    int motor_index = 0;  ///< in RobotState::motors
+    int q_index = 0,      ///< of its coordinate in RobotState::q
+        v_index = 0;      ///< of its velocity in RobotState::v
+};
+
+/// An on-board controller of a robot.
+struct OnboardInfo {
+    OnboardSpec spec;            ///< as in the file
+    std::vector<AxisRef> axes;   ///< of the joints that it names, in the order of joints_named()
+    std::vector<LinkId> links;   ///< that it names, in the order of links_named()
+    LinkId base;                 ///< the model's canonical link, or the first of this robot
+    std::vector<int> channels;   ///< in RobotType::channels: of each of its commands
+    std::vector<int> commands;   ///< in RobotType::channels: those that it commands itself; -1: there is none
+    int memory_index = 0;        ///< of its memory in RobotState::onboard
+    std::vector<double> memory;  ///< at the start
+};
+
+/// A command that robots of a type take, and where the last one is kept.
+struct ChannelInfo {
+    Channel channel;  ///< name, topic, values
+    int index = 0;  ///< in RobotState::onboard: the tick of the last command, -1 before the first; its values
+    int list_index = -1;  ///< of a list: of its rows in RobotState::lists; then the values are not kept
+};
+
 /// All that robots of one kind have in common.
 struct RobotType {
     std::string name;           ///< as ModelSpec::name
@@ -201,6 +228,10 @@ struct RobotType {
     std::vector<LinkDrag> drags;                  ///< of the links on which the air acts
     std::vector<std::pair<int, int>> self_pairs;  ///< shapes of this robot that may collide with each other
     std::vector<SensorInfo> sensors;              ///< by the index that find_sensor() gives
+    std::vector<OnboardInfo> onboard;             ///< on-board controllers, in the order in which they run
+    std::vector<ChannelInfo> channels;            ///< commands that its on-board controllers take
+    int onboard_size = 0,                         ///< size of RobotState::onboard
+        list_count = 0;                           ///< size of RobotState::lists
     std::vector<double> initial_q;                ///< joint coordinates behind the 7 base ones
     int nq = 7,                                   ///< size of RobotState::q
         nv = 0;                                   ///< size of RobotState::v
@@ -236,6 +267,8 @@ struct RobotType {
     std::optional<JointId> find_joint(const std::string& wanted) const;
     /// The sensor with this name: index into `sensors`; nullopt: there is none.
     std::optional<std::size_t> find_sensor(const std::string& wanted) const;
+    /// The command with this name: index into `channels`; nullopt: there is none.
+    std::optional<std::size_t> find_channel(const std::string& wanted) const;
 };
 
 /// Something with a state of its own. A static model that carries sensors is one too, fixed and without

@@ -14,6 +14,7 @@ namespace roboss {
 namespace {
 
 constexpr Tick kDurationMax = Tick{1} << 60;  // apply_at + duration must not overflow
+constexpr std::size_t kCommandValuesMax = 100'000;
 const char* const kFiniteRemedy = "every number of an order must be finite";
 
 /// "robot 'car_7'" for messages.
@@ -116,6 +117,56 @@ struct Check {
                          kFiniteRemedy};
         return check_target("order for joint '" + joint.name + "' of " + called(model, order), a);
     }
+    Result<> operator()(const Command& a) const {
+        if (a.channel >= type.channels.size())
+            return Error{"command number " + std::to_string(a.channel) + " of " + called(model, order) +
+                             ", which takes " + std::to_string(type.channels.size()) + " commands",
+                         "see `roboss check` for its commands"};
+        const Channel& channel = type.channels[a.channel].channel;
+        const std::string what = "command '" + channel.name + "' of " + called(model, order);
+        const std::size_t width = channel.values.size();
+        const bool fits =
+            channel.is_list ? width > 0 && a.values.size() % width == 0 : a.values.size() == width;
+        if (!fits || a.values.size() > kCommandValuesMax)
+            return Error{what + " has " + std::to_string(a.values.size()) + " values; it takes " +
+                             std::to_string(width) + (channel.is_list ? " in each of its rows" : ""),
+                         "give " + names_of(channel)};
+        for (std::size_t i = 0; i < a.values.size(); ++i) {
+            if (!std::isfinite(a.values[i])) return Error{what + " is not finite", kFiniteRemedy};
+            const ChannelValue& value = channel.values[i % width];
+            if (auto ok =
+                    check_limits(what, {{value.name.c_str(), a.values[i], kCommandMax, value.unit.c_str()}});
+                !ok)
+                return ok;
+        }
+        return Ok{};
+    }
+    Result<> operator()(const Attach& a) const {
+        const std::string what = "attach order of " + called(model, order);
+        if (a.other.index() >= model.robots.size() || a.other == order.robot)
+            return Error{what + " names no other robot", "name the robot that shall be held"};
+        if (a.link.index() >= type.links.size() ||
+            a.other_link.index() >= model.type_of(a.other).links.size())
+            return Error{what + " names a link that does not exist", "see `roboss check` for the links"};
+        if (!(a.max_force > 0) || !(a.max_torque > 0))
+            return Error{what + " holds with no force or no torque", "give a maximum above 0, or none"};
+        if (!(a.reach >= 0)) return Error{what + " has a negative reach", "give a reach in m"};
+        return check_limits(what, {{"reach", a.reach, kOrderLimits.position, "m"}});
+    }
+    Result<> operator()(const Detach& a) const {
+        if (!a.other.valid() || (a.other.index() < model.robots.size() && a.other != order.robot))
+            return Ok{};
+        return Error{"detach order of " + called(model, order) + " names no other robot",
+                     "name the robot that is held, or none to let go of all"};
+    }
+    static std::string names_of(const Channel& channel) {
+        std::string names;
+        for (const ChannelValue& value : channel.values) {
+            names += (names.empty() ? "[" : ", ") + value.name;
+            if (!value.unit.empty()) names += " in " + value.unit;
+        }
+        return names + "]";
+    }
     static Result<> check_target(const std::string& what, const SetJoint& a) {
         switch (a.mode) {
             case MotorMode::kPassive:
@@ -158,6 +209,21 @@ struct Apply {
         if (motor.mode != a.mode) motor.impulse = motor.load = 0;
         motor.mode = a.mode, motor.target = a.target;
         motor.max_effort = a.max_effort < 0 ? bound : std::fmin(a.max_effort, bound);
+    }
+    void operator()(const Command& a) const {
+        const ChannelInfo& channel = type.channels[a.channel];
+        const auto at = static_cast<std::size_t>(channel.index);
+        state.onboard[at] = static_cast<double>(order.apply_at);
+        if (channel.channel.is_list)
+            state.lists[static_cast<std::size_t>(channel.list_index)] = a.values;
+        else
+            std::copy(a.values.begin(), a.values.end(),
+                      state.onboard.begin() + static_cast<std::ptrdiff_t>(at) + 1);
+    }
+    void operator()(const Attach&) const {}
+    void operator()(const Detach& a) const {
+        std::erase_if(state.bonds,
+                      [&](const Bond& bond) { return !a.other.valid() || bond.other == a.other.value; });
     }
 };
 

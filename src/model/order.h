@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <variant>
+#include <vector>
 
 #include "core/types.h"
 #include "model/robot_state.h"
@@ -47,8 +49,36 @@ struct SetJoint {
     friend bool operator==(const SetJoint&, const SetJoint&) = default;
 };
 
+/// Level 4: latches a command of the robot's on-board controllers.
+struct Command {
+    std::uint32_t channel = 0;   ///< in RobotType::channels
+    std::vector<double> values;  ///< as many as the channel has; of a list: any number of rows
+    /// Compares all members.
+    friend bool operator==(const Command&, const Command&) = default;
+};
+
+/// Attaches a link of another robot to a link of this one, as they stand to each other at that tick; nothing
+/// happens if `other` is out of reach. The bond is rigid and holds until it is loosed or overloaded.
+struct Attach {
+    LinkId link;         ///< of the robot, which becomes the holder
+    RobotId other;       ///< the robot that is held
+    LinkId other_link;   ///< of `other`
+    double reach = 0.1;  ///< m: how far the two robots' bounds may be apart
+    double max_force = std::numeric_limits<double>::infinity();   ///< N: beyond, it lets go
+    double max_torque = std::numeric_limits<double>::infinity();  ///< N m: beyond, it lets go
+    /// Compares all members.
+    friend bool operator==(const Attach&, const Attach&) = default;
+};
+
+/// Loosens the bonds by which the robot holds `other`.
+struct Detach {
+    RobotId other;  ///< not valid: all that it holds
+    /// Compares all members.
+    friend bool operator==(const Detach&, const Detach&) = default;
+};
+
 /// What an order does.
-using Action = std::variant<SetPose, SetVelocity, ApplyWrench, SetJoint>;
+using Action = std::variant<SetPose, SetVelocity, ApplyWrench, SetJoint, Command, Attach, Detach>;
 
 /// An action on one robot at one tick.
 struct Order {

@@ -20,6 +20,11 @@ RobotState initial_state(const Model& model, RobotId robot) {
     state.q.insert(state.q.end(), type.initial_q.begin(), type.initial_q.end());
     state.v.assign(static_cast<std::size_t>(type.nv), 0.0);
     state.motors.resize(type.motor_count());
+    state.onboard.resize(static_cast<std::size_t>(type.onboard_size));
+    state.lists.resize(static_cast<std::size_t>(type.list_count));
+    for (const ChannelInfo& c : type.channels) state.onboard[static_cast<std::size_t>(c.index)] = -1;
+    for (const OnboardInfo& info : type.onboard)
+        std::copy(info.memory.begin(), info.memory.end(), state.onboard.begin() + info.memory_index);
     return state;
 }
 
@@ -45,7 +50,7 @@ class Teller {
     void tick(Tick t) { word(static_cast<std::uint64_t>(t)); }
     void id(std::uint32_t i) { word(i); }
     void pair(std::uint32_t a, std::uint32_t b) { word(static_cast<std::uint64_t>(a) << 32 | b); }
-    void flagged(std::uint32_t n, bool flag) { pair(n, flag ? 1 : 0); }
+    void flagged(std::uint32_t n, bool flag, bool flag_2) { pair(n, (flag ? 1 : 0) | (flag_2 ? 2 : 0)); }
     void mode(MotorMode m) { word(static_cast<std::uint64_t>(m)); }
     template <class T>
     void length(const std::vector<T>& list) {
@@ -78,11 +83,11 @@ class Reader {
         const std::uint64_t w = word();
         a = static_cast<std::uint32_t>(w >> 32), b = static_cast<std::uint32_t>(w);
     }
-    void flagged(std::uint32_t& n, bool& flag) {
-        std::uint32_t one = 0;
-        pair(n, one);
-        flag = one == 1;
-        if (one > 1) fail();
+    void flagged(std::uint32_t& n, bool& flag, bool& flag_2) {
+        std::uint32_t flags = 0;
+        pair(n, flags);
+        flag = (flags & 1) != 0, flag_2 = (flags & 2) != 0;
+        if (flags > 3) fail();
     }
     void mode(MotorMode& m) {
         const std::uint64_t w = word();
@@ -138,11 +143,26 @@ void fields(A& a, Of<A, ContactMemory>& contact) {
     a.number(impulse), a.number(load), fields(a, friction);
 }
 
-/// Who is awake has no bound.
 template <class A>
-void fields(A& a, Of<A, Rest>& rest) {
+void fields(A& a, Of<A, SurfaceMotion>& surface) {
+    auto& [link, linear_L, angular_L] = surface;
+    a.id(link.value), fields(a, linear_L), fields(a, angular_L);
+}
+
+template <class A>
+void fields(A& a, Of<A, Bond>& bond) {
+    auto& [link, other, other_link, X_LO, max_force, max_torque, force_impulse, torque_impulse] = bond;
+    a.pair(link.value, other), a.id(other_link.value);
+    fields(a, X_LO.p);
+    a.number(X_LO.q.w), a.number(X_LO.q.x), a.number(X_LO.q.y), a.number(X_LO.q.z);
+    a.number(max_force), a.number(max_torque), fields(a, force_impulse), fields(a, torque_impulse);
+}
+
+/// Who is awake has no bound. `acts`: what on-board controllers keep follows later.
+template <class A, class Flag>
+void fields(A& a, Of<A, Rest>& rest, Flag& acts) {
     auto& [still_ticks, asleep, neighbours, bound] = rest;
-    a.flagged(still_ticks, asleep);
+    a.flagged(still_ticks, asleep, acts);
     a.length(neighbours);
     for (auto& id : neighbours) a.id(id);
     auto& [min, max] = bound;
@@ -151,14 +171,24 @@ void fields(A& a, Of<A, Rest>& rest) {
 
 template <class A>
 void fields(A& a, Of<A, RobotState>& state) {
-    auto& [q, v, motors, wrenches, contacts, rest] = state;
+    auto& [q, v, motors, wrenches, contacts, rest, onboard, lists, surfaces, bonds] = state;
+    bool acts = !onboard.empty() || !lists.empty() || !surfaces.empty() || !bonds.empty();
     a.length(q), a.length(v), a.length(motors), a.length(wrenches), a.length(contacts);
     for (auto& x : q) a.number(x);
     for (auto& x : v) a.number(x);
     for (auto& motor : motors) fields(a, motor);
     for (auto& wrench : wrenches) fields(a, wrench);
     for (auto& contact : contacts) fields(a, contact);
-    fields(a, rest);
+    fields(a, rest, acts);
+    if (!acts) return;
+    a.length(onboard), a.length(lists), a.length(surfaces), a.length(bonds);
+    for (auto& x : onboard) a.number(x);
+    for (auto& list : lists) {
+        a.length(list);
+        for (auto& x : list) a.number(x);
+    }
+    for (auto& surface : surfaces) fields(a, surface);
+    for (auto& bond : bonds) fields(a, bond);
 }
 
 /// What is wrong with a state of which every field was read; nullptr: nothing.
@@ -170,6 +200,18 @@ const char* inconsistency_of(const RobotState& state, const RobotType& type, std
     if (!std::all_of(state.wrenches.begin(), state.wrenches.end(), has_link))
         return "names a link that does not exist";
     const auto finite = [](double x) { return std::isfinite(x); };
+    if (state.onboard.size() != static_cast<std::size_t>(type.onboard_size) ||
+        state.lists.size() != static_cast<std::size_t>(type.list_count))
+        return "has not as many commands or as much memory of on-board controllers as that";
+    const auto surface_fits = [&](const SurfaceMotion& s) { return s.link.index() < type.links.size(); };
+    if (!std::all_of(state.surfaces.begin(), state.surfaces.end(), surface_fits))
+        return "moves the surface of a link that does not exist";
+    const auto bond_fits = [&](const Bond& b) {
+        return b.link.index() < type.links.size() && b.other < robots;
+    };
+    if (!std::all_of(state.bonds.begin(), state.bonds.end(), bond_fits))
+        return "holds a robot, or by a link, that does not exist";
+    if (!std::all_of(state.onboard.begin(), state.onboard.end(), finite)) return "is not finite";
     if (!std::all_of(state.q.begin(), state.q.end(), finite) ||
         !std::all_of(state.v.begin(), state.v.end(), finite))
         return "is not finite";

@@ -70,6 +70,29 @@ struct Rest {
     friend bool operator==(const Rest&, const Rest&) = default;
 };
 
+/// How the surface of a link's shapes moves against the link: a conveyor belt, a track, a turntable. What
+/// touches it is carried along by friction.
+struct SurfaceMotion {
+    LinkId link;    ///< whose collision shapes these are
+    Vec3 linear_L,  ///< m/s, at the link's origin, link axes
+        angular_L;  ///< rad/s, link axes
+    /// Compares all members.
+    friend bool operator==(const SurfaceMotion&, const SurfaceMotion&) = default;
+};
+
+/// A rigid attachment of a link of another robot to a link of this one (gripper, detachable joint). This
+/// robot, the holder, keeps it; the other one knows nothing of it.
+struct Bond {
+    LinkId link;                           ///< of this robot
+    std::uint32_t other = 0;               ///< RobotId of the other one
+    LinkId other_link;                     ///< of the other robot
+    Pose X_LO;                             ///< m, the other link in this link's frame: what the bond keeps
+    double max_force = 0, max_torque = 0;  ///< N, N m: it lets go beyond; infinite: never
+    Vec3 force_impulse, torque_impulse;    ///< N s, N m s, world axes, on the other robot, of the last tick
+    /// Compares all members.
+    friend bool operator==(const Bond&, const Bond&) = default;
+};
+
 /// State of one robot at the start of a tick.
 struct RobotState {
     std::vector<double> q;                ///< see model.h
@@ -78,6 +101,12 @@ struct RobotState {
     std::vector<TimedWrench> wrenches;    ///< in force, in the order in which they came
     std::vector<ContactMemory> contacts;  ///< of the last tick, sorted
     Rest rest;                            ///< sleep
+    /// Latched commands and memory of the on-board controllers: RobotType::onboard_size numbers, laid out by
+    /// ChannelInfo and OnboardInfo.
+    std::vector<double> onboard;
+    std::vector<std::vector<double>> lists;  ///< latched commands that are lists, row by row
+    std::vector<SurfaceMotion> surfaces;     ///< in motion, by ascending link
+    std::vector<Bond> bonds;                 ///< attachments that this robot holds, by (other, links)
     /// Compares all members.
     friend bool operator==(const RobotState&, const RobotState&) = default;
 };

@@ -55,6 +55,7 @@ std::uint64_t model_hash(const Model& model) {
 void seal(Model& model) {
     for (RobotType& type : model.types) {
         type.paths = DofPaths(type.dof_parent);
+        lay_out_onboard(type);
         type.hash = type_hash(type);
     }
     build_bvh(model);

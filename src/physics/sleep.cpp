@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "onboard/onboard.h"
+
 namespace roboss {
 namespace {
 
@@ -146,7 +148,7 @@ bool joints_rest(const RobotWork& work) {
 bool is_at_rest(const RobotWork& work) {
     const bool is_held = work.held && (work.pushed || !work.type->free_base);
     return work.type->may_sleep && is_held && !work.ordered && work.state->wrenches.empty() &&
-           moves_slowly(work) && joints_rest(work);
+           moves_slowly(work) && joints_rest(work) && onboard_rests(*work.type, *work.state);
 }
 
 void fall_asleep(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,

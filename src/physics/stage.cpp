@@ -9,6 +9,8 @@ const char* stage_name(Stage stage) {
     switch (stage) {
         case Stage::kOrders:
             return "orders";
+        case Stage::kOnboard:
+            return "on-board controllers";
         case Stage::kBroadPhase:
             return "broad phase";
         case Stage::kKinematics:

@@ -11,6 +11,7 @@ namespace roboss {
 
 enum class Stage : std::uint8_t {
     kOrders,         // orders of the tick change states
+    kOnboard,        // on-board controllers
     kBroadPhase,     // which robots may meet; pairs of robots whose bounds overlap
     kKinematics,     // poses, velocities, shapes and interaction bounds
     kWaking,         // of sleepers
@@ -24,7 +25,7 @@ enum class Stage : std::uint8_t {
     kSleep,          // what has been at rest falls asleep
     kReport,         // impulses for the next tick, counts, states that are not finite
 };
-inline constexpr std::size_t kStages = 13;
+inline constexpr std::size_t kStages = 14;
 
 /// As profiles print it: "forward kinematics".
 const char* stage_name(Stage stage);

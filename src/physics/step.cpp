@@ -1,4 +1,4 @@
-// step_island: the first two stages of a tick for all robots, then the others batch by batch (tick.h).
+// step_island: the first three stages of a tick for all robots, then the others batch by batch (tick.h).
 #include "physics/step.h"
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include "core/float_env.h"
 #include "core/make_room.h"
 #include "core/union_find.h"
+#include "onboard/onboard.h"
 #include "physics/contact/coarse_bound.h"
 #include "physics/contact/meetings.h"
 #include "physics/lanes/lane_stepper.h"
@@ -34,6 +35,7 @@ struct StepScratch::Impl {
     std::unique_ptr<LaneStepper> float_lanes = make_lane_stepper(Precision::kFloat, kMostLanes);
     std::unique_ptr<LaneStepper> single = make_single_stepper();
     LaneQueue queue;
+    OnboardScratch onboard;
 
     /// Forgets the last call.
     void start(const Model& model, std::size_t robots) {
@@ -72,7 +74,8 @@ void check_input(const Model& model, Tick tick, std::span<const RobotId> robots,
         const RobotType& type = model.type_of(robots[i]);
         ROBOSS_CHECK(states[i]->q.size() == static_cast<std::size_t>(type.nq) &&
                          states[i]->v.size() == static_cast<std::size_t>(type.nv) &&
-                         states[i]->motors.size() == type.motor_count(),
+                         states[i]->motors.size() == type.motor_count() &&
+                         states[i]->onboard.size() == static_cast<std::size_t>(type.onboard_size),
                      "the state of robot " + std::to_string(robots[i].value));
     }
     for (const Order& order : orders)
@@ -91,6 +94,14 @@ void apply_orders(const Model& model, std::span<const RobotId> robots, std::span
         apply_order(model, order, *states[i]);
         ordered[i] = 1;
     }
+}
+
+/// Lets the on-board controllers of those that are awake act.
+void run_controllers(const Model& model, Tick tick, std::span<const RobotId> robots,
+                     std::span<RobotState* const> states, OnboardScratch& scratch) {
+    for (std::size_t i = 0; i < robots.size(); ++i)
+        if (!model.type_of(robots[i]).onboard.empty() && !states[i]->rest.asleep)
+            run_onboard(model, tick, robots[i], *states[i], scratch);
 }
 
 constexpr float kEffort = 2;  // of a step beside its Newton iterations
@@ -240,6 +251,8 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
     s.start(model, robots.size());
     s.clock.enter(Stage::kOrders);
     apply_orders(model, robots, states, orders, s.ordered);
+    s.clock.enter(Stage::kOnboard);
+    run_controllers(model, tick, robots, states, s.onboard);
     s.clock.enter(Stage::kBroadPhase);
     find_near(model, robots, states, s);
     const StepCall call{model, tick, robots, states, bounds, s.ordered, report, s.clock};

@@ -53,6 +53,7 @@ bool is_finite(const RobotState& state) {
     double sum = 0;
     for (double x : state.q) sum += x - x;
     for (double x : state.v) sum += x - x;
+    for (double x : state.onboard) sum += x - x;
     return sum == 0;
 }
 

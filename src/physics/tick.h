@@ -1,6 +1,6 @@
-// The outline of a tick. step_island (step.cpp) applies the orders, and divides the robots by what may meet
-// (broad phase) into batches that cannot affect each other. Then step_robots goes through the stages of a
-// batch. There are two kinds:
+// The outline of a tick. step_island (step.cpp) applies the orders, lets on-board controllers act, and
+// divides the robots by what may meet (broad phase) into batches that cannot affect each other. Then
+// step_robots goes through the stages of a batch. There are two kinds:
 // - RobotGroup (robot_group.h): robots that may meet each other; one contact island after the other.
 // - LaneStep<T> (lane_step.h): robots of one type that touch no other robot, in the lanes of a register. T
 //   holds several doubles, several floats or one float. All lanes together are one island: their decisions

@@ -50,8 +50,9 @@ std::vector<VisualSpec> convert_visual(const Element& visual, const Pose& X_LV, 
 SensorSpec convert_sensor(const Element& sensor, const Pose& X_LS, const std::string& scope,
                           const Import& import);
 
-/// Reports plugins and other extensions under `parent`, and keeps the plugins.
-void convert_extensions(const Element& parent, const Import& import,
-                        std::vector<ExtensionElement>& extensions);
+/// Plugins and other extensions under `parent`, a part of a model: controllers run on board, the rest is
+/// reported. `scope` is the prefix of the names in a nested model.
+void convert_extensions(const Element& parent, const std::string& scope, const Import& import,
+                        ModelSpec& model);
 
 }  // namespace roboss::sdf_import

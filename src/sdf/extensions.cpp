@@ -1,9 +1,9 @@
-// Plugins and elements of other namespaces: kept or reported, never run.
+// Plugins and elements of other namespaces.
 #include <cstring>
-#include <sstream>
 
 #include "sdf/conversion.h"
 #include "sdf/known_children.h"
+#include "sdf/plugin_conversion.h"
 #include "world/joint_type.h"
 
 namespace roboss::sdf_import {
@@ -11,12 +11,6 @@ namespace {
 
 constexpr const char* kMotor[] = {"position_gain", "velocity_gain", "armature", "max_effort", "max_velocity"};
 constexpr const char* kDrag[] = {"coefficient", "area", "linear"};
-
-ExtensionElement kept(const Element& element) {
-    std::ostringstream text;
-    element.node.print(text, "", pugi::format_raw);
-    return {element.node.name(), std::move(text).str(), element.where()};
-}
 
 bool is_ours_here(const char* parent, const char* name) {
     const auto is = [](const char* a, const char* b) { return std::strcmp(a, b) == 0; };
@@ -55,23 +49,19 @@ void report_extension(const Element& element, const Import& import) {
 
 }  // namespace
 
-void convert_extensions(const Element& parent, const Import& import,
-                        std::vector<ExtensionElement>& extensions) {
+void convert_extensions(const Element& parent, const std::string& scope, const Import& import,
+                        ModelSpec& model) {
     for (const auto node : parent.node.children()) {
         if (node.type() != pugi::node_element) continue;
         const Element element{parent.source, node};
         if (std::strcmp(node.name(), "plugin") == 0) {
-            extensions.push_back(kept(element));
-            const std::string name = element.name(), file = node.attribute("filename").value();
-            import.diagnostics().note(
-                element.where(), "plugin", "plugin '" + (name.empty() ? file : name) + "' is not run",
-                "Drive robots from a Client program; physics and sensors need no plugin here.");
+            convert_plugin(element, scope, import, model.onboard, model.extensions);
         } else if (std::strcmp(node.name(), "model") == 0) {
             continue;  // nested models and includes take their own turn
         } else if (std::strchr(node.name(), ':') != nullptr) {
             report_extension(element, import);
         } else {
-            convert_extensions(element, import, extensions);
+            convert_extensions(element, scope, import, model);
         }
     }
 }

@@ -40,7 +40,7 @@ class ModelConverter {
 
     void convert(const Scope& scope) {
         const Element source = read_.source_of(scope.model.Element());
-        if (source) convert_extensions(source, import_, spec_.extensions);
+        if (source) convert_extensions(source, scope.prefix, import_, spec_);
         for (std::uint64_t i = 0; i < scope.model.LinkCount(); ++i)
             convert_link(*scope.model.LinkByIndex(i), scope);
         for (std::uint64_t i = 0; i < scope.model.JointCount(); ++i)

@@ -7,6 +7,7 @@
 
 #include "sdf/known_children.h"
 #include "sdf/physics_profile.h"
+#include "sdf/plugin_conversion.h"
 
 namespace roboss::sdf_import {
 namespace {
@@ -109,13 +110,6 @@ void report_other(const Element& element, const Import& import) {
                                   "roads are only drawn in Gazebo; they are left out");
     } else if (is_foreign(name)) {
         report_foreign(element, import.diagnostics());
-    } else if (name == "plugin") {
-        const auto written = element.name();
-        import.diagnostics().note(
-            element.where(), "plugin",
-            "plugin '" + (written.empty() ? element.node.attribute("filename").value() : written) +
-                "' is not run",
-            "Drive robots from a Client program; physics and sensors need no plugin here.");
     } else {
         import.diagnostics().warning(
             element.where(), "unknown-element", "<" + name + "> in <world> is not known and is ignored",
@@ -142,7 +136,12 @@ void read_world_settings(const Element& world, const std::string& profile, Impor
         const bool silent = std::any_of(std::begin(kSilent), std::end(kSilent), [&](const char* name) {
             return std::strcmp(name, node.name()) == 0;
         });
-        if (!silent) report_other({world.source, node}, import);
+        if (std::strcmp(node.name(), "plugin") == 0) {
+            std::vector<OnboardSpec> none;  // controllers belong to models
+            convert_plugin({world.source, node}, "", import, none, out.extensions);
+        } else if (!silent) {
+            report_other({world.source, node}, import);
+        }
     }
 }
 

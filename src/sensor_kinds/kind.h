@@ -1,10 +1,10 @@
-// What every kind of sensor states about itself, and the types that its parameters may have.
+// What every kind of sensor states about itself, and the type of its noise parameters.
 #pragma once
 
 #include <cstdint>
 #include <span>
-#include <string>
-#include <vector>
+
+#include "core/parameter.h"
 
 namespace roboss {
 
@@ -20,32 +20,10 @@ struct NoiseSpec {
     friend bool operator==(const NoiseSpec&, const NoiseSpec&) = default;
 };
 
-/// Joints of the sensor's model, by name ("inner::joint" in nested models).
-struct JointNames : std::vector<std::string> {
-    using std::vector<std::string>::vector;
-};
-
-/// One parameter of a kind of sensor: its name in code, hashes and the viewer's JSON, and its element in SDF.
-struct Parameter {
-    const char* name;       ///< unique in its kind
-    const char* element;    ///< path below SensorKind::block, e.g. "scan/horizontal/samples"
-    const char* unit = "";  ///< "rad": the element may have degrees="true"
-    bool infinite = false;  ///< whether infinity is a value of it
-};
-
 /// One value of a reading: its name in the viewer's JSON, and its unit ("" for counts, ratios and rotations).
 struct ReadingField {
     const char* name;       ///< unique in its reading
     const char* unit = "";  ///< "" for counts, ratios and rotations
-};
-
-/// An element of SDF that this kind of sensor does not honour. It is reported where it is written with
-/// another value than `neutral`.
-struct IgnoredElement {
-    const char* element;      ///< path below SensorKind::block
-    const char* neutral;      ///< the value that means nothing; "": none
-    const char* why;          ///< continues "<element> has no effect: "
-    const char* remedy = "";  ///< what to write instead; "": nothing
 };
 
 /// What a kind of sensor states about itself.
@@ -63,9 +41,6 @@ struct SensorKind {
 };
 
 /// Why a sensor cannot measure with these parameters.
-struct SensorProblem {
-    std::string text;    ///< continues "sensor 'x' ...", e.g. "has 0 beams"
-    std::string remedy;  ///< what to do about it
-};
+using SensorProblem = ParameterProblem;
 
 }  // namespace roboss

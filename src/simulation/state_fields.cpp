@@ -116,6 +116,33 @@ void compare_rest(const Rest& a, const Rest& b, Fields& fields) {
     fields.vector("a sleeper's bound, maximum", a.bound.max, b.bound.max);
 }
 
+void compare_onboard(const RobotState& a, const RobotState& b, Fields& fields) {
+    fields.count("size of the on-board memory", a.onboard.size(), b.onboard.size());
+    for (std::size_t i = 0; i < a.onboard.size() && !fields.done(); ++i)
+        fields.number("on-board memory " + std::to_string(i), a.onboard[i], b.onboard[i]);
+    for (std::size_t i = 0; i < a.lists.size() && !fields.done(); ++i) {
+        const std::string name = "command list " + std::to_string(i);
+        fields.count("length of " + name, a.lists[i].size(), b.lists[i].size());
+        for (std::size_t k = 0; k < a.lists[i].size() && !fields.done(); ++k)
+            fields.number(name + " value " + std::to_string(k), a.lists[i][k], b.lists[i][k]);
+    }
+    fields.count("number of moving surfaces", a.surfaces.size(), b.surfaces.size());
+    for (std::size_t i = 0; i < a.surfaces.size() && !fields.done(); ++i) {
+        const std::string name = "moving surface " + std::to_string(i);
+        fields.count(name + " link", a.surfaces[i].link.value, b.surfaces[i].link.value);
+        fields.vector(name + " linear", a.surfaces[i].linear_L, b.surfaces[i].linear_L);
+        fields.vector(name + " angular", a.surfaces[i].angular_L, b.surfaces[i].angular_L);
+    }
+    fields.count("number of bonds", a.bonds.size(), b.bonds.size());
+    for (std::size_t i = 0; i < a.bonds.size() && !fields.done(); ++i) {
+        const std::string name = "bond " + std::to_string(i);
+        fields.count(name + " robot", a.bonds[i].other, b.bonds[i].other);
+        fields.vector(name + " position", a.bonds[i].X_LO.p, b.bonds[i].X_LO.p);
+        fields.vector(name + " force", a.bonds[i].force_impulse, b.bonds[i].force_impulse);
+        fields.vector(name + " torque", a.bonds[i].torque_impulse, b.bonds[i].torque_impulse);
+    }
+}
+
 }  // namespace
 
 std::optional<FieldDifference> first_difference(const RobotType& type, const RobotState& a,
@@ -129,6 +156,7 @@ std::optional<FieldDifference> first_difference(const RobotType& type, const Rob
     compare_orders(a, b, fields);
     compare_contacts(a, b, fields);
     compare_rest(a.rest, b.rest, fields);
+    compare_onboard(a, b, fields);
     return fields.take();
 }
 

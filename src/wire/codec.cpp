@@ -122,6 +122,12 @@ template <class A> void field(A& a, Of<A, SetJoint>& m) {
     fields(a, joint, axis, mode, target, max_effort);
     if constexpr (A::kReading) if (mode > MotorMode::kEffort) a.fail("a motor mode is unknown");
 }
+template <class A> void field(A& a, Of<A, Command>& m) { auto& [channel, values] = m; fields(a, channel, values); }
+template <class A> void field(A& a, Of<A, Attach>& m) {
+    auto& [link, other, other_link, reach, max_force, max_torque] = m;
+    fields(a, link, other, other_link, reach, max_force, max_torque);
+}
+template <class A> void field(A& a, Of<A, Detach>& m) { auto& [other] = m; fields(a, other); }
 template <class A> void field(A& a, Of<A, Order>& m) { auto& [apply_at, client, sequence, robot, action] = m; fields(a, apply_at, client, sequence, robot, action); }
 template <class A> void field(A& a, Of<A, Hello>& m) { auto& [model_hash, threads, name] = m; fields(a, model_hash, threads, name); }
 template <class A> void field(A& a, Of<A, Welcome>& m) { auto& [simulator] = m; fields(a, simulator); }

@@ -13,7 +13,7 @@ namespace roboss {
 namespace wire {
 namespace {
 
-constexpr std::uint32_t kModelVersion = 5;
+constexpr std::uint32_t kModelVersion = 6;
 
 /// A Writer and a Reader that know the shared hulls and surfaces, to which shapes point.
 struct ModelWriter : Writer {
@@ -68,6 +68,28 @@ void kind(ModelReader& a, SensorParameters& parameters) {
     if (!known) a.fail("a sensor is of no known kind");
 }
 
+/// Likewise of an on-board controller.
+void kind(ModelWriter& a, const OnboardParameters& parameters) {
+    a.scalar(std::visit([](const auto& p) { return p.kKind.number; }, parameters));
+}
+void kind(ModelReader& a, OnboardParameters& parameters) {
+    std::uint32_t number = 0;
+    a.scalar(number);
+    bool known = false;
+    for_each_onboard_kind([&]<class Kind>(std::in_place_type_t<Kind>) {
+        if (Kind::kKind.number != number) return;
+        parameters.emplace<Kind>();
+        known = true;
+    });
+    if (!known) a.fail("an on-board controller is of no known kind");
+}
+/// A record of a controller's parameters (onboard_spec.h).
+template <class A, class Record>
+requires ParameterRecord<std::remove_const_t<Record>>
+void field(A& a, Record& record) {
+    record.parameters([&a](const Parameter&, auto& value) { field(a, value); }, record);
+}
+
 // clang-format off
 template <class A> void field(A& a, Of<A, Vec3>& m) { fields(a, m.x, m.y, m.z); }
 template <class A> void field(A& a, Of<A, Quat>& m) { fields(a, m.w, m.x, m.y, m.z); }
@@ -115,9 +137,15 @@ template <class A> void field(A& a, Of<A, SensorInfo>& m) {
     kind(a, s.parameters);
     visit_parameters(s.parameters, [&a](const Parameter&, auto& value) { field(a, value); });
 }
+template <class A> void field(A& a, Of<A, LinkNames>& m) { field(a, static_cast<Of<A, std::vector<std::string>>&>(m)); }
+template <class A> void field(A& a, Of<A, OnboardInfo>& m) {
+    fields(a, m.spec.name, m.base);
+    kind(a, m.spec.parameters);
+    visit_parameters(m.spec.parameters, [&a](const Parameter&, auto& value) { field(a, value); });
+}
 template <class A> void field(A& a, Of<A, RobotType>& m) {
     fields(a, m.name, m.free_base, m.is_static, m.self_collide, m.may_sleep, m.X_RB, m.bodies, m.dofs, m.dof_parent, m.links, m.joints,
-           m.loops, m.couplings, m.shapes, m.drags, m.self_pairs, m.sensors, m.initial_q, m.nq, m.nv, m.reach, m.mass);
+           m.loops, m.couplings, m.shapes, m.drags, m.self_pairs, m.sensors, m.onboard, m.initial_q, m.nq, m.nv, m.reach, m.mass);
 }
 template <class A> void field(A& a, Of<A, Robot>& m) { fields(a, m.name, m.type, m.X_WR, m.family); }
 template <class A> void field(A& a, Of<A, StaticShape>& m) {
@@ -152,7 +180,7 @@ template <class A> void field(A& a, Of<A, Model>& m) {
 [[maybe_unused]] void know_fields(const SensorSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const NoiseSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4] = m; }
 [[maybe_unused]] void know_fields(const SensorInfo& m) { [[maybe_unused]] const auto& [f0, f1] = m; }
-[[maybe_unused]] void know_fields(const RobotType& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17, f18, f19, f20, f21, f22, f23] = m; }
+[[maybe_unused]] void know_fields(const RobotType& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17, f18, f19, f20, f21, f22, f23, f24, f25, f26, f27] = m; }
 [[maybe_unused]] void know_fields(const Robot& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3] = m; }
 [[maybe_unused]] void know_fields(const StaticShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const Accuracy& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }

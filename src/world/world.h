@@ -14,6 +14,7 @@
 
 #include "core/diagnostics.h"
 #include "math/pose.h"
+#include "onboard_kinds/onboard_spec.h"
 #include "sensor_kinds/sensor_spec.h"
 
 namespace roboss {
@@ -222,11 +223,20 @@ struct JointSpec {
     SourceLocation where;           ///< of the element
 };
 
+/// What becomes of a `<plugin>`.
+enum class PluginFate {
+    kRuns,       ///< as an on-board controller, a sensor or a setting of the world
+    kNotNeeded,  ///< it draws, or does what every run does anyway (physics, sensors, user commands)
+    kNotRun      ///< it has no counterpart, or cannot run as it is written
+};
+
 /// `<plugin>` and namespaced elements that are kept for others to read.
 struct ExtensionElement {
-    std::string name;      ///< e.g. "plugin", "roboss:sensor"
-    std::string text;      ///< the element as XML
-    SourceLocation where;  ///< of the element
+    std::string name;                       ///< e.g. "plugin", "roboss:sensor"
+    std::string text;                       ///< the element as XML
+    SourceLocation where;                   ///< of the element
+    PluginFate fate = PluginFate::kNotRun;  ///< of a plugin
+    std::string reason;                     ///< of a plugin that does not run: why
 };
 
 /// A model (SDF `<model>`, URDF `<robot>`) with its nested models merged into it; poses at joint zero.
@@ -238,6 +248,7 @@ struct ModelSpec {
     std::string canonical_link;                ///< name of the link that the model frame is fixed to
     std::vector<LinkSpec> links;               ///< in the order of the file
     std::vector<JointSpec> joints;             ///< in the order of the file
+    std::vector<OnboardSpec> onboard;          ///< on-board controllers, in the order of the file
     std::vector<ExtensionElement> extensions;  ///< kept for other programs
     SourceLocation where;                      ///< of the element
 };

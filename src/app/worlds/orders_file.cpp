@@ -133,6 +133,75 @@ Action parse_joint(const json& o, const RobotType& type, const std::string& robo
     return order;
 }
 
+std::string names_of(const RobotType& type) {
+    std::string all;
+    for (const ChannelInfo& c : type.channels) all += (all.empty() ? "" : ", ") + c.channel.name;
+    return all.empty() ? "it takes no commands" : "it takes: " + all;
+}
+
+/// The values as a list, or each by its name; those that are left out are 0.
+std::vector<double> command_values(const json& o, const Channel& channel) {
+    std::vector<double> values;
+    if (o.contains("values")) {
+        if (!o["values"].is_array()) throw LineFault("'values' is not a list", "give a list of numbers");
+        only_keys(o, "command", {"name", "values"});
+        return numbers(o, "values", o["values"].size());
+    }
+    std::size_t known = 1;
+    for (const ChannelValue& value : channel.values) {
+        known += o.contains(value.name) ? 1 : 0;
+        values.push_back(o.contains(value.name) ? number(o, value.name.c_str()) : 0.0);
+    }
+    if (known == o.size()) return values;
+    std::string all = "values";
+    for (const ChannelValue& value : channel.values) all += ", " + value.name;
+    throw LineFault("the command has keys that '" + channel.name + "' does not have",
+                    "known keys: name, " + all);
+}
+
+Action parse_command(const json& o, const RobotType& type, const std::string& robot) {
+    if (!o.is_object()) throw LineFault("command is not a JSON object", "write {\"name\": ..., ...}");
+    const std::string name = text(o, "name");
+    const auto channel = type.find_channel(name);
+    if (!channel) throw LineFault("robot '" + robot + "' has no command '" + name + "'", names_of(type));
+    return Command{static_cast<std::uint32_t>(*channel), command_values(o, type.channels[*channel].channel)};
+}
+
+RobotId other_robot(const json& o, const Model& model) {
+    const std::string name = text(o, "robot");
+    const auto other = model.find_robot(name);
+    if (!other)
+        throw LineFault("the world has no robot '" + name + "'", "`roboss check WORLD` lists the robots");
+    return *other;
+}
+
+/// The named link, or the first one.
+LinkId link_of(const json& o, const char* key, const RobotType& type, const std::string& robot) {
+    if (!o.contains(key)) return LinkId(std::size_t{0});
+    const auto link = type.find_link(text(o, key));
+    if (!link)
+        throw LineFault("robot '" + robot + "' has no link '" + text(o, key) + "'",
+                        "its first link is '" + type.links.front().name + "'");
+    return *link;
+}
+
+Action parse_attach(const json& o, const Model& model, const RobotType& type, const std::string& robot) {
+    only_keys(o, "attach", {"link", "robot", "robot_link", "reach", "max_force", "max_torque"});
+    Attach attach;
+    attach.other = other_robot(o, model);
+    attach.link = link_of(o, "link", type, robot);
+    attach.other_link = link_of(o, "robot_link", model.type_of(attach.other), text(o, "robot"));
+    if (o.contains("reach")) attach.reach = number(o, "reach");
+    if (o.contains("max_force")) attach.max_force = number(o, "max_force");
+    if (o.contains("max_torque")) attach.max_torque = number(o, "max_torque");
+    return attach;
+}
+
+Action parse_detach(const json& o, const Model& model) {
+    only_keys(o, "detach", {"robot"});
+    return Detach{o.contains("robot") ? other_robot(o, model) : RobotId()};
+}
+
 Order parse_line(const std::string& line, const Model& model) {
     json o;
     try {
@@ -141,7 +210,8 @@ Order parse_line(const std::string& line, const Model& model) {
         throw LineFault("not valid JSON: " + std::string(error.what()),
                         "write one complete JSON object per line");
     }
-    only_keys(o, "an order", {"t", "robot", "set_pose", "set_velocity", "wrench", "joint"});
+    only_keys(o, "an order",
+              {"t", "robot", "set_pose", "set_velocity", "wrench", "joint", "command", "attach", "detach"});
     const double time_s = number(o, "t");
     if (!(time_s >= 0 && time_s < 1e12))
         throw LineFault("'t' is not in [0, 1e12) s", "give the time of the order, in s");
@@ -153,7 +223,7 @@ Order parse_line(const std::string& line, const Model& model) {
     const int actions = static_cast<int>(o.size()) - 2;
     if (actions != 1)
         throw LineFault("the order has " + std::to_string(actions) + " actions",
-                        "name one of set_pose, set_velocity, wrench, joint");
+                        "name one of set_pose, set_velocity, wrench, joint, command, attach, detach");
     Order order;
     order.apply_at = tick_at(time_s, model.dt_s);
     order.robot = *id;
@@ -161,6 +231,9 @@ Order parse_line(const std::string& line, const Model& model) {
     if (o.contains("set_velocity")) order.action = parse_velocity(o["set_velocity"]);
     if (o.contains("wrench")) order.action = parse_wrench(o["wrench"], model, type, robot);
     if (o.contains("joint")) order.action = parse_joint(o["joint"], type, robot);
+    if (o.contains("command")) order.action = parse_command(o["command"], type, robot);
+    if (o.contains("attach")) order.action = parse_attach(o["attach"], model, type, robot);
+    if (o.contains("detach")) order.action = parse_detach(o["detach"], model);
     const Result<> checked = check_order(model, order);
     if (!checked) throw LineFault(checked.error().message, checked.error().remedy);
     return order;
@@ -198,6 +271,22 @@ struct ActionToJson {
         joint[kModes[static_cast<std::size_t>(a.mode)]] = passive ? 0.0 : a.target;
         if (a.max_effort >= 0 && std::isfinite(a.max_effort)) joint["max_effort"] = a.max_effort;
         line["joint"] = joint;
+    }
+    void operator()(const Command& a) const {
+        line["command"] = {{"name", type.channels[a.channel].channel.name}, {"values", a.values}};
+    }
+    void operator()(const Attach& a) const {
+        nlohmann::ordered_json attach{{"link", type.links[a.link.index()].name},
+                                      {"robot", model.robots[a.other.index()].name},
+                                      {"robot_link", model.type_of(a.other).links[a.other_link.index()].name},
+                                      {"reach", a.reach}};
+        if (std::isfinite(a.max_force)) attach["max_force"] = a.max_force;
+        if (std::isfinite(a.max_torque)) attach["max_torque"] = a.max_torque;
+        line["attach"] = attach;
+    }
+    void operator()(const Detach& a) const {
+        line["detach"] = nlohmann::ordered_json::object();
+        if (a.other.valid()) line["detach"]["robot"] = model.robots[a.other.index()].name;
     }
 };
 

@@ -1,0 +1,174 @@
+// On-board controllers of a robot type: which part of a model they belong to, what their names mean there,
+// and where their commands and memory are in the state.
+#include <algorithm>
+#include <type_traits>
+
+#include "model/compile_type.h"
+#include "world/joint_type.h"
+
+namespace roboss {
+namespace {
+
+/// Whether a joint of the tree has one axis that a controller can read and drive.
+bool has_one_axis(const RobotType& type, const Joint& joint) {
+    return joint.nv == 1 && joint.loop < 0 && joint.v_index >= type.base_nv();
+}
+
+/// The axes and links that the controller names; false: one of them is not in this type.
+bool resolve_names(const RobotType& type, OnboardInfo& info) {
+    info.axes.clear(), info.links.clear();
+    for (const std::string& name : joints_named(info.spec.parameters)) {
+        const std::optional<JointId> id = type.find_joint(name);
+        if (!id || !has_one_axis(type, type.joints[id->index()])) return false;
+        const Joint& joint = type.joints[id->index()];
+        info.axes.push_back(
+            {*id, static_cast<int>(type.motor_index(joint, 0)), joint.q_index, joint.v_index});
+    }
+    for (const std::string& name : links_named(info.spec.parameters)) {
+        const std::optional<LinkId> id = type.find_link(name);
+        if (!id) return false;
+        info.links.push_back(*id);
+    }
+    return true;
+}
+
+/// Channel `wanted` of the type, which is added if there is none of its name.
+int place_of_channel(RobotType& type, const Channel& wanted) {
+    if (const auto known = type.find_channel(wanted.name)) return static_cast<int>(*known);
+    ChannelInfo info;
+    info.channel = wanted;
+    info.index = type.onboard_size;
+    type.onboard_size += 1;
+    if (wanted.is_list)
+        info.list_index = type.list_count++;
+    else
+        type.onboard_size += static_cast<int>(wanted.values.size());
+    type.channels.push_back(std::move(info));
+    return static_cast<int>(type.channels.size()) - 1;
+}
+
+/// A channel of this name that takes other values; nullptr: none.
+const Channel* conflicting(const RobotType& type, const Channel& channel) {
+    for (const ChannelInfo& info : type.channels)
+        if (info.channel.name == channel.name &&
+            (info.channel.values.size() != channel.values.size() || info.channel.is_list != channel.is_list))
+            return &info.channel;
+    return nullptr;
+}
+
+/// Why a name cannot be used in this type; empty: it can.
+std::string fault_of_joint(const RobotType& type, const std::string& name) {
+    const std::optional<JointId> id = type.find_joint(name);
+    if (!id) return "names the joint '" + name + "', which is not in this robot";
+    const Joint& joint = type.joints[id->index()];
+    if (joint.loop >= 0) return "drives the joint '" + name + "', which closes a kinematic loop";
+    if (!has_one_axis(type, joint))
+        return "drives the joint '" + name + "', which has " + std::to_string(joint.nv) +
+               " axes that can move; it needs one";
+    return {};
+}
+
+std::string fault_of(const RobotType& type, const OnboardSpec& spec) {
+    for (const std::string& name : joints_named(spec.parameters))
+        if (std::string fault = fault_of_joint(type, name); !fault.empty()) return fault;
+    for (const std::string& name : links_named(spec.parameters))
+        if (!type.find_link(name)) return "names the link '" + name + "', which is not in this robot";
+    for (const Channel& channel : channels_of(spec.parameters))
+        if (conflicting(type, channel) != nullptr)
+            return "takes the command '" + channel.name +
+                   "', which another controller of this robot takes with other values";
+    return {};
+}
+
+/// Whether this part of a model is the one to run the controller: it has all that it names, or, where no part
+/// has, it is the main one.
+bool belongs_here(const ModelSpec& model, const OnboardSpec& spec, bool is_main, const RobotType& type) {
+    const auto joints = joints_named(spec.parameters), links = links_named(spec.parameters);
+    if (joints.empty() && links.empty()) return is_main;
+    const auto here = [&](const std::string& joint) { return type.find_joint(joint).has_value(); };
+    const auto here_link = [&](const std::string& link) { return type.find_link(link).has_value(); };
+    if (!joints.empty() && here(joints.front())) return true;
+    if (joints.empty() && here_link(links.front())) return true;
+    if (!is_main) return false;
+    const auto in_model = [](const auto& items, const std::string& name) {
+        return std::ranges::any_of(items, [&](const auto& item) { return item.name == name; });
+    };
+    return joints.empty() ? !in_model(model.links, links.front()) : !in_model(model.joints, joints.front());
+}
+
+/// Adds parameters to a Model hash, by name and value.
+struct ParameterHash {
+    Hash& hash;
+
+    void add(double value) const { hash.add(value); }
+    void add(const std::string& value) const { hash.add(std::string_view(value)); }
+    void add(const Vec3& value) const { hash.add(value.x), hash.add(value.y), hash.add(value.z); }
+    void add(const Pose& value) const {
+        add(value.p);
+        for (const double x : {value.q.w, value.q.x, value.q.y, value.q.z}) hash.add(x);
+    }
+    template <class Value>
+    void operator()(const Parameter& parameter, const Value& value) const {
+        hash.add(std::string_view(parameter.name));
+        if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, bool>) {
+            hash.add(static_cast<std::uint64_t>(static_cast<std::int64_t>(value)));
+        } else if constexpr (requires { requires ParameterRecord<typename Value::value_type>; }) {
+            hash.add(static_cast<std::uint64_t>(value.size()));
+            for (const auto& record : value) record.parameters(*this, record);
+        } else if constexpr (requires { value.begin(); } && !std::is_same_v<Value, std::string>) {
+            hash.add(static_cast<std::uint64_t>(value.size()));
+            for (const auto& item : value) add(item);
+        } else {
+            add(value);
+        }
+    }
+};
+
+}  // namespace
+
+void lay_out_onboard(RobotType& type) {
+    type.channels.clear();
+    type.onboard_size = type.list_count = 0;
+    for (OnboardInfo& info : type.onboard) {
+        resolve_names(type, info);
+        info.channels.clear();
+        for (const Channel& channel : channels_of(info.spec.parameters))
+            info.channels.push_back(place_of_channel(type, channel));
+        info.memory = memory_at_start(info.spec.parameters);
+        info.memory_index = type.onboard_size;
+        type.onboard_size += static_cast<int>(info.memory.size());
+    }
+    for (OnboardInfo& info : type.onboard) {
+        info.commands.clear();
+        for (const std::string& name : channels_commanded(info.spec.parameters)) {
+            const auto found = type.find_channel(name);
+            info.commands.push_back(found ? static_cast<int>(*found) : -1);
+        }
+    }
+}
+
+void add_onboard(const ModelSpec& spec, bool is_main, RobotType& type, Diagnostics& diagnostics) {
+    for (const OnboardSpec& onboard : spec.onboard) {
+        if (!belongs_here(spec, onboard, is_main, type)) continue;
+        if (const std::string fault = fault_of(type, onboard); !fault.empty()) {
+            diagnostics.warning(
+                onboard.where, "plugin-not-run",
+                "plugin '" + onboard.name + "' of model '" + spec.name + "' " + fault + "; it is not run",
+                "`roboss check` lists the joints and links of the model.");
+            continue;
+        }
+        OnboardInfo info;
+        info.spec = onboard;
+        info.base = type.find_link(spec.canonical_link).value_or(LinkId(std::size_t{0}));
+        type.onboard.push_back(std::move(info));
+        lay_out_onboard(type);
+    }
+}
+
+void add_to_hash(Hash& hash, const OnboardInfo& onboard) {
+    hash.add(static_cast<std::uint64_t>(onboard.spec.kind().number));
+    hash.add(static_cast<std::uint64_t>(onboard.base.value));
+    visit_parameters(onboard.spec.parameters, ParameterHash{hash});
+}
+
+}  // namespace roboss

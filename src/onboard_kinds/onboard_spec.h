@@ -1,0 +1,76 @@
+// OnboardSpec: an on-board controller of a model with the parameters of its kind. Here a kind is registered;
+// hash, wire, SDF, checks and Clients reach all kinds through the list below (ARCHITECTURE.md, "A new
+// on-board controller").
+#pragma once
+
+#include <concepts>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/diagnostics.h"
+#include "onboard_kinds/kind.h"
+#include "onboard_kinds/velocity_control.h"
+
+namespace roboss {
+
+/// Parameters of any kind. The order does not count; the number of each kind does.
+using OnboardParameters = std::variant<VelocityControlSpec>;
+
+/// An on-board controller of a model.
+struct OnboardSpec {
+    std::string name;              ///< of the plugin, as in the file
+    OnboardParameters parameters;  ///< of its kind
+    SourceLocation where;          ///< in the file
+
+    /// The kind that it is of.
+    const OnboardKind& kind() const {
+        return std::visit([](const auto& p) -> const OnboardKind& { return p.kKind; }, parameters);
+    }
+};
+
+/// A parameter that is a list of records: a struct with parameters of its own, for which the element of the
+/// parameter is repeated.
+template <class T>
+concept ParameterRecord = requires(T& record) {
+    T::parameters([](const Parameter&, auto&) {}, record);
+};
+
+/// Calls visitor(Parameter, value) for each parameter, always in the same order. Values are double, int,
+/// bool, std::string, Vec3, Pose, JointNames, LinkNames, vectors of double, and vectors of records.
+template <class Visitor>
+void visit_parameters(const OnboardParameters& parameters, Visitor&& visitor) {
+    std::visit([&](const auto& p) { p.parameters(visitor, p); }, parameters);
+}
+/// The same with values that may be changed.
+template <class Visitor>
+void visit_parameters(OnboardParameters& parameters, Visitor&& visitor) {
+    std::visit([&](auto& p) { p.parameters(visitor, p); }, parameters);
+}
+
+/// Calls visit(std::in_place_type<Kind>) for each kind.
+template <class Visit>
+void for_each_onboard_kind(Visit&& visit) {
+    [&]<class... Kinds>(std::in_place_type_t<std::variant<Kinds...>>) {
+        (visit(std::in_place_type<Kinds>), ...);
+    }(std::in_place_type<OnboardParameters>);
+}
+
+/// The joints that it names, in the order of its parameters.
+std::vector<std::string> joints_named(const OnboardParameters& parameters);
+/// The links that it names, in the order of its parameters.
+std::vector<std::string> links_named(const OnboardParameters& parameters);
+
+/// The commands that it takes, in the order in which it counts them.
+std::vector<Channel> channels_of(const OnboardParameters& parameters);
+/// Names of channels of the same robot that it commands itself; a kind may have none.
+std::vector<std::string> channels_commanded(const OnboardParameters& parameters);
+/// Its memory at the start, behind its commands; empty: it remembers nothing.
+std::vector<double> memory_at_start(const OnboardParameters& parameters);
+
+/// Why it cannot work; empty: it can.
+std::vector<OnboardProblem> problems_of(const OnboardSpec& spec);
+
+}  // namespace roboss

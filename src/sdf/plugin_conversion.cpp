@@ -1,0 +1,125 @@
+// See plugin_conversion.h.
+#include "sdf/plugin_conversion.h"
+
+#include <array>
+#include <cctype>
+#include <sstream>
+
+#include "sdf/parameter_reader.h"
+
+namespace roboss::sdf_import {
+namespace {
+
+/// Gazebo's plugins that need nothing here: they draw, record, or are what every run does anyway.
+constexpr const char* kNotNeeded =
+    "Physics|UserCommands|SceneBroadcaster|Sensors|Imu|Contact|Altimeter|AirPressure|AirSpeed|NavSat|"
+    "Magnetometer|ForceTorque|LogicalCamera|CpuLidar|LogRecord|LogPlayback|CameraVideoRecorder|LensFlare|"
+    "Label|Thermal|ThermalSensor|ParticleEmitter|ParticleEmitter2|ModelPhotoShoot|ColladaWorldExporter|"
+    "VisibilityRenderPlugin|ShaderParam|RenderEngineServerHeadless";
+constexpr const char* kNotNeededFiles =
+    "physics-system|user-commands-system|scene-broadcaster-system|sensors-system|imu-system|contact-system|"
+    "altimeter-system|air-pressure-system|air-speed-system|navsat-system|magnetometer-system|"
+    "forcetorque-system|logical-camera-system|cpu-lidar-system|log-system|camera-video-recorder-system|"
+    "lens-flare-system|label-system|thermal-system|thermal-sensor-system|particle-emitter-system|"
+    "particle-emitter2-system|model-photo-shoot-system|collada-world-exporter-system|shader-param-system";
+
+/// Removes `prefix` with an optional number behind it ("gz-sim8-"); false: it is not there.
+bool remove_prefix(std::string& text, std::string_view prefix) {
+    if (!text.starts_with(prefix)) return false;
+    std::size_t end = prefix.size();
+    while (end < text.size() && std::isdigit(static_cast<unsigned char>(text[end])) != 0) ++end;
+    if (end >= text.size() || text[end] != '-') return false;
+    text.erase(0, end + 1);
+    return true;
+}
+
+ExtensionElement kept_element(const Element& element) {
+    std::ostringstream text;
+    element.node.print(text, "", pugi::format_raw);
+    ExtensionElement kept;
+    kept.name = element.node.name(), kept.text = std::move(text).str(), kept.where = element.where();
+    return kept;
+}
+
+/// Parameters of the kind that the plugin asks for, with their defaults.
+std::optional<OnboardParameters> parameters_for(const PluginName& name) {
+    std::optional<OnboardParameters> found;
+    for_each_onboard_kind([&]<class Kind>(std::in_place_type_t<Kind> type) {
+        const bool is_class = !name.class_name.empty() && is_one_of(Kind::kKind.classes, name.class_name);
+        const bool is_file =
+            name.class_name.empty() && !name.file.empty() && is_one_of(Kind::kKind.files, name.file);
+        if (is_class || is_file) found = OnboardParameters(type);
+    });
+    return found;
+}
+
+/// Gazebo logs what is wrong with a plugin and does not run it; the model stays.
+void pass_on(const Diagnostics& found, const Import& import) {
+    for (const Diagnostic& d : found.items()) {
+        Diagnostic each = d;
+        if (each.severity == Severity::kError) each.severity = Severity::kWarning;
+        import.diagnostics().add(std::move(each));
+    }
+}
+
+}  // namespace
+
+PluginName plugin_name(const Element& plugin) {
+    PluginName name;
+    const std::string written = plugin.name();
+    if (const std::size_t at = written.rfind("::"); at != std::string::npos)
+        name.class_name = written.substr(at + 2);
+    name.file = plugin.node.attribute("filename").value();
+    if (const std::size_t slash = name.file.rfind('/'); slash != std::string::npos)
+        name.file.erase(0, slash + 1);
+    if (name.file.starts_with("lib")) name.file.erase(0, 3);
+    if (const std::size_t at = name.file.find(".so"); at != std::string::npos) name.file.erase(at);
+    if (!remove_prefix(name.file, "gz-sim")) remove_prefix(name.file, "ignition-gazebo");
+    return name;
+}
+
+void convert_plugin(const Element& plugin, const std::string& scope, const Import& import,
+                    std::vector<OnboardSpec>& onboard, std::vector<ExtensionElement>& kept) {
+    ExtensionElement& record = kept.emplace_back(kept_element(plugin));
+    const PluginName name = plugin_name(plugin);
+    const std::string called =
+        plugin.name().empty() ? plugin.node.attribute("filename").value() : plugin.name();
+    if (is_one_of(kNotNeeded, name.class_name) || is_one_of(kNotNeededFiles, name.file)) {
+        record.fate = PluginFate::kNotNeeded;
+        return;
+    }
+    std::optional<OnboardParameters> parameters = parameters_for(name);
+    if (!parameters) {
+        record.reason = "RoBOSS has no counterpart of it";
+        import.diagnostics().note(plugin.where(), "plugin", "plugin '" + called + "' is not run",
+                                  "docs/plugins.md lists the plugins that run. Drive the robot from a Client "
+                                  "program instead.");
+        return;
+    }
+    Diagnostics found;
+    const Import local{import.paths, ElementReader(found), import.files,
+                       import.looks, import.dt_s,          import.max_contacts};
+    OnboardSpec spec{called, std::move(*parameters), plugin.where()};
+    visit_parameters(spec.parameters, ParameterReader{plugin, scope, local});
+    report_ignored(plugin, spec.kind().ignored, spec.kind().phrase, local);
+    const bool unreadable = found.has_errors();
+    pass_on(found, import);
+    const std::vector<OnboardProblem> problems = problems_of(spec);
+    for (const OnboardProblem& problem : problems)
+        import.diagnostics().warning(plugin.where(), "plugin-not-run",
+                                     "plugin '" + called + "' " + problem.text + "; it is not run",
+                                     problem.remedy);
+    if (unreadable)
+        import.diagnostics().warning(
+            plugin.where(), "plugin-not-run",
+            "plugin '" + called + "' has elements that cannot be read; it is not run",
+            "Correct the values named above.");
+    if (unreadable || !problems.empty()) {
+        record.reason = problems.empty() ? "it has elements that cannot be read" : problems.front().text;
+        return;
+    }
+    record.fate = PluginFate::kRuns;
+    onboard.push_back(std::move(spec));
+}
+
+}  // namespace roboss::sdf_import
