@@ -21,8 +21,8 @@ constexpr std::size_t kNoticesMax = 100;
 constexpr std::int64_t kFound_ms = 400;    // within which two members mostly find each other
 constexpr std::int64_t kIdle_ms = 30'000;  // an outbox that nobody reads so long is closed
 
-Channel channel_of(const Message& message) {
-    return std::holds_alternative<Heartbeat>(message) ? Channel::kHeartbeats : Channel::kReliable;
+TopicKind kind_of(const Message& message) {
+    return std::holds_alternative<Heartbeat>(message) ? TopicKind::kHeartbeats : TopicKind::kReliable;
 }
 
 // Before each message: which run it is of, 8 bytes.
@@ -102,10 +102,10 @@ struct DdsBus::Network {
         }
     };
 
-    std::string topic(const Address& address, Channel channel) const {
+    std::string topic(const Address& address, TopicKind kind) const {
         static constexpr const char* kRoles[] = {"controller", "simulator", "client"};
         return "roboss/" + options.simulation + "/" + kRoles[static_cast<int>(address.role)] + "/" +
-               to_hex(address.instance) + (channel == Channel::kHeartbeats ? "/heartbeats" : "/reliable");
+               to_hex(address.instance) + (kind == TopicKind::kHeartbeats ? "/heartbeats" : "/reliable");
     }
 
     Home& home(const Address& address) {
@@ -117,11 +117,11 @@ struct DdsBus::Network {
     void open(const Address& address, Home& home) {
         if (address.role == Role::kController && run == 0) run = new_run();
         home.reliable =
-            Inbox::open(*participant, topic(address, Channel::kReliable), Channel::kReliable, bell);
+            Inbox::open(*participant, topic(address, TopicKind::kReliable), TopicKind::kReliable, bell);
         home.heartbeats =
-            Inbox::open(*participant, topic(address, Channel::kHeartbeats), Channel::kHeartbeats, bell);
+            Inbox::open(*participant, topic(address, TopicKind::kHeartbeats), TopicKind::kHeartbeats, bell);
         ROBOSS_CHECK(home.reliable && home.heartbeats,
-                     "DDS made no reader for " + topic(address, Channel::kReliable));
+                     "DDS made no reader for " + topic(address, TopicKind::kReliable));
     }
 
     /// Recreates everything that belongs to the participant; messages between addresses of this process stay.
@@ -147,22 +147,22 @@ struct DdsBus::Network {
         if (!homes.contains(kControllerAddress)) run = 0;
     }
 
-    Outbox& outbox(const Address& to, Channel channel) {
-        std::unique_ptr<Outbox>& outbox = outboxes[{to, channel}];
-        if (!outbox) outbox = Outbox::open(*participant, topic(to, channel), channel, bell);
-        ROBOSS_CHECK(outbox != nullptr, "DDS made no writer for " + topic(to, channel));
+    Outbox& outbox(const Address& to, TopicKind kind) {
+        std::unique_ptr<Outbox>& outbox = outboxes[{to, kind}];
+        if (!outbox) outbox = Outbox::open(*participant, topic(to, kind), kind, bell);
+        ROBOSS_CHECK(outbox != nullptr, "DDS made no writer for " + topic(to, kind));
         return *outbox;
     }
 
     /// The outbox for a message: mostly the direct one; through the Controller if the options say so, or if
     /// two members see it and not each other (peers that name the Controller only, a firewall).
-    Outbox& way_to(const Address& from, const Address& to, Channel channel) {
+    Outbox& way_to(const Address& from, const Address& to, TopicKind kind) {
         const bool may_relay = from.role != Role::kController && to.role != Role::kController;
-        if (may_relay && options.through_controller) return outbox(kControllerAddress, Channel::kReliable);
-        Outbox& direct = outbox(to, channel);
+        if (may_relay && options.through_controller) return outbox(kControllerAddress, TopicKind::kReliable);
+        Outbox& direct = outbox(to, kind);
         if (direct.connected() || !may_relay || monotonic_ms() - direct.opened_ms() < kFound_ms)
             return direct;
-        Outbox& relay = outbox(kControllerAddress, Channel::kReliable);
+        Outbox& relay = outbox(kControllerAddress, TopicKind::kReliable);
         return relay.connected() ? relay : direct;
     }
 
@@ -171,7 +171,7 @@ struct DdsBus::Network {
         if (self != kControllerAddress || envelope.to.role == Role::kController) return;
         const auto home = homes.find(envelope.to);
         if (home == homes.end()) {
-            outbox(envelope.to, Channel::kReliable).send(bytes, monotonic_ms());
+            outbox(envelope.to, TopicKind::kReliable).send(bytes, monotonic_ms());
         } else {
             heard_ms[envelope.from] = monotonic_ms();
             count.add(envelope.from, envelope.to, bytes.size());
@@ -216,7 +216,7 @@ struct DdsBus::Network {
     std::shared_ptr<NoticeBuffer> notices;
     std::unique_ptr<Participant> participant;  // outlives what follows
     std::map<Address, Home> homes;
-    std::map<std::pair<Address, Channel>, std::unique_ptr<Outbox>> outboxes;
+    std::map<std::pair<Address, TopicKind>, std::unique_ptr<Outbox>> outboxes;
     std::map<Address, std::int64_t> heard_ms;
     FlowCount count;
 };
@@ -240,11 +240,11 @@ void DdsBus::send(const Address& from, const Address& to, Message message) {
         home->second.local.push_back({from, to, std::move(message)});
         return;
     }
-    const Channel channel = channel_of(message);
+    const TopicKind kind = kind_of(message);
     const std::vector<std::uint8_t> bytes =
         with_run(network_->run, encode(Envelope{from, to, std::move(message)}));
     network_->count.add(from, to, bytes.size());
-    if (!network_->way_to(from, to, channel).send(bytes, now_ms()))
+    if (!network_->way_to(from, to, kind).send(bytes, now_ms()))
         network_->notices->add("a message of " + std::to_string(bytes.size()) +
                                " bytes is too long to be sent");
 }
@@ -283,7 +283,7 @@ std::vector<Flow> DdsBus::flows() const {
 }
 
 bool DdsBus::present(const Address& address) {
-    return network_->homes.contains(address) || network_->outbox(address, Channel::kReliable).connected();
+    return network_->homes.contains(address) || network_->outbox(address, TopicKind::kReliable).connected();
 }
 
 std::optional<std::int64_t> DdsBus::heard_ms(const Address& address) const {
@@ -296,7 +296,7 @@ Result<> DdsBus::reconnect() {
 }
 
 bool DdsBus::taken_elsewhere(const Address& address) const {
-    return network_->participant->read_elsewhere(network_->topic(address, Channel::kReliable));
+    return network_->participant->read_elsewhere(network_->topic(address, TopicKind::kReliable));
 }
 
 bool DdsBus::flush(std::int64_t ms_max) {

@@ -25,8 +25,8 @@ eprosima::fastrtps::Duration_t from_ms(std::uint32_t ms) {
 }
 
 template <class Qos>
-void set_common(Qos& qos, Channel channel) {
-    const bool words = channel == Channel::kReliable;
+void set_common(Qos& qos, TopicKind kind) {
+    const bool words = kind == TopicKind::kReliable;
     qos.reliability().kind = words ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
     qos.reliability().max_blocking_time = {0, 0};
     qos.durability().kind = dds::VOLATILE_DURABILITY_QOS;
@@ -56,10 +56,10 @@ void Bell::wait(std::int64_t ms_max) {
     rung_ = false;
 }
 
-std::unique_ptr<Inbox> Inbox::open(Participant& participant, const std::string& topic, Channel channel,
+std::unique_ptr<Inbox> Inbox::open(Participant& participant, const std::string& topic, TopicKind kind,
                                    Bell& bell) {
     dds::DataReaderQos qos;
-    set_common(qos, channel);
+    set_common(qos, kind);
     qos.reliable_reader_qos().times.heartbeatResponseDelay = {0, 1'000'000};
     std::unique_ptr<Inbox> inbox(new Inbox(participant, bell));
     const auto wanted = dds::StatusMask::data_available()
@@ -100,14 +100,14 @@ std::vector<Inbox::Writer> Inbox::take_vanished() {
     return result;
 }
 
-std::unique_ptr<Outbox> Outbox::open(Participant& participant, const std::string& topic, Channel channel,
+std::unique_ptr<Outbox> Outbox::open(Participant& participant, const std::string& topic, TopicKind kind,
                                      Bell& bell) {
     dds::DataWriterQos qos;
-    set_common(qos, channel);
+    set_common(qos, kind);
     qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
     qos.reliable_writer_qos().times.heartbeatPeriod = {0, 20'000'000};
     qos.reliable_writer_qos().times.nackResponseDelay = {0, 1'000'000};
-    std::unique_ptr<Outbox> outbox(new Outbox(participant, bell, channel));
+    std::unique_ptr<Outbox> outbox(new Outbox(participant, bell, kind));
     const std::uint32_t buffer = socket_buffer_max();
     outbox->under_way_max_ = std::clamp<std::size_t>(buffer / 2, kPieceBytesMax + 1, 1u << 20);
     outbox->writer_ = participant.publisher().create_datawriter(participant.topic(topic), qos, outbox.get(),
@@ -137,7 +137,7 @@ bool Outbox::send(std::span<const std::uint8_t> message, std::int64_t now_ms) {
 /// A burst that does not fit into the receiver's socket is lost except for its beginning, so the bytes in
 /// flight are limited.
 bool Outbox::has_room(std::size_t bytes) {
-    if (channel_ == Channel::kHeartbeats || under_way_ + bytes <= under_way_max_) return true;
+    if (kind_ == TopicKind::kHeartbeats || under_way_ + bytes <= under_way_max_) return true;
     if (!acknowledged(0)) return false;
     under_way_ = 0;
     return true;

@@ -1,4 +1,4 @@
-// Inbox and Outbox: one DDS reader or writer each, with the quality of service of its channel.
+// Inbox and Outbox: one DDS reader or writer each, with the quality of service of its topic kind.
 #pragma once
 
 #include <atomic>
@@ -21,7 +21,7 @@ namespace roboss {
 
 /// Reliable, in order: all messages but heartbeats. Heartbeats are useful only while they are fresh: best
 /// effort.
-enum class Channel { kReliable, kHeartbeats };
+enum class TopicKind { kReliable, kHeartbeats };
 
 /// Lets the threads of the DDS layer wake up the thread of the roles.
 class Bell {
@@ -41,7 +41,7 @@ class Inbox : private eprosima::fastdds::dds::DataReaderListener {
     using Writer = eprosima::fastdds::dds::InstanceHandle_t;
 
     /// nullptr: DDS refused to make it.
-    static std::unique_ptr<Inbox> open(Participant& participant, const std::string& topic, Channel channel,
+    static std::unique_ptr<Inbox> open(Participant& participant, const std::string& topic, TopicKind kind,
                                        Bell& bell);
     ~Inbox() override;
 
@@ -72,7 +72,7 @@ class Inbox : private eprosima::fastdds::dds::DataReaderListener {
 
 class Outbox : private eprosima::fastdds::dds::DataWriterListener {
   public:
-    static std::unique_ptr<Outbox> open(Participant& participant, const std::string& topic, Channel channel,
+    static std::unique_ptr<Outbox> open(Participant& participant, const std::string& topic, TopicKind kind,
                                         Bell& bell);
     ~Outbox() override;
 
@@ -89,15 +89,15 @@ class Outbox : private eprosima::fastdds::dds::DataWriterListener {
     bool acknowledged(std::int64_t ms_max);
 
   private:
-    Outbox(Participant& participant, Bell& bell, Channel channel)
-        : participant_(participant), bell_(bell), channel_(channel) {}
+    Outbox(Participant& participant, Bell& bell, TopicKind kind)
+        : participant_(participant), bell_(bell), kind_(kind) {}
     void on_publication_matched(eprosima::fastdds::dds::DataWriter*,
                                 const eprosima::fastdds::dds::PublicationMatchedStatus& status) override;
     bool has_room(std::size_t bytes);
 
     Participant& participant_;
     Bell& bell_;
-    Channel channel_;
+    TopicKind kind_;
     eprosima::fastdds::dds::DataWriter* writer_ = nullptr;
     std::atomic<int> readers_ = 0;
     bool was_connected_ = false;
