@@ -17,7 +17,10 @@ std::vector<Order> some_orders() {
     return {{10, ClientId(1u), 1, kRobot, SetPose{{{1, 2, 3}, {0.5, 0.5, 0.5, 0.5}}}},
             {10, ClientId(1u), 2, kRobot, SetVelocity{{1, 0, 0}, {0, 0, -2}}},
             {11, ClientId(2u), 1, kOther, ApplyWrench{LinkId(2u), {1, 2, 3}, {4, 5, 6}, 12}},
-            {12, ClientId(2u), 2, kOther, SetJoint{JointId(1u), 1, MotorMode::kPosition, 0.25, 8.5}}};
+            {12, ClientId(2u), 2, kOther, SetJoint{JointId(1u), 1, MotorMode::kPosition, 0.25, 8.5}},
+            {13, ClientId(2u), 3, kRobot, Command{2, {0.5, -1, 3}}},
+            {14, ClientId(2u), 4, kRobot, Attach{LinkId(1u), kOther, LinkId(3u), 0.25, 40, 2}},
+            {15, ClientId(2u), 5, kRobot, Detach{kOther}}};
 }
 
 /// Of each kind one in which no field has the value that it has in a message just made, so that none can get
