@@ -43,6 +43,10 @@ struct Record {
     void operator()(const Parameter& p, int value) { put(counts, p, value); }
     void operator()(const Parameter& p, const NoiseSpec& noise) { put(noises, p, noise); }
     void operator()(const Parameter&, const JointNames& names) { joints = names; }
+    void operator()(const Parameter& p, const std::string& text) {
+        has_rest = true;
+        rest.add(std::string_view(p.name)), rest.add(std::string_view(text));
+    }
 
   private:
     template <class Slots, class Value>

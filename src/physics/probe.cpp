@@ -96,7 +96,8 @@ std::vector<JointReaction> read_reactions(const RobotWork& work, std::span<const
             carried[static_cast<std::size_t>(type.links[l].carrier)] = static_cast<int>(l);
     std::vector<JointReaction> reactions;
     const auto add = [&](std::size_t joint, const Spatial& force, const Vec3& arm) {
-        reactions.push_back({JointId(joint), force.linear, force.angular - cross(arm, force.linear)});
+        reactions.push_back(
+            {JointId(joint), force.linear, force.angular - cross(arm, force.linear), work.origin + arm});
     };
     for (std::size_t j = 0; j < type.joints.size(); ++j) {
         const Joint& joint = type.joints[j];
@@ -128,6 +129,8 @@ void StepProbe::step(Tick tick, std::span<const RobotState* const> states) {
     tick_ = tick;
     scratch_.keep_reactions(true);
     step_island(model_, tick, ids_, pointers_, {}, bounds_, scratch_);
+    // What controllers push and drive in this tick is part of what joints bear.
+    for (std::size_t i = 0; i < n; ++i) run_onboard(model_, tick, ids_[i], before_[i], onboard_);
     const std::span<const ContactReport> found = read_contacts(scratch_);
     contacts_.assign(found.begin(), found.end());
     const std::span<const LoopReaction> loads = read_loop_reactions(scratch_);

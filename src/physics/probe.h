@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "onboard/onboard.h"
 #include "physics/step.h"
 
 namespace roboss {
@@ -16,6 +17,7 @@ struct JointReaction {
     JointId joint;  ///< of the robot's type
     Vec3 force,     ///< N, world axes
         torque;     ///< N m about the joint's origin, world axes
+    Vec3 origin_W;  ///< m, the joint's origin in the world
 };
 
 /// Contacts and joint reactions of one tick, found by stepping copies of all robots' states.
@@ -56,6 +58,7 @@ class StepProbe {
     std::vector<char> free_;  // moved by the Runge-Kutta method
     std::vector<ContactReport> contacts_;
     StepScratch scratch_;
+    OnboardScratch onboard_;
 };
 
 }  // namespace roboss

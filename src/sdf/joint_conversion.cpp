@@ -240,12 +240,6 @@ void report_unused(JointSpec& spec, const Element& source, const Import& import)
             "joint '" + spec.name + "': <physics> holds numbers for other engines; they are ignored",
             "Soft limits: <limit><stiffness> and <dissipation>.");
     }
-    for (const auto node : source.node.children("sensor")) {
-        import.diagnostics().warning(
-            {source.source->where(node)}, "joint-sensor",
-            "sensors of type '" + std::string(node.attribute("type").value()) + "' in a <joint> are not read",
-            "Put the sensor in a <link>, or read joint reactions in a program.");
-    }
 }
 
 /// Two axes along one line are one: often both were left out, so both are z.

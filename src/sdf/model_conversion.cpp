@@ -1,6 +1,7 @@
 // Walks a model and its nested models.
 #include "sdf/model_conversion.h"
 
+#include <algorithm>
 #include <cstring>
 #include <set>
 
@@ -179,7 +180,27 @@ class ModelConverter {
         if (!source) source = read_.source();
         auto spec =
             convert_joint(joint, source, scope.X_MS * resolved(joint, "__model__"), scope.prefix, import_);
-        if (spec) spec_.joints.push_back(std::move(*spec));
+        if (!spec) return;
+        for (const auto node : source.node.children("sensor"))
+            convert_joint_sensor({source.source, node}, *spec, scope);
+        spec_.joints.push_back(std::move(*spec));
+    }
+
+    /// A force-torque sensor: it stands on the joint's child link.
+    void convert_joint_sensor(const Element& element, const JointSpec& joint, const Scope& scope) {
+        const auto child = std::ranges::find(spec_.links, joint.child, &LinkSpec::name);
+        if (child == spec_.links.end()) return;
+        const Pose X_MS = joint.X_MJ * import_.reader.pose(element.child("pose"));
+        SensorSpec sensor = convert_sensor(element, inverse(child->X_ML) * X_MS, scope.prefix, import_);
+        if (auto* force_torque = sensor.as<ForceTorqueSpec>()) {
+            force_torque->joint = joint.name;
+            child->sensors.push_back(std::move(sensor));
+        } else if (sensor.measures()) {
+            import_.diagnostics().warning(
+                element.where(), "joint-sensor",
+                "sensors of type '" + sensor.sdf_type + "' in a <joint> are not read",
+                "Put the sensor in a <link>.");
+        }
     }
 
     const ReadModel& read_;

@@ -106,6 +106,26 @@ TEST(Sensors, AnImuHasNoiseForEachAxisAndNamesWhatItDoesNotMeasure) {
     EXPECT_TRUE(with_sensor("<sensor name='s' type='imu'/>").diagnostics.items().empty());
 }
 
+TEST(Sensors, AForceTorqueSensorStandsInItsJoint) {
+    const Loaded loaded = load_elements(
+        "<model name='m'>" + link("a") + link("b") +
+        "<joint name='j' type='revolute'><pose>0 0 0.5 0 0 0</pose><parent>a</parent><child>b</child>"
+        "<axis><xyz>0 1 0</xyz></axis><sensor name='ft' type='force_torque'><pose>0.1 0 0 0 0 0</pose>"
+        "<force_torque><frame>sensor</frame><measure_direction>parent_to_child</measure_direction>"
+        "<torque><y><noise type='gaussian'><stddev>0.5</stddev></noise></y></torque></force_torque>"
+        "</sensor></joint></model>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
+    const LinkSpec& b = loaded.world->prototypes.at(0).links.at(1);
+    ASSERT_EQ(b.sensors.size(), 1u);
+    EXPECT_EQ(b.sensors[0].X_LS.p, (Vec3{0.1, 0, 0.5}));
+    ForceTorqueSpec expected;
+    expected.joint = "j", expected.frame = "sensor", expected.measure_direction = "parent_to_child";
+    expected.torque_y.stddev = 0.5;
+    ASSERT_NE(b.sensors[0].as<ForceTorqueSpec>(), nullptr);
+    EXPECT_EQ(*b.sensors[0].as<ForceTorqueSpec>(), expected);
+}
+
 TEST(Sensors, AnOdometerOfAJointThatIsNotThereIsAnError) {
     EXPECT_NE(with_sensor("<roboss:sensor name='o' type='odometer'><joint>k</joint></roboss:sensor>")
                   .find("unknown-joint"),
@@ -117,7 +137,7 @@ TEST(Sensors, AnOdometerOfAJointThatIsNotThereIsAnError) {
 TEST(Sensors, OthersAreKeptAndReportedOnceAKind) {
     const Loaded loaded = with_sensor(
         "<sensor name='c1' type='camera'><camera><image><width>oops</width></image></camera></sensor>"
-        "<sensor name='c2' type='camera'/><sensor name='i' type='altimeter'/><sensor name='n' "
+        "<sensor name='c2' type='camera'/><sensor name='i' type='logical_camera'/><sensor name='n' "
         "type='air_speed'/>");
     ASSERT_TRUE(loaded.world);
     EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();

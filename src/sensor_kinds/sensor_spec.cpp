@@ -24,6 +24,7 @@ struct ProblemFinder {
                  "Write standard deviations of at least 0."});
     }
     void operator()(const Parameter&, int) const {}
+    void operator()(const Parameter&, const std::string&) const {}
     void operator()(const Parameter&, const JointNames&) const {}
 };
 

@@ -11,11 +11,15 @@
 
 #include "core/diagnostics.h"
 #include "math/pose.h"
+#include "sensor_kinds/altimeter.h"
 #include "sensor_kinds/compass.h"
+#include "sensor_kinds/contact.h"
+#include "sensor_kinds/force_torque.h"
 #include "sensor_kinds/gps.h"
 #include "sensor_kinds/imu.h"
 #include "sensor_kinds/kind.h"
 #include "sensor_kinds/laser.h"
+#include "sensor_kinds/magnetometer.h"
 #include "sensor_kinds/odometer.h"
 
 namespace roboss {
@@ -42,7 +46,8 @@ struct SensorKindList {
 };
 
 /// All kinds of sensors that are simulated.
-using SensorKinds = SensorKindList<LaserSpec, GpsSpec, CompassSpec, OdometerSpec, ImuSpec>;
+using SensorKinds = SensorKindList<LaserSpec, GpsSpec, CompassSpec, OdometerSpec, ImuSpec, AltimeterSpec,
+                                   MagnetometerSpec, ContactSpec, ForceTorqueSpec>;
 
 /// Parameters of any kind.
 using SensorParameters = SensorKinds::Parameters;

@@ -59,5 +59,9 @@ Result<GpsReading> read(const GpsSpec& gps, const SensorQuery& query);
 Result<CompassReading> read(const CompassSpec& compass, const SensorQuery& query);
 Result<OdometerReading> read(const OdometerSpec& odometer, const SensorQuery& query);
 Result<ImuReading> read(const ImuSpec& imu, const SensorQuery& query);
+Result<AltimeterReading> read(const AltimeterSpec& altimeter, const SensorQuery& query);
+Result<MagnetometerReading> read(const MagnetometerSpec& magnetometer, const SensorQuery& query);
+Result<ContactReading> read(const ContactSpec& contact, const SensorQuery& query);
+Result<ForceTorqueReading> read(const ForceTorqueSpec& sensor, const SensorQuery& query);
 
 }  // namespace roboss

@@ -26,6 +26,8 @@ std::vector<SensorSpec> sensors_of_all_kinds() {
                 value.bias_stddev = ++next, value.precision = ++next;
             else if constexpr (std::is_same_v<Value, JointNames>)
                 value = {"slide", "wrist"};
+            else if constexpr (std::is_same_v<Value, std::string>)
+                value = value.empty() ? "slide" : value == "child" ? "parent" : "parent_to_child";
             else
                 value = static_cast<Value>(++next);
         });
