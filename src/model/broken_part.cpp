@@ -183,7 +183,7 @@ class TypeCheck {
 
     bool shapes_fit() const {
         for (const BodyShape& s : t_.shapes)
-            if (!on_body(s.body) || s.link.index() >= t_.links.size() || !finite(s.X_BS) ||
+            if (!on_body(s.body) || !on_body(s.direction_body) || s.link.index() >= t_.links.size() || !finite(s.X_BS) ||
                 !sensible(s.shape, false))
                 return false;
         for (const LinkDrag& drag : t_.drags)
