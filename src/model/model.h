@@ -138,7 +138,7 @@ struct CoordinateCoupling {
 struct Material {
     double mu = 1,                ///< friction coefficient, along direction_S
         mu2 = 1;                  ///< across direction_S
-    Vec3 direction_S;             ///< unit, in the shape's frame (BodyShape::direction_body); zero: mu counts in all directions
+    Vec3 direction_S;             ///< unit, see BodyShape::direction_body; zero: mu counts in all directions
     double restitution = 0,       ///< 0: no bounce
         bounce_threshold = 0.01;  ///< m/s, below it nothing bounces
     double torsional_mu = 1,      ///< friction coefficient of turning about the normal

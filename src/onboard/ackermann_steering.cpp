@@ -11,8 +11,8 @@ namespace {
 
 using Spec = AckermannSteeringSpec;
 
-constexpr double kStraight = 1e9;      // m: a radius that is none
-constexpr double kLeastTurn = 1e-3;    // rad/s: slower is straight, as in Gazebo
+constexpr double kStraight = 1e9;        // m: a radius that is none
+constexpr double kLeastTurn = 1e-3;      // rad/s: slower is straight, as in Gazebo
 constexpr double kSteeringStill = 1e-7;  // rad/s: so slow a steering stands, that the robot may sleep
 
 /// Angles of the left and right steering joints, rad.
@@ -45,8 +45,8 @@ void steer(const Spec& spec, const SteeringAngles& wanted, OnboardContext& c) {
         c.drive(joint, MotorMode::kVelocity, joint < at.right_steering ? left : right);
 }
 
-/// Radius of the circle on which the middle between the kingpins drives, m; positive: to the left. It is never
-/// smaller than the steering allows; then the speed is kept and the turn is slower.
+/// Radius of the circle on which the middle between the kingpins drives, m; positive: to the left. It is
+/// never smaller than the steering allows; then the speed is kept and the turn is slower.
 double radius_for(const Spec& spec, double speed, double turn) {
     if (std::fabs(turn) < kLeastTurn) return kStraight;
     const double least = spec.wheel_base / fixed_sin(spec.steering_limit);

@@ -14,9 +14,10 @@ void count_wheels(const Spec& spec, OnboardContext& c, std::span<double> memory)
     if (memory[Spec::kStarted] != 0) {
         const double moved_left = spec.wheel_radius * (left - memory[Spec::kLeftAngle]);
         const double moved_right = spec.wheel_radius * (right - memory[Spec::kRightAngle]);
-        move_odometry(memory.first<5>(),
-                      {0.5 * (moved_left + moved_right), 0, (moved_right - moved_left) / spec.wheel_separation},
-                      c.dt());
+        move_odometry(
+            memory.first<5>(),
+            {0.5 * (moved_left + moved_right), 0, (moved_right - moved_left) / spec.wheel_separation},
+            c.dt());
     }
     memory[Spec::kStarted] = 1, memory[Spec::kLeftAngle] = left, memory[Spec::kRightAngle] = right;
 }

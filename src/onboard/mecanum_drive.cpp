@@ -21,8 +21,8 @@ double lever(const Spec& spec) {
     return 0.5 * (spec.wheel_separation + spec.wheelbase);
 }
 
-/// With rollers at 45 degrees, rim speeds (or ways) u give forward (a + b + c + d) / 4, left (-a + b + c - d) / 4
-/// and turn (-a + b - c + d) / (4 lever).
+/// With rollers at 45 degrees, rim speeds (or ways) u give forward (a + b + c + d) / 4, left (-a + b + c - d)
+/// / 4 and turn (-a + b - c + d) / (4 lever).
 void count_wheels(const Spec& spec, OnboardContext& c, std::span<double> memory) {
     Corners moved{};
     std::size_t joint = 0;

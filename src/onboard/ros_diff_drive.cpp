@@ -46,7 +46,8 @@ void run(const RosDiffDriveSpec& spec, OnboardContext& c) {
             double& rim = rims[2 * pair + side];
             const double wanted = twist[Twist6::kLinearX] + (side == 0 ? -across : across);
             rim = std::fmax(std::fmin(wanted, rim + step), rim - step);
-            c.drive(pair + side * pairs, MotorMode::kVelocity, rim / (0.5 * spec.diameter(pair)), spec.torque);
+            c.drive(pair + side * pairs, MotorMode::kVelocity, rim / (0.5 * spec.diameter(pair)),
+                    spec.torque);
         }
     }
 }

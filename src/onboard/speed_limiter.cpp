@@ -12,10 +12,10 @@ double clamped(double x, double low, double high) {
     return std::fmax(std::fmin(x, high), low);
 }
 
-/// The largest acceleration towards a speed that is `gap` away (m/s) from which a jerk of size `jerk` brings the
-/// acceleration to zero in time. Let E = gap / (jerk dt^2). An acceleration of x jerk dt with x = n + f (n whole,
-/// 0 <= f < 1) falls by jerk dt a tick and moves the speed by (n + 1) (f + n / 2) jerk dt^2 in all; this solves
-/// (n + 1) (f + n / 2) = E.
+/// The largest acceleration towards a speed that is `gap` away (m/s) from which a jerk of size `jerk` brings
+/// the acceleration to zero in time. Let E = gap / (jerk dt^2). An acceleration of x jerk dt with x = n + f
+/// (n whole, 0 <= f < 1) falls by jerk dt a tick and moves the speed by (n + 1) (f + n / 2) jerk dt^2 in all;
+/// this solves (n + 1) (f + n / 2) = E.
 double most_acceleration(double gap, double jerk, double dt) {
     if (std::isinf(jerk)) return gap / dt;
     if (jerk <= 0) return 0;

@@ -45,7 +45,8 @@ void run(const TrackedVehicleSpec& spec, OnboardContext& c) {
     const double left = speed - across, right = speed + across;
     // As in Gazebo, odometry believes the tracks' speeds and knows nothing of the steering efficiency.
     move_odometry(memory.first<5>(),
-                  {0.5 * (left + right) * c.dt(), 0, (right - left) / spec.tracks_separation * c.dt()}, c.dt());
+                  {0.5 * (left + right) * c.dt(), 0, (right - left) / spec.tracks_separation * c.dt()},
+                  c.dt());
     const bool has_new_twist = is_new(c, 0, memory[Spec::kSeenCommand]);
     const bool has_new_efficiency = is_new(c, 1, memory[Spec::kSeenEfficiency]);
     const bool gives_speed = has_new_twist || has_new_efficiency || std::fabs(speed - last_speed) > kSmall ||

@@ -1,4 +1,5 @@
-// AckermannSteering of Gazebo: drives and steers a car so that it follows a commanded velocity, or steers only.
+// AckermannSteering of Gazebo: drives and steers a car so that it follows a commanded velocity, or steers
+// only.
 #pragma once
 
 #include <span>

@@ -46,7 +46,9 @@ std::vector<Channel> ApplyLinkWrenchSpec::channels() const {
                                            {"torque_x", "N m"}, {"torque_y", "N m"}, {"torque_z", "N m"},
                                            {"offset_x", "m"},   {"offset_y", "m"},   {"offset_z", "m"}};
     const std::string name = link.empty() ? "wrench" : "link/" + link.front() + "/wrench";
-    return {{name, topic, wrench}, {name + "/persistent", topic_persistent, wrench}, {name + "/clear", topic_clear, {{"clear", ""}}}};
+    return {{name, topic, wrench},
+            {name + "/persistent", topic_persistent, wrench},
+            {name + "/clear", topic_clear, {{"clear", ""}}}};
 }
 
 void ApplyLinkWrenchSpec::check(std::vector<OnboardProblem>& problems) const {

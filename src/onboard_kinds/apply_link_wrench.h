@@ -11,10 +11,10 @@ namespace roboss {
 
 /// A wrench that acts from the start: force and torque at the link's origin, world axes.
 struct PersistentWrench {
-    std::string entity_name,          ///< "model" or "model::link"
-        entity_type = "model";        ///< model: its canonical link; link
-    Vec3 force,                       ///< N
-        torque;                       ///< N m
+    std::string entity_name,    ///< "model" or "model::link"
+        entity_type = "model";  ///< model: its canonical link; link
+    Vec3 force,                 ///< N
+        torque;                 ///< N m
 
     /// Calls visit(Parameter, value) for each parameter, always in the same order.
     template <class Visitor, class Self>
@@ -28,14 +28,14 @@ struct PersistentWrench {
     friend bool operator==(const PersistentWrench&, const PersistentWrench&) = default;
 };
 
-/// The plugin acts on all models of its world. Each model gets a controller for its canonical link, and one for
-/// each other link that a <persistent> names (for_model).
+/// The plugin acts on all models of its world. Each model gets a controller for its canonical link, and one
+/// for each other link that a <persistent> names (for_model).
 struct ApplyLinkWrenchSpec {
     std::vector<PersistentWrench> persistent;  ///< from the start; of a model's controller: on its link
     LinkNames link;                            ///< one: that it pushes; none: the canonical link
     std::string topic,                         ///< of a wrench of one tick; empty: /world/WORLD/wrench
         topic_persistent,                      ///< of one that stays; empty: /world/WORLD/wrench/persistent
-        topic_clear;                           ///< that ends those that stay; empty: /world/WORLD/wrench/clear
+        topic_clear;  ///< that ends those that stay; empty: /world/WORLD/wrench/clear
 
     /// Elements of Gazebo's without effect.
     static constexpr IgnoredElement kIgnored[] = {{"verbose", "0|1|true|false", "it only prints"}};
@@ -58,7 +58,8 @@ struct ApplyLinkWrenchSpec {
     }
     /// The controllers that a plugin of the world `world` means for the model `model`.
     std::vector<ApplyLinkWrenchSpec> for_model(const std::string& world, const std::string& model) const;
-    /// The commands that it takes: force and torque in world axes, at `offset` from the link's origin, link axes.
+    /// The commands that it takes: force and torque in world axes, at `offset` from the link's origin, link
+    /// axes.
     std::vector<Channel> channels() const;
     /// Its memory at the start: the tick of the last wrench of one tick that it applied.
     std::vector<double> memory() const { return {-1}; }

@@ -46,8 +46,8 @@ struct DiffDriveSpec {
          {"min_angular_jerk", "min_angular_jerk", "rad/s^3", true},
          {"max_angular_jerk", "max_angular_jerk", "rad/s^3", true}}};
 
-    /// Calls visit(Parameter, value) for each parameter, always in the same order: what counts for both first,
-    /// so that a limit of one of them replaces it.
+    /// Calls visit(Parameter, value) for each parameter, always in the same order: what counts for both
+    /// first, so that a limit of one of them replaces it.
     template <class Visitor, class Self>
     static void parameters(Visitor&& visit, Self& s) {
         visit({"left", "left_joint"}, s.left);

@@ -14,17 +14,17 @@ namespace roboss {
 /// The rollers are friction directions of the wheels (`<fdir1>` in the axes of the chassis): the wheels roll
 /// along them without resistance. Before the first command the wheels are held at zero.
 struct MecanumDriveSpec {
-    JointNames front_left,          ///< wheel joints; the first of each corner is an odometer
-        front_right,                ///< see front_left
-        back_left,                  ///< see front_left
-        back_right;                 ///< see front_left
-    double wheelbase = 1.0,         ///< m, between front and back axle
-        wheel_separation = 1.0,     ///< m, between left and right
-        wheel_radius = 0.2;         ///< m
-    SpeedLimits linear,             ///< m/s, of x and y, each by itself
-        angular;                    ///< rad/s
-    std::string topic;              ///< of the command; empty: /model/NAME/cmd_vel
-    OdometryOutput output;          ///< of the odometry
+    JointNames front_left,       ///< wheel joints; the first of each corner is an odometer
+        front_right,             ///< see front_left
+        back_left,               ///< see front_left
+        back_right;              ///< see front_left
+    double wheelbase = 1.0,      ///< m, between front and back axle
+        wheel_separation = 1.0,  ///< m, between left and right
+        wheel_radius = 0.2;      ///< m
+    SpeedLimits linear,          ///< m/s, of x and y, each by itself
+        angular;                 ///< rad/s
+    std::string topic;           ///< of the command; empty: /model/NAME/cmd_vel
+    OdometryOutput output;       ///< of the odometry
 
     /// What this kind states about itself.
     static constexpr OnboardKind kKind{.number = 12,
@@ -54,9 +54,10 @@ struct MecanumDriveSpec {
     /// Places in its memory; it begins with the odometry (OnboardKind::odometry).
     enum Memory : std::size_t {
         kOdometry = 0,
-        kSideways = 5,    ///< m/s, velocity to the left of the tick before
-        kStarted = 6,     ///< 1: the angles below are known
-        kAngles = 7,      ///< rad, of the first wheels at the last tick: front left, front right, back left, back right
+        kSideways = 5,  ///< m/s, velocity to the left of the tick before
+        kStarted = 6,   ///< 1: the angles below are known
+        kAngles =
+            7,  ///< rad, of the first wheels at the last tick: front left, front right, back left, back right
         kSpeed = 11,      ///< m/s, the last two commands after the limits
         kSideSpeed = 13,  ///< m/s, likewise
         kTurnRate = 15,   ///< rad/s, likewise

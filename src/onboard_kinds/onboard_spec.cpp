@@ -116,7 +116,13 @@ std::vector<OnboardParameters> parts_of(const OnboardParameters& parameters) {
 }
 
 bool is_of_world(const OnboardParameters& parameters) {
-    return std::visit([](const auto& p) { return requires { p.for_model("", ""); }; }, parameters);
+    return std::visit(
+        [](const auto& p) {
+            return requires {
+                p.for_model("", "");
+            };
+        },
+        parameters);
 }
 
 std::vector<OnboardParameters> controllers_for(const OnboardParameters& parameters, const std::string& world,

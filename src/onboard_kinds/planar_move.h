@@ -9,10 +9,11 @@
 
 namespace roboss {
 
-/// Velocities are in the axes of the robot's frame, turned about z only. Before the first command they are zero.
+/// Velocities are in the axes of the robot's frame, turned about z only. Before the first command they are
+/// zero.
 struct PlanarMoveSpec {
-    RosDrive ros;          ///< topics, odometry
-    double timeout = -1;   ///< s: older commands count as zero; negative: never
+    RosDrive ros;         ///< topics, odometry
+    double timeout = -1;  ///< s: older commands count as zero; negative: never
 
     /// Elements of the original without effect.
     static constexpr IgnoredElement kIgnored[] = {

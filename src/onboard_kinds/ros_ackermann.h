@@ -1,4 +1,5 @@
-// libgazebo_ros_ackermann_drive.so of classic Gazebo: a car whose rear wheels and steering are driven by PIDs.
+// libgazebo_ros_ackermann_drive.so of classic Gazebo: a car whose rear wheels and steering are driven by
+// PIDs.
 #pragma once
 
 #include <span>
@@ -13,23 +14,23 @@ namespace roboss {
 
 /// Gains are p, i, d; the range bounds the integral term: lower, upper, no third value.
 struct RosAckermannSpec {
-    JointNames front_left,                    ///< wheel joint, measured for the geometry
-        front_right,                          ///< wheel joint, measured for the geometry
-        rear_left,                            ///< driven wheel joint
-        rear_right,                           ///< driven wheel joint, whose speed and radius are measured
-        left_steering,                        ///< steering joint
-        right_steering,                       ///< steering joint
-        steering_wheel;                       ///< in the driver's hands; may be missing
-    double max_speed = 20,                    ///< m/s
-        max_steer = 0.6,                      ///< rad
-        max_steering_angle = 7.85;            ///< rad, of the steering wheel
-    std::vector<double> left_gain,            ///< N m/rad, N m/(rad s), N m s/rad
-        right_gain,                           ///< likewise
-        speed_gain;                           ///< N m s/rad, N m/rad, N m s^2/rad
-    std::vector<double> left_range,           ///< N m, of the integral term
-        right_range,                          ///< N m
-        speed_range;                          ///< N m
-    RosDrive ros;                             ///< topics, odometry, rate of the PIDs
+    JointNames front_left,           ///< wheel joint, measured for the geometry
+        front_right,                 ///< wheel joint, measured for the geometry
+        rear_left,                   ///< driven wheel joint
+        rear_right,                  ///< driven wheel joint, whose speed and radius are measured
+        left_steering,               ///< steering joint
+        right_steering,              ///< steering joint
+        steering_wheel;              ///< in the driver's hands; may be missing
+    double max_speed = 20,           ///< m/s
+        max_steer = 0.6,             ///< rad
+        max_steering_angle = 7.85;   ///< rad, of the steering wheel
+    std::vector<double> left_gain,   ///< N m/rad, N m/(rad s), N m s/rad
+        right_gain,                  ///< likewise
+        speed_gain;                  ///< N m s/rad, N m/rad, N m s^2/rad
+    std::vector<double> left_range,  ///< N m, of the integral term
+        right_range,                 ///< N m
+        speed_range;                 ///< N m
+    RosDrive ros;                    ///< topics, odometry, rate of the PIDs
 
     /// What this kind states about itself.
     static constexpr OnboardKind kKind{.number = 16,
@@ -66,9 +67,9 @@ struct RosAckermannSpec {
     /// Places in its memory; it begins with the odometry (OnboardKind::odometry).
     enum Memory : std::size_t {
         kOdometry = 0,
-        kNextUpdate = 5,  ///< s: when the PIDs act again
-        kSpeedError = 6,  ///< rad/s: integral, last error of the speed
-        kLeftError = 8,   ///< rad: integral, last error of the left steering
+        kNextUpdate = 5,   ///< s: when the PIDs act again
+        kSpeedError = 6,   ///< rad/s: integral, last error of the speed
+        kLeftError = 8,    ///< rad: integral, last error of the left steering
         kRightError = 10,  ///< rad: of the right steering
         kMemorySize = 12
     };
@@ -88,7 +89,8 @@ struct RosAckermannSpec {
                 problems.push_back({"has a gain that is not three numbers", "Write p, i and d."});
         for (const std::vector<double>* range : {&left_range, &right_range, &speed_range})
             if (!range->empty() && range->size() != 2)
-                problems.push_back({"has a range that is not two numbers", "Write the lower and the upper bound."});
+                problems.push_back(
+                    {"has a range that is not two numbers", "Write the lower and the upper bound."});
         expect_positive("max_steer", max_steer, problems);
         expect_positive("max_steering_angle", max_steering_angle, problems);
     }

@@ -23,13 +23,13 @@ struct RosDiffDriveMemory {
 /// Pairs of wheels, each with a separation and diameter of its own. Motors of bounded torque hold the wheels'
 /// speeds; an acceleration bounds the change of each rim's speed.
 struct RosDiffDriveSpec {
-    JointNames left, right;               ///< wheel joints, as many on each side
-    std::vector<double> separations,      ///< m, one a pair
-        diameters;                        ///< m, one a pair
-    int pairs = 1;                        ///< number of pairs
-    double torque = 5.0,                  ///< N m, of each wheel
-        acceleration = 0;                 ///< m/s^2 of the rim; 0: unbounded
-    RosDrive ros;                         ///< topics, odometry
+    JointNames left, right;           ///< wheel joints, as many on each side
+    std::vector<double> separations,  ///< m, one a pair
+        diameters;                    ///< m, one a pair
+    int pairs = 1;                    ///< number of pairs
+    double torque = 5.0,              ///< N m, of each wheel
+        acceleration = 0;             ///< m/s^2 of the rim; 0: unbounded
+    RosDrive ros;                     ///< topics, odometry
 
     /// What this kind states about itself.
     static constexpr OnboardKind kKind{.number = 14,
@@ -84,14 +84,14 @@ struct RosDiffDriveSpec {
 
 /// Four wheels; both of a side turn equally fast.
 struct RosSkidSteerSpec {
-    JointNames left_front,     ///< wheel joint
-        right_front,           ///< wheel joint
-        left_rear,             ///< wheel joint
-        right_rear;            ///< wheel joint
-    double separation = 0.4,   ///< m
-        diameter = 0.15,       ///< m
-        torque = 5.0;          ///< N m, of each wheel
-    RosDrive ros;              ///< topics, odometry
+    JointNames left_front,    ///< wheel joint
+        right_front,          ///< wheel joint
+        left_rear,            ///< wheel joint
+        right_rear;           ///< wheel joint
+    double separation = 0.4,  ///< m
+        diameter = 0.15,      ///< m
+        torque = 5.0;         ///< N m, of each wheel
+    RosDrive ros;             ///< topics, odometry
 
     /// What this kind states about itself.
     static constexpr OnboardKind kKind{.number = 15,

@@ -1,4 +1,5 @@
-// What the drives of gazebo_ros_pkgs (classic Gazebo) have in common: names of topics, where odometry comes from.
+// What the drives of gazebo_ros_pkgs (classic Gazebo) have in common: names of topics, where odometry comes
+// from.
 #pragma once
 
 #include <string>
@@ -11,14 +12,14 @@ namespace roboss {
 
 /// Topics and odometry of a classic drive, in the dialects of ROS 1 and ROS 2.
 struct RosDrive {
-    std::string ros_namespace,             ///< ROS 2 `<ros><namespace>`, ROS 1 `<robotNamespace>`
-        remapping,                         ///< ROS 2, the first `<remapping>`: "cmd_vel:=drive"
-        command_topic;                     ///< ROS 1 `<commandTopic>`
-    std::string odometry_frame = "odom",   ///< name of the frame
-        base_frame = "base_footprint",     ///< name of the frame
-        odometry_source = "1";             ///< "1" or "world": the true pose; "0" or "encoder": wheel angles
-    double update_rate = 100;              ///< Hz
-    bool publishes_odometry = false;       ///< for telemetry
+    std::string ros_namespace,            ///< ROS 2 `<ros><namespace>`, ROS 1 `<robotNamespace>`
+        remapping,                        ///< ROS 2, the first `<remapping>`: "cmd_vel:=drive"
+        command_topic;                    ///< ROS 1 `<commandTopic>`
+    std::string odometry_frame = "odom",  ///< name of the frame
+        base_frame = "base_footprint",    ///< name of the frame
+        odometry_source = "1";            ///< "1" or "world": the true pose; "0" or "encoder": wheel angles
+    double update_rate = 100;             ///< Hz
+    bool publishes_odometry = false;      ///< for telemetry
 
     /// Calls visit(Parameter, value) for each parameter, always in the same order.
     template <class Visitor, class Self>

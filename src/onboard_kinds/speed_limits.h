@@ -1,4 +1,5 @@
-// Limits of a commanded speed, and what drives publish of their odometry: parameters that several kinds share.
+// Limits of a commanded speed, and what drives publish of their odometry: parameters that several kinds
+// share.
 #pragma once
 
 #include <limits>
@@ -11,12 +12,12 @@ namespace roboss {
 
 /// Bounds of a speed, of its rate and of the rate's rate; infinite: none. The speed is in m/s or rad/s.
 struct SpeedLimits {
-    double min_velocity = -std::numeric_limits<double>::infinity(),    ///< m/s or rad/s
-        max_velocity = std::numeric_limits<double>::infinity(),        ///< m/s or rad/s
-        min_acceleration = -std::numeric_limits<double>::infinity(),   ///< m/s^2 or rad/s^2
-        max_acceleration = std::numeric_limits<double>::infinity(),    ///< m/s^2 or rad/s^2
-        min_jerk = -std::numeric_limits<double>::infinity(),           ///< m/s^3 or rad/s^3
-        max_jerk = std::numeric_limits<double>::infinity();            ///< m/s^3 or rad/s^3
+    double min_velocity = -std::numeric_limits<double>::infinity(),   ///< m/s or rad/s
+        max_velocity = std::numeric_limits<double>::infinity(),       ///< m/s or rad/s
+        min_acceleration = -std::numeric_limits<double>::infinity(),  ///< m/s^2 or rad/s^2
+        max_acceleration = std::numeric_limits<double>::infinity(),   ///< m/s^2 or rad/s^2
+        min_jerk = -std::numeric_limits<double>::infinity(),          ///< m/s^3 or rad/s^3
+        max_jerk = std::numeric_limits<double>::infinity();           ///< m/s^3 or rad/s^3
     /// Compares all members.
     friend bool operator==(const SpeedLimits&, const SpeedLimits&) = default;
 };
@@ -55,11 +56,11 @@ void visit_limits(Visitor&& visit, Limits& limits, const SpeedLimitElements& ele
 
 /// How Gazebo publishes the odometry of a drive.
 struct OdometryOutput {
-    double rate = 50;     ///< Hz; zero or less: every tick
-    std::string topic,    ///< empty: /model/NAME/odometry
-        tf_topic,         ///< empty: /model/NAME/tf
-        frame,            ///< empty: NAME/odom
-        child_frame;      ///< empty: NAME/LINK
+    double rate = 50;   ///< Hz; zero or less: every tick
+    std::string topic,  ///< empty: /model/NAME/odometry
+        tf_topic,       ///< empty: /model/NAME/tf
+        frame,          ///< empty: NAME/odom
+        child_frame;    ///< empty: NAME/LINK
     /// Compares all members.
     friend bool operator==(const OdometryOutput&, const OdometryOutput&) = default;
 };
@@ -77,12 +78,14 @@ void visit_odometry(Visitor&& visit, Output& output) {
 /// Adds a problem if a side has no wheel.
 inline void expect_wheels(bool missing, std::vector<OnboardProblem>& problems) {
     if (missing)
-        problems.push_back({"names no wheel joint on one of its sides", "Name the joints of all its wheels."});
+        problems.push_back(
+            {"names no wheel joint on one of its sides", "Name the joints of all its wheels."});
 }
 /// Adds a problem if a length is not above zero.
 inline void expect_positive(const std::string& element, double value, std::vector<OnboardProblem>& problems) {
     if (!(value > 0))
-        problems.push_back({"has a <" + element + "> of " + std::to_string(value), "Write a number above 0."});
+        problems.push_back(
+            {"has a <" + element + "> of " + std::to_string(value), "Write a number above 0."});
 }
 
 }  // namespace roboss

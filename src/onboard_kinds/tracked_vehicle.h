@@ -1,5 +1,5 @@
-// TrackedVehicle of Gazebo: commands the speeds of the tracks (TrackController) of a vehicle so that it follows
-// a commanded velocity.
+// TrackedVehicle of Gazebo: commands the speeds of the tracks (TrackController) of a vehicle so that it
+// follows a commanded velocity.
 #pragma once
 
 #include <span>
@@ -14,9 +14,9 @@ namespace roboss {
 
 /// One track of a vehicle: the link whose surface moves.
 struct TrackSpec {
-    LinkNames link;                      ///< one link
-    std::string velocity_topic,          ///< empty: /model/NAME/link/LINK/track_cmd_vel
-        center_topic;                    ///< empty: /model/NAME/link/LINK/track_cmd_center_of_rotation
+    LinkNames link;              ///< one link
+    std::string velocity_topic,  ///< empty: /model/NAME/link/LINK/track_cmd_vel
+        center_topic;            ///< empty: /model/NAME/link/LINK/track_cmd_center_of_rotation
 
     /// Calls visit(Parameter, value) for each parameter, always in the same order.
     template <class Visitor, class Self>
@@ -32,16 +32,16 @@ struct TrackSpec {
 /// The speeds are given when a command comes or the limits still change them, as in Gazebo; the centre of
 /// rotation moves with the vehicle.
 struct TrackedVehicleSpec {
-    std::vector<TrackSpec> left,        ///< tracks of the left side
-        right;                          ///< tracks of the right side
-    LinkNames body;                     ///< its origin is the centre, its y axis points left; empty: canonical link
-    double tracks_separation = 1.0,     ///< m
-        steering_efficiency = 0.5;      ///< turn of the vehicle over that of the tracks; a command changes it
-    SpeedLimits linear,                 ///< m/s
-        angular;                        ///< rad/s
-    std::string topic,                  ///< of the command; empty: /model/NAME/cmd_vel
-        efficiency_topic;               ///< of steering_efficiency; empty: /model/NAME/steering_efficiency
-    OdometryOutput output;              ///< of the odometry
+    std::vector<TrackSpec> left,  ///< tracks of the left side
+        right;                    ///< tracks of the right side
+    LinkNames body;               ///< its origin is the centre, its y axis points left; empty: canonical link
+    double tracks_separation = 1.0,  ///< m
+        steering_efficiency = 0.5;   ///< turn of the vehicle over that of the tracks; a command changes it
+    SpeedLimits linear,              ///< m/s
+        angular;                     ///< rad/s
+    std::string topic,               ///< of the command; empty: /model/NAME/cmd_vel
+        efficiency_topic;            ///< of steering_efficiency; empty: /model/NAME/steering_efficiency
+    OdometryOutput output;           ///< of the odometry
 
     /// Elements of Gazebo's without effect.
     static constexpr IgnoredElement kIgnored[] = {
@@ -107,9 +107,9 @@ struct TrackedVehicleSpec {
     /// Places in its memory; it begins with the odometry (OnboardKind::odometry).
     enum Memory : std::size_t {
         kOdometry = 0,
-        kSpeed = 5,           ///< m/s, the last two commands after the limits
-        kTurnRate = 7,        ///< rad/s, likewise
-        kSeenCommand = 9,     ///< tick of the last velocity command that was passed on
+        kSpeed = 5,            ///< m/s, the last two commands after the limits
+        kTurnRate = 7,         ///< rad/s, likewise
+        kSeenCommand = 9,      ///< tick of the last velocity command that was passed on
         kSeenEfficiency = 10,  ///< tick of the last efficiency that was passed on
         kMemorySize = 11
     };
@@ -129,8 +129,8 @@ struct TrackedVehicleSpec {
         for (const std::vector<TrackSpec>* side : {&left, &right})
             for (const TrackSpec& track : *side) has_links = has_links && track.link.size() == 1;
         if (!has_links)
-            problems.push_back({"has a side without a track, or a track without a link",
-                                "Name the link of each track."});
+            problems.push_back(
+                {"has a side without a track, or a track without a link", "Name the link of each track."});
         expect_positive("tracks_separation", tracks_separation, problems);
         expect_positive("steering_efficiency", steering_efficiency, problems);
     }

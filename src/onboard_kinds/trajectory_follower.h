@@ -9,8 +9,8 @@
 
 namespace roboss {
 
-/// A torque turns the link towards the waypoint, a force along its x axis pushes it there; never both at once.
-/// Of waypoints, circle and line the first that is given counts.
+/// A torque turns the link towards the waypoint, a force along its x axis pushes it there; never both at
+/// once. Of waypoints, circle and line the first that is given counts.
 struct TrajectoryFollowerSpec {
     LinkNames link;                 ///< one: that is pushed
     bool loop = false;              ///< after the last waypoint comes the first

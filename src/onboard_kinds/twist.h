@@ -10,12 +10,12 @@ namespace roboss {
 
 /// Places of the values in a velocity command.
 struct Twist6 {
-    static constexpr std::size_t kLinearX = 0,   ///< m/s
-        kLinearY = 1,                            ///< m/s
-        kLinearZ = 2,                            ///< m/s
-        kAngularX = 3,                           ///< rad/s
-        kAngularY = 4,                           ///< rad/s
-        kAngularZ = 5;                           ///< rad/s
+    static constexpr std::size_t kLinearX = 0,  ///< m/s
+        kLinearY = 1,                           ///< m/s
+        kLinearZ = 2,                           ///< m/s
+        kAngularX = 3,                          ///< rad/s
+        kAngularY = 4,                          ///< rad/s
+        kAngularZ = 5;                          ///< rad/s
 };
 
 /// The channel that listens to `topic` (channel_of), with linear and angular velocity as values.

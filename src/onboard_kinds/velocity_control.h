@@ -14,10 +14,10 @@ namespace roboss {
 /// link are in its own axes. Before the first command the initial velocity holds: zero freezes the robot.
 /// A plugin with links becomes several controllers (parts).
 struct VelocityControlSpec {
-    std::string topic;      ///< of the command; empty: /model/NAME/cmd_vel, or /model/NAME/link/LINK/cmd_vel
-    Vec3 initial_linear,    ///< m/s, robot axes
-        initial_angular;    ///< rad/s, robot axes
-    LinkNames links;        ///< one: it moves that link when commanded, not the model
+    std::string topic;    ///< of the command; empty: /model/NAME/cmd_vel, or /model/NAME/link/LINK/cmd_vel
+    Vec3 initial_linear,  ///< m/s, robot axes
+        initial_angular;  ///< rad/s, robot axes
+    LinkNames links;      ///< one: it moves that link when commanded, not the model
 
     /// What this kind states about itself.
     static constexpr OnboardKind kKind{.number = 1,

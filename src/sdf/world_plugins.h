@@ -7,8 +7,8 @@
 
 namespace roboss::sdf_import {
 
-/// Adds the controllers that `plugins` mean to the models of `world`. Equal models for which they mean different
-/// controllers become different prototypes. A plugin that belongs into a model is reported.
+/// Adds the controllers that `plugins` mean to the models of `world`. Equal models for which they mean
+/// different controllers become different prototypes. A plugin that belongs into a model is reported.
 void attach_world_plugins(const std::vector<OnboardSpec>& plugins, World& world, Diagnostics& diagnostics);
 
 }  // namespace roboss::sdf_import
