@@ -10,7 +10,7 @@ namespace roboss {
 /// One parameter of a kind: its name in code, hashes and the viewer's JSON, and its element in SDF.
 struct Parameter {
     const char* name;       ///< unique in its kind
-    const char* element;    ///< path below the element of the thing, e.g. "scan/horizontal/samples"
+    const char* element;    ///< path below the element of the thing: "scan/horizontal/samples"; "a|b": a or b
     const char* unit = "";  ///< "rad": the element may have degrees="true"
     bool infinite = false;  ///< whether infinity is a value of it
 };

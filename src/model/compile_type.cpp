@@ -79,6 +79,7 @@ class PartBuilder {
         for (std::size_t j : graph_.cut) add_loop(j);
         add_couplings(couplings_, type, diagnostics_);
         add_links();
+        turn_directions();
         add_onboard(spec_, is_main, part_.type, diagnostics_);
         mend_inertia(part_.type, spec_, links, diagnostics_);
         finish();
@@ -258,8 +259,31 @@ class PartBuilder {
                 shape.X_BS = link.X_BL * to_transform(collision.X_LS);
                 shape.X_BS.p += shape.X_BS.R * placed.p_CS;
                 shape.material = to_material(collision.surface);
+                if (!collision.surface.fdir1_link.empty())
+                    turned_.emplace_back(part_.type.shapes.size(), collision.surface.fdir1_link);
                 part_.type.shapes.push_back(shape);
             }
+        }
+    }
+
+    /// Friction directions that are written in the frame of another link: it is in the same nested model.
+    void turn_directions() {
+        for (const auto& [index, name] : turned_) {
+            RobotType& type = part_.type;
+            BodyShape& shape = type.shapes[index];
+            const std::string& own = type.links[shape.link.index()].name;
+            const std::size_t scope = own.rfind("::");
+            std::optional<LinkId> id;
+            if (scope != std::string::npos) id = type.find_link(own.substr(0, scope + 2) + name);
+            if (!id) id = type.find_link(name);
+            if (!id) continue;
+            const Link& link = type.links[id->index()];
+            Vec3& direction = shape.material.direction_S;
+            direction = link.X_BL.R * direction;
+            if (link.body == shape.body)
+                direction = transpose_times(shape.X_BS.R, direction);
+            else if (link.body >= 0)
+                shape.direction_body = link.body;
         }
     }
 
@@ -277,6 +301,7 @@ class PartBuilder {
     const ModelSpec& spec_;
     const JointGraph& graph_;
     const std::vector<CouplingSpec>& couplings_;
+    std::vector<std::pair<std::size_t, std::string>> turned_;  // shapes, links that their directions are in
     ShapeStore& shapes_;
     Diagnostics& diagnostics_;
     CompiledPart part_;

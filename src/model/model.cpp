@@ -77,6 +77,7 @@ void add_shape(Hash& hash, const BodyShape& s) {
     add(hash, static_cast<int>(s.shape.kind)), add(hash, s.body), add(hash, s.X_BS), add(hash, s.shape.half);
     for (double x : {s.shape.radius, s.shape.half_length}) hash.add(x);
     add_to_hash(hash, s.material);
+    if (s.direction_body >= 0) add(hash, s.direction_body);
     if (s.shape.hull != nullptr) hash.add(s.shape.hull->hash);
 }
 

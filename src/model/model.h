@@ -138,7 +138,7 @@ struct CoordinateCoupling {
 struct Material {
     double mu = 1,                ///< friction coefficient, along direction_S
         mu2 = 1;                  ///< across direction_S
-    Vec3 direction_S;             ///< unit, in the shape's frame; zero: mu counts in all directions
+    Vec3 direction_S;             ///< unit, see BodyShape::direction_body; zero: mu counts in all directions
     double restitution = 0,       ///< 0: no bounce
         bounce_threshold = 0.01;  ///< m/s, below it nothing bounces
     double torsional_mu = 1,      ///< friction coefficient of turning about the normal
@@ -161,6 +161,8 @@ struct BodyShape {
     LinkId link;        ///< of the file's link
     Transform X_BS;     ///< shape in its body
     Material material;  ///< of its surface
+    /// Body in whose frame Material::direction_S is (rollers of a mecanum wheel); -1: in the shape's own.
+    int direction_body = -1;
 };
 
 /// Drag of one link: force = -(density / 2 * |A(u)| |u| + linear) * u at its centre of mass, with u its

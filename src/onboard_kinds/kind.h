@@ -48,6 +48,10 @@ struct OnboardKind {
     /// "velocity-control-system"
     const char* files;
     std::span<const IgnoredElement> ignored{};  ///< elements that have no effect
+    /// Where odometry begins in its memory, -1: it keeps none. Five numbers: x, y (m) and heading (rad) since
+    /// the start, as of the start of the last tick; forward velocity (m/s) and turn rate (rad/s) of the tick
+    /// before.
+    int odometry = -1;
 };
 
 /// Why a controller cannot work with its parameters.

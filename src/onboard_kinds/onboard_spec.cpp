@@ -102,6 +102,43 @@ std::vector<double> memory_at_start(const OnboardParameters& parameters) {
         parameters);
 }
 
+std::vector<OnboardParameters> parts_of(const OnboardParameters& parameters) {
+    return std::visit(
+        [](const auto& p) -> std::vector<OnboardParameters> {
+            if constexpr (requires { p.parts(); }) {
+                const auto parts = p.parts();
+                return {parts.begin(), parts.end()};
+            } else {
+                return {p};
+            }
+        },
+        parameters);
+}
+
+bool is_of_world(const OnboardParameters& parameters) {
+    return std::visit(
+        [](const auto& p) {
+            return requires {
+                p.for_model("", "");
+            };
+        },
+        parameters);
+}
+
+std::vector<OnboardParameters> controllers_for(const OnboardParameters& parameters, const std::string& world,
+                                               const std::string& model) {
+    return std::visit(
+        [&](const auto& p) -> std::vector<OnboardParameters> {
+            if constexpr (requires { p.for_model(world, model); }) {
+                const auto specs = p.for_model(world, model);
+                return {specs.begin(), specs.end()};
+            } else {
+                return {};
+            }
+        },
+        parameters);
+}
+
 std::vector<OnboardProblem> problems_of(const OnboardSpec& spec) {
     std::vector<OnboardProblem> problems;
     visit_parameters(spec.parameters, ProblemFinder{problems});

@@ -11,13 +11,26 @@
 #include <vector>
 
 #include "core/diagnostics.h"
+#include "onboard_kinds/ackermann_steering.h"
+#include "onboard_kinds/apply_link_wrench.h"
+#include "onboard_kinds/diff_drive.h"
+#include "onboard_kinds/drive_to_pose.h"
 #include "onboard_kinds/kind.h"
+#include "onboard_kinds/mecanum_drive.h"
+#include "onboard_kinds/planar_move.h"
+#include "onboard_kinds/ros_ackermann.h"
+#include "onboard_kinds/ros_diff_drive.h"
+#include "onboard_kinds/tracked_vehicle.h"
+#include "onboard_kinds/trajectory_follower.h"
 #include "onboard_kinds/velocity_control.h"
 
 namespace roboss {
 
 /// Parameters of any kind. The order does not count; the number of each kind does.
-using OnboardParameters = std::variant<VelocityControlSpec>;
+using OnboardParameters =
+    std::variant<VelocityControlSpec, DiffDriveSpec, AckermannSteeringSpec, MecanumDriveSpec,
+                 TrackedVehicleSpec, RosDiffDriveSpec, RosSkidSteerSpec, RosAckermannSpec, DriveToPoseSpec,
+                 TrajectoryFollowerSpec, ApplyLinkWrenchSpec, PlanarMoveSpec>;
 
 /// An on-board controller of a model.
 struct OnboardSpec {
@@ -69,6 +82,14 @@ std::vector<Channel> channels_of(const OnboardParameters& parameters);
 std::vector<std::string> channels_commanded(const OnboardParameters& parameters);
 /// Its memory at the start, behind its commands; empty: it remembers nothing.
 std::vector<double> memory_at_start(const OnboardParameters& parameters);
+
+/// The controllers that a plugin becomes: most kinds are one, a kind with parts() is as many.
+std::vector<OnboardParameters> parts_of(const OnboardParameters& parameters);
+/// Whether the kind is a plugin of the world, which acts on its models.
+bool is_of_world(const OnboardParameters& parameters);
+/// The controllers that a plugin of the world means for one of its models.
+std::vector<OnboardParameters> controllers_for(const OnboardParameters& parameters, const std::string& world,
+                                               const std::string& model);
 
 /// Why it cannot work; empty: it can.
 std::vector<OnboardProblem> problems_of(const OnboardSpec& spec);

@@ -6,15 +6,18 @@
 
 #include "math/vec3.h"
 #include "onboard_kinds/kind.h"
+#include "onboard_kinds/twist.h"
 
 namespace roboss {
 
-/// Velocities are those of the base in the axes of the robot's (model) frame. Before the first command, the
-/// initial velocity holds if it is not zero; else the robot moves freely.
+/// Velocities are those of the canonical link's origin in the axes of the robot's (model) frame; those of a
+/// link are in its own axes. Before the first command the initial velocity holds: zero freezes the robot.
+/// A plugin with links becomes several controllers (parts).
 struct VelocityControlSpec {
-    std::string topic;    ///< of the command; empty: /model/NAME/cmd_vel
+    std::string topic;    ///< of the command; empty: /model/NAME/cmd_vel, or /model/NAME/link/LINK/cmd_vel
     Vec3 initial_linear,  ///< m/s, robot axes
         initial_angular;  ///< rad/s, robot axes
+    LinkNames links;      ///< one: it moves that link when commanded, not the model
 
     /// What this kind states about itself.
     static constexpr OnboardKind kKind{.number = 1,
@@ -29,16 +32,22 @@ struct VelocityControlSpec {
         visit({"topic", "topic"}, s.topic);
         visit({"initial_linear", "initial_linear", "m/s"}, s.initial_linear);
         visit({"initial_angular", "initial_angular", "rad/s"}, s.initial_angular);
+        visit({"links", "link_name"}, s.links);
+    }
+    /// The controllers that a plugin becomes: one for the model, one for each link.
+    std::vector<VelocityControlSpec> parts() const {
+        std::vector<VelocityControlSpec> found{*this};
+        found.front().links.clear();
+        for (const std::string& link : links) {
+            found.emplace_back();
+            found.back().links.push_back(link);
+        }
+        return found;
     }
     /// The commands that it takes.
     std::vector<Channel> channels() const {
-        return {channel_of(topic, "cmd_vel",
-                           {{"linear_x", "m/s"},
-                            {"linear_y", "m/s"},
-                            {"linear_z", "m/s"},
-                            {"angular_x", "rad/s"},
-                            {"angular_y", "rad/s"},
-                            {"angular_z", "rad/s"}})};
+        if (!links.empty()) return {twist_channel("", "link/" + links.front() + "/cmd_vel")};
+        return {twist_channel(topic, "cmd_vel")};
     }
     /// Adds why it cannot work, if it cannot.
     void check(std::vector<OnboardProblem>&) const {}

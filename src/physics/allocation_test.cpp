@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <new>
 
+#include <support/drives.h>
 #include <support/mechanisms.h>
 #include <support/scenes.h>
 
@@ -76,6 +77,31 @@ TEST(Allocation, CarsOnAPlaneAllocateNothing) {
     Simulation sim(world);
     for (std::size_t r = 0; r < sim.states.size(); ++r)
         for (std::size_t d = 0; d < 4; ++d) sim.set_motor(r, d, MotorMode::kVelocity, d % 2 == 0 ? 4 : 10);
+    EXPECT_EQ(allocations_of(sim, 500), 0u);
+}
+
+TEST(Allocation, CarsWithAnOnboardDriveAllocateNothing) {
+    World world = empty_world(2e-3);
+    place(world, ground(surface(0.9)), "ground");
+    place(world, skid_car(), "car_0");
+    for (int i = 1; i < 20; ++i)
+        world.instances.push_back({"car_" + std::to_string(i), 1, {{2.0 * i, 0, 0}, {}}, {}});
+    Simulation sim(world);
+    for (std::size_t r = 0; r < sim.states.size(); ++r) {
+        const Order order = command(sim, r, "cmd_vel", {0.4, 0, 0, 0, 0, 0.1 * static_cast<double>(r)});
+        sim.step({&order, 1});
+    }
+    EXPECT_EQ(allocations_of(sim, 500), 0u);
+}
+
+TEST(Allocation, ARobotThatIsPushedOnboardAllocatesNothing) {
+    TrajectoryFollowerSpec spec;
+    spec.link = {"box"}, spec.circle_radius = 2, spec.loop = true, spec.force = 20, spec.torque = 2;
+    World world = empty_world(2e-3);
+    place(world, ground(surface(0.4)), "ground");
+    place(world, with_onboard(solid_box(2.0, {0.4, 0.4, 0.1}, surface(0.4)), spec), "robot",
+          {{0, 0, 0.05}, {}});
+    Simulation sim(world);
     EXPECT_EQ(allocations_of(sim, 500), 0u);
 }
 

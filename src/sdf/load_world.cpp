@@ -13,6 +13,7 @@
 #include "sdf/same_model.h"
 #include "sdf/urdf.h"
 #include "sdf/world_frames.h"
+#include "sdf/world_plugins.h"
 #include "sdf/world_settings.h"
 #include "world/left_out.h"
 
@@ -49,12 +50,14 @@ class WorldLoader {
         if (!world) return std::nullopt;
         World result;
         result.file = path;
-        read_world_settings(*world, profile_, import_, result);
+        std::vector<OnboardSpec> plugins;
+        read_world_settings(*world, profile_, import_, result, plugins);
         if (result.name.empty()) result.name = name_of_file();
         const auto placements = collect_placements(*world, includes_, import_);
         for (const Placement& placement : placements) distinct_of_.push_back(find_distinct(placement));
         for (Distinct& distinct : distinct_) read_distinct(distinct, result);
         place(*world, placements, result);
+        attach_world_plugins(plugins, result, diagnostics_);
         validate_settings(result, diagnostics_);
         return result;
     }

@@ -32,14 +32,19 @@ bool is_one_of(std::string_view names, const std::string& name) {
     return found;
 }
 
-std::pair<Element, std::string> place_of(const Element& block, const char* path) {
-    Element parent = block;
-    std::string name;
-    for_each_part(path, '/', [&](const std::string& part) {
-        if (!name.empty()) parent = parent.child(name.c_str());
-        name = part;
+std::pair<Element, std::string> place_of(const Element& block, const char* paths) {
+    std::optional<std::pair<Element, std::string>> first, written;
+    for_each_part(paths, '|', [&](const std::string& path) {
+        Element parent = block;
+        std::string name;
+        for_each_part(path, '/', [&](const std::string& part) {
+            if (!name.empty()) parent = parent.child(name.c_str());
+            name = part;
+        });
+        if (!first) first = {parent, name};
+        if (!written && parent && parent.child(name.c_str())) written = {parent, name};
     });
-    return {parent, name};
+    return written ? *written : *first;
 }
 
 void report_ignored(const Element& block, std::span<const IgnoredElement> ignored, const char* phrase,

@@ -25,8 +25,9 @@ void for_each_part(std::string_view text, char separator, Found&& found) {
 /// Whether `name` is one of "a|b|c".
 bool is_one_of(std::string_view names, const std::string& name);
 
-/// Below `block`, the element that holds the last one of a path "a/b/c", and the last one's name.
-std::pair<Element, std::string> place_of(const Element& block, const char* path);
+/// Below `block`, the element that holds the last one of a path "a/b/c", and the last one's name. Of several
+/// paths "a/b|c", the first that is written, or else the first.
+std::pair<Element, std::string> place_of(const Element& block, const char* paths);
 
 /// Reports the elements that a kind does not honour; `phrase`: "a laser".
 void report_ignored(const Element& block, std::span<const IgnoredElement> ignored, const char* phrase,

@@ -119,7 +119,8 @@ void convert_plugin(const Element& plugin, const std::string& scope, const Impor
         return;
     }
     record.fate = PluginFate::kRuns;
-    onboard.push_back(std::move(spec));
+    for (OnboardParameters& part : parts_of(spec.parameters))
+        onboard.push_back({called, std::move(part), plugin.where()});
 }
 
 }  // namespace roboss::sdf_import

@@ -21,6 +21,8 @@ void read_ode_friction(const Element& ode, const Import& import, SurfaceSpec& sp
     spec.mu = reader.number(ode, "mu", 1.0, Finite::kInfinityAllowed);
     spec.mu2 = reader.number(ode, "mu2", spec.mu, Finite::kInfinityAllowed);
     spec.fdir1 = reader.vector(ode, "fdir1", {});
+    for (const char* attribute : {"gz:expressed_in", "ignition:expressed_in"})
+        if (const auto link = ode.child("fdir1").node.attribute(attribute)) spec.fdir1_link = link.value();
     for (const char* slip : {"slip1", "slip2"})
         if (has_number_other_than(ode, slip, 0, import))
             no_effect(ode, slip, "friction is exact Coulomb, nothing slips below its bound", import);

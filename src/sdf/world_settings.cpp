@@ -120,7 +120,8 @@ void report_other(const Element& element, const Import& import) {
 
 }  // namespace
 
-void read_world_settings(const Element& world, const std::string& profile, Import& import, World& out) {
+void read_world_settings(const Element& world, const std::string& profile, Import& import, World& out,
+                         std::vector<OnboardSpec>& plugins) {
     out.name = world.name();
     for (const auto node : world.node.children("roboss:accuracy"))
         out.accuracy.push_back(read_accuracy({world.source, node}, import));
@@ -137,8 +138,7 @@ void read_world_settings(const Element& world, const std::string& profile, Impor
             return std::strcmp(name, node.name()) == 0;
         });
         if (std::strcmp(node.name(), "plugin") == 0) {
-            std::vector<OnboardSpec> none;  // controllers belong to models
-            convert_plugin({world.source, node}, "", import, none, out.extensions);
+            convert_plugin({world.source, node}, "", import, plugins, out.extensions);
         } else if (!silent) {
             report_other({world.source, node}, import);
         }

@@ -8,6 +8,7 @@ namespace roboss::sdf_import {
 
 /// `profile`: the name of the <physics> wanted, empty: the world's own choice. Sets what of it concerns the
 /// models in `import`.
-void read_world_settings(const Element& world, const std::string& profile, Import& import, World& out);
+void read_world_settings(const Element& world, const std::string& profile, Import& import, World& out,
+                         std::vector<OnboardSpec>& plugins);
 
 }  // namespace roboss::sdf_import

@@ -125,7 +125,7 @@ template <class A> void field(A& a, Of<A, Shape>& m) {
     pointer(a, a.model.hulls, m.hull);
     pointer(a, a.model.surfaces, m.surface);
 }
-template <class A> void field(A& a, Of<A, BodyShape>& m) { fields(a, m.shape, m.body, m.link, m.X_BS, m.material); }
+template <class A> void field(A& a, Of<A, BodyShape>& m) { fields(a, m.shape, m.body, m.link, m.X_BS, m.material, m.direction_body); }
 template <class A> void field(A& a, Of<A, LinkDrag>& m) { fields(a, m.link, m.area, m.linear, m.wind); }
 template <class A> void field(A& a, Of<A, NoiseSpec>& m) {
     fields(a, m.mean, m.stddev, m.bias_mean, m.bias_stddev, m.precision);
@@ -175,7 +175,7 @@ template <class A> void field(A& a, Of<A, Model>& m) {
 [[maybe_unused]] void know_fields(const CoordinateCoupling& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const Material& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15] = m; }
 [[maybe_unused]] void know_fields(const Shape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
-[[maybe_unused]] void know_fields(const BodyShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4] = m; }
+[[maybe_unused]] void know_fields(const BodyShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const LinkDrag& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3] = m; }
 [[maybe_unused]] void know_fields(const SensorSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const NoiseSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4] = m; }

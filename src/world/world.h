@@ -75,6 +75,7 @@ struct SurfaceSpec {
     double mu = 1.0;                 ///< friction coefficient, SDF `<ode><mu>`
     double mu2 = 1.0;                ///< across `fdir1`, SDF `<ode><mu2>`; without `fdir1` it has no effect
     Vec3 fdir1;                      ///< of mu, in the shape's own frame; zero: mu counts in all directions
+    std::string fdir1_link;          ///< SDF `gz:expressed_in`: the link in whose frame fdir1 is instead
     double restitution = 0.0;        ///< SDF `<bounce><restitution_coefficient>`; 0: no bounce
     double bounce_threshold = 0.01;  ///< m/s, below it nothing bounces
     double torsional_mu = 1.0;       ///< dimensionless; acts with one of the two radii

@@ -92,6 +92,12 @@ void sort_contacts(std::span<const RobotWork> robots, std::span<Contact> contact
     if (!std::ranges::is_sorted(contacts, before)) std::ranges::sort(contacts, before);
 }
 
+/// Axes in which the friction direction of a robot's shape is.
+const Mat3& friction_axes(const RobotWork& robot, std::uint32_t shape) {
+    const int body = robot.type->shapes[shape].direction_body;
+    return body < 0 ? robot.shapes[shape].X_WS.R : robot.bodies[static_cast<std::size_t>(body)].X_WB.R;
+}
+
 }  // namespace
 
 ContactFinder::ContactFinder()
@@ -103,14 +109,14 @@ ContactFinder& ContactFinder::operator=(ContactFinder&&) noexcept = default;
 SurfacePair surface_of(const Model& model, std::span<const RobotWork> robots, const Contact& contact) {
     const RobotWork& a = robots[static_cast<std::size_t>(contact.robot_a)];
     const Material& of_a = a.type->shapes[contact.shape_a].material;
-    const Mat3& R_WA = a.shapes[contact.shape_a].X_WS.R;
+    const Mat3& R_WA = friction_axes(a, contact.shape_a);
     if (contact.robot_b < 0) {
         const StaticShape& scenery = model.statics[contact.shape_b];
         return surface_pair(of_a, R_WA, scenery.material, scenery.X_WS.R, contact.normal, -contact.gap);
     }
     const RobotWork& b = robots[static_cast<std::size_t>(contact.robot_b)];
     return surface_pair(of_a, R_WA, b.type->shapes[contact.shape_b].material,
-                        b.shapes[contact.shape_b].X_WS.R, contact.normal, -contact.gap);
+                        friction_axes(b, contact.shape_b), contact.normal, -contact.gap);
 }
 
 void ContactFinder::find(const Model& model, std::span<RobotWork> robots, bool keep_reactions,
