@@ -48,6 +48,9 @@ struct OnboardKind {
     /// "velocity-control-system"
     const char* files;
     std::span<const IgnoredElement> ignored{};  ///< elements that have no effect
+    /// Of a drive: where in its memory x, y in m, heading in rad, linear and angular velocity in m/s and
+    /// rad/s of its wheels' odometry are; -1: it has none.
+    int odometry = -1;
 };
 
 /// Why a controller cannot work with its parameters.

@@ -11,13 +11,21 @@
 #include <vector>
 
 #include "core/diagnostics.h"
+#include "onboard_kinds/apply_joint_force.h"
+#include "onboard_kinds/joint_controller.h"
+#include "onboard_kinds/joint_position_controller.h"
+#include "onboard_kinds/joint_trajectory_controller.h"
 #include "onboard_kinds/kind.h"
+#include "onboard_kinds/kinetic_energy_monitor.h"
+#include "onboard_kinds/linear_battery.h"
 #include "onboard_kinds/velocity_control.h"
 
 namespace roboss {
 
 /// Parameters of any kind. The order does not count; the number of each kind does.
-using OnboardParameters = std::variant<VelocityControlSpec>;
+using OnboardParameters = std::variant<VelocityControlSpec, JointControllerSpec, JointPositionControllerSpec,
+                                       JointTrajectoryControllerSpec, ApplyJointForceSpec, LinearBatterySpec,
+                                       KineticEnergyMonitorSpec>;
 
 /// An on-board controller of a model.
 struct OnboardSpec {
@@ -39,7 +47,7 @@ concept ParameterRecord = requires(T& record) {
 };
 
 /// Calls visitor(Parameter, value) for each parameter, always in the same order. Values are double, int,
-/// bool, std::string, Vec3, Pose, JointNames, LinkNames, vectors of double, and vectors of records.
+/// bool, std::string, Vec3, Pose, JointNames, LinkNames, vectors of double or string, and vectors of records.
 template <class Visitor>
 void visit_parameters(const OnboardParameters& parameters, Visitor&& visitor) {
     std::visit([&](const auto& p) { p.parameters(visitor, p); }, parameters);

@@ -33,13 +33,20 @@ bool is_one_of(std::string_view names, const std::string& name) {
 }
 
 std::pair<Element, std::string> place_of(const Element& block, const char* path) {
-    Element parent = block;
-    std::string name;
-    for_each_part(path, '/', [&](const std::string& part) {
-        if (!name.empty()) parent = parent.child(name.c_str());
-        name = part;
+    std::pair<Element, std::string> place;
+    bool found = false;
+    for_each_part(path, '|', [&](const std::string& one) {
+        if (found) return;
+        Element parent = block;
+        std::string name;
+        for_each_part(one, '/', [&](const std::string& part) {
+            if (!name.empty()) parent = parent.child(name.c_str());
+            name = part;
+        });
+        found = static_cast<bool>(parent.child(name.c_str()));
+        if (found || place.second.empty()) place = {parent, name};
     });
-    return {parent, name};
+    return place;
 }
 
 void report_ignored(const Element& block, std::span<const IgnoredElement> ignored, const char* phrase,
@@ -115,6 +122,14 @@ void ParameterReader::read(const Parameter&, const Element& parent, const std::s
 void ParameterReader::read(const Parameter&, const Element& parent, const std::string& name,
                            LinkNames& value) const {
     read_names(parent, name, value);
+}
+void ParameterReader::read(const Parameter&, const Element& parent, const std::string& name,
+                           std::vector<std::string>& value) const {
+    if (!parent) return;
+    for (const auto node : parent.node.children(name.c_str()))
+        for_each_part(node.text().get(), ',', [&](const std::string& part) {
+            if (std::string one = trimmed(part); !one.empty()) value.push_back(std::move(one));
+        });
 }
 void ParameterReader::read(const Parameter&, const Element& parent, const std::string& name,
                            std::vector<double>& value) const {

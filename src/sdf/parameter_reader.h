@@ -25,7 +25,8 @@ void for_each_part(std::string_view text, char separator, Found&& found) {
 /// Whether `name` is one of "a|b|c".
 bool is_one_of(std::string_view names, const std::string& name);
 
-/// Below `block`, the element that holds the last one of a path "a/b/c", and the last one's name.
+/// Below `block`, the element that holds the last one of a path "a/b/c", and the last one's name. Of paths
+/// "a|b" it is the first that is written.
 std::pair<Element, std::string> place_of(const Element& block, const char* path);
 
 /// Reports the elements that a kind does not honour; `phrase`: "a laser".
@@ -58,6 +59,9 @@ struct ParameterReader {
     void read(const Parameter& p, const Element& parent, const std::string& name, NoiseSpec& value) const;
     void read(const Parameter& p, const Element& parent, const std::string& name, JointNames& value) const;
     void read(const Parameter& p, const Element& parent, const std::string& name, LinkNames& value) const;
+    /// Repeated elements, or one with names between commas.
+    void read(const Parameter& p, const Element& parent, const std::string& name,
+              std::vector<std::string>& value) const;
     /// Repeated elements, each with one number or several.
     void read(const Parameter& p, const Element& parent, const std::string& name,
               std::vector<double>& value) const;

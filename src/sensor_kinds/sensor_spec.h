@@ -14,9 +14,13 @@
 #include "sensor_kinds/compass.h"
 #include "sensor_kinds/gps.h"
 #include "sensor_kinds/imu.h"
+#include "sensor_kinds/joint_states.h"
 #include "sensor_kinds/kind.h"
 #include "sensor_kinds/laser.h"
+#include "sensor_kinds/link_poses.h"
 #include "sensor_kinds/odometer.h"
+#include "sensor_kinds/odometry.h"
+#include "sensor_kinds/onboard_values.h"
 
 namespace roboss {
 
@@ -42,7 +46,9 @@ struct SensorKindList {
 };
 
 /// All kinds of sensors that are simulated.
-using SensorKinds = SensorKindList<LaserSpec, GpsSpec, CompassSpec, OdometerSpec, ImuSpec>;
+using SensorKinds = SensorKindList<LaserSpec, GpsSpec, CompassSpec, OdometerSpec, ImuSpec, OdometrySpec,
+                                   JointStatesSpec, LinkPosesSpec, WheelOdometrySpec, BatterySensorSpec,
+                                   KineticEnergySpec, TrajectoryProgressSpec>;
 
 /// Parameters of any kind.
 using SensorParameters = SensorKinds::Parameters;

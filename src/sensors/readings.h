@@ -59,5 +59,12 @@ Result<GpsReading> read(const GpsSpec& gps, const SensorQuery& query);
 Result<CompassReading> read(const CompassSpec& compass, const SensorQuery& query);
 Result<OdometerReading> read(const OdometerSpec& odometer, const SensorQuery& query);
 Result<ImuReading> read(const ImuSpec& imu, const SensorQuery& query);
+Result<OdometryReading> read(const OdometrySpec& odometry, const SensorQuery& query);
+Result<JointStatesReading> read(const JointStatesSpec& states, const SensorQuery& query);
+Result<LinkPosesReading> read(const LinkPosesSpec& poses, const SensorQuery& query);
+Result<WheelOdometryReading> read(const WheelOdometrySpec& odometry, const SensorQuery& query);
+Result<BatteryReading> read(const BatterySensorSpec& battery, const SensorQuery& query);
+Result<KineticEnergyReading> read(const KineticEnergySpec& energy, const SensorQuery& query);
+Result<TrajectoryProgressReading> read(const TrajectoryProgressSpec& progress, const SensorQuery& query);
 
 }  // namespace roboss

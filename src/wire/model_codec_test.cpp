@@ -26,6 +26,14 @@ std::vector<SensorSpec> sensors_of_all_kinds() {
                 value.bias_stddev = ++next, value.precision = ++next;
             else if constexpr (std::is_same_v<Value, JointNames>)
                 value = {"slide", "wrist"};
+            else if constexpr (std::is_same_v<Value, std::vector<std::string>>)
+                value = {"slide", "wrist"};
+            else if constexpr (std::is_same_v<Value, std::string>)
+                value = "slide";
+            else if constexpr (std::is_same_v<Value, Vec3>)
+                value.y = ++next;
+            else if constexpr (std::is_same_v<Value, bool>)
+                value = !value;
             else
                 value = static_cast<Value>(++next);
         });
