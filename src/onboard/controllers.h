@@ -11,6 +11,7 @@ void run(const JointControllerSpec& spec, OnboardContext& c);
 void run(const JointPositionControllerSpec& spec, OnboardContext& c);
 void run(const JointTrajectoryControllerSpec& spec, OnboardContext& c);
 void run(const ApplyJointForceSpec& spec, OnboardContext& c);
+void run(const JointPoseTrajectorySpec& spec, OnboardContext& c);
 void run(const LinearBatterySpec& spec, OnboardContext& c);
 void run(const KineticEnergyMonitorSpec& spec, OnboardContext& c);
 

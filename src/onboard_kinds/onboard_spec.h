@@ -13,6 +13,7 @@
 #include "core/diagnostics.h"
 #include "onboard_kinds/apply_joint_force.h"
 #include "onboard_kinds/joint_controller.h"
+#include "onboard_kinds/joint_pose_trajectory.h"
 #include "onboard_kinds/joint_position_controller.h"
 #include "onboard_kinds/joint_trajectory_controller.h"
 #include "onboard_kinds/kind.h"
@@ -24,8 +25,8 @@ namespace roboss {
 
 /// Parameters of any kind. The order does not count; the number of each kind does.
 using OnboardParameters = std::variant<VelocityControlSpec, JointControllerSpec, JointPositionControllerSpec,
-                                       JointTrajectoryControllerSpec, ApplyJointForceSpec, LinearBatterySpec,
-                                       KineticEnergyMonitorSpec>;
+                                       JointTrajectoryControllerSpec, ApplyJointForceSpec,
+                                       JointPoseTrajectorySpec, LinearBatterySpec, KineticEnergyMonitorSpec>;
 
 /// An on-board controller of a model.
 struct OnboardSpec {
