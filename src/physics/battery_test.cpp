@@ -59,13 +59,13 @@ TEST(Battery, CurrentAndChargeFollowTheClosedFormOfItsTimeConstant) {
 
 TEST(Battery, VoltageFallsWithChargeAndCurrent) {
     LinearBatterySpec spec = battery();
-    spec.linear_coefficient = -2, spec.resistance = 0.1;
+    spec.linear_coefficient = -2, spec.resistance = 0.1, spec.capacity = 1, spec.initial_charge = 0.5;
     Simulation sim(world_of(spec));
-    sim.run(5);
+    sim.run(10);
     const double charge = memory(sim, Spec::kCharge), current = memory(sim, Spec::kCurrent);
-    EXPECT_NEAR(memory(sim, Spec::kVoltage), 12 - 2 * (1 - charge / 0.01) - 0.1 * current, 1e-12);
+    EXPECT_NEAR(memory(sim, Spec::kVoltage), 12 - 2 * (1 - charge) - 0.1 * current, 1e-12);
     // at a constant power, the current settles where current * voltage is the power
-    EXPECT_NEAR(memory(sim, Spec::kVoltage) * current, 24, 0.05);
+    EXPECT_NEAR(memory(sim, Spec::kVoltage) * current, 24, 0.01);
 }
 
 TEST(Battery, DrainsOnlyOnceAMotorIsDriven) {
@@ -104,13 +104,13 @@ TEST(Battery, EmptySwitchesTheMotorsOffAndRechargedOnAgain) {
     EXPECT_EQ(memory(sim, Spec::kCharge), 0);
     EXPECT_EQ(sim.states[0].motors[0].mode, MotorMode::kPassive);
     give(sim, "battery/cell/recharge/start", 1);
-    sim.run(4);
+    sim.run(12);
     EXPECT_EQ(sim.states[0].motors[0].mode, MotorMode::kVelocity);
     EXPECT_NEAR(memory(sim, Spec::kCharge), 0.9 * 0.01, 1e-3);
     const double before = memory(sim, Spec::kCharge);
     give(sim, "battery/cell/recharge/stop", 1);
-    sim.run(2);
-    EXPECT_LT(memory(sim, Spec::kCharge), before);
+    sim.run(6);
+    EXPECT_LT(memory(sim, Spec::kCharge), before - 1e-3);
 }
 
 TEST(Battery, TheCommandedPowerReplacesItsLoad) {
@@ -142,7 +142,7 @@ TEST(Battery, ARobotWhoseCurrentFlowsDoesNotSleep) {
 
 TEST(KineticEnergyMonitor, NotesWhatAnImpactTakes) {
     KineticEnergyMonitorSpec spec;
-    spec.links = {"body"}, spec.threshold = 3;
+    spec.threshold = 3;
     ModelSpec ball = solid_sphere(2, 0.1, surface(0.5));
     spec.links = {ball.links[0].name};
     ball.onboard.push_back({"monitor", spec, {}});
@@ -155,9 +155,16 @@ TEST(KineticEnergyMonitor, NotesWhatAnImpactTakes) {
     const double fallen = 2 * 9.81 * (1.1 - sim.states[0].q[2]);
     EXPECT_NEAR(memory(sim, Monitor::kEnergy), fallen, 0.01 * fallen);
     EXPECT_EQ(memory(sim, Monitor::kLostAt), -1);
-    sim.run(1);
-    EXPECT_EQ(memory(sim, Monitor::kLosses), 1);
-    EXPECT_NEAR(memory(sim, Monitor::kLost), 2 * 9.81 * 1.0, 0.2);
+    double lost = 0, losses = 0;  // an impact may take two ticks: to the ground, then on it
+    for (int i = 0; i < 1000; ++i) {
+        sim.step();
+        if (memory(sim, Monitor::kLosses) > losses) lost += memory(sim, Monitor::kLost);
+        losses = memory(sim, Monitor::kLosses);
+    }
+    EXPECT_GE(losses, 1);
+    EXPECT_LE(losses, 2);
+    EXPECT_NEAR(lost, 2 * 9.81 * 1.0, 0.2);
+    EXPECT_NEAR(memory(sim, Monitor::kEnergy), 0, 1e-6);
     EXPECT_NEAR(memory(sim, Monitor::kLostAt) * kDt, std::sqrt(2 / 9.81), 3e-3);
 }
 

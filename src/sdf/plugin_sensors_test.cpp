@@ -31,10 +31,11 @@ std::vector<SensorSpec> sensors_of(const Loaded& loaded) {
 }
 
 TEST(PluginSensors, TakeNameRateAndParametersFromThePlugin) {
-    const Loaded loaded = model_with(plugin(
-        "OdometryPublisher", "<odom_topic>/model/m/odom</odom_topic><dimensions>3</dimensions>"
-                             "<odom_publish_frequency>10</odom_publish_frequency>"
-                             "<gaussian_noise>0.1</gaussian_noise><xyz_offset>1 2 3</xyz_offset>"));
+    const Loaded loaded =
+        model_with(plugin("OdometryPublisher",
+                          "<odom_topic>/model/m/odom</odom_topic><dimensions>3</dimensions>"
+                          "<odom_publish_frequency>10</odom_publish_frequency>"
+                          "<gaussian_noise>0.1</gaussian_noise><xyz_offset>1 2 3</xyz_offset>"));
     const auto sensors = sensors_of(loaded);
     ASSERT_EQ(sensors.size(), 1u) << loaded.text();
     EXPECT_EQ(sensors[0].name, "odom");
@@ -79,11 +80,11 @@ TEST(PluginSensors, OfClassicGazeboNameALinkOrAListOfJoints) {
 
 TEST(PluginSensors, OfControllersCountThoseOfTheirKind) {
     const std::string cell = "<voltage>12</voltage><capacity>1</capacity>";
-    const auto sensors = sensors_of(
-        model_with(plugin("LinearBatteryPlugin", "<battery_name>one</battery_name>" + cell) +
-                   plugin("JointController", "<joint_name>j</joint_name>") +
-                   plugin("LinearBatteryPlugin", "<battery_name>broken</battery_name>") +
-                   plugin("LinearBatteryPlugin", "<battery_name>two</battery_name>" + cell)));
+    const auto sensors =
+        sensors_of(model_with(plugin("LinearBatteryPlugin", "<battery_name>one</battery_name>" + cell) +
+                              plugin("JointController", "<joint_name>j</joint_name>") +
+                              plugin("LinearBatteryPlugin", "<battery_name>broken</battery_name>") +
+                              plugin("LinearBatteryPlugin", "<battery_name>two</battery_name>" + cell)));
     ASSERT_EQ(sensors.size(), 2u);
     EXPECT_EQ(sensors[0].name, "one");
     EXPECT_EQ(sensors[1].name, "two");
@@ -110,7 +111,8 @@ TEST(PluginSensors, ThatMakeNoSenseAreReportedAndTheModelStays) {
 }
 
 TEST(PluginControllers, OfJointsTakeAllOfTheModelWhereNoneIsNamed) {
-    const Loaded loaded = model_with(plugin("JointTrajectoryController", "<position_p_gain>3</position_p_gain>"));
+    const Loaded loaded =
+        model_with(plugin("JointTrajectoryController", "<position_p_gain>3</position_p_gain>"));
     ASSERT_TRUE(loaded.world) << loaded.text();
     const auto& onboard = loaded.world->prototypes[0].onboard;
     ASSERT_EQ(onboard.size(), 1u) << loaded.text();

@@ -31,8 +31,8 @@ struct MovingCart {
 };
 
 void expect_near(const Vec3& a, const Vec3& b, double tolerance = 1e-12) {
-    EXPECT_LT(norm(a - b), tolerance) << a.x << " " << a.y << " " << a.z << ", expected " << b.x << " " << b.y
-                                      << " " << b.z;
+    EXPECT_LT(norm(a - b), tolerance)
+        << a.x << " " << a.y << " " << a.z << ", expected " << b.x << " " << b.y << " " << b.z;
 }
 
 TEST(Odometry, InThreeDimensionsIsPoseAndBodyVelocityOfItsFrame) {
