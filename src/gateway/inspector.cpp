@@ -20,6 +20,10 @@ Json json_of(double value) {
     return std::isfinite(value) ? Json(value) : Json();
 }
 
+Json json_of(bool value) {
+    return value;
+}
+
 Json json_of(const Vec3& v) {
     return {json_of(v.x), json_of(v.y), json_of(v.z)};
 }

@@ -205,6 +205,14 @@ TEST(ModelHash, ChangesWithEveryParameterOfEverySensor) {
                     value.bias_stddev = 0.5;
                 else if constexpr (std::is_same_v<Value, JointNames>)
                     value = {"slider"};
+                else if constexpr (std::is_same_v<Value, std::vector<std::string>>)
+                    value = {"slider"};
+                else if constexpr (std::is_same_v<Value, std::string>)
+                    value = "slider";
+                else if constexpr (std::is_same_v<Value, Vec3>)
+                    value = {0, 7, 0};
+                else if constexpr (std::is_same_v<Value, bool>)
+                    value = !value;
                 else
                     value = 7;
             });

@@ -18,6 +18,23 @@ void add(Hash& hash, int value) {
     hash.add(static_cast<std::uint64_t>(static_cast<std::int64_t>(value)));
 }
 
+void add(Hash& hash, double value) {
+    hash.add(value);
+}
+
+void add(Hash& hash, const Vec3& v) {
+    hash.add(v.x), hash.add(v.y), hash.add(v.z);
+}
+
+void add(Hash& hash, const std::string& text) {
+    hash.add(std::string_view(text));
+}
+
+void add(Hash& hash, const std::vector<std::string>& texts) {
+    hash.add(static_cast<std::uint64_t>(texts.size()));
+    for (const std::string& text : texts) add(hash, text);
+}
+
 /// The record; parameters that are not in it go to `rest`.
 struct Record {
     std::array<std::pair<std::string_view, double>, 8> numbers{{{"min_angle", 0},
@@ -43,10 +60,10 @@ struct Record {
     void operator()(const Parameter& p, int value) { put(counts, p, value); }
     void operator()(const Parameter& p, const NoiseSpec& noise) { put(noises, p, noise); }
     void operator()(const Parameter&, const JointNames& names) { joints = names; }
-    void operator()(const Parameter& p, const std::string& text) {
-        has_rest = true;
-        rest.add(std::string_view(p.name)), rest.add(std::string_view(text));
-    }
+    void operator()(const Parameter& p, bool value) { keep(p, value ? 1 : 0); }
+    void operator()(const Parameter& p, const Vec3& value) { keep(p, value); }
+    void operator()(const Parameter& p, const std::string& value) { keep(p, value); }
+    void operator()(const Parameter& p, const std::vector<std::string>& value) { keep(p, value); }
 
   private:
     template <class Slots, class Value>
@@ -56,12 +73,13 @@ struct Record {
                 slot = value;
                 return;
             }
+        keep(parameter, value);
+    }
+    template <class Value>
+    void keep(const Parameter& parameter, const Value& value) {
         has_rest = true;
         rest.add(std::string_view(parameter.name));
-        if constexpr (std::is_same_v<Value, double>)
-            rest.add(value);
-        else
-            add(rest, value);
+        add(rest, value);
     }
 };
 

@@ -18,5 +18,16 @@ void run(const RosSkidSteerSpec& spec, OnboardContext& c);
 void run(const TrackedVehicleSpec& spec, OnboardContext& c);
 void run(const TrajectoryFollowerSpec& spec, OnboardContext& c);
 void run(const VelocityControlSpec& spec, OnboardContext& c);
+void run(const JointControllerSpec& spec, OnboardContext& c);
+void run(const JointPositionControllerSpec& spec, OnboardContext& c);
+void run(const JointTrajectoryControllerSpec& spec, OnboardContext& c);
+void run(const ApplyJointForceSpec& spec, OnboardContext& c);
+void run(const JointPoseTrajectorySpec& spec, OnboardContext& c);
+void run(const LinearBatterySpec& spec, OnboardContext& c);
+void run(const KineticEnergyMonitorSpec& spec, OnboardContext& c);
+
+/// The commanded position or velocity of a joint; `initial` before the first command. `actuator`: its place
+/// where the command is a list of all actuators.
+double joint_target(bool use_actuator_msg, int actuator, double initial, const OnboardContext& c);
 
 }  // namespace roboss

@@ -6,6 +6,7 @@
 namespace roboss {
 
 void run_onboard(const Model& model, Tick tick, RobotId robot, RobotState& state, OnboardScratch& scratch) {
+    scratch.pushed.assign(state.motors.size(), 0), scratch.out_of_power = false;
     OnboardContext context(model, tick, robot, state, scratch);
     for (const OnboardInfo& info : model.type_of(robot).onboard) {
         context.select(info);

@@ -14,6 +14,8 @@ namespace roboss {
 struct OnboardScratch {
     std::vector<Transform> X_WB;    // by body
     std::vector<Spatial> velocity;  // by body, about the base's origin, world axes
+    std::vector<char> pushed;       // by motor: it was given an effort in this tick
+    bool out_of_power = false;      // the robot's battery is empty: its motors are off
 };
 
 /// Runs the robot's controllers, one after the other in the order of the file: they set its motors, its base

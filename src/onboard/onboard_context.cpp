@@ -21,13 +21,28 @@ void OnboardContext::give_command(std::size_t k, std::span<const double> values)
 }
 
 void OnboardContext::drive(std::size_t joint, MotorMode mode, double target, double max_effort) {
-    MotorSetpoint& motor = state_.motors[static_cast<std::size_t>(info_->axes[joint].motor_index)];
+    const auto index = static_cast<std::size_t>(info_->axes[joint].motor_index);
+    if (scratch_.pushed[index] != 0 || scratch_.out_of_power) return;
+    MotorSetpoint& motor = state_.motors[index];
     const double most = mode == MotorMode::kVelocity ? kOrderLimits.speed
                         : mode == MotorMode::kEffort ? kOrderLimits.force
                                                      : kOrderLimits.position;
     if (motor.mode != mode) motor.impulse = motor.load = 0;
     motor.mode = mode, motor.target = std::clamp(target, -most, most);
     motor.max_effort = std::fmin(std::fabs(max_effort), dof(joint).max_effort);
+}
+
+void OnboardContext::push_joint(std::size_t joint, double effort) {
+    const auto index = static_cast<std::size_t>(info_->axes[joint].motor_index);
+    const double before = scratch_.pushed[index] != 0 ? state_.motors[index].target : 0;
+    scratch_.pushed[index] = 0;
+    drive(joint, MotorMode::kEffort, before + effort);
+    scratch_.pushed[index] = 1;
+}
+
+void OnboardContext::cut_power() {
+    scratch_.out_of_power = true;
+    for (MotorSetpoint& motor : state_.motors) motor.mode = MotorMode::kPassive, motor.target = 0;
 }
 
 /// Poses and velocities of all bodies, as the step computes them.

@@ -79,6 +79,11 @@ class OnboardContext {
     /// bound is the joint's own, or `max_effort` if that is smaller.
     void drive(std::size_t joint, MotorMode mode, double target,
                double max_effort = std::numeric_limits<double>::infinity());
+    /// Gives the joint an effort in N m or N in this tick, added to that of other controllers. It counts more
+    /// than what drive() asks of the same joint.
+    void push_joint(std::size_t joint, double effort);
+    /// Switches all motors of the robot off for this tick.
+    void cut_power();
 
     // --- links
     std::size_t link_count() const { return info_->links.size(); }

@@ -12,10 +12,17 @@
 
 #include "core/diagnostics.h"
 #include "onboard_kinds/ackermann_steering.h"
+#include "onboard_kinds/apply_joint_force.h"
 #include "onboard_kinds/apply_link_wrench.h"
 #include "onboard_kinds/diff_drive.h"
 #include "onboard_kinds/drive_to_pose.h"
+#include "onboard_kinds/joint_controller.h"
+#include "onboard_kinds/joint_pose_trajectory.h"
+#include "onboard_kinds/joint_position_controller.h"
+#include "onboard_kinds/joint_trajectory_controller.h"
 #include "onboard_kinds/kind.h"
+#include "onboard_kinds/kinetic_energy_monitor.h"
+#include "onboard_kinds/linear_battery.h"
 #include "onboard_kinds/mecanum_drive.h"
 #include "onboard_kinds/planar_move.h"
 #include "onboard_kinds/ros_ackermann.h"
@@ -27,10 +34,7 @@
 namespace roboss {
 
 /// Parameters of any kind. The order does not count; the number of each kind does.
-using OnboardParameters =
-    std::variant<VelocityControlSpec, DiffDriveSpec, AckermannSteeringSpec, MecanumDriveSpec,
-                 TrackedVehicleSpec, RosDiffDriveSpec, RosSkidSteerSpec, RosAckermannSpec, DriveToPoseSpec,
-                 TrajectoryFollowerSpec, ApplyLinkWrenchSpec, PlanarMoveSpec>;
+using OnboardParameters = std::variant<VelocityControlSpec, DiffDriveSpec, AckermannSteeringSpec, MecanumDriveSpec, TrackedVehicleSpec, RosDiffDriveSpec, RosSkidSteerSpec, RosAckermannSpec, DriveToPoseSpec, TrajectoryFollowerSpec, ApplyLinkWrenchSpec, PlanarMoveSpec, JointControllerSpec, JointPositionControllerSpec, JointTrajectoryControllerSpec, ApplyJointForceSpec, JointPoseTrajectorySpec, LinearBatterySpec, KineticEnergyMonitorSpec>;
 
 /// An on-board controller of a model.
 struct OnboardSpec {
@@ -52,7 +56,7 @@ concept ParameterRecord = requires(T& record) {
 };
 
 /// Calls visitor(Parameter, value) for each parameter, always in the same order. Values are double, int,
-/// bool, std::string, Vec3, Pose, JointNames, LinkNames, vectors of double, and vectors of records.
+/// bool, std::string, Vec3, Pose, JointNames, LinkNames, vectors of double or string, and vectors of records.
 template <class Visitor>
 void visit_parameters(const OnboardParameters& parameters, Visitor&& visitor) {
     std::visit([&](const auto& p) { p.parameters(visitor, p); }, parameters);

@@ -150,6 +150,10 @@ struct ParameterWriter {
     void operator()(const Parameter& p, int value) const { o[p.name] = value; }
     void operator()(const Parameter& p, const std::string& text) const { o[p.name] = text; }
     void operator()(const Parameter& p, const JointNames& names) const { o[p.name] = names; }
+    void operator()(const Parameter& p, bool value) const { o[p.name] = value; }
+    void operator()(const Parameter& p, const Vec3& value) const { o[p.name] = json_of(value); }
+    void operator()(const Parameter& p, const std::string& value) const { o[p.name] = value; }
+    void operator()(const Parameter& p, const std::vector<std::string>& value) const { o[p.name] = value; }
     void operator()(const Parameter&, const NoiseSpec&) const {}
 };
 

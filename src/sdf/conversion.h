@@ -50,9 +50,11 @@ std::vector<VisualSpec> convert_visual(const Element& visual, const Pose& X_LV, 
 SensorSpec convert_sensor(const Element& sensor, const Pose& X_LS, const std::string& scope,
                           const Import& import);
 
-/// Plugins and other extensions under `parent`, a part of a model: controllers run on board, the rest is
-/// reported. `scope` is the prefix of the names in a nested model.
+struct PluginSensor;
+/// Plugins and other extensions under `parent`, a part of a model: controllers run on board, those that
+/// publish become sensors, which are appended to `sensors`; the rest is reported. `scope` is the prefix of
+/// the names in a nested model.
 void convert_extensions(const Element& parent, const std::string& scope, const Import& import,
-                        ModelSpec& model);
+                        ModelSpec& model, std::vector<PluginSensor>& sensors);
 
 }  // namespace roboss::sdf_import

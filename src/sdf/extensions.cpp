@@ -4,6 +4,7 @@
 #include "sdf/conversion.h"
 #include "sdf/known_children.h"
 #include "sdf/plugin_conversion.h"
+#include "sdf/plugin_sensors.h"
 #include "world/joint_type.h"
 
 namespace roboss::sdf_import {
@@ -50,18 +51,22 @@ void report_extension(const Element& element, const Import& import) {
 }  // namespace
 
 void convert_extensions(const Element& parent, const std::string& scope, const Import& import,
-                        ModelSpec& model) {
+                        ModelSpec& model, std::vector<PluginSensor>& sensors) {
     for (const auto node : parent.node.children()) {
         if (node.type() != pugi::node_element) continue;
         const Element element{parent.source, node};
         if (std::strcmp(node.name(), "plugin") == 0) {
+            const std::size_t before = model.onboard.size();
             convert_plugin(element, scope, import, model.onboard, model.extensions);
+            for (PluginSensor& sensor :
+                 convert_plugin_sensors(element, scope, model.onboard, model.onboard.size() > before, import))
+                sensors.push_back(std::move(sensor));
         } else if (std::strcmp(node.name(), "model") == 0) {
             continue;  // nested models and includes take their own turn
         } else if (std::strchr(node.name(), ':') != nullptr) {
             report_extension(element, import);
         } else {
-            convert_extensions(element, scope, import, model);
+            convert_extensions(element, scope, import, model, sensors);
         }
     }
 }

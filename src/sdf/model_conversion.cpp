@@ -9,6 +9,7 @@
 #include "sdf/joint_conversion.h"
 #include "sdf/libsdformat_reader.h"
 #include "sdf/newer_versions.h"
+#include "sdf/plugin_sensors.h"
 
 namespace roboss::sdf_import {
 namespace {
@@ -41,13 +42,17 @@ class ModelConverter {
 
     void convert(const Scope& scope) {
         const Element source = read_.source_of(scope.model.Element());
-        if (source) convert_extensions(source, scope.prefix, import_, spec_);
+        std::vector<PluginSensor> sensors;
+        if (source) convert_extensions(source, scope.prefix, import_, spec_, sensors);
         for (std::uint64_t i = 0; i < scope.model.LinkCount(); ++i)
             convert_link(*scope.model.LinkByIndex(i), scope);
         for (std::uint64_t i = 0; i < scope.model.JointCount(); ++i)
             convert_joint_of(*scope.model.JointByIndex(i), scope);
         for (std::uint64_t i = 0; i < scope.model.ModelCount(); ++i)
             convert_nested(*scope.model.ModelByIndex(i), scope);
+        const std::string canonical = scope.prefix + scope.model.CanonicalLinkAndRelativeName().second;
+        for (PluginSensor& sensor : sensors)
+            attach_plugin_sensor(std::move(sensor), canonical, scope.X_MS, import_, spec_);
     }
 
     /// Links of nested static models do not move: with no others the model is static, else they are welded to

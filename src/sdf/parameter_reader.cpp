@@ -122,6 +122,14 @@ void ParameterReader::read(const Parameter&, const Element& parent, const std::s
     read_names(parent, name, value);
 }
 void ParameterReader::read(const Parameter&, const Element& parent, const std::string& name,
+                           std::vector<std::string>& value) const {
+    if (!parent) return;
+    for (const auto node : parent.node.children(name.c_str()))
+        for_each_part(node.text().get(), ',', [&](const std::string& part) {
+            if (std::string one = trimmed(part); !one.empty()) value.push_back(std::move(one));
+        });
+}
+void ParameterReader::read(const Parameter&, const Element& parent, const std::string& name,
                            std::vector<double>& value) const {
     if (!parent) return;
     for (const auto node : parent.node.children(name.c_str())) {

@@ -59,6 +59,9 @@ struct ParameterReader {
     void read(const Parameter& p, const Element& parent, const std::string& name, NoiseSpec& value) const;
     void read(const Parameter& p, const Element& parent, const std::string& name, JointNames& value) const;
     void read(const Parameter& p, const Element& parent, const std::string& name, LinkNames& value) const;
+    /// Repeated elements, or one with names between commas.
+    void read(const Parameter& p, const Element& parent, const std::string& name,
+              std::vector<std::string>& value) const;
     /// Repeated elements, each with one number or several.
     void read(const Parameter& p, const Element& parent, const std::string& name,
               std::vector<double>& value) const;

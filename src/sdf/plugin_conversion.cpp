@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "sdf/parameter_reader.h"
+#include "sdf/plugin_sensors.h"
 
 namespace roboss::sdf_import {
 namespace {
@@ -53,6 +54,19 @@ std::optional<OnboardParameters> parameters_for(const PluginName& name) {
     return found;
 }
 
+/// Tells a controller of the joints of the plugin's own model that can move, if it asks.
+void use_model(const Element& plugin, const std::string& scope, OnboardParameters& parameters) {
+    std::vector<std::string> joints;
+    for (const auto joint : plugin.node.parent().children("joint"))
+        if (std::string_view(joint.attribute("type").value()) != "fixed")
+            joints.push_back(scope + joint.attribute("name").value());
+    std::visit(
+        [&](auto& spec) {
+            if constexpr (requires { spec.use_model(joints); }) spec.use_model(joints);
+        },
+        parameters);
+}
+
 /// Gazebo logs what is wrong with a plugin and does not run it; the model stays.
 void pass_on(const Diagnostics& found, const Import& import) {
     for (const Diagnostic& d : found.items()) {
@@ -89,6 +103,10 @@ void convert_plugin(const Element& plugin, const std::string& scope, const Impor
         return;
     }
     std::optional<OnboardParameters> parameters = parameters_for(name);
+    if (!parameters && is_sensor_plugin(name)) {
+        record.fate = PluginFate::kRuns;  // see convert_plugin_sensors()
+        return;
+    }
     if (!parameters) {
         record.reason = "RoBOSS has no counterpart of it";
         import.diagnostics().note(plugin.where(), "plugin", "plugin '" + called + "' is not run",
@@ -102,6 +120,7 @@ void convert_plugin(const Element& plugin, const std::string& scope, const Impor
     OnboardSpec spec{called, std::move(*parameters), plugin.where()};
     visit_parameters(spec.parameters, ParameterReader{plugin, scope, local});
     report_ignored(plugin, spec.kind().ignored, spec.kind().phrase, local);
+    use_model(plugin, scope, spec.parameters);
     const bool unreadable = found.has_errors();
     pass_on(found, import);
     const std::vector<OnboardProblem> problems = problems_of(spec);

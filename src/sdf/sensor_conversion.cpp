@@ -24,7 +24,8 @@ bool is_ours(const Element& sensor) {
 std::string own_types() {
     std::string types;
     (void)parameters_of_kind([&](const SensorKind& kind) {
-        if (kind.ours) types += (types.empty() ? "" : " or ") + std::string(kind.sdf_types);
+        if (kind.ours && *kind.sdf_types != '\0')
+            types += (types.empty() ? "" : " or ") + std::string(kind.sdf_types);
         return false;
     });
     return types;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 
 #include "core/parameter.h"
 
@@ -26,6 +27,26 @@ struct ReadingField {
     const char* unit = "";  ///< "" for counts, ratios and rotations
 };
 
+/// The plugins of Gazebo that publish what a kind of sensor measures; each becomes such a sensor of its
+/// model.
+struct PublishingPlugin {
+    /// Class names without their namespace, separated by |; "": none.
+    const char* classes = "";
+    /// File names without "lib", ".so" and Gazebo's prefix, separated by |: "odometry-publisher-system".
+    const char* files = "";
+    const char* topic = "topic";   ///< its element for the topic, after which the sensor is named
+    const char* usual_topic = "";  ///< the sensor's name where no topic is written
+    const char* rate = "";         ///< its element for the rate in Hz, or "first|second"
+    double usual_rate_hz = 0;      ///< 0: whenever it is asked
+};
+
+/// What a kind of sensor may ask about the plugin that it was made from.
+struct PluginFacts {
+    std::string file;   ///< name without "lib", ".so" and Gazebo's prefix
+    std::string scope;  ///< prefix of the names of its nested model: "inner::" or ""
+    std::string body;   ///< link that it names, with its prefix; "": none
+};
+
 /// What a kind of sensor states about itself.
 struct SensorKind {
     /// In Model hashes, on the wire and in saved runs: never changed, never used again.
@@ -38,6 +59,7 @@ struct SensorKind {
     bool block_required = false;                ///< without it the sensor measures nothing
     bool needs_all_states = false;              ///< a reading depends on the states of other robots
     std::span<const IgnoredElement> ignored{};  ///< elements that have no effect
+    PublishingPlugin plugin{};                  ///< of Gazebo, that measures this
 };
 
 /// Why a sensor cannot measure with these parameters.

@@ -2,6 +2,7 @@
 #include "sensor_kinds/sensor_spec.h"
 
 #include <cmath>
+#include <type_traits>
 
 namespace roboss {
 namespace {
@@ -23,9 +24,11 @@ struct ProblemFinder {
                 {"has noise with a negative standard deviation (" + std::string(parameter.element) + ")",
                  "Write standard deviations of at least 0."});
     }
-    void operator()(const Parameter&, int) const {}
-    void operator()(const Parameter&, const std::string&) const {}
-    void operator()(const Parameter&, const JointNames&) const {}
+    void operator()(const Parameter& parameter, const Vec3& value) const {
+        if (!is_finite(value)) (*this)(parameter, std::nan(""));
+    }
+    template <class Value>
+    requires(!std::is_same_v<Value, double>) void operator()(const Parameter&, const Value&) const {}
 };
 
 struct JointFinder {

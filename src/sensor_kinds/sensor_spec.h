@@ -17,10 +17,14 @@
 #include "sensor_kinds/force_torque.h"
 #include "sensor_kinds/gps.h"
 #include "sensor_kinds/imu.h"
+#include "sensor_kinds/joint_states.h"
 #include "sensor_kinds/kind.h"
 #include "sensor_kinds/laser.h"
+#include "sensor_kinds/link_poses.h"
 #include "sensor_kinds/magnetometer.h"
 #include "sensor_kinds/odometer.h"
+#include "sensor_kinds/odometry.h"
+#include "sensor_kinds/onboard_values.h"
 
 namespace roboss {
 
@@ -46,8 +50,7 @@ struct SensorKindList {
 };
 
 /// All kinds of sensors that are simulated.
-using SensorKinds = SensorKindList<LaserSpec, GpsSpec, CompassSpec, OdometerSpec, ImuSpec, AltimeterSpec,
-                                   MagnetometerSpec, ContactSpec, ForceTorqueSpec>;
+using SensorKinds = SensorKindList<LaserSpec, GpsSpec, CompassSpec, OdometerSpec, ImuSpec, AltimeterSpec, MagnetometerSpec, ContactSpec, ForceTorqueSpec, OdometrySpec, JointStatesSpec, LinkPosesSpec, WheelOdometrySpec, BatterySensorSpec, KineticEnergySpec, TrajectoryProgressSpec>;
 
 /// Parameters of any kind.
 using SensorParameters = SensorKinds::Parameters;

@@ -63,5 +63,12 @@ Result<AltimeterReading> read(const AltimeterSpec& altimeter, const SensorQuery&
 Result<MagnetometerReading> read(const MagnetometerSpec& magnetometer, const SensorQuery& query);
 Result<ContactReading> read(const ContactSpec& contact, const SensorQuery& query);
 Result<ForceTorqueReading> read(const ForceTorqueSpec& sensor, const SensorQuery& query);
+Result<OdometryReading> read(const OdometrySpec& odometry, const SensorQuery& query);
+Result<JointStatesReading> read(const JointStatesSpec& states, const SensorQuery& query);
+Result<LinkPosesReading> read(const LinkPosesSpec& poses, const SensorQuery& query);
+Result<WheelOdometryReading> read(const WheelOdometrySpec& odometry, const SensorQuery& query);
+Result<BatteryReading> read(const BatterySensorSpec& battery, const SensorQuery& query);
+Result<KineticEnergyReading> read(const KineticEnergySpec& energy, const SensorQuery& query);
+Result<TrajectoryProgressReading> read(const TrajectoryProgressSpec& progress, const SensorQuery& query);
 
 }  // namespace roboss

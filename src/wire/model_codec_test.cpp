@@ -26,8 +26,14 @@ std::vector<SensorSpec> sensors_of_all_kinds() {
                 value.bias_stddev = ++next, value.precision = ++next;
             else if constexpr (std::is_same_v<Value, JointNames>)
                 value = {"slide", "wrist"};
+            else if constexpr (std::is_same_v<Value, std::vector<std::string>>)
+                value = {"slide", "wrist"};
             else if constexpr (std::is_same_v<Value, std::string>)
-                value = value.empty() ? "slide" : value == "child" ? "parent" : "parent_to_child";
+                value = value == "child" ? "parent" : value == "child_to_parent" ? "parent_to_child" : "slide";
+            else if constexpr (std::is_same_v<Value, Vec3>)
+                value.y = ++next;
+            else if constexpr (std::is_same_v<Value, bool>)
+                value = !value;
             else
                 value = static_cast<Value>(++next);
         });
