@@ -7,5 +7,7 @@
 namespace roboss {
 
 void run(const VelocityControlSpec& spec, OnboardContext& c);
+void run(const DetachableJointSpec& spec, OnboardContext& c);
+void run(const GripperSpec& spec, OnboardContext& c);
 
 }  // namespace roboss

@@ -11,13 +11,15 @@
 #include <vector>
 
 #include "core/diagnostics.h"
+#include "onboard_kinds/detachable_joint.h"
+#include "onboard_kinds/gripper.h"
 #include "onboard_kinds/kind.h"
 #include "onboard_kinds/velocity_control.h"
 
 namespace roboss {
 
 /// Parameters of any kind. The order does not count; the number of each kind does.
-using OnboardParameters = std::variant<VelocityControlSpec>;
+using OnboardParameters = std::variant<VelocityControlSpec, DetachableJointSpec, GripperSpec>;
 
 /// An on-board controller of a model.
 struct OnboardSpec {
