@@ -207,7 +207,7 @@ TEST(Bond, PendulumWithABondedBallSwingsAsAWeldedOne) {
     welded.joints.push_back(joint(JointSpecKind::kFixed, "weld", "rod", "ball", {}));
     place(world, welded, "welded", {{0, 10, 0}, {}});
     Simulation sim(world);
-    Attach action = attach_to(1, 0.2);
+    const Attach action = attach_to(1, 1.1);
     const Order order = order_for(sim, 0, action);
     sim.step({&order, 1});
     ASSERT_EQ(sim.states[0].bonds.size(), 1u);
