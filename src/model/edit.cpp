@@ -175,8 +175,11 @@ std::vector<RobotState> carry_over(const ModelEdit& edit, const std::vector<Robo
         });
         for (ContactMemory& c : state.contacts)
             if (c.other_robot != RobotId::kNone) c.other_robot = edit.now[c.other_robot].value;
-        std::erase_if(state.bonds, [&](const Bond& bond) { return is_gone(bond.other); });
-        for (Bond& bond : state.bonds) bond.other = edit.now[bond.other].value;
+        std::erase_if(state.bonds, [&](const Bond& bond) {
+            return bond.other == RobotId::kNone ? edit.scenery_changed : is_gone(bond.other);
+        });
+        for (Bond& bond : state.bonds)
+            if (bond.other != RobotId::kNone) bond.other = edit.now[bond.other].value;
         auto& neighbours = state.rest.neighbours;
         if (edit.scenery_changed || std::any_of(neighbours.begin(), neighbours.end(), is_gone))
             state.rest = {};

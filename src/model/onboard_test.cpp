@@ -95,8 +95,12 @@ RobotState busy_state(const Model& model) {
     RobotState state = initial_state(model, kFirst);
     state.onboard[3] = 0.25;
     state.surfaces.push_back({LinkId(std::size_t{1}), {1, 2, 3}, {4, 5, 6}});
-    state.bonds.push_back(
-        {LinkId(std::size_t{0}), 1, LinkId(std::size_t{2}), {{1, 2, 3}, {}}, 50, 2, {1, 0, 0}, {0, 1, 0}});
+    Bond bond;
+    bond.phase = BondPhase::kHolds, bond.other = 1, bond.other_link = LinkId(std::size_t{2});
+    bond.link = LinkId(std::size_t{0}), bond.X_LO = {{1, 2, 3}, {}}, bond.p_L = {4, 5, 6};
+    bond.max_force = 50, bond.max_torque = 2;
+    bond.force_impulse = {1, 0, 0}, bond.torque_impulse = {0, 1, 0};
+    state.bonds.push_back(bond);
     return state;
 }
 
@@ -127,6 +131,8 @@ TEST(OnboardState, CountsInTheHashInEveryPart) {
     EXPECT_TRUE(differs([](RobotState& s) { s.surfaces[0].linear_L.x = 0; }));
     EXPECT_TRUE(differs([](RobotState& s) { s.surfaces.clear(); }));
     EXPECT_TRUE(differs([](RobotState& s) { s.bonds[0].max_force = 49; }));
+    EXPECT_TRUE(differs([](RobotState& s) { s.bonds[0].phase = BondPhase::kLoosed; }));
+    EXPECT_TRUE(differs([](RobotState& s) { s.bonds[0].p_L.z = 0; }));
     EXPECT_TRUE(differs([](RobotState& s) { s.bonds.clear(); }));
 }
 
@@ -138,6 +144,10 @@ TEST(OnboardEdit, ForgetsBondsWithRobotsThatAreGone) {
     ASSERT_EQ(states.size(), 1u);
     EXPECT_TRUE(states[0].bonds.empty());
     EXPECT_EQ(states[0].onboard[3], 0.25);
+    RobotState on_scenery = busy_state(*model);
+    on_scenery.bonds[0].other = RobotId::kNone, on_scenery.bonds[0].other_link = {};
+    const auto kept = carry_over(edit.value(), {on_scenery, initial_state(*model, kSecond)});
+    EXPECT_EQ(kept[0].bonds, on_scenery.bonds);
     Order detach = to_first(Detach{kSecond});
     EXPECT_FALSE(carry_over(edit.value(), detach));
     Order let_go = to_first(Detach{});

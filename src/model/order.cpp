@@ -220,10 +220,20 @@ struct Apply {
             std::copy(a.values.begin(), a.values.end(),
                       state.onboard.begin() + static_cast<std::ptrdiff_t>(at) + 1);
     }
-    void operator()(const Attach&) const {}
+    void operator()(const Attach& a) const {
+        const auto is_held = [&](const Bond& bond) {
+            return bond.phase != BondPhase::kLoosed && bond.link == a.link && bond.other == a.other.value &&
+                   bond.other_link == a.other_link;
+        };
+        if (std::ranges::any_of(state.bonds, is_held)) return;
+        Bond bond;
+        bond.link = a.link, bond.other = a.other.value, bond.other_link = a.other_link;
+        bond.reach = a.reach, bond.max_force = a.max_force, bond.max_torque = a.max_torque;
+        state.bonds.push_back(bond);
+    }
     void operator()(const Detach& a) const {
-        std::erase_if(state.bonds,
-                      [&](const Bond& bond) { return !a.other.valid() || bond.other == a.other.value; });
+        for (Bond& bond : state.bonds)
+            if (!a.other.valid() || bond.other == a.other.value) bond.phase = BondPhase::kLoosed;
     }
 };
 

@@ -51,7 +51,10 @@ class Teller {
     void id(std::uint32_t i) { word(i); }
     void pair(std::uint32_t a, std::uint32_t b) { word(static_cast<std::uint64_t>(a) << 32 | b); }
     void flagged(std::uint32_t n, bool flag, bool flag_2) { pair(n, (flag ? 1 : 0) | (flag_2 ? 2 : 0)); }
-    void mode(MotorMode m) { word(static_cast<std::uint64_t>(m)); }
+    template <class Enum>
+    void mode(Enum m) {
+        word(static_cast<std::uint64_t>(m));
+    }
     template <class T>
     void length(const std::vector<T>& list) {
         word(list.size());
@@ -89,11 +92,8 @@ class Reader {
         flag = (flags & 1) != 0, flag_2 = (flags & 2) != 0;
         if (flags > 3) fail();
     }
-    void mode(MotorMode& m) {
-        const std::uint64_t w = word();
-        if (w > static_cast<std::uint64_t>(MotorMode::kEffort)) return fail();
-        m = static_cast<MotorMode>(w);
-    }
+    void mode(MotorMode& m) { choose(m, MotorMode::kEffort); }
+    void mode(BondPhase& p) { choose(p, BondPhase::kLoosed); }
     template <class T>
     void length(std::vector<T>& list) {
         const std::uint64_t n = word();
@@ -106,6 +106,13 @@ class Reader {
     bool complete() const { return !failed_ && at_ == bytes_.size(); }
 
   private:
+    template <class Enum>
+    void choose(Enum& e, Enum last) {
+        const std::uint64_t w = word();
+        if (w > static_cast<std::uint64_t>(last)) return fail();
+        e = static_cast<Enum>(w);
+    }
+
     std::span<const std::uint8_t> bytes_;
     std::size_t at_ = 0;
     bool failed_ = false;
@@ -151,10 +158,12 @@ void fields(A& a, Of<A, SurfaceMotion>& surface) {
 
 template <class A>
 void fields(A& a, Of<A, Bond>& bond) {
-    auto& [link, other, other_link, X_LO, max_force, max_torque, force_impulse, torque_impulse] = bond;
-    a.pair(link.value, other), a.id(other_link.value);
+    auto& [phase, link, other, other_link, X_LO, p_L, reach, max_force, max_torque, force_impulse,
+           torque_impulse] = bond;
+    a.mode(phase), a.pair(link.value, other), a.id(other_link.value);
     fields(a, X_LO.p);
     a.number(X_LO.q.w), a.number(X_LO.q.x), a.number(X_LO.q.y), a.number(X_LO.q.z);
+    fields(a, p_L), a.number(reach);
     a.number(max_force), a.number(max_torque), fields(a, force_impulse), fields(a, torque_impulse);
 }
 
@@ -207,7 +216,7 @@ const char* inconsistency_of(const RobotState& state, const RobotType& type, std
     if (!std::all_of(state.surfaces.begin(), state.surfaces.end(), surface_fits))
         return "moves the surface of a link that does not exist";
     const auto bond_fits = [&](const Bond& b) {
-        return b.link.index() < type.links.size() && b.other < robots;
+        return b.link.index() < type.links.size() && (b.other == RobotId::kNone || b.other < robots);
     };
     if (!std::all_of(state.bonds.begin(), state.bonds.end(), bond_fits))
         return "holds a robot, or by a link, that does not exist";

@@ -80,15 +80,28 @@ struct SurfaceMotion {
     friend bool operator==(const SurfaceMotion&, const SurfaceMotion&) = default;
 };
 
-/// A rigid attachment of a link of another robot to a link of this one (gripper, detachable joint). This
-/// robot, the holder, keeps it; the other one knows nothing of it.
+/// Where a bond stands.
+enum class BondPhase : std::uint32_t {
+    kForming,  ///< it forms in this tick if what it is for is in reach; else it is dropped
+    kHolds,    ///< it holds
+    kLoosed    ///< it was told to let go; dropped in this tick
+};
+
+/// A rigid attachment of a link of another robot, or of the scenery, to a link of this one (gripper,
+/// detachable joint). This robot, the holder, keeps it; the other one knows nothing of it (physics/bonds).
 struct Bond {
-    LinkId link;                           ///< of this robot
-    std::uint32_t other = 0;               ///< RobotId of the other one
-    LinkId other_link;                     ///< of the other robot
-    Pose X_LO;                             ///< m, the other link in this link's frame: what the bond keeps
-    double max_force = 0, max_torque = 0;  ///< N, N m: it lets go beyond; infinite: never
-    Vec3 force_impulse, torque_impulse;    ///< N s, N m s, world axes, on the other robot, of the last tick
+    BondPhase phase = BondPhase::kForming;  ///< whether it holds
+    LinkId link;                            ///< of this robot
+    /// RobotId of the other one; Id::kNone: the scenery, or, while it forms, whatever is in reach.
+    std::uint32_t other = 0xFFFFFFFF;
+    LinkId other_link;     ///< of the other robot; not valid: of the scenery
+    Pose X_LO;             ///< m, the other link (scenery: the world) in this link's frame: what it keeps
+    Vec3 p_L;              ///< m, in this link's frame: where its force and torque are counted
+    double reach = 0;      ///< m, while it forms: how far away the other one may be
+    double max_force = 0,  ///< N: it lets go beyond; infinite: never
+        max_torque = 0;    ///< N m: it lets go beyond; infinite: never
+    Vec3 force_impulse,    ///< N s, world axes, on the other one, of the last tick
+        torque_impulse;    ///< N m s, world axes, likewise
     /// Compares all members.
     friend bool operator==(const Bond&, const Bond&) = default;
 };
@@ -106,7 +119,7 @@ struct RobotState {
     std::vector<double> onboard;
     std::vector<std::vector<double>> lists;  ///< latched commands that are lists, row by row
     std::vector<SurfaceMotion> surfaces;     ///< in motion, by ascending link
-    std::vector<Bond> bonds;                 ///< attachments that this robot holds, by (other, links)
+    std::vector<Bond> bonds;  ///< attachments that this robot holds, in the order in which they came
     /// Compares all members.
     friend bool operator==(const RobotState&, const RobotState&) = default;
 };

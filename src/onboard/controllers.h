@@ -29,5 +29,7 @@ void run(const KineticEnergyMonitorSpec& spec, OnboardContext& c);
 /// The commanded position or velocity of a joint; `initial` before the first command. `actuator`: its place
 /// where the command is a list of all actuators.
 double joint_target(bool use_actuator_msg, int actuator, double initial, const OnboardContext& c);
+void run(const DetachableJointSpec& spec, OnboardContext& c);
+void run(const GripperSpec& spec, OnboardContext& c);
 
 }  // namespace roboss

@@ -14,8 +14,10 @@
 #include "onboard_kinds/ackermann_steering.h"
 #include "onboard_kinds/apply_joint_force.h"
 #include "onboard_kinds/apply_link_wrench.h"
+#include "onboard_kinds/detachable_joint.h"
 #include "onboard_kinds/diff_drive.h"
 #include "onboard_kinds/drive_to_pose.h"
+#include "onboard_kinds/gripper.h"
 #include "onboard_kinds/joint_controller.h"
 #include "onboard_kinds/joint_pose_trajectory.h"
 #include "onboard_kinds/joint_position_controller.h"
@@ -34,7 +36,7 @@
 namespace roboss {
 
 /// Parameters of any kind. The order does not count; the number of each kind does.
-using OnboardParameters = std::variant<VelocityControlSpec, DiffDriveSpec, AckermannSteeringSpec, MecanumDriveSpec, TrackedVehicleSpec, RosDiffDriveSpec, RosSkidSteerSpec, RosAckermannSpec, DriveToPoseSpec, TrajectoryFollowerSpec, ApplyLinkWrenchSpec, PlanarMoveSpec, JointControllerSpec, JointPositionControllerSpec, JointTrajectoryControllerSpec, ApplyJointForceSpec, JointPoseTrajectorySpec, LinearBatterySpec, KineticEnergyMonitorSpec>;
+using OnboardParameters = std::variant<VelocityControlSpec, DiffDriveSpec, AckermannSteeringSpec, MecanumDriveSpec, TrackedVehicleSpec, RosDiffDriveSpec, RosSkidSteerSpec, RosAckermannSpec, DriveToPoseSpec, TrajectoryFollowerSpec, ApplyLinkWrenchSpec, PlanarMoveSpec, JointControllerSpec, JointPositionControllerSpec, JointTrajectoryControllerSpec, ApplyJointForceSpec, JointPoseTrajectorySpec, LinearBatterySpec, KineticEnergyMonitorSpec, DetachableJointSpec, GripperSpec>;
 
 /// An on-board controller of a model.
 struct OnboardSpec {

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "core/union_find.h"
+#include "physics/bonds/bond_keeper.h"
+#include "physics/bonds/bond_projection.h"
 #include "physics/contact/contact_rows.h"
 #include "physics/contact/island_guard.h"
 #include "physics/contact/second_look.h"
@@ -29,10 +31,12 @@ struct GroupScratch {
     LaneQueue queue;
     ContactFinder finder;
     std::vector<Contact> contacts;
-    UnionFind islands;  // of robots in contact
+    BondKeeper bonds;
+    UnionFind islands;  // of robots in contact, or bonded
     std::vector<std::uint32_t> members;
     std::vector<Contact*> island_contacts;
     std::vector<SurfacePair> island_surfaces;  // of these
+    std::vector<HeldBond> island_bonds;
     std::vector<const Mechanics<double>*> island_robots;
     std::vector<int> offsets, island_offsets;
     IslandRows rows;
@@ -44,6 +48,7 @@ struct GroupScratch {
     RowSplit split;                    // if anyone drifts
     Vec3 gained_moment;                // of the island: returned by advance_kick_drift
     IslandGuard guard;
+    BondProjection bond_projection;
     SecondLook look;
     IslandSolver solver;
     RowBuffer buffer;

@@ -3,6 +3,7 @@
 #include "physics/probe.h"
 
 #include "core/float_env.h"
+#include "physics/bonds/bond_cover.h"
 #include "physics/dynamics/drag.h"
 #include "physics/dynamics/integrate.h"
 #include "physics/dynamics/robot_work.h"
@@ -135,8 +136,25 @@ void StepProbe::step(Tick tick, std::span<const RobotState* const> states) {
     contacts_.assign(found.begin(), found.end());
     const std::span<const LoopReaction> loads = read_loop_reactions(scratch_);
     loads_.assign(loads.begin(), loads.end());
+    bond_loads_.clear();
+    for (const RobotId id : ids_)
+        if (!after_[id.index()].bonds.empty()) note_bonds(id);
     free_.resize(n);
     for (std::size_t i = 0; i < n; ++i) free_[i] = moved_freely(scratch_, i);
+}
+
+/// The bonds that held in the tick have its impulses.
+void StepProbe::note_bonds(RobotId holder) {
+    RobotWork work;
+    place_robot(model_, holder, before_[holder.index()], work);
+    const double per_s = 1.0 / model_.dt_s;
+    for (const Bond& bond : after_[holder.index()].bonds) {
+        const Vec3 p_W = pose_of(work, bond.link) * bond.p_L;
+        const Vec3 force = bond.force_impulse * per_s, torque = bond.torque_impulse * per_s;
+        bond_loads_.push_back({holder, bond.link, p_W, -force, -torque});
+        if (bond.other != RobotId::kNone)
+            bond_loads_.push_back({RobotId(bond.other), bond.other_link, p_W, force, torque});
+    }
 }
 
 std::vector<JointReaction> StepProbe::joint_reactions(RobotId robot) const {
@@ -160,6 +178,11 @@ std::vector<JointReaction> StepProbe::joint_reactions(RobotId robot) const {
         const double per_s = 1.0 / model_.dt_s;
         if (c.robot_a == robot) take_contact(c, c.link_a, c.p_W, -per_s, work, taken);
         if (c.robot_b == robot) take_contact(c, c.link_b, c.p_W + c.shift_b, per_s, work, taken);
+    }
+    for (const BondLoad& load : bond_loads_) {
+        if (load.robot != robot) continue;
+        const Vec3 moment = load.torque + cross(load.p_W - work.origin, load.force);
+        taken[load.link.index()] += Spatial{moment, load.force} * -1.0;
     }
     const std::vector<Spatial> loops = forces_of_loops(robot, type);
     for (std::size_t l = 0; l < loops.size(); ++l) take_loop(type.loops[l], loops[l], taken);

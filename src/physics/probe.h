@@ -46,6 +46,13 @@ class StepProbe {
     std::vector<JointReaction> joint_reactions(RobotId robot) const;
 
   private:
+    /// What a bond does to a link.
+    struct BondLoad {
+        RobotId robot;
+        LinkId link;
+        Vec3 p_W, force, torque;  // m; N; N m, world axes
+    };
+    void note_bonds(RobotId holder);
     std::vector<Spatial> forces_of_loops(RobotId robot, const RobotType& type) const;
 
     const Model& model_;
@@ -55,6 +62,7 @@ class StepProbe {
     std::vector<RobotState*> pointers_;
     std::vector<Aabb> bounds_;
     std::vector<LoopReaction> loads_;
+    std::vector<BondLoad> bond_loads_;
     std::vector<char> free_;  // moved by the Runge-Kutta method
     std::vector<ContactReport> contacts_;
     StepScratch scratch_;

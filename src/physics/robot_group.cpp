@@ -17,7 +17,7 @@ void place(const Model& model, RobotId id, RobotState& state, RobotWork& work) {
     work.type = &model.type_of(id);
     work.state = &state;
     work.contacts = 0;
-    work.touches_robot = work.pushed = work.held = work.placed = false;
+    work.touches_robot = work.pushed = work.held = work.bonded = work.placed = false;
     work.asleep = true;
     work.box = state.rest.bound;
 }
@@ -64,14 +64,14 @@ bool RobotGroup::forward_kinematics() {
 }
 
 bool RobotGroup::find_contacts() {
-    s_.finder.find(call_.model, robots_, s_.keep_reactions, s_.contacts);
+    s_.finder.find(call_.model, robots_, &s_.bonds, s_.keep_reactions, s_.contacts);
     ROBOSS_CHECK(std::ranges::is_sorted(s_.contacts, {}, &Contact::robot_a), "contacts");
     recall_impulses(robots_, s_.contacts);
     return true;
 }
 
-/// Joins robots in contact, or that may come into contact; `members` are the robots that are awake, contact
-/// island by contact island.
+/// Joins robots in contact, or that may come into contact, and bonded ones; `members` are the robots that are
+/// awake, contact island by contact island.
 void RobotGroup::build_contact_islands() {
     s_.islands.reset(robots_.size());
     const auto join = [&](int a, int b) {
@@ -79,6 +79,8 @@ void RobotGroup::build_contact_islands() {
     };
     for (const Contact& c : s_.contacts) join(c.robot_a, c.robot_b);
     for (const NearMiss& miss : s_.finder.near_misses()) join(miss.robot_a, miss.robot_b);
+    for (const HeldBond& bond : s_.bonds.held())
+        if (bond.other != HeldBond::kScenery) s_.islands.unite(bond.holder, bond.other);
     s_.members.clear();
     for (std::uint32_t i = 0; i < robots_.size(); ++i)
         if (!robots_[i].asleep) s_.members.push_back(i);

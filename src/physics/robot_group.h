@@ -29,8 +29,10 @@ class RobotGroup {
     /// False if a robot is beyond numbers: then it is reported, and none is stepped.
     bool forward_kinematics();
     void wake_left_sleepers() { wake_left(call_.model, robots_, s_.wake); }
+    void form_bonds() { s_.bonds.form(call_.model, robots_, s_.wake); }
     void find_pairs() { s_.finder.find_pairs(robots_); }
     void wake_touched_sleepers() { wake_touched(call_.model, robots_, s_.finder, s_.wake); }
+    void hold_bonds() { s_.bonds.hold(robots_); }
     bool find_contacts();
     void build_contact_islands();
     /// step(ContactIsland&) for each; those of one robot go in lanes where they can, a few at a time.

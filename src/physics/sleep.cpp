@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "onboard/onboard.h"
+#include "physics/bonds/bond_keeper.h"
 
 namespace roboss {
 namespace {
@@ -145,14 +146,15 @@ bool joints_rest(const RobotWork& work) {
                        });
 }
 
-bool is_at_rest(const RobotWork& work) {
-    const bool is_held = work.held && (work.pushed || !work.type->free_base);
+/// `holds`: something holds the island of which it is a member.
+bool is_at_rest(const RobotWork& work, bool holds) {
+    const bool is_held = work.held && (work.pushed || !work.type->free_base || (work.bonded && holds));
     return work.type->may_sleep && is_held && !work.ordered && work.state->wrenches.empty() &&
            moves_slowly(work) && joints_rest(work) && onboard_rests(*work.type, *work.state);
 }
 
 void fall_asleep(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
-                 std::span<Contact* const> contacts) {
+                 std::span<Contact* const> contacts, std::span<const HeldBond> bonds) {
     for (const Contact* c : contacts)
         if (c->impulse > 0 && c->gap > kTouching) return;  // about to touch
     for (const std::uint32_t m : members) {
@@ -167,11 +169,16 @@ void fall_asleep(const Model& model, std::span<RobotWork> robots, std::span<cons
         state.rest.asleep = true;
         state.rest.bound = robots[m].box;
     }
-    const auto add = [&](int of, int other) {
+    const auto add = [&](auto of, auto other) {
         RobotWork& work = robots[static_cast<std::size_t>(of)];
         if (work.type->nv > 0)
             work.state->rest.neighbours.push_back(robots[static_cast<std::size_t>(other)].id.value);
     };
+    for (const HeldBond& bond : bonds) {
+        if (bond.other == HeldBond::kScenery) continue;
+        add(bond.holder, bond.other);
+        add(bond.other, bond.holder);
+    }
     for (const Contact* c : contacts) {
         if (c->robot_b < 0 || c->robot_b == c->robot_a || (c->impulse <= 0 && c->gap > kTouching)) continue;
         add(c->robot_a, c->robot_b);
@@ -194,6 +201,12 @@ void wake_left(const Model& model, std::span<RobotWork> robots, WakeBuffers& buf
             wake_from(model, robots, i, buffers);
 }
 
+void wake_sleeper(const Model& model, std::span<RobotWork> robots, std::uint32_t sleeper,
+                  WakeBuffers& buffers) {
+    note_places(robots, buffers);
+    wake_from(model, robots, sleeper, buffers);
+}
+
 void wake_touched(const Model& model, std::span<RobotWork> robots, ContactFinder& finder,
                   WakeBuffers& buffers) {
     if (!any_sleeps(robots)) return;
@@ -202,18 +215,22 @@ void wake_touched(const Model& model, std::span<RobotWork> robots, ContactFinder
 }
 
 void settle_island(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
-                   std::span<Contact* const> contacts) {
+                   std::span<Contact* const> contacts, std::span<const HeldBond> bonds) {
     if (!model.sleep) return;
+    const bool holds =
+        std::ranges::any_of(
+            members, [&](std::uint32_t m) { return robots[m].pushed || !robots[m].type->free_base; }) ||
+        std::ranges::any_of(bonds, [](const HeldBond& b) { return b.other == HeldBond::kScenery; });
     const auto enough = static_cast<std::uint32_t>(std::ceil(kRestTime / model.dt_s));
     bool all = true, any = false;
     for (const std::uint32_t m : members) {
         if (robots[m].type->nv == 0) continue;
         Rest& rest = robots[m].state->rest;
-        rest.still_ticks = is_at_rest(robots[m]) ? std::min(rest.still_ticks + 1, enough) : 0;
+        rest.still_ticks = is_at_rest(robots[m], holds) ? std::min(rest.still_ticks + 1, enough) : 0;
         all = all && rest.still_ticks == enough;
         any = true;
     }
-    if (all && any) fall_asleep(model, robots, members, contacts);
+    if (all && any) fall_asleep(model, robots, members, contacts, bonds);
 }
 
 }  // namespace roboss

@@ -8,10 +8,10 @@
 // bound and the robots that it touches (frozen edges).
 //
 // A sleeper wakes, before the tick is solved, by an order (apply_order), by an awake robot that touches it or
-// comes to within 2 mm of it while moving, and when a robot that it touched is awake or not in the call. The
-// last cannot be told apart by who is in the call: robots that touch have bounds that overlap, so they are
-// always stepped together, unless an order has taken one of them away. So the rest of the argument in
-// ARCHITECTURE.md ("Why the bits are equal") holds.
+// comes to within 2 mm of it while moving, and when a robot that it touched, or was bonded with, is awake or
+// not in the call. The last cannot be told apart by who is in the call: robots that touch, or are bonded,
+// have bounds that overlap, so they are always stepped together, unless an order has taken one of them away.
+// So the rest of the argument in ARCHITECTURE.md ("Why the bits are equal") holds.
 #pragma once
 
 #include <span>
@@ -29,6 +29,8 @@ inline bool wakes_neighbours(const RobotType& type, bool asleep, bool ordered) {
     return type.nv == 0 ? ordered : !asleep;
 }
 
+struct HeldBond;
+
 /// Buffers of the search for sleepers to wake.
 struct WakeBuffers {
     std::vector<std::uint32_t> place_of;  // by RobotId: index in the call, if that robot is there
@@ -44,9 +46,13 @@ void wake_left(const Model& model, std::span<RobotWork> robots, WakeBuffers& buf
 void wake_touched(const Model& model, std::span<RobotWork> robots, ContactFinder& finder,
                   WakeBuffers& buffers);
 
+/// Wakes a sleeper and all that are joined to it.
+void wake_sleeper(const Model& model, std::span<RobotWork> robots, std::uint32_t sleeper,
+                  WakeBuffers& buffers);
+
 /// Counts the ticks that the robots of a contact island have been at rest, and puts it to sleep when all are.
-/// `members` index `robots`; `contacts` are the island's, solved.
+/// `members` index `robots`; `contacts` are the island's, solved, and `bonds` those that join its robots.
 void settle_island(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
-                   std::span<Contact* const> contacts);
+                   std::span<Contact* const> contacts, std::span<const HeldBond> bonds);
 
 }  // namespace roboss

@@ -10,6 +10,7 @@
 #include "core/make_room.h"
 #include "core/union_find.h"
 #include "onboard/onboard.h"
+#include "physics/bonds/bond_keeper.h"
 #include "physics/contact/coarse_bound.h"
 #include "physics/contact/meetings.h"
 #include "physics/lanes/lane_stepper.h"
@@ -36,6 +37,7 @@ struct StepScratch::Impl {
     std::unique_ptr<LaneStepper> single = make_single_stepper();
     LaneQueue queue;
     OnboardScratch onboard;
+    RobotWork holder;  // for the coarse boxes of those that hold others
 
     /// Forgets the last call.
     void start(const Model& model, std::size_t robots) {
@@ -96,6 +98,12 @@ void apply_orders(const Model& model, std::span<const RobotId> robots, std::span
     }
 }
 
+/// Bonds that bore too much let go.
+void let_go(const Model& model, std::span<RobotState* const> states) {
+    for (RobotState* state : states)
+        if (!state->bonds.empty() && !state->rest.asleep) let_go_of_overloads(model.dt_s, *state);
+}
+
 /// Lets the on-board controllers of those that are awake act.
 void run_controllers(const Model& model, Tick tick, std::span<const RobotId> robots,
                      std::span<RobotState* const> states, OnboardScratch& scratch) {
@@ -132,6 +140,13 @@ bool join_neighbours(const Model& model, std::span<const RobotId> robots, std::s
     return wakes;
 }
 
+/// A box that holds the robot's interaction bound; `buffer` is overwritten.
+Aabb coarse_box(const Model& model, RobotId robot, RobotState& state, RobotWork& buffer) {
+    if (state.bonds.empty()) return coarse_bound(model.type_of(robot), state, model.dt_s);
+    place_robot(model, robot, state, buffer);
+    return buffer.box;
+}
+
 /// Parts the robots into sets that may meet, or sleep, and those alone. The exact boxes lie inside the coarse
 /// ones, so that the parting changes no bit.
 void find_near(const Model& model, std::span<const RobotId> robots, std::span<RobotState* const> states,
@@ -146,7 +161,7 @@ void find_near(const Model& model, std::span<const RobotId> robots, std::span<Ro
             s.coarse[i] = state.rest.bound;
             if (join_neighbours(model, robots, states, i, s)) s.active.push_back(i);
         } else if (count > 1) {
-            s.coarse[i] = coarse_bound(model.type_of(robots[i]), state, model.dt_s);
+            s.coarse[i] = coarse_box(model, robots[i], *states[i], s.holder);
             s.active.push_back(i);
         }
         if (count > 1 && !is_finite(s.coarse[i].max - s.coarse[i].min)) {
@@ -251,6 +266,7 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
     s.start(model, robots.size());
     s.clock.enter(Stage::kOrders);
     apply_orders(model, robots, states, orders, s.ordered);
+    let_go(model, states);
     s.clock.enter(Stage::kOnboard);
     run_controllers(model, tick, robots, states, s.onboard);
     s.clock.enter(Stage::kBroadPhase);

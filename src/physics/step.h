@@ -17,8 +17,8 @@
 namespace roboss {
 
 /// Covers all that detection reads of the robot at this tick (shapes, contact margin, speculative reach at
-/// its speed), rounded outward. Feeds both the broad phase and the swept bounds of a window. Call it after
-/// the tick's orders.
+/// its speed; for its bonds, where the held ones are), rounded outward. Feeds both the broad phase and the
+/// swept bounds of a window. Call it after the tick's orders.
 Aabb interaction_bound(const Model& model, RobotId robot, const RobotState& state);
 
 /// What step_island() did in one tick, over all robots of the call.

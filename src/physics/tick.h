@@ -19,10 +19,12 @@ bool step_robots(Robots& robots, StageClock& clock) {
     if (!robots.forward_kinematics()) return false;
     clock.enter(Stage::kWaking);
     robots.wake_left_sleepers();
+    robots.form_bonds();
     clock.enter(Stage::kBroadPhase);
     robots.find_pairs();
     clock.enter(Stage::kWaking);
     robots.wake_touched_sleepers();
+    robots.hold_bonds();
     clock.enter(Stage::kNarrowPhase);
     if (!robots.find_contacts()) return false;
     clock.enter(Stage::kIslands);

@@ -49,7 +49,8 @@ RobotMotion motion_of(const Model& model, RobotId robot, const RobotState& state
 }
 
 bool leaps(const Order& order) {
-    return std::holds_alternative<SetPose>(order.action) || std::holds_alternative<SetVelocity>(order.action);
+    return std::holds_alternative<SetPose>(order.action) ||
+           std::holds_alternative<SetVelocity>(order.action) || std::holds_alternative<Attach>(order.action);
 }
 
 void Forecast::predict(std::span<const RobotMotion> motions, double span_s, double reach_scale) {
@@ -65,13 +66,19 @@ void Forecast::predict_orders(std::span<const Order> orders, double span_s) {
             Aabb box;
             box.include(pose->X_WR.p);
             boxes_.push_back({outward(box.inflated(2 * reach + margin(0, span_s))), order.robot.value});
-        } else if (const auto* velocity = std::get_if<SetVelocity>(&order.action)) {
-            const Box32 own = boxes_[order.robot.index()].box;
-            Aabb box{{own.min[0], own.min[1], own.min[2]}, {own.max[0], own.max[1], own.max[2]}};
+            continue;
+        }
+        const Box32 own = boxes_[order.robot.index()].box;
+        Aabb box{{own.min[0], own.min[1], own.min[2]}, {own.max[0], own.max[1], own.max[2]}};
+        if (const auto* velocity = std::get_if<SetVelocity>(&order.action)) {
             const Vec3 way = velocity->linear * span_s;
             box.include(Aabb{box.min + way, box.max + way});
-            boxes_.push_back({outward(box), order.robot.value});
+        } else if (const auto* attach = std::get_if<Attach>(&order.action)) {
+            box = box.inflated(attach->reach);
+        } else {
+            continue;
         }
+        boxes_.push_back({outward(box), order.robot.value});
     }
 }
 

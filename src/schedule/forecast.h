@@ -25,7 +25,7 @@ struct RobotMotion {
 /// Motion as of a state, for the first window.
 RobotMotion motion_of(const Model& model, RobotId robot, const RobotState& state);
 
-/// Whether a forecast depends on this order, since it moves its robot at once.
+/// Whether a forecast depends on this order, since it moves its robot at once, or makes it reach out.
 bool leaps(const Order& order);
 
 struct ForecastOptions {

@@ -12,10 +12,12 @@ namespace {
 
 constexpr const char* kMotor[] = {"position_gain", "velocity_gain", "armature", "max_effort", "max_velocity"};
 constexpr const char* kDrag[] = {"coefficient", "area", "linear"};
+constexpr const char* kGripper[] = {"type", "pose", "reach", "max_force", "max_torque", "on"};
 
 bool is_ours_here(const char* parent, const char* name) {
     const auto is = [](const char* a, const char* b) { return std::strcmp(a, b) == 0; };
-    if (is(name, "roboss:sensor") || is(name, "roboss:drag")) return is(parent, "link");
+    if (is(name, "roboss:sensor") || is(name, "roboss:drag") || is(name, "roboss:gripper"))
+        return is(parent, "link");
     if (is(name, "roboss:joint")) return is(parent, "joint");
     if (is(name, "roboss:motor")) return is(parent, "joint") || is(parent, "axis") || is(parent, "axis2");
     if (is(name, "roboss:rolling_friction")) return is(parent, "collision") || is(parent, "surface");
@@ -37,15 +39,17 @@ void report_extension(const Element& element, const Import& import) {
     if (is_ours_here(parent.c_str(), name.c_str())) {
         if (name == "roboss:motor") report_unknown_children(element, kMotor, import.diagnostics());
         if (name == "roboss:joint") report_joint(element, import);
+        if (name == "roboss:gripper") report_unknown_children(element, kGripper, import.diagnostics());
         if (name == "roboss:drag") report_unknown_children(element, kDrag, import.diagnostics());
         return;
     }
-    import.diagnostics().warning(element.where(), "unknown-extension",
-                                 "<" + name + "> in <" + parent + "> is not known and is ignored",
-                                 "Known: <roboss:sensor> and <roboss:drag> in a link, <roboss:joint> in a "
-                                 "joint, <roboss:motor> in a joint "
-                                 "or axis, "
-                                 "<roboss:rolling_friction> in a collision or surface.");
+    import.diagnostics().warning(
+        element.where(), "unknown-extension",
+        "<" + name + "> in <" + parent + "> is not known and is ignored",
+        "Known: <roboss:sensor>, <roboss:drag> and <roboss:gripper> in a link, <roboss:joint> in a "
+        "joint, <roboss:motor> in a joint "
+        "or axis, "
+        "<roboss:rolling_friction> in a collision or surface.");
 }
 
 }  // namespace
@@ -65,6 +69,9 @@ void convert_extensions(const Element& parent, const std::string& scope, const I
             continue;  // nested models and includes take their own turn
         } else if (std::strchr(node.name(), ':') != nullptr) {
             report_extension(element, import);
+            if (std::strcmp(node.name(), "roboss:gripper") == 0 &&
+                std::strcmp(parent.node.name(), "link") == 0)
+                convert_gripper(element, parent, scope, import, model.onboard);
         } else {
             convert_extensions(element, scope, import, model, sensors);
         }

@@ -142,4 +142,18 @@ void convert_plugin(const Element& plugin, const std::string& scope, const Impor
         onboard.push_back({called, std::move(part), plugin.where()});
 }
 
+void convert_gripper(const Element& gripper, const Element& link, const std::string& scope,
+                     const Import& import, std::vector<OnboardSpec>& onboard) {
+    GripperSpec parameters;
+    GripperSpec::parameters(ParameterReader{gripper, scope, import}, parameters);
+    parameters.link = {scope + link.name()};
+    parameters.name = gripper.name();
+    OnboardSpec spec{"gripper of " + link.name(), parameters, gripper.where()};
+    for (const OnboardProblem& problem : problems_of(spec))
+        import.diagnostics().error(gripper.where(), "bad-gripper",
+                                   "<roboss:gripper> of link '" + link.name() + "' " + problem.text,
+                                   problem.remedy);
+    onboard.push_back(std::move(spec));
+}
+
 }  // namespace roboss::sdf_import

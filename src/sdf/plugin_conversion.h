@@ -21,4 +21,8 @@ PluginName plugin_name(const Element& plugin);
 void convert_plugin(const Element& plugin, const std::string& scope, const Import& import,
                     std::vector<OnboardSpec>& onboard, std::vector<ExtensionElement>& kept);
 
+/// <roboss:gripper> of a link: an on-board controller too.
+void convert_gripper(const Element& gripper, const Element& link, const std::string& scope,
+                     const Import& import, std::vector<OnboardSpec>& onboard);
+
 }  // namespace roboss::sdf_import

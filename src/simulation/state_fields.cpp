@@ -136,6 +136,8 @@ void compare_onboard(const RobotState& a, const RobotState& b, Fields& fields) {
     fields.count("number of bonds", a.bonds.size(), b.bonds.size());
     for (std::size_t i = 0; i < a.bonds.size() && !fields.done(); ++i) {
         const std::string name = "bond " + std::to_string(i);
+        fields.count(name + " phase", static_cast<std::size_t>(a.bonds[i].phase),
+                     static_cast<std::size_t>(b.bonds[i].phase));
         fields.count(name + " robot", a.bonds[i].other, b.bonds[i].other);
         fields.vector(name + " position", a.bonds[i].X_LO.p, b.bonds[i].X_LO.p);
         fields.vector(name + " force", a.bonds[i].force_impulse, b.bonds[i].force_impulse);

@@ -9,6 +9,7 @@
 
 #include "core/make_room.h"
 #include "geometry/collide.h"
+#include "physics/bonds/bond_keeper.h"
 #include "physics/contact/swept_contact.h"
 #include "physics/dynamics/free_course.h"
 
@@ -119,9 +120,10 @@ SurfacePair surface_of(const Model& model, std::span<const RobotWork> robots, co
                         friction_axes(b, contact.shape_b), contact.normal, -contact.gap);
 }
 
-void ContactFinder::find(const Model& model, std::span<RobotWork> robots, bool keep_reactions,
-                         std::vector<Contact>& contacts) {
+void ContactFinder::find(const Model& model, std::span<RobotWork> robots, const BondKeeper* bonds,
+                         bool keep_reactions, std::vector<Contact>& contacts) {
     contacts.clear(), near_misses_.clear();
+    bonds_ = bonds;
     free_courses_->start(robots.size(), keep_reactions);
     std::size_t pair = 0;
     for (std::size_t a = 0; a < robots.size(); ++a) {
@@ -134,6 +136,7 @@ void ContactFinder::find(const Model& model, std::span<RobotWork> robots, bool k
         if (awake) with_statics(model, robots, a, contacts);
         sort_contacts(robots, std::span(contacts).subspan(first));
     }
+    bonds_ = nullptr;
     defer_later(model, robots, contacts);
     std::ranges::sort(near_misses_);
     near_misses_.erase(std::unique(near_misses_.begin(), near_misses_.end()), near_misses_.end());
@@ -158,7 +161,10 @@ void ContactFinder::with_statics(const Model& model, std::span<RobotWork> robots
             scenery.shape.kind == ShapeKind::kPlane ? kEverywhere : bounds(scenery.shape, scenery.X_WS));
     }
     for (std::size_t s = 0; s < work.shapes.size(); ++s) {
-        if (work.type->shapes[s].body < 0) continue;
+        const int body = work.type->shapes[s].body;
+        if (body < 0 ||
+            (bonds_ != nullptr && work.bonded && bonds_->joins(static_cast<int>(a), body, -1, -1)))
+            continue;
         for (std::size_t k = 0; k < candidates_.size(); ++k)
             if (overlaps(work.shapes[s].box, candidate_boxes_[k]))
                 with_static(model, robots, a, s, candidates_[k], contacts);
@@ -296,10 +302,15 @@ void ContactFinder::meet_robot(const Model& model, std::span<const RobotWork> ro
     const RobotWork& wb = robots[b];
     if (model.robots[wa.id.index()].family == model.robots[wb.id.index()].family && !wa.type->self_collide)
         return;
+    const bool may_be_bonded = bonds_ != nullptr && wa.bonded && wb.bonded;
     for (std::size_t s = 0; s < wa.shapes.size(); ++s) {
         if (!overlaps(wa.shapes[s].box, wb.box)) continue;
+        const int body_a = wa.type->shapes[s].body;
         for (std::size_t t = 0; t < wb.shapes.size(); ++t) {
-            if (wa.type->shapes[s].body < 0 && wb.type->shapes[t].body < 0) continue;  // neither can move
+            const int body_b = wb.type->shapes[t].body;
+            if (body_a < 0 && body_b < 0) continue;  // neither can move
+            if (may_be_bonded && bonds_->joins(static_cast<int>(a), body_a, static_cast<int>(b), body_b))
+                continue;
             collide_shapes(model, robots, {static_cast<int>(a), static_cast<int>(b), s, t}, sweeps, contacts);
         }
     }

@@ -61,6 +61,7 @@ inline std::span<Contact> contacts_of(std::uint32_t robot, std::span<Contact> so
     return {first, last};
 }
 
+class BondKeeper;
 struct Course;
 struct Manifold;
 struct SweepBuffers;
@@ -82,9 +83,9 @@ class ContactFinder {
     void find_pairs(std::span<const RobotWork> robots);
     std::span<const std::pair<std::uint32_t, std::uint32_t>> pairs() const { return pairs_; }
 
-    /// Contacts of these pairs, of robots with themselves and with the scenery. Sleepers are left out.
-    /// `keep_reactions`: see FreeCourses.
-    void find(const Model& model, std::span<RobotWork> robots, bool keep_reactions,
+    /// Contacts of these pairs, of robots with themselves and with the scenery. Sleepers are left out, and
+    /// bodies that `bonds` (may be none) join. `keep_reactions`: see FreeCourses.
+    void find(const Model& model, std::span<RobotWork> robots, const BondKeeper* bonds, bool keep_reactions,
               std::vector<Contact>& contacts);
     /// What find() left out of the contacts, sorted.
     std::span<const NearMiss> near_misses() const { return near_misses_; }
@@ -117,6 +118,7 @@ class ContactFinder {
     void with_itself(const Model& model, std::span<const RobotWork> robots, std::size_t a,
                      std::vector<Contact>& contacts);
 
+    const BondKeeper* bonds_ = nullptr;  // during find()
     std::unique_ptr<SweepBuffers> buffers_;
     std::unique_ptr<FreeCourses> free_courses_;
     std::vector<NearMiss> near_misses_;

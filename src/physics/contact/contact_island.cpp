@@ -7,6 +7,7 @@
 
 #include "core/check.h"
 #include "core/make_room.h"
+#include "physics/bonds/bond_rows.h"
 #include "physics/dynamics/drag.h"
 #include "physics/dynamics/fast_turning.h"
 #include "physics/dynamics/velocity_forces.h"
@@ -101,7 +102,7 @@ void drift(const Model& model, RobotWork& work, std::size_t member, bool touched
     solved.velocity = own(s.v), solved.displacement = displacement.subspan(offset, nv);
     solved.kick = own(s.split.kick), solved.load = own(s.split.load), solved.locked = own(s.split.locked);
     solved.held = own(s.split.held);
-    solved.isolated = !touched;
+    solved.isolated = !touched && !work.bonded;
     solved.passive = is_passive(work);
     s.gained_moment += advance_kick_drift(model, work, solved, s.free_buffer);
 }
@@ -161,6 +162,8 @@ bool gather_island(const Model& model, std::span<RobotWork> robots, GroupScratch
             s.island_contacts.push_back(&c);
         }
     }
+    for (std::size_t b = 0; b < s.island_bonds.size(); ++b)
+        add_bond_rows(model, robots, s.offsets, s.island_bonds[b], static_cast<int>(b), s.rows);
     return split;
 }
 
@@ -170,6 +173,7 @@ void take_impulses(GroupScratch& s) {
         if (row.motor != nullptr) store_warm_start(row.impulse, *row.motor);
     for (const CouplingRow& row : s.rows.couplings)
         if (row.motor != nullptr) store_warm_start(row.impulse, *row.motor);
+    take_bond_impulses(s.rows, s.island_bonds);
     if (s.keep_reactions)
         for (const CouplingRow& row : s.rows.couplings)
             if (row.loop >= 0) s.reactions.push_back({row.robot, row.loop, row.wrench * row.impulse});
@@ -331,8 +335,19 @@ bool start_guard(const Model& model, std::span<RobotWork> robots, GroupScratch& 
     IslandGuard::Island island{members,           s.island_offsets,  s.v_before,
                                s.island_surfaces, s.island_contacts, s.rows};
     island.touched = std::ranges::any_of(members, [&](std::uint32_t m) { return s.touched[m] != 0; });
+    island.bonded = !s.island_bonds.empty();
     island.anchored = s.anchored, island.bounces = bounces, island.drifts = drifts;
     return s.guard.start(model, robots, island, s.free_buffer.work);
+}
+
+/// The bonds that join the members.
+void gather_bonds(std::span<const std::uint32_t> members, GroupScratch& s) {
+    s.island_bonds.clear();
+    const std::span<const HeldBond> held = s.bonds.held();
+    if (held.empty()) return;
+    for (const std::uint32_t m : members)
+        for (const HeldBond& bond : std::ranges::equal_range(held, m, {}, &HeldBond::holder))
+            s.island_bonds.push_back(bond);
 }
 
 }  // namespace
@@ -343,6 +358,12 @@ ContactIsland::ContactIsland(const Model& model, std::span<RobotWork> robots,
     : model_(model), robots_(robots), members_(members), s_(scratch), report_(report) {
     ROBOSS_CHECK(!members.empty(), "a contact island without robots");
     s_.island_contacts.clear();
+    gather_bonds(members, s_);
+    const auto is_tied = [&](const HeldBond& b) {
+        return b.other == HeldBond::kScenery || !robots[b.holder].type->free_base ||
+               !robots[b.other].type->free_base;
+    };
+    is_tied_ = std::ranges::any_of(s_.island_bonds, is_tied);
     if (members.size() > 1) return;
     const RobotWork& work = robots[members[0]];
     has_rows_ = work.type->nv > 0 && (work.contacts > 0 || !flies(model, work, s_));
@@ -364,6 +385,7 @@ void ContactIsland::solve_velocities() {
     report_.residual = std::max(report_.residual, solved.residual);
     ROBOSS_CHECK(s_.v.size() == s_.v_before.size(), std::to_string(s_.v.size()));
     drifts_ = choose_drifting(model_, robots_, s_, members_);
+    s_.anchored |= is_tied_;
     take_impulses(s_);
     bounces_ = throws_back(s_.rows);
 }
@@ -401,14 +423,27 @@ void ContactIsland::guard() {
     };
     if (s_.look.may_push_out() && std::ranges::all_of(members_, moved_well))
         s_.look.push_out(robots_, model_);
+    if (!s_.island_bonds.empty() && std::ranges::all_of(members_, moved_well)) close_bonds();
     if (!s_.anchored)
         if (const Vec3 moment = late_moment(s_) - s_.gained_moment; moment != Vec3{})
             turn_island(model_, robots_, members_, moment, s_.free_buffer.work);
     if (guards_energy_) s_.guard.finish(model_, robots_, members_, s_.free_buffer.work);
 }
 
+/// Robots are put back onto their bonds; where nothing pushes the island from outside, its momentum stays.
+void ContactIsland::close_bonds() {
+    RobotWork& buffer = s_.free_buffer.work;
+    const Vec3 origin = robots_[members_[0]].origin;
+    const auto sums = [&] { return sum_robots(model_, robots_, members_, origin, buffer); };
+    const Spatial before = s_.anchored ? Spatial{} : sums().momentum;
+    s_.bond_projection.close(robots_, s_.island_bonds);
+    if (s_.anchored) return;
+    const BodySums after = sums();
+    add_momentum(robots_, members_, after, before - after.momentum, origin);
+}
+
 void ContactIsland::put_to_sleep() {
-    settle_island(model_, robots_, members_, s_.island_contacts);
+    settle_island(model_, robots_, members_, s_.island_contacts, s_.island_bonds);
 }
 
 }  // namespace roboss

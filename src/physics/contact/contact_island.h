@@ -1,5 +1,5 @@
-// One contact island in one tick: robots of a group that are connected by contacts or near misses. It is
-// solved by itself, so nothing depends on the other robots of the group.
+// One contact island in one tick: robots of a group that are connected by contacts, near misses or bonds. It
+// is solved by itself, so nothing depends on the other robots of the group.
 #pragma once
 
 #include "physics/group_scratch.h"
@@ -22,11 +22,14 @@ class ContactIsland {
     /// What the members move by, and what stops them before they hit something that they did not touch.
     void solve_displacements();
     void integrate();
-    /// Moves apart what sank in by turning; returns momentum and energy to what contacts and gravity give.
+    /// Moves apart what sank in by turning; puts bonds right; returns momentum and energy to what contacts
+    /// and gravity give.
     void guard();
     void put_to_sleep();
 
   private:
+    void close_bonds();
+
     const Model& model_;
     std::span<RobotWork> robots_;
     std::span<const std::uint32_t> members_;
@@ -35,6 +38,7 @@ class ContactIsland {
     bool has_rows_ = true;
     bool needs_displacement_ = false;  // it is solved for by itself
     bool drifts_ = false;              // a member takes the kick-drift step
+    bool is_tied_ = false;             // a bond joins it to scenery, or to what does not move freely
     bool bounces_ = false;             // throws_back
     bool guards_energy_ = false;
 };

@@ -109,7 +109,7 @@ bool IslandGuard::start(const Model& model, std::span<RobotWork> robots, const I
         const auto bends = [&](const RobotWork& robot) {
             return !robot.type->dofs.empty() || fastest_turn(robot) * model.dt_s * model.dt_s > kSlow * kSlow;
         };
-        if (!island.touched || !(island.bounces || any(bends))) return false;
+        if (!island.bonded && !(island.touched && (island.bounces || any(bends)))) return false;
     }
     anchored_ = island.anchored || any([](const RobotWork& robot) { return !robot.type->free_base; });
     origin_ = robots[island.members[0]].origin;

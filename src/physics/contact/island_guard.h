@@ -38,6 +38,7 @@ class IslandGuard {
         std::span<const Contact* const> contacts;
         const IslandRows& rows;
         bool touched = false;   // a robot touches another or scenery
+        bool bonded = false;    // bonds join its robots
         bool anchored = false;  // something pushes it that does not move freely
         bool bounces = false;   // throws_back
         bool drifts = false;    // a member takes the kick-drift step

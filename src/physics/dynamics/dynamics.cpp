@@ -1,6 +1,7 @@
 // What is only done for one robot at a time: wrenches and drag; see dynamics.h.
 #include "physics/dynamics/dynamics.h"
 
+#include "physics/bonds/bond_cover.h"
 #include "physics/dynamics/drag.h"
 
 namespace roboss {
@@ -30,11 +31,12 @@ void place_robot(const Model& model, RobotId id, RobotState& state, RobotWork& w
     work.type = &type;
     work.state = &state;
     work.contacts = 0;
-    work.touches_robot = work.pushed = work.held = work.asleep = false;
+    work.touches_robot = work.pushed = work.held = work.bonded = work.asleep = false;
     work.placed = true;
     forward_kinematics<double>(type, state.q, work);
     forward_velocities<double>(type, state.v, work);
     place_shapes<double>(type, model.dt_s, state.q, work);
+    cover_bonds(model, work);
 }
 
 void compute_impulse(const Model& model, double dt, double momentum_weight, std::span<const double> q,

@@ -161,6 +161,7 @@ bool add_joint_rows(const Model& model, const RobotWork& robot, int offset, RowB
 
 bool moves_freely(const Model& model, const RobotWork& robot) {
     const RobotType& type = *robot.type;
+    if (robot.bonded) return false;
     for (const LoopJoint& loop : type.loops)
         if (needs_rows(loop, *robot.state)) return false;
     if (drag_is_stiff(model, robot)) return false;

@@ -62,8 +62,8 @@ MaskOf<T> add_tree_rows(const Model& model, const RobotType& type, const JointSt
 bool add_joint_rows(const Model& model, const RobotWork& robot, int offset, RowBuffer& buffer,
                     IslandRows& rows);
 
-/// True if add_joint_rows would add nothing but loops and couplings, and no spring or damping is stiff: the
-/// robot moves smoothly when nothing touches it.
+/// True if add_joint_rows would add nothing but loops and couplings, no spring or damping is stiff, and no
+/// bond joins it to anything: the robot moves smoothly when nothing touches it.
 bool moves_freely(const Model& model, const RobotWork& robot);
 
 }  // namespace roboss

@@ -58,6 +58,7 @@ struct RobotWork : Mechanics<double> {
     bool placed = false;
     bool held = false;    // rows act on it: it does not move freely
     bool pushed = false;  // a contact gives it an impulse in this tick
+    bool bonded = false;  // a bond joins it to another robot or to the scenery in this tick
 };
 
 /// Everything up to the shapes and the interaction bound, for a robot that is awake; `ordered` is left as it

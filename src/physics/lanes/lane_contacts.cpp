@@ -35,7 +35,7 @@ RobotWork& LaneContacts::start(const Model& model, std::size_t lane, const LaneR
 
 bool LaneContacts::find(const Model& model, std::size_t lane) {
     RobotWork& work = works_[lane];
-    finder_.find(model, {&work, 1}, false, contacts_[lane]);
+    finder_.find(model, {&work, 1}, nullptr, false, contacts_[lane]);
     recall_impulses({&work, 1}, contacts_[lane]);
     spans_[lane] = contacts_[lane];
     return finder_.near_misses().empty();

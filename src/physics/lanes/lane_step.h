@@ -48,8 +48,10 @@ class LaneStep final : public LaneStepper {
 
         bool forward_kinematics() { return kernel.place(model, robots, together); }
         void wake_left_sleepers() {}
+        void form_bonds() {}
         void find_pairs() {}
         void wake_touched_sleepers() {}
+        void hold_bonds() {}
         bool find_contacts() { return kernel.find_contacts(model, robots, together); }
         void build_contact_islands() {}
         template <class StepIsland>

@@ -17,8 +17,10 @@ struct RowSplit {
 
 /// Splits the impulses that were solved for. What acts at once is a kick: rigid contacts, with their
 /// friction. What acts as a force does is a load: rows at their bounds (a stalled motor, a joint that slips),
-/// springs, dampers and servos that the inertia outweighs. Joints that their rows hold are locked. Equalities
-/// are in neither array: the drift keeps them. `v_before` and `v`: velocities before the tick and solved.
+/// springs, dampers and servos that the inertia
+/// outweighs, and of loop axes and bonds what balances forces. Joints that their rows hold are locked.
+/// Equalities are in neither array: the drift keeps them. `v_before` and `v`: velocities before the tick and
+/// solved.
 void split_rows(const IslandSolver::Problem& problem, std::span<const double> v_before,
                 std::span<const double> v, double dt, RowSplit& split);
 

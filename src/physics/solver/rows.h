@@ -76,7 +76,8 @@ struct CouplingColumn {
     double j = 0;
 };
 
-/// A row over several degrees of freedom of one robot (gearbox, mimic, closed loop): u = sum of j * v.
+/// A row over several degrees of freedom of one robot (gearbox, mimic, closed loop), or of two that a bond
+/// joins: u = sum of j * v.
 template <class T>
 struct CouplingRowT : BoundedRowT<T> {
     std::size_t first = 0, last = 0;     // columns
@@ -85,7 +86,10 @@ struct CouplingRowT : BoundedRowT<T> {
     bool soft = false;      // a spring, damper or servo that does not outweigh the inertia
     bool equality = false;  // a loop, gearbox or mimic joint that always holds, in both directions
     int loop = -1;          // in RobotType::loops, if it is of one
-    SpatialT<T> wrench;     // of a loop: on its body B about the robot's origin, per unit of impulse
+    int bond = -1;          // among those of the contact island, if it is of one
+    /// Per unit of impulse: of a loop on its body B about the robot's origin; of a bond on the other link
+    /// about the bond's point.
+    SpatialT<T> wrench;
 };
 using CouplingRow = CouplingRowT<double>;
 

@@ -1,0 +1,224 @@
+// See bond_projection.h.
+#include "physics/bonds/bond_projection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "model/coordinates.h"
+#include "physics/dynamics/tree_factor.h"
+
+namespace roboss {
+namespace {
+
+// A row whose mobility, given the others, is below this share of its own counts as implied by them (two
+// grippers on stiff arms hold one box).
+constexpr double kImplied = 1e-9;
+constexpr double kClosed = 1e-13;    // m or rad: less is left
+constexpr double kRounding = 1e-15;  // relative, of positions
+constexpr double kStepMax = 0.2;     // rad or m, of one Newton step
+constexpr int kNewtonMax = 4;        // of one tick
+
+}  // namespace
+
+void BondProjection::gather_robots(std::span<const RobotWork> robots, std::span<const HeldBond> bonds) {
+    members_.clear();
+    for (const HeldBond& bond : bonds) {
+        members_.push_back(bond.holder);
+        if (bond.other != HeldBond::kScenery) members_.push_back(bond.other);
+    }
+    std::ranges::sort(members_);
+    members_.erase(std::unique(members_.begin(), members_.end()), members_.end());
+    if (works_.size() < members_.size()) works_.resize(members_.size());
+    offsets_.assign(1, 0);
+    for (std::size_t m = 0; m < members_.size(); ++m) {
+        const RobotWork& robot = robots[members_[m]];
+        works_[m].id = robot.id, works_[m].type = robot.type, works_[m].state = robot.state;
+        offsets_.push_back(offsets_.back() + static_cast<std::size_t>(robot.type->nv));
+    }
+    bonds_.assign(bonds.begin(), bonds.end());
+    for (HeldBond& bond : bonds_) {
+        bond.holder = static_cast<std::uint32_t>(slot_of(bond.holder));
+        if (bond.other != HeldBond::kScenery) bond.other = static_cast<std::uint32_t>(slot_of(bond.other));
+    }
+}
+
+std::size_t BondProjection::slot_of(std::uint32_t robot) const {
+    return static_cast<std::size_t>(std::ranges::lower_bound(members_, robot) - members_.begin());
+}
+
+/// Where the robots are now.
+void BondProjection::place() {
+    for (std::size_t m = 0; m < members_.size(); ++m) {
+        RobotWork& work = works_[m];
+        forward_kinematics<double>(*work.type, work.state->q, work);
+        for (BodyWork& body : work.bodies) body.velocity = body.bias = {};
+    }
+}
+
+void BondProjection::add_bond_rows(std::size_t number) {
+    const HeldBond& held = bonds_[number];
+    const BondFrames frames = frames_of({works_.data(), members_.size()}, held);
+    const Spatial off{frames.twist, frames.slip()};
+    slack_ = std::max(slack_, kClosed + kRounding * norm(frames.p_W));
+    for (std::size_t k = 0; k < 6; ++k) {
+        Row row;
+        row.axis = bond_axis(k), row.bond = static_cast<int>(number);
+        row.first = columns_.size(), row.error = dot(off, row.axis);
+        const auto add_side = [&](std::uint32_t slot, int body, const Vec3& p_W, double sign) {
+            visit_bond_columns(works_[slot], body, p_W, row.axis, [&](int dof, double j) {
+                columns_.push_back({offsets_[slot] + static_cast<std::size_t>(dof), sign * j});
+            });
+        };
+        add_side(held.holder, held.body, frames.p_W, -1.0);
+        if (held.other != HeldBond::kScenery) add_side(held.other, held.other_body, frames.p_other_W, 1.0);
+        row.last = columns_.size();
+        rows_.push_back(row);
+    }
+}
+
+/// Loops and couplings of one robot.
+void BondProjection::add_own_rows(std::size_t slot) {
+    const RobotWork& work = works_[slot];
+    if (!work.type->has_equalities()) return;
+    gather_equalities(work, work.state->q, own_);
+    for (const EqualityRow& equality : own_.rows) {
+        if (!(equality.mobility > 0)) continue;
+        Row row;
+        row.first = columns_.size(), row.error = equality.error;
+        for (std::size_t c = equality.first; c < equality.last; ++c)
+            columns_.push_back(
+                {offsets_[slot] + static_cast<std::size_t>(own_.columns[c].dof), own_.columns[c].j});
+        row.last = columns_.size();
+        rows_.push_back(row);
+    }
+}
+
+/// All rows as the robots are placed; returns the largest error.
+double BondProjection::gather_rows() {
+    rows_.clear(), columns_.clear();
+    slack_ = kClosed;
+    for (std::size_t b = 0; b < bonds_.size(); ++b) add_bond_rows(b);
+    for (std::size_t m = 0; m < members_.size(); ++m) add_own_rows(m);
+    double largest = 0;
+    for (const Row& row : rows_) largest = std::max(largest, std::fabs(row.error));
+    return largest;
+}
+
+double BondProjection::times(const Row& row, std::span<const double> x) const {
+    double sum = 0;
+    for (std::size_t c = row.first; c < row.last; ++c) sum += columns_[c].j * x[columns_[c].dof];
+    return sum;
+}
+
+/// Mass matrices, M^-1 J^T in y_ and J M^-1 J^T in a_, scaled to a diagonal of ones.
+void BondProjection::prepare() {
+    for (std::size_t m = 0; m < members_.size(); ++m) {
+        RobotWork& work = works_[m];
+        compute_inertias(*work.type, work);
+        compute_mass_matrix<double>(*work.type, 0.0, work);
+        tree_factor(work.type->paths, work.mass_matrix.data());
+    }
+    const std::size_t n = offsets_.back(), count = rows_.size();
+    y_.assign(count * n, 0.0);
+    a_.resize(count * count);
+    for (std::size_t i = 0; i < count; ++i) {
+        Row& row = rows_[i];
+        double* const y = y_.data() + i * n;
+        for (std::size_t c = row.first; c < row.last; ++c) y[columns_[c].dof] = columns_[c].j;
+        for (std::size_t m = 0; m < members_.size(); ++m) {
+            const auto own = std::span(y, n).subspan(offsets_[m], offsets_[m + 1] - offsets_[m]);
+            if (std::ranges::any_of(own, [](double x) { return x != 0; }))
+                tree_solve(works_[m].type->paths, works_[m].mass_matrix.data(), own.data());
+        }
+        const double mobility = times(row, {y, n});
+        row.scale = mobility > 0 ? 1.0 / std::sqrt(mobility) : 0.0;
+    }
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = 0; j < count; ++j)
+            a_[i * count + j] = rows_[i].scale * rows_[j].scale * times(rows_[i], {y_.data() + j * n, n});
+    factor();
+}
+
+/// Cholesky's method with diagonal pivoting; stops where only implied rows are left.
+void BondProjection::factor() {
+    const std::size_t count = rows_.size();
+    order_.resize(count);
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    for (rank_ = 0; rank_ < count; ++rank_) {
+        const std::size_t k = rank_;
+        std::size_t best = k;
+        for (std::size_t i = k + 1; i < count; ++i)
+            if (at(i, i) > at(best, best)) best = i;
+        if (!(at(best, best) > kImplied)) return;
+        std::swap(order_[k], order_[best]);
+        const double pivot = std::sqrt(at(k, k));
+        at(k, k) = pivot;
+        for (std::size_t i = k + 1; i < count; ++i) at(i, k) /= pivot;
+        for (std::size_t i = k + 1; i < count; ++i) {
+            if (at(i, k) == 0) continue;
+            for (std::size_t j = k + 1; j < count; ++j) at(i, j) -= at(i, k) * at(j, k);
+        }
+    }
+}
+
+/// change_ = M^-1 J^T impulses_, such that J change = wanted.
+void BondProjection::solve(std::span<const double> wanted) {
+    x_.resize(rank_);
+    for (std::size_t i = 0; i < rank_; ++i) {
+        x_[i] = wanted[order_[i]] * rows_[order_[i]].scale;
+        for (std::size_t k = 0; k < i; ++k) x_[i] -= at(i, k) * x_[k];
+        x_[i] /= at(i, i);
+    }
+    for (std::size_t i = rank_; i-- > 0;) {
+        for (std::size_t k = i + 1; k < rank_; ++k) x_[i] -= at(k, i) * x_[k];
+        x_[i] /= at(i, i);
+    }
+    const std::size_t n = offsets_.back();
+    change_.assign(n, 0.0), impulses_.assign(rows_.size(), 0.0);
+    for (std::size_t i = 0; i < rank_; ++i) {
+        const std::size_t row = order_[i];
+        impulses_[row] = x_[i] * rows_[row].scale;
+        const double* const y = y_.data() + row * n;
+        for (std::size_t k = 0; k < n; ++k) change_[k] += impulses_[row] * y[k];
+    }
+}
+
+void BondProjection::close(std::span<const RobotWork> robots, std::span<const HeldBond> bonds) {
+    gather_robots(robots, bonds);
+    const auto part = [&](std::size_t m) {
+        return std::span(change_).subspan(offsets_[m], offsets_[m + 1] - offsets_[m]);
+    };
+    place();
+    for (int i = 0; i < kNewtonMax && gather_rows() > slack_; ++i) {
+        wanted_.clear();
+        for (const Row& row : rows_) wanted_.push_back(-row.error);
+        prepare();
+        solve(wanted_);
+        double step = 0;
+        for (const double x : change_) step = std::max(step, std::fabs(x));
+        const double share = step > kStepMax ? kStepMax / step : 1.0;
+        for (std::size_t m = 0; m < members_.size(); ++m)
+            advance_coordinates<double>(*works_[m].type, part(m), share, works_[m].state->q);
+        place();
+        if (step <= slack_) break;
+    }
+    gather_rows();
+    wanted_.clear();
+    change_.clear();
+    for (std::size_t m = 0; m < members_.size(); ++m)
+        change_.insert(change_.end(), works_[m].state->v.begin(), works_[m].state->v.end());
+    for (const Row& row : rows_) wanted_.push_back(-times(row, change_));
+    prepare();
+    solve(wanted_);
+    for (std::size_t m = 0; m < members_.size(); ++m)
+        for (std::size_t k = 0; k < part(m).size(); ++k) works_[m].state->v[k] += part(m)[k];
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+        if (rows_[r].bond < 0) continue;
+        Bond& bond = *bonds_[static_cast<std::size_t>(rows_[r].bond)].bond;
+        bond.torque_impulse += rows_[r].axis.angular * impulses_[r];
+        bond.force_impulse += rows_[r].axis.linear * impulses_[r];
+    }
+}
+
+}  // namespace roboss
