@@ -11,13 +11,23 @@
 #include <vector>
 
 #include "core/diagnostics.h"
+#include "onboard_kinds/advanced_lift_drag.h"
+#include "onboard_kinds/buoyancy_engine.h"
+#include "onboard_kinds/hydrodynamics.h"
 #include "onboard_kinds/kind.h"
+#include "onboard_kinds/lift_drag.h"
+#include "onboard_kinds/motor_model.h"
+#include "onboard_kinds/multicopter_control.h"
+#include "onboard_kinds/thruster.h"
 #include "onboard_kinds/velocity_control.h"
+#include "onboard_kinds/wind_effects.h"
 
 namespace roboss {
 
 /// Parameters of any kind. The order does not count; the number of each kind does.
-using OnboardParameters = std::variant<VelocityControlSpec>;
+using OnboardParameters =
+    std::variant<VelocityControlSpec, MotorModelSpec, MulticopterControlSpec, LiftDragSpec,
+                 AdvancedLiftDragSpec, ThrusterSpec, BuoyancyEngineSpec, HydrodynamicsSpec, WindEffectsSpec>;
 
 /// An on-board controller of a model.
 struct OnboardSpec {

@@ -13,6 +13,7 @@
 #include "sdf/same_model.h"
 #include "sdf/urdf.h"
 #include "sdf/world_frames.h"
+#include "sdf/world_plugins.h"
 #include "sdf/world_settings.h"
 #include "world/left_out.h"
 
@@ -55,6 +56,7 @@ class WorldLoader {
         for (const Placement& placement : placements) distinct_of_.push_back(find_distinct(placement));
         for (Distinct& distinct : distinct_) read_distinct(distinct, result);
         place(*world, placements, result);
+        mark_buoyant(result);
         validate_settings(result, diagnostics_);
         return result;
     }

@@ -8,6 +8,7 @@
 #include "sdf/known_children.h"
 #include "sdf/physics_profile.h"
 #include "sdf/plugin_conversion.h"
+#include "sdf/world_plugins.h"
 
 namespace roboss::sdf_import {
 namespace {
@@ -137,6 +138,7 @@ void read_world_settings(const Element& world, const std::string& profile, Impor
             return std::strcmp(name, node.name()) == 0;
         });
         if (std::strcmp(node.name(), "plugin") == 0) {
+            if (convert_world_plugin({world.source, node}, import, out)) continue;
             std::vector<OnboardSpec> none;  // controllers belong to models
             convert_plugin({world.source, node}, "", import, none, out.extensions);
         } else if (!silent) {
