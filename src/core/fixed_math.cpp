@@ -94,6 +94,25 @@ double fixed_log(double x) {
     return k * kLn2High - ((half - (s * (half + (t1 + t2)) + k * kLn2Low)) - f);
 }
 
+double fixed_exp(double x) {
+    constexpr double kLn2High = 6.93147180369123816490e-01;
+    constexpr double kLn2Low = 1.90821492927058770002e-10;
+    constexpr double kInverseLn2 = 1.44269504088896338700e+00;
+    constexpr double kMost = 700;
+    if (!(x > -kMost)) x = -kMost;
+    if (x > kMost) x = kMost;
+    const double n = std::floor(x * kInverseLn2 + 0.5);
+    const double high = x - n * kLn2High, low = n * kLn2Low;
+    const double r = high - low, t = r * r;
+    const double c = r - t * (1.66666666666666019037e-01 +
+                              t * (-2.77777777770155933842e-03 +
+                                   t * (6.61375632143793436117e-05 +
+                                        t * (-1.65339022054652515390e-06 + t * 4.13813679705723846039e-08))));
+    const double y = 1.0 - ((low - r * c / (2.0 - c)) - high);
+    const auto exponent = static_cast<std::uint64_t>(static_cast<std::int64_t>(n) + 1023);
+    return y * std::bit_cast<double>(exponent << 52);
+}
+
 double wrap_angle(double angle) {
     const double turns = std::floor(angle / (2.0 * kPi) + 0.5);
     const double wrapped = angle - turns * (2.0 * kPi);

@@ -27,6 +27,8 @@ double fixed_asin(double x);             // argument clamped to -1 .. 1
 double fixed_acos(double x);             // argument clamped to -1 .. 1
 double fixed_log(double x);              // x > 0 and normal; otherwise the result is meaningless but fixed
 
+double fixed_exp(double x);  // argument clamped to -700 .. 700
+
 /// The same angle in (-pi, pi].
 double wrap_angle(double angle_rad);
 

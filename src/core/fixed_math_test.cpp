@@ -77,5 +77,15 @@ TEST(FixedMath, WrapAngleStaysInHalfOpenRange) {
     }
 }
 
+TEST(FixedMath, ExponentialIsNearlyThatOfTheLibrary) {
+    for (double x = -690; x < 690; x += 0.0371) {
+        const double expected = std::exp(x);
+        ASSERT_NEAR(fixed_exp(x) / expected, 1, 4e-16) << x;
+    }
+    EXPECT_EQ(fixed_exp(0), 1);
+    EXPECT_TRUE(std::isfinite(fixed_exp(1e9)));
+    EXPECT_GE(fixed_exp(-1e9), 0);
+}
+
 }  // namespace
 }  // namespace roboss

@@ -1,5 +1,6 @@
 // What compile guarantees and the step, the sensors and the orders rely on without looking again.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 
@@ -28,6 +29,24 @@ bool sensible(const Shape& shape, bool scenery) {
     for (const double size : {shape.half.x, shape.half.y, shape.half.z, shape.radius, shape.half_length})
         if (!(size >= 0 && size < 1e9)) return false;
     return true;
+}
+
+bool sensible(const std::vector<double>& added_mass) {
+    if (added_mass.empty()) return true;
+    if (added_mass.size() != kAddedMassNumbers) return false;
+    std::array<double, 36> matrix{};
+    for (std::size_t i = 0, k = 0; i < 6; ++i)
+        for (std::size_t j = i; j < 6; ++j) matrix[6 * i + j] = matrix[6 * j + i] = added_mass[k++];
+    return std::ranges::all_of(matrix, [](double x) { return std::isfinite(x); }) &&
+           is_positive_semidefinite(matrix.data());
+}
+
+bool sensible(const FluidLayers& fluid) {
+    if (fluid.densities.empty()) return fluid.heights.empty();
+    const auto finite = [](double x) { return std::isfinite(x); };
+    return fluid.densities.size() == fluid.heights.size() + 1 &&
+           std::ranges::all_of(fluid.densities, finite) && std::ranges::all_of(fluid.heights, finite) &&
+           std::ranges::is_sorted(fluid.heights);
 }
 
 bool known(JointSpecKind kind) {
@@ -188,6 +207,10 @@ class TypeCheck {
                 return false;
         for (const LinkDrag& drag : t_.drags)
             if (drag.link.index() >= t_.links.size() || t_.links[drag.link.index()].body < 0) return false;
+        for (const LinkFluid& fluid : t_.fluids)
+            if (fluid.link.index() >= t_.links.size() || t_.links[fluid.link.index()].body < 0 ||
+                !sensible(fluid.added_mass))
+                return false;
         for (const auto& [a, b] : t_.self_pairs)
             if (!within(a, t_.shapes.size()) || !within(b, t_.shapes.size()) || a == b) return false;
         return true;
@@ -229,6 +252,7 @@ bool accuracy_fits(const Accuracy& accuracy) {
 std::string broken_part(const Model& model) {
     if (!(model.dt_s > 0 && model.dt_s <= 1)) return "its step is not in (0, 1] s";
     if (!is_finite(model.gravity) || !is_finite(model.wind)) return "its gravity or wind is not finite";
+    if (!sensible(model.fluid)) return "its fluids have no layers";
     if (!accuracy_fits(model.accuracy)) return "its accuracy is out of range";
     if (model.precision > Precision::kFloat) return "its precision is unknown";
     for (const RobotType& type : model.types)

@@ -57,11 +57,13 @@ std::vector<CompiledPrototype> compile_prototypes(const World& world, ShapeStore
                                                   Diagnostics& diagnostics) {
     std::vector<CompiledPrototype> prototypes(world.prototypes.size());
     std::map<std::uint64_t, TypeId> known;
+    const Surroundings around{!model.fluid.densities.empty(),
+                              world.wind_effects ? &*world.wind_effects : nullptr};
     for (std::size_t p = 0; p < world.prototypes.size(); ++p) {
         const ModelSpec& spec = world.prototypes[p];
         const std::size_t first = diagnostics.items().size();
         if (!spec.is_static) {
-            prototypes[p].parts = compile_parts(spec, shapes, diagnostics);
+            prototypes[p].parts = compile_parts(spec, around, shapes, diagnostics);
         } else if (has_sensors(spec)) {
             prototypes[p].parts = {{sensor_stand(spec), "", Pose{}}};
         }
@@ -100,6 +102,7 @@ std::shared_ptr<const Model> compile(const World& world, const CompileOptions& o
     model->magnetic_field_T = world.magnetic_field_T;
     model->wind = world.wind;
     model->air_density = world.air_density;
+    if (world.buoyancy) model->fluid = FluidLayers::of(*world.buoyancy);
     model->spherical = world.spherical;
     model->sleep = options.sleep.value_or(world.sleep);
     for (const AccuracySpec& spec : world.accuracy) apply(spec, model->accuracy, diagnostics);

@@ -51,9 +51,14 @@ Link to_link(const LinkSpec& spec, int body, const Transform& X_BL) {
 /// Builds one RobotType by walking the joint graph from its root.
 class PartBuilder {
   public:
-    PartBuilder(const ModelSpec& spec, const JointGraph& graph, const std::vector<CouplingSpec>& couplings,
-                ShapeStore& shapes, Diagnostics& diagnostics)
-        : spec_(spec), graph_(graph), couplings_(couplings), shapes_(shapes), diagnostics_(diagnostics) {}
+    PartBuilder(const ModelSpec& spec, const Surroundings& around, const JointGraph& graph,
+                const std::vector<CouplingSpec>& couplings, ShapeStore& shapes, Diagnostics& diagnostics)
+        : spec_(spec),
+          around_(around),
+          graph_(graph),
+          couplings_(couplings),
+          shapes_(shapes),
+          diagnostics_(diagnostics) {}
 
     CompiledPart build(const std::vector<std::size_t>& links, bool fixed_base, bool is_main) {
         links_ = &links;
@@ -81,6 +86,7 @@ class PartBuilder {
         add_links();
         turn_directions();
         add_onboard(spec_, is_main, part_.type, diagnostics_);
+        if (around_.wind != nullptr) add_wind(*around_.wind, part_.type);
         mend_inertia(part_.type, spec_, links, diagnostics_);
         finish();
         return std::move(part_);
@@ -242,11 +248,27 @@ class PartBuilder {
             const LinkId id(part_.type.links.size());
             if (body >= 0) add_mass(part_.type.bodies[static_cast<std::size_t>(body)], link);
             add_shapes(spec, link, id);
-            if (spec.drag.acts && body >= 0)
-                part_.type.drags.push_back({id, drag_area(spec), spec.drag.linear, spec.drag.wind});
+            if (spec.drag.acts && body >= 0) part_.type.drags.push_back(drag_of(spec, id));
+            add_fluid(spec, id, body);
             for (const SensorSpec& sensor : spec.sensors) part_.type.sensors.push_back({sensor, id});
             part_.type.links.push_back(link);
         }
+    }
+
+    /// Where the world has Gazebo's wind, that carries links in proportion to their mass; the areas of shapes
+    /// count only where the file writes them.
+    LinkDrag drag_of(const LinkSpec& spec, LinkId id) const {
+        LinkDrag drag{id, drag_area(spec), spec.drag.linear, spec.drag.wind};
+        if (!drag.wind || around_.wind == nullptr) return drag;
+        if (spec.drag.area < 0 && spec.drag.coefficient < 0) drag.area = {};
+        drag.linear += spec.mass * around_.wind->scale;
+        return drag;
+    }
+
+    void add_fluid(const LinkSpec& spec, LinkId id, int body) {
+        const bool floats = around_.has_fluid && spec.buoyant && !spec.collisions.empty();
+        if (body >= 0 && (floats || !spec.added_mass.empty()))
+            part_.type.fluids.push_back({id, floats, spec.added_mass});
     }
 
     void add_shapes(const LinkSpec& spec, const Link& link, LinkId id) {
@@ -299,6 +321,7 @@ class PartBuilder {
     }
 
     const ModelSpec& spec_;
+    const Surroundings& around_;
     const JointGraph& graph_;
     const std::vector<CouplingSpec>& couplings_;
     std::vector<std::pair<std::size_t, std::string>> turned_;  // shapes, links that their directions are in
@@ -332,7 +355,19 @@ RobotType sensor_stand(const ModelSpec& spec) {
     return type;
 }
 
-std::vector<CompiledPart> compile_parts(const ModelSpec& spec, ShapeStore& shapes, Diagnostics& diagnostics) {
+void float_all(RobotType& type) {
+    for (const BodyShape& shape : type.shapes) {
+        if (shape.body < 0) continue;
+        const auto at = std::ranges::lower_bound(type.fluids, shape.link, {}, &LinkFluid::link);
+        if (at != type.fluids.end() && at->link == shape.link)
+            at->buoyant = true;
+        else
+            type.fluids.insert(at, {shape.link, true, {}});
+    }
+}
+
+std::vector<CompiledPart> compile_parts(const ModelSpec& spec, const Surroundings& around, ShapeStore& shapes,
+                                        Diagnostics& diagnostics) {
     const JointGraph graph = build_joint_graph(spec);
     const std::vector<CouplingSpec> couplings = find_couplings(spec, diagnostics);
     std::vector<char> seen(spec.links.size(), 0);
@@ -344,7 +379,7 @@ std::vector<CompiledPart> compile_parts(const ModelSpec& spec, ShapeStore& shape
         const bool is_main = std::any_of(links.begin(), links.end(), [&](std::size_t i) {
             return spec.links[i].name == spec.canonical_link;
         });
-        parts.push_back(PartBuilder(spec, graph, couplings, shapes, diagnostics)
+        parts.push_back(PartBuilder(spec, around, graph, couplings, shapes, diagnostics)
                             .build(links, fixed_base, is_main || spec.canonical_link.empty()));
     }
     const bool has_main =

@@ -16,7 +16,14 @@ struct CompiledPart {
     Pose X_MR;           // robot frame in the SDF model frame
 };
 
-std::vector<CompiledPart> compile_parts(const ModelSpec& spec, ShapeStore& shapes, Diagnostics& diagnostics);
+/// What the world around the models says.
+struct Surroundings {
+    bool has_fluid = false;                 // links may float
+    const WindEffectsSpec* wind = nullptr;  // how the wind changes and pushes; nullptr: it is steady
+};
+
+std::vector<CompiledPart> compile_parts(const ModelSpec& spec, const Surroundings& around, ShapeStore& shapes,
+                                        Diagnostics& diagnostics);
 
 /// The links and sensors of a static model as a type with a fixed base, without shapes: its shapes are
 /// scenery.
@@ -30,6 +37,10 @@ void add_to_hash(Hash& hash, const OnboardInfo& onboard);
 /// Adds the on-board controllers of `spec` whose joints and links are in this part (those that name none: to
 /// the main part), their channels and memory. A controller that cannot run is left out with a warning.
 void add_onboard(const ModelSpec& spec, bool is_main, RobotType& type, Diagnostics& diagnostics);
+/// Adds the wind to what feels it.
+void add_wind(const WindEffectsSpec& wind, RobotType& type);
+/// Lets every link with solid shapes float.
+void float_all(RobotType& type);
 /// Fills what follows from RobotType::onboard and channels: indices into the state, and its sizes.
 void lay_out_onboard(RobotType& type);
 

@@ -7,6 +7,7 @@
 #include <unordered_set>
 
 #include "model/accuracy.h"
+#include "model/compile_type.h"
 #include "model/seal.h"
 
 namespace roboss {
@@ -30,6 +31,15 @@ TypeId place_of_type(Model& model, const RobotType& type) {
         if (model.types[i].hash == type.hash && model.types[i].name == type.name) return TypeId(i);
     model.types.push_back(type);
     return TypeId(model.types.size() - 1);
+}
+
+/// A type that was compiled for another world, in the fluids of this one.
+RobotType afloat(const Model& model, RobotType type) {
+    if (model.fluid.densities.empty() || !model.fluid.everywhere || type.is_static) return type;
+    float_all(type);
+    lay_out_onboard(type);
+    type.hash = type_hash(type);
+    return type;
 }
 
 std::vector<char> types_in_use(const Model& model) {
@@ -114,7 +124,7 @@ Result<ModelEdit> with_models(const Model& model, const Model& addition, const P
         Robot added = robot;
         added.name = name_in_model(addition, robot.name, name);
         if (names.contains(added.name)) return taken(added.name);
-        added.type = place_of_type(*changed, addition.types[robot.type.index()]);
+        added.type = place_of_type(*changed, afloat(model, addition.types[robot.type.index()]));
         added.X_WR = X_WA * robot.X_WR;
         added.X_WR.q = normalized(added.X_WR.q);
         added.family += family;

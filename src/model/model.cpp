@@ -86,6 +86,12 @@ void add_drag(Hash& hash, const LinkDrag& drag) {
     hash.add(drag.linear), add(hash, drag.wind ? 1 : 0);
 }
 
+void add_fluid(Hash& hash, const LinkFluid& fluid) {
+    hash.add(std::string_view("fluid"));
+    add(hash, static_cast<int>(fluid.link.value)), add(hash, fluid.buoyant ? 1 : 0);
+    hash.add(std::span<const double>(fluid.added_mass));
+}
+
 }  // namespace
 
 std::uint64_t type_hash(const RobotType& type) {
@@ -96,6 +102,7 @@ std::uint64_t type_hash(const RobotType& type) {
     for (const Dof& dof : type.dofs) add_dof(hash, dof);
     for (const BodyShape& shape : type.shapes) add_shape(hash, shape);
     for (const LinkDrag& drag : type.drags) add_drag(hash, drag);
+    for (const LinkFluid& fluid : type.fluids) add_fluid(hash, fluid);
     for (const SensorInfo& sensor : type.sensors) add_to_hash(hash, sensor);
     for (const Link& link : type.links) add_link(hash, link);
     for (const Joint& joint : type.joints)

@@ -175,6 +175,13 @@ struct LinkDrag {
     bool wind = false;  ///< u is measured against the wind, else against the world
 };
 
+/// What the fluids of the world do to one link.
+struct LinkFluid {
+    LinkId link;                     ///< on a body
+    bool buoyant = false;            ///< its solid shapes displace fluid
+    std::vector<double> added_mass;  ///< as LinkSpec::added_mass
+};
+
 /// A sensor of a robot.
 struct SensorInfo {
     SensorSpec spec;  ///< as in the file
@@ -221,13 +228,16 @@ struct RobotType {
     std::vector<Dof> dofs;     ///< dofs[i] is v[base_nv() + i]
     /// For each entry of v: the previous one on its path to the root, -1 at the root.
     std::vector<int> dof_parent;
-    DofPaths paths;                               ///< the same, as whole paths
-    std::vector<Link> links;                      ///< by LinkId
-    std::vector<Joint> joints;                    ///< by JointId
-    std::vector<LoopJoint> loops;                 ///< joints that close kinematic loops
-    std::vector<CoordinateCoupling> couplings;    ///< gearboxes and mimics
-    std::vector<BodyShape> shapes;                ///< collision shapes
-    std::vector<LinkDrag> drags;                  ///< of the links on which the air acts
+    DofPaths paths;                             ///< the same, as whole paths
+    std::vector<Link> links;                    ///< by LinkId
+    std::vector<Joint> joints;                  ///< by JointId
+    std::vector<LoopJoint> loops;               ///< joints that close kinematic loops
+    std::vector<CoordinateCoupling> couplings;  ///< gearboxes and mimics
+    std::vector<BodyShape> shapes;              ///< collision shapes
+    std::vector<LinkDrag> drags;                ///< of the links on which the air acts
+    std::vector<LinkFluid> fluids;              ///< of the links that float or have added mass
+    bool feels_flow = false;  ///< it has `fluids`, or controllers that are force laws; computed by seal()
+    int wind_index = -1;      ///< in RobotState::onboard, of the wind that it feels; -1: Model::wind
     std::vector<std::pair<int, int>> self_pairs;  ///< shapes of this robot that may collide with each other
     std::vector<SensorInfo> sensors;              ///< by the index that find_sensor() gives
     std::vector<OnboardInfo> onboard;             ///< on-board controllers, in the order in which they run
@@ -311,6 +321,7 @@ struct Model {
     Vec3 magnetic_field_T;                          ///< T, world axes
     Vec3 wind;                                      ///< m/s, world axes
     double air_density = 0.0;                       ///< kg/m^3
+    FluidLayers fluid;                              ///< in which robots float
     std::optional<SphericalCoordinates> spherical;  ///< where on Earth; none: not given
     Accuracy accuracy;                              ///< of the solver
     Precision precision = Precision::kDouble;       ///< of the steps

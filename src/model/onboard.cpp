@@ -96,6 +96,18 @@ bool belongs_here(const ModelSpec& model, const OnboardSpec& spec, bool is_main,
     return joints.empty() ? !in_model(model.links, links.front()) : !in_model(model.joints, joints.front());
 }
 
+/// Whether the dynamics evaluate it, in place of its `run`.
+bool is_force_law(const OnboardParameters& p) {
+    return std::holds_alternative<LiftDragSpec>(p) || std::holds_alternative<AdvancedLiftDragSpec>(p) ||
+           std::holds_alternative<HydrodynamicsSpec>(p);
+}
+
+/// Whether what the controller does depends on the wind.
+bool feels_wind(const OnboardParameters& p) {
+    return std::holds_alternative<LiftDragSpec>(p) || std::holds_alternative<AdvancedLiftDragSpec>(p) ||
+           std::holds_alternative<MotorModelSpec>(p);
+}
+
 /// Adds parameters to a Model hash, by name and value.
 struct ParameterHash {
     Hash& hash;
@@ -129,6 +141,8 @@ struct ParameterHash {
 void lay_out_onboard(RobotType& type) {
     type.channels.clear();
     type.onboard_size = type.list_count = 0;
+    type.wind_index = -1;
+    type.feels_flow = !type.fluids.empty();
     for (OnboardInfo& info : type.onboard) {
         resolve_names(type, info);
         info.channels.clear();
@@ -137,6 +151,9 @@ void lay_out_onboard(RobotType& type) {
         info.memory = memory_at_start(info.spec.parameters);
         info.memory_index = type.onboard_size;
         type.onboard_size += static_cast<int>(info.memory.size());
+        type.feels_flow = type.feels_flow || is_force_law(info.spec.parameters);
+        if (std::holds_alternative<WindEffectsSpec>(info.spec.parameters))
+            type.wind_index = info.memory_index + WindEffectsSpec::kWindX;
     }
     for (OnboardInfo& info : type.onboard) {
         info.commands.clear();
@@ -163,6 +180,18 @@ void add_onboard(const ModelSpec& spec, bool is_main, RobotType& type, Diagnosti
         type.onboard.push_back(std::move(info));
         lay_out_onboard(type);
     }
+}
+
+void add_wind(const WindEffectsSpec& wind, RobotType& type) {
+    const bool carried = std::ranges::any_of(type.drags, &LinkDrag::wind);
+    const bool flown = std::ranges::any_of(
+        type.onboard, [](const OnboardInfo& info) { return feels_wind(info.spec.parameters); });
+    if (!carried && !flown) return;
+    OnboardInfo info;
+    info.spec = {WindEffectsSpec::kKind.name, wind, {}};
+    info.base = LinkId(std::size_t{0});
+    type.onboard.insert(type.onboard.begin(), std::move(info));  // before those that feel it
+    lay_out_onboard(type);
 }
 
 void add_to_hash(Hash& hash, const OnboardInfo& onboard) {

@@ -24,6 +24,11 @@ std::uint64_t model_hash(const Model& model) {
         hash.add(v.x), hash.add(v.y), hash.add(v.z);
     if (const auto& s = model.spherical)
         for (double x : {s->latitude_rad, s->longitude_rad, s->elevation_m, s->heading_rad}) hash.add(x);
+    if (!model.fluid.densities.empty()) {
+        hash.add(std::string_view(model.fluid.everywhere ? "fluid everywhere" : "fluid"));
+        hash.add(std::span<const double>(model.fluid.heights));
+        hash.add(std::span<const double>(model.fluid.densities));
+    }
     for (const AccuracyNumber& number : accuracy_numbers()) hash.add(number.get(model.accuracy));
     if (model.precision == Precision::kFloat) hash.add(std::string_view("float"));
     for (const RobotType& type : model.types) hash.add(type.hash);

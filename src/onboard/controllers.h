@@ -32,4 +32,14 @@ double joint_target(bool use_actuator_msg, int actuator, double initial, const O
 void run(const DetachableJointSpec& spec, OnboardContext& c);
 void run(const GripperSpec& spec, OnboardContext& c);
 
+// Air and water. Force laws are evaluated by the dynamics (physics/dynamics/fluid_forces.h).
+void run(const MotorModelSpec& spec, OnboardContext& c);
+void run(const MulticopterControlSpec& spec, OnboardContext& c);
+void run(const ThrusterSpec& spec, OnboardContext& c);
+void run(const BuoyancyEngineSpec& spec, OnboardContext& c);
+void run(const WindEffectsSpec& spec, OnboardContext& c);
+inline void run(const LiftDragSpec&, OnboardContext&) {}
+inline void run(const AdvancedLiftDragSpec&, OnboardContext&) {}
+inline void run(const HydrodynamicsSpec&, OnboardContext&) {}
+
 }  // namespace roboss

@@ -87,6 +87,43 @@ LinkTwist OnboardContext::twist(LinkId link) {
     return {v.angular, v.linear + cross(v.angular, arm)};
 }
 
+AxisPlace OnboardContext::axis(std::size_t joint) {
+    const Body& body = type_.bodies[static_cast<std::size_t>(dof(joint).body)];
+    const Transform& X_WB = body_pose(dof(joint).body);
+    const bool reversed = type_.joints[info_->axes[joint].joint.index()].reversed;
+    return {X_WB.p, X_WB.R * (reversed ? -body.axis_J : body.axis_J)};
+}
+
+LinkId OnboardContext::child_of(std::size_t joint) const {
+    const JointId id = info_->axes[joint].joint;
+    for (std::size_t l = 0; l < type_.links.size(); ++l) {
+        const Link& link = type_.links[l];
+        if (link.carrier != static_cast<int>(id.index())) continue;
+        return type_.joints[id.index()].reversed && link.parent >= 0
+                   ? LinkId(static_cast<std::size_t>(link.parent))
+                   : LinkId(l);
+    }
+    return info_->base;
+}
+
+LinkId OnboardContext::parent_of(std::size_t joint) const {
+    const JointId id = info_->axes[joint].joint;
+    for (std::size_t l = 0; l < type_.links.size(); ++l) {
+        const Link& link = type_.links[l];
+        if (link.carrier != static_cast<int>(id.index())) continue;
+        return type_.joints[id.index()].reversed || link.parent < 0
+                   ? LinkId(l)
+                   : LinkId(static_cast<std::size_t>(link.parent));
+    }
+    return info_->base;
+}
+
+Vec3 OnboardContext::wind() const {
+    if (type_.wind_index < 0) return model_.wind;
+    const auto at = static_cast<std::size_t>(type_.wind_index);
+    return {state_.onboard[at], state_.onboard[at + 1], state_.onboard[at + 2]};
+}
+
 Vec3 OnboardContext::centre(LinkId link) {
     const Link& l = type_.links[link.index()];
     return body_pose(l.body) * l.p_BC;

@@ -14,6 +14,12 @@ struct LinkTwist {
         linear;    ///< m/s
 };
 
+/// Axis of a joint in the world, as the file writes it: from parent to child.
+struct AxisPlace {
+    Vec3 origin,    ///< m
+        direction;  ///< unit
+};
+
 /// One controller of one robot at one tick.
 class OnboardContext {
   public:
@@ -85,6 +91,12 @@ class OnboardContext {
     /// Switches all motors of the robot off for this tick.
     void cut_power();
 
+    /// Axis of a joint in the world.
+    AxisPlace axis(std::size_t joint);
+    /// The two links that the file joins by it.
+    LinkId child_of(std::size_t joint) const;
+    LinkId parent_of(std::size_t joint) const;
+
     // --- links
     std::size_t link_count() const { return info_->links.size(); }
     LinkId link(std::size_t k) const { return info_->links[k]; }
@@ -99,6 +111,10 @@ class OnboardContext {
     void push_at(LinkId link, const Vec3& force, const Vec3& p_W);
     /// The link's surface moves so from now on, until it is set again; zero: it stands still.
     void move_surface(const SurfaceMotion& motion);
+
+    // --- air
+    /// The wind of this tick, m/s, world axes.
+    Vec3 wind() const;
 
   private:
     const ChannelInfo& channel(std::size_t k) const {

@@ -12,31 +12,39 @@
 
 #include "core/diagnostics.h"
 #include "onboard_kinds/ackermann_steering.h"
+#include "onboard_kinds/advanced_lift_drag.h"
 #include "onboard_kinds/apply_joint_force.h"
 #include "onboard_kinds/apply_link_wrench.h"
+#include "onboard_kinds/buoyancy_engine.h"
 #include "onboard_kinds/detachable_joint.h"
 #include "onboard_kinds/diff_drive.h"
 #include "onboard_kinds/drive_to_pose.h"
 #include "onboard_kinds/gripper.h"
+#include "onboard_kinds/hydrodynamics.h"
 #include "onboard_kinds/joint_controller.h"
 #include "onboard_kinds/joint_pose_trajectory.h"
 #include "onboard_kinds/joint_position_controller.h"
 #include "onboard_kinds/joint_trajectory_controller.h"
 #include "onboard_kinds/kind.h"
 #include "onboard_kinds/kinetic_energy_monitor.h"
+#include "onboard_kinds/lift_drag.h"
 #include "onboard_kinds/linear_battery.h"
 #include "onboard_kinds/mecanum_drive.h"
+#include "onboard_kinds/motor_model.h"
+#include "onboard_kinds/multicopter_control.h"
 #include "onboard_kinds/planar_move.h"
 #include "onboard_kinds/ros_ackermann.h"
 #include "onboard_kinds/ros_diff_drive.h"
+#include "onboard_kinds/thruster.h"
 #include "onboard_kinds/tracked_vehicle.h"
 #include "onboard_kinds/trajectory_follower.h"
 #include "onboard_kinds/velocity_control.h"
+#include "onboard_kinds/wind_effects.h"
 
 namespace roboss {
 
 /// Parameters of any kind. The order does not count; the number of each kind does.
-using OnboardParameters = std::variant<VelocityControlSpec, DiffDriveSpec, AckermannSteeringSpec, MecanumDriveSpec, TrackedVehicleSpec, RosDiffDriveSpec, RosSkidSteerSpec, RosAckermannSpec, DriveToPoseSpec, TrajectoryFollowerSpec, ApplyLinkWrenchSpec, PlanarMoveSpec, JointControllerSpec, JointPositionControllerSpec, JointTrajectoryControllerSpec, ApplyJointForceSpec, JointPoseTrajectorySpec, LinearBatterySpec, KineticEnergyMonitorSpec, DetachableJointSpec, GripperSpec>;
+using OnboardParameters = std::variant<VelocityControlSpec, DiffDriveSpec, AckermannSteeringSpec, MecanumDriveSpec, TrackedVehicleSpec, RosDiffDriveSpec, RosSkidSteerSpec, RosAckermannSpec, DriveToPoseSpec, TrajectoryFollowerSpec, ApplyLinkWrenchSpec, PlanarMoveSpec, JointControllerSpec, JointPositionControllerSpec, JointTrajectoryControllerSpec, ApplyJointForceSpec, JointPoseTrajectorySpec, LinearBatterySpec, KineticEnergyMonitorSpec, DetachableJointSpec, GripperSpec, MotorModelSpec, MulticopterControlSpec, LiftDragSpec, AdvancedLiftDragSpec, ThrusterSpec, BuoyancyEngineSpec, HydrodynamicsSpec, WindEffectsSpec>;
 
 /// An on-board controller of a model.
 struct OnboardSpec {

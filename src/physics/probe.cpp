@@ -5,6 +5,7 @@
 #include "core/float_env.h"
 #include "physics/bonds/bond_cover.h"
 #include "physics/dynamics/drag.h"
+#include "physics/dynamics/fluid_forces.h"
 #include "physics/dynamics/integrate.h"
 #include "physics/dynamics/robot_work.h"
 
@@ -59,6 +60,11 @@ std::vector<Spatial> demands(const Model& model, const RobotWork& work, std::spa
         const Link& link = type.links[w.link.index()];
         const Vec3 moment = w.torque + cross(arm_to(work, link.body, link.p_BC), w.force);
         taken[w.link.index()] += Spatial{moment, w.force} * -1.0;
+    }
+    if (type.feels_flow) {
+        std::vector<Spatial> forces(type.links.size());
+        sum_fluid_forces(model, work, acceleration, forces);
+        for (std::size_t l = 0; l < forces.size(); ++l) taken[l] += forces[l] * -1.0;
     }
     for (const LinkDrag& drag : type.drags) taken[drag.link.index()] += drag_force(model, work, drag) * -1.0;
     return taken;

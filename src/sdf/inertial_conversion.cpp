@@ -1,4 +1,6 @@
 // Mass properties of a link.
+#include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "sdf/automatic_inertia.h"
@@ -44,6 +46,30 @@ void read_automatic(const Element& link, const PoseInLink& pose_of, const Import
                                   "' are computed from its collisions: " + std::to_string(spec.mass) + " kg");
 }
 
+/// SDFormat 1.10: the mass of the water that moves with the link.
+void read_added_mass(const Element& inertial, const Import& import, LinkSpec& spec) {
+    const Element added = inertial.child("fluid_added_mass");
+    if (!added) return;
+    constexpr char kAxes[] = {'x', 'y', 'z', 'p', 'q', 'r'};
+    std::vector<double> numbers;
+    std::array<double, 36> matrix{};
+    for (std::size_t i = 0; i < 6; ++i)
+        for (std::size_t j = i; j < 6; ++j) {
+            const std::string name{kAxes[i], kAxes[j]};
+            numbers.push_back(import.reader.number(added, name.c_str(), 0));
+            matrix[6 * i + j] = matrix[6 * j + i] = numbers.back();
+        }
+    if (std::ranges::all_of(numbers, [](double x) { return x == 0; })) return;
+    if (is_positive_semidefinite(matrix.data())) {
+        spec.added_mass = std::move(numbers);
+        return;
+    }
+    import.diagnostics().warning(
+        added.where(), "added-mass",
+        "the <fluid_added_mass> of link '" + spec.name + "' would give negative energy; it is left out",
+        "Write a positive (semi-)definite matrix.");
+}
+
 }  // namespace
 
 void convert_inertial(const Element& link, const PoseInLink& pose_of, const Import& import, LinkSpec& spec) {
@@ -56,6 +82,7 @@ void convert_inertial(const Element& link, const PoseInLink& pose_of, const Impo
                                      "Write its <inertial> with <mass> and <inertia>.");
         return;
     }
+    read_added_mass(inertial, import, spec);
     if (inertial.node.attribute("auto").as_bool()) return read_automatic(link, pose_of, import, spec);
     const Pose X_LI = import.reader.pose(inertial.child("pose"));
     spec.mass = import.reader.number(inertial, "mass", 1.0);

@@ -13,6 +13,7 @@
 #include "sdf/same_model.h"
 #include "sdf/urdf.h"
 #include "sdf/world_frames.h"
+#include "sdf/world_fluids.h"
 #include "sdf/world_plugins.h"
 #include "sdf/world_settings.h"
 #include "world/left_out.h"
@@ -58,6 +59,7 @@ class WorldLoader {
         for (Distinct& distinct : distinct_) read_distinct(distinct, result);
         place(*world, placements, result);
         attach_world_plugins(plugins, result, diagnostics_);
+        mark_buoyant(result);
         validate_settings(result, diagnostics_);
         return result;
     }

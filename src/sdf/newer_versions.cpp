@@ -17,8 +17,7 @@ struct NewerElement {
 constexpr NewerElement kNewer[] = {
     {"axis", "mimic", nullptr, nullptr},
     {"axis2", "mimic", nullptr, nullptr},
-    {"inertial", "fluid_added_mass", "added mass of a fluid is not simulated",
-     "Remove it, or add its mass to the link."},
+    {"inertial", "fluid_added_mass", nullptr, nullptr},
     {"inertial", "density", nullptr, nullptr},
     {"inertial", "auto_inertia_params", "parameters of a mesh's automatic inertia are ignored",
      "Write the link's <mass> and <inertia>."},

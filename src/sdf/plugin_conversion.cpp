@@ -34,14 +34,6 @@ bool remove_prefix(std::string& text, std::string_view prefix) {
     return true;
 }
 
-ExtensionElement kept_element(const Element& element) {
-    std::ostringstream text;
-    element.node.print(text, "", pugi::format_raw);
-    ExtensionElement kept;
-    kept.name = element.node.name(), kept.text = std::move(text).str(), kept.where = element.where();
-    return kept;
-}
-
 /// Parameters of the kind that the plugin asks for, with their defaults.
 std::optional<OnboardParameters> parameters_for(const PluginName& name) {
     std::optional<OnboardParameters> found;
@@ -77,6 +69,14 @@ void pass_on(const Diagnostics& found, const Import& import) {
 }
 
 }  // namespace
+
+ExtensionElement kept_element(const Element& element) {
+    std::ostringstream text;
+    element.node.print(text, "", pugi::format_raw);
+    ExtensionElement kept;
+    kept.name = element.node.name(), kept.text = std::move(text).str(), kept.where = element.where();
+    return kept;
+}
 
 PluginName plugin_name(const Element& plugin) {
     PluginName name;

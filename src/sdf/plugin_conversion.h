@@ -16,6 +16,9 @@ struct PluginName {
 };
 PluginName plugin_name(const Element& plugin);
 
+/// The plugin as the file has it; it does not run.
+ExtensionElement kept_element(const Element& plugin);
+
 /// Keeps the plugin and says what becomes of it: an on-board controller is appended to `onboard`; what has no
 /// counterpart gets a note. `scope` is the prefix of names in a nested model ("inner::" or "").
 void convert_plugin(const Element& plugin, const std::string& scope, const Import& import,

@@ -8,6 +8,7 @@
 #include "sdf/known_children.h"
 #include "sdf/physics_profile.h"
 #include "sdf/plugin_conversion.h"
+#include "sdf/world_fluids.h"
 
 namespace roboss::sdf_import {
 namespace {
@@ -138,7 +139,9 @@ void read_world_settings(const Element& world, const std::string& profile, Impor
             return std::strcmp(name, node.name()) == 0;
         });
         if (std::strcmp(node.name(), "plugin") == 0) {
-            convert_plugin({world.source, node}, "", import, plugins, out.extensions);
+            const Element plugin{world.source, node};
+            if (!convert_fluid_plugin(plugin, import, out))
+                convert_plugin(plugin, "", import, plugins, out.extensions);
         } else if (!silent) {
             report_other({world.source, node}, import);
         }

@@ -13,7 +13,7 @@ namespace roboss {
 namespace wire {
 namespace {
 
-constexpr std::uint32_t kModelVersion = 6;
+constexpr std::uint32_t kModelVersion = 7;
 
 /// A Writer and a Reader that know the shared hulls and surfaces, to which shapes point.
 struct ModelWriter : Writer {
@@ -127,6 +127,8 @@ template <class A> void field(A& a, Of<A, Shape>& m) {
 }
 template <class A> void field(A& a, Of<A, BodyShape>& m) { fields(a, m.shape, m.body, m.link, m.X_BS, m.material, m.direction_body); }
 template <class A> void field(A& a, Of<A, LinkDrag>& m) { fields(a, m.link, m.area, m.linear, m.wind); }
+template <class A> void field(A& a, Of<A, LinkFluid>& m) { fields(a, m.link, m.buoyant, m.added_mass); }
+template <class A> void field(A& a, Of<A, FluidLayers>& m) { fields(a, m.heights, m.densities, m.everywhere); }
 template <class A> void field(A& a, Of<A, NoiseSpec>& m) {
     fields(a, m.mean, m.stddev, m.bias_mean, m.bias_stddev, m.precision);
 }
@@ -145,7 +147,7 @@ template <class A> void field(A& a, Of<A, OnboardInfo>& m) {
 }
 template <class A> void field(A& a, Of<A, RobotType>& m) {
     fields(a, m.name, m.free_base, m.is_static, m.self_collide, m.may_sleep, m.X_RB, m.bodies, m.dofs, m.dof_parent, m.links, m.joints,
-           m.loops, m.couplings, m.shapes, m.drags, m.self_pairs, m.sensors, m.onboard, m.initial_q, m.nq, m.nv, m.reach, m.mass);
+           m.loops, m.couplings, m.shapes, m.drags, m.fluids, m.self_pairs, m.sensors, m.onboard, m.initial_q, m.nq, m.nv, m.reach, m.mass);
 }
 template <class A> void field(A& a, Of<A, Robot>& m) { fields(a, m.name, m.type, m.X_WR, m.family); }
 template <class A> void field(A& a, Of<A, StaticShape>& m) {
@@ -162,7 +164,7 @@ template <class A> void field(A& a, Of<A, MeshSource>& m) { fields(a, m.vertices
 template <class A> void field(A& a, Of<A, HeightSource>& m) { fields(a, m.columns, m.rows, m.heights, m.size_x, m.size_y); }
 /// Everything behind the hulls and surfaces.
 template <class A> void field(A& a, Of<A, Model>& m) {
-    fields(a, m.name, m.dt_s, m.gravity, m.magnetic_field_T, m.wind, m.air_density, m.accuracy, m.precision, m.sleep, m.types, m.robots, m.statics);
+    fields(a, m.name, m.dt_s, m.gravity, m.magnetic_field_T, m.wind, m.air_density, m.fluid, m.accuracy, m.precision, m.sleep, m.types, m.robots, m.statics);
 }
 
 /// Does nothing but name every field: a new one breaks the build here, so that it is not forgotten above. (What seal()
@@ -177,14 +179,16 @@ template <class A> void field(A& a, Of<A, Model>& m) {
 [[maybe_unused]] void know_fields(const Shape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const BodyShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const LinkDrag& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3] = m; }
+[[maybe_unused]] void know_fields(const LinkFluid& m) { [[maybe_unused]] const auto& [f0, f1, f2] = m; }
+[[maybe_unused]] void know_fields(const FluidLayers& m) { [[maybe_unused]] const auto& [f0, f1, f2] = m; }
 [[maybe_unused]] void know_fields(const SensorSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const NoiseSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4] = m; }
 [[maybe_unused]] void know_fields(const SensorInfo& m) { [[maybe_unused]] const auto& [f0, f1] = m; }
-[[maybe_unused]] void know_fields(const RobotType& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17, f18, f19, f20, f21, f22, f23, f24, f25, f26, f27] = m; }
+[[maybe_unused]] void know_fields(const RobotType& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17, f18, f19, f20, f21, f22, f23, f24, f25, f26, f27, f28, f29, f30] = m; }
 [[maybe_unused]] void know_fields(const Robot& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3] = m; }
 [[maybe_unused]] void know_fields(const StaticShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const Accuracy& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
-[[maybe_unused]] void know_fields(const Model& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16] = m; }
+[[maybe_unused]] void know_fields(const Model& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17] = m; }
 // clang-format on
 
 template <class A, class... Fields>

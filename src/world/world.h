@@ -14,6 +14,7 @@
 
 #include "core/diagnostics.h"
 #include "math/pose.h"
+#include "onboard_kinds/buoyancy.h"
 #include "onboard_kinds/onboard_spec.h"
 #include "sensor_kinds/sensor_spec.h"
 
@@ -146,15 +147,21 @@ struct DragSpec {
     double linear = 0;        ///< N s/m, proportional to the velocity
 };
 
+/// Numbers of an added mass: xx, xy ... xr, yy ... rr, the upper triangle of a symmetric 6x6 matrix, row by
+/// row: acceleration (x y z p q r) to force, kg, kg m, kg m^2, at the link's origin, link axes.
+inline constexpr std::size_t kAddedMassNumbers = 21;
+
 /// A rigid body of a model (SDF and URDF `<link>`).
 struct LinkSpec {
-    std::string name;                       ///< nested models: "inner::link"
-    Pose X_ML;                              ///< link in the (outer) model frame, all joints at zero
-    double mass = 1.0;                      ///< kg
-    Vec3 p_LC;                              ///< m, centre of mass in the link frame
-    Mat3 inertia_C = Mat3::identity();      ///< about the centre of mass, link axes, kg m^2
-    bool gravity = true;                    ///< whether gravity acts on it, SDF `<gravity>`
-    DragSpec drag;                          ///< resistance of the air
+    std::string name;                   ///< nested models: "inner::link"
+    Pose X_ML;                          ///< link in the (outer) model frame, all joints at zero
+    double mass = 1.0;                  ///< kg
+    Vec3 p_LC;                          ///< m, centre of mass in the link frame
+    Mat3 inertia_C = Mat3::identity();  ///< about the centre of mass, link axes, kg m^2
+    bool gravity = true;                ///< whether gravity acts on it, SDF `<gravity>`
+    DragSpec drag;                      ///< resistance of the air
+    bool buoyant = false;               ///< the world's fluids carry it
+    std::vector<double> added_mass;     ///< SDF `<fluid_added_mass>`: kAddedMassNumbers numbers; empty: none
     std::vector<CollisionSpec> collisions;  ///< shapes that touch
     std::vector<VisualSpec> visuals;        ///< shapes that are drawn
     std::vector<SensorSpec> sensors;        ///< sensors that it carries
@@ -296,12 +303,14 @@ struct World {
     std::string file;                                           ///< path of the file, for messages
     Vec3 gravity{0, 0, -9.8};                                   ///< m/s^2, world axes
     Vec3 magnetic_field_T{5.5645e-6, 22.8758e-6, -42.3884e-6};  ///< T, world axes
-    Vec3 wind;                      ///< m/s, world axes, SDF `<wind><linear_velocity>`
-    double air_density = 1.22500;   ///< kg/m^3, at the world's origin
-    double dt_s = 0.001;            ///< s, length of a step, SDF `<max_step_size>`
-    double real_time_factor = 1.0;  ///< 0: as fast as possible
-    bool sleep = false;             ///< robots at rest sleep; the SDF importer switches it on, as in SDFormat
-    std::string profile;            ///< name of the `<physics>` that was chosen
+    Vec3 wind;                                    ///< m/s, world axes, SDF `<wind><linear_velocity>`
+    double air_density = 1.22500;                 ///< kg/m^3, at the world's origin
+    std::optional<BuoyancySpec> buoyancy;         ///< fluids that carry; none: nothing floats
+    std::optional<WindEffectsSpec> wind_effects;  ///< how the wind changes and pushes; none: it is steady
+    double dt_s = 0.001;                          ///< s, length of a step, SDF `<max_step_size>`
+    double real_time_factor = 1.0;                ///< 0: as fast as possible
+    bool sleep = false;   ///< robots at rest sleep; the SDF importer switches it on, as in SDFormat
+    std::string profile;  ///< name of the `<physics>` that was chosen
     Precision precision = Precision::kDouble;       ///< of the steps
     std::vector<AccuracySpec> accuracy;             ///< of the world, then of its profile: a later one wins
     std::optional<SphericalCoordinates> spherical;  ///< where on Earth; none: the file does not say

@@ -233,7 +233,7 @@ const Element kElements[] = {
     {In::kLink, "<sensor name='a' type='altimeter'/>"},
     {In::kLink, "<sensor name='a' type='air_speed'/>", "air_speed"},
     {In::kInertial, "<pose>0 0 .1 0 0 0</pose>"},
-    {In::kInertial, "<fluid_added_mass><xx>1</xx></fluid_added_mass>", "added mass", "1.10"},
+    {In::kInertial, "<fluid_added_mass><xx>1</xx></fluid_added_mass>", "", "1.10"},
     {In::kModel, "<self_collide>1</self_collide>"},
     {In::kModel, "<enable_wind>1</enable_wind>"},
     {In::kModel, "<allow_auto_disable>0</allow_auto_disable>"},

@@ -10,6 +10,7 @@
 #include "physics/bonds/bond_rows.h"
 #include "physics/dynamics/drag.h"
 #include "physics/dynamics/fast_turning.h"
+#include "physics/dynamics/fluid_forces.h"
 #include "physics/dynamics/velocity_forces.h"
 #include "physics/dynamics/warm_start.h"
 #include "physics/solver/row_math.h"
@@ -60,6 +61,7 @@ bool choose_drifting(const Model& model, std::span<const RobotWork> robots, Grou
     for (std::size_t m = 0; m < members.size(); ++m) {
         const RobotWork& work = robots[members[m]];
         if (work.type->nv == 0 || drag_is_stiff(model, work)) continue;
+        if (work.type->feels_flow && flow_is_stiff(model, work)) continue;
         const bool kept = s.touched[members[m]]
                               ? !s.anchored
                               : work.type->free_base || !is_driven<double>(work.state->motors);

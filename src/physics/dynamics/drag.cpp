@@ -20,7 +20,7 @@ LinkAir air_of(const Model& model, const RobotWork& work, const LinkDrag& drag) 
     const BodyWork& body = work.bodies[static_cast<std::size_t>(link.body)];
     LinkAir air;
     air.arm = body.X_WB * link.p_BC - work.origin;
-    if (drag.wind) air.wind = model.wind;
+    if (drag.wind) air.wind = wind_of(model, work);
     air.relative = body.velocity.linear + cross(body.velocity.angular, air.arm) - air.wind;
     const Vec3 u_L = transpose_times(link.X_BL.R, transpose_times(body.X_WB.R, air.relative));
     // |A(u)| |u|: the length of the vector of areas times velocities

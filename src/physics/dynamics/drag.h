@@ -7,6 +7,14 @@
 
 namespace roboss {
 
+/// The wind that a robot feels in this tick, m/s, world axes.
+inline Vec3 wind_of(const Model& model, const RobotWork& work) {
+    const int at = work.type->wind_index;
+    if (at < 0) return model.wind;
+    const double* wind = work.state->onboard.data() + at;
+    return {wind[0], wind[1], wind[2]};
+}
+
 /// Adds the drag's impulses to the bodies' impulses; with `implicit` also what it adds to their inertias. For
 /// use inside compute_impulse, after the bodies' inertias and impulses are set.
 void add_drag(const Model& model, double dt, bool implicit, RobotWork& work);

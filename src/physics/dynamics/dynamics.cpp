@@ -1,8 +1,9 @@
-// What is only done for one robot at a time: wrenches and drag; see dynamics.h.
+// What is only done for one robot at a time: wrenches, drag and water; see dynamics.h.
 #include "physics/dynamics/dynamics.h"
 
 #include "physics/bonds/bond_cover.h"
 #include "physics/dynamics/drag.h"
+#include "physics/dynamics/fluid_forces.h"
 
 namespace roboss {
 namespace {
@@ -44,11 +45,15 @@ void compute_impulse(const Model& model, double dt, double momentum_weight, std:
     set_body_impulses(model, dt, momentum_weight, work);
     add_wrenches(*work.type, *work.state, dt, work);
     if (!work.type->drags.empty()) add_drag(model, dt, momentum_weight != 0, work);
+    work.flows.clear();
+    if (work.type->feels_flow) add_fluid_forces(model, dt, momentum_weight, q, work);
     sum_impulses(dt, momentum_weight, q, v, work);
 }
 
 void compute_inertias(const RobotType& type, RobotWork& work) {
     for (std::size_t b = 0; b < type.bodies.size(); ++b) set_inertia(type.bodies[b], work.bodies[b]);
+    work.flows.clear();
+    if (type.feels_flow) set_added_masses(type, work);
 }
 
 }  // namespace roboss

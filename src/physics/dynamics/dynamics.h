@@ -9,6 +9,7 @@
 #include "geometry/shape_bounds.h"
 #include "model/joint_motion.h"
 #include "physics/dynamics/body_impulses.h"
+#include "physics/dynamics/fluid_forces.h"
 #include "physics/dynamics/robot_work.h"
 
 namespace roboss {
@@ -201,6 +202,8 @@ void compute_mass_matrix(const RobotType& type, double dt, Mechanics<T>& work) {
         work.mass_matrix[type.paths.diagonal(i)] +=
             T(dof.armature + dt * dof.damping + dt * dt * dof.spring_stiffness);
     }
+    if constexpr (std::is_same_v<T, double>)
+        if (!work.flows.empty()) add_flow_inertia(type, work);
 }
 
 }  // namespace roboss

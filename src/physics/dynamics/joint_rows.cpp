@@ -7,6 +7,7 @@
 #include "model/coordinates.h"
 #include "model/loop_closure.h"
 #include "physics/dynamics/drag.h"
+#include "physics/dynamics/fluid_forces.h"
 #include "world/joint_type.h"
 
 namespace roboss {
@@ -164,7 +165,7 @@ bool moves_freely(const Model& model, const RobotWork& robot) {
     if (robot.bonded) return false;
     for (const LoopJoint& loop : type.loops)
         if (needs_rows(loop, *robot.state)) return false;
-    if (drag_is_stiff(model, robot)) return false;
+    if (drag_is_stiff(model, robot) || (type.feels_flow && flow_is_stiff(model, robot))) return false;
     for (std::size_t d = 0; d < type.dofs.size(); ++d)
         if (is_stiff(type.dofs[d], model.dt_s) ||
             !is_left_alone(tree_axis(model, type, joint_states(robot), d)))

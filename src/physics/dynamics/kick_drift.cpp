@@ -311,7 +311,8 @@ class KickDrift {
     /// The course of a robot on which contacts and gravity are all that acts from outside: kicks act at the
     /// beginning, loads evenly, and the torque of the weight is integrated along the parabola.
     std::optional<FreeCourse> course_of(const BodySums& before) const {
-        if (!type_.free_base || !state_.wrenches.empty() || !type_.drags.empty()) return std::nullopt;
+        if (!type_.free_base || !state_.wrenches.empty() || !type_.drags.empty() || type_.feels_flow)
+            return std::nullopt;
         if (model_.gravity != Vec3{})
             for (const Body& body : type_.bodies)
                 if (body.gravity_mass != body.mass) return std::nullopt;
@@ -369,7 +370,7 @@ bool is_passive(const RobotWork& work) {
 
 bool only_motors_drive(const RobotWork& work) {
     const RobotType& type = *work.type;
-    if (!work.state->wrenches.empty()) return false;
+    if (!work.state->wrenches.empty() || type.feels_flow) return false;
     for (const LinkDrag& drag : type.drags)
         if (drag.wind) return false;
     for (const LoopJoint& loop : type.loops)

@@ -2,6 +2,7 @@
 // impulse. Buffers are kept from tick to tick, so that nothing is allocated once they have grown.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,14 @@ struct ShapeWorkT {
 };
 using ShapeWork = ShapeWorkT<double>;
 
+/// What one force law of the air or the water adds to the inertia of a link (fluid_forces.h).
+struct FlowWork {
+    int body = 0;                    // that the link is of
+    Mat3 R_WL;                       // link axes
+    Vec3 arm;                        // link's origin from O, world axes
+    std::array<double, 36> inertia;  // motion (x y z p q r) to momentum, link axes, at its origin; symmetric
+};
+
 /// The mechanics of a robot (T = double), or of a few of one type in lanes.
 template <class T>
 struct Mechanics {
@@ -43,6 +52,7 @@ struct Mechanics {
     std::vector<T> mass_matrix;     // packed by the type's paths; implicit damping and springs included
     std::vector<T> impulse;         // nv: M v + dt (applied - bias); the free velocity is M^-1 of it
     std::vector<T> velocity;        // nv: solved
+    std::vector<FlowWork> flows;    // as they stand beside the bodies' inertias
     std::vector<ShapeWorkT<T>> shapes;
     AabbT<T> box;                // interaction bound
     T speed{};                   // m/s, no point of its shapes is faster

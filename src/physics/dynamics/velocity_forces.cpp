@@ -28,8 +28,9 @@ void leave_out_gyroscopic_torque(const Model& model, RobotWork& work, FreeBuffer
 }  // namespace
 
 void limit_velocity_forces(const Model& model, RobotWork& work, FreeBuffer& buffer) {
-    constexpr double kShare = 0.002;  // of the kinetic energy
-    constexpr double kTurn = 0.5;     // rad
+    constexpr double kShare = 0.002;    // of the kinetic energy
+    constexpr double kTurn = 0.5;       // rad
+    if (work.type->feels_flow) return;  // their forces depend on the velocities, too, and are to stay
     const bool lone = work.type->free_base && work.type->nv == 6;
     const bool turns = lone || fastest_turn(work) * model.dt_s * model.dt_s > kTurn * kTurn;
     if (!turns || !turns_fast<double>(work, model.dt_s)) return;
