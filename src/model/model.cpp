@@ -78,6 +78,7 @@ void add_shape(Hash& hash, const BodyShape& s) {
     for (double x : {s.shape.radius, s.shape.half_length}) hash.add(x);
     add_to_hash(hash, s.material);
     if (s.shape.hull != nullptr) hash.add(s.shape.hull->hash);
+    if (!s.moves) add(hash, 1);
 }
 
 void add_drag(Hash& hash, const LinkDrag& drag) {
@@ -104,6 +105,8 @@ std::uint64_t type_hash(const RobotType& type) {
     for (const LoopJoint& loop : type.loops) add_loop(hash, loop);
     for (const CoordinateCoupling& coupling : type.couplings) add_coupling(hash, coupling);
     for (const OnboardInfo& onboard : type.onboard) add_to_hash(hash, onboard);
+    if (type.kinematic) hash.add(std::string_view("kinematic"));
+    if (!type.scenery.empty()) add(hash, type.scenery.min), add(hash, type.scenery.max);
     return hash.value();
 }
 

@@ -7,5 +7,8 @@
 namespace roboss {
 
 void run(const VelocityControlSpec& spec, OnboardContext& c);
+void run(const TrackControllerSpec& spec, OnboardContext& c);
+void run(const SurfaceVelocitySpec& spec, OnboardContext& c);
+void run(const ActorSpec& spec, OnboardContext& c);
 
 }  // namespace roboss

@@ -11,13 +11,17 @@
 #include <vector>
 
 #include "core/diagnostics.h"
+#include "onboard_kinds/actor.h"
 #include "onboard_kinds/kind.h"
+#include "onboard_kinds/surface_velocity.h"
+#include "onboard_kinds/track_controller.h"
 #include "onboard_kinds/velocity_control.h"
 
 namespace roboss {
 
 /// Parameters of any kind. The order does not count; the number of each kind does.
-using OnboardParameters = std::variant<VelocityControlSpec>;
+using OnboardParameters =
+    std::variant<VelocityControlSpec, TrackControllerSpec, SurfaceVelocitySpec, ActorSpec>;
 
 /// An on-board controller of a model.
 struct OnboardSpec {
@@ -62,6 +66,9 @@ void for_each_onboard_kind(Visit&& visit) {
 std::vector<std::string> joints_named(const OnboardParameters& parameters);
 /// The links that it names, in the order of its parameters.
 std::vector<std::string> links_named(const OnboardParameters& parameters);
+
+/// The links whose surfaces it moves.
+std::vector<std::string> surfaces_moved(const OnboardParameters& parameters);
 
 /// The commands that it takes, in the order in which it counts them.
 std::vector<Channel> channels_of(const OnboardParameters& parameters);

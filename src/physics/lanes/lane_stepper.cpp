@@ -10,7 +10,8 @@ LaneStepper::~LaneStepper() = default;
 bool fits_lanes(const RobotType& type, const RobotState& state) {
     const bool is_lone_body = type.free_base && type.nv == 6;
     return type.nv > 0 && !is_lone_body && !type.has_equalities() && type.drags.empty() &&
-           type.self_pairs.empty() && state.wrenches.empty() && is_driven<double>(state.motors);
+           type.self_pairs.empty() && state.wrenches.empty() && state.surfaces.empty() &&
+           is_driven<double>(state.motors);
 }
 
 std::unique_ptr<LaneStepper> make_lane_stepper(Precision precision, std::size_t most) {
