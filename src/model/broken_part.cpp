@@ -211,6 +211,10 @@ class TypeCheck {
             if (fluid.link.index() >= t_.links.size() || t_.links[fluid.link.index()].body < 0 ||
                 !sensible(fluid.added_mass))
                 return false;
+        if (!t_.scenery.empty() &&
+            (!t_.is_static || !is_finite(t_.scenery.min) || !is_finite(t_.scenery.max)))
+            return false;
+        if (t_.kinematic && (t_.free_base || t_.nv > 0)) return false;
         for (const auto& [a, b] : t_.self_pairs)
             if (!within(a, t_.shapes.size()) || !within(b, t_.shapes.size()) || a == b) return false;
         return true;
@@ -235,7 +239,9 @@ class TypeCheck {
 
 std::string broken_static(const Model& model, const StaticShape& s) {
     if (!sensible(s.shape, true) || !finite(s.X_WS)) return "is impossible";
-    if (!s.robot.valid()) return {};
+    for (const Vec3& v : {s.flow.linear, s.flow.angular, s.flow.belt, s.flow.at})
+        if (!is_finite(v)) return "moves with a velocity that is not finite";
+    if (!s.robot.valid()) return s.driven ? "is moved by a robot that is not there" : "";
     if (s.robot.index() >= model.robots.size()) return "belongs to a robot that is not there";
     return s.link.index() < model.type_of(s.robot).links.size() ? "" : "belongs to a link that is not there";
 }

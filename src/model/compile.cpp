@@ -25,11 +25,30 @@ bool has_sensors(const ModelSpec& spec) {
     });
 }
 
-/// Shapes of a static model; `owner`: the robot that carries its sensors, if any.
-void add_statics(const ModelSpec& spec, const ModelInstance& instance, RobotId owner, ShapeStore& shapes,
-                 Model& model) {
+/// Static models with nothing but surface motions that take no command need no state.
+bool has_controllers(const ModelSpec& spec) {
+    return std::ranges::any_of(spec.onboard,
+                               [](const OnboardSpec& onboard) { return !always_flows(onboard); });
+}
+
+/// How the surface of a static link always moves.
+SurfaceFlow flow_of(const ModelSpec& spec, const LinkSpec& link, const Transform& X_WL) {
+    for (const OnboardSpec& onboard : spec.onboard) {
+        const auto* motion = std::get_if<SurfaceVelocitySpec>(&onboard.parameters);
+        if (motion != nullptr && motion->fixed && motion->link.front() == link.name)
+            return {X_WL.R * motion->linear, X_WL.R * motion->angular, {}, X_WL.p};
+    }
+    return {};
+}
+
+/// Shapes of a static model; `owner`, of type `stand`: the robot that carries its sensors and controllers, if
+/// any.
+void add_statics(const ModelSpec& spec, const ModelInstance& instance, RobotId owner, const RobotType* stand,
+                 ShapeStore& shapes, Model& model) {
     for (std::size_t l = 0; l < spec.links.size(); ++l) {
         const LinkSpec& link = spec.links[l];
+        const SurfaceFlow flow = flow_of(spec, link, to_transform(instance.X_WM * link.X_ML));
+        const bool driven = stand != nullptr && moves_surface(*stand, LinkId(l));
         for (const CollisionSpec& collision : link.collisions) {
             for (const PlacedShape& placed : shapes.shapes_of(collision, true)) {
                 StaticShape shape;
@@ -40,6 +59,8 @@ void add_statics(const ModelSpec& spec, const ModelInstance& instance, RobotId o
                 shape.name = instance.name + "::" + link.name + "::" + collision.name;
                 shape.robot = owner;
                 if (owner.valid()) shape.link = LinkId(l);
+                if (collision.moves) shape.flow = flow;
+                shape.driven = driven && collision.moves && shape.shape.kind != ShapeKind::kPlane;
                 model.statics.push_back(shape);
             }
         }
@@ -64,8 +85,10 @@ std::vector<CompiledPrototype> compile_prototypes(const World& world, ShapeStore
         const std::size_t first = diagnostics.items().size();
         if (!spec.is_static) {
             prototypes[p].parts = compile_parts(spec, around, shapes, diagnostics);
-        } else if (has_sensors(spec)) {
-            prototypes[p].parts = {{sensor_stand(spec), "", Pose{}}};
+        } else if (has_sensors(spec) || has_controllers(spec)) {
+            RobotType stand = stand_of(spec, shapes, diagnostics);
+            if (has_sensors(spec) || !stand.onboard.empty())
+                prototypes[p].parts = {{std::move(stand), "", Pose{}}};
         }
         prototypes[p].left_out = diagnostics.leave_out_since(first);
         if (prototypes[p].left_out) continue;
@@ -80,9 +103,11 @@ void place(const World& world, std::size_t index, const CompiledPrototype& proto
            Model& model) {
     const ModelInstance& instance = world.instances[index];
     const ModelSpec& spec = world.prototypes[instance.prototype];
-    if (spec.is_static)
-        add_statics(spec, instance, prototype.parts.empty() ? RobotId() : RobotId(model.robots.size()),
-                    shapes, model);
+    if (spec.is_static) {
+        const bool stands = !prototype.parts.empty();
+        add_statics(spec, instance, stands ? RobotId(model.robots.size()) : RobotId(),
+                    stands ? &prototype.parts.front().type : nullptr, shapes, model);
+    }
     for (std::size_t p = 0; p < prototype.parts.size(); ++p) {
         const CompiledPart& part = prototype.parts[p];
         model.robots.push_back({instance.name + part.suffix, prototype.types[p], instance.X_WM * part.X_MR,

@@ -36,18 +36,6 @@ Transform between(const Transform& X_MA, const Transform& X_MB) {
     return X_AB;
 }
 
-/// Yet without what it hangs on.
-Link to_link(const LinkSpec& spec, int body, const Transform& X_BL) {
-    Link link;
-    link.name = spec.name;
-    link.body = body;
-    link.X_BL = X_BL;
-    link.p_BC = X_BL * spec.p_LC;
-    link.mass = spec.mass, link.gravity = spec.gravity;
-    link.inertia_C = X_BL.R * spec.inertia_C * transpose(X_BL.R);
-    return link;
-}
-
 /// Builds one RobotType by walking the joint graph from its root.
 class PartBuilder {
   public:
@@ -67,6 +55,7 @@ class PartBuilder {
         type.free_base = !fixed_base;
         type.self_collide = spec_.self_collide;
         type.may_sleep = spec_.may_sleep;
+        type.kinematic = spec_.kinematic && fixed_base;
         body_of_link_.assign(spec_.links.size() + 1, kUnplaced);
         hangs_on_.assign(spec_.links.size() + 1, {});
         X_MB_.clear();
@@ -283,6 +272,7 @@ class PartBuilder {
                 shape.material = to_material(collision.surface);
                 if (!collision.surface.fdir1_link.empty())
                     turned_.emplace_back(part_.type.shapes.size(), collision.surface.fdir1_link);
+                shape.moves = collision.moves;
                 part_.type.shapes.push_back(shape);
             }
         }
@@ -339,21 +329,6 @@ class PartBuilder {
 };
 
 }  // namespace
-
-RobotType sensor_stand(const ModelSpec& spec) {
-    RobotType type;
-    type.name = spec.name;
-    type.free_base = false;
-    type.is_static = true;
-    for (const LinkSpec& link : spec.links) {
-        const LinkId id(type.links.size());
-        const Transform X_BL = to_transform(link.X_ML);
-        type.links.push_back(to_link(link, -1, X_BL));
-        for (const SensorSpec& sensor : link.sensors) type.sensors.push_back({sensor, id});
-    }
-    type.hash = type_hash(type);
-    return type;
-}
 
 void float_all(RobotType& type) {
     for (const BodyShape& shape : type.shapes) {

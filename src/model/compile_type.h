@@ -25,9 +25,13 @@ struct Surroundings {
 std::vector<CompiledPart> compile_parts(const ModelSpec& spec, const Surroundings& around, ShapeStore& shapes,
                                         Diagnostics& diagnostics);
 
-/// The links and sensors of a static model as a type with a fixed base, without shapes: its shapes are
-/// scenery.
-RobotType sensor_stand(const ModelSpec& spec);
+/// The links, sensors and on-board controllers of a static model as a type with a fixed base, without shapes:
+/// its shapes are scenery.
+RobotType stand_of(const ModelSpec& spec, ShapeStore& shapes, Diagnostics& diagnostics);
+/// Whether it is a surface motion that never changes.
+bool always_flows(const OnboardSpec& onboard);
+/// Whether a controller of the type moves the surface of the link.
+bool moves_surface(const RobotType& type, LinkId link);
 
 Material to_material(const SurfaceSpec& surface);
 void add_to_hash(Hash& hash, const Material& material);
@@ -46,6 +50,9 @@ void lay_out_onboard(RobotType& type);
 
 /// Projected areas of the link's shapes along its axes, times their coefficients (m^2).
 Vec3 drag_area(const LinkSpec& link);
+
+/// A link of the file, yet without what it hangs on.
+Link to_link(const LinkSpec& spec, int body, const Transform& X_BL);
 
 /// Adds a link's inertia to its body: common centre of mass, parallel-axis theorem for both.
 void add_mass(Body& body, const Link& link);

@@ -133,6 +133,8 @@ Result<ModelEdit> with_models(const Model& model, const Model& addition, const P
     const Transform X_W = to_transform(X_WA);
     for (StaticShape shape : addition.statics) {
         shape.X_WS = X_W * shape.X_WS;
+        for (Vec3* v : {&shape.flow.linear, &shape.flow.angular, &shape.flow.belt}) *v = X_W.R * *v;
+        shape.flow.at = X_W * shape.flow.at;
         shape.name = name.empty() ? shape.name : name + "::" + shape.name;
         if (shape.robot.valid()) shape.robot = RobotId(first + shape.robot.index());
         changed->statics.push_back(std::move(shape));
@@ -164,7 +166,7 @@ Result<ModelEdit> without_robots(const Model& model, const std::vector<std::stri
     }
     for (StaticShape& shape : changed->statics) {
         if (shape.robot.valid()) shape.robot = now[shape.robot.index()];
-        if (!shape.robot.valid()) shape.link = LinkId();
+        if (!shape.robot.valid()) shape.link = LinkId(), shape.driven = false;
     }
     remove_types(*changed, types_in_use(model));
     remove_unused_shapes(*changed);

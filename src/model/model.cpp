@@ -79,6 +79,7 @@ void add_shape(Hash& hash, const BodyShape& s) {
     add_to_hash(hash, s.material);
     if (s.direction_body >= 0) add(hash, s.direction_body);
     if (s.shape.hull != nullptr) hash.add(s.shape.hull->hash);
+    if (!s.moves) add(hash, 1);
 }
 
 void add_drag(Hash& hash, const LinkDrag& drag) {
@@ -112,6 +113,8 @@ std::uint64_t type_hash(const RobotType& type) {
     for (const LoopJoint& loop : type.loops) add_loop(hash, loop);
     for (const CoordinateCoupling& coupling : type.couplings) add_coupling(hash, coupling);
     for (const OnboardInfo& onboard : type.onboard) add_to_hash(hash, onboard);
+    if (type.kinematic) hash.add(std::string_view("kinematic"));
+    if (!type.scenery.empty()) add(hash, type.scenery.min), add(hash, type.scenery.max);
     return hash.value();
 }
 

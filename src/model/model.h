@@ -21,6 +21,7 @@
 #include "geometry/convex_hull.h"
 #include "geometry/shape.h"
 #include "geometry/triangle_surface.h"
+#include "math/aabb.h"
 #include "math/pose.h"
 #include "model/dof_paths.h"
 #include "world/world.h"
@@ -154,6 +155,19 @@ struct Material {
         category_bitmask = 0xFFFF;            ///< SDF `<category_bitmask>`
 };
 
+/// How the surface of a thing moves along its shape: what touches it is carried along by friction. A point p
+/// of the surface with the outward normal n moves with linear + angular x (p - at) + belt x n.
+struct SurfaceFlow {
+    Vec3 linear,  ///< m/s, world axes
+        angular,  ///< rad/s, world axes
+        belt,     ///< m/s, world axes: speed times the axis that the surface runs around, as a belt does
+        at;       ///< m, world
+    /// Whether it moves at all.
+    bool moves() const { return linear != Vec3{} || angular != Vec3{} || belt != Vec3{}; }
+    /// Compares all members.
+    friend bool operator==(const SurfaceFlow&, const SurfaceFlow&) = default;
+};
+
 /// A collision shape of a robot.
 struct BodyShape {
     Shape shape;        ///< kind and dimensions
@@ -163,6 +177,7 @@ struct BodyShape {
     Material material;  ///< of its surface
     /// Body in whose frame Material::direction_S is (rollers of a mecanum wheel); -1: in the shape's own.
     int direction_body = -1;
+    bool moves = true;  ///< whether it takes part in the surface motion of its link
 };
 
 /// Drag of one link: force = -(density / 2 * |A(u)| |u| + linear) * u at its centre of mass, with u its
@@ -217,9 +232,13 @@ struct ChannelInfo {
 
 /// All that robots of one kind have in common.
 struct RobotType {
-    std::string name;           ///< as ModelSpec::name
-    bool free_base = true;      ///< whether nothing fixes body 0 to the world
-    bool is_static = false;     ///< a static model that carries sensors: no order moves it
+    std::string name;       ///< as ModelSpec::name
+    bool free_base = true;  ///< whether nothing fixes body 0 to the world
+    /// A static model that carries sensors or on-board controllers: no order moves it.
+    bool is_static = false;
+    /// Its base goes where its controller says, whatever touches it. What touches it meets its velocity:
+    /// RobotState::surfaces holds that of all its links.
+    bool kinematic = false;
     bool self_collide = false;  ///< whether its shapes touch each other
     bool may_sleep = true;      ///< whether it may sleep when it is at rest
     /// Free base: body 0's frame in the robot (SDF model) frame at the start; fixed base: identity.
@@ -249,6 +268,8 @@ struct RobotType {
         nv = 0;                                   ///< size of RobotState::v
     double reach = 0;  ///< m, radius of the sphere about the base origin that holds every shape in every pose
     double mass = 0;   ///< kg, of all bodies
+    /// m, base frame: holds the scenery whose surfaces its controllers move; empty: there is none.
+    Aabb scenery;
     std::uint64_t hash = 0;  ///< of the content
 
     /// Velocities of the base: 6 if it is free, else 0.
@@ -283,8 +304,8 @@ struct RobotType {
     std::optional<std::size_t> find_channel(const std::string& wanted) const;
 };
 
-/// Something with a state of its own. A static model that carries sensors is one too, fixed and without
-/// shapes (these are scenery).
+/// Something with a state of its own. A static model that carries sensors or on-board controllers is one too,
+/// fixed and without shapes (these are scenery).
 struct Robot {
     std::string name;  ///< unique in the world
     TypeId type;       ///< in Model::types
@@ -295,12 +316,17 @@ struct Robot {
 
 /// A collision shape of the scenery.
 struct StaticShape {
-    Shape shape;        ///< kind and dimensions
-    Transform X_WS;     ///< shape in the world
-    Material material;  ///< of its surface
-    std::string name;   ///< "model::link::collision"
-    RobotId robot;      ///< of the sensors that its own link carries, if any (they do not see it)
-    LinkId link;        ///< of `robot`, if any
+    Shape shape;          ///< kind and dimensions
+    Transform X_WS;       ///< shape in the world
+    Material material;    ///< of its surface
+    std::string name;     ///< "model::link::collision"
+    RobotId robot;        ///< of the sensors and controllers that its own link carries, if any
+    LinkId link;          ///< of `robot`, if any
+    SurfaceFlow flow;     ///< of its surface, always
+    bool driven = false;  ///< its surface moves as the state of `robot` says of `link`
+
+    /// Whether its surface moves, or may.
+    bool may_flow() const { return driven || flow.moves(); }
 };
 
 /// What the user may trade for speed; part of the Model, so part of its hash.

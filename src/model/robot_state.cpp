@@ -51,6 +51,7 @@ class Teller {
     void id(std::uint32_t i) { word(i); }
     void pair(std::uint32_t a, std::uint32_t b) { word(static_cast<std::uint64_t>(a) << 32 | b); }
     void flagged(std::uint32_t n, bool flag, bool flag_2) { pair(n, (flag ? 1 : 0) | (flag_2 ? 2 : 0)); }
+    void flag(bool on) { word(on ? 1 : 0); }
     template <class Enum>
     void mode(Enum m) {
         word(static_cast<std::uint64_t>(m));
@@ -91,6 +92,11 @@ class Reader {
         pair(n, flags);
         flag = (flags & 1) != 0, flag_2 = (flags & 2) != 0;
         if (flags > 3) fail();
+    }
+    void flag(bool& on) {
+        const std::uint64_t w = word();
+        if (w > 1) return fail();
+        on = w != 0;
     }
     void mode(MotorMode& m) { choose(m, MotorMode::kEffort); }
     void mode(BondPhase& p) { choose(p, BondPhase::kLoosed); }
@@ -152,8 +158,9 @@ void fields(A& a, Of<A, ContactMemory>& contact) {
 
 template <class A>
 void fields(A& a, Of<A, SurfaceMotion>& surface) {
-    auto& [link, linear_L, angular_L] = surface;
-    a.id(link.value), fields(a, linear_L), fields(a, angular_L);
+    auto& [link, linear_L, angular_L, belt_L, turns, centre_W] = surface;
+    a.id(link.value), fields(a, linear_L), fields(a, angular_L), fields(a, belt_L);
+    a.flag(turns), fields(a, centre_W);
 }
 
 template <class A>
@@ -215,6 +222,11 @@ const char* inconsistency_of(const RobotState& state, const RobotType& type, std
     const auto surface_fits = [&](const SurfaceMotion& s) { return s.link.index() < type.links.size(); };
     if (!std::all_of(state.surfaces.begin(), state.surfaces.end(), surface_fits))
         return "moves the surface of a link that does not exist";
+    const auto stays_finite = [](const SurfaceMotion& s) {
+        return is_finite(s.linear_L) && is_finite(s.angular_L) && is_finite(s.belt_L) &&
+               is_finite(s.centre_W);
+    };
+    if (!std::all_of(state.surfaces.begin(), state.surfaces.end(), stays_finite)) return "is not finite";
     const auto bond_fits = [&](const Bond& b) {
         return b.link.index() < type.links.size() && (b.other == RobotId::kNone || b.other < robots);
     };

@@ -71,11 +71,15 @@ struct Rest {
 };
 
 /// How the surface of a link's shapes moves against the link: a conveyor belt, a track, a turntable. What
-/// touches it is carried along by friction.
+/// touches it is carried along by friction. SurfaceFlow says how the parts add up.
 struct SurfaceMotion {
     LinkId link;    ///< whose collision shapes these are
     Vec3 linear_L,  ///< m/s, at the link's origin, link axes
-        angular_L;  ///< rad/s, link axes
+        angular_L,  ///< rad/s, link axes
+        belt_L;     ///< m/s, link axes: speed times the axis that the surface runs around
+    bool turns =
+        false;      ///< the belt's axis points along the line to `centre_W` at each point: tracks that turn
+    Vec3 centre_W;  ///< m, world: what a vehicle on tracks turns about
     /// Compares all members.
     friend bool operator==(const SurfaceMotion&, const SurfaceMotion&) = default;
 };

@@ -51,6 +51,12 @@ std::uint64_t model_hash(const Model& model) {
         add_to_hash(hash, s.material);
         if (s.shape.hull != nullptr) hash.add(s.shape.hull->hash);
         if (s.shape.surface != nullptr) hash.add(s.shape.surface->hash());
+        if (s.flow.moves())
+            for (const Vec3& v : {s.flow.linear, s.flow.angular, s.flow.belt, s.flow.at})
+                hash.add(v.x), hash.add(v.y), hash.add(v.z);
+        if (s.driven)
+            hash.add(static_cast<std::uint64_t>(s.robot.value)),
+                hash.add(static_cast<std::uint64_t>(s.link.value));
     }
     return hash.value();
 }

@@ -41,5 +41,8 @@ void run(const WindEffectsSpec& spec, OnboardContext& c);
 inline void run(const LiftDragSpec&, OnboardContext&) {}
 inline void run(const AdvancedLiftDragSpec&, OnboardContext&) {}
 inline void run(const HydrodynamicsSpec&, OnboardContext&) {}
+void run(const TrackControllerSpec& spec, OnboardContext& c);
+void run(const SurfaceVelocitySpec& spec, OnboardContext& c);
+void run(const ActorSpec& spec, OnboardContext& c);
 
 }  // namespace roboss

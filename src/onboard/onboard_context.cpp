@@ -146,7 +146,7 @@ void OnboardContext::move_surface(const SurfaceMotion& motion) {
     auto& surfaces = state_.surfaces;
     const auto at = std::ranges::lower_bound(surfaces, motion.link, {}, &SurfaceMotion::link);
     const bool known = at != surfaces.end() && at->link == motion.link;
-    const bool still = motion.linear_L == Vec3{} && motion.angular_L == Vec3{};
+    const bool still = motion.linear_L == Vec3{} && motion.angular_L == Vec3{} && motion.belt_L == Vec3{};
     if (known && still)
         surfaces.erase(at);
     else if (known)

@@ -93,6 +93,15 @@ std::vector<std::string> channels_commanded(const OnboardParameters& parameters)
         parameters);
 }
 
+std::vector<std::string> surfaces_moved(const OnboardParameters& parameters) {
+    return std::visit(
+        [](const auto& p) -> std::vector<std::string> {
+            if constexpr (requires { p.surfaces(); }) return p.surfaces();
+            return {};
+        },
+        parameters);
+}
+
 std::vector<double> memory_at_start(const OnboardParameters& parameters) {
     return std::visit(
         [](const auto& p) -> std::vector<double> {

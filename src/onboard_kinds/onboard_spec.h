@@ -12,6 +12,7 @@
 
 #include "core/diagnostics.h"
 #include "onboard_kinds/ackermann_steering.h"
+#include "onboard_kinds/actor.h"
 #include "onboard_kinds/advanced_lift_drag.h"
 #include "onboard_kinds/apply_joint_force.h"
 #include "onboard_kinds/apply_link_wrench.h"
@@ -35,7 +36,9 @@
 #include "onboard_kinds/planar_move.h"
 #include "onboard_kinds/ros_ackermann.h"
 #include "onboard_kinds/ros_diff_drive.h"
+#include "onboard_kinds/surface_velocity.h"
 #include "onboard_kinds/thruster.h"
+#include "onboard_kinds/track_controller.h"
 #include "onboard_kinds/tracked_vehicle.h"
 #include "onboard_kinds/trajectory_follower.h"
 #include "onboard_kinds/velocity_control.h"
@@ -44,7 +47,7 @@
 namespace roboss {
 
 /// Parameters of any kind. The order does not count; the number of each kind does.
-using OnboardParameters = std::variant<VelocityControlSpec, DiffDriveSpec, AckermannSteeringSpec, MecanumDriveSpec, TrackedVehicleSpec, RosDiffDriveSpec, RosSkidSteerSpec, RosAckermannSpec, DriveToPoseSpec, TrajectoryFollowerSpec, ApplyLinkWrenchSpec, PlanarMoveSpec, JointControllerSpec, JointPositionControllerSpec, JointTrajectoryControllerSpec, ApplyJointForceSpec, JointPoseTrajectorySpec, LinearBatterySpec, KineticEnergyMonitorSpec, DetachableJointSpec, GripperSpec, MotorModelSpec, MulticopterControlSpec, LiftDragSpec, AdvancedLiftDragSpec, ThrusterSpec, BuoyancyEngineSpec, HydrodynamicsSpec, WindEffectsSpec>;
+using OnboardParameters = std::variant<VelocityControlSpec, DiffDriveSpec, AckermannSteeringSpec, MecanumDriveSpec, TrackedVehicleSpec, RosDiffDriveSpec, RosSkidSteerSpec, RosAckermannSpec, DriveToPoseSpec, TrajectoryFollowerSpec, ApplyLinkWrenchSpec, PlanarMoveSpec, JointControllerSpec, JointPositionControllerSpec, JointTrajectoryControllerSpec, ApplyJointForceSpec, JointPoseTrajectorySpec, LinearBatterySpec, KineticEnergyMonitorSpec, DetachableJointSpec, GripperSpec, MotorModelSpec, MulticopterControlSpec, LiftDragSpec, AdvancedLiftDragSpec, ThrusterSpec, BuoyancyEngineSpec, HydrodynamicsSpec, WindEffectsSpec, TrackControllerSpec, SurfaceVelocitySpec, ActorSpec>;
 
 /// An on-board controller of a model.
 struct OnboardSpec {
@@ -89,6 +92,9 @@ void for_each_onboard_kind(Visit&& visit) {
 std::vector<std::string> joints_named(const OnboardParameters& parameters);
 /// The links that it names, in the order of its parameters.
 std::vector<std::string> links_named(const OnboardParameters& parameters);
+
+/// The links whose surfaces it moves.
+std::vector<std::string> surfaces_moved(const OnboardParameters& parameters);
 
 /// The commands that it takes, in the order in which it counts them.
 std::vector<Channel> channels_of(const OnboardParameters& parameters);

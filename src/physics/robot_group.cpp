@@ -20,6 +20,7 @@ void place(const Model& model, RobotId id, RobotState& state, RobotWork& work) {
     work.touches_robot = work.pushed = work.held = work.bonded = work.placed = false;
     work.asleep = true;
     work.box = state.rest.bound;
+    work.base = {};
 }
 
 void count_contacts(const Model& model, std::span<const Contact> contacts, StepReport& report) {
@@ -33,6 +34,13 @@ void count_contacts(const Model& model, std::span<const Contact> contacts, StepR
 
 void expire_wrenches(Tick tick, RobotState& state) {
     std::erase_if(state.wrenches, [&](const TimedWrench& w) { return w.until <= tick + 1; });
+}
+
+/// A kinematic robot goes where its velocity leads, whatever it meets.
+void advance_base(const Spatial& velocity, double dt, RobotState& state) {
+    const Pose X = base_pose(state);
+    const Quat q = exponential(velocity.angular * dt) * X.q;
+    set_base_pose(state, {X.p + velocity.linear * dt, normalized(q)});
 }
 
 /// Robots that stand on the same ground have contacts alike; who leans on something too is mostly the only
@@ -108,6 +116,7 @@ void RobotGroup::report() {
         report.placed += work.placed ? 1 : 0;
         if (work.asleep) continue;
         expire_wrenches(call_.tick, *work.state);
+        if (!is_zero(work.base)) advance_base(work.base, call_.model.dt_s, *work.state);
         if (!is_finite(*work.state)) note_not_finite(work, report);
     }
     if (s_.keep_reactions) keep_contact_reports();

@@ -6,6 +6,7 @@
 
 #include "onboard/onboard.h"
 #include "physics/bonds/bond_keeper.h"
+#include "physics/contact/surface_motion.h"
 
 namespace roboss {
 namespace {
@@ -48,17 +49,16 @@ void wake_from(const Model& model, std::span<RobotWork> robots, std::uint32_t fi
 /// A robot it touched is gone, or awake.
 bool lost_a_neighbour(std::span<const RobotWork> robots, const RobotWork& sleeper,
                       const WakeBuffers& buffers) {
-    return std::any_of(sleeper.state->rest.neighbours.begin(), sleeper.state->rest.neighbours.end(),
-                       [&](std::uint32_t id) {
-                           const std::uint32_t i = index_of(robots, buffers, id);
-                           if (i == RobotId::kNone) return true;
-                           return wakes_neighbours(*robots[i].type, robots[i].asleep, robots[i].ordered);
-                       });
+    return std::any_of(
+        sleeper.state->rest.neighbours.begin(), sleeper.state->rest.neighbours.end(), [&](std::uint32_t id) {
+            const std::uint32_t i = index_of(robots, buffers, id);
+            if (i == RobotId::kNone) return true;
+            return wakes_neighbours(*robots[i].type, *robots[i].state, robots[i].asleep, robots[i].ordered);
+        });
 }
 
 Vec3 velocity_at(const RobotWork& robot, int body, const Vec3& p_W) {
-    if (body < 0) return {};
-    const Spatial& v = robot.bodies[static_cast<std::size_t>(body)].velocity;
+    const Spatial& v = body < 0 ? robot.base : robot.bodies[static_cast<std::size_t>(body)].velocity;
     return v.linear + cross(v.angular, p_W - robot.origin);
 }
 
@@ -67,7 +67,7 @@ Vec3 velocity_at(const RobotWork& robot, int body, const Vec3& p_W) {
 bool will_touch(const Model& model, std::span<RobotWork> robots, std::uint32_t awake, std::uint32_t sleeper,
                 ContactFinder& finder, WakeBuffers& buffers) {
     const RobotWork& mover = robots[awake];
-    if (mover.type->nv == 0 && !mover.ordered) return false;
+    if (mover.type->nv == 0 && !mover.ordered && is_zero(mover.base)) return false;
     RobotWork& work = robots[sleeper];
     if (!work.placed) {
         place_robot(model, work.id, *work.state, work);
@@ -150,7 +150,8 @@ bool joints_rest(const RobotWork& work) {
 bool is_at_rest(const RobotWork& work, bool holds) {
     const bool is_held = work.held && (work.pushed || !work.type->free_base || (work.bonded && holds));
     return work.type->may_sleep && is_held && !work.ordered && work.state->wrenches.empty() &&
-           moves_slowly(work) && joints_rest(work) && onboard_rests(*work.type, *work.state);
+           work.state->surfaces.empty() && moves_slowly(work) && joints_rest(work) &&
+           onboard_rests(*work.type, *work.state);
 }
 
 void fall_asleep(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
@@ -183,6 +184,11 @@ void fall_asleep(const Model& model, std::span<RobotWork> robots, std::span<cons
         if (c->robot_b < 0 || c->robot_b == c->robot_a || (c->impulse <= 0 && c->gap > kTouching)) continue;
         add(c->robot_a, c->robot_b);
         add(c->robot_b, c->robot_a);
+    }
+    for (const Contact* c : contacts) {
+        if (c->robot_b >= 0 || (c->impulse <= 0 && c->gap > kTouching)) continue;
+        if (const RobotWork* driver = driver_of(robots, model.statics[c->shape_b]))
+            add(c->robot_a, static_cast<int>(driver - robots.data()));
     }
     for (const std::uint32_t m : members) {
         std::vector<std::uint32_t>& edges = robots[m].state->rest.neighbours;
@@ -222,7 +228,12 @@ void settle_island(const Model& model, std::span<RobotWork> robots, std::span<co
             members, [&](std::uint32_t m) { return robots[m].pushed || !robots[m].type->free_base; }) ||
         std::ranges::any_of(bonds, [](const HeldBond& b) { return b.other == HeldBond::kScenery; });
     const auto enough = static_cast<std::uint32_t>(std::ceil(kRestTime / model.dt_s));
-    bool all = true, any = false;
+    bool all = std::ranges::none_of(contacts,
+                                    [&](const Contact*c) {
+                                        return (c->impulse > 0 || c->gap <= kTouching) &&
+                                               has_motion(model, robots, *c);
+                                    }),
+         any = false;
     for (const std::uint32_t m : members) {
         if (robots[m].type->nv == 0) continue;
         Rest& rest = robots[m].state->rest;

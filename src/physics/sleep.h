@@ -3,7 +3,8 @@
 // A contact island falls asleep as a whole when each of its robots has been at rest for half a second: no
 // point of it faster than 1 mm/s, no joint than 0.01 rad/s (or m/s), something holds it (a contact, a motor,
 // a limit: not a pendulum at its turning point), no timed wrench, and no motor that still works against
-// something (a servo that stands still off its target, drooping or stopped, rests). Its velocities then
+// something (a servo that stands still off its target, drooping or stopped, rests), and nothing that it
+// touches has a surface in motion: what rides on a belt is not at rest. Its velocities then
 // become exactly zero, which takes at most half a microjoule a kilogram. Each sleeper keeps its interaction
 // bound and the robots that it touches (frozen edges).
 //
@@ -24,9 +25,9 @@ namespace roboss {
 inline constexpr double kRestSpeed = 1e-3;  // m/s: no point of a robot at rest is faster
 
 /// Whether a robot so wakes sleepers that it touched. One that is fixed to the world never sleeps; it counts
-/// when ordered.
-inline bool wakes_neighbours(const RobotType& type, bool asleep, bool ordered) {
-    return type.nv == 0 ? ordered : !asleep;
+/// when ordered, and while its surfaces move.
+inline bool wakes_neighbours(const RobotType& type, const RobotState& state, bool asleep, bool ordered) {
+    return type.nv == 0 ? ordered || !state.surfaces.empty() : !asleep;
 }
 
 struct HeldBond;

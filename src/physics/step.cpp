@@ -135,7 +135,8 @@ bool join_neighbours(const Model& model, std::span<const RobotId> robots, std::s
         }
         const auto i = static_cast<std::uint32_t>(found - robots.begin());
         s.joined.unite(sleeper, i);
-        wakes |= wakes_neighbours(model.type_of(*found), states[i]->rest.asleep, s.ordered[i] != 0);
+        wakes |=
+            wakes_neighbours(model.type_of(*found), *states[i], states[i]->rest.asleep, s.ordered[i] != 0);
     }
     return wakes;
 }

@@ -40,6 +40,13 @@ void convert_drag(const Element& link, bool wind, const Import& import, LinkSpec
 std::optional<GeometrySpec> convert_geometry(const Element& geometry, GeometryUse use, const Import& import,
                                              Pose& X);
 
+/// A <roboss:surface_velocity>; `scope` is the prefix of the names in a nested model.
+void convert_surface_velocity(const Element& element, const std::string& scope, const Import& import,
+                              ModelSpec& model);
+/// Whether the collision takes part in the surface motion of its link: all do, unless only some have the
+/// element.
+bool takes_part_in_motion(const Element& collision);
+
 SurfaceSpec convert_surface(const Element& collision, const Import& import);
 std::optional<CollisionSpec> convert_collision(const Element& collision, const Pose& X_LS,
                                                const Import& import);

@@ -1,6 +1,7 @@
 // Plugins and elements of other namespaces.
 #include <cstring>
 
+#include "sdf/actor_conversion.h"
 #include "sdf/conversion.h"
 #include "sdf/known_children.h"
 #include "sdf/plugin_conversion.h"
@@ -20,6 +21,8 @@ bool is_ours_here(const char* parent, const char* name) {
         return is(parent, "link");
     if (is(name, "roboss:joint")) return is(parent, "joint");
     if (is(name, "roboss:motor")) return is(parent, "joint") || is(parent, "axis") || is(parent, "axis2");
+    if (is(name, "roboss:surface_velocity")) return is(parent, "link") || is(parent, "collision");
+    if (is(name, "roboss:actor")) return is(parent, "model");
     if (is(name, "roboss:rolling_friction")) return is(parent, "collision") || is(parent, "surface");
     return false;
 }
@@ -33,23 +36,25 @@ void report_joint(const Element& element, const Import& import) {
     report_unknown_children(element, axes, import.diagnostics());
 }
 
-void report_extension(const Element& element, const Import& import) {
+void convert_extension(const Element& element, const std::string& scope, const Import& import,
+                       ModelSpec& model) {
     const std::string name = element.node.name(), parent = element.node.parent().name();
     if (is_foreign(name)) return report_foreign(element, import.diagnostics());
     if (is_ours_here(parent.c_str(), name.c_str())) {
         if (name == "roboss:motor") report_unknown_children(element, kMotor, import.diagnostics());
         if (name == "roboss:joint") report_joint(element, import);
         if (name == "roboss:gripper") report_unknown_children(element, kGripper, import.diagnostics());
+        if (name == "roboss:surface_velocity") convert_surface_velocity(element, scope, import, model);
+        if (name == "roboss:actor") convert_actor(element, import, model);
         if (name == "roboss:drag") report_unknown_children(element, kDrag, import.diagnostics());
         return;
     }
     import.diagnostics().warning(
         element.where(), "unknown-extension",
         "<" + name + "> in <" + parent + "> is not known and is ignored",
-        "Known: <roboss:sensor>, <roboss:drag> and <roboss:gripper> in a link, <roboss:joint> in a "
-        "joint, <roboss:motor> in a joint "
-        "or axis, "
-        "<roboss:rolling_friction> in a collision or surface.");
+        "Known: <roboss:sensor>, <roboss:drag> and <roboss:gripper> in a link, <roboss:joint> in a joint, "
+        "<roboss:motor> in a joint or axis, <roboss:rolling_friction> in a collision or surface, "
+        "<roboss:surface_velocity> in a link or collision.");
 }
 
 }  // namespace
@@ -68,7 +73,7 @@ void convert_extensions(const Element& parent, const std::string& scope, const I
         } else if (std::strcmp(node.name(), "model") == 0) {
             continue;  // nested models and includes take their own turn
         } else if (std::strchr(node.name(), ':') != nullptr) {
-            report_extension(element, import);
+            convert_extension(element, scope, import, model);
             if (std::strcmp(node.name(), "roboss:gripper") == 0 &&
                 std::strcmp(parent.node.name(), "link") == 0)
                 convert_gripper(element, parent, scope, import, model.onboard);

@@ -19,7 +19,7 @@ Element first_model(const SourceFile& file) {
 bool holds_scenery_only(const SourceFile& file) {
     const pugi::xml_node root = file.root();
     return std::string_view(root.name()) == "sdf" && !first_model(file) && !root.child("world") &&
-           (root.child("light") || root.child("actor"));
+           root.child("light");
 }
 
 namespace {
@@ -30,8 +30,6 @@ void report_no_model(const SourceFile& file, Diagnostics& diagnostics) {
     if (!holds_scenery_only(file)) {
         diagnostics.error(where, "no-model", "the file is included, but holds no <model>",
                           "Include a file with a <model>.");
-    } else if (file.root().child("actor")) {
-        diagnostics.warning(where, "actor", "the file is included and holds an actor; actors are left out");
     } else {
         diagnostics.note(where, "light",
                          "the file is included and holds a light; lights are left out, nothing here is lit");

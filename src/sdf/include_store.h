@@ -46,7 +46,7 @@ class IncludeStore : public SkeletonIncludes {
 /// The first <model> of a file: under the root, or in its first world.
 Element first_model(const SourceFile& file);
 
-/// Whether a file has no model but lights or actors, which are left out.
+/// Whether a file has no model but lights, which are left out.
 bool holds_scenery_only(const SourceFile& file);
 
 }  // namespace roboss::sdf_import

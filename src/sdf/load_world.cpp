@@ -70,7 +70,7 @@ class WorldLoader {
         return file_->root().child("light").attribute("name").as_string("world");
     }
 
-    /// The <world>, or the <sdf> of a file that holds a model only, or lights and actors.
+    /// The <world>, or the <sdf> of a file that holds a model only, or lights only.
     std::optional<Element> find_world() {
         const Element root{file_.get(), file_->root()};
         if (std::string(root.node.name()) != "sdf") {
@@ -93,7 +93,7 @@ class WorldLoader {
         if (first_model(*file_)) return root;
         if (holds_scenery_only(*file_)) {
             diagnostics_.note(root.where(), "no-model",
-                              "the file holds lights or actors only; they are left out, nothing moves",
+                              "the file holds lights only; they are left out, nothing moves",
                               "Include it in a world with models.");
             return root;
         }

@@ -66,14 +66,7 @@ class ModelConverter {
                    (joint.parent == "world" || static_.count(joint.parent) > 0);
         });
         for (const LinkSpec& link : spec_.links) {
-            if (static_.count(link.name) == 0) continue;
-            JointSpec weld;
-            weld.name = link.name + "::static";
-            weld.parent = "world";
-            weld.child = link.name;
-            weld.X_MJ = link.X_ML;
-            weld.where = link.where;
-            spec_.joints.push_back(std::move(weld));
+            if (static_.count(link.name) > 0) weld(link);
         }
         import_.diagnostics().note(spec_.where, "nested-static",
                                    "model '" + spec_.name +
@@ -81,7 +74,25 @@ class ModelConverter {
                                        " of its links are welded to the world");
     }
 
+    /// Links of a kinematic model hang on its base.
+    void fix_kinematic_links() {
+        if (!spec_.kinematic) return;
+        spec_.joints.clear();
+        for (const LinkSpec& link : spec_.links) weld(link);
+    }
+
   private:
+    /// To the world.
+    void weld(const LinkSpec& link) {
+        JointSpec weld;
+        weld.name = link.name + "::static";
+        weld.parent = "world";
+        weld.child = link.name;
+        weld.X_MJ = link.X_ML;
+        weld.where = link.where;
+        spec_.joints.push_back(std::move(weld));
+    }
+
     void convert_nested(const sdf::Model& nested, const Scope& outer) {
         const Element source = read_.source_of(nested.Element());
         const std::size_t first = spec_.links.size();
@@ -121,7 +132,7 @@ class ModelConverter {
         const auto collision_pose = [&](const Element& collision) {
             return pose_of(collision, link.CollisionByName(collision.name()), link);
         };
-        if (!spec_.is_static) convert_inertial(source, collision_pose, import_, spec);
+        if (!spec_.is_static && !spec_.kinematic) convert_inertial(source, collision_pose, import_, spec);
         convert_link_flags(source, spec);
         convert_drag(source, scope.wind, import_, spec);
         for (const auto node : source.node.children()) {
@@ -230,6 +241,7 @@ ModelSpec convert_model(const ReadModel& read, bool is_static, const Import& imp
     ModelConverter converter(read, import, spec);
     converter.convert({read.model(), "", {}, import.reader.boolean(source, "enable_wind", false)});
     converter.fix_static_links();
+    converter.fix_kinematic_links();
     return spec;
 }
 

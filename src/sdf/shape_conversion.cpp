@@ -152,6 +152,7 @@ std::optional<CollisionSpec> convert_collision(const Element& collision, const P
     spec.geometry = *known;
     give_size(spec, import);
     spec.surface = convert_surface(collision, import);
+    spec.moves = takes_part_in_motion(collision);
     return spec;
 }
 

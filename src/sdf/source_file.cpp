@@ -1,6 +1,8 @@
 // Reads XML files and finds the line of a node from its offset in the text.
 #include "sdf/source_file.h"
 
+#include "sdf/actor_conversion.h"
+
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
@@ -90,6 +92,7 @@ bool SourceFile::parse(std::string text, Diagnostics& diagnostics) {
                           "Flatten the file; nested models rarely need more than a few levels.");
         return false;
     }
+    make_models_of_actors(root());
     version_ = parse_version(root().attribute("version").value());
     return true;
 }

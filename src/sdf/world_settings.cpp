@@ -95,10 +95,7 @@ void read_atmosphere(const Element& atmosphere, const Import& import, World& out
 
 void report_other(const Element& element, const Import& import) {
     const std::string name = element.node.name();
-    if (name == "actor") {
-        import.diagnostics().warning(element.where(), "actor",
-                                     "actors are still to come; '" + element.name() + "' is left out");
-    } else if (name == "joint") {
+    if (name == "joint") {
         import.diagnostics().warning(
             element.where(), "world-joint",
             "joints between models of a world are still to come; '" + element.name() + "' is left out",

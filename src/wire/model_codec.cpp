@@ -125,7 +125,11 @@ template <class A> void field(A& a, Of<A, Shape>& m) {
     pointer(a, a.model.hulls, m.hull);
     pointer(a, a.model.surfaces, m.surface);
 }
-template <class A> void field(A& a, Of<A, BodyShape>& m) { fields(a, m.shape, m.body, m.link, m.X_BS, m.material, m.direction_body); }
+template <class A> void field(A& a, Of<A, SurfaceFlow>& m) { fields(a, m.linear, m.angular, m.belt, m.at); }
+template <class A> void field(A& a, Of<A, Aabb>& m) { fields(a, m.min, m.max); }
+template <class A> void field(A& a, Of<A, BodyShape>& m) {
+    fields(a, m.shape, m.body, m.link, m.X_BS, m.material, m.direction_body, m.moves);
+}
 template <class A> void field(A& a, Of<A, LinkDrag>& m) { fields(a, m.link, m.area, m.linear, m.wind); }
 template <class A> void field(A& a, Of<A, LinkFluid>& m) { fields(a, m.link, m.buoyant, m.added_mass); }
 template <class A> void field(A& a, Of<A, FluidLayers>& m) { fields(a, m.heights, m.densities, m.everywhere); }
@@ -146,12 +150,12 @@ template <class A> void field(A& a, Of<A, OnboardInfo>& m) {
     visit_parameters(m.spec.parameters, [&a](const Parameter&, auto& value) { field(a, value); });
 }
 template <class A> void field(A& a, Of<A, RobotType>& m) {
-    fields(a, m.name, m.free_base, m.is_static, m.self_collide, m.may_sleep, m.X_RB, m.bodies, m.dofs, m.dof_parent, m.links, m.joints,
-           m.loops, m.couplings, m.shapes, m.drags, m.fluids, m.self_pairs, m.sensors, m.onboard, m.initial_q, m.nq, m.nv, m.reach, m.mass);
+    fields(a, m.name, m.free_base, m.is_static, m.kinematic, m.self_collide, m.may_sleep, m.X_RB, m.bodies, m.dofs, m.dof_parent, m.links, m.joints,
+           m.loops, m.couplings, m.shapes, m.drags, m.fluids, m.self_pairs, m.sensors, m.onboard, m.initial_q, m.nq, m.nv, m.reach, m.mass, m.scenery);
 }
 template <class A> void field(A& a, Of<A, Robot>& m) { fields(a, m.name, m.type, m.X_WR, m.family); }
 template <class A> void field(A& a, Of<A, StaticShape>& m) {
-    fields(a, m.shape, m.X_WS, m.material, m.name, m.robot, m.link);
+    fields(a, m.shape, m.X_WS, m.material, m.name, m.robot, m.link, m.flow, m.driven);
 }
 template <class A> void field(A& a, Of<A, Accuracy>& m) {
     fields(a, m.tolerance, m.friction_tolerance, m.newton_max, m.friction_max, m.compliance, m.contact_compliance);
@@ -177,16 +181,17 @@ template <class A> void field(A& a, Of<A, Model>& m) {
 [[maybe_unused]] void know_fields(const CoordinateCoupling& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const Material& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15] = m; }
 [[maybe_unused]] void know_fields(const Shape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
-[[maybe_unused]] void know_fields(const BodyShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
+[[maybe_unused]] void know_fields(const BodyShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6] = m; }
+[[maybe_unused]] void know_fields(const SurfaceFlow& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3] = m; }
 [[maybe_unused]] void know_fields(const LinkDrag& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3] = m; }
 [[maybe_unused]] void know_fields(const LinkFluid& m) { [[maybe_unused]] const auto& [f0, f1, f2] = m; }
 [[maybe_unused]] void know_fields(const FluidLayers& m) { [[maybe_unused]] const auto& [f0, f1, f2] = m; }
 [[maybe_unused]] void know_fields(const SensorSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const NoiseSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4] = m; }
 [[maybe_unused]] void know_fields(const SensorInfo& m) { [[maybe_unused]] const auto& [f0, f1] = m; }
-[[maybe_unused]] void know_fields(const RobotType& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17, f18, f19, f20, f21, f22, f23, f24, f25, f26, f27, f28, f29, f30] = m; }
+[[maybe_unused]] void know_fields(const RobotType& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17, f18, f19, f20, f21, f22, f23, f24, f25, f26, f27, f28, f29, f30, f31, f32] = m; }
 [[maybe_unused]] void know_fields(const Robot& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3] = m; }
-[[maybe_unused]] void know_fields(const StaticShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
+[[maybe_unused]] void know_fields(const StaticShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7] = m; }
 [[maybe_unused]] void know_fields(const Accuracy& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const Model& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17] = m; }
 // clang-format on

@@ -98,6 +98,7 @@ struct CollisionSpec {
     GeometrySpec geometry;  ///< shape and dimensions
     Pose X_LS;              ///< shape in link
     SurfaceSpec surface;    ///< friction, bounce and softness
+    bool moves = true;      ///< whether it takes part in the surface motion of its link, if that has one
     SourceLocation where;   ///< of the element
 };
 
@@ -251,6 +252,7 @@ struct ExtensionElement {
 struct ModelSpec {
     std::string name;                          ///< of the first instance; for messages
     bool is_static = false;                    ///< SDF `<static>`: scenery that never moves
+    bool kinematic = false;                    ///< goes where its controller says, whatever touches it
     bool self_collide = false;                 ///< SDF `<self_collide>`: its links touch each other
     bool may_sleep = true;                     ///< SDF allow_auto_disable
     std::string canonical_link;                ///< name of the link that the model frame is fixed to

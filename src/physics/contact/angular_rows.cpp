@@ -47,6 +47,8 @@ void add_angular_row(const Model& model, const Contact& c, const SurfacePair& su
     row.spin.low = -row.spin.high;
     row.roll.coefficient = surface.rolling;
     row.roll.bound = surface.rolling * c.impulse;
+    // Turning about the normal counts; where a surface runs on, only its body can roll against it.
+    row.spin.target = row.spin.position_target = -dot(frame.n, surface.turning);
     rows.angulars.push_back(row);
 }
 

@@ -49,6 +49,10 @@ Aabb coarse_bound(const RobotType& type, const RobotState& state, double dt) {
         const std::vector<double>& v = state.v;
         speed += norm(Vec3{v[3], v[4], v[5]}) + 2.0 * reach * norm(Vec3{v[0], v[1], v[2]});
     }
+    if (type.kinematic) {
+        const Spatial base = base_velocity(type, state);
+        speed += norm(base.linear) + 2.0 * reach * norm(base.angular);
+    }
     const double half = (reach + kBaseMargin + dt * speed) * (1.0 + kRounding) + kRounding;
     const Vec3 origin{state.q[0], state.q[1], state.q[2]};
     Aabb box;

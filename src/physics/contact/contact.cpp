@@ -10,6 +10,7 @@
 #include "core/make_room.h"
 #include "geometry/collide.h"
 #include "physics/bonds/bond_keeper.h"
+#include "physics/contact/surface_motion.h"
 #include "physics/contact/swept_contact.h"
 #include "physics/dynamics/free_course.h"
 
@@ -111,13 +112,17 @@ SurfacePair surface_of(const Model& model, std::span<const RobotWork> robots, co
     const RobotWork& a = robots[static_cast<std::size_t>(contact.robot_a)];
     const Material& of_a = a.type->shapes[contact.shape_a].material;
     const Mat3& R_WA = friction_axes(a, contact.shape_a);
+    SurfacePair pair;
     if (contact.robot_b < 0) {
         const StaticShape& scenery = model.statics[contact.shape_b];
-        return surface_pair(of_a, R_WA, scenery.material, scenery.X_WS.R, contact.normal, -contact.gap);
+        pair = surface_pair(of_a, R_WA, scenery.material, scenery.X_WS.R, contact.normal, -contact.gap);
+    } else {
+        const RobotWork& b = robots[static_cast<std::size_t>(contact.robot_b)];
+        pair = surface_pair(of_a, R_WA, b.type->shapes[contact.shape_b].material,
+                            friction_axes(b, contact.shape_b), contact.normal, -contact.gap);
     }
-    const RobotWork& b = robots[static_cast<std::size_t>(contact.robot_b)];
-    return surface_pair(of_a, R_WA, b.type->shapes[contact.shape_b].material,
-                        friction_axes(b, contact.shape_b), contact.normal, -contact.gap);
+    add_motion(model, robots, contact, pair);
+    return pair;
 }
 
 void ContactFinder::find(const Model& model, std::span<RobotWork> robots, const BondKeeper* bonds,

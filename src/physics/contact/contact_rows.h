@@ -221,6 +221,16 @@ void start_from_load(const ContactT<T>& c, const FrictionEllipse& friction, cons
     row.slip.target_1 = select(loaded, t1, T(0)), row.slip.target_2 = select(loaded, t2, T(0));
 }
 
+/// Where surfaces move, rows hold their velocities against each other and not those of the bodies.
+template <class T>
+void count_surface_motion(const SurfacePair& surface, const ContactFrameT<T>& frame, ContactRowT<T>& row) {
+    if (surface.velocity == Vec3{}) return;
+    const Vec3T<T> v = broadcast<T>(surface.velocity);
+    const T normal = dot(frame.n, v);
+    row.normal.target -= normal, row.normal.position_target -= normal;
+    row.slip.target_1 -= dot(frame.t1, v), row.slip.target_2 -= dot(frame.t2, v);
+}
+
 }  // namespace contact
 
 /// Adds the rows of a contact of `a` with `b` (nullptr: scenery). True if the displacement of this tick needs
@@ -236,6 +246,7 @@ MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const Surfac
     const std::size_t middle = rows.columns.size();
     double inverse_effective_mass = contact::mobility(a);
     T approach = -contact::normal_velocity(a, c.p_W, c.normal);
+    if (surface.velocity != Vec3{}) approach -= dot(c.normal, broadcast<T>(surface.velocity));
     T gravity_n = contact::gravity_along(model, a, c.normal);
     if (b != nullptr) {
         contact::add_columns(*b, -1.0, c.p_W + c.shift_b, frame, rows.columns);
@@ -260,6 +271,7 @@ MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const Surfac
     row.warm_start_max =
         larger(4.0 * c.load, T(contact::kWeights * norm(model.gravity) * dt / inverse_effective_mass));
     contact::start_from_load(c, surface.friction, frame, loaded, compliance, row);
+    contact::count_surface_motion(surface, frame, row);
     return split;
 }
 

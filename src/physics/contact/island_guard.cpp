@@ -58,6 +58,19 @@ double energy_of_soft_contacts(const IslandGuard::Island& island) {
     return energy;
 }
 
+/// J, at most, that surfaces in motion give in the tick: their impulses times their velocities.
+double most_work_of_surfaces(const IslandGuard::Island& island) {
+    double work = 0;
+    for (std::size_t c = 0; c < island.surfaces.size(); ++c) {
+        if (!island.surfaces[c].moves()) continue;
+        const Contact& contact = *island.contacts[c];
+        const Vec3 impulse = contact.normal * contact.impulse + contact.friction;
+        work += std::fabs(dot(impulse, island.surfaces[c].velocity)) +
+                std::fabs(dot(contact.moment, island.surfaces[c].turning));
+    }
+    return work;
+}
+
 }  // namespace
 
 BodySums sum_robots(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
@@ -115,6 +128,7 @@ bool IslandGuard::start(const Model& model, std::span<RobotWork> robots, const I
     origin_ = robots[island.members[0]].origin;
     energy_ = sum_robots(model, robots, island.members, origin_, buffer).energy();
     if (driven) energy_ += most_work_of_motors(model, robots, island);
+    energy_ += most_work_of_surfaces(island);
     if (soft) energy_ += energy_of_soft_contacts(island);
     return true;
 }

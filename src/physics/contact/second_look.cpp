@@ -81,7 +81,7 @@ const Mechanics<double>& SecondLook::moved(const SolvedIsland& island, int robot
     Mechanics<double>& to = moved_[i];
     if (is_moved_[i]) return to;
     is_moved_[i] = 1;
-    to.type = work.type, to.origin = work.origin;
+    to.type = work.type, to.origin = work.origin, to.base = work.base;
     to.bodies = work.bodies, to.axes = work.axes, to.shapes = work.shapes;
     const auto first = static_cast<std::size_t>(island.offsets[i]);
     if (work.type->nv > 0)
@@ -376,7 +376,8 @@ void SecondLook::add_rows(const SolvedIsland& island, IslandRows& rows, std::vec
         const SurfacePair& surface = surfaces.emplace_back(surface_of(island.model, island.robots, c));
         add_contact_row(island.model, c, surface, island.robots, island.offsets, rows);
         ContactRow& row = rows.contacts.back();
-        row.normal.target = row.normal.position_target = -c.gap / island.model.dt_s;
+        row.normal.target = row.normal.position_target =
+            -c.gap / island.model.dt_s - dot(c.normal, surface.velocity);
         row.normal.compliance = row.inverse_effective_mass * new_compliance<double>(island.model.accuracy);
     }
 }

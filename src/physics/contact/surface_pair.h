@@ -34,6 +34,11 @@ struct SurfacePair {
     double restitution = 0, bounce_threshold = 0;
     Softness softness;
     double slop = 0, correction_speed = 0;  // of a rigid contact, m and m/s
+    // Of A's surface against B's, on top of what the bodies move: m/s and rad/s, world axes
+    // (surface_motion.h).
+    Vec3 velocity, turning;
+
+    bool moves() const { return velocity != Vec3{} || turning != Vec3{}; }
 };
 
 bool may_collide(const Material& a, const Material& b);

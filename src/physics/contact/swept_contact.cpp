@@ -60,6 +60,17 @@ bool is_fast(const Course& a, const Course& b, double dt) {
 Course course_of(const Mechanics<double>& robot, std::size_t number) {
     const BodyShape& shape = robot.type->shapes[number];
     const Transform& X = robot.shapes[number].X_WS;
+    if (shape.body < 0 && robot.type->kinematic)
+        return {&shape.shape,
+                X,
+                robot.origin,
+                robot.base.angular,
+                robot.base.linear,
+                {},
+                turning_speed<double>(shape.shape, X.R, robot.base.angular),
+                {},
+                {},
+                {}};
     if (shape.body < 0 || robot.bodies.empty()) return resting_course(shape.shape, X);
     const BodyWork& body = robot.bodies[static_cast<std::size_t>(shape.body)];
     if (turns_freely(robot)) return free_course(robot, number);
@@ -143,9 +154,9 @@ SweptPair sweep(const Course& course, const TriangleSurface& surface, const Tran
 
 bool is_blow(std::span<const RobotWork> robots, const Contact& c, double dt) {
     const auto velocity = [&](int robot, int body) {
-        if (robot < 0 || body < 0) return Vec3{};
+        if (robot < 0) return Vec3{};
         const RobotWork& work = robots[static_cast<std::size_t>(robot)];
-        const Spatial& v = work.bodies[static_cast<std::size_t>(body)].velocity;
+        const Spatial& v = body < 0 ? work.base : work.bodies[static_cast<std::size_t>(body)].velocity;
         return v.linear + cross(v.angular, c.p_W - work.origin);
     };
     const Vec3 v = velocity(c.robot_a, c.body_a) - velocity(c.robot_b, c.body_b);

@@ -19,12 +19,50 @@ void add_wrenches(const RobotType& type, const RobotState& state, double dt, Rob
     }
 }
 
+/// Makes room for the motion of a kinematic robot in the tick.
+void widen_shapes(double dt, RobotWork& work) {
+    const RobotType& type = *work.type;
+    work.box = {};
+    for (std::size_t s = 0; s < work.shapes.size(); ++s) {
+        ShapeWork& w = work.shapes[s];
+        const double radius = bounding_radius(type.shapes[s].shape);
+        const Vec3 v = work.base.linear + cross(work.base.angular, w.X_WS.p - work.origin);
+        const double speed = norm(v) + (std::isfinite(radius) ? norm(work.base.angular) * radius : 0.0);
+        w.margin = kBaseMargin + dt * speed;
+        w.box = bounds(type.shapes[s].shape, w.X_WS).inflated(w.margin);
+        work.speed = std::max(work.speed, speed);
+        work.box.include(w.box);
+    }
+    if (work.shapes.empty()) work.box.include(work.origin);
+}
+
+/// What the robot's scenery reaches; it stands where the base does.
+Aabb scenery_bound(const RobotType& type, const RobotState& state) {
+    const Transform X_W0 = to_transform(base_pose(state));
+    const Aabb& box = type.scenery;
+    Aabb bound;
+    for (int corner = 0; corner < 8; ++corner)
+        bound.include(X_W0 * Vec3{(corner & 1) != 0 ? box.max.x : box.min.x,
+                                  (corner & 2) != 0 ? box.max.y : box.min.y,
+                                  (corner & 4) != 0 ? box.max.z : box.min.z});
+    return bound.inflated(kBaseMargin);
+}
+
 }  // namespace
 
 template void forward_kinematics<double>(const RobotType&, std::span<const double>, Mechanics<double>&);
 template void forward_velocities<double>(const RobotType&, std::span<const double>, Mechanics<double>&);
 template void place_shapes<double>(const RobotType&, double, std::span<const double>, Mechanics<double>&);
 template void compute_mass_matrix<double>(const RobotType&, double, Mechanics<double>&);
+
+Spatial base_velocity(const RobotType& type, const RobotState& state) {
+    if (!type.kinematic || state.surfaces.empty()) return {};
+    const SurfaceMotion& motion = state.surfaces.front();
+    const Transform X_W0 = to_transform(base_pose(state));
+    const Transform X_WL = X_W0 * type.links[motion.link.index()].X_BL;
+    const Vec3 w = X_WL.R * motion.angular_L;
+    return {w, X_WL.R * motion.linear_L + cross(w, X_W0.p - X_WL.p)};
+}
 
 void place_robot(const Model& model, RobotId id, RobotState& state, RobotWork& work) {
     const RobotType& type = model.type_of(id);
@@ -37,6 +75,9 @@ void place_robot(const Model& model, RobotId id, RobotState& state, RobotWork& w
     forward_kinematics<double>(type, state.q, work);
     forward_velocities<double>(type, state.v, work);
     place_shapes<double>(type, model.dt_s, state.q, work);
+    work.base = base_velocity(type, state);
+    if (!is_zero(work.base)) widen_shapes(model.dt_s, work);
+    if (!type.scenery.empty()) work.box.include(scenery_bound(type, state));
     cover_bonds(model, work);
 }
 

@@ -55,6 +55,7 @@ struct Mechanics {
     std::vector<FlowWork> flows;    // as they stand beside the bodies' inertias
     std::vector<ShapeWorkT<T>> shapes;
     AabbT<T> box;                // interaction bound
+    Spatial base;                // velocity of a kinematic base about O; of others zero
     T speed{};                   // m/s, no point of its shapes is faster
     bool touches_robot = false;  // has a contact with another robot or itself
 };
@@ -74,6 +75,12 @@ struct RobotWork : Mechanics<double> {
 /// Everything up to the shapes and the interaction bound, for a robot that is awake; `ordered` is left as it
 /// is.
 void place_robot(const Model& model, RobotId id, RobotState& state, RobotWork& work);
+
+/// Velocity of a kinematic robot about its base's origin, world axes: rad/s, m/s. Zero for others.
+Spatial base_velocity(const RobotType& type, const RobotState& state);
+inline bool is_zero(const Spatial& v) {
+    return v.angular == Vec3{} && v.linear == Vec3{};
+}
 
 /// Parts of it in the order of computing (dynamics.h); `dt` in s.
 template <class T>

@@ -48,6 +48,7 @@ std::optional<std::uint32_t> LaneContacts::only_plane(const Model& model, const 
 }
 
 bool LaneContacts::is_plain(const Model& model, const BodyShape& shape, std::uint32_t i) {
+    if (model.statics[i].may_flow()) return false;
     const Material &a = shape.material, &b = model.statics[i].material;
     const bool directed = (a.direction_S != Vec3{} || b.direction_S != Vec3{}) &&
                           std::min(a.mu, b.mu) != std::min(a.mu2, b.mu2);

@@ -26,7 +26,7 @@ class LaneContacts {
     /// If all the scenery near `box` is one plane: its number.
     std::optional<std::uint32_t> only_plane(const Model& model, const Aabb& box);
     /// Whether lanes know what the materials make of a shape on scenery `i`: no friction axes, torsion,
-    /// rolling.
+    /// rolling, no surface that moves.
     static bool is_plain(const Model& model, const BodyShape& shape, std::uint32_t i);
     /// What they make of it, where it is plain.
     static SurfacePair plain_surface(const Model& model, const BodyShape& shape, std::uint32_t i);
