@@ -7,6 +7,7 @@
 #include <numbers>
 #include <span>
 
+#include "gateway/onboard_json.h"
 #include "physics/dynamics/kinematics.h"
 #include "wire/state_block.h"
 
@@ -218,7 +219,7 @@ std::string Inspector::robot(RobotId robot) {
         sensors.push_back(json_of(sample(robot, s), model.dt_s));
     const auto v = [&](std::size_t k) { return type.free_base ? state.v[k] : 0.0; };
     const Pose X_WR = to_pose(to_transform(base_pose(state)) * inverse(type.X_RB));
-    return Json{{"type", "robot"},
+    Json report{{"type", "robot"},
                 {"scene", scene_->number},
                 {"robot", robot.value},
                 {"tick", tick_},
@@ -229,8 +230,9 @@ std::string Inspector::robot(RobotId robot) {
                 {"joints", std::move(joints)},
                 {"sensors", std::move(sensors)},
                 {"contacts", contacts_json(robot, states_, model.dt_s)},
-                {"all_contacts", complete()}}
-        .dump();
+                {"all_contacts", complete()}};
+    add_onboard(model, robot, states_, report);
+    return report.dump();
 }
 
 std::string Inspector::contacts() {

@@ -99,6 +99,52 @@ TEST_F(InspectorTest, TellsOfARobotWhatAClientReads) {
     EXPECT_NEAR(robot["sensors"][3]["distance"], 0.025, 1e-12);
 }
 
+TEST_F(InspectorTest, TellsOfCommandsSurfacesAndBondsWhereThereAreSome) {
+    auto acting = std::make_shared<Model>(*model);
+    RobotType& type = acting->types[0];
+    OnboardInfo onboard;
+    onboard.spec.parameters = VelocityControlSpec{};
+    type.onboard.push_back(onboard);
+    type.channels.resize(2);
+    type.channels[0].channel = {"cmd_vel", "", {{"linear", "m/s"}, {"angular", "rad/s"}}, false};
+    type.channels[1].channel = {"path", "", {{"x", "m"}, {"y", "m"}}, true};
+    type.channels[1].index = 3, type.channels[1].list_index = 0;
+    type.onboard_size = 4, type.list_count = 1;
+    for (RobotState& state : states) {
+        state.onboard = {12, 0.5, -1, -1};
+        state.lists = {{}};
+    }
+    states[1].onboard[3] = 30;
+    states[1].lists = {{1, 2, 3, 4}};
+    states[1].surfaces = {{LinkId(1u), {0.3, 0, 0}, {0, 0, 2}}};
+    Bond bond;
+    bond.link = LinkId(1u), bond.other = 0;
+    bond.max_force = 50, bond.max_torque = std::numeric_limits<double>::infinity();
+    bond.force_impulse = Vec3{0, 3, 4} * model->dt_s;
+    states[1].bonds = {bond};
+    scene = std::make_shared<const ShownScene>(ShownScene{11, acting, scene->file, ViewLayout(*acting)});
+    inspector.begin(scene);
+    inspector.take(block({0, 1}, 40));
+    ASSERT_TRUE(inspector.complete());
+    const Json held = Json::parse(inspector.robot(RobotId(0u)));
+    const Json holder = Json::parse(inspector.robot(RobotId(1u)));
+    EXPECT_EQ(held["channels"][0], Json({{"tick", 12}, {"values", {0.5, -1}}}));
+    EXPECT_EQ(held["channels"][1], Json({{"tick", -1}, {"values", Json::array()}}));
+    EXPECT_EQ(holder["channels"][1], Json({{"tick", 30}, {"values", {1, 2, 3, 4}}})) << "row by row";
+    EXPECT_FALSE(held.contains("surfaces"));
+    EXPECT_EQ(holder["surfaces"][0]["link"], 1);
+    EXPECT_EQ(holder["surfaces"][0]["linear"], Json({0.3, 0, 0}));
+    EXPECT_EQ(holder["surfaces"][0]["angular"], Json({0, 0, 2}));
+    ASSERT_EQ(holder["bonds"].size(), 1u);
+    EXPECT_EQ(holder["bonds"][0]["other"], 0);
+    EXPECT_NEAR(holder["bonds"][0]["force"], 5, 1e-12);
+    EXPECT_EQ(holder["bonds"][0]["max_force"], 50);
+    EXPECT_TRUE(holder["bonds"][0]["max_torque"].is_null()) << "it never lets go: JSON has no infinity";
+    EXPECT_FALSE(held.contains("bonds"));
+    EXPECT_EQ(held["held_by"][0]["other"], 1);
+    EXPECT_EQ(held["held_by"][0]["other_link"], 1) << "of the holder";
+}
+
 TEST_F(InspectorTest, SensorsWithARateAreReadNoOftenerAndShowWhatTheyHold) {
     auto slow = std::make_shared<Model>(*model);
     slow->types[0].sensors[1].spec.update_rate_hz = 1 / (10 * model->dt_s);  // the GPS: each tenth tick

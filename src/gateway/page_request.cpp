@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -51,6 +52,11 @@ class Fields {
         if (values.size() != count) fail(name, "a list of " + std::to_string(count) + " finite numbers");
         values.resize(count);
         return values;
+    }
+    std::vector<double> numbers(const char* name) {
+        const Json* list = find(name);
+        if (list != nullptr && list->is_array()) return numbers(name, list->size());
+        return fail(name, "a list of finite numbers"), std::vector<double>();
     }
     Vec3 vec3(const char* name) {
         const std::vector<double> v = numbers(name, 3);
@@ -105,6 +111,25 @@ SetJoint joint_of(Fields& fields) {
     return fields.fail("mode", "passive, velocity, position or effort"), joint;
 }
 
+PageCommand command_of(Fields& fields) {
+    PageCommand command;
+    command.name = fields.text("name");
+    command.values = fields.numbers("values");
+    return command;
+}
+
+Attach attach_of(Fields& fields) {
+    const double unlimited = std::numeric_limits<double>::infinity();
+    Attach attach;
+    attach.link = LinkId(fields.index("link", 0u));
+    attach.other = RobotId(fields.index("other"));
+    attach.other_link = LinkId(fields.index("other_link", 0u));
+    attach.reach = fields.number("reach", attach.reach);
+    attach.max_force = fields.number("max_force", unlimited);
+    attach.max_torque = fields.number("max_torque", unlimited);
+    return attach;
+}
+
 PageOrder order_of(Fields& fields) {
     PageOrder order;
     order.robot = RobotId(fields.index("robot"));
@@ -118,8 +143,14 @@ PageOrder order_of(Fields& fields) {
                                   fields.vec3("torque"), fields.number("duration", 0.1)};
     } else if (action == "joint") {
         order.action = joint_of(fields);
+    } else if (action == "command") {
+        order.action = command_of(fields);
+    } else if (action == "attach") {
+        order.action = attach_of(fields);
+    } else if (action == "detach") {
+        order.action = Detach{RobotId(fields.index("other", RobotId::kNone))};
     } else {
-        fields.fail("action", "pose, velocity, wrench or joint");
+        fields.fail("action", "pose, velocity, wrench, joint, command, attach or detach");
     }
     return order;
 }

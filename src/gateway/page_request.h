@@ -22,9 +22,14 @@ struct PageWrench {
     Vec3 force, torque;
     double duration_s = 0.1;
 };
+/// A command as pages give it: its channel by name.
+struct PageCommand {
+    std::string name;
+    std::vector<double> values;
+};
 struct PageOrder {
     RobotId robot;
-    std::variant<SetPose, SetVelocity, PageWrench, SetJoint> action;
+    std::variant<SetPose, SetVelocity, PageWrench, SetJoint, PageCommand, Attach, Detach> action;
 };
 struct PageWatch {
     std::vector<RobotId> robots;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 namespace roboss {
@@ -30,6 +31,29 @@ TEST(PageRequest, UnderstandsEveryKindOfOrder) {
               (Vec3{0, 0, 2}));
 }
 
+TEST(PageRequest, UnderstandsCommandsAndBonds) {
+    const auto order = [](const std::string& rest) {
+        Result<PageRequest> request = parse_page_request(R"({"type":"order","id":6,"robot":7,)" + rest + "}");
+        EXPECT_TRUE(request.ok()) << request.error().text();
+        return std::get<PageOrder>(request.value().what);
+    };
+    const PageOrder drive = order(R"("action":"command","name":"cmd_vel","values":[1,0.5])");
+    EXPECT_EQ(std::get<PageCommand>(drive.action).name, "cmd_vel");
+    EXPECT_EQ(std::get<PageCommand>(drive.action).values, (std::vector<double>{1, 0.5}));
+    const PageOrder empty = order(R"("action":"command","name":"path","values":[])");
+    EXPECT_TRUE(std::get<PageCommand>(empty.action).values.empty()) << "a list without rows";
+    const Attach grip = std::get<Attach>(
+        order(R"("action":"attach","link":2,"other":4,"other_link":1,"reach":0.2,"max_force":50)").action);
+    EXPECT_EQ(grip.link, LinkId(2u));
+    EXPECT_EQ(grip.other, RobotId(4u));
+    EXPECT_EQ(grip.other_link, LinkId(1u));
+    EXPECT_EQ(grip.reach, 0.2);
+    EXPECT_EQ(grip.max_force, 50);
+    EXPECT_TRUE(std::isinf(grip.max_torque)) << "not given: it never lets go";
+    EXPECT_EQ(std::get<Detach>(order(R"("action":"detach","other":4)").action).other, RobotId(4u));
+    EXPECT_FALSE(std::get<Detach>(order(R"("action":"detach")").action).other.valid()) << "of all";
+}
+
 TEST(PageRequest, UnderstandsWatchesAndBoundsTheirRate) {
     const auto request =
         parse_page_request(R"({"type":"watch","robots":[3,9],"overlays":["contacts","new"],"rate":500})");
@@ -54,6 +78,12 @@ TEST(PageRequest, RefusesWhatIsWrongByName) {
         {R"({"type":"order","robot":1,"action":"pose","pose":[0,0,0,0,0,0,0]})", "\"pose\""},
         {R"({"type":"order","robot":1,"action":"pose","pose":[0,0,"a",1,0,0,0]})", "\"pose\""},
         {R"({"type":"order","robot":1,"action":"joint","joint":0,"mode":"magic"})", "\"mode\""},
+        {R"({"type":"order","robot":1,"action":"command","values":[1]})", "\"name\""},
+        {R"({"type":"order","robot":1,"action":"command","name":"a"})", "\"values\""},
+        {R"({"type":"order","robot":1,"action":"command","name":"a","values":[1,null]})", "\"values\""},
+        {R"({"type":"order","robot":1,"action":"attach"})", "\"other\""},
+        {R"({"type":"order","robot":1,"action":"attach","other":2,"max_force":"much"})", "\"max_force\""},
+        {R"({"type":"order","robot":1,"action":"detach","other":-1})", "\"other\""},
         {R"({"type":"watch","robots":[1,2,3,4,5,6,7,8,9]})", "\"robots\""},
         {R"({"type":"watch","rate":-3})", "\"rate\""},
         {R"({"a":[[[[[[[[[1]]]]]]]]]})", ""},

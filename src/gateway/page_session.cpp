@@ -14,7 +14,7 @@ namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 
 constexpr std::size_t kLinesMissAt = 8, kLinesMax = 4'000;
-constexpr std::int64_t kSilent_s = 30;
+constexpr std::int64_t kSilent_s = 30, kExtrasEvery_ms = 100;
 
 }  // namespace
 
@@ -94,6 +94,7 @@ void PageSession::take(const std::string& text) {
         core_.watch_changed();
     } else if (std::holds_alternative<PageWhole>(request.value().what)) {
         shelf_.whole = true;
+        shelf_.extras = 0;
         show_state();
     } else {
         core_.call(*this, std::move(request).value());
@@ -138,6 +139,15 @@ bool PageSession::state_due() {
     return false;
 }
 
+/// Surfaces and bonds have changed, and it is not too early to say so; they go out before the next State.
+bool PageSession::extras_due() {
+    const std::uint64_t serial = core_.book().extras_serial();
+    if (!state_wanted_ || shelf_.extras == serial || steady_ms() - extras_ms_ < kExtrasEvery_ms) return false;
+    shelf_.extras = serial;
+    extras_ms_ = steady_ms();
+    return true;
+}
+
 void PageSession::write_next() {
     if (!open_ || writing_) return;
     const auto done = [self = shared_from_this()](beast::error_code error, std::size_t bytes) {
@@ -149,6 +159,7 @@ void PageSession::write_next() {
                                                                      : "it disconnected: " + error.message());
         self->write_next();
     };
+    if (lines_.empty() && extras_due()) lines_.push_back(core_.extras_line());
     if (!lines_.empty()) {
         line_under_way_ = std::move(lines_.front());
         lines_.pop_front();

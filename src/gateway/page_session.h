@@ -46,6 +46,7 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
     void write_next();
     void end(const std::string& why);
     bool state_due();
+    bool extras_due();
 
     boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
     ServerCore& core_;
@@ -61,7 +62,7 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
     std::string line_under_way_;
     std::vector<std::uint8_t> state_under_way_;
     ViewStateCache::Shelf shelf_;
-    std::int64_t state_ms_ = 0;
+    std::int64_t state_ms_ = 0, extras_ms_ = 0;
     std::uint64_t sent_bytes_ = 0;
 };
 

@@ -82,6 +82,13 @@ void append(Json& o, const RunStatus& s) {
     for (const MemberStatus& member : s.members) o["members"].push_back(json_of(member));
 }
 
+/// To a millionth: floats have many digits, and nobody sees them.
+Json json_of(const std::array<float, 3>& v) {
+    Json list = Json::array();
+    for (const float x : v) list.push_back(std::isfinite(x) ? std::round(1e6 * double{x}) / 1e6 : 0.0);
+    return list;
+}
+
 }  // namespace
 
 std::string status_json(const RunStatus& status) {
@@ -96,6 +103,27 @@ std::string status_line(const RunStatus& status, double real_time_factor) {
     append(o, status);
     o["rtf"] = std::round(1e3 * real_time_factor) / 1e3;
     return text_of(o, -1);
+}
+
+std::string extras_line(const ViewExtras& extras, Tick tick, std::uint32_t scene) {
+    Json surfaces = Json::array(), bonds = Json::array();
+    for (const ViewSurface& s : extras.surfaces)
+        surfaces.push_back({{"robot", s.robot.value},
+                            {"link", s.link.value},
+                            {"linear", json_of(s.linear_L)},
+                            {"angular", json_of(s.angular_L)},
+                            {"belt", json_of(s.belt_L)}});
+    for (const ViewBond& b : extras.bonds)
+        bonds.push_back({{"robot", b.holder.value},
+                         {"link", b.link.value},
+                         {"other", b.other.value},
+                         {"other_link", b.other_link.value}});
+    return text_of({{"type", "extras"},
+                    {"scene", scene},
+                    {"tick", tick},
+                    {"surfaces", std::move(surfaces)},
+                    {"bonds", std::move(bonds)}},
+                   -1);
 }
 
 std::string groups_json(const RobotGroups& groups) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "wire/control.h"
+#include "wire/view_extras.h"
 
 namespace roboss {
 
@@ -13,6 +14,8 @@ std::string status_json(const RunStatus& status);
 /// The line that pages get twice a second (docs/viewer-protocol.md). real_time_factor: simulated seconds per
 /// real second lately.
 std::string status_line(const RunStatus& status, double real_time_factor);
+/// The line with surfaces in motion and bonds (docs/viewer-protocol.md).
+std::string extras_line(const ViewExtras& extras, Tick tick, std::uint32_t scene);
 std::string groups_json(const RobotGroups& groups);
 std::string bounds_json(const RobotBounds& bounds);
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "client/control_text.h"
+#include "gateway/page_order.h"
 #include "gateway/run_json.h"
 
 namespace roboss {
@@ -256,18 +257,7 @@ void RunWatcher::order(Bus& bus, const PageCall& call, const PageOrder& wanted) 
         client_ = std::make_unique<BusClient>(scene_->model, new_address_(), options);
         sequence_ = 0;
     }
-    Result<> given = Error{"", ""};
-    if (const auto* wrench = std::get_if<PageWrench>(&wanted.action)) {
-        given = client_->apply_wrench(wanted.robot, wrench->link, wrench->force, wrench->torque,
-                                      wrench->duration_s);
-    } else {
-        std::visit(
-            [&](const auto& action) {
-                if constexpr (!std::is_same_v<std::decay_t<decltype(action)>, PageWrench>)
-                    given = client_->order(wanted.robot, action);
-            },
-            wanted.action);
-    }
+    const Result<> given = give(*client_, wanted);
     if (!given) return answer(call.page, call.id, ControlRefused(given.error()));
     orders_.push_back({call.page, ++sequence_, call.id});
     client_->send(bus, tick_);

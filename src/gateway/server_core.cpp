@@ -7,6 +7,7 @@
 #include "core/thread_cpu.h"
 #include "gateway/http_session.h"
 #include "gateway/page_session.h"
+#include "gateway/run_json.h"
 #include "gateway/server_core_session.h"
 #include "wire/viewer_protocol.h"
 
@@ -183,6 +184,10 @@ std::string ServerCore::hello() const {
                                  {"rate", viewer_protocol::kRateMax},
                                  {"program", options_.program}};
     return hello.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string ServerCore::extras_line() const {
+    return roboss::extras_line(order_log_.extras(), order_log_.tick(), scene_ ? scene_->number : 0);
 }
 
 void ServerCore::take_news() {

@@ -41,6 +41,8 @@ class ServerCore {
     const std::shared_ptr<const ShownScene>& scene() const { return scene_; }
     const ViewStateCache& book() const { return order_log_; }
     std::string hello() const;
+    /// The line with surfaces in motion and bonds.
+    std::string extras_line() const;
     std::uint64_t next_page() { return ++last_page_; }
     /// False: there are too many.
     bool admit(const std::shared_ptr<PageSession>& page);

@@ -51,6 +51,7 @@ bool ViewStateCache::take(const ViewStates& views, std::int64_t now_ms) {
         tick_ = views.tick;
     }
     taken_ms_ = now_ms;
+    renewed_.assign(stamps_.size(), 0);
     std::size_t offset = 0;
     while (const std::optional<RobotId> robot = scene_->layout.entry_at(views.entries, offset)) {
         const std::size_t r = robot->index(), size = scene_->layout.bytes_of(*robot);
@@ -58,11 +59,34 @@ bool ViewStateCache::take(const ViewStates& views, std::int64_t now_ms) {
             heard_ += stamps_[r] == 0 ? 1 : 0;
             at_newest_ += stamp == newest_ && stamps_[r] != stamp ? 1 : 0;
             stamps_[r] = stamp;
+            renewed_[r] = 1;
             std::memcpy(entries_.data() + offsets_[r], views.entries.data() + offset, size);
         }
         offset += size;
     }
+    take_extras(views.extras);
     return true;
+}
+
+/// Of the robots renewed what `extras` says, of the others what was known.
+void ViewStateCache::take_extras(const ViewExtras& extras) {
+    if (extras_ == extras) return;
+    const auto renewed = [&](RobotId robot) {
+        return robot.index() < renewed_.size() && renewed_[robot.index()] != 0;
+    };
+    const auto merged = [&](auto known, const auto& now, auto member) {
+        std::erase_if(known, [&](const auto& item) { return renewed(item.*member); });
+        for (const auto& item : now)
+            if (renewed(item.*member)) known.push_back(item);
+        std::stable_sort(known.begin(), known.end(),
+                         [&](const auto& a, const auto& b) { return a.*member < b.*member; });
+        return known;
+    };
+    ViewExtras next{merged(extras_.surfaces, extras.surfaces, &ViewSurface::robot),
+                    merged(extras_.bonds, extras.bonds, &ViewBond::holder)};
+    if (next == extras_) return;
+    extras_ = std::move(next);
+    ++extras_serial_;
 }
 
 std::vector<std::uint8_t> ViewStateCache::message(Shelf& shelf) const {

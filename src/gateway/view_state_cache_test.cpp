@@ -26,7 +26,7 @@ class ViewStateCacheTest : public testing::Test {
     }
     /// Views of these cars, `x` to the side.
     ViewStates views(std::uint64_t serial, Tick tick, std::vector<std::uint32_t> cars, double x) const {
-        ViewStates views{model->hash, 1, serial, tick, {}};
+        ViewStates views{model->hash, 1, serial, tick, {}, {}};
         for (const std::uint32_t car : cars) {
             RobotState state = initial_state(*model, RobotId(car));
             state.q[0] += x;
@@ -94,6 +94,32 @@ TEST_F(ViewStateCacheTest, AWorldThatRestsSaysSo) {
     EXPECT_EQ(book.message(shelf)[1] & viewer_protocol::kFlagRest, 0);
     book.take(views(2, 20, {0, 1, 2}, 0), 1000);
     EXPECT_NE(book.message(shelf)[1] & viewer_protocol::kFlagRest, 0);
+}
+
+TEST_F(ViewStateCacheTest, ExtrasAreThoseThatEachRobotHadLast) {
+    const auto surface = [](std::uint32_t robot, float speed) {
+        return ViewSurface{RobotId(robot), LinkId(0u), {speed, 0, 0}, {}, {}};
+    };
+    book.take(views(1, 10, {0, 1, 2}, 0), 0);
+    EXPECT_EQ(book.extras_serial(), 0u) << "nobody has any";
+    ViewStates first = views(2, 20, {0, 1}, 0), second = views(2, 20, {2}, 0);
+    first.extras.surfaces = {surface(1, 0.5F)};
+    second.extras.surfaces = {surface(2, 1)};
+    second.extras.bonds = {{RobotId(2u), LinkId(0u), RobotId(0u), LinkId(0u)}};
+    book.take(second, 0), book.take(first, 0);
+    EXPECT_EQ(book.extras().surfaces, (std::vector{surface(1, 0.5F), surface(2, 1)})) << "by robot";
+    EXPECT_EQ(book.extras().bonds, second.extras.bonds);
+    const std::uint64_t serial = book.extras_serial();
+    first.serial = second.serial = 3;
+    book.take(first, 30), book.take(second, 30);
+    EXPECT_EQ(book.extras_serial(), serial) << "as before";
+    ViewStates late = views(1, 10, {2}, 0);
+    book.take(late, 40);
+    EXPECT_EQ(book.extras_serial(), serial) << "what comes late changes nothing";
+    book.take(views(4, 40, {2}, 0), 50);
+    EXPECT_EQ(book.extras().surfaces, std::vector{surface(1, 0.5F)}) << "robot 2 stopped";
+    EXPECT_TRUE(book.extras().bonds.empty()) << "and let go";
+    EXPECT_NE(book.extras_serial(), serial);
 }
 
 TEST_F(ViewStateCacheTest, DamagedViewsAndThoseOfAnotherModelAreLeftOut) {

@@ -47,6 +47,7 @@ class SceneMaker {
         }
         for (const World* world : worlds_) add_world_statics(*world);
         add_other_statics();
+        for (const StaticShape& from : model_.statics) add_flow(from);
         scene_.meshes = shapes_.take_meshes();
         scene_.textures = shapes_.take_textures();
         return std::move(scene_);
@@ -138,6 +139,22 @@ class SceneMaker {
             shape.frame = to_pose(from.X_WS);
             shape.rgb = from.shape.kind == ShapeKind::kPlane ? kGround : kScenery;
             scene_.statics.push_back(std::move(shape));
+        }
+    }
+
+    /// Scenery whose surface moves, where the Model knows such scenery.
+    template <class Static>
+    void add_flow(const Static& from) {
+        if constexpr (requires { from.flow.moves(), from.driven; }) {
+            if (!from.may_flow()) return;
+            SceneFlow flow;
+            flow.shape = shapes_.shape_of(from.shape);
+            flow.shape.name = from.name;
+            flow.shape.frame = to_pose(from.X_WS);
+            flow.linear = from.flow.linear, flow.angular = from.flow.angular;
+            flow.belt = from.flow.belt, flow.at = from.flow.at;
+            if (from.driven) flow.robot = from.robot, flow.link = from.link;
+            scene_.flows.push_back(std::move(flow));
         }
     }
 

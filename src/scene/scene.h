@@ -58,10 +58,19 @@ struct SceneType {
     std::vector<SceneLink> links;  // by LinkId of the RobotType
 };
 
+/// A shape of the scenery whose surface moves, or may: drawn over the scenery, as what moves.
+struct SceneFlow {
+    SceneShape shape;
+    Vec3 linear, angular, belt, at;  // as SurfaceFlow of the model, world axes: always
+    RobotId robot;                   // valid: it moves as the state of this robot says ...
+    LinkId link;                     // ... of this link
+};
+
 struct Scene {
     std::vector<SceneType> types;
     std::vector<std::size_t> robots;  // by RobotId: place in `types`
     std::vector<SceneShape> statics;
+    std::vector<SceneFlow> flows;
     std::vector<SceneMesh> meshes;
     std::vector<SceneTexture> textures;
 };

@@ -95,6 +95,20 @@ Json json_of(const std::vector<SceneShape>& shapes, const Scene& scene) {
     return list;
 }
 
+Json json_of(const SceneFlow& flow, const Scene& scene) {
+    Json o{{"shape", json_of(flow.shape, scene)}};
+    if (flow.robot.valid()) {
+        o["robot"] = flow.robot.value;
+        o["link"] = flow.link.value;
+        return o;
+    }
+    o["linear"] = json_of(flow.linear);
+    o["angular"] = json_of(flow.angular);
+    o["belt"] = json_of(flow.belt);
+    o["at"] = json_of(flow.at);
+    return o;
+}
+
 /// How the page interpolates a body's coordinates.
 const char* course_of(const JointTraits& joint) {
     return joint.is_quaternion ? "quaternion" : joint.is_periodic ? "circle" : "line";
@@ -177,6 +191,13 @@ Json json_of(const SensorInfo& sensor) {
     return o;
 }
 
+Json json_of(const ChannelInfo& info) {
+    Json values = Json::array();
+    for (const ChannelValue& value : info.channel.values)
+        values.push_back({{"name", value.name}, {"unit", value.unit}});
+    return {{"name", info.channel.name}, {"list", info.channel.is_list}, {"values", std::move(values)}};
+}
+
 Json json_of(const SceneType& scene_type, const Scene& scene, const Model& model) {
     const RobotType& type = model.types[scene_type.type.index()];
     Json bodies = Json::array(), links = Json::array(), joints = Json::array(), sensors = Json::array();
@@ -191,16 +212,18 @@ Json json_of(const SceneType& scene_type, const Scene& scene, const Model& model
     }
     for (const Joint& joint : type.joints) joints.push_back(json_of(type, joint));
     for (const SensorInfo& sensor : type.sensors) sensors.push_back(json_of(sensor));
-    return {{"name", type.name},
-            {"free_base", type.free_base},
-            {"mass", tidy(type.mass)},
-            {"reach", bound_of(type.reach)},
-            {"origin", json_of(inverse(type.X_RB))},
-            {"ranges", view_ranges(type)},
-            {"bodies", std::move(bodies)},
-            {"links", std::move(links)},
-            {"joints", std::move(joints)},
-            {"sensors", std::move(sensors)}};
+    Json o{{"name", type.name},
+           {"free_base", type.free_base},
+           {"mass", tidy(type.mass)},
+           {"reach", bound_of(type.reach)},
+           {"origin", json_of(inverse(type.X_RB))},
+           {"ranges", view_ranges(type)},
+           {"bodies", std::move(bodies)},
+           {"links", std::move(links)},
+           {"joints", std::move(joints)},
+           {"sensors", std::move(sensors)}};
+    for (const ChannelInfo& info : type.channels) o["channels"].push_back(json_of(info));
+    return o;
 }
 
 std::vector<std::uint8_t> bytes_of(const SceneMesh& mesh) {
@@ -234,14 +257,15 @@ SceneFile scene_file(const Scene& scene, const Model& model, std::uint64_t seed)
     for (const SceneType& type : scene.types) types.push_back(json_of(type, scene, model));
     for (std::size_t r = 0; r < model.robots.size(); ++r)
         robots.push_back({{"name", model.robots[r].name}, {"type", scene.robots[r]}});
-    const Json o{{"world", model.name},
-                 {"dt", model.dt_s},
-                 {"gravity", json_of(model.gravity)},
-                 {"seed", seed},
-                 {"types", std::move(types)},
-                 {"robots", std::move(robots)},
-                 {"statics", json_of(scene.statics, scene)},
-                 {"groups_max", kGroupsMax}};
+    Json o{{"world", model.name},
+           {"dt", model.dt_s},
+           {"gravity", json_of(model.gravity)},
+           {"seed", seed},
+           {"types", std::move(types)},
+           {"robots", std::move(robots)},
+           {"statics", json_of(scene.statics, scene)},
+           {"groups_max", kGroupsMax}};
+    for (const SceneFlow& flow : scene.flows) o["flows"].push_back(json_of(flow, scene));
     SceneFile file{model.hash, seed, o.dump(-1, ' ', false, Json::error_handler_t::replace), {}, {}};
     for (const SceneMesh& mesh : scene.meshes) file.meshes.push_back(bytes_of(mesh));
     for (const SceneTexture& texture : scene.textures)

@@ -184,6 +184,35 @@ ShownRobot decoded(const std::vector<std::uint8_t>& entry, const Json& ranges) {
     return shown;
 }
 
+TEST(Scene, CommandsAndSceneryThatMovesAreToldOnlyWhereThereAreSome) {
+    const World world = small_world();
+    Model model = *test::compiled(world);
+    Scene scene = make_scene(model, &world);
+    Json plain = Json::parse(scene_file(scene, model, 0).json);
+    EXPECT_FALSE(plain.contains("flows"));
+    for (const Json& type : plain["types"]) EXPECT_FALSE(type.contains("channels"));
+
+    const std::size_t red = model.find_robot("red")->index();
+    ChannelInfo drive;
+    drive.channel = {"cmd_vel", "", {{"linear_x", "m/s"}}, false};
+    model.types[model.robots[red].type.index()].channels = {drive};
+    SceneFlow belt, table;
+    belt.shape = scene.statics[0], table.shape = scene.statics[1];
+    belt.linear = {0.5, 0, 0};
+    table.robot = RobotId(red), table.link = LinkId(0u);
+    scene.flows = {belt, table};
+    const Json told = Json::parse(scene_file(scene, model, 0).json);
+    EXPECT_EQ(
+        told["types"][scene.robots[red]]["channels"],
+        Json::parse(
+            R"([{"name": "cmd_vel", "list": false, "values": [{"name": "linear_x", "unit": "m/s"}]}])"));
+    EXPECT_EQ(told["flows"][0]["linear"], Json({0.5, 0, 0}));
+    EXPECT_EQ(told["flows"][0]["shape"], told["statics"][0]);
+    EXPECT_FALSE(told["flows"][0].contains("robot"));
+    EXPECT_EQ(told["flows"][1]["robot"], red);
+    EXPECT_FALSE(told["flows"][1].contains("linear")) << "its state says how";
+}
+
 TEST(Scene, FramesAndViewStatesPutLinksWhereTheyAre) {
     const World world = small_world();
     const auto model = test::compiled(world);

@@ -77,7 +77,13 @@ std::vector<Message> one_of_each() {
             ModelChanged{99},
             ViewRequest{5, 33, 100, true, {kRobot}},
             ViewDue{2, 77, 1000, {Role::kClient, 4}, {kRobot, kOther}, {kOther}},
-            ViewStates{5, 2, 77, 1000, {1, 2, 3, 4}},
+            ViewStates{5,
+                       2,
+                       77,
+                       1000,
+                       {1, 2, 3, 4},
+                       {{{kRobot, LinkId(1u), {1, 2, 3}, {4, 5, 6}, {7, 8, 9}}},
+                        {{kRobot, LinkId(0u), kOther, LinkId(2u)}}}},
             OrdersAhead{16, SimulatorId(3u), some_orders()},
             Late{2, 17, 1, 4'000'000},
             WindowResult{2, 17, 1, 9, {}, {}, {{100, 5, 2, {}, 0, {}, false}}},
@@ -223,7 +229,7 @@ TEST(Codec, RefusesTicksWhoseSumsOverflow) {
         EXPECT_FALSE(accepted(StateRequest{wrong, {}, 0})) << wrong;
         EXPECT_FALSE(accepted(StateReply{{wrong, {}, {}, {}}, 0})) << wrong;
         EXPECT_FALSE(accepted(ViewDue{0, 0, wrong, {}, {}, {}})) << wrong;
-        EXPECT_FALSE(accepted(ViewStates{0, 0, 0, wrong, {}})) << wrong;
+        EXPECT_FALSE(accepted(ViewStates{0, 0, 0, wrong, {}, {}})) << wrong;
         EXPECT_FALSE(accepted(OrdersAhead{1, SimulatorId(0u), {{wrong, {}, 0, kRobot, SetVelocity{}}}}))
             << wrong;
         EXPECT_FALSE(accepted(ClientHello{"a", 1, 1, 1, true, false, wrong, 0, 0})) << wrong;

@@ -15,6 +15,7 @@
 #include "model/order.h"
 #include "wire/control.h"
 #include "wire/robot_result.h"
+#include "wire/view_extras.h"
 
 namespace roboss {
 
@@ -250,6 +251,7 @@ struct ViewStates {  // -> viewer: entries of wire/view_state.h
     std::uint64_t serial = 0;
     Tick tick = 0;
     std::vector<std::uint8_t> entries;
+    ViewExtras extras;  // of the same robots
     friend bool operator==(const ViewStates&, const ViewStates&) = default;
 };
 

@@ -1,4 +1,5 @@
 // What the mock says of its traffic: State messages, and the JSON of status, groups, robots and overlays.
+import { actingReport, encodeActing } from "./acting";
 import type { MemberStatus, PoseArray, SceneInfo, Triple } from "../src/wire/messages";
 import type { Car, Traffic } from "./traffic";
 
@@ -32,10 +33,11 @@ export function encodeRobots(traffic: Traffic): Map<number, Uint8Array> {
         traffic.cars.length,
         entry(traffic.cars.length, [3, 3, 0], 0, [wrapped(q[0]) / Math.PI, q[1] / Math.PI, q[2] / 2.5]),
     );
+    encodeActing(traffic.acting, entries);
     return entries;
 }
 
-function entry(robot: number, place: number[], yaw: number, joints: number[]): Uint8Array {
+export function entry(robot: number, place: number[], yaw: number, joints: number[]): Uint8Array {
     const data = new DataView(new ArrayBuffer(24 + 2 * joints.length));
     data.setUint32(0, robot, true);
     place.forEach((value, k) => data.setFloat32(4 + 4 * k, value, true));
@@ -106,6 +108,7 @@ export function robotReport(traffic: Traffic, scene: SceneInfo, robot: number): 
             tick: Math.round(traffic.time / scene.dt),
             time: traffic.time,
         };
+    if (robot >= traffic.acting.first) return { ...common, ...actingReport(traffic.acting, robot) };
     if (car === undefined) {
         const { q, v, targets } = traffic.crane;
         return {

@@ -151,7 +151,7 @@ export class MockRun {
 
     order(robot: number, action: OrderAction): { done: boolean; text: string } {
         if (this.scene.robots[robot] === undefined) return { done: false, text: `there is no robot ${robot}` };
-        const refusal = obey(this.traffic, robot, action);
+        const refusal = obey(this.traffic, robot, action, Math.round(this.traffic.time / this.scene.dt));
         return {
             done: refusal === "",
             text: refusal === "" ? `applied at ${this.traffic.time.toFixed(3)} s` : refusal,

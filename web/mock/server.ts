@@ -5,6 +5,7 @@ import { readFile } from "node:fs/promises";
 import { extname, join, normalize } from "node:path";
 import { parseArgs } from "node:util";
 import { type WebSocket, WebSocketServer } from "ws";
+import { actingExtras } from "./acting";
 import { MockRun } from "./run";
 import { encodeRobots, encodeState, groupsOf, overlayReport, robotReport } from "./reports";
 
@@ -50,6 +51,7 @@ const http = createServer((request, response) => {
 class Page {
     private sent = new Map<number, Uint8Array>();
     private whole = true;
+    private extras = JSON.stringify({ surfaces: [], bonds: [] });
     private watch = { robots: [] as number[], overlays: [] as string[] };
 
     constructor(private readonly socket: WebSocket) {
@@ -79,7 +81,10 @@ class Page {
         if (message.type === "control") answer(run.control(message.words as string[]));
         else if (message.type === "order") answer(run.order(message.robot as number, message as never));
         else if (message.type === "watch") this.watch = message as never;
-        else if (message.type === "whole") this.whole = true;
+        else if (message.type === "whole") {
+            this.whole = true;
+            this.extras = "";
+        }
     }
 
     /** Only what changed since this page's last State, and nothing while it has not taken that one. */
@@ -103,6 +108,10 @@ class Page {
     }
 
     reports(): void {
+        const extras = actingExtras(run.traffic.acting),
+            text = JSON.stringify(extras);
+        if (text !== this.extras) this.tell({ type: "extras", scene: run.scene.scene, tick: 0, ...extras });
+        this.extras = text;
         for (const robot of this.watch.robots)
             if (run.scene.robots[robot] !== undefined) this.tell(robotReport(run.traffic, run.scene, robot));
         if (this.watch.overlays.includes("groups"))

@@ -1,6 +1,7 @@
 // How the mock's cars move: each drives round and round a block until a person gives it an order; then it is a cart that
 // obeys wheel speeds, velocities and pushes. No physics, but what a page needs to be tried against.
 import { BLOCK_M, seeded, TRACK_HALF, WHEEL_RADIUS } from "./city";
+import { type Acting, addActing, advanceActing, obeyActing } from "./acting";
 import type { OrderAction, SceneInfo } from "../src/wire/messages";
 
 export interface Car {
@@ -27,6 +28,7 @@ export interface Traffic {
     time: number;
     cars: Car[];
     crane: Crane;
+    acting: Acting;
 }
 
 const CORNER_M = 0.9;
@@ -84,6 +86,7 @@ export function makeTraffic(scene: SceneInfo, half: number, seed: number): Traff
         });
     }
     const traffic = {
+        acting: addActing(scene),
         time: 0,
         cars,
         crane: {
@@ -135,13 +138,16 @@ export function advance(traffic: Traffic, dt: number): void {
             target.mode === "velocity" ? target.value : Math.max(-0.8, Math.min(0.8, 4 * (target.value - crane.q[k])));
         crane.q[k] += crane.v[k] * dt;
     }
+    advanceActing(traffic.acting, dt);
     traffic.time += dt;
 }
 
 /** Empty where it is obeyed; else why not. */
-export function obey(traffic: Traffic, robot: number, order: OrderAction): string {
+export function obey(traffic: Traffic, robot: number, order: OrderAction, tick: number): string {
+    if (robot >= traffic.acting.first) return obeyActing(traffic.acting, robot, order, tick);
     const car = traffic.cars[robot];
     if (car === undefined) return obeyCrane(traffic.crane, order);
+    if (order.action === "command") return `robot 'car_${robot}' has no command '${order.name}'`;
     if (order.action === "joint" && order.joint >= 4) return `car has no joint ${order.joint}`;
     car.manual = true;
     if (order.action === "pose") {
@@ -158,7 +164,7 @@ export function obey(traffic: Traffic, robot: number, order: OrderAction): strin
     } else if (order.action === "wrench") {
         car.vx += (order.force[0] * order.duration) / 6.2;
         car.vy += (order.force[1] * order.duration) / 6.2;
-    } else {
+    } else if (order.action === "joint") {
         car.targets[order.joint] = order.mode === "passive" ? 0 : order.target;
     }
     return "";

@@ -20,6 +20,8 @@ export interface FrameParts {
     /** Overlays and colours, in the order in which they are brought up to date. */
     layers: ((world: World | null, now: number) => void)[];
     hurried: () => boolean;
+    /** A surface moves: the picture changes with time, though no robot moves. */
+    flowing: () => boolean;
     effort: Effort | null;
     /** Least time between two frames. */
     interval_ms: number;
@@ -59,10 +61,12 @@ export class FrameLoop {
             world = state.world.value;
         let moved = false;
         if (world !== null && world.history.latest !== null) {
+            const before = state.drawnTime.value;
             state.drawnTime.set(run.clock.read(now));
             world.history.sample(state.drawnTime.value);
             stage.place(world);
             moved = world.history.changed.includes(1);
+            moved ||= this.parts.flowing() && state.drawnTime.value !== before;
             if (this.shownWorld !== world) this.firstSight(world);
             director.follow(world, seconds);
         }

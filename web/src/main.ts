@@ -7,6 +7,7 @@ import { FrameLoop } from "./frame_loop";
 import { HandMark } from "./hands/hand_mark";
 import { RobotHand } from "./hands/robot_hand";
 import { Address } from "./model/address";
+import { Bonding } from "./model/bonding";
 import { Plotted } from "./model/plotted";
 import { RunLink } from "./model/run_link";
 import type { Signal } from "./model/signal";
@@ -14,6 +15,8 @@ import { applyAddress, keepTheme, startTheme, viewLink } from "./model/view_link
 import { ViewerState, type World } from "./model/viewer_state";
 import { LabelLayer } from "./overlays/labels";
 import { Names } from "./overlays/names";
+import { BondMarks } from "./overlays/bond_marks";
+import { FlowMarks } from "./overlays/flow_marks";
 import { RobotOverlays } from "./overlays/robot_overlays";
 import { RunOverlays } from "./overlays/run_overlays";
 import { SelectionMark } from "./overlays/selection_mark";
@@ -62,7 +65,8 @@ const capture = new Capture(
     said.say,
 );
 const mark = new HandMark(labels);
-const hand = new RobotHand(stage, state, run, mark, (robot) => director.focus(robot));
+const bonding = new Bonding(state, run);
+const hand = new RobotHand(stage, state, run, mark, bonding, (robot) => director.focus(robot));
 let hurried = false;
 window.addEventListener("keydown", (event) => (hurried = event.shiftKey));
 window.addEventListener("keyup", (event) => (hurried = event.shiftKey));
@@ -77,7 +81,11 @@ const pointer = new CameraPointer(
 );
 
 const plotted = new Plotted(state);
-const list = new RobotList(state, (robot) => director.focus(robot));
+const list = new RobotList(
+    state,
+    (robot) => director.focus(robot),
+    (robot) => bonding.take(robot),
+);
 const time = timeBar(state, run);
 const tabs = sideTabs([
     {
@@ -97,7 +105,9 @@ const selection = new SelectionMark(stage, state, labels),
     colouring = new Colouring(stage, state);
 const sensors = new RobotOverlays(stage, state),
     told = new RunOverlays(stage, state),
-    tracks = new Tracks(stage, state, labels);
+    tracks = new Tracks(stage, state, labels),
+    flows = new FlowMarks(stage, state),
+    bonds = new BondMarks(stage, state);
 stage.overlays.add(mark.group);
 const loop = new FrameLoop({
     stage,
@@ -109,10 +119,13 @@ const loop = new FrameLoop({
     times,
     hurried: () => hurried,
     interval_ms: quality === "low" ? LOW_INTERVAL_MS : 0,
+    flowing: () => flows.any,
     effort: quality === "auto" ? new Effort((level) => stage.lower(level)) : null,
     layers: [
         (world) => world !== null && colouring.update(world),
         (world) => selection.update(world),
+        (world) => flows.update(world),
+        (world) => bonds.update(world),
         (world) => sensors.update(world),
         (world, now) => told.update(world, now),
         (world) => tracks.update(world),
@@ -123,6 +136,12 @@ const loop = new FrameLoop({
 
 function focusSelected(): void {
     if (state.selected.value !== null) director.focus(state.selected.value);
+}
+
+function letGo(): void {
+    if (state.attaching.value !== null) state.attaching.set(null);
+    else if (state.tool.value !== "select") state.tool.set("select");
+    else state.selected.set(null);
 }
 
 function togglePanel(side: "left" | "right"): void {
@@ -152,7 +171,7 @@ const shortcuts: Shortcut[] = [
         keys: ["Escape"],
         words: "let go",
         group: "Tools",
-        act: () => (state.tool.value !== "select" ? state.tool.set("select") : state.selected.set(null)),
+        act: letGo,
     },
     { keys: ["1"], words: "orbit", group: "Camera", act: () => state.cameraMode.set("orbit") },
     { keys: ["2"], words: "fly", group: "Camera", act: () => state.cameraMode.set("fly") },
@@ -220,8 +239,10 @@ for (const signal of [
     state.groups,
     state.world,
     state.tool,
+    state.extras,
 ])
     (signal as Signal<unknown>).follow(() => loop.wake());
+state.attaching.follow((attaching) => document.body.classList.toggle("attaching", attaching !== null));
 for (const name of ["pointerdown", "pointermove", "keydown", "resize"])
     window.addEventListener(name, () => loop.wake());
 applyAddress(address, state);

@@ -45,6 +45,6 @@ export function readStateHeader(view: DataView): StateHeader {
 
 export type Overlay = 'contacts' | 'bounds' | 'groups';
 
-export type OrderAction = 'pose' | 'velocity' | 'wrench' | 'joint';
+export type OrderAction = 'pose' | 'velocity' | 'wrench' | 'joint' | 'command' | 'attach' | 'detach';
 
 export type MotorMode = 'passive' | 'velocity' | 'position' | 'effort';

@@ -1,9 +1,10 @@
 // The hand in the picture. Select: a click chooses. Move: a drag carries a robot over the ground and orders its pose.
-// Push: a drag pulls an arrow from where the robot was taken, and orders that force for as long as it is held.
+// With Shift, the selected robot takes hold of it. Push: a drag pulls an arrow from where the robot was taken, and orders that force for as long as it is held.
 import * as THREE from "three";
 import type { PointerHand } from "../camera/pointer";
 import { composed, fromAxisAngle } from "../kinematics/pose";
 import { bodyAt, placeBodies } from "../kinematics/tree";
+import type { Bonding } from "../model/bonding";
 import type { RunLink } from "../model/run_link";
 import type { ViewerState, World } from "../model/viewer_state";
 import { throttled } from "../ui/throttle";
@@ -41,6 +42,7 @@ export class RobotHand implements PointerHand {
         private readonly state: ViewerState,
         private readonly run: RunLink,
         private readonly mark: HandMark,
+        private readonly bonding: Bonding,
         private readonly onFocus: (robot: number) => void,
     ) {
         this.sendPose = throttled(ORDER_INTERVAL_MS, (robot, pose) => void run.order(robot, { action: "pose", pose }));
@@ -139,9 +141,13 @@ export class RobotHand implements PointerHand {
             this.sendPose(hold.robot, this.target(hold));
     }
 
-    click(x: number, y: number): void {
+    click(x: number, y: number, event: PointerEvent): void {
         const world = this.state.world.value;
-        if (world !== null) this.state.selected.set(pick(this.stage, world, x, y)?.robot ?? null);
+        if (world === null) return;
+        const picked = pick(this.stage, world, x, y);
+        if (picked !== null && this.bonding.take(picked.robot, picked.link)) return;
+        if (picked !== null && event.shiftKey && this.bonding.takeBySelected(picked.robot, picked.link)) return;
+        this.state.selected.set(picked?.robot ?? null);
     }
 
     doubleClick(x: number, y: number): void {

@@ -73,6 +73,9 @@ export class RunLink {
             case "overlay":
                 if (message.scene === this.sceneNumber()) this.state.overlayReport.set(message);
                 break;
+            case "extras":
+                if (message.scene === this.sceneNumber()) this.state.extras.set(message);
+                break;
             case "notice":
                 this.notice.set({ text: message.text, bad: false });
                 break;
@@ -97,6 +100,8 @@ export class RunLink {
             if (loaded.unreadable > 0)
                 this.notice.set({ text: `${loaded.unreadable} pictures cannot be shown: plain colours`, bad: true });
             this.state.groups.set(null);
+            this.state.extras.set(null);
+            this.state.attaching.set(null);
             this.state.selected.set(null);
             this.state.world.set(world);
             if (before !== undefined && selected !== null)

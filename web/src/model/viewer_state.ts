@@ -5,6 +5,8 @@ import type { LinkState } from "../wire/connection";
 import type { LoadedScene } from "../wire/scene_source";
 import { Fleet } from "./fleet";
 import { History } from "./history";
+import type { Extras } from "../wire/onboard";
+import type { Attaching } from "./bonding";
 import { Signal } from "./signal";
 
 export type ColourBy = "model" | "simulator" | "island" | "speed";
@@ -42,6 +44,10 @@ export class ViewerState {
     readonly status = new Signal<Status | null>(null);
     readonly groups = new Signal<Groups | null>(null);
     readonly overlayReport = new Signal<OverlayReport | null>(null);
+    /** Surfaces in motion and bonds; null: there have been none. */
+    readonly extras = new Signal<Extras | null>(null);
+    /** The bond that the next robot chosen becomes part of. */
+    readonly attaching = new Signal<Attaching | null>(null);
     readonly report = new Signal<RobotReport | null>(null);
     readonly selected = new Signal<number | null>(null);
     readonly colourBy = new Signal<ColourBy>("model");

@@ -1,5 +1,5 @@
-// The inspector of the selected robot: where it is and how it moves, joints and motors with their controls, sensors and
-// contacts. Rows are made once a robot; each report changes only their numbers.
+// The inspector of the selected robot: where it is and how it moves, its commands, joints and motors with their controls,
+// sensors, bonds and contacts. Rows are made once a robot; each report changes only their numbers.
 import type { Plotted } from "../model/plotted";
 import { readings } from "../model/readings";
 import type { RunLink } from "../model/run_link";
@@ -7,13 +7,26 @@ import type { ViewerState, World } from "../model/viewer_state";
 import { h } from "../ui/dom";
 import { fixed } from "../ui/numbers";
 import type { RobotReport } from "../wire/messages";
+import type { SurfaceMotion } from "../wire/onboard";
+import { BondControls } from "./bond_controls";
+import { ChannelControls } from "./channel_controls";
 import { JointControls } from "./joint_controls";
 import { ReadingRows } from "./reading_rows";
 import { SensorViews } from "./sensor_views";
 import { velocityPad } from "./velocity_pad";
 
-function section(title: string, ...content: (Node | null)[]): HTMLElement {
+function section(title: string, ...content: (Node | null)[]): HTMLDetailsElement {
     return h("details", { class: "section", open: true }, h("summary", {}, title), ...content);
+}
+
+/** "0.50 m/s", "2.00 rad/s": how a surface moves. */
+function motionText({ linear, angular, belt }: SurfaceMotion): string {
+    const parts: string[] = [],
+        speed = Math.hypot(...linear) + Math.hypot(...(belt ?? [0, 0, 0])),
+        turn = Math.hypot(...angular);
+    if (speed > 0) parts.push(`${fixed(speed, 2)} m/s`);
+    if (turn > 0) parts.push(`${fixed(turn, 2)} rad/s`);
+    return parts.join(", ");
 }
 
 export class Inspector {
@@ -21,6 +34,10 @@ export class Inspector {
     private rows: ReadingRows | null = null;
     private joints: JointControls | null = null;
     private sensors: SensorViews | null = null;
+    private channels: ChannelControls | null = null;
+    private bonds: BondControls | null = null;
+    private surfaces: HTMLDetailsElement | null = null;
+    private bondSection: HTMLDetailsElement | null = null;
     private contacts: HTMLElement | null = null;
     private built = false;
 
@@ -41,6 +58,7 @@ export class Inspector {
             robot = this.state.selected.value;
         this.built = false;
         this.rows = this.joints = this.sensors = this.contacts = null;
+        this.channels = this.bonds = this.surfaces = this.bondSection = null;
         if (world === null || robot === null) {
             this.element.replaceChildren(
                 h("p", { class: "empty" }, "Select a robot: click it in the picture, or in the list."),
@@ -80,6 +98,11 @@ export class Inspector {
         this.rows = rows;
         this.joints = new JointControls(robot, type, this.run, rows, all.joints);
         this.sensors = new SensorViews(type, rows, all.sensors);
+        this.channels = new ChannelControls(robot, type, world.fleet.scene.dt, this.run);
+        this.bonds = new BondControls(robot, world, this.state, this.run);
+        this.bondSection = section("Bonds", this.bonds.element);
+        this.bondSection.open = false;
+        this.surfaces = section("Moving surfaces", h("div", { class: "surfaces" }));
         this.contacts = h("div", { class: "contacts" });
         this.element.replaceChildren(
             this.head(world, robot),
@@ -90,12 +113,17 @@ export class Inspector {
             type.free_base
                 ? section("Drive by hand", velocityPad(this.run, this.state, robot))
                 : h("span", { hidden: true }),
+            (type.channels?.length ?? 0) > 0
+                ? section(`Commands (${type.channels?.length})`, this.channels.element)
+                : h("span", { hidden: true }),
+            this.surfaces,
             type.joints.length > 0
                 ? section(`Joints (${type.joints.length})`, this.joints.element)
                 : h("span", { hidden: true }),
             type.sensors.length > 0
                 ? section(`Sensors (${type.sensors.length})`, this.sensors.element)
                 : h("span", { hidden: true }),
+            this.bondSection,
             section("Contacts", this.contacts),
         );
         this.built = true;
@@ -109,7 +137,27 @@ export class Inspector {
         this.rows?.show([...all.base, ...all.joints, ...all.sensors.flat()]);
         this.joints?.show(report);
         this.sensors?.show(report);
+        this.channels?.show(report);
+        if (this.bonds?.show(report) === true && this.bondSection !== null) this.bondSection.open = true;
+        this.showSurfaces(world, report);
         this.showContacts(world, report);
+    }
+
+    private showSurfaces(world: World, report: RobotReport): void {
+        const links = world.fleet.type(report.robot).links,
+            moving = report.surfaces ?? [];
+        if (this.surfaces === null) return;
+        this.surfaces.hidden = moving.length === 0;
+        this.surfaces.lastElementChild?.replaceChildren(
+            ...moving.map((surface) =>
+                h(
+                    "div",
+                    { class: "reading" },
+                    h("span", { class: "label" }, links[surface.link]?.name ?? ""),
+                    h("span", { class: "value" }, motionText(surface)),
+                ),
+            ),
+        );
     }
 
     private showContacts(world: World, report: RobotReport): void {

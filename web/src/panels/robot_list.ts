@@ -22,6 +22,8 @@ export class RobotList {
     constructor(
         private readonly state: ViewerState,
         private readonly onFocus: (robot: number) => void,
+        /** Another hand wants the robot: true where it has it, and the selection stays. */
+        private readonly taken: (robot: number) => boolean,
     ) {
         this.search = h("input", {
             type: "search",
@@ -138,7 +140,14 @@ export class RobotList {
     private choose(k: number): void {
         const row = this.rows[k];
         this.active = k;
-        if (row?.kind === "robot") this.state.selected.set(row.robot);
+        if (row?.kind === "robot" && !this.taken(row.robot)) this.state.selected.set(row.robot);
+        this.draw();
+    }
+
+    /** By the arrow keys: on the way to a robot that shall be held, the selection stays. */
+    private walk(k: number): void {
+        if (this.state.attaching.value === null) return this.choose(k);
+        this.active = k;
         this.draw();
     }
 
@@ -157,14 +166,15 @@ export class RobotList {
     private key(event: KeyboardEvent): void {
         const move = { ArrowDown: 1, ArrowUp: -1, PageDown: 15, PageUp: -15, Home: -1e9, End: 1e9 }[event.key];
         if (move !== undefined) {
-            this.choose(Math.max(0, Math.min(this.rows.length - 1, this.active + move)));
+            this.walk(Math.max(0, Math.min(this.rows.length - 1, this.active + move)));
             this.scroller.scrollTop = Math.min(
                 this.active * ROW_PX,
                 Math.max(this.scroller.scrollTop, (this.active + 1) * ROW_PX - this.scroller.clientHeight),
             );
         } else if (event.key === "Enter") {
             const row = this.rows[this.active];
-            if (row?.kind === "robot") this.onFocus(row.robot);
+            if (row?.kind === "robot" && this.state.attaching.value !== null) this.choose(this.active);
+            else if (row?.kind === "robot") this.onFocus(row.robot);
             else if (row !== undefined) this.toggle(row.type);
         } else return;
         event.preventDefault();

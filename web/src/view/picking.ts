@@ -6,6 +6,8 @@ import type { Stage } from "./stage";
 
 export interface Picked {
     robot: number;
+    /** Of the robot: the first one of the body that was met. */
+    link: number;
     point: THREE.Vector3;
     distance: number;
 }
@@ -26,7 +28,8 @@ export function pick(stage: Stage, world: World, x: number, y: number): Picked |
         if (ray.distanceSqToPoint(centre) > reach * reach) continue;
         const hit = stage.robots.hit(caster, r);
         if (hit === null || hit.distance > hidden + 1e-3 || (best !== null && hit.distance >= best.distance)) continue;
-        best = { robot: r, point: hit.point.clone(), distance: hit.distance };
+        const link = world.fleet.type(r).links.findIndex(({ body }) => body === hit.body);
+        best = { robot: r, link: Math.max(0, link), point: hit.point.clone(), distance: hit.distance };
     }
     return best;
 }

@@ -2,7 +2,7 @@
 // placed anew. Bodies that differ in nothing but one colour share a mesh and carry that colour as instances.
 import * as THREE from "three";
 import { bodyAt, placeBodies } from "../kinematics/tree";
-import { composed, writeMatrix } from "../kinematics/pose";
+import { composed, POSE_WIDTH, writeMatrix } from "../kinematics/pose";
 import type { Fleet } from "../model/fleet";
 import type { History } from "../model/history";
 import type { TypeInfo } from "../wire/messages";
@@ -179,9 +179,9 @@ export class RobotsLayer {
         }
     }
 
-    /** First body that the ray meets of the robots given: how far away, and where. */
-    hit(caster: THREE.Raycaster, robot: number): THREE.Intersection | null {
-        let nearest: THREE.Intersection | null = null;
+    /** First body that the ray meets of the robot: which, how far away, and where. */
+    hit(caster: THREE.Raycaster, robot: number): { body: number; distance: number; point: THREE.Vector3 } | null {
+        let nearest: { body: number; distance: number; point: THREE.Vector3 } | null = null;
         const single = new THREE.Mesh(),
             matrix = new THREE.Matrix4(),
             found: THREE.Intersection[] = [];
@@ -191,9 +191,12 @@ export class RobotsLayer {
             single.geometry = batch.mesh.geometry;
             single.material = batch.mesh.material;
             single.matrixWorld.copy(matrix);
+            found.length = 0;
             single.raycast(caster, found);
+            const body = this.slots[s + 2] / POSE_WIDTH - 1;
+            for (const { distance, point } of found)
+                if (nearest === null || distance < nearest.distance) nearest = { body, distance, point };
         }
-        for (const at of found) if (nearest === null || at.distance < nearest.distance) nearest = at;
         return nearest;
     }
 

@@ -1,5 +1,6 @@
 // The JSON that page and gateway exchange, as types (docs/viewer-protocol.md says what each means). SI units and
 // radians; a pose is [x, y, z, qw, qx, qy, qz].
+import type { BondReport, ChannelInfo, ChannelReport, Extras, FlowInfo, OnboardAction, SurfaceReport } from "./onboard";
 
 export type PoseArray = [number, number, number, number, number, number, number];
 export type Triple = [number, number, number];
@@ -92,6 +93,7 @@ export interface TypeInfo {
     links: LinkInfo[];
     joints: JointInfo[];
     sensors: SensorInfo[];
+    channels?: ChannelInfo[];
     ranges: number[];
 }
 
@@ -104,6 +106,7 @@ export interface SceneInfo {
     types: TypeInfo[];
     robots: { name: string; type: number }[];
     statics: Visual[];
+    flows?: FlowInfo[];
     groups_max: number;
 }
 
@@ -215,6 +218,10 @@ export interface RobotReport {
     contacts: RobotContact[];
     /** False: of those with robots before it in the list, only those with watched ones are known. */
     all_contacts?: boolean;
+    channels?: ChannelReport[];
+    surfaces?: SurfaceReport[];
+    bonds?: BondReport[];
+    held_by?: BondReport[];
 }
 
 export interface OverlayReport {
@@ -250,6 +257,7 @@ export type Incoming =
     | Groups
     | RobotReport
     | OverlayReport
+    | Extras
     | Answer
     | { type: "notice"; text: string };
 
@@ -257,7 +265,8 @@ export type OrderAction =
     | { action: "pose"; pose: PoseArray }
     | { action: "velocity"; linear: Triple; angular: Triple }
     | { action: "wrench"; link: number; force: Triple; torque: Triple; duration: number }
-    | { action: "joint"; joint: number; axis: number; mode: string; target: number; max_effort?: number };
+    | { action: "joint"; joint: number; axis: number; mode: string; target: number; max_effort?: number }
+    | OnboardAction;
 
 export interface Watch {
     robots: number[];
