@@ -55,6 +55,8 @@ void BusClient::handle(Envelope& envelope) {
             orders_.clear();
             observing_ = false;
             tick_ = -1;
+            scene_tick_ = -1;
+            forget_measured();
         }
         expected_ = welcome->first;
         for (ClientReply& sent : replies_) sent.client = id_;

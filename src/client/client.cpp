@@ -137,6 +137,11 @@ void Client::renew_samples() {
     }
 }
 
+void Client::forget_measured() {
+    samples_ = {};
+    probe_.reset();
+}
+
 Result<> Client::restore_samples(const std::string& bytes) {
     HeldSamples samples;
     if (Result<> read = samples.restore(bytes); !read) return read;

@@ -128,6 +128,8 @@ class Client : private SensorSources {
     const Robot& known(RobotId robot) const;
     /// Implementations call it when a new observation is shown.
     void renew_samples();
+    /// Implementations call it when the run went back in time: what was measured is of a discarded time.
+    void forget_measured();
     /// The scene for rays at the observed tick; built when the first sensor of a tick asks.
     RayScene& ray_scene() override = 0;
 

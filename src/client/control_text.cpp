@@ -125,12 +125,38 @@ Parsed accuracy(const Words& words) {
     return change;
 }
 
+Error bad_pose(const std::string& text, const std::string& wanted) {
+    return Error{"'" + text.substr(0, kShownMost) + "' is not a pose", wanted, "bad-pose"};
+}
+
+/// Lines "NAME x y z roll pitch yaw"; empty ones, and what follows a #, are skipped.
+Result<std::vector<CopyPlace>> copies_of(const std::string& text) {
+    std::vector<CopyPlace> copies;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line.substr(0, line.find('#')));
+        CopyPlace copy;
+        if (!(words >> copy.name)) continue;
+        std::string pose;
+        std::getline(words, pose);
+        const std::optional<Pose> X_WA = pose_of(pose);
+        if (!X_WA) return bad_pose(line, "write lines NAME x y z roll pitch yaw, m and rad");
+        copy.X_WA = *X_WA;
+        copies.push_back(std::move(copy));
+    }
+    if (copies.empty()) return bad_pose(text, "write at least one line NAME x y z roll pitch yaw, m and rad");
+    return copies;
+}
+
 Parsed add(const Words& words) {
     const std::optional<Pose> X_WA = pose_of(words[3]);
-    if (!X_WA)
-        return Error{"'" + words[3].substr(0, kShownMost) + "' is not a pose",
-                     "give \"x y z roll pitch yaw\", m and rad", "bad-pose"};
-    return AddModels{words[1], words[2], *X_WA, words[4]};
+    if (!X_WA) return bad_pose(words[3], "give \"x y z roll pitch yaw\", m and rad");
+    AddModels add{words[1], words[2], *X_WA, words[4]};
+    if (words.size() < 6) return add;
+    Result<std::vector<CopyPlace>> copies = copies_of(words[5]);
+    if (!copies) return copies.error();
+    add.copies = std::move(copies).value();
+    return add;
 }
 
 Parsed parse(const Words& words) {
@@ -143,6 +169,7 @@ Parsed parse(const Words& words) {
     if (verb == "pause" && n == 1) return PauseRun{};
     if (verb == "resume" && n == 1) return ResumeRun{};
     if (verb == "quit" && n == 1) return QuitRun{};
+    if (verb == "reset" && n == 1) return ResetRun{};
     if (verb == "step" && n <= 2) return step(words);
     if (verb == "speed" && n == 2) return speed(words);
     if (verb == "window" && n == 2) return window(words);
@@ -150,7 +177,7 @@ Parsed parse(const Words& words) {
     if (verb == "save" && n == 2) return SaveRun{words[1]};
     if (verb == "rewind" && n == 2) return rewind(words);
     if (verb == "accuracy" && n >= 2) return accuracy(words);
-    if (verb == "add" && n == 5) return add(words);
+    if (verb == "add" && (n == 5 || n == 6)) return add(words);
     if (verb == "remove" && n >= 2) return RemoveRobots{{words.begin() + 1, words.end()}};
     return unknown(words);
 }
@@ -162,7 +189,7 @@ Result<ControlAction> parse_control(const Words& words) {
     if (!parsed) return parsed;
     if (const char* broken = broken_rule(parsed.value())) {
         if (std::holds_alternative<AddModels>(parsed.value()))
-            return Error{"'" + words[3].substr(0, kShownMost) + "': " + broken,
+            return Error{"'" + words[words.size() > 5 ? 5 : 3].substr(0, kShownMost) + "': " + broken,
                          "give \"x y z roll pitch yaw\", m and rad", "bad-pose"};
         return bad_value(words, broken);
     }

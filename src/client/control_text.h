@@ -11,7 +11,8 @@
 namespace roboss {
 
 /// A request from its words, e.g. {"step", "10"}, {"speed", "max"}, {"rewind", "#2@12.5"} or {"add", FILE,
-/// CONTENT, "x y z roll pitch yaw", NAME} (m, rad). Errors: unknown-request, bad-value, bad-pose.
+/// CONTENT, "x y z roll pitch yaw", NAME} (m, rad). A further word behind NAME puts a copy at each of its
+/// lines "NAME x y z roll pitch yaw". Errors: unknown-request, bad-value, bad-pose.
 Result<ControlAction> parse_control(const std::vector<std::string>& words);
 
 }  // namespace roboss

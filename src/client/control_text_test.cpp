@@ -35,6 +35,9 @@ TEST(ControlText, ReadsEachRequest) {
         {{"accuracy", "high", "tolerance=1e-10"}, ChangeAccuracy{"high", {{"tolerance", 1e-10}}}},
         {{"add", "ball.sdf", "<sdf/>", "1 2 3 0 0 0", "ball"},
          AddModels{"ball.sdf", "<sdf/>", {{1, 2, 3}, {}}, "ball"}},
+        {{"add", "ball.sdf", "<sdf/>", "0 0 0 0 0 0", "", "a 1 2 3 0 0 0 # first\n\nb 0 0 0 0 0 0"},
+         AddModels{"ball.sdf", "<sdf/>", {}, "", {{"a", {{1, 2, 3}, {}}}, {"b", {}}}}},
+        {{"reset"}, ResetRun{}},
         {{"remove", "a", "b"}, RemoveRobots{{"a", "b"}}}};
     std::vector<bool> met(std::variant_size_v<ControlAction>, false);
     for (const auto& [words, action] : cases) {
@@ -52,6 +55,10 @@ TEST(ControlText, RefusesWhatIsNoRequestAndNamesTheKindOfMistake) {
         {{}, "unknown-request"},
         {{"fly"}, "unknown-request"},
         {{"pause", "now"}, "unknown-request"},
+        {{"add", "f", "", "0 0 0 0 0 0", "", ""}, "bad-pose"},
+        {{"add", "f", "", "0 0 0 0 0 0", "", "a 1 2 3"}, "bad-pose"},
+        {{"add", "f", "", "0 0 0 0 0 0", "", "a 1e99 2 3 0 0 0"}, "bad-pose"},
+        {{"reset", "now"}, "unknown-request"},
         {{"simulators", "sing"}, "unknown-request"},
         {{"simulators", "kill"}, "unknown-request"},
         {{"simulators", "kill", "-1"}, "bad-value"},

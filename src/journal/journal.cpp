@@ -127,8 +127,8 @@ Result<> Journal::read_branches() {
 
 Result<> Journal::read_checkpoint_entries() {
     Result<std::vector<Row>> rows = db_->select(
-        "SELECT branch, tick, state_hash, length(memory) + length(states) FROM checkpoints ORDER BY branch, "
-        "tick");
+        "SELECT c.branch, c.tick, c.state_hash, coalesce(length(c.memory) + length(s.bytes), 'none') FROM "
+        "checkpoints c LEFT JOIN states s ON s.hash = c.states ORDER BY c.branch, c.tick");
     if (!rows) return damaged(rows.error().message);
     for (const Row& row : rows.value()) {
         Columns c(row);
@@ -216,9 +216,10 @@ std::vector<CheckpointEntry> Journal::checkpoints(const Branch& branch) const {
 }
 
 Result<StoredCheckpoint> Journal::checkpoint(const CheckpointEntry& entry, const Model& model) const {
-    Result<std::vector<Row>> rows =
-        db_->select("SELECT memory, states, row_hash FROM checkpoints WHERE branch = ? AND tick = ?",
-                    {entry.branch, entry.tick});
+    Result<std::vector<Row>> rows = db_->select(
+        "SELECT c.memory, s.bytes, c.row_hash FROM checkpoints c JOIN states s ON s.hash = "
+        "c.states WHERE c.branch = ? AND c.tick = ?",
+        {entry.branch, entry.tick});
     const std::string name = "the checkpoint " + at_tick(entry.tick);
     if (!rows) return damaged(rows.error().message);
     if (rows.value().size() != 1) return damaged(name + " is missing");

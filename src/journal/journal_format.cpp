@@ -16,7 +16,8 @@ const char* const kJournalTables =
     "CREATE TABLE models(hash TEXT PRIMARY KEY, bytes BLOB, bytes_hash TEXT);"
     "CREATE TABLE branches(id INTEGER PRIMARY KEY, parent INTEGER, tick INTEGER, model TEXT, seed INTEGER, "
     "world_file TEXT, reason TEXT, row_hash TEXT);"
-    "CREATE TABLE checkpoints(branch INTEGER, tick INTEGER, state_hash TEXT, memory BLOB, states BLOB, "
+    "CREATE TABLE states(hash TEXT PRIMARY KEY, bytes BLOB);"
+    "CREATE TABLE checkpoints(branch INTEGER, tick INTEGER, state_hash TEXT, memory BLOB, states TEXT, "
     "row_hash TEXT, PRIMARY KEY(branch, tick));"
     "CREATE TABLE batches(branch INTEGER, serial INTEGER, planned INTEGER, committed INTEGER, state_hash "
     "TEXT, low INTEGER, high INTEGER, orders INTEGER, chain TEXT, entries BLOB, PRIMARY KEY(branch, "
@@ -98,9 +99,15 @@ Row to_row(const Branch& b) {
             to_hex(check_of(b))};
 }
 
-Row to_row(const CheckpointEntry& entry, Blob memory, Blob states) {
+Row to_row(const CheckpointEntry& entry, Blob memory, const Blob& states) {
     const std::string check = to_hex(check_of(entry, memory, states));
-    return {entry.branch, entry.tick, to_hex(entry.hash), std::move(memory), std::move(states), check};
+    return {entry.branch, entry.tick, to_hex(entry.hash), std::move(memory), to_hex(hash_of_bytes(states)),
+            check};
+}
+
+Row states_row(Blob states) {
+    const std::string hash = to_hex(hash_of_bytes(states));
+    return {hash, std::move(states)};
 }
 
 Row model_row(const Model& model) {

@@ -5,7 +5,7 @@
 
 namespace roboss {
 
-inline constexpr std::int64_t kJournalFormat = 3;  // 3: the state hash counts the lengths of lists
+inline constexpr std::int64_t kJournalFormat = 4;  // 4: equal states are stored once
 
 extern const char* const kJournalTables;
 
@@ -29,11 +29,14 @@ std::uint64_t check_of(const CheckpointEntry& entry, const Blob& memory, const B
 
 Row to_row(const BatchRow& row, std::uint64_t chain);
 Row to_row(const Branch& branch);
-Row to_row(const CheckpointEntry& entry, Blob memory, Blob states);
+/// `states` are stored by their hash, so that a run that is reset often does not store the start each time.
+Row to_row(const CheckpointEntry& entry, Blob memory, const Blob& states);
+Row states_row(Blob states);
 
 inline constexpr const char* kInsertModel = "INSERT OR IGNORE INTO models VALUES(?,?,?)";
 inline constexpr const char* kInsertBranch = "INSERT INTO branches VALUES(?,?,?,?,?,?,?,?)";
 inline constexpr const char* kInsertCheckpoint = "INSERT OR IGNORE INTO checkpoints VALUES(?,?,?,?,?,?)";
+inline constexpr const char* kInsertStates = "INSERT OR IGNORE INTO states VALUES(?,?)";
 inline constexpr const char* kInsertBatch = "INSERT INTO batches VALUES(?,?,?,?,?,?,?,?,?,?)";
 
 Row model_row(const Model& model);

@@ -214,7 +214,8 @@ TEST_F(Journals, NoticeEveryChangedByteAndRow) {
     for (const char* change :
          {"UPDATE batches SET planned = 1000 WHERE serial = 2", "DELETE FROM batches WHERE serial = 2",
           "UPDATE checkpoints SET tick = 1", "UPDATE checkpoints SET states = zeroblob(8)",
-          "UPDATE branches SET seed = 1", "DELETE FROM checkpoints", "DELETE FROM models",
+          "UPDATE states SET bytes = zeroblob(8)", "DELETE FROM states", "UPDATE branches SET seed = 1",
+          "DELETE FROM checkpoints", "DELETE FROM models",
           "UPDATE models SET bytes = zeroblob(length(bytes))", "UPDATE batches SET entries = 'text'",
           "UPDATE branches SET tick = 'x'", "DROP TABLE batches"}) {
         fs::copy_file(file(), file("changed"), fs::copy_options::overwrite_existing);
@@ -232,6 +233,23 @@ TEST_F(Journals, NoticeEveryChangedByteAndRow) {
         EXPECT_FALSE(journal.ok() && journal.value().inspect().ok())
             << "cut to " << size << " of " << good.size();
     }
+}
+
+TEST_F(Journals, OfManyBranchesFromTheSameStateStoreItOnce) {
+    const auto bytes_of = [&](int branches) {
+        fs::remove(file());
+        auto writer = open();
+        for (int i = 0; i < branches; ++i) {
+            begin(*writer);
+            EXPECT_TRUE(writer->flush().ok());
+        }
+        EXPECT_TRUE(writer->close().ok());
+        writer.reset();
+        EXPECT_TRUE(Journal::open(file(), true).value().inspect().ok());
+        return fs::file_size(file());
+    };
+    const auto few = bytes_of(100), many = bytes_of(1'100);
+    EXPECT_LT((many - few) / 1'000, 700u) << "a row each of branches, checkpoints and log";
 }
 
 /// Lets no file of this process grow beyond `bytes`, as a full disk would.

@@ -5,6 +5,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "journal/journal_format.h"
@@ -90,7 +91,10 @@ Result<BranchId> JournalWriter::start_branch(Branch branch, const Model& model) 
     const std::lock_guard guard(mutex_);
     branch.id = branches_ + 1;
     branch.model_hash = model.hash;
-    waiting_.models.push_back(model_row(model));
+    if (std::find(models_.begin(), models_.end(), model.hash) == models_.end()) {
+        waiting_.models.push_back(model_row(model));
+        models_.push_back(model.hash);
+    }
     waiting_.branches.push_back(to_row(branch));
     beginning_ = true;
     branches_ = branch_ = branch.id;
@@ -184,10 +188,10 @@ Result<> JournalWriter::write_rows(const Pending& pending) {
         for (std::size_t i = 0; i < c.states->size(); ++i)
             hashes.push_back(state_hash(RobotId(i), c.tick, (*c.states)[i]));
         const CheckpointEntry entry{branch_, c.tick, world_hash(model_hash_, hashes)};
-        if (Result<> r = db_->insert(kInsertCheckpoint,
-                                     {to_row(entry, encode_memory(c.memory), encode_states(*c.states))});
-            !r)
-            return r;
+        Blob states = encode_states(*c.states);
+        const Row row = to_row(entry, encode_memory(c.memory), states);
+        if (Result<> r = db_->insert(kInsertStates, {states_row(std::move(states))}); !r) return r;
+        if (Result<> r = db_->insert(kInsertCheckpoint, {row}); !r) return r;
     }
     next_tail_ = tail_;
     BatchRow row = to_batch_row(pending.entries);

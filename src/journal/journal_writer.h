@@ -85,6 +85,7 @@ class JournalWriter : public RunLog {
     std::optional<Database> db_;  // of the thread alone, once it runs
     std::uint64_t model_hash_ = 0;
     BranchId branches_ = 0, branch_ = 0;
+    std::vector<std::uint64_t> models_;  // hashes of those that have been handed over
     Journal::Tail tail_, next_tail_;
 
     mutable std::mutex mutex_;

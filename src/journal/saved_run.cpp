@@ -42,10 +42,10 @@ Result<> write(const std::string& path, const Model& model, const SavedRun& run)
     if (Result<> r = db.insert("INSERT INTO meta VALUES(?,?)", meta); !r) return r;
     if (Result<> r = db.insert(kInsertModel, {model_row(model)}); !r) return r;
     if (Result<> r = db.insert(kInsertBranch, {to_row(branch)}); !r) return r;
-    if (Result<> r = db.insert(kInsertCheckpoint,
-                               {to_row(entry, encode_memory(run.memory), encode_states(run.states))});
-        !r)
-        return r;
+    Blob states = encode_states(run.states);
+    const Row checkpoint = to_row(entry, encode_memory(run.memory), states);
+    if (Result<> r = db.insert(kInsertStates, {states_row(std::move(states))}); !r) return r;
+    if (Result<> r = db.insert(kInsertCheckpoint, {checkpoint}); !r) return r;
     if (Result<> r = db.insert(kInsertBatch, {to_row(batch, chain_of(0, batch))}); !r) return r;
     return db.run("COMMIT;");
 }

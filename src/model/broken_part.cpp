@@ -246,6 +246,16 @@ std::string broken_static(const Model& model, const StaticShape& s) {
     return s.link.index() < model.type_of(s.robot).links.size() ? "" : "belongs to a link that is not there";
 }
 
+/// A start of its own has a number for each coordinate or velocity.
+bool start_fits(const Robot& robot, const RobotType& type) {
+    const auto finite_numbers = [](const std::vector<double>& all) {
+        return std::all_of(all.begin(), all.end(), [](double x) { return std::isfinite(x); });
+    };
+    return (robot.start_q.empty() || robot.start_q.size() == type.initial_q.size()) &&
+           (robot.start_v.empty() || robot.start_v.size() == static_cast<std::size_t>(type.nv)) &&
+           finite_numbers(robot.start_q) && finite_numbers(robot.start_v);
+}
+
 bool accuracy_fits(const Accuracy& accuracy) {
     const auto numbers = accuracy_numbers();
     return std::all_of(numbers.begin(), numbers.end(), [&](const AccuracyNumber& number) {
@@ -267,6 +277,8 @@ std::string broken_part(const Model& model) {
     for (const Robot& robot : model.robots) {
         if (robot.type.index() >= model.types.size()) return "robot '" + robot.name + "' has no type";
         if (!is_finite(robot.X_WR)) return "robot '" + robot.name + "' stands nowhere";
+        if (!start_fits(robot, model.types[robot.type.index()]))
+            return "robot '" + robot.name + "' has an impossible start";
     }
     for (const StaticShape& s : model.statics)
         if (const std::string broken = broken_static(model, s); !broken.empty())

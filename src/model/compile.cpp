@@ -6,6 +6,7 @@
 #include "model/accuracy.h"
 #include "model/compile_type.h"
 #include "model/seal.h"
+#include "model/start_state.h"
 #include "world/left_out.h"
 
 namespace roboss {
@@ -100,7 +101,7 @@ std::vector<CompiledPrototype> compile_prototypes(const World& world, ShapeStore
 
 /// Instance `index` of the world: its robots, or its shapes among the scenery (bad ones are reported).
 void place(const World& world, std::size_t index, const CompiledPrototype& prototype, ShapeStore& shapes,
-           Model& model) {
+           Model& model, Diagnostics& diagnostics) {
     const ModelInstance& instance = world.instances[index];
     const ModelSpec& spec = world.prototypes[instance.prototype];
     if (spec.is_static) {
@@ -112,6 +113,7 @@ void place(const World& world, std::size_t index, const CompiledPrototype& proto
         const CompiledPart& part = prototype.parts[p];
         model.robots.push_back({instance.name + part.suffix, prototype.types[p], instance.X_WM * part.X_MR,
                                 static_cast<std::uint32_t>(index)});
+        if (!spec.is_static) set_start(instance, part.type, model.robots.back(), diagnostics);
     }
 }
 
@@ -145,7 +147,7 @@ std::shared_ptr<const Model> compile(const World& world, const CompileOptions& o
     for (std::size_t i = 0; i < world.instances.size(); ++i) {
         const CompiledPrototype& prototype = prototypes[world.instances[i].prototype];
         const std::size_t found = diagnostics.items().size(), statics = model->statics.size();
-        if (!prototype.left_out) place(world, i, prototype, shapes, *model);
+        if (!prototype.left_out) place(world, i, prototype, shapes, *model, diagnostics);
         if (!diagnostics.leave_out_since(found) && !prototype.left_out) continue;
         model->statics.resize(statics);
         left_out[world.instances[i].prototype].push_back(i);

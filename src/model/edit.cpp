@@ -87,9 +87,97 @@ std::vector<std::uint32_t> find_robots(const Model& model,
     return found;
 }
 
-Error taken(const std::string& name) {
-    return {"there is a robot '" + name + "' already", "give another name with --name"};
+Error taken(const std::string& name, bool by_copy) {
+    return {by_copy ? "two of the added robots are called '" + name + "'"
+                    : "there is a robot '" + name + "' already",
+            "give another name with --name, or each copy one of its own", "name-taken"};
 }
+
+/// A Model that copies of another one are added to. Robots and scenery first, then seal().
+class Extension {
+  public:
+    Extension(const Model& model, const Model& addition, std::size_t copies)
+        : addition_(addition), model_(std::make_shared<Model>(model)), types_(addition.types.size()) {
+        for (const Robot& robot : model.robots) family_ = std::max(family_, robot.family + 1);
+        model_->robots.reserve(model.robots.size() + copies * addition.robots.size());  // names_ look into it
+        for (const Robot& robot : model_->robots) names_.insert(robot.name);
+        old_robots_ = model.robots.size();
+    }
+
+    /// An Error: a name is taken.
+    Result<> add(const CopyPlace& place) {
+        const std::size_t first = model_->robots.size();
+        std::uint32_t next_family = family_;
+        for (const Robot& robot : addition_.robots) {
+            model_->robots.push_back(copy_of(robot, place));
+            next_family = std::max(next_family, model_->robots.back().family + 1);
+            const std::string& name = model_->robots.back().name;
+            if (!names_.insert(name).second) return taken(name, is_new(name));
+        }
+        family_ = next_family;
+        const Transform X_W = to_transform(place.X_WA);
+        for (StaticShape shape : addition_.statics) {
+            shape.X_WS = X_W * shape.X_WS;
+            for (Vec3* v : {&shape.flow.linear, &shape.flow.angular, &shape.flow.belt}) *v = X_W.R * *v;
+            shape.flow.at = X_W * shape.flow.at;
+            shape.name = place.name.empty() ? shape.name : place.name + "::" + shape.name;
+            if (shape.robot.valid()) shape.robot = RobotId(first + shape.robot.index());
+            model_->statics.push_back(std::move(shape));
+        }
+        return Ok{};
+    }
+
+    ModelEdit finish() {
+        Model& model = *model_;
+        model.hulls.insert(model.hulls.end(), addition_.hulls.begin(), addition_.hulls.end());
+        model.surfaces.insert(model.surfaces.end(), addition_.surfaces.begin(), addition_.surfaces.end());
+        remove_unused_shapes(model);
+        std::vector<RobotId> now;
+        for (std::size_t i = 0; i < old_robots_; ++i) now.emplace_back(i);
+        return sealed(std::move(model_), std::move(now), !addition_.statics.empty());
+    }
+
+  private:
+    Robot copy_of(const Robot& robot, const CopyPlace& place) {
+        Robot copy = robot;
+        copy.name = name_in_model(addition_, robot.name, place.name);
+        copy.type = type_of(robot.type);
+        copy.X_WR = place.X_WA * robot.X_WR;
+        copy.X_WR.q = normalized(copy.X_WR.q);
+        copy.family += family_;
+        turn_velocity(place.X_WA.q, copy);
+        return copy;
+    }
+
+    /// The velocity of a free base is in world axes.
+    void turn_velocity(const Quat& q, Robot& robot) const {
+        std::vector<double>& v = robot.start_v;
+        if (v.empty() || !model_->types[robot.type.index()].free_base) return;
+        for (const std::size_t i : {std::size_t{0}, std::size_t{3}}) {
+            const Vec3 turned = rotate(q, Vec3{v[i], v[i + 1], v[i + 2]});
+            v[i] = turned.x, v[i + 1] = turned.y, v[i + 2] = turned.z;
+        }
+    }
+
+    TypeId type_of(TypeId type) {
+        TypeId& known = types_[type.index()];
+        if (!known.valid()) known = place_of_type(*model_, afloat(*model_, addition_.types[type.index()]));
+        return known;
+    }
+
+    /// An added robot has this name already.
+    bool is_new(const std::string& name) const {
+        const auto added = model_->robots.begin() + static_cast<std::ptrdiff_t>(old_robots_);
+        return std::any_of(added, model_->robots.end() - 1, [&](const Robot& r) { return r.name == name; });
+    }
+
+    const Model& addition_;
+    std::shared_ptr<Model> model_;
+    std::vector<TypeId> types_;  // by the addition's: in the new Model
+    std::uint32_t family_ = 0;   // the first of the next copy
+    std::size_t old_robots_ = 0;
+    std::unordered_set<std::string_view> names_;
+};
 
 }  // namespace
 
@@ -108,41 +196,21 @@ Result<ModelEdit> with_accuracy(const Model& model, const AccuracySpec& spec) {
 
 Result<ModelEdit> with_models(const Model& model, const Model& addition, const Pose& X_WA,
                               const std::string& name) {
+    const CopyPlace place{name, X_WA};
+    return with_models(model, addition, {&place, 1});
+}
+
+Result<ModelEdit> with_models(const Model& model, const Model& addition, std::span<const CopyPlace> places) {
     if (addition.dt_s != model.dt_s)
         return Error{"the addition was compiled for a step of " + std::to_string(addition.dt_s) +
                          " s, the world has " + std::to_string(model.dt_s) + " s",
-                     "compile it with the world's step"};
+                     "compile it with the world's step", "other-step"};
     if (addition.robots.empty() && addition.statics.empty())
-        return Error{"there is no model in the file", "give a file with at least one model"};
-    auto changed = std::make_shared<Model>(model);
-    std::uint32_t family = 0;
-    for (const Robot& robot : model.robots) family = std::max(family, robot.family + 1);
-    const std::size_t first = model.robots.size();
-    std::unordered_set<std::string_view> names;
-    for (const Robot& robot : model.robots) names.insert(robot.name);
-    for (const Robot& robot : addition.robots) {
-        Robot added = robot;
-        added.name = name_in_model(addition, robot.name, name);
-        if (names.contains(added.name)) return taken(added.name);
-        added.type = place_of_type(*changed, afloat(model, addition.types[robot.type.index()]));
-        added.X_WR = X_WA * robot.X_WR;
-        added.X_WR.q = normalized(added.X_WR.q);
-        added.family += family;
-        changed->robots.push_back(std::move(added));
-    }
-    const Transform X_W = to_transform(X_WA);
-    for (StaticShape shape : addition.statics) {
-        shape.X_WS = X_W * shape.X_WS;
-        for (Vec3* v : {&shape.flow.linear, &shape.flow.angular, &shape.flow.belt}) *v = X_W.R * *v;
-        shape.flow.at = X_W * shape.flow.at;
-        shape.name = name.empty() ? shape.name : name + "::" + shape.name;
-        if (shape.robot.valid()) shape.robot = RobotId(first + shape.robot.index());
-        changed->statics.push_back(std::move(shape));
-    }
-    changed->hulls.insert(changed->hulls.end(), addition.hulls.begin(), addition.hulls.end());
-    changed->surfaces.insert(changed->surfaces.end(), addition.surfaces.begin(), addition.surfaces.end());
-    remove_unused_shapes(*changed);
-    return sealed(std::move(changed), all_stay(model), !addition.statics.empty());
+        return Error{"there is no model in the file", "give a file with at least one model", "no-model"};
+    Extension extension(model, addition, places.size());
+    for (const CopyPlace& place : places)
+        if (Result<> added = extension.add(place); !added) return added.error();
+    return extension.finish();
 }
 
 Result<ModelEdit> without_robots(const Model& model, const std::vector<std::string>& names) {
@@ -153,7 +221,7 @@ Result<ModelEdit> without_robots(const Model& model, const std::vector<std::stri
         const std::vector<std::uint32_t> robots = find_robots(model, by_name, name);
         if (robots.empty())
             return Error{"there is no robot '" + name + "' in the world",
-                         "see `roboss control status` for their names"};
+                         "see `roboss control status` for their names", "no-robot"};
         gone.insert(robots.begin(), robots.end());
     }
     auto changed = std::make_shared<Model>(model);
@@ -174,9 +242,12 @@ Result<ModelEdit> without_robots(const Model& model, const std::vector<std::stri
 }
 
 std::vector<RobotState> carry_over(const ModelEdit& edit, const std::vector<RobotState>& states) {
-    std::vector<RobotState> carried;
-    for (std::size_t i = 0; i < edit.model->robots.size(); ++i)
-        carried.push_back(initial_state(*edit.model, RobotId(i)));
+    std::vector<RobotState> carried(edit.model->robots.size());
+    std::vector<char> stays(carried.size(), 0);
+    for (const RobotId& now : edit.now)
+        if (now.valid()) stays[now.index()] = 1;
+    for (std::size_t i = 0; i < carried.size(); ++i)
+        if (!stays[i]) carried[i] = initial_state(*edit.model, RobotId(i));
     const auto is_gone = [&](std::uint32_t robot) { return !edit.now[robot].valid(); };
     for (std::size_t i = 0; i < states.size(); ++i) {
         if (!edit.now[i].valid()) continue;

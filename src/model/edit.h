@@ -7,9 +7,11 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "model/copy_place.h"
 #include "model/order.h"
 
 namespace roboss {
@@ -31,6 +33,9 @@ std::string name_in_model(const Model& addition, const std::string& old, const s
 /// empty: its own. Refuses names that are taken and another step.
 Result<ModelEdit> with_models(const Model& model, const Model& addition, const Pose& X_WA,
                               const std::string& name);
+/// The same once for each place: one edit, however many copies. Refuses all of them if a name is taken or two
+/// copies have the same. Error codes: name-taken, other-step, no-model.
+Result<ModelEdit> with_models(const Model& model, const Model& addition, std::span<const CopyPlace> places);
 
 /// Without these robots; "x*" names all whose names begin with x. Types, hulls and surfaces that only they
 /// had go with them; their scenery, if any, stays.

@@ -56,6 +56,48 @@ TEST(ModelEdit, EqualTypesAreSharedAndNamesAreUnique) {
     EXPECT_EQ(edit.value().model->robots[3].type, edit.value().model->robots[2].type);
 }
 
+TEST(ModelEdit, ManyCopiesInOneEditAreThoseOfAsManyEdits) {
+    const auto model = made(base_world()), spiders = made(a_spider("spider"));
+    std::vector<CopyPlace> places;
+    for (int i = 0; i < 5; ++i)
+        places.push_back({"s" + std::to_string(i), {{1.0 * i, 9, 1}, from_rpy(0, 0, 0.3 * i)}});
+    auto one_by_one = model;
+    for (const CopyPlace& place : places)
+        one_by_one = with_models(*one_by_one, *spiders, place.X_WA, place.name).value().model;
+    const Result<ModelEdit> edit = with_models(*model, *spiders, places);
+    ASSERT_TRUE(edit.ok()) << edit.error().text();
+    EXPECT_EQ(edit.value().model->hash, one_by_one->hash);
+    EXPECT_EQ(edit.value().now.size(), model->robots.size());
+    const Result<ModelEdit> gone = without_robots(*edit.value().model, {"s*"});
+    EXPECT_EQ(gone.value().model->hash, model->hash);
+}
+
+TEST(ModelEdit, ATakenNameRefusesAllCopies) {
+    const auto model = made(base_world()), spiders = made(a_spider("spider"));
+    const std::vector<CopyPlace> old{{"a", {}}, {"car", {}}}, twice{{"a", {}}, {"b", {}}, {"a", {}}};
+    const Result<ModelEdit> taken = with_models(*model, *spiders, old);
+    ASSERT_FALSE(taken.ok());
+    EXPECT_EQ(taken.error().code, "name-taken");
+    EXPECT_NE(taken.error().message.find("there is a robot 'car'"), std::string::npos);
+    const Result<ModelEdit> same = with_models(*model, *spiders, twice);
+    ASSERT_FALSE(same.ok());
+    EXPECT_EQ(same.error().code, "name-taken");
+    EXPECT_NE(same.error().message.find("two of the added robots are called 'a'"), std::string::npos);
+}
+
+TEST(ModelEdit, ACopyThatIsTurnedMovesTheWayItIsTurned) {
+    World moving = a_spider("spider");
+    moving.instances[0].links = {{moving.prototypes[0].links[0].name, std::nullopt, {1, 0, 0}, {0, 2, 0}}};
+    const auto addition = made(moving);
+    ASSERT_FALSE(addition->robots[0].start_v.empty());
+    const Pose X{{0, 0, 5}, from_rpy(0, 0, 1.5707963267948966)};
+    const auto model = with_models(*made(base_world()), *addition, X, "guest").value().model;
+    const RobotState state = initial_state(*model, RobotId(3u)), as_it_was = initial_state(*addition, RobotId(0u));
+    EXPECT_NEAR(state.v[0], -as_it_was.v[1], 1e-12);
+    EXPECT_NEAR(state.v[1], as_it_was.v[0], 1e-12);
+    EXPECT_NEAR(state.v[4], as_it_was.v[3], 1e-12);
+}
+
 TEST(ModelEdit, RemovingKeepsTheOthersAndTheirOrder) {
     const auto model = made(base_world());
     const Result<ModelEdit> edit = without_robots(*model, {"arm"});

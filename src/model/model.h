@@ -312,6 +312,8 @@ struct Robot {
     Pose X_WR;         ///< robot (SDF model) frame at the start
     /// Robots made of one SDF model share a family and do not collide unless self_collide.
     std::uint32_t family = 0;
+    std::vector<double> start_q{},  ///< joint coordinates at the start; empty: RobotType::initial_q
+        start_v{};                  ///< RobotState::v at the start; empty: it is at rest
 };
 
 /// A collision shape of the scenery.

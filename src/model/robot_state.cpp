@@ -11,14 +11,17 @@ namespace roboss {
 
 RobotState initial_state(const Model& model, RobotId robot) {
     const RobotType& type = model.type_of(robot);
+    const Robot& start = model.robots[robot.index()];
     RobotState state;
     state.q.resize(7);
     const Pose X_RB{type.X_RB.p, to_quat(type.X_RB.R)};
-    Pose X_WB = type.free_base ? model.robots[robot.index()].X_WR * X_RB : model.robots[robot.index()].X_WR;
+    Pose X_WB = type.free_base ? start.X_WR * X_RB : start.X_WR;
     X_WB.q = normalized(X_WB.q);
     set_base_pose(state, X_WB);
-    state.q.insert(state.q.end(), type.initial_q.begin(), type.initial_q.end());
-    state.v.assign(static_cast<std::size_t>(type.nv), 0.0);
+    const std::vector<double>& joints = start.start_q.empty() ? type.initial_q : start.start_q;
+    state.q.insert(state.q.end(), joints.begin(), joints.end());
+    state.v = start.start_v;
+    state.v.resize(static_cast<std::size_t>(type.nv), 0.0);
     state.motors.resize(type.motor_count());
     state.onboard.resize(static_cast<std::size_t>(type.onboard_size));
     state.lists.resize(static_cast<std::size_t>(type.list_count));

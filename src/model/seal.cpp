@@ -39,6 +39,8 @@ std::uint64_t model_hash(const Model& model) {
         const double numbers[] = {robot.X_WR.p.x, robot.X_WR.p.y, robot.X_WR.p.z, robot.X_WR.q.w,
                                   robot.X_WR.q.x, robot.X_WR.q.y, robot.X_WR.q.z};
         hash.add(std::span<const double>(numbers));
+        if (!robot.start_q.empty()) hash.add(std::string_view("q")), hash.add(std::span(robot.start_q));
+        if (!robot.start_v.empty()) hash.add(std::string_view("v")), hash.add(std::span(robot.start_v));
     }
     for (const StaticShape& s : model.statics) {
         hash.add(static_cast<std::uint64_t>(s.shape.kind));

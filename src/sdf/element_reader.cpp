@@ -124,6 +124,18 @@ Vec3 ElementReader::vector(const Element& parent, const char* child, const Vec3&
     return {values[0], values[1], values[2]};
 }
 
+double ElementReader::value(const Element& element, double fallback) const {
+    double number[1] = {fallback};
+    numbers(element, number, Finite::kRequired);
+    return number[0];
+}
+
+std::array<double, 6> ElementReader::six(const Element& parent, const char* child) const {
+    std::array<double, 6> values{};
+    if (const Element element = parent.child(child)) numbers(element, values, Finite::kRequired);
+    return values;
+}
+
 double ElementReader::angle(const Element& parent, const char* child, double fallback) const {
     const Element element = parent.child(child);
     if (!element) return fallback;

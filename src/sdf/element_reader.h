@@ -3,6 +3,7 @@
 // and find more.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -38,6 +39,10 @@ class ElementReader {
     int integer(const Element& parent, const char* child, int fallback) const;
     bool boolean(const Element& parent, const char* child, bool fallback) const;
     Vec3 vector(const Element& parent, const char* child, const Vec3& fallback) const;
+    /// The number that is the element's own text.
+    double value(const Element& element, double fallback) const;
+    /// Six numbers; zeros if there is no such child.
+    std::array<double, 6> six(const Element& parent, const char* child) const;
 
     /// An angle in radians, or in degrees with degrees="true".
     double angle(const Element& parent, const char* child, double fallback) const;

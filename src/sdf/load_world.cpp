@@ -11,6 +11,7 @@
 #include "sdf/newer_versions.h"
 #include "sdf/placements.h"
 #include "sdf/same_model.h"
+#include "sdf/saved_state.h"
 #include "sdf/urdf.h"
 #include "sdf/world_frames.h"
 #include "sdf/world_fluids.h"
@@ -54,10 +55,13 @@ class WorldLoader {
         std::vector<OnboardSpec> plugins;
         read_world_settings(*world, profile_, import_, result, plugins);
         if (result.name.empty()) result.name = name_of_file();
-        const auto placements = collect_placements(*world, includes_, import_);
+        SavedState state(*world, import_);
+        std::vector<Placement> placements = collect_placements(*world, includes_, import_);
+        state.change(placements, includes_, import_);
         for (const Placement& placement : placements) distinct_of_.push_back(find_distinct(placement));
         for (Distinct& distinct : distinct_) read_distinct(distinct, result);
-        place(*world, placements, result);
+        place(*world, placements, state, result);
+        state.report_unused(diagnostics_);
         attach_world_plugins(plugins, result, diagnostics_);
         mark_buoyant(result);
         validate_settings(result, diagnostics_);
@@ -137,7 +141,8 @@ class WorldLoader {
         return std::nullopt;
     }
 
-    void place(const Element& world, const std::vector<Placement>& placements, World& result) {
+    void place(const Element& world, const std::vector<Placement>& placements, SavedState& state,
+               World& result) {
         const auto in_model = [&](std::size_t i, const std::string& name) -> std::optional<Pose> {
             const auto& read = distinct_[distinct_of_[i]].read;
             return read ? pose_in_model(*read, name) : std::nullopt;
@@ -151,7 +156,9 @@ class WorldLoader {
             const std::size_t first = diagnostics_.items().size();
             ModelInstance instance{placement.name, distinct.prototype.value_or(0), frames.pose_of(i),
                                    placement.where.where()};
-            const bool spoilt = placement.left_out || distinct.left_out;
+            bool spoilt = placement.left_out || distinct.left_out;
+            if (!spoilt && distinct.prototype)
+                spoilt = !state.apply(instance, result.prototypes[*distinct.prototype], diagnostics_);
             if (!spoilt && distinct.prototype) check.check(instance, diagnostics_);
             if (diagnostics_.leave_out_since(first) || spoilt) {
                 left_out[distinct_of_[i]].push_back(&placement);

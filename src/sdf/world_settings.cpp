@@ -14,15 +14,15 @@ namespace roboss::sdf_import {
 namespace {
 
 /// Drawing, sound and bookkeeping: nothing that moves a robot.
-constexpr const char* kSilent[] = {"light",           "gui",
-                                   "scene",           "audio",
-                                   "atmosphere",      "physics",
-                                   "gravity",         "wind",
-                                   "magnetic_field",  "spherical_coordinates",
-                                   "model",           "include",
-                                   "population",      "frame",
-                                   "roboss:accuracy", "roboss:sleep",
-                                   "roboss:precision"};
+constexpr const char* kSilent[] = {"light",          "gui",
+                                   "scene",          "audio",
+                                   "atmosphere",     "physics",
+                                   "gravity",        "wind",
+                                   "magnetic_field", "spherical_coordinates",
+                                   "model",          "include",
+                                   "population",     "frame",
+                                   "state",          "roboss:accuracy",
+                                   "roboss:sleep",   "roboss:precision"};
 
 constexpr const char* kWind[] = {"linear_velocity"};
 constexpr const char* kAtmosphere[] = {"temperature", "pressure", "temperature_gradient"};
@@ -100,9 +100,6 @@ void report_other(const Element& element, const Import& import) {
             element.where(), "world-joint",
             "joints between models of a world are still to come; '" + element.name() + "' is left out",
             "Put both models into one model and the joint with them.");
-    } else if (name == "state") {
-        import.diagnostics().note(element.where(), "state",
-                                  "a saved <state> is ignored; models start at their own poses");
     } else if (name == "road") {
         import.diagnostics().note(element.where(), "road",
                                   "roads are only drawn in Gazebo; they are left out");

@@ -191,6 +191,7 @@ template <class A> void field(A&, Of<A, ResumeRun>&) { static_assert(std::is_emp
 template <class A> void field(A&, Of<A, AddSimulator>&) { static_assert(std::is_empty_v<AddSimulator>); }
 template <class A> void field(A&, Of<A, RemoveSimulator>&) { static_assert(std::is_empty_v<RemoveSimulator>); }
 template <class A> void field(A&, Of<A, QuitRun>&) { static_assert(std::is_empty_v<QuitRun>); }
+template <class A> void field(A&, Of<A, ResetRun>&) { static_assert(std::is_empty_v<ResetRun>); }
 template <class A> void field(A& a, Of<A, GetStatus>& m) { auto& [robots] = m; fields(a, robots); }
 template <class A> void field(A& a, Of<A, StepRun>& m) { auto& [ticks] = m; fields(a, ticks); }
 template <class A> void field(A& a, Of<A, SetSpeed>& m) { auto& [kind, factor] = m; fields(a, kind, factor); }
@@ -200,7 +201,8 @@ template <class A> void field(A& a, Of<A, SaveRun>& m) { auto& [file] = m; field
 template <class A> void field(A& a, Of<A, RewindRun>& m) { auto& [branch, time_s] = m; fields(a, branch, time_s); }
 template <class A> void field(A& a, Of<A, ChangeAccuracy::Number>& m) { auto& [name, value] = m; fields(a, name, value); }
 template <class A> void field(A& a, Of<A, ChangeAccuracy>& m) { auto& [setting, numbers] = m; fields(a, setting, numbers); }
-template <class A> void field(A& a, Of<A, AddModels>& m) { auto& [file, content, X_WA, name] = m; auto& [p, q] = X_WA; fields(a, file, content, p, q, name); }
+template <class A> void field(A& a, Of<A, CopyPlace>& m) { auto& [name, X_WA] = m; auto& [p, q] = X_WA; fields(a, name, p, q); }
+template <class A> void field(A& a, Of<A, AddModels>& m) { auto& [file, content, X_WA, name, copies] = m; auto& [p, q] = X_WA; fields(a, file, content, p, q, name, copies); }
 template <class A> void field(A& a, Of<A, RemoveRobots>& m) { auto& [names] = m; fields(a, names); }
 template <class A> void field(A& a, Of<A, MessageRate>& m) { auto& [messages_in, messages_out, bytes_in, bytes_out] = m; fields(a, messages_in, messages_out, bytes_in, bytes_out); }
 template <class A> void field(A& a, Of<A, MemberStatus>& m) {

@@ -101,7 +101,8 @@ std::vector<Message> every_control_message() {
           ControlAction(SaveRun{"a.roboss"}), ControlAction(QuitRun{}), ControlAction(RewindRun{2, 12.5}),
           ControlAction(ChangeAccuracy{"high", {{"tolerance", 1e-10}}}),
           ControlAction(AddModels{"ball.sdf", "<sdf/>", {{1, 2, 3}, {}}, "ball"}),
-          ControlAction(RemoveRobots{{"a", "b"}})})
+          ControlAction(AddModels{"ball.sdf", "<sdf/>", {}, "", {{"a", {{1, 2, 3}, {}}}, {"b", {}}}}),
+          ControlAction(RemoveRobots{{"a", "b"}}), ControlAction(ResetRun{})})
         all.emplace_back(ControlRequest{all.size() + 1, action});
     const MemberStatus member{2, "host/7", MemberState::kLost, 4, 10, 5, 7.5, 0.9, {1, 2, 3, 4}};
     const RunStatus status{"w.sdf", 500, 1.0, true,         2.0, 3,  16, 40,  2,        0.95,  3.5, 1,

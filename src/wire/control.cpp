@@ -42,13 +42,18 @@ const char* rule(const ChangeAccuracy& change) {
     const auto finite = [](const ChangeAccuracy::Number& n) { return std::isfinite(n.value); };
     return std::ranges::all_of(change.numbers, finite) ? nullptr : "a number is not finite";
 }
-const char* rule(const AddModels& add) {
-    const Vec3& p = add.X_WA.p;
-    const Quat& q = add.X_WA.q;
+const char* rule(const Pose& X) {
+    const Vec3& p = X.p;
+    const Quat& q = X.q;
     for (const double x : {p.x, p.y, p.z})
         if (!(std::fabs(x) <= kOrderLimits.position)) return "a pose is beyond 1e9 m";
     const double norm_squared = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
     return std::fabs(norm_squared - 1) < 1e-6 ? nullptr : "a pose's quaternion has not length 1";
+}
+const char* rule(const AddModels& add) {
+    for (const CopyPlace& copy : add.copies)
+        if (const char* broken = rule(copy.X_WA)) return broken;
+    return rule(add.X_WA);
 }
 const char* rule(const RemoveRobots& remove) {
     return remove.names.empty() ? "it names no robot" : nullptr;
@@ -73,7 +78,8 @@ const char* control_verb(const ControlAction& action) {
                                        "rewind",
                                        "accuracy",
                                        "add",
-                                       "remove"};
+                                       "remove",
+                                       "reset"};
     static_assert(kVerbs.size() == std::variant_size_v<ControlAction>);
     return kVerbs[action.index()];
 }

@@ -11,6 +11,7 @@
 #include "core/types.h"
 #include "math/box32.h"
 #include "math/pose.h"
+#include "model/copy_place.h"
 
 namespace roboss {
 
@@ -104,6 +105,11 @@ struct RewindRun {
     /// Compares all members.
     friend bool operator==(const RewindRun&, const RewindRun&) = default;
 };
+/// Continues from the world's beginning: the world file as it was loaded, at tick 0.
+struct ResetRun {
+    /// Compares all members.
+    friend bool operator==(const ResetRun&, const ResetRun&) = default;
+};
 /// Changes the numbers of <roboss:accuracy>.
 struct ChangeAccuracy {
     /// A number by its name.
@@ -118,13 +124,16 @@ struct ChangeAccuracy {
     /// Compares all members.
     friend bool operator==(const ChangeAccuracy&, const ChangeAccuracy&) = default;
 };
-/// Adds the models of an SDF or URDF file. The request carries the content, since the file may be on another
-/// computer; files that it refers to are looked up on the Controller's.
+/// Adds the models of an SDF or URDF file, once or many times: all of them or none. The request carries the
+/// content, since the file may be on another computer; files that it refers to are looked up on the
+/// Controller's.
 struct AddModels {
     std::string file;     ///< its name, for messages
     std::string content;  ///< SDF or URDF
     Pose X_WA;            // of the file's world frame
     std::string name;     // in the world; empty: the name in the file
+    /// If there are any: a copy at each, instead of one at X_WA by `name`.
+    std::vector<CopyPlace> copies{};
     /// Compares all members.
     friend bool operator==(const AddModels&, const AddModels&) = default;
 };
@@ -138,7 +147,7 @@ struct RemoveRobots {
 /// A request to the run.
 using ControlAction = std::variant<GetStatus, GetGroups, GetBounds, PauseRun, ResumeRun, StepRun, SetSpeed,
                                    SetWindow, AddSimulator, RemoveSimulator, KillSimulator, SaveRun, QuitRun,
-                                   RewindRun, ChangeAccuracy, AddModels, RemoveRobots>;
+                                   RewindRun, ChangeAccuracy, AddModels, RemoveRobots, ResetRun>;
 
 /// The request's name on the command line: "pause", "step" ...
 const char* control_verb(const ControlAction& action);

@@ -153,7 +153,7 @@ template <class A> void field(A& a, Of<A, RobotType>& m) {
     fields(a, m.name, m.free_base, m.is_static, m.kinematic, m.self_collide, m.may_sleep, m.X_RB, m.bodies, m.dofs, m.dof_parent, m.links, m.joints,
            m.loops, m.couplings, m.shapes, m.drags, m.fluids, m.self_pairs, m.sensors, m.onboard, m.initial_q, m.nq, m.nv, m.reach, m.mass, m.scenery);
 }
-template <class A> void field(A& a, Of<A, Robot>& m) { fields(a, m.name, m.type, m.X_WR, m.family); }
+template <class A> void field(A& a, Of<A, Robot>& m) { fields(a, m.name, m.type, m.X_WR, m.family, m.start_q, m.start_v); }
 template <class A> void field(A& a, Of<A, StaticShape>& m) {
     fields(a, m.shape, m.X_WS, m.material, m.name, m.robot, m.link, m.flow, m.driven);
 }
@@ -190,7 +190,7 @@ template <class A> void field(A& a, Of<A, Model>& m) {
 [[maybe_unused]] void know_fields(const NoiseSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4] = m; }
 [[maybe_unused]] void know_fields(const SensorInfo& m) { [[maybe_unused]] const auto& [f0, f1] = m; }
 [[maybe_unused]] void know_fields(const RobotType& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17, f18, f19, f20, f21, f22, f23, f24, f25, f26, f27, f28, f29, f30, f31, f32] = m; }
-[[maybe_unused]] void know_fields(const Robot& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3] = m; }
+[[maybe_unused]] void know_fields(const Robot& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const StaticShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7] = m; }
 [[maybe_unused]] void know_fields(const Accuracy& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const Model& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17] = m; }

@@ -263,12 +263,29 @@ struct ModelSpec {
     SourceLocation where;                      ///< of the element
 };
 
+/// Where a link is and how it moves at the start (SDF `<state>`). The joints follow from it.
+struct LinkStart {
+    std::string link;          ///< name in the model
+    std::optional<Pose> X_WL;  ///< link frame in the world; none: as the joints put it
+    Vec3 linear,               ///< m/s, of the link's origin, world axes
+        angular;               ///< rad/s, world axes
+};
+
+/// Where an axis of a joint is at the start, instead of AxisSpec::initial_position.
+struct AxisStart {
+    std::string joint;    ///< name in the model
+    int axis = 0;         ///< index into JointSpec::axes
+    double position = 0;  ///< rad or m
+};
+
 /// A model of the world: a prototype at a pose.
 struct ModelInstance {
-    std::string name;           ///< unique in the world
-    std::size_t prototype = 0;  ///< index into World::prototypes
-    Pose X_WM;                  ///< model frame in the world at the start
-    SourceLocation where;       ///< of the element
+    std::string name;                ///< unique in the world
+    std::size_t prototype = 0;       ///< index into World::prototypes
+    Pose X_WM;                       ///< model frame in the world at the start
+    SourceLocation where;            ///< of the element
+    std::vector<LinkStart> links{};  ///< that do not start at rest where the model puts them
+    std::vector<AxisStart> axes{};   ///< that do not start where the model puts them
 };
 
 /// WGS84 anchor of the world's origin; heading: rotation of the world's x axis from east, counter-clockwise,

@@ -100,6 +100,48 @@ class Control(unittest.TestCase):
             self.assertEqual(embedded(*PILE, "--from", saved)["state_hash"], expected["state_hash"])
             self.assertTrue(journal("verify", file)["good"])
 
+    def step(self, cluster, ticks):
+        """The status after so many ticks."""
+        self.ask(cluster, "step", ticks)
+        while not (status := self.status(cluster))["paused"]:
+            time.sleep(0.02)
+        return status
+
+    def test_many_robots_come_and_go_and_a_reset_returns_to_the_start_with_a_simulator_killed_meanwhile(self):
+        ball, places = FOLDER / "ball.sdf", FOLDER / "places.txt"
+        ball.write_text(BALL)
+        places.write_text("left -3 0 1 0 0 0\nright 3 0 1 0 0 0  # two more\n")
+        hashes = []
+        for way in (["--local", 1, "--simulators", 0], ["--simulators", 2]):
+            with self.subTest(way=way), Cluster() as cluster:
+                file = FOLDER / f"reset-{len(hashes)}.journal"
+                controller = cluster.controller(*PILE, *way, "--paused", "--journal", file)
+                members = [cluster.simulator() for _ in range(2 if way[1] == 2 else 0)]
+                start = self.status(cluster)
+                first = self.step(cluster, 100)
+                self.ask(cluster, "add", ball, "--count", 200, "--grid", "0.5 0.5 20", "--pose", "-5 4 0.3 0 0 0", "--name", "crowd")
+                self.assertIn("[name-taken]", self.ask(cluster, "add", ball, "--count", 3, "--name", "crowd", code=3))
+                self.ask(cluster, "add", ball, "--poses", places)
+                self.assertEqual(self.status(cluster)["robots"], start["robots"] + [f"crowd_{i}" for i in range(200)] + ["left", "right"])
+                for member in members[:1]:
+                    member.kill()
+                crowded = self.step(cluster, 50)
+                self.ask(cluster, "remove", "crowd_*", start["robots"][0])
+                removed = self.step(cluster, 50)
+                self.assertEqual(removed["robots"], start["robots"][1:] + ["left", "right"])
+                self.ask(cluster, "reset")
+                again = self.status(cluster)
+                for key in ("tick", "robots", "model_hash", "state_hash"):
+                    self.assertEqual(again[key], start[key], key)
+                self.assertEqual(self.step(cluster, 100)["state_hash"], first["state_hash"])
+                self.ask(cluster, "reset")
+                controller.kill()
+                self.assertTrue(journal("verify", file)["good"])
+                finished = cluster.summary(cluster.controller(*PILE, *(["--simulators", 1] if members else way), "--journal", file))
+                self.assertEqual(finished["state_hash"], embedded(*PILE)["state_hash"])
+                hashes.append([crowded["state_hash"], removed["state_hash"]])
+        self.assertEqual(hashes[0], hashes[1])
+
     def test_robots_and_accuracy_change_at_a_tick_and_the_journal_keeps_it(self):
         ball = FOLDER / "ball.sdf"
         ball.write_text(BALL)

@@ -8,6 +8,7 @@
 #include <memory>
 #include <sstream>
 
+#include "app/commands/add_copies.h"
 #include "app/commands/exit_codes.h"
 #include "app/processes/interrupt.h"
 #include "app/run/run.h"
@@ -22,8 +23,8 @@ constexpr double kPatience_s = 10;
 
 const char* const kFooter =
     R"(The run is found by --simulation and the network options, as by its other members. A request takes effect at the end
-of the current window. pause, step, speed, window and simulators do not change the result. rewind, add, remove and accuracy
-change the world at a tick; with a journal, each starts a new branch there.
+of the current window. pause, step, speed, window and simulators do not change the result. rewind, reset, add, remove and
+accuracy change the world at a tick; with a journal, each starts a new branch there.
 
 Examples:
   roboss controller world.sdf --local 1 --simulators 0 --journal run.journal      a run that can be controlled
@@ -31,7 +32,9 @@ Examples:
   roboss control step 100
   roboss control rewind 12.5
   roboss control add robot.sdf --pose "1 0 0.5 0 0 0" --name visitor
-  roboss control remove visitor
+  roboss control add robot.sdf --name crowd --count 1000 --grid "2 2 40" --pose "0 50 0.5 0 0 0"
+  roboss control remove visitor 'crowd_*'
+  roboss control reset
 
 Exit codes: 0 done, 1 no Controller was found or a file cannot be read, 2 wrong usage, 3 the run refused the request.)";
 
@@ -39,6 +42,7 @@ struct ControlCommandOptions {
     MemberOptions member;
     std::string value, pose = "0 0 0 0 0 0", name;
     std::vector<std::string> values;
+    CopyOptions copies;
 };
 
 using Ask = std::function<void(const std::vector<std::string>&)>;
@@ -66,7 +70,25 @@ void add_plain(CLI::App& command, ControlCommandOptions& o, const Ask& ask) {
     one("save", "save the state; the Controller writes the file on its computer", "file", true);
     one("rewind", "return to this time (s) of the journal, or #BRANCH@TIME, and continue from there", "time",
         true);
+    none("reset",
+         "return to the world's beginning and continue from there; added robots go, removed ones return");
     none("quit", "end the run as if its duration were over");
+}
+
+void ask_to_add(ControlCommandOptions& o, const Ask& ask, int& exit_code) {
+    std::ifstream in(o.value, std::ios::binary);
+    std::stringstream content;
+    exit_code = kBadInput;
+    if (!in || !(content << in.rdbuf()))
+        return print(Error{o.value + " cannot be read", "check the path", "no-file"});
+    std::vector<std::string> words{"add", o.value, content.str(), o.pose, o.name};
+    if (o.copies.count > 1 || !o.copies.poses.empty()) {
+        o.copies.pose = o.pose, o.copies.name = o.name, o.copies.file = o.value;
+        Result<std::string> copies = copies_text(o.copies);
+        if (!copies) return print(copies.error());
+        words.push_back(std::move(copies).value());
+    }
+    ask(words);
 }
 
 void add_changes(CLI::App& command, ControlCommandOptions& o, const Ask& ask, int& exit_code) {
@@ -94,13 +116,18 @@ void add_changes(CLI::App& command, ControlCommandOptions& o, const Ask& ask, in
         ->required();
     sub->add_option("--pose", o.pose, "\"x y z roll pitch yaw\", m and rad")->capture_default_str();
     sub->add_option("--name", o.name, "name in the world (default: the name in the file)");
-    sub->callback([&o, ask, &exit_code] {
-        std::ifstream in(o.value, std::ios::binary);
-        std::stringstream content;
-        if (in && content << in.rdbuf()) return ask({"add", o.value, content.str(), o.pose, o.name});
-        print(Error{o.value + " cannot be read", "check the path", "no-file"});
-        exit_code = kBadInput;
-    });
+    CLI::Option* count =
+        sub->add_option("--count", o.copies.count, "add so many copies at once, NAME_0, NAME_1 ...")
+            ->check(CLI::Range(1, 1'000'000));
+    sub->add_option("--grid", o.copies.grid,
+                    "\"DX DY [COLUMNS]\": distances of the copies, m (default: 1 m, a square)")
+        ->needs(count);
+    sub->add_option("--poses", o.copies.poses,
+                    "add a copy for each line \"NAME x y z roll pitch yaw\" of this file, m and rad")
+        ->excludes(count)
+        ->excludes("--pose")
+        ->excludes("--name");
+    sub->callback([&o, ask, &exit_code] { ask_to_add(o, ask, exit_code); });
 }
 
 std::optional<ControlOutcome> find_reply(const std::vector<Envelope>& inbox) {

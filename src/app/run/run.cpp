@@ -65,16 +65,18 @@ bool Run::prepare() {
     if (model_ && !o_.orders.empty()) orders_ = load_orders(o_.orders, *model_, diagnostics);
     print(diagnostics, o_.world);
     if (!model_ || refused()) return false;
+    world_model_ = model_;
     if (is_shown()) visuals_.begin(*model_, std::move(*world));
     Result<std::unique_ptr<RunJournal>> journal = RunJournal::open(o_, *model_);
     if (!journal) return print(journal.error()), false;
     journal_ = std::move(journal).value();
     if (journal_->changed_model()) {
         model_ = journal_->changed_model();
-        if (!std::exchange(orders_, {}).empty())
+        if (!orders_.empty())
             notices_.push_back("the orders file is not read: its orders are in the journal already");
     }
-    return create() && submit(orders_) && open_files();
+    const bool reads_orders = model_ == world_model_;
+    return create() && (!reads_orders || submit(orders_, start_)) && open_files();
 }
 
 bool Run::prepare_replay() {
@@ -181,14 +183,16 @@ Result<> Run::start_again(std::shared_ptr<const Model> model, const SavedRun& fr
     busy_until_ = from.logged_until;
     if (!advance_to(from.logged_until))
         return Error{"the run could not be restored at that time", "see the messages above"};
+    if (turn.orders != nullptr && !submit(*turn.orders, from.tick))
+        return Error{"the orders of the orders file cannot be given again", "see the messages above"};
     pace_.begin(simulation_->tick());  // so that the speed limit does not catch up with the time before
     return journal_->begin_branch(*simulation_, turn.parent, turn.reason);
 }
 
 /// Orders from before the start of a continued run have been applied already.
-bool Run::submit(const std::vector<Order>& orders) {
+bool Run::submit(const std::vector<Order>& orders, Tick start) {
     for (const Order& order : orders) {
-        if (order.apply_at < start_) continue;
+        if (order.apply_at < start) continue;
         const Result<> taken = simulation_->submit(order);
         if (!taken) return print(taken.error()), false;
     }

@@ -39,14 +39,15 @@ class Run {
     CompileOptions compile_options() const;
     bool create();
     bool load_programs(std::vector<NamedProgram>& programs) const;
-    bool submit(const std::vector<Order>& orders);
+    bool submit(const std::vector<Order>& orders, Tick start);
     bool open_files();
     bool begin();
     /// The same run with another Model or from another time: a new Simulation on the same Bus, a new branch.
     struct Turn {
         BranchId parent = 0;
         std::string reason;
-        bool back = false;  // in time
+        bool back = false;                           // in time
+        const std::vector<Order>* orders = nullptr;  // besides those of `from`; null: none
     };
     Result<> start_again(std::shared_ptr<const Model> model, const SavedRun& from, const Turn& turn);
     SimulationOptions simulation_options(const SavedRun* from);
@@ -81,6 +82,7 @@ class Run {
     Done act(const ChangeAccuracy& change);
     Done act(const AddModels& add);
     Done act(const RemoveRobots& remove);
+    Done act(const ResetRun&);
     Done change_model(const ModelEdit& edit, const std::string& what);
     // run_status.cpp: what only asks
     RunStatus status(bool with_robots) const;
@@ -97,6 +99,8 @@ class Run {
     const RunOptions& o_;
     Progress progress_;
     std::shared_ptr<const Model> model_;
+    std::shared_ptr<const Model>
+        world_model_;                   // of the world file, to which a reset returns; null: of a replay
     ModelVisuals visuals_;              // for the viewer; none: of a replay
     std::unique_ptr<Gateway> gateway_;  // none: headless
     std::vector<Order> orders_;         // of the orders file

@@ -140,10 +140,28 @@ Run::Done Run::act(const RewindRun& rewind) {
     if (!run) return run.error();
     const std::string text =
         fmt::format("rewound from tick {} to tick {}", simulation_->tick(), time.value().tick);
-    if (Result<> again = start_again(time.value().model, run.value(), {time.value().branch.id, text, true});
+    if (Result<> again =
+            start_again(time.value().model, run.value(), {time.value().branch.id, text, true, nullptr});
         !again)
         return again.error();
     return text + fmt::format(", branch {}", journal_->writer().branch());
+}
+
+Run::Done Run::act(const ResetRun&) {
+    if (!world_model_)
+        return Error{"a replay has no beginning to return to", "reset the run itself", "no-reset"};
+    SavedRun run;
+    run.world_file = o_.world;
+    run.seed = simulation_->seed();
+    for (std::size_t i = 0; i < world_model_->robots.size(); ++i)
+        run.states.push_back(initial_state(*world_model_, RobotId(i)));
+    const std::string text = fmt::format("reset from tick {} to the world's beginning", simulation_->tick());
+    const BranchId parent = journal_->writes() ? journal_->writer().branch() : 0;
+    if (Result<> again = start_again(world_model_, run, {parent, text, true, &orders_}); !again)
+        return again.error();
+    if (pace_.step_until) pace_.paused = true, pace_.step_until.reset();
+    if (!journal_->writes()) visuals_.keep_only(*world_model_);
+    return journal_->writes() ? text + fmt::format(", branch {}", journal_->writer().branch()) : text;
 }
 
 /// The run continues with this Model, at the same tick.
@@ -156,7 +174,9 @@ Run::Done Run::change_model(const ModelEdit& edit, const std::string& what) {
         for (auto& [client, memory] : run.memory) memory = without_samples(memory);
     const std::string text = fmt::format("{} at {:.6f} s (tick {})", what, simulation_->time_s(), run.tick);
     const BranchId parent = journal_->writes() ? journal_->writer().branch() : 0;
-    if (Result<> again = start_again(edit.model, run, {parent, text, false}); !again) return again.error();
+    if (Result<> again = start_again(edit.model, run, {parent, text, false, nullptr}); !again)
+        return again.error();
+    if (!journal_->writes()) visuals_.keep_only(*model_);  // there is no way back
     return text;
 }
 
@@ -191,19 +211,24 @@ Run::Done Run::act(const AddModels& add) {
     if (!addition) return Error{first_error(found), "fix the file", "bad-model"};
     for (const Diagnostic& d : found.items())
         if (d.severity == Severity::kWarning) notices_.push_back(to_text(d));
-    Result<ModelEdit> edit = with_models(*model_, *addition, add.X_WA, add.name);
+    std::vector<CopyPlace> places = add.copies;
+    if (places.empty()) places.push_back({add.name, add.X_WA});
+    Result<ModelEdit> edit = with_models(*model_, *addition, places);
     if (!edit) return edit.error();
-    if (is_shown())
-        visuals_.add({*model_, *edit.value().model, *addition}, std::move(*world), add.X_WA, add.name);
+    if (is_shown()) visuals_.add({*model_, *edit.value().model, *addition}, std::move(*world), places);
     return change_model(edit.value(),
-                        fmt::format("{} robots of {} added", addition->robots.size(), add.file));
+                        fmt::format("{} robots of {} added",
+                                    edit.value().model->robots.size() - model_->robots.size(), add.file));
 }
 
 Run::Done Run::act(const RemoveRobots& remove) {
     Result<ModelEdit> edit = without_robots(*model_, remove.names);
     if (!edit) return edit.error();
+    constexpr std::size_t kNamedMost = 10;  // in the notice and the journal
     std::string text = "remove";
-    for (const std::string& name : remove.names) text += " " + name;
+    for (std::size_t i = 0; i < std::min(remove.names.size(), kNamedMost); ++i) text += " " + remove.names[i];
+    if (remove.names.size() > kNamedMost)
+        text += fmt::format(" and {} more names", remove.names.size() - kNamedMost);
     return change_model(edit.value(), text);
 }
 

@@ -1,39 +1,88 @@
 // A Model that is not known (of a journal from before this run) looks like the world file.
 #include "app/viewer/model_visuals.h"
 
+#include <algorithm>
+#include <unordered_set>
+
 #include "model/edit.h"
 
 namespace roboss {
+namespace {
+
+/// Names of the robots, and what stands before a "::" in them: a robot of several of a model is MODEL::LINK.
+std::unordered_set<std::string_view> names_of(const Model& model) {
+    std::unordered_set<std::string_view> names;
+    for (const Robot& robot : model.robots) {
+        const std::string_view name = robot.name;
+        for (std::size_t end = name.size(); end != std::string_view::npos && end > 0;
+             end = name.rfind("::", end - 1))
+            names.insert(name.substr(0, end));
+    }
+    return names;
+}
+
+/// Whether anything of this World can still be seen; scenery stays for good.
+bool is_seen(const World& world, const std::unordered_set<std::string_view>& names) {
+    return std::any_of(world.instances.begin(), world.instances.end(), [&](const ModelInstance& instance) {
+        return world.prototypes[instance.prototype].is_static || names.contains(instance.name);
+    });
+}
+
+}  // namespace
 
 void ModelVisuals::begin(const Model& model, World world) {
-    worlds_.push_back(std::make_shared<const World>(std::move(world)));
-    by_model_[model.hash] = {0};
+    first_ = {std::make_shared<const World>(std::move(world))};
+    first_hash_ = model.hash;
 }
 
 void ModelVisuals::change(const Model& from, const Model& to) {
-    const auto known = by_model_.find(from.hash);
-    if (known != by_model_.end()) by_model_.try_emplace(to.hash, std::vector(known->second));
-}
-
-void ModelVisuals::add(const Addition& addition, World world, const Pose& X_WA, const std::string& name) {
-    for (ModelInstance& instance : world.instances) {
-        instance.name = name_in_model(addition.added, instance.name, name);
-        instance.X_WM = X_WA * instance.X_WM;
+    if (to.hash == first_hash_ || by_model_.contains(to.hash)) return;
+    Worlds worlds = worlds_of(from);
+    if (worlds.empty()) return;
+    if (to.robots.size() < from.robots.size()) {
+        const auto names = names_of(to);
+        std::erase_if(worlds, [&](const auto& world) {
+            return (first_.empty() || world != first_.front()) && !is_seen(*world, names);
+        });
     }
-    std::vector<std::size_t> indices = indices_of(addition.from);
-    indices.push_back(worlds_.size());
-    worlds_.push_back(std::make_shared<const World>(std::move(world)));
-    by_model_[addition.to.hash] = std::move(indices);
+    learn(to, std::move(worlds));
 }
 
-std::vector<std::size_t> ModelVisuals::indices_of(const Model& model) const {
-    if (const auto known = by_model_.find(model.hash); known != by_model_.end()) return known->second;
-    return worlds_.empty() ? std::vector<std::size_t>() : std::vector<std::size_t>{0};
+void ModelVisuals::add(const Addition& addition, World world, std::span<const CopyPlace> places) {
+    const std::vector<ModelInstance> once = std::exchange(world.instances, {});
+    world.instances.reserve(once.size() * places.size());
+    for (const CopyPlace& place : places)
+        for (ModelInstance instance : once) {
+            instance.name = name_in_model(addition.added, instance.name, place.name);
+            instance.X_WM = place.X_WA * instance.X_WM;
+            world.instances.push_back(std::move(instance));
+        }
+    Worlds worlds = worlds_of(addition.from);
+    worlds.push_back(std::make_shared<const World>(std::move(world)));
+    learn(addition.to, std::move(worlds));
+}
+
+void ModelVisuals::keep_only(const Model& model) {
+    std::erase_if(by_model_, [&](const auto& known) { return known.first != model.hash; });
+    std::erase_if(order_, [&](std::uint64_t hash) { return hash != model.hash; });
+}
+
+void ModelVisuals::learn(const Model& model, Worlds worlds) {
+    if (model.hash == first_hash_ && !first_.empty()) return;
+    if (by_model_.insert_or_assign(model.hash, std::move(worlds)).second) order_.push_back(model.hash);
+    if (order_.size() <= kModelsMost) return;
+    by_model_.erase(order_.front());
+    order_.pop_front();
+}
+
+ModelVisuals::Worlds ModelVisuals::worlds_of(const Model& model) const {
+    const auto known = by_model_.find(model.hash);
+    return known != by_model_.end() ? known->second : first_;
 }
 
 std::vector<const World*> ModelVisuals::of(const Model& model) const {
     std::vector<const World*> worlds;
-    for (const std::size_t index : indices_of(model)) worlds.push_back(worlds_[index].get());
+    for (const auto& world : worlds_of(model)) worlds.push_back(world.get());
     return worlds;
 }
 

@@ -55,7 +55,7 @@ TEST(ModelVisuals, WhatIsAddedLooksAsItsOwnWorldSaysAndWhatWasBeforeStays) {
     const auto after = with_models(*before, *addition, X_WA, "new").value().model;
     ModelVisuals visuals;
     visuals.begin(*before, blue);
-    visuals.add({*before, *after, *addition}, red, X_WA, "new");
+    visuals.add({*before, *after, *addition}, red, std::vector<CopyPlace>{{"new", X_WA}});
     const Scene scene = make_scene(*after, visuals.of(*after));
     EXPECT_EQ(shown(scene, *after, "box").rgb.z, 1);
     EXPECT_EQ(shown(scene, *after, "new").kind, SceneShapeKind::kSphere);
@@ -77,7 +77,7 @@ TEST(ModelVisuals, ChangesThatAddNothingKeepTheLooksAndANameGivenAgainLooksNew) 
     ModelVisuals visuals;
     visuals.begin(*first, blue);
     visuals.change(*first, *without);
-    visuals.add({*without, *again, *addition}, red, {}, "");
+    visuals.add({*without, *again, *addition}, red, std::vector<CopyPlace>{{}});
     const auto finer = with_accuracy(*again, {"high", {}, {}}).value().model;
     visuals.change(*again, *finer);
     EXPECT_EQ(shown(make_scene(*finer, visuals.of(*finer)), *finer, "box").rgb.x, 1);
@@ -90,10 +90,34 @@ TEST(ModelVisuals, OfAReplayOnlyWhatWasAddedIsKnown) {
     const auto after = with_models(*before, *addition, {}, "new").value().model;
     ModelVisuals visuals;
     EXPECT_TRUE(visuals.of(*before).empty());
-    visuals.add({*before, *after, *addition}, red, {}, "new");
+    visuals.add({*before, *after, *addition}, red, std::vector<CopyPlace>{{"new", {}}});
     const Scene scene = make_scene(*after, visuals.of(*after));
     EXPECT_EQ(shown(scene, *after, "old").kind, SceneShapeKind::kBox);
     EXPECT_EQ(shown(scene, *after, "new").kind, SceneShapeKind::kSphere);
+}
+
+TEST(ModelVisuals, ManyAdditionsAndRemovalsLeaveNothingBehind) {
+    World red = world_of("box", {1, 0, 0});
+    red.instances.pop_back();  // the post would stay
+    const auto first = compiled(world_of("old", {0, 0, 1})), addition = compiled(red);
+    ModelVisuals visuals;
+    visuals.begin(*first, world_of("old", {0, 0, 1}));
+    for (int round = 0; round < 300; ++round) {
+        const std::vector<CopyPlace> places{{"a" + std::to_string(round), {}}, {"b", {}}};
+        const auto with = with_models(*first, *addition, places).value().model;
+        visuals.add({*first, *with, *addition}, red, places);
+        EXPECT_EQ(shown(make_scene(*with, visuals.of(*with)), *with, "b").rgb.x, 1);
+        const auto less = without_robots(*with, {"b"}).value().model;
+        visuals.change(*with, *less);
+        EXPECT_EQ(visuals.of(*less).size(), 2u) << "a is still there";
+        const auto without = without_robots(*less, {places[0].name}).value().model;
+        visuals.change(*less, *without);
+        EXPECT_EQ(visuals.of(*without).size(), 1u);
+        EXPECT_LE(visuals.models(), 100u);
+    }
+    visuals.keep_only(*first);
+    EXPECT_EQ(visuals.models(), 0u);
+    EXPECT_EQ(shown(make_scene(*first, visuals.of(*first)), *first, "old").rgb.z, 1);
 }
 
 }  // namespace

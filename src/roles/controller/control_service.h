@@ -29,8 +29,14 @@ class ControlService {
     struct Last {
         std::uint64_t number = 0;
         std::optional<ControlReply> reply;
+        std::uint64_t turn = 0;  // of its last request, counted over all requesters
     };
+    void forget_oldest();
+
+    /// Requesters that are remembered: each `roboss control` is a new one, and repeats itself for seconds.
+    static constexpr std::size_t kRequestersMost = 256;
     std::map<Address, Last> last_;  // by requester
+    std::uint64_t turns_ = 0;
     std::vector<ControlCall> calls_;
 };
 

@@ -31,5 +31,21 @@ TEST(ControlService, HandsARequestOutOnceAndAnswersItAsOftenAsItComes) {
     EXPECT_EQ(service.take_calls().size(), 2u);
 }
 
+TEST(ControlService, RemembersTheYoungestRequestersAndAllThatWait) {
+    InProcessBus bus;
+    ControlService service;
+    service.take(bus, {Role::kClient, 1}, {1, PauseRun{}});
+    const ControlCall waits = service.take_calls()[0];
+    for (std::uint64_t i = 2; i < 1'000; ++i) {
+        service.take(bus, {Role::kClient, i}, {1, PauseRun{}});
+        service.answer(bus, service.take_calls()[0], ControlDone{0, "paused"});
+    }
+    service.take(bus, waits.from, waits.request);
+    service.take(bus, {Role::kClient, 999}, {1, PauseRun{}});
+    EXPECT_TRUE(service.take_calls().empty()) << "both are known";
+    service.take(bus, {Role::kClient, 2}, {1, PauseRun{}});
+    EXPECT_EQ(service.take_calls().size(), 1u) << "that one is forgotten";
+}
+
 }  // namespace
 }  // namespace roboss

@@ -26,6 +26,7 @@ bool ModelServer::is_earlier(std::uint64_t model_hash) const {
 
 std::vector<std::uint64_t> ModelServer::hashes() const {
     std::vector<std::uint64_t> hashes = earlier_;
+    std::erase(hashes, model_->hash);
     hashes.push_back(model_->hash);
     return hashes;
 }

@@ -1,0 +1,127 @@
+// Robots that come and go, and resets: the same hash on one Simulator and on several, over a bad Bus with
+// Simulators that are killed, and however often it is done.
+#include <gtest/gtest.h>
+
+#include "faulty_cluster.h"
+#include "model/edit.h"
+#include "simulation/simulation.h"
+#include "test_worlds.h"
+
+namespace roboss::test {
+namespace {
+
+/// Where a run stands between two edits.
+struct Stand {
+    std::shared_ptr<const Model> model;
+    Tick tick = 0;
+    std::vector<RobotState> states;
+};
+
+Stand beginning(const std::shared_ptr<const Model>& model) {
+    Stand stand{model, 0, {}};
+    for (std::size_t i = 0; i < model->robots.size(); ++i)
+        stand.states.push_back(initial_state(*model, RobotId(i)));
+    return stand;
+}
+
+Stand changed(const Stand& stand, const Result<ModelEdit>& edit) {
+    EXPECT_TRUE(edit.ok());
+    return {edit.value().model, stand.tick, carry_over(edit.value(), stand.states)};
+}
+
+/// Copies of the pair of crates, the lone crate and the ball, in the air over the piles.
+std::vector<CopyPlace> places(int count) {
+    std::vector<CopyPlace> all;
+    for (int i = 0; i < count; ++i)
+        all.push_back(
+            {"guest" + std::to_string(i), {{0.7 * i - 2, 0.1 * i, 1.5 + 0.3 * i}, from_rpy(0, 0, 0.1 * i)}});
+    return all;
+}
+
+constexpr Tick kFirst = 60, kSecond = 140, kThird = 220;
+
+/// Steps a Stand to a tick.
+using Stepper = std::function<Stand(const Stand&, Tick)>;
+
+/// The hashes of a run with an addition, a removal and a reset.
+std::vector<std::uint64_t> hashes_of(const Stepper& stepped) {
+    const auto world = piles_world(2);
+    const auto hash = [](const Stand& s) { return state_hash_of(*s.model, s.tick, s.states); };
+    const Stand first = stepped(beginning(world), kFirst);
+    const Stand more = stepped(changed(first, with_models(*world, *pair_world(), places(6))), kSecond);
+    const std::vector<std::string> gone{world->robots[1].name, "guest0*", "guest3*", "guest5::ball"};
+    const Stand less = stepped(changed(more, without_robots(*more.model, gone)), kThird);
+    const Stand again = stepped(beginning(world), kFirst);
+    EXPECT_EQ(hash(again), hash(first)) << "after the reset";
+    return {hash(first), hash(more), hash(less)};
+}
+
+Stepper embedded(std::size_t simulators, std::size_t lanes, Tick window) {
+    return [=](const Stand& from, Tick until) {
+        SavedRun run;
+        run.tick = run.logged_until = from.tick;
+        run.states = from.states;
+        SimulationOptions options;
+        options.simulators = simulators;
+        options.lanes = lanes;
+        options.controller.window = window;
+        auto simulation = Simulation::create(from.model, options, {}, &run);
+        EXPECT_TRUE(simulation.ok());
+        EXPECT_TRUE(simulation.value()->run_until(until).ok());
+        return Stand{from.model, until, simulation.value()->states()};
+    };
+}
+
+Stepper troubled(std::uint64_t& seed, int& kills) {
+    return [&](const Stand& from, Tick until) {
+        FaultyCluster cluster(from.model, {}, {++seed, 0.05, 0.05, 5}, {.kill = 150, .rescue = 20'000}, 3);
+        cluster.restart_controller({from.tick, from.states, {}, from.tick, {}});
+        EXPECT_TRUE(cluster.run_until(until)) << "seed " << seed;
+        cluster.controller().request_states();
+        for (int i = 0; i < 100'000 && cluster.controller().states() == nullptr; ++i) cluster.turn();
+        EXPECT_NE(cluster.controller().states(), nullptr) << "seed " << seed;
+        kills += cluster.kills();
+        return Stand{from.model, until, *cluster.controller().states()};
+    };
+}
+
+TEST(Edits, ComingGoingAndResettingGiveTheSameBitsOnAnyNumberOfSimulators) {
+    const std::vector<std::uint64_t> expected = hashes_of(embedded(1, 1, 0));
+    for (const std::size_t simulators : {1u, 2u, 5u})
+        for (const Tick window : {Tick{0}, Tick{1}, Tick{7}})
+            EXPECT_EQ(hashes_of(embedded(simulators, kMostLanes, window)), expected)
+                << simulators << " Simulators, windows of " << window;
+}
+
+TEST(Edits, SimulatorsThatAreKilledMeanwhileChangeNothing) {
+    const std::vector<std::uint64_t> expected = hashes_of(embedded(1, kMostLanes, 0));
+    std::uint64_t seed = 0;
+    int kills = 0;
+    for (int round = 0; round < 10; ++round)
+        EXPECT_EQ(hashes_of(troubled(seed, kills)), expected) << "seed " << seed;
+    EXPECT_GT(kills, 10);
+}
+
+TEST(Edits, AThousandRobotsComeAndGoAndTheOthersDoNotNotice) {
+    Stand stand = embedded(1, kMostLanes, 0)(beginning(piles_world(2)), kFirst);
+    std::vector<std::uint64_t> before;
+    for (std::size_t i = 0; i < stand.states.size(); ++i)
+        before.push_back(state_hash(RobotId(i), stand.tick, stand.states[i]));
+    const auto model = stand.model;
+    for (int round = 0; round < 3; ++round) {
+        std::vector<CopyPlace> crowd = places(250);
+        for (CopyPlace& place : crowd) place.X_WA.p.z += 100;
+        const Stand more = changed(stand, with_models(*stand.model, *pair_world(), crowd));
+        ASSERT_EQ(more.states.size(), before.size() + 1000);
+        for (std::size_t i = 0; i < before.size(); ++i)
+            ASSERT_EQ(state_hash(RobotId(i), more.tick, more.states[i]), before[i]);
+        stand = changed(more, without_robots(*more.model, {"guest*"}));
+        EXPECT_EQ(stand.model->hash, model->hash);
+        EXPECT_EQ(stand.model->types.size(), model->types.size());
+        for (std::size_t i = 0; i < before.size(); ++i)
+            ASSERT_EQ(state_hash(RobotId(i), stand.tick, stand.states[i]), before[i]);
+    }
+}
+
+}  // namespace
+}  // namespace roboss::test
