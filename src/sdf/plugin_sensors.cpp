@@ -32,8 +32,9 @@ std::string text_of(const Element& plugin, const char* path) {
     if (*path == '\0') return {};
     const auto [parent, name] = place_of(plugin, path);
     std::string text = parent.child(name.c_str()).node.text().get();
-    const auto is_space = [](char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; };
-    std::erase_if(text, is_space);
+    const char* const blank = " \n\t\r";
+    text.erase(text.find_last_not_of(blank) + 1);
+    text.erase(0, text.find_first_not_of(blank));
     return text;
 }
 

@@ -1,7 +1,7 @@
 """One world, one hash: for any threads, lanes, Simulators, windows, grouping, after save and load, run after run; and another
-hash as soon as one bit of the input is another. Eight worlds with collisions: one with a control program in the loop, two of
-closed linkages, screws, gearboxes and mimic joints, one of planar joints, one of meshes and other shapes, one of surfaces,
-springs and wind; two of them also in floats."""
+hash as soon as one bit of the input is another. Nine worlds: one with a control program in the loop, two of closed linkages,
+screws, gearboxes and mimic joints, one of controllers of joints, one of planar joints, one of meshes and other shapes, one
+of surfaces, springs and wind; two of them also in floats."""
 import unittest
 
 from running import DRIVER, FOLDER, WORLDS, roboss, summary
@@ -12,6 +12,7 @@ RUNS = {
     "pile": ([WORLDS / "pile.sdf"], 2.0),
     "four_bar": ([WORLDS / "four_bar.sdf", "--orders", WORLDS / "four_bar.jsonl"], 2.0),
     "parallel": ([WORLDS / "parallel.sdf", "--orders", WORLDS / "parallel.jsonl"], 2.0),
+    "joints": ([WORLDS / "joints.sdf", "--orders", WORLDS / "joints.jsonl"], 2.0),
     "pucks": ([WORLDS / "pucks.sdf"], 1.0),
     "shapes": ([WORLDS / "shapes.sdf"], 0.8),
     "materials": ([WORLDS / "materials.sdf"], 3.0),
