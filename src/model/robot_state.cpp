@@ -231,7 +231,8 @@ const char* inconsistency_of(const RobotState& state, const RobotType& type, std
     };
     if (!std::all_of(state.surfaces.begin(), state.surfaces.end(), stays_finite)) return "is not finite";
     const auto bond_fits = [&](const Bond& b) {
-        return b.link.index() < type.links.size() && (b.other == RobotId::kNone || b.other < robots);
+        return b.link.index() < type.links.size() && (b.other == RobotId::kNone || b.other < robots) &&
+               is_finite(b.X_LO) && is_finite(b.p_L);
     };
     if (!std::all_of(state.bonds.begin(), state.bonds.end(), bond_fits))
         return "holds a robot, or by a link, that does not exist";

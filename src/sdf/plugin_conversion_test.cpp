@@ -56,6 +56,50 @@ TEST(Plugins, WithValuesThatCannotBeReadAreNotRunAndTheModelStays) {
     EXPECT_FALSE(model_of(loaded).extensions.at(0).reason.empty());
 }
 
+TEST(Plugins, DetachableJointsNameTheirChild) {
+    const std::string name = "name='gz::sim::systems::DetachableJoint' filename='x'";
+    const Loaded loaded =
+        with_plugin(name,
+                    "<parent_link>a</parent_link><child_model>box</child_model><child_link>body</child_link>"
+                    "<topic>/old/detach</topic><attach_topic>/new/attach</attach_topic>"
+                    "<suppress_child_warning>true</suppress_child_warning>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
+    ASSERT_EQ(model_of(loaded).onboard.size(), 1u);
+    const auto& read = std::get<DetachableJointSpec>(model_of(loaded).onboard[0].parameters);
+    EXPECT_EQ(read.parent_link, LinkNames{"a"});
+    EXPECT_EQ(read.child_model, "box");
+    EXPECT_EQ(read.child_link, "body");
+    EXPECT_EQ(read.channels().at(0).name, "old/detach");
+    EXPECT_EQ(read.channels().at(1).name, "new/attach");
+    EXPECT_NE(with_plugin(name, "<parent_link>a</parent_link>").find("plugin-not-run"), nullptr);
+}
+
+Loaded with_gripper(const std::string& children) {
+    return load_elements("<model name='m'><link name='a'><roboss:gripper name='cup'>" + children +
+                         "</roboss:gripper></link></model>");
+}
+
+TEST(Grippers, AreReadWithTheirParameters) {
+    const Loaded loaded = with_gripper(
+        "<type>magnetic</type><pose>0 0 -0.1 0 0 0</pose><reach>0.05</reach>"
+        "<max_force>20</max_force><on>true</on>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
+    ASSERT_EQ(model_of(loaded).onboard.size(), 1u);
+    GripperSpec expected;
+    expected.link = {"a"}, expected.name = "cup", expected.type = "magnetic";
+    expected.X_LC.p = {0, 0, -0.1};
+    expected.reach = 0.05, expected.max_force = 20, expected.on = true;
+    EXPECT_EQ(std::get<GripperSpec>(model_of(loaded).onboard[0].parameters), expected);
+}
+
+TEST(Grippers, ThatMakeNoSenseAreErrors) {
+    for (const std::string wrong : {"<type>glue</type>", "<reach>0</reach>", "<max_force>-1</max_force>"})
+        EXPECT_NE(with_gripper(wrong).find("bad-gripper"), nullptr) << wrong;
+    EXPECT_NE(with_gripper("<raech>1</raech>").text().find("raech"), std::string::npos);
+}
+
 TEST(Plugins, ThatDrawOrServeNeedNothingAndGetNoNote) {
     for (const std::string name : {"SceneBroadcaster", "UserCommands", "Physics", "Label"}) {
         const Loaded loaded = with_plugin("name='gz::sim::systems::" + name + "' filename='x'");

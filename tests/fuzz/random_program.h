@@ -25,7 +25,7 @@ class RandomProgram : public ControlProgram {
         const RobotType& type = client.model().type_of(robot);
         const RobotState& state = client.state(robot);
         const double pull = state.q[0] - state.q[1];
-        const int pick = random.integer(0, 9);
+        const int pick = random.integer(0, 12);
         if (pick < 6 && !type.joints.empty()) {
             const JointId joint(
                 static_cast<std::size_t>(random.integer(0, static_cast<int>(type.joints.size()) - 1)));
@@ -34,6 +34,13 @@ class RandomProgram : public ControlProgram {
         if (pick < 9)
             return client.apply_wrench(robot, LinkId(std::size_t{0}), random.vector(5) + Vec3{pull, 0, 0}, {},
                                        0.02);
+        const LinkId link(std::size_t{0});
+        if (pick < 11) {
+            const RobotId other(static_cast<std::size_t>(
+                random.integer(0, static_cast<int>(client.model().robots.size()) - 1)));
+            return client.attach(robot, link, other, link);
+        }
+        if (pick < 12) return client.detach(robot, RobotId());
         Pose X_WR = base_pose(state);  // a leap over whoever is near
         X_WR.p += random.vector(1);
         return client.set_pose(robot, X_WR);

@@ -23,7 +23,9 @@ void cover(const Model& model, const RobotWork& work, const Bond& bond, Aabb& bo
         return box.include(cup.inflated(bond.reach + kBaseMargin));
     }
     if (!names_robot) return;
-    const LinkPoint point = point_of(model.type_of(RobotId(bond.other)), bond.other_link);
+    const RobotType& type = model.type_of(RobotId(bond.other));
+    if (bond.other_link.index() >= type.links.size()) return;  // a damaged state
+    const LinkPoint point = point_of(type, bond.other_link);
     Aabb held;
     held.include(X_WL * to_transform(bond.X_LO) * point.p_L);
     box.include(held.inflated(kTear + kRounding + point.spread));

@@ -123,7 +123,7 @@ void BondKeeper::form(const Model& model, std::span<RobotWork> robots, WakeBuffe
 void BondKeeper::form_one(const Model& model, std::span<RobotWork> robots, std::uint32_t holder, Bond& bond) {
     if (bond.other == RobotId::kNone) return form_at_cup(model, robots, holder, bond);
     const std::uint32_t other = find(robots, bond.other);
-    if (other != HeldBond::kScenery &&
+    if (other != HeldBond::kScenery && bond.other_link.index() < robots[other].type->links.size() &&
         overlaps(own_box(robots[holder]).inflated(bond.reach), robots[other].box)) {
         place_sleeper(model, robots[other]);
         return take_hold(robots, holder, other, false, bond);
@@ -206,6 +206,7 @@ void BondKeeper::hold(std::span<RobotWork> robots) {
                 return is_torn(robots, held_bond(robots, i, HeldBond::kScenery, bond));
             const std::uint32_t j = find(robots, bond.other);
             if (j == HeldBond::kScenery || !overlaps(robots[i].box, robots[j].box)) return true;
+            if (bond.other_link.index() >= robots[j].type->links.size()) return true;
             return !robots[j].asleep && is_torn(robots, held_bond(robots, i, j, bond));
         });
         for (Bond& bond : bonds) {

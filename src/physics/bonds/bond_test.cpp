@@ -3,6 +3,8 @@
 
 #include <support/bonds.h>
 
+#include "physics/probe.h"
+
 namespace roboss::test {
 namespace {
 
@@ -293,6 +295,20 @@ TEST(Bond, TwoHoldersOfOneBoxAndEachOtherAgree) {
     double z = 0;
     for (std::size_t r : {0u, 1u}) z += sim.states[r].bonds[0].force_impulse.z / sim.model->dt_s;
     EXPECT_NEAR(z, 4 * 9.81, 1e-3);
+}
+
+TEST(Bond, AForceSensorAtTheWristFeelsTheLoad) {
+    Simulation sim(gantry_world(1e-3, 3.0));
+    hold_still(sim);
+    ASSERT_NO_FATAL_FAILURE(attach(sim, 0, 1, kHand));
+    sim.run(1);
+    StepProbe probe(*sim.model);
+    const std::vector<const RobotState*> states(sim.pointers.begin(), sim.pointers.end());
+    probe.step(sim.tick, states);
+    const std::vector<JointReaction> reactions = probe.joint_reactions(RobotId(std::size_t{0}));
+    ASSERT_EQ(reactions.size(), 4u);
+    EXPECT_NEAR(reactions[3].force.z, (3.0 + 1.0) * 9.81, 1e-4);   // load and hand
+    EXPECT_NEAR(reactions[3].torque.y, -0.03 * 3.0 * 9.81, 1e-4);  // it hangs 3 cm beside the axis
 }
 
 TEST(Bond, HeldRobotKeepsItsOwnJoints) {
