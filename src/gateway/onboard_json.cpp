@@ -79,7 +79,9 @@ void add_onboard(const Model& model, RobotId robot, std::span<const std::optiona
     Json channels = Json::array(), surfaces = Json::array(), bonds = Json::array();
     for (const ChannelInfo& info : model.type_of(robot).channels)
         channels.push_back(channel_json(info, state));
-    for (const SurfaceMotion& motion : state.surfaces) surfaces.push_back(json_of(motion));
+    const bool belts = has_belts(model.type_of(robot));
+    for (const SurfaceMotion& motion : state.surfaces)
+        if (belts) surfaces.push_back(json_of(motion));
     for (const Bond& bond : state.bonds) bonds.push_back(json_of(bond, model.dt_s));
     put(out, "channels", std::move(channels));
     put(out, "surfaces", std::move(surfaces));

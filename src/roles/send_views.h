@@ -19,7 +19,7 @@ void send_views(const Model& model, const ViewLayout& layout, const ViewDue& due
     for (const RobotId robot : due.robots)
         if (const RobotState* state = robot.index() < layout.robots() ? state_of(robot) : nullptr) {
             layout.append(model, robot, *state, views.entries);
-            append(robot, *state, views.extras);
+            append(model, robot, *state, views.extras);
         }
     if (!views.entries.empty()) bus.send(self, due.viewer, std::move(views));
     StateReply exact;

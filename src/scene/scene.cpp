@@ -86,6 +86,7 @@ class SceneMaker {
             shape.frame = to_pose(inverse(link.X_BL) * from.X_BS);
             shape.rgb = rgb;
             shape.name = link.name;
+            shape.still = is_still(from);
             result.links[from.link.index()].collisions.push_back(std::move(shape));
         }
         const bool drawn = spec != nullptr && has_visuals(*spec);
@@ -102,6 +103,13 @@ class SceneMaker {
             if (unreadable) link.visuals = link.collisions;
         }
         scene_.types.push_back(std::move(result));
+    }
+
+    /// Whether it takes no part in the surface motion of its link, where the Model knows such shapes.
+    template <class Collision>
+    static bool is_still(const Collision& shape) {
+        if constexpr (requires { shape.moves; }) return !shape.moves;
+        return false;
     }
 
     void add_visual(const VisualSpec& visual, const Pose& X_FL, const std::string& name,

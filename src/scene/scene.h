@@ -33,6 +33,7 @@ struct SceneShape {
     Pose frame;            // in the link, or in the world
     Vec3 rgb{0.7, 0.7, 0.7};
     double alpha = 1;
+    bool still = false;  // of a collision shape: it takes no part in the surface motion of its link
     SceneFinish finish;
 };
 

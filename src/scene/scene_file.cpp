@@ -85,6 +85,7 @@ Json json_of(const SceneShape& shape, const Scene& scene) {
     o["frame"] = json_of(shape.frame);
     o["rgb"] = json_of(shape.rgb);
     o["alpha"] = tidy(shape.alpha);
+    if (shape.still) o["still"] = true;
     if (Json finish = json_of(shape.finish, scene); !finish.is_null()) o["finish"] = std::move(finish);
     return o;
 }

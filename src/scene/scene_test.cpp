@@ -201,11 +201,13 @@ TEST(Scene, CommandsAndSceneryThatMovesAreToldOnlyWhereThereAreSome) {
     belt.linear = {0.5, 0, 0};
     table.robot = RobotId(red), table.link = LinkId(0u);
     scene.flows = {belt, table};
+    scene.types[scene.robots[red]].links[0].collisions[0].still = true;
     const Json told = Json::parse(scene_file(scene, model, 0).json);
     EXPECT_EQ(
         told["types"][scene.robots[red]]["channels"],
         Json::parse(
             R"([{"name": "cmd_vel", "list": false, "values": [{"name": "linear_x", "unit": "m/s"}]}])"));
+    EXPECT_EQ(told["types"][scene.robots[red]]["links"][0]["collisions"][0]["still"], true);
     EXPECT_EQ(told["flows"][0]["linear"], Json({0.5, 0, 0}));
     EXPECT_EQ(told["flows"][0]["shape"], told["statics"][0]);
     EXPECT_FALSE(told["flows"][0].contains("robot"));

@@ -46,14 +46,23 @@ Vec3 belt_of(const Motion& motion) {
     return {};
 }
 
+/// Whether the surfaces of robots of this type run over them. Those of a kinematic body go where it goes.
+template <class Type>
+bool has_belts(const Type& type) {
+    if constexpr (requires { type.kinematic; }) return !type.kinematic;
+    return true;
+}
+
 /// Adds the surfaces and bonds of a robot's state.
-inline void append(RobotId robot, const RobotState& state, ViewExtras& extras) {
+inline void append(const Model& model, RobotId robot, const RobotState& state, ViewExtras& extras) {
     const auto rounded = [](const Vec3& v) {
         return std::array{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
     };
+    const bool belts = has_belts(model.type_of(robot));
     for (const SurfaceMotion& motion : state.surfaces)
-        extras.surfaces.push_back({robot, motion.link, rounded(motion.linear_L), rounded(motion.angular_L),
-                                   rounded(belt_of(motion))});
+        if (belts)
+            extras.surfaces.push_back({robot, motion.link, rounded(motion.linear_L),
+                                       rounded(motion.angular_L), rounded(belt_of(motion))});
     for (const Bond& bond : state.bonds)
         extras.bonds.push_back({robot, bond.link, RobotId(bond.other), bond.other_link});
 }

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
 import type { Mesh, Object3D, ShaderMaterial, Vector3 } from "three";
-import { Bench, choose, PROGRAM, seen, until } from "./bench";
+import { Bench, choose, PROGRAM, seen, time, until } from "./bench";
 
 const mockOnly = PROGRAM === "" ? false : "the mock has belts, and bonds without physics";
 const bench = new Bench({ world: "../web/e2e/acting.sdf" });
@@ -214,5 +214,13 @@ bench.test(
     },
     mockOnly,
 );
+
+bench.test("the run is started over", async (page) => {
+    await until("some time to go back over", async () => (await time(page)) > 4);
+    await page.getByLabel("Back to the beginning").click();
+    await until("an early time", async () => (await time(page)) < 4);
+    const then = await time(page);
+    await until("and on from there", async () => (await time(page)) > then + 0.3);
+}, mockOnly);
 
 bench.endsWithCleanConsole();

@@ -113,6 +113,10 @@ export class MockRun {
                 return said(`speed ${first} from ${now} s`);
             case "rewind":
                 return this.rewind(Number(first));
+            case "reset":
+                this.traffic = structuredClone(this.kept[0]);
+                this.kept = this.journal ? this.kept : [structuredClone(this.traffic)];
+                return said(`reset from ${now} s to the world's beginning`);
             case "simulators":
                 return this.simulators(first, Number(second ?? 1));
             case "status":

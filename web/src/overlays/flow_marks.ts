@@ -81,7 +81,7 @@ export class FlowMarks {
     private shapesOf(world: World, robot: number, link: number): Visual[] {
         const pose = linkPose(world, robot, link);
         return [
-            ...world.fleet.type(robot).links[link].collisions,
+            ...world.fleet.type(robot).links[link].collisions.filter((shape) => shape.still !== true),
             ...(world.fleet.scene.flows ?? [])
                 .filter((flow) => flow.robot === robot && flow.link === link)
                 .map((flow) => shapeIn(pose, flow.shape)),

@@ -26,6 +26,11 @@ export function timeBar(state: ViewerState, run: RunLink): TimeBar {
                 state.status.set({ ...state.status.value, paused: !paused() });
         });
     const step = (ticks: number) => void run.control("step", String(ticks));
+    const reset = () => {
+        const kept = state.status.value?.journal ?? null;
+        if (kept !== null || window.confirm("Start the run over? Without a journal there is no way back."))
+            void run.control("reset");
+    };
     const play = h("button", { type: "button", class: "play", onclick: playOrPause });
     const ticks = h(
         "select",
@@ -55,6 +60,7 @@ export function timeBar(state: ViewerState, run: RunLink): TimeBar {
         h(
             "div",
             { class: "transport", role: "group", "aria-label": "Play and step" },
+            iconButton("reset", "Back to the beginning", reset),
             play,
             iconButton("step", "Step", () => step(Number(ticks.value)), "."),
             ticks,

@@ -6,6 +6,10 @@ export const ICONS = {
         ["M4 3.2v9.6l6-4.8z", true],
         ["M11.5 3v10", false],
     ],
+    reset: [
+        ["M12 3.2v9.6L5.5 8z", true],
+        ["M4 3v10", false],
+    ],
     cursor: [["M4 2.5l8 6.2-3.7.5-1.9 3.4z", false]],
     move: [
         [

@@ -26,6 +26,8 @@ export interface Visual {
     length?: number;
     radii?: Triple;
     mesh?: number;
+    /** Of a collision shape: it takes no part in the surface motion of its link. */
+    still?: boolean;
     finish?: Finish;
 }
 
