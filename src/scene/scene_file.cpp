@@ -163,7 +163,6 @@ struct ParameterWriter {
     Json& o;
     void operator()(const Parameter& p, double value) const { o[p.name] = bound_of(value); }
     void operator()(const Parameter& p, int value) const { o[p.name] = value; }
-    void operator()(const Parameter& p, const std::string& text) const { o[p.name] = text; }
     void operator()(const Parameter& p, const JointNames& names) const { o[p.name] = names; }
     void operator()(const Parameter& p, bool value) const { o[p.name] = value; }
     void operator()(const Parameter& p, const Vec3& value) const { o[p.name] = json_of(value); }
