@@ -110,6 +110,7 @@ TEST(DiffDrive, WheelsKeepAllLimitsAtEveryTick) {
 TEST(DiffDrive, BeforeTheFirstCommandTheWheelsAreHeldAndTheRobotMaySleep) {
     World world = on_plane(with_onboard(two_wheeler(), diff_drive()));
     world.gravity = {1.5, 0, -9.7};  // a slope
+    world.sleep = true;
     Simulation sim(world);
     sim.run(2);
     EXPECT_NEAR(stand(sim).x, 0, 1e-3) << "it does not roll away";
