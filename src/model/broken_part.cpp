@@ -5,6 +5,7 @@
 #include <initializer_list>
 
 #include "model/accuracy.h"
+#include "model/compile_type.h"
 #include "model/joint_motion.h"
 #include "model/seal.h"
 #include "world/joint_type.h"
@@ -81,7 +82,7 @@ class TypeCheck {
         if (!couplings_fit()) return "a gearbox couples coordinates that are not there";
         if (!shapes_fit()) return "a shape is impossible";
         if (!sensors_fit()) return "a sensor is impossible";
-        if (!onboard_fits()) return "an on-board controller is impossible";
+        if (!onboard_fits(t_)) return "an on-board controller is impossible";
         return {};
     }
 
@@ -223,14 +224,6 @@ class TypeCheck {
     bool sensors_fit() const {
         return std::all_of(t_.sensors.begin(), t_.sensors.end(), [&](const SensorInfo& info) {
             return info.link.index() < t_.links.size() && problems_of(info.spec).empty();
-        });
-    }
-
-    bool onboard_fits() const {
-        return std::all_of(t_.onboard.begin(), t_.onboard.end(), [&](const OnboardInfo& info) {
-            return info.base.index() < t_.links.size() && problems_of(info.spec).empty() &&
-                   info.axes.size() == joints_named(info.spec.parameters).size() &&
-                   info.links.size() == links_named(info.spec.parameters).size();
         });
     }
 

@@ -45,6 +45,9 @@ void add_onboard(const ModelSpec& spec, bool is_main, RobotType& type, Diagnosti
 void add_wind(const WindEffectsSpec& wind, RobotType& type);
 /// Lets every link with solid shapes float.
 void float_all(RobotType& type);
+/// Whether its controllers have what they name, and agree on their commands. Nothing of lay_out_onboard() is
+/// needed for that.
+bool onboard_fits(const RobotType& type);
 /// Fills what follows from RobotType::onboard and channels: indices into the state, and its sizes.
 void lay_out_onboard(RobotType& type);
 

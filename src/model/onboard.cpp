@@ -138,6 +138,21 @@ struct ParameterHash {
 
 }  // namespace
 
+bool onboard_fits(const RobotType& type) {
+    RobotType seen;  // only its channels are of use
+    for (const OnboardInfo& info : type.onboard) {
+        if (info.base.index() >= type.links.size() || !problems_of(info.spec).empty()) return false;
+        OnboardInfo named;
+        named.spec = info.spec;
+        if (!resolve_names(type, named)) return false;
+        for (const Channel& channel : channels_of(info.spec.parameters)) {
+            if (conflicting(seen, channel) != nullptr) return false;
+            place_of_channel(seen, channel);
+        }
+    }
+    return true;
+}
+
 void lay_out_onboard(RobotType& type) {
     type.channels.clear();
     type.onboard_size = type.list_count = 0;

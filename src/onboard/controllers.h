@@ -26,6 +26,8 @@ void run(const JointPoseTrajectorySpec& spec, OnboardContext& c);
 void run(const LinearBatterySpec& spec, OnboardContext& c);
 void run(const KineticEnergyMonitorSpec& spec, OnboardContext& c);
 
+/// Whether a battery of the robot is empty.
+bool is_out_of_power(OnboardContext& c);
 /// The commanded position or velocity of a joint; `initial` before the first command. `actuator`: its place
 /// where the command is a list of all actuators.
 double joint_target(bool use_actuator_msg, int actuator, double initial, const OnboardContext& c);

@@ -19,8 +19,8 @@ double loads_of_others(const Spec& battery, const RobotType& type) {
     for (const OnboardInfo& info : type.onboard)
         std::visit(
             [&]<class Kind>(const Kind& other) {
-                if constexpr (!std::is_same_v<Kind, Spec> && requires { other.power_load + 0.0; })
-                    if (other.battery_name == battery.battery_name) power += other.power_load;
+                if constexpr (requires { other.battery == battery.battery_name, other.power_load + 0.0; })
+                    if (other.battery == battery.battery_name) power += other.power_load;
             },
             info.spec.parameters);
     return power;
@@ -62,6 +62,14 @@ double wanted_current(const Spec& spec, OnboardContext& c, std::span<const doubl
 }
 
 }  // namespace
+
+bool is_out_of_power(OnboardContext& c) {
+    for (const OnboardInfo& info : c.type().onboard)
+        if (std::holds_alternative<Spec>(info.spec.parameters) &&
+            c.state().onboard[static_cast<std::size_t>(info.memory_index) + Spec::kCharge] <= 0)
+            return true;
+    return false;
+}
 
 void run(const LinearBatterySpec& spec, OnboardContext& c) {
     const std::span<double> memory = c.memory();

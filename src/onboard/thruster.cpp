@@ -36,6 +36,7 @@ double servo_torque(const ThrusterSpec& spec, double factor, double turning, con
 }  // namespace
 
 void run(const ThrusterSpec& spec, OnboardContext& c) {
+    if (is_out_of_power(c)) return;
     const AxisPlace axis = c.axis(0);
     const LinkId propeller = c.child_of(0);
     double& turning = c.memory()[0];

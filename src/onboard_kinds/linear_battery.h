@@ -12,8 +12,8 @@ namespace roboss {
 /// The current follows power / voltage with the time constant `smooth_current_tau`; charge falls by current *
 /// time; voltage = e0 + e1 (1 - charge / capacity) - resistance * current. Power is drawn from the first tick
 /// at which a motor of the robot is given a velocity or an effort, or a draining command comes. Other
-/// controllers add their own loads (a `power_load` and the `battery_name`). An empty battery switches the
-/// robot's motors off.
+/// controllers add their own loads (members `power_load` and `battery` of their parameters). An empty battery
+/// switches the robot's motors off.
 struct LinearBatterySpec {
     std::string battery_name;                  ///< in the names of commands and of the sensor
     double voltage = 0,                        ///< V, at the start

@@ -50,7 +50,10 @@ struct SensorKindList {
 };
 
 /// All kinds of sensors that are simulated.
-using SensorKinds = SensorKindList<LaserSpec, GpsSpec, CompassSpec, OdometerSpec, ImuSpec, AltimeterSpec, MagnetometerSpec, ContactSpec, ForceTorqueSpec, OdometrySpec, JointStatesSpec, LinkPosesSpec, WheelOdometrySpec, BatterySensorSpec, KineticEnergySpec, TrajectoryProgressSpec>;
+using SensorKinds =
+    SensorKindList<LaserSpec, GpsSpec, CompassSpec, OdometerSpec, ImuSpec, AltimeterSpec, MagnetometerSpec,
+                   ContactSpec, ForceTorqueSpec, OdometrySpec, JointStatesSpec, LinkPosesSpec,
+                   WheelOdometrySpec, BatterySensorSpec, KineticEnergySpec, TrajectoryProgressSpec>;
 
 /// Parameters of any kind.
 using SensorParameters = SensorKinds::Parameters;

@@ -29,7 +29,9 @@ std::vector<SensorSpec> sensors_of_all_kinds() {
             else if constexpr (std::is_same_v<Value, std::vector<std::string>>)
                 value = {"slide", "wrist"};
             else if constexpr (std::is_same_v<Value, std::string>)
-                value = value == "child" ? "parent" : value == "child_to_parent" ? "parent_to_child" : "slide";
+                value = value == "child"             ? "parent"
+                        : value == "child_to_parent" ? "parent_to_child"
+                                                     : "slide";
             else if constexpr (std::is_same_v<Value, Vec3>)
                 value.y = ++next;
             else if constexpr (std::is_same_v<Value, bool>)

@@ -11,8 +11,7 @@ bool fits_lanes(const RobotType& type, const RobotState& state) {
     const bool is_lone_body = type.free_base && type.nv == 6;
     return type.nv > 0 && !is_lone_body && !type.has_equalities() && type.drags.empty() && !type.feels_flow &&
            type.self_pairs.empty() && state.wrenches.empty() && state.bonds.empty() &&
-           state.surfaces.empty() &&
-           is_driven<double>(state.motors);
+           state.surfaces.empty() && is_driven<double>(state.motors);
 }
 
 std::unique_ptr<LaneStepper> make_lane_stepper(Precision precision, std::size_t most) {
