@@ -103,10 +103,10 @@ Json json_of(const SceneFlow& flow, const Scene& scene) {
         o["link"] = flow.link.value;
         return o;
     }
-    o["linear"] = json_of(flow.linear);
-    o["angular"] = json_of(flow.angular);
-    o["belt"] = json_of(flow.belt);
-    o["at"] = json_of(flow.at);
+    o["linear"] = json_of(flow.motion.linear);
+    o["angular"] = json_of(flow.motion.angular);
+    o["belt"] = json_of(flow.motion.belt);
+    o["at"] = json_of(flow.motion.at);
     return o;
 }
 
@@ -163,7 +163,6 @@ struct ParameterWriter {
     Json& o;
     void operator()(const Parameter& p, double value) const { o[p.name] = bound_of(value); }
     void operator()(const Parameter& p, int value) const { o[p.name] = value; }
-    void operator()(const Parameter& p, const std::string& text) const { o[p.name] = text; }
     void operator()(const Parameter& p, const JointNames& names) const { o[p.name] = names; }
     void operator()(const Parameter& p, bool value) const { o[p.name] = value; }
     void operator()(const Parameter& p, const Vec3& value) const { o[p.name] = json_of(value); }
