@@ -118,10 +118,14 @@ TEST_F(InspectorTest, TellsOfCommandsSurfacesAndBondsWhereThereAreSome) {
     states[1].lists = {{1, 2, 3, 4}};
     states[1].surfaces = {{LinkId(1u), {0.3, 0, 0}, {0, 0, 2}}};
     Bond bond;
-    bond.link = LinkId(1u), bond.other = 0;
+    bond.phase = BondPhase::kHolds;
+    bond.link = LinkId(1u), bond.other = 0, bond.other_link = LinkId(0u);
     bond.max_force = 50, bond.max_torque = std::numeric_limits<double>::infinity();
     bond.force_impulse = Vec3{0, 3, 4} * model->dt_s;
-    states[1].bonds = {bond};
+    Bond wall = bond, seeking;
+    wall.other = RobotId::kNone, wall.other_link = LinkId();
+    seeking.link = LinkId(0u);
+    states[1].bonds = {bond, wall, seeking};
     scene = std::make_shared<const ShownScene>(ShownScene{11, acting, scene->file, ViewLayout(*acting)});
     inspector.begin(scene);
     inspector.take(block({0, 1}, 40));
@@ -135,7 +139,8 @@ TEST_F(InspectorTest, TellsOfCommandsSurfacesAndBondsWhereThereAreSome) {
     EXPECT_EQ(holder["surfaces"][0]["link"], 1);
     EXPECT_EQ(holder["surfaces"][0]["linear"], Json({0.3, 0, 0}));
     EXPECT_EQ(holder["surfaces"][0]["angular"], Json({0, 0, 2}));
-    ASSERT_EQ(holder["bonds"].size(), 1u);
+    ASSERT_EQ(holder["bonds"].size(), 2u) << "what holds nothing yet is no bond";
+    EXPECT_EQ(holder["bonds"][1]["other"], -1) << "the scenery";
     EXPECT_EQ(holder["bonds"][0]["other"], 0);
     EXPECT_NEAR(holder["bonds"][0]["force"], 5, 1e-12);
     EXPECT_EQ(holder["bonds"][0]["max_force"], 50);

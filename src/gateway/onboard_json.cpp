@@ -4,8 +4,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "wire/view_extras.h"
-
 namespace roboss {
 namespace {
 
@@ -38,13 +36,13 @@ Json json_of(const SurfaceMotion& motion) {
     return {{"link", motion.link.value},
             {"linear", json_of(motion.linear_L)},
             {"angular", json_of(motion.angular_L)},
-            {"belt", json_of(belt_of(motion))}};
+            {"belt", json_of(motion.belt_L)}};
 }
 
 Json json_of(const Bond& bond, double dt_s) {
     return {{"link", bond.link.value},
-            {"other", bond.other},
-            {"other_link", bond.other_link.value},
+            {"other", bond.other == RobotId::kNone ? -1 : static_cast<std::int64_t>(bond.other)},
+            {"other_link", bond.other == RobotId::kNone ? 0 : bond.other_link.value},
             {"force", json_of(norm(bond.force_impulse) / dt_s)},
             {"torque", json_of(norm(bond.torque_impulse) / dt_s)},
             {"max_force", json_of(bond.max_force)},
@@ -57,7 +55,7 @@ Json held_by_json(RobotId robot, std::span<const std::optional<RobotState>> stat
     for (std::size_t holder = 0; holder < states.size(); ++holder) {
         if (!states[holder]) continue;
         for (const Bond& bond : states[holder]->bonds) {
-            if (bond.other != robot.value) continue;
+            if (bond.phase != BondPhase::kHolds || bond.other != robot.value) continue;
             Json json = json_of(bond, dt_s);
             json["other"] = holder, json["link"] = bond.other_link.value,
             json["other_link"] = bond.link.value;
@@ -79,10 +77,11 @@ void add_onboard(const Model& model, RobotId robot, std::span<const std::optiona
     Json channels = Json::array(), surfaces = Json::array(), bonds = Json::array();
     for (const ChannelInfo& info : model.type_of(robot).channels)
         channels.push_back(channel_json(info, state));
-    const bool belts = has_belts(model.type_of(robot));
+    const bool kinematic = model.type_of(robot).kinematic;  // its surfaces go where it goes
     for (const SurfaceMotion& motion : state.surfaces)
-        if (belts) surfaces.push_back(json_of(motion));
-    for (const Bond& bond : state.bonds) bonds.push_back(json_of(bond, model.dt_s));
+        if (!kinematic) surfaces.push_back(json_of(motion));
+    for (const Bond& bond : state.bonds)
+        if (bond.phase == BondPhase::kHolds) bonds.push_back(json_of(bond, model.dt_s));
     put(out, "channels", std::move(channels));
     put(out, "surfaces", std::move(surfaces));
     put(out, "bonds", std::move(bonds));

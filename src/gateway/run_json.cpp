@@ -116,8 +116,9 @@ std::string extras_line(const ViewExtras& extras, Tick tick, std::uint32_t scene
     for (const ViewBond& b : extras.bonds)
         bonds.push_back({{"robot", b.holder.value},
                          {"link", b.link.value},
-                         {"other", b.other.value},
-                         {"other_link", b.other_link.value}});
+                         {"other", b.other.valid() ? static_cast<std::int64_t>(b.other.value) : -1},
+                         {"other_link", b.other.valid() ? b.other_link.value : 0},
+                         {"point", json_of(b.p_L)}});
     return text_of({{"type", "extras"},
                     {"scene", scene},
                     {"tick", tick},

@@ -105,7 +105,7 @@ TEST_F(ViewStateCacheTest, ExtrasAreThoseThatEachRobotHadLast) {
     ViewStates first = views(2, 20, {0, 1}, 0), second = views(2, 20, {2}, 0);
     first.extras.surfaces = {surface(1, 0.5F)};
     second.extras.surfaces = {surface(2, 1)};
-    second.extras.bonds = {{RobotId(2u), LinkId(0u), RobotId(0u), LinkId(0u)}};
+    second.extras.bonds = {{RobotId(2u), LinkId(0u), RobotId(0u), LinkId(0u), {}}};
     book.take(second, 0), book.take(first, 0);
     EXPECT_EQ(book.extras().surfaces, (std::vector{surface(1, 0.5F), surface(2, 1)})) << "by robot";
     EXPECT_EQ(book.extras().bonds, second.extras.bonds);

@@ -86,7 +86,7 @@ class SceneMaker {
             shape.frame = to_pose(inverse(link.X_BL) * from.X_BS);
             shape.rgb = rgb;
             shape.name = link.name;
-            shape.still = is_still(from);
+            shape.still = !from.moves;
             result.links[from.link.index()].collisions.push_back(std::move(shape));
         }
         const bool drawn = spec != nullptr && has_visuals(*spec);
@@ -103,13 +103,6 @@ class SceneMaker {
             if (unreadable) link.visuals = link.collisions;
         }
         scene_.types.push_back(std::move(result));
-    }
-
-    /// Whether it takes no part in the surface motion of its link, where the Model knows such shapes.
-    template <class Collision>
-    static bool is_still(const Collision& shape) {
-        if constexpr (requires { shape.moves; }) return !shape.moves;
-        return false;
     }
 
     void add_visual(const VisualSpec& visual, const Pose& X_FL, const std::string& name,
@@ -150,20 +143,16 @@ class SceneMaker {
         }
     }
 
-    /// Scenery whose surface moves, where the Model knows such scenery.
-    template <class Static>
-    void add_flow(const Static& from) {
-        if constexpr (requires { from.flow.moves(), from.driven; }) {
-            if (!from.may_flow()) return;
-            SceneFlow flow;
-            flow.shape = shapes_.shape_of(from.shape);
-            flow.shape.name = from.name;
-            flow.shape.frame = to_pose(from.X_WS);
-            flow.linear = from.flow.linear, flow.angular = from.flow.angular;
-            flow.belt = from.flow.belt, flow.at = from.flow.at;
-            if (from.driven) flow.robot = from.robot, flow.link = from.link;
-            scene_.flows.push_back(std::move(flow));
-        }
+    /// Scenery whose surface moves, or may.
+    void add_flow(const StaticShape& from) {
+        if (!from.may_flow()) return;
+        SceneFlow flow;
+        flow.shape = shapes_.shape_of(from.shape);
+        flow.shape.name = from.name;
+        flow.shape.frame = to_pose(from.X_WS);
+        flow.motion = from.flow;
+        if (from.driven) flow.robot = from.robot, flow.link = from.link;
+        scene_.flows.push_back(std::move(flow));
     }
 
     const Model& model_;

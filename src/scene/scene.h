@@ -62,9 +62,9 @@ struct SceneType {
 /// A shape of the scenery whose surface moves, or may: drawn over the scenery, as what moves.
 struct SceneFlow {
     SceneShape shape;
-    Vec3 linear, angular, belt, at;  // as SurfaceFlow of the model, world axes: always
-    RobotId robot;                   // valid: it moves as the state of this robot says ...
-    LinkId link;                     // ... of this link
+    SurfaceFlow motion;  // always, if `robot` is not valid
+    RobotId robot;       // else it moves as the state of this robot says of `link`
+    LinkId link;
 };
 
 struct Scene {

@@ -103,10 +103,10 @@ Json json_of(const SceneFlow& flow, const Scene& scene) {
         o["link"] = flow.link.value;
         return o;
     }
-    o["linear"] = json_of(flow.linear);
-    o["angular"] = json_of(flow.angular);
-    o["belt"] = json_of(flow.belt);
-    o["at"] = json_of(flow.at);
+    o["linear"] = json_of(flow.motion.linear);
+    o["angular"] = json_of(flow.motion.angular);
+    o["belt"] = json_of(flow.motion.belt);
+    o["at"] = json_of(flow.motion.at);
     return o;
 }
 

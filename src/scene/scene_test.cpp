@@ -198,7 +198,7 @@ TEST(Scene, CommandsAndSceneryThatMovesAreToldOnlyWhereThereAreSome) {
     model.types[model.robots[red].type.index()].channels = {drive};
     SceneFlow belt, table;
     belt.shape = scene.statics[0], table.shape = scene.statics[1];
-    belt.linear = {0.5, 0, 0};
+    belt.motion.linear = {0.5, 0, 0};
     table.robot = RobotId(red), table.link = LinkId(0u);
     scene.flows = {belt, table};
     scene.types[scene.robots[red]].links[0].collisions[0].still = true;

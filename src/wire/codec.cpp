@@ -231,7 +231,7 @@ template <class A> void field(A& a, Of<A, ViewRequest>& m) {
 }
 template <class A> void field(A& a, Of<A, ViewDue>& m) { auto& [epoch, serial, tick, viewer, robots, exact] = m; fields(a, epoch, serial, tick, viewer, robots, exact); }
 template <class A> void field(A& a, Of<A, ViewSurface>& m) { auto& [robot, link, linear_L, angular_L, belt_L] = m; fields(a, robot, link, linear_L, angular_L, belt_L); }
-template <class A> void field(A& a, Of<A, ViewBond>& m) { auto& [holder, link, other, other_link] = m; fields(a, holder, link, other, other_link); }
+template <class A> void field(A& a, Of<A, ViewBond>& m) { auto& [holder, link, other, other_link, p_L] = m; fields(a, holder, link, other, other_link, p_L); }
 template <class A> void field(A& a, Of<A, ViewExtras>& m) { auto& [surfaces, bonds] = m; fields(a, surfaces, bonds); }
 template <class A> void field(A& a, Of<A, ViewStates>& m) { auto& [model_hash, epoch, serial, tick, entries, extras] = m; fields(a, model_hash, epoch, serial, tick, entries, extras); }
 // clang-format on

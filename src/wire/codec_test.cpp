@@ -83,7 +83,7 @@ std::vector<Message> one_of_each() {
                        1000,
                        {1, 2, 3, 4},
                        {{{kRobot, LinkId(1u), {1, 2, 3}, {4, 5, 6}, {7, 8, 9}}},
-                        {{kRobot, LinkId(0u), kOther, LinkId(2u)}}}},
+                        {{kRobot, LinkId(0u), kOther, LinkId(2u), {1, 2, 3}}}}},
             OrdersAhead{16, SimulatorId(3u), some_orders()},
             Late{2, 17, 1, 4'000'000},
             WindowResult{2, 17, 1, 9, {}, {}, {{100, 5, 2, {}, 0, {}, false}}},

@@ -21,12 +21,13 @@ struct ViewSurface {
     friend bool operator==(const ViewSurface&, const ViewSurface&) = default;
 };
 
-/// A Bond, for display.
+/// A Bond that holds, for display.
 struct ViewBond {
-    RobotId holder;     ///< the robot that holds
-    LinkId link;        ///< of the holder
-    RobotId other;      ///< the robot that is held
-    LinkId other_link;  ///< of `other`
+    RobotId holder;              ///< the robot that holds
+    LinkId link;                 ///< of the holder
+    RobotId other;               ///< the robot that is held; not valid: the scenery
+    LinkId other_link;           ///< of `other`
+    std::array<float, 3> p_L{};  ///< m, in the holder's link: where it holds
     /// Compares all members.
     friend bool operator==(const ViewBond&, const ViewBond&) = default;
 };
@@ -39,32 +40,19 @@ struct ViewExtras {
     friend bool operator==(const ViewExtras&, const ViewExtras&) = default;
 };
 
-/// The speed with which the surface runs around an axis, where its state has one.
-template <class Motion>
-Vec3 belt_of(const Motion& motion) {
-    if constexpr (requires { motion.belt_L; }) return motion.belt_L;
-    return {};
-}
-
-/// Whether the surfaces of robots of this type run over them. Those of a kinematic body go where it goes.
-template <class Type>
-bool has_belts(const Type& type) {
-    if constexpr (requires { type.kinematic; }) return !type.kinematic;
-    return true;
-}
-
-/// Adds the surfaces and bonds of a robot's state.
+/// Adds the surfaces that run over the robot, and the bonds by which it holds others.
 inline void append(const Model& model, RobotId robot, const RobotState& state, ViewExtras& extras) {
     const auto rounded = [](const Vec3& v) {
         return std::array{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
     };
-    const bool belts = has_belts(model.type_of(robot));
-    for (const SurfaceMotion& motion : state.surfaces)
-        if (belts)
-            extras.surfaces.push_back({robot, motion.link, rounded(motion.linear_L),
-                                       rounded(motion.angular_L), rounded(belt_of(motion))});
     for (const Bond& bond : state.bonds)
-        extras.bonds.push_back({robot, bond.link, RobotId(bond.other), bond.other_link});
+        if (bond.phase == BondPhase::kHolds)
+            extras.bonds.push_back(
+                {robot, bond.link, RobotId(bond.other), bond.other_link, rounded(bond.p_L)});
+    if (model.type_of(robot).kinematic) return;  // its surfaces go where it goes
+    for (const SurfaceMotion& motion : state.surfaces)
+        extras.surfaces.push_back({robot, motion.link, rounded(motion.linear_L), rounded(motion.angular_L),
+                                   rounded(motion.belt_L)});
 }
 
 }  // namespace roboss

@@ -1,11 +1,11 @@
 // Robots that act, in the page: commands of their on-board controllers, the pad that drives by them, belts that move, and
-// bonds that are made and loosed by hand. With the program, the world beside this file; its belts and bonds are the mock's.
+// bonds that are made and loosed by hand. With the program, in the world beside this file.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
 import type { Mesh, Object3D, ShaderMaterial, Vector3 } from "three";
 import { Bench, choose, PROGRAM, seen, time, until } from "./bench";
 
-const mockOnly = PROGRAM === "" ? false : "the mock has belts, and bonds without physics";
+const mockOnly = PROGRAM === "" ? false : "no plugin of that world takes a list";
 const bench = new Bench({ world: "../web/e2e/acting.sdf" });
 
 const numberOf = (page: Page, name: string) =>
@@ -112,74 +112,71 @@ bench.test(
     mockOnly,
 );
 
-/** How far the marks of the belt have gone, and the time that is drawn; null: there are none. */
-function marks(page: Page): Promise<{ moved: number; speed: number; time: number } | null> {
+/** How far the marks of the belt have gone along its motion, and the time that is drawn; null: there are none. */
+function marks(page: Page): Promise<{ moved: number; time: number } | null> {
     return page.evaluate(() => {
-        const found: { moved: number; speed: number; time: number }[] = [],
+        const found: { moved: number; time: number }[] = [],
             { stage, state } = window.roboss;
         stage.overlays.traverse((object: Object3D) => {
-            const { uniforms } = ((object as Mesh).material ?? {}) as ShaderMaterial,
-                linear = uniforms?.linear?.value as Vector3 | undefined;
-            if (linear === undefined || Math.abs(linear.x - 0.5) > 1e-6) return;
-            const moved = uniforms.moved.value as Vector3;
-            found.push({ moved: moved.x, speed: linear.x, time: state.drawnTime.value });
+            const { uniforms } = ((object as Mesh).material ?? {}) as ShaderMaterial;
+            for (const [motion, way] of [
+                ["linear", "moved"],
+                ["belt", "belted"],
+            ]) {
+                const speed = uniforms?.[motion]?.value as Vector3 | undefined,
+                    moved = uniforms?.[way]?.value as Vector3 | undefined;
+                if (speed === undefined || moved === undefined || Math.abs(speed.length() - 0.5) > 1e-6) continue;
+                found.push({ moved: moved.dot(speed) / speed.length(), time: state.drawnTime.value });
+            }
         });
         return found[0] ?? null;
     });
 }
 
-bench.test(
-    "a belt shows marks that go as fast as it does, and none when it stands",
-    async (page) => {
-        await selected(page, "belt");
-        assert.equal(await marks(page), null);
-        await page.getByLabel("velocity of track_cmd_vel", { exact: true }).fill("0.5");
-        await page.getByRole("button", { name: "Send track_cmd_vel" }).click();
-        await until("marks", async () => (await marks(page)) !== null);
-        await until("the panel says so", () => page.locator(".surfaces", { hasText: "0.50 m/s" }).isVisible());
-        const first = await marks(page);
-        await page.waitForTimeout(1500);
-        const second = await marks(page);
-        assert.ok(first !== null && second !== null && second.time > first.time + 0.5);
-        const speed = (second.moved - first.moved) / (second.time - first.time);
-        assert.ok(Math.abs(speed - 0.5) < 0.05, `${speed} m/s`);
-        const box = await place(page, "box_1");
-        await page.waitForTimeout(500);
-        assert.ok((await place(page, "box_1")).x > box.x, "what lies on it goes along");
-        await command(page, "track_cmd_vel").getByRole("button", { name: "Zero" }).click();
-        await until("no marks", async () => (await marks(page)) === null);
-    },
-    mockOnly,
-);
+bench.test("a belt shows marks that go as fast as it does, and none when it stands", async (page) => {
+    await selected(page, "belt");
+    assert.equal(await marks(page), null);
+    await page.getByLabel("velocity of track_cmd_vel", { exact: true }).fill("0.5");
+    await page.getByRole("button", { name: "Send track_cmd_vel" }).click();
+    await until("marks", async () => (await marks(page)) !== null);
+    await until("the panel says so", () => page.locator(".surfaces", { hasText: "0.50 m/s" }).isVisible());
+    const first = await marks(page);
+    await page.waitForTimeout(1500);
+    const second = await marks(page);
+    assert.ok(first !== null && second !== null && second.time > first.time + 0.5);
+    const speed = (second.moved - first.moved) / (second.time - first.time);
+    assert.ok(Math.abs(speed - 0.5) < 0.05, `${speed} m/s`);
+    const box = await place(page, "box_1");
+    await page.waitForTimeout(500);
+    assert.ok((await place(page, "box_1")).x > box.x, "what lies on it goes along");
+    await command(page, "track_cmd_vel").getByRole("button", { name: "Zero" }).click();
+    await until("no marks", async () => (await marks(page)) === null);
+});
 
 const bonds = (page: Page) => page.evaluate(() => window.roboss.state.extras.value?.bonds.length ?? 0);
 
-bench.test(
-    "a robot takes hold of another that is chosen in the list, carries it, and lets go",
-    async (page) => {
-        await selected(page, "gripper");
-        await page.locator("summary", { hasText: "Bonds" }).click();
-        await page.getByLabel("Reach in m").fill("0.3");
-        await page.getByLabel("Holding force in N").fill("50");
-        await page.getByRole("button", { name: "Attach to…" }).click();
-        await until("a hint", () => page.getByText("Choose the robot that gripper shall hold").isVisible());
-        await choose(page, "box_2");
-        await until("the bond", async () => (await bonds(page)) === 1);
-        assert.equal(await page.locator(".robot-head h3").textContent(), "gripper", "the holder stays selected");
-        const row = page.locator(".bond");
-        await until("its load", async () => /holds box_2.*39\.2 N of 50 N/.test((await row.textContent()) ?? ""));
-        const from = await place(page, "box_2");
-        await page.getByLabel("linear_x of cmd_vel", { exact: true }).fill("-0.5");
-        await page.getByRole("button", { name: "Send cmd_vel" }).click();
-        await until("the box goes along", async () => (await place(page, "box_2")).x < from.x - 0.2);
-        await command(page, "cmd_vel").getByRole("button", { name: "Zero" }).click();
-        await selected(page, "box_2");
-        await until("held", async () => /held by gripper/.test((await row.textContent()) ?? ""));
-        await row.getByRole("button", { name: "Release" }).click();
-        await until("no bond", async () => (await bonds(page)) === 0 && (await row.count()) === 0);
-    },
-    mockOnly,
-);
+bench.test("a robot takes hold of another that is chosen in the list, carries it, and lets go", async (page) => {
+    await selected(page, "gripper");
+    await page.locator("summary", { hasText: "Bonds" }).click();
+    await page.getByLabel("Reach in m").fill("0.3");
+    await page.getByLabel("Holding force in N").fill("5000");
+    await page.getByRole("button", { name: "Attach to…" }).click();
+    await until("a hint", () => page.getByText("Choose the robot that gripper shall hold").isVisible());
+    await choose(page, "box_2");
+    await until("the bond", async () => (await bonds(page)) === 1);
+    assert.equal(await page.locator(".robot-head h3").textContent(), "gripper", "the holder stays selected");
+    const row = page.locator(".bond");
+    await until("its load", async () => /holds box_2.*[\d.]+ N of 5000 N/.test((await row.textContent()) ?? ""));
+    const from = await place(page, "box_2");
+    await page.getByLabel("linear_x of cmd_vel", { exact: true }).fill("-0.5");
+    await page.getByRole("button", { name: "Send cmd_vel" }).click();
+    await until("the box goes along", async () => (await place(page, "box_2")).x < from.x - 0.2);
+    await command(page, "cmd_vel").getByRole("button", { name: "Zero" }).click();
+    await selected(page, "box_2");
+    await until("held", async () => /held by gripper/.test((await row.textContent()) ?? ""));
+    await row.getByRole("button", { name: "Release" }).click();
+    await until("no bond", async () => (await bonds(page)) === 0 && (await row.count()) === 0);
+});
 
 bench.test(
     "with Shift, a click in the picture attaches to the selected robot; out of reach, that is said",
@@ -212,7 +209,6 @@ bench.test(
         await page.locator(".bond").getByRole("button", { name: "Release" }).click();
         await until("no bond", async () => (await bonds(page)) === 0);
     },
-    mockOnly,
 );
 
 bench.test("the run is started over", async (page) => {
@@ -221,6 +217,6 @@ bench.test("the run is started over", async (page) => {
     await until("an early time", async () => (await time(page)) < 4);
     const then = await time(page);
     await until("and on from there", async () => (await time(page)) > then + 0.3);
-}, mockOnly);
+});
 
 bench.endsWithCleanConsole();

@@ -1,5 +1,6 @@
-// The hand in the picture. Select: a click chooses. Move: a drag carries a robot over the ground and orders its pose.
-// With Shift, the selected robot takes hold of it. Push: a drag pulls an arrow from where the robot was taken, and orders that force for as long as it is held.
+// The hand in the picture. Select: a click chooses. Move: a drag carries a robot over the ground and orders its
+// pose. With Shift, the selected robot takes hold of it. Push: a drag pulls an arrow from where the robot was taken,
+// and orders that force for as long as it is held.
 import * as THREE from "three";
 import type { PointerHand } from "../camera/pointer";
 import { composed, fromAxisAngle } from "../kinematics/pose";

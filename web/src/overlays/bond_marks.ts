@@ -60,7 +60,7 @@ export class BondMarks {
         }
         let drawn = 0;
         for (const bond of bonds)
-            if (bond.robot < world.fleet.count && bond.other < world.fleet.count) this.draw(world, bond, drawn++);
+            if (Math.max(bond.robot, bond.other) < world.fleet.count) this.draw(world, bond, drawn++);
         this.bars.count = drawn;
         this.knobs.count = 2 * drawn;
         for (const mesh of [this.bars, this.knobs]) {
@@ -74,9 +74,14 @@ export class BondMarks {
         return new THREE.Vector3(...transform(linkPose(world, robot, link), middle));
     }
 
+    /** Where the holder takes hold of the scenery. */
+    private grip(world: World, bond: BondInfo): THREE.Vector3 {
+        return new THREE.Vector3(...transform(linkPose(world, bond.robot, bond.link), bond.point ?? [0, 0, 0]));
+    }
+
     private draw(world: World, bond: BondInfo, k: number): void {
         const a = this.end(world, bond.robot, bond.link),
-            b = this.end(world, bond.other, bond.other_link),
+            b = bond.other < 0 ? this.grip(world, bond) : this.end(world, bond.other, bond.other_link),
             way = b.clone().sub(a),
             length = way.length(),
             chosen = [bond.robot, bond.other].includes(this.state.selected.value ?? -1),

@@ -21,6 +21,7 @@ export function loadPart(bond: BondReport): number {
 }
 
 function named(world: World, robot: number, link: number): string {
+    if (robot < 0) return "the scenery";
     const links = world.fleet.type(robot).links;
     return links.length > 1 ? `${world.fleet.name(robot)} at ${links[link]?.name ?? link}` : world.fleet.name(robot);
 }
@@ -31,13 +32,13 @@ class BondRow {
     private readonly load = h("span", { class: "value" });
     private readonly bar = h("div", { class: "load-bar" });
 
-    constructor(words: string, release: () => void) {
+    constructor(words: string, button: string, release: () => void) {
         this.element = h(
             "div",
             { class: "bond" },
             h("span", { class: "label" }, words),
             this.load,
-            h("button", { type: "button", class: "small", onclick: release }, "Release"),
+            h("button", { type: "button", class: "small", onclick: release }, button),
             h("div", { class: "load-track" }, this.bar),
         );
     }
@@ -141,7 +142,13 @@ export class BondControls {
             now.add(key);
             let row = this.rows.get(key);
             if (row === undefined) {
-                row = new BondRow(words, () => void this.run.order(holder, { action: "detach", other: held }));
+                // An order cannot name the scenery: without a name, all bonds are loosed.
+                const [button, what] = held < 0 ? ["Release all", {}] : ["Release", { other: held }];
+                row = new BondRow(
+                    words,
+                    button as string,
+                    () => void this.run.order(holder, { action: "detach", ...(what as object) }),
+                );
                 this.rows.set(key, row);
                 this.list.append(row.element);
             }

@@ -37,7 +37,7 @@ export interface SurfaceReport extends SurfaceMotion {
     link: number;
 }
 
-/** Of a robot that holds, or (in `held_by`) that is held; then `other` is the holder. */
+/** Of a robot that holds, or (in `held_by`) that is held; then `other` is the holder. -1: the scenery. */
 export interface BondReport {
     link: number;
     other: number;
@@ -49,12 +49,14 @@ export interface BondReport {
     max_torque: number | null;
 }
 
-/** Between links of two robots; `robot` holds. */
+/** Between links of two robots; `robot` holds. `other` -1 is the scenery. */
 export interface BondInfo {
     robot: number;
     link: number;
     other: number;
     other_link: number;
+    /** m, in the holder's link: where it holds. */
+    point?: Triple;
 }
 
 /** Surfaces in motion and bonds of all robots. */
@@ -77,4 +79,4 @@ export type OnboardAction =
           max_force?: number;
           max_torque?: number;
       }
-    | { action: "detach"; other: number };
+    | { action: "detach"; other?: number };
