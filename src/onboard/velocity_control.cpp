@@ -4,7 +4,7 @@
 namespace roboss {
 
 void run(const VelocityControlSpec& spec, OnboardContext& c) {
-    if (!c.type().free_base) return;
+    if (!c.type().free_base && !c.type().kinematic) return;
     Vec3 linear = spec.initial_linear, angular = spec.initial_angular;
     if (c.is_commanded(0)) {
         const std::span<const double> v = c.command(0);
@@ -18,6 +18,8 @@ void run(const VelocityControlSpec& spec, OnboardContext& c) {
     const Mat3 R_WR = X_WB.R * transpose(c.type().X_RB.R);
     const Vec3 w = R_WR * angular;
     const Vec3 v = R_WR * linear + cross(w, R_WR * c.type().X_RB.p);
+    if (c.type().kinematic && w == Vec3{} && v == Vec3{}) return state.surfaces.clear();
+    if (c.type().kinematic) return c.move_base(w, v);
     for (std::size_t i = 0; i < 3; ++i) state.v[i] = w[i], state.v[i + 3] = v[i];
 }
 
