@@ -108,20 +108,6 @@ bool jumps(const Place& from, const Place& to) {
     return !stays && from.points.back().pose.p != to.points.front().pose.p;
 }
 
-/// The velocity of the base, as that of all its links.
-void set_velocity(const Vec3& angular, const Vec3& linear, OnboardContext& c) {
-    std::vector<SurfaceMotion>& surfaces = c.state().surfaces;
-    surfaces.resize(c.type().links.size());
-    const Vec3 origin = base_pose(c.state()).p;
-    for (std::size_t l = 0; l < surfaces.size(); ++l) {
-        const Transform X_WL = c.pose(LinkId(l));
-        surfaces[l] = {};
-        surfaces[l].link = LinkId(l);
-        surfaces[l].angular_L = transpose_times(X_WL.R, angular);
-        surfaces[l].linear_L = transpose_times(X_WL.R, linear + cross(angular, X_WL.p - origin));
-    }
-}
-
 }  // namespace
 
 void run(const ActorSpec& spec, OnboardContext& c) {
@@ -136,9 +122,9 @@ void run(const ActorSpec& spec, OnboardContext& c) {
         time + c.dt() <= 0 || (now.points.data() == next.points.data() && now.time == next.time);
     if (stands) return c.state().surfaces.clear();
     // It counts as moving all the time, so that nothing falls asleep at what may be gone in the next tick.
-    if (jumps(now, next)) return set_velocity({}, {}, c);
+    if (jumps(now, next)) return c.move_base({}, {});
     const double rate = 1.0 / c.dt();
-    set_velocity(logarithm(X_next.q * conjugate(X.q)) * rate, (X_next.p - X.p) * rate, c);
+    c.move_base(logarithm(X_next.q * conjugate(X.q)) * rate, (X_next.p - X.p) * rate);
 }
 
 }  // namespace roboss

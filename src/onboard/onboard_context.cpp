@@ -142,6 +142,19 @@ void OnboardContext::push_at(LinkId link, const Vec3& force, const Vec3& p_W) {
     push(link, force, cross(p_W - centre(link), force));
 }
 
+void OnboardContext::move_base(const Vec3& angular, const Vec3& linear) {
+    std::vector<SurfaceMotion>& surfaces = state_.surfaces;
+    surfaces.resize(type_.links.size());
+    const Transform X_W0 = to_transform(base_pose(state_));
+    for (std::size_t l = 0; l < surfaces.size(); ++l) {
+        const Transform X_WL = X_W0 * type_.links[l].X_BL;
+        surfaces[l] = {};
+        surfaces[l].link = LinkId(l);
+        surfaces[l].angular_L = transpose_times(X_WL.R, angular);
+        surfaces[l].linear_L = transpose_times(X_WL.R, linear + cross(angular, X_WL.p - X_W0.p));
+    }
+}
+
 void OnboardContext::move_surface(const SurfaceMotion& motion) {
     auto& surfaces = state_.surfaces;
     const auto at = std::ranges::lower_bound(surfaces, motion.link, {}, &SurfaceMotion::link);

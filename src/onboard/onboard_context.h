@@ -111,6 +111,9 @@ class OnboardContext {
     void push_at(LinkId link, const Vec3& force, const Vec3& p_W);
     /// The link's surface moves so from now on, until it is set again; zero: it stands still.
     void move_surface(const SurfaceMotion& motion);
+    /// The base of a kinematic robot moves so in this tick, and all that hangs on it: rad/s; m/s of the
+    /// base's origin, world axes. It counts as moving also with zeros.
+    void move_base(const Vec3& angular, const Vec3& linear);
 
     // --- air
     /// The wind of this tick, m/s, world axes.

@@ -31,15 +31,22 @@ void move_link(OnboardContext& c) {
 }  // namespace
 
 void run(const VelocityControlSpec& spec, OnboardContext& c) {
-    if (!c.type().free_base) return;
-    if (!spec.links.empty()) {
+    const bool kinematic = c.type().kinematic;
+    if (!c.type().free_base && !kinematic) return;
+    if (!spec.links.empty() && !kinematic) {
         move_link(c);
         return;
     }
     Vec3 linear = spec.initial_linear, angular = spec.initial_angular;
     if (c.is_commanded(0)) linear = linear_of(c.command(0)), angular = angular_of(c.command(0));
     const Mat3 R_WR = to_transform(base_pose(c.state())).R * transpose(c.type().X_RB.R);
-    set_base_velocity(c.state(), R_WR * angular, R_WR * linear);
+    const Vec3 w = R_WR * angular, v = R_WR * linear;
+    if (!kinematic)
+        set_base_velocity(c.state(), w, v);
+    else if (w == Vec3{} && v == Vec3{})
+        c.state().surfaces.clear();
+    else
+        c.move_base(w, v);
 }
 
 }  // namespace roboss

@@ -76,12 +76,33 @@ class ModelConverter {
 
     /// Links of a kinematic model hang on its base.
     void fix_kinematic_links() {
+        if (kinematic_links_ > 0) judge_kinematic_links();
         if (!spec_.kinematic) return;
         spec_.joints.clear();
         for (const LinkSpec& link : spec_.links) weld(link);
     }
 
   private:
+    /// A model is kinematic as a whole, or not at all.
+    void judge_kinematic_links() {
+        if (spec_.is_static || spec_.kinematic) return;
+        spec_.kinematic = kinematic_links_ == spec_.links.size();
+        if (spec_.kinematic)
+            import_.diagnostics().note(
+                spec_.where, "kinematic",
+                "model '" + spec_.name +
+                    "' is kinematic: one rigid body that nothing pushes and that pushes "
+                    "what it meets",
+                "Move it with a VelocityControl plugin or by its pose.");
+        else
+            import_.diagnostics().warning(spec_.where, "kinematic",
+                                          "model '" + spec_.name + "' has " +
+                                              std::to_string(kinematic_links_) + " kinematic links of " +
+                                              std::to_string(spec_.links.size()) +
+                                              "; they are simulated as dynamic links",
+                                          "Make all of its links kinematic, or none.");
+    }
+
     /// To the world.
     void weld(const LinkSpec& link) {
         JointSpec weld;
@@ -144,12 +165,7 @@ class ModelConverter {
     void convert_link_flags(const Element& source, LinkSpec& spec) {
         spec.gravity = import_.reader.boolean(source, "gravity", true);
         if (import_.reader.boolean(source, "self_collide", false)) collide_with_itself(source);
-        if (import_.reader.boolean(source, "kinematic", false)) {
-            import_.diagnostics().warning(
-                source.where(), "kinematic",
-                "link '" + spec.name + "' is kinematic; it is simulated as a dynamic link",
-                "Move it with velocity orders, or make the model static.");
-        }
+        if (import_.reader.boolean(source, "kinematic", false)) ++kinematic_links_;
     }
 
     /// Told once a model.
@@ -222,6 +238,7 @@ class ModelConverter {
     const ReadModel& read_;
     const Import& import_;
     ModelSpec& spec_;
+    std::size_t kinematic_links_ = 0;
     std::set<std::string> static_;  // links of nested static models
 };
 

@@ -127,5 +127,21 @@ TEST(Actors, KeepTheLinksThatTheyHave) {
     EXPECT_EQ(model_of(loaded).joints.size(), 1u) << "it hangs on its base";
 }
 
+TEST(KinematicModels, AreThoseOfWhichAllLinksAreKinematic) {
+    const std::string kinematic = "<kinematic>true</kinematic>";
+    const std::string weld = "<joint name='j' type='fixed'><parent>a</parent><child>b</child></joint>";
+    const Loaded all =
+        load_elements("<model name='m'>" + link("a", kinematic) + link("b", kinematic) + weld + "</model>");
+    ASSERT_TRUE(all.world) << all.text();
+    EXPECT_TRUE(model_of(all).kinematic);
+    ASSERT_NE(all.find("kinematic"), nullptr);
+    EXPECT_EQ(all.find("kinematic")->severity, Severity::kNote);
+    const Loaded some =
+        load_elements("<model name='m'>" + link("a", kinematic) + link("b") + weld + "</model>");
+    EXPECT_FALSE(model_of(some).kinematic);
+    ASSERT_NE(some.find("kinematic"), nullptr);
+    EXPECT_EQ(some.find("kinematic")->severity, Severity::kWarning);
+}
+
 }  // namespace
 }  // namespace roboss

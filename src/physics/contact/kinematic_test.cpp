@@ -116,6 +116,29 @@ TEST(Kinematic, AFastOneDoesNotPassThroughWhatItHits) {
     }
 }
 
+/// A VelocityControl moves it; it does not feel the box that it pushes over a rough floor.
+TEST(Kinematic, OneWithAVelocityControlGoesAsItIsTold) {
+    World world = empty_world(2e-3);
+    place(world, ground(surface(0.6)), "ground");
+    ModelSpec plough = actor(box_shape({0.1, 1, 0.4}, surface(0.2)), {});
+    plough.onboard.clear();
+    VelocityControlSpec control;
+    control.initial_linear = {0.5, 0, 0};
+    plough.onboard.push_back({"control", control, {}});
+    place(world, plough, "plough", {{0, 0, 0.2}, from_rpy(0, 0, kPi / 2)});
+    place(world, solid_box(50, {0.2, 0.2, 0.2}, surface(0.6)), "box", {{0, 0.5, 0.1}, {}});
+    Simulation sim(world);
+    sim.run(3);
+    EXPECT_NEAR(sim.states[0].q[1], 1.5, 1e-9) << "along its own x axis";
+    EXPECT_NEAR(sim.states[1].q[1], 1.65, 1e-3);
+    EXPECT_NEAR(sim.states[1].v[4], 0.5, 1e-6);
+    const Order stop{sim.tick, ClientId(0u), 1, RobotId(std::size_t{0}), Command{0, {0, 0, 0, 0, 0, 0}}};
+    sim.step(std::span(&stop, 1));
+    sim.run(1);
+    EXPECT_NEAR(sim.states[0].q[1], 1.5, 1e-9);
+    EXPECT_NEAR(sim.states[1].v[4], 0, 1e-9);
+}
+
 /// Actors that go round in a crowd: some start late, one jumps back to its start.
 World crowd_with_actors(std::uint64_t seed) {
     World world = random_crowd(seed, 12);
