@@ -92,7 +92,8 @@ TEST(ModelEdit, ACopyThatIsTurnedMovesTheWayItIsTurned) {
     ASSERT_FALSE(addition->robots[0].start_v.empty());
     const Pose X{{0, 0, 5}, from_rpy(0, 0, 1.5707963267948966)};
     const auto model = with_models(*made(base_world()), *addition, X, "guest").value().model;
-    const RobotState state = initial_state(*model, RobotId(3u)), as_it_was = initial_state(*addition, RobotId(0u));
+    const RobotState state = initial_state(*model, RobotId(3u)),
+                     as_it_was = initial_state(*addition, RobotId(0u));
     EXPECT_NEAR(state.v[0], -as_it_was.v[1], 1e-12);
     EXPECT_NEAR(state.v[1], as_it_was.v[0], 1e-12);
     EXPECT_NEAR(state.v[4], as_it_was.v[3], 1e-12);
