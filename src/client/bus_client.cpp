@@ -69,7 +69,7 @@ void BusClient::handle(Envelope& envelope) {
         if (requests_.empty() || requests_.front().number != answer->number) return;
         answers_.push_back({std::move(requests_.front().action), std::move(answer->outcome)});
         requests_.pop_front();
-        sent_ms_ = kLongAgo;  // the next one at once
+        requested_ms_ = kLongAgo;  // the next one at once
     } else if (std::holds_alternative<ModelChanged>(envelope.message)) {
         outdated_ = outdated_ || !id_.valid();
     } else if (const auto* over = std::get_if<RunOver>(&envelope.message)) {
@@ -146,9 +146,12 @@ void BusClient::leave(Bus& bus, const std::string& failure) {
 
 void BusClient::resend(Bus& bus) {
     const std::int64_t now = bus.now_ms();
+    if (!requests_.empty() && now - requested_ms_ >= options_.resend_ms) {
+        requested_ms_ = now;
+        bus.send(self_, kControllerAddress, requests_.front());
+    }
     if (now - sent_ms_ < options_.resend_ms) return;
     sent_ms_ = now;
-    if (!requests_.empty()) bus.send(self_, kControllerAddress, requests_.front());
     if (!id_.valid()) {
         ClientHello hello{options_.name,    model_->hash,         options_.period,
                           options_.latency, options_.synchronous, options_.observer};
@@ -166,6 +169,7 @@ void BusClient::resend(Bus& bus) {
 }
 
 void BusClient::control(ControlAction request) {
+    if (requests_.empty()) requested_ms_ = kLongAgo;
     requests_.push_back({++request_, std::move(request)});
 }
 

@@ -93,6 +93,7 @@ class BusClient : public Client {
     std::optional<ClientBye> bye_;
     static constexpr std::int64_t kLongAgo = -1'000'000'000;
     std::int64_t sent_ms_ = kLongAgo;
+    std::int64_t requested_ms_ = kLongAgo;         // when the first of `requests_` was sent
     static constexpr std::uint64_t kAskEvery = 5;  // resend times
     std::uint64_t silent_ = 0;
     bool outdated_ = false;

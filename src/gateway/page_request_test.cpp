@@ -65,6 +65,13 @@ TEST(PageRequest, UnderstandsWatchesAndBoundsTheirRate) {
     EXPECT_EQ(watch.rate, 60);
 }
 
+TEST(PageRequest, UnderstandsTheWordsOfARequestToTheRun) {
+    const auto request = parse_page_request(R"({"type":"control","id":3,"words":["reset"]})");
+    ASSERT_TRUE(request.ok());
+    EXPECT_EQ(request.value().id, 3);
+    EXPECT_EQ(std::get<ControlArguments>(request.value().what).words, std::vector<std::string>{"reset"});
+}
+
 TEST(PageRequest, RefusesWhatIsWrongByName) {
     const std::pair<const char*, const char*> wrongs[] = {
         {"", ""},

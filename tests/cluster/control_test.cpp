@@ -1,6 +1,8 @@
 // A Client asks the run itself for something, and hears what became of it, over a bad Bus too.
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "bus/faulty_bus.h"
 #include "client/bus_client.h"
 #include "roles/controller/controller.h"
@@ -44,6 +46,31 @@ TEST(Control, AClientsRequestsComeOnceAndInOrderAndAreAnswered) {
         EXPECT_EQ(answers[1].request, ControlAction(twice));
         EXPECT_EQ(std::get<ControlRefused>(answers[1].outcome).code, "refused");
     }
+}
+
+/// A synchronous Client that answers all the time asks in between.
+TEST(Control, ARequestDoesNotWaitForAPauseInTheAnswers) {
+    const auto model = pair_world();
+    FaultyBus bus({1, 0, 0, 0});
+    Controller controller(model, {}, beginning_of(*model));
+    ThreadPool pool{1};
+    Simulator simulator(model, {Role::kSimulator, 1}, {}, pool);
+    BusClient client(model, {Role::kClient, 1}, {});
+    controller.run_until(1'000);
+    bool asked = false, heard = false;
+    for (int turns = 0; turns < 20'000 && controller.tick() < 200 && !heard; ++turns) {
+        if (turns % 10 == 0) bus.advance_clock(1);
+        controller.advance(bus);
+        simulator.advance(bus);
+        client.advance(bus);
+        heard = !controller.control().take_calls().empty();
+        if (!client.observing()) continue;
+        if (client.tick() >= 50 && !std::exchange(asked, true)) client.control(PauseRun{});
+        client.answer(bus);
+    }
+    EXPECT_TRUE(asked);
+    EXPECT_TRUE(heard) << "at tick " << controller.tick();
+    EXPECT_LT(controller.tick(), 60);
 }
 
 }  // namespace

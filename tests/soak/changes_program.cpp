@@ -11,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "client/control_program.h"
@@ -140,10 +141,10 @@ class ChangingProgram : public ControlProgram {
     ControlOptions options() const override { return {0.001, -1, true}; }
     void control(Client& client) override {
         Soak& s = soak();
+        const bool changed = std::exchange(is_new_, false);
         if (s.phase == Soak::Phase::kRecording) return record(client);
         s.check(client);
-        s.advance(client, is_new_);
-        is_new_ = false;
+        s.advance(client, changed);
     }
 
   private:

@@ -291,7 +291,7 @@ std::vector<std::string> ClientService::names() const {
 std::vector<std::string> ClientService::names_serving() const {
     std::vector<std::string> names;
     for (const ClientSeat& seat : seats_)
-        if (seat.serves() && !seat.observer) names.push_back(seat.name);
+        if (!seat.gone && !seat.observer) names.push_back(seat.name);
     return names;
 }
 

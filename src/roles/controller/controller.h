@@ -97,7 +97,7 @@ class Controller {
     std::vector<LoggedOrder> pending_orders() { return order_log_.pending(tick()); }
     /// Names of all Clients that ever joined, by ClientId.
     std::vector<std::string> client_names() const { return clients_.names(); }
-    /// Names of those that are here, without observers.
+    /// Names of those that are here or expected, without observers.
     std::vector<std::string> clients_serving() const { return clients_.names_serving(); }
 
     /// Tick of the checkpoint for the log that is being fetched. The caller adds the memory of its control
