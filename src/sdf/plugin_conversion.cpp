@@ -33,11 +33,21 @@ bool remove_prefix(std::string& text, std::string_view prefix) {
     return true;
 }
 
-ExtensionElement kept_element(const Element& element) {
+/// `scope` is the prefix of names in a nested model.
+ExtensionElement kept_element(const Element& element, const std::string& scope) {
     std::ostringstream text;
     element.node.print(text, "", pugi::format_raw);
     ExtensionElement kept;
     kept.name = element.node.name(), kept.text = std::move(text).str(), kept.where = element.where();
+    const std::string file = element.node.attribute("filename").value();
+    kept.plugin = element.name().find("::") == std::string::npos && !file.empty() ? file : element.name();
+    kept.parent = element.node.parent().name();
+    for (auto at = element.node.parent(); at && at.attribute("name"); at = at.parent()) {
+        if (is_one_of("model|world|include|actor", at.name())) break;
+        kept.owner = at.attribute("name").value() + (kept.owner.empty() ? "" : "::" + kept.owner);
+    }
+    kept.owner = scope + kept.owner;
+    if (kept.owner.ends_with("::")) kept.owner.resize(kept.owner.size() - 2);
     return kept;
 }
 
@@ -80,7 +90,7 @@ PluginName plugin_name(const Element& plugin) {
 
 void convert_plugin(const Element& plugin, const std::string& scope, const Import& import,
                     std::vector<OnboardSpec>& onboard, std::vector<ExtensionElement>& kept) {
-    ExtensionElement& record = kept.emplace_back(kept_element(plugin));
+    ExtensionElement& record = kept.emplace_back(kept_element(plugin, scope));
     const PluginName name = plugin_name(plugin);
     const std::string called =
         plugin.name().empty() ? plugin.node.attribute("filename").value() : plugin.name();

@@ -38,6 +38,8 @@ WorldCensus take_census(const World& world) {
         for (const LinkSpec& link : model.links) {
             for (const CollisionSpec& collision : link.collisions)
                 census.shapes[to_text(collision.geometry.kind)] += times[i];
+            for (const SensorSpec& sensor : link.sensors)
+                if (!sensor.measures() && times[i] > 0) census.silent[sensor.sdf_type] += times[i];
         }
         if (model.is_static) {
             census.static_models += times[i];
