@@ -25,6 +25,12 @@ bool has_sensors(const ModelSpec& spec) {
     });
 }
 
+bool has_board(const ModelSpec& spec) {
+    return std::ranges::any_of(spec.onboard, [](const OnboardSpec& onboard) {
+        return std::holds_alternative<MessageBoardSpec>(onboard.parameters);
+    });
+}
+
 /// Shapes of a static model; `owner`: the robot that carries its sensors, if any.
 void add_statics(const ModelSpec& spec, const ModelInstance& instance, RobotId owner, ShapeStore& shapes,
                  Model& model) {
@@ -62,8 +68,8 @@ std::vector<CompiledPrototype> compile_prototypes(const World& world, ShapeStore
         const std::size_t first = diagnostics.items().size();
         if (!spec.is_static) {
             prototypes[p].parts = compile_parts(spec, shapes, diagnostics);
-        } else if (has_sensors(spec)) {
-            prototypes[p].parts = {{sensor_stand(spec), "", Pose{}}};
+        } else if (has_sensors(spec) || has_board(spec)) {
+            prototypes[p].parts = {{sensor_stand(spec, diagnostics), "", Pose{}}};
         }
         prototypes[p].left_out = diagnostics.leave_out_since(first);
         if (prototypes[p].left_out) continue;

@@ -292,7 +292,7 @@ class PartBuilder {
 
 }  // namespace
 
-RobotType sensor_stand(const ModelSpec& spec) {
+RobotType sensor_stand(const ModelSpec& spec, Diagnostics& diagnostics) {
     RobotType type;
     type.name = spec.name;
     type.free_base = false;
@@ -303,6 +303,7 @@ RobotType sensor_stand(const ModelSpec& spec) {
         type.links.push_back(to_link(link, -1, X_BL));
         for (const SensorSpec& sensor : link.sensors) type.sensors.push_back({sensor, id});
     }
+    add_onboard(spec, true, type, diagnostics);
     type.hash = type_hash(type);
     return type;
 }

@@ -18,9 +18,9 @@ struct CompiledPart {
 
 std::vector<CompiledPart> compile_parts(const ModelSpec& spec, ShapeStore& shapes, Diagnostics& diagnostics);
 
-/// The links and sensors of a static model as a type with a fixed base, without shapes: its shapes are
-/// scenery.
-RobotType sensor_stand(const ModelSpec& spec);
+/// The links, sensors and on-board controllers of a static model as a type with a fixed base, without shapes:
+/// its shapes are scenery.
+RobotType sensor_stand(const ModelSpec& spec, Diagnostics& diagnostics);
 
 Material to_material(const SurfaceSpec& surface);
 void add_to_hash(Hash& hash, const Material& material);

@@ -7,5 +7,7 @@
 namespace roboss {
 
 void run(const VelocityControlSpec& spec, OnboardContext& c);
+/// Nothing: a control program reacts to the messages (onboard_kinds/message_board.h).
+inline void run(const MessageBoardSpec&, OnboardContext&) {}
 
 }  // namespace roboss

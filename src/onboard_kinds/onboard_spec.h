@@ -12,12 +12,13 @@
 
 #include "core/diagnostics.h"
 #include "onboard_kinds/kind.h"
+#include "onboard_kinds/message_board.h"
 #include "onboard_kinds/velocity_control.h"
 
 namespace roboss {
 
 /// Parameters of any kind. The order does not count; the number of each kind does.
-using OnboardParameters = std::variant<VelocityControlSpec>;
+using OnboardParameters = std::variant<VelocityControlSpec, MessageBoardSpec>;
 
 /// An on-board controller of a model.
 struct OnboardSpec {

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "sdf/event_conversion.h"
 #include "sdf/include_store.h"
 #include "sdf/libsdformat_reader.h"
 #include "sdf/model_conversion.h"
@@ -55,6 +56,7 @@ class WorldLoader {
         for (const Placement& placement : placements) distinct_of_.push_back(find_distinct(placement));
         for (Distinct& distinct : distinct_) read_distinct(distinct, result);
         place(*world, placements, result);
+        convert_events(result, diagnostics_);
         validate_settings(result, diagnostics_);
         return result;
     }

@@ -5,17 +5,19 @@
 #include <cctype>
 #include <sstream>
 
+#include "sdf/event_conversion.h"
 #include "sdf/parameter_reader.h"
 
 namespace roboss::sdf_import {
 namespace {
 
-/// Gazebo's plugins that need nothing here: they draw, record, or are what every run does anyway.
+/// Gazebo's plugins that need nothing here: they draw, record, or are what every run does anyway. "gz::sim"
+/// says which models are performers and what to load by distance.
 constexpr const char* kNotNeeded =
     "Physics|UserCommands|SceneBroadcaster|Sensors|Imu|Contact|Altimeter|AirPressure|AirSpeed|NavSat|"
     "Magnetometer|ForceTorque|LogicalCamera|CpuLidar|LogRecord|LogPlayback|CameraVideoRecorder|LensFlare|"
     "Label|Thermal|ThermalSensor|ParticleEmitter|ParticleEmitter2|ModelPhotoShoot|ColladaWorldExporter|"
-    "VisibilityRenderPlugin|ShaderParam|RenderEngineServerHeadless";
+    "VisibilityRenderPlugin|ShaderParam|RenderEngineServerHeadless|sim";
 constexpr const char* kNotNeededFiles =
     "physics-system|user-commands-system|scene-broadcaster-system|sensors-system|imu-system|contact-system|"
     "altimeter-system|air-pressure-system|air-speed-system|navsat-system|magnetometer-system|"
@@ -98,6 +100,8 @@ void convert_plugin(const Element& plugin, const std::string& scope, const Impor
         record.fate = PluginFate::kNotNeeded;
         return;
     }
+    if (is_one_of(kEventPlugins, name.class_name))
+        return;  // convert_events() does, when all models are known
     std::optional<OnboardParameters> parameters = parameters_for(name);
     if (!parameters) {
         record.reason = "RoBOSS has no counterpart of it";
