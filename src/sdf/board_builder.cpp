@@ -305,6 +305,22 @@ std::string BoardBuilder::add_trigger(const pugi::xml_node& plugin) {
     return {};
 }
 
+std::vector<std::string> BoardBuilder::topics_of_users() const {
+    std::vector<std::string> topics;
+    const auto is_published = [&](const std::string& topic) {
+        const auto publishes = [&](const BoardOutput& output) { return output.topic == topic; };
+        const auto is_event = [&](const BoardTopic& t) { return t.topic == topic && !t.model.empty(); };
+        return taken_.contains(topic) || std::ranges::any_of(board_.topics, is_event) ||
+               std::ranges::any_of(board_.triggers, [&](const BoardTrigger& trigger) {
+                   return std::ranges::any_of(trigger.outputs, publishes);
+               });
+    };
+    for (const BoardTrigger& trigger : board_.triggers)
+        if (!is_published(trigger.topic) && std::ranges::find(topics, trigger.topic) == topics.end())
+            topics.push_back(trigger.topic);
+    return topics;
+}
+
 void BoardBuilder::finish() {
     if (board_.triggers.empty() && board_.touches.empty() && board_.detectors.empty()) return;
     ModelSpec spec;

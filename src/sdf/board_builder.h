@@ -23,6 +23,8 @@ class BoardBuilder {
     std::string add_touch(const pugi::xml_node& plugin, const ModelInstance& instance);
     std::string add_detector(const pugi::xml_node& plugin, const ModelInstance& instance);
     std::string add_trigger(const pugi::xml_node& plugin);
+    /// Input topics of triggers that nothing in the world publishes: only orders of users do.
+    std::vector<std::string> topics_of_users() const;
     /// Adds the board to the world, on a static model without shapes, if anything needs it.
     void finish();
 

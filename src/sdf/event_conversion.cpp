@@ -1,10 +1,10 @@
 // See event_conversion.h.
 #include "sdf/event_conversion.h"
 
-#include <algorithm>
+#include <pugixml.hpp>
+#include <utility>
 
 #include "sdf/board_builder.h"
-#include "sdf/element_reader.h"
 
 namespace roboss::sdf_import {
 namespace {
@@ -45,10 +45,14 @@ class EventConverter {
             for (ExtensionElement& record : world_.prototypes[instance.prototype].extensions)
                 convert_trigger(record);
         }
-        for (const auto& [record, name] : warnings_)
+        for (const ExtensionElement* record : warnings_)
             diagnostics_.warning(record->where, "plugin-not-run",
                                  "plugin '" + record->plugin + "' " + record->reason + "; it is not run",
                                  "docs/plugins.md says what it needs.");
+        for (const std::string& topic : builder_.topics_of_users())
+            diagnostics_.note({world_.file, 0}, "topic-of-users",
+                              "nothing in the world publishes '" + topic + "', which starts other messages",
+                              "Publish it with an order: docs/plugins.md, Messages.");
         builder_.finish();
     }
 
@@ -79,14 +83,14 @@ class EventConverter {
     /// `fault`: why the plugin cannot run; empty: it can.
     void settle(ExtensionElement& record, const std::string& fault) {
         record.fate = fault.empty() ? PluginFate::kRuns : PluginFate::kNotRun;
-        if (!fault.empty() && record.reason != fault) warnings_.emplace_back(&record, fault);
+        if (!fault.empty() && record.reason != fault) warnings_.push_back(&record);
         record.reason = fault;
     }
 
     World& world_;
     Diagnostics& diagnostics_;
     BoardBuilder builder_;
-    std::vector<std::pair<const ExtensionElement*, std::string>> warnings_;
+    std::vector<const ExtensionElement*> warnings_;
 };
 
 }  // namespace

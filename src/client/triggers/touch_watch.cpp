@@ -2,6 +2,7 @@
 #include "client/triggers/touch_watch.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace roboss {
 namespace {
@@ -48,14 +49,20 @@ bool TouchWatch::touches(const Client& client) const {
 
 bool TouchWatch::touches(const Client& client, RobotId robot) const {
     const Model& model = client.model();
-    const RobotType& type = model.type_of(robot);
+    const auto link_of = [&](RobotId of, std::uint32_t shape) -> std::optional<std::size_t> {
+        if (of.index() >= model.robots.size() || shape >= model.type_of(of).shapes.size()) return {};
+        return model.type_of(of).shapes[shape].link.index();
+    };
+    const Sides& here = links_[robot.index()];
     return std::ranges::any_of(client.state(robot).contacts, [&](const ContactMemory& contact) {
-        const std::size_t link = type.shapes[contact.shape].link.index();
-        const Sides& here = links_[robot.index()];
-        if (contact.other_robot == RobotId::kNone) return is_one(here, link, statics_, contact.other_shape);
+        const auto link = link_of(robot, contact.shape);
+        if (!link) return false;
+        if (contact.other_robot == RobotId::kNone)
+            return contact.other_shape < statics_.own.size() &&
+                   is_one(here, *link, statics_, contact.other_shape);
         const RobotId other(contact.other_robot);
-        const std::size_t there = model.type_of(other).shapes[contact.other_shape].link.index();
-        return is_one(here, link, links_[other.index()], there);
+        const auto there = link_of(other, contact.other_shape);
+        return there && is_one(here, *link, links_[other.index()], *there);
     });
 }
 

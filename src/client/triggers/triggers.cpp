@@ -202,6 +202,7 @@ void Triggers::watch_regions(Client& client, Board& board) {
             if (detectors[k].group == detectors[i].group) count += board.inside[k];
         const Quat q = to_quat(poses[i].R);
         const auto topic = std::ranges::find(board.spec->topics, detectors[i].told, &BoardTopic::name);
+        if (topic == board.spec->topics.end()) continue;
         std::vector<BoardValue> values = topic->values;
         set(values, "position_x", poses[i].p.x), set(values, "position_y", poses[i].p.y);
         set(values, "position_z", poses[i].p.z), set(values, "orientation_w", q.w);
