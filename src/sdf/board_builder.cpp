@@ -70,7 +70,8 @@ BoardBuilder::BoardBuilder(World& world) : world_(world) {
         for (const OnboardSpec& onboard : world.prototypes[instance.prototype].onboard) {
             for (const Channel& channel : channels_of(onboard.parameters)) {
                 auto& names = taken_[with_model(channel.topic, instance.name)];
-                for (const ChannelValue& value : channel.values) names.push_back(value.name);
+                for (const ChannelValue& value : channel.values)
+                    if (std::ranges::find(names, value.name) == names.end()) names.push_back(value.name);
             }
         }
     }

@@ -9,23 +9,19 @@
 namespace roboss::sdf_import {
 namespace {
 
+bool is_class(const ExtensionElement& record, std::string_view name) {
+    const std::size_t at = record.plugin.rfind("::");
+    return record.name == "plugin" && at != std::string::npos && record.plugin.substr(at + 2) == name;
+}
+
 /// A plugin that is kept in a world, read again.
 class KeptPlugin {
   public:
-    explicit KeptPlugin(ExtensionElement& record) : record_(record) {
-        document_.load_string(record.text.c_str());
-    }
+    explicit KeptPlugin(const ExtensionElement& record) { document_.load_string(record.text.c_str()); }
     pugi::xml_node node() const { return document_.document_element(); }
-    bool is_class(std::string_view name) const {
-        const std::string written = record_.plugin;
-        const std::size_t at = written.rfind("::");
-        return record_.name == "plugin" && at != std::string::npos && written.substr(at + 2) == name;
-    }
-    bool is_undecided() const { return record_.fate == PluginFate::kNotRun && record_.reason.empty(); }
 
   private:
     pugi::xml_document document_;
-    ExtensionElement& record_;
 };
 
 class EventConverter {
@@ -46,9 +42,10 @@ class EventConverter {
                 convert_trigger(record);
         }
         for (const ExtensionElement* record : warnings_)
-            diagnostics_.warning(record->where, "plugin-not-run",
-                                 "plugin '" + record->plugin + "' " + record->reason + "; it is not run",
-                                 "docs/plugins.md says what it needs.");
+            if (record->fate == PluginFate::kNotRun)
+                diagnostics_.warning(record->where, "plugin-not-run",
+                                     "plugin '" + record->plugin + "' " + record->reason + "; it is not run",
+                                     "docs/plugins.md says what it needs.");
         for (const std::string& topic : builder_.topics_of_users())
             diagnostics_.note({world_.file, 0}, "topic-of-users",
                               "nothing in the world publishes '" + topic + "', which starts other messages",
@@ -58,26 +55,23 @@ class EventConverter {
 
   private:
     void read_performers() {
-        for (ExtensionElement& record : world_.extensions) {
+        for (const ExtensionElement& record : world_.extensions) {
+            if (!is_class(record, "sim") && !is_class(record, "gazebo")) continue;
             const KeptPlugin plugin(record);
-            if (record.name != "plugin" || record.plugin.find("gz::sim") == std::string::npos ||
-                plugin.is_class("TriggeredPublisher"))
-                continue;
             for (const auto node : plugin.node().children("performer")) builder_.add_performer(node);
         }
     }
 
     void convert_event(ExtensionElement& record, const ModelInstance& instance) {
-        const KeptPlugin plugin(record);
-        if (plugin.is_class("TouchPlugin"))
-            settle(record, builder_.add_touch(plugin.node(), instance));
-        else if (plugin.is_class("PerformerDetector"))
-            settle(record, builder_.add_detector(plugin.node(), instance));
+        if (is_class(record, "TouchPlugin"))
+            settle(record, builder_.add_touch(KeptPlugin(record).node(), instance));
+        else if (is_class(record, "PerformerDetector"))
+            settle(record, builder_.add_detector(KeptPlugin(record).node(), instance));
     }
 
     void convert_trigger(ExtensionElement& record) {
-        const KeptPlugin plugin(record);
-        if (plugin.is_class("TriggeredPublisher")) settle(record, builder_.add_trigger(plugin.node()));
+        if (is_class(record, "TriggeredPublisher"))
+            settle(record, builder_.add_trigger(KeptPlugin(record).node()));
     }
 
     /// `fault`: why the plugin cannot run; empty: it can.

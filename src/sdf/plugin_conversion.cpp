@@ -17,7 +17,7 @@ constexpr const char* kNotNeeded =
     "Physics|UserCommands|SceneBroadcaster|Sensors|Imu|Contact|Altimeter|AirPressure|AirSpeed|NavSat|"
     "Magnetometer|ForceTorque|LogicalCamera|CpuLidar|LogRecord|LogPlayback|CameraVideoRecorder|LensFlare|"
     "Label|Thermal|ThermalSensor|ParticleEmitter|ParticleEmitter2|ModelPhotoShoot|ColladaWorldExporter|"
-    "VisibilityRenderPlugin|ShaderParam|RenderEngineServerHeadless|sim";
+    "VisibilityRenderPlugin|ShaderParam|RenderEngineServerHeadless|sim|gazebo";
 constexpr const char* kNotNeededFiles =
     "physics-system|user-commands-system|scene-broadcaster-system|sensors-system|imu-system|contact-system|"
     "altimeter-system|air-pressure-system|air-speed-system|navsat-system|magnetometer-system|"

@@ -172,7 +172,7 @@ TEST(Triggers, AChainFromAMessageOverATouchToARegion) {
     Tick at_gate = 0;
     std::getline(gate >> at_gate, rest);
     EXPECT_GE(at_gate, entered - 1);
-    EXPECT_LE(at_gate, entered + kPeriod);
+    EXPECT_LE(at_gate, entered + 2 * kPeriod);
     EXPECT_EQ(rest.find(" /gate state=1 count=1 position_y=-0."), 0u) << rest;
     EXPECT_EQ(seen[3], std::to_string(at_gate) + " /done") << "and nobody has left";
 }

@@ -77,7 +77,7 @@ Triggers::Triggers(std::shared_ptr<const Model> model, std::function<void(Tick, 
         if (spec == nullptr) continue;
         Board board{RobotId(r), spec, {}, std::vector<char>(spec->detectors.size(), 0)};
         for (const BoardTouch& touch : spec->touches) {
-            board.touches.push_back({TouchWatch(*model_, touch), touch.enabled});
+            board.touches.push_back({ContactWatch(*model_, touch), touch.enabled});
             inputs.push_back(touch.enable);
         }
         for (const BoardTrigger& trigger : spec->triggers) {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "client/control_program.h"
-#include "client/triggers/touch_watch.h"
+#include "client/triggers/contact_watch.h"
 #include "model/topics.h"
 
 namespace roboss {
@@ -47,7 +47,7 @@ class Triggers : public ControlProgram {
         std::uint32_t board = 0, trigger = 0, output = 0;
     };
     struct Touch {
-        TouchWatch watch;
+        ContactWatch watch;
         bool enabled;
         Tick since = -1;  // the touch began; -1: none
     };

@@ -10,9 +10,9 @@
 
 namespace roboss {
 
-class TouchWatch {
+class ContactWatch {
   public:
-    TouchWatch(const Model& model, const BoardTouch& touch);
+    ContactWatch(const Model& model, const BoardTouch& touch);
 
     /// Whether there was such a contact in the tick before the observation.
     bool touches(const Client& client) const;

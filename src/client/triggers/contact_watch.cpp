@@ -1,5 +1,5 @@
-// See touch_watch.h.
-#include "client/triggers/touch_watch.h"
+// See contact_watch.h.
+#include "client/triggers/contact_watch.h"
 
 #include <algorithm>
 #include <optional>
@@ -21,7 +21,7 @@ bool is_own(const BoardTouch& touch, const std::string& model, const std::string
 
 }  // namespace
 
-TouchWatch::TouchWatch(const Model& model, const BoardTouch& touch) {
+ContactWatch::ContactWatch(const Model& model, const BoardTouch& touch) {
     for (std::size_t r = 0; r < model.robots.size(); ++r) {
         const std::string& name = model.robots[r].name;
         Sides sides;
@@ -43,11 +43,11 @@ TouchWatch::TouchWatch(const Model& model, const BoardTouch& touch) {
     }
 }
 
-bool TouchWatch::touches(const Client& client) const {
+bool ContactWatch::touches(const Client& client) const {
     return std::ranges::any_of(robots_, [&](RobotId robot) { return touches(client, robot); });
 }
 
-bool TouchWatch::touches(const Client& client, RobotId robot) const {
+bool ContactWatch::touches(const Client& client, RobotId robot) const {
     const Model& model = client.model();
     const auto link_of = [&](RobotId of, std::uint32_t shape) -> std::optional<std::size_t> {
         if (of.index() >= model.robots.size() || shape >= model.type_of(of).shapes.size()) return {};
