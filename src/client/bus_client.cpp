@@ -110,6 +110,8 @@ void BusClient::pull_next() {
 }
 
 void BusClient::show() {
+    const Tick usual = options_.synchronous ? pull_.tick() - options_.period : pull_.tick();
+    before_ = tick_ < 0 ? usual : tick_;
     tick_ = pull_.tick();
     expected_ = tick_ + options_.period;
     states_.swap(coming_);

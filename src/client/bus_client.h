@@ -63,6 +63,7 @@ class BusClient : public Client {
 
   protected:
     RayScene& ray_scene() override;
+    Tick observed_before() const override { return before_; }
 
   private:
     void handle(Envelope& envelope);
@@ -81,6 +82,7 @@ class BusClient : public Client {
     std::uint64_t seed_ = 0;
 
     Tick tick_ = -1;
+    Tick before_ = 0;  // of the observation before, also if an earlier Client of this name had it
     std::vector<RobotState> states_, coming_;
     bool observing_ = false;
     StatePull pull_;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "model/topics.h"
+
 namespace roboss {
 
 namespace {
@@ -93,6 +95,27 @@ Result<> Client::command(RobotId robot, const std::string& name, std::vector<dou
         refuse(called(known(robot)) + " has no command '" + name + "'",
                what_it_has(channels, [](const ChannelInfo& c) { return c.channel.name; }));
     return order(robot, Command{static_cast<std::uint32_t>(*found), std::move(values)});
+}
+
+Result<> Client::publish(const std::string& topic, const std::vector<double>& values) {
+    const std::vector<TopicPlace> places = find_topic(model(), topic);
+    if (places.empty())
+        return Error{"nobody in the world takes messages at '" + topic + "'",
+                     "`roboss check` lists the topics of all commands"};
+    for (const TopicPlace& place : places)
+        if (Result<> given = order(place.robot, Command{place.channel, values}); !given) return given;
+    return Ok{};
+}
+
+std::vector<RobotEvent> Client::events() const {
+    std::vector<RobotEvent> all;
+    for (std::size_t r = 0; r < model().robots.size(); ++r) {
+        if (board_of(model().type_of(RobotId(r))) == nullptr) continue;
+        for (RobotEvent& event :
+             events_on_board(model(), RobotId(r), state(RobotId(r)), observed_before(), tick()))
+            all.push_back(std::move(event));
+    }
+    return all;
 }
 
 Result<> Client::attach(RobotId robot, LinkId link, RobotId other, LinkId other_link) {

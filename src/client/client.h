@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "client/events.h"
 #include "client/held_samples.h"
 #include "core/result.h"
 #include "model/model.h"
@@ -51,6 +52,11 @@ class Client : private SensorSources {
     /// Of any joint, those that close a loop included.
     JointState joint(RobotId robot, JointId joint, int axis = 0) const;
 
+    /// Messages on the world's message boards since the observation before this one: what happened to robots,
+    /// and what was published on topics that no robot takes (docs/plugins.md). Of two messages on one topic,
+    /// the last. The boards' states have them, so any Client sees the same, also in a replay.
+    std::vector<RobotEvent> events() const;
+
     // --- orders (checked at once; an Error says what is wrong and nothing is sent)
     // -----------------------------------
     /// Puts the robot (SDF model) frame at X_WR; joint coordinates and all velocities stay.
@@ -70,6 +76,9 @@ class Client : private SensorSources {
     /// Latches a command of the robot's on-board controllers, e.g. "cmd_vel"; `roboss check` lists names,
     /// values and units. Of a list: row by row.
     Result<> command(RobotId robot, const std::string& name, std::vector<double> values);
+    /// The same to all robots that take a command at this topic of Gazebo, and to message boards. An Error if
+    /// nobody does.
+    Result<> publish(const std::string& topic, const std::vector<double>& values);
     /// Attaches a link of `other` to a link of the robot, as they stand (model/order.h, Attach).
     Result<> attach(RobotId robot, LinkId link, RobotId other, LinkId other_link);
     /// Loosens the bonds by which the robot holds `other`.
@@ -126,6 +135,8 @@ class Client : private SensorSources {
   protected:
     /// The robot; throws if there is none.
     const Robot& known(RobotId robot) const;
+    /// Tick of the observation before this one; of the first one, where it would have been.
+    virtual Tick observed_before() const { return tick(); }
     /// Implementations call it when a new observation is shown.
     void renew_samples();
     /// Implementations call it when the run went back in time: what was measured is of a discarded time.

@@ -17,6 +17,8 @@ namespace roboss {
 struct ChannelValue {
     std::string name;  ///< e.g. "linear"
     std::string unit;  ///< e.g. "m/s"; "": none
+    /// Of a text: what the numbers stand for, from 1; 0: no text. Empty: a number.
+    std::vector<std::string> words{};
     /// Compares all members.
     friend bool operator==(const ChannelValue&, const ChannelValue&) = default;
 };

@@ -31,6 +31,7 @@
 #include "onboard_kinds/lift_drag.h"
 #include "onboard_kinds/linear_battery.h"
 #include "onboard_kinds/mecanum_drive.h"
+#include "onboard_kinds/message_board.h"
 #include "onboard_kinds/motor_model.h"
 #include "onboard_kinds/multicopter_control.h"
 #include "onboard_kinds/planar_move.h"
@@ -47,15 +48,7 @@
 namespace roboss {
 
 /// Parameters of any kind. The order does not count; the number of each kind does.
-using OnboardParameters =
-    std::variant<VelocityControlSpec, DiffDriveSpec, AckermannSteeringSpec, MecanumDriveSpec,
-                 TrackedVehicleSpec, RosDiffDriveSpec, RosSkidSteerSpec, RosAckermannSpec, DriveToPoseSpec,
-                 TrajectoryFollowerSpec, ApplyLinkWrenchSpec, PlanarMoveSpec, JointControllerSpec,
-                 JointPositionControllerSpec, JointTrajectoryControllerSpec, ApplyJointForceSpec,
-                 JointPoseTrajectorySpec, LinearBatterySpec, KineticEnergyMonitorSpec, DetachableJointSpec,
-                 GripperSpec, MotorModelSpec, MulticopterControlSpec, LiftDragSpec, AdvancedLiftDragSpec,
-                 ThrusterSpec, BuoyancyEngineSpec, HydrodynamicsSpec, WindEffectsSpec, TrackControllerSpec,
-                 SurfaceVelocitySpec, ActorSpec>;
+using OnboardParameters = std::variant<VelocityControlSpec, DiffDriveSpec, AckermannSteeringSpec, MecanumDriveSpec, TrackedVehicleSpec, RosDiffDriveSpec, RosSkidSteerSpec, RosAckermannSpec, DriveToPoseSpec, TrajectoryFollowerSpec, ApplyLinkWrenchSpec, PlanarMoveSpec, JointControllerSpec, JointPositionControllerSpec, JointTrajectoryControllerSpec, ApplyJointForceSpec, JointPoseTrajectorySpec, LinearBatterySpec, KineticEnergyMonitorSpec, DetachableJointSpec, GripperSpec, MotorModelSpec, MulticopterControlSpec, LiftDragSpec, AdvancedLiftDragSpec, ThrusterSpec, BuoyancyEngineSpec, HydrodynamicsSpec, WindEffectsSpec, TrackControllerSpec, SurfaceVelocitySpec, ActorSpec, MessageBoardSpec>;
 
 /// An on-board controller of a model.
 struct OnboardSpec {

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "sdf/event_conversion.h"
 #include "sdf/include_store.h"
 #include "sdf/libsdformat_reader.h"
 #include "sdf/model_conversion.h"
@@ -64,6 +65,7 @@ class WorldLoader {
         state.report_unused(diagnostics_);
         attach_world_plugins(plugins, result, diagnostics_);
         mark_buoyant(result);
+        convert_events(result, diagnostics_);
         validate_settings(result, diagnostics_);
         return result;
     }

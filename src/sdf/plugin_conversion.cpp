@@ -5,18 +5,20 @@
 #include <cctype>
 #include <sstream>
 
+#include "sdf/event_conversion.h"
 #include "sdf/parameter_reader.h"
 #include "sdf/plugin_sensors.h"
 
 namespace roboss::sdf_import {
 namespace {
 
-/// Gazebo's plugins that need nothing here: they draw, record, or are what every run does anyway.
+/// Gazebo's plugins that need nothing here: they draw, record, or are what every run does anyway. "gz::sim"
+/// says which models are performers and what to load by distance.
 constexpr const char* kNotNeeded =
     "Physics|UserCommands|SceneBroadcaster|Sensors|Imu|Contact|Altimeter|AirPressure|AirSpeed|NavSat|"
     "Magnetometer|ForceTorque|LogicalCamera|CpuLidar|LogRecord|LogPlayback|CameraVideoRecorder|LensFlare|"
     "Label|Thermal|ThermalSensor|ParticleEmitter|ParticleEmitter2|ModelPhotoShoot|ColladaWorldExporter|"
-    "VisibilityRenderPlugin|ShaderParam|RenderEngineServerHeadless";
+    "VisibilityRenderPlugin|ShaderParam|RenderEngineServerHeadless|sim|gazebo";
 constexpr const char* kNotNeededFiles =
     "physics-system|user-commands-system|scene-broadcaster-system|sensors-system|imu-system|contact-system|"
     "altimeter-system|air-pressure-system|air-speed-system|navsat-system|magnetometer-system|"
@@ -70,11 +72,20 @@ void pass_on(const Diagnostics& found, const Import& import) {
 
 }  // namespace
 
-ExtensionElement kept_element(const Element& element) {
+ExtensionElement kept_element(const Element& element, const std::string& scope) {
     std::ostringstream text;
     element.node.print(text, "", pugi::format_raw);
     ExtensionElement kept;
     kept.name = element.node.name(), kept.text = std::move(text).str(), kept.where = element.where();
+    const std::string file = element.node.attribute("filename").value();
+    kept.plugin = element.name().find("::") == std::string::npos && !file.empty() ? file : element.name();
+    kept.parent = element.node.parent().name();
+    for (auto at = element.node.parent(); at && at.attribute("name"); at = at.parent()) {
+        if (is_one_of("model|world|include|actor", at.name())) break;
+        kept.owner = at.attribute("name").value() + (kept.owner.empty() ? "" : "::" + kept.owner);
+    }
+    kept.owner = scope + kept.owner;
+    if (kept.owner.ends_with("::")) kept.owner.resize(kept.owner.size() - 2);
     return kept;
 }
 
@@ -94,7 +105,7 @@ PluginName plugin_name(const Element& plugin) {
 
 void convert_plugin(const Element& plugin, const std::string& scope, const Import& import,
                     std::vector<OnboardSpec>& onboard, std::vector<ExtensionElement>& kept) {
-    ExtensionElement& record = kept.emplace_back(kept_element(plugin));
+    ExtensionElement& record = kept.emplace_back(kept_element(plugin, scope));
     const PluginName name = plugin_name(plugin);
     const std::string called =
         plugin.name().empty() ? plugin.node.attribute("filename").value() : plugin.name();
@@ -102,6 +113,8 @@ void convert_plugin(const Element& plugin, const std::string& scope, const Impor
         record.fate = PluginFate::kNotNeeded;
         return;
     }
+    if (is_one_of(kEventPlugins, name.class_name))
+        return;  // convert_events() does, when all models are known
     std::optional<OnboardParameters> parameters = parameters_for(name);
     if (!parameters && is_sensor_plugin(name)) {
         record.fate = PluginFate::kRuns;  // see convert_plugin_sensors()

@@ -16,8 +16,8 @@ struct PluginName {
 };
 PluginName plugin_name(const Element& plugin);
 
-/// The plugin as the file has it; it does not run.
-ExtensionElement kept_element(const Element& plugin);
+/// The plugin as the file has it, and where it stands; it does not run. `scope`: see convert_plugin().
+ExtensionElement kept_element(const Element& plugin, const std::string& scope = "");
 
 /// Keeps the plugin and says what becomes of it: an on-board controller is appended to `onboard`; what has no
 /// counterpart gets a note. `scope` is the prefix of names in a nested model ("inner::" or "").

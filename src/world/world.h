@@ -244,6 +244,9 @@ struct ExtensionElement {
     std::string name;                       ///< e.g. "plugin", "roboss:sensor"
     std::string text;                       ///< the element as XML
     SourceLocation where;                   ///< of the element
+    std::string plugin;                     ///< of a plugin: its class; if it names none, its file
+    std::string parent;                     ///< of a plugin: the element that it is in, e.g. "model", "link"
+    std::string owner;                      ///< name of that, from its model down: "arm::hand"; "": the model
     PluginFate fate = PluginFate::kNotRun;  ///< of a plugin
     std::string reason;                     ///< of a plugin that does not run: why
 };

@@ -87,6 +87,67 @@ TEST(CheckCommand, JsonHoldsTheSame) {
     EXPECT_EQ(report.at("diagnostics").at(0).at("left_out"), true);
 }
 
+std::string ball(const std::string& name, const std::string& inside) {
+    return "<model name='" + name +
+           "'><link name='a'><inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia>"
+           "</inertial></link>" +
+           inside + "</model>\n";
+}
+
+nlohmann::json check_models(const std::string& models) {
+    const std::string text = "<sdf version='1.9'><world name='w'>\n" + models + "</world></sdf>";
+    return nlohmann::json::parse(check(text, {"--json"}).printed);
+}
+
+TEST(CheckCommand, ListsTheCommandsOfEachTypeOfRobot) {
+    const std::string moves =
+        "<plugin filename='gz-sim-velocity-control-system' "
+        "name='gz::sim::systems::VelocityControl'/>";
+    const auto report = check_models(ball("x", moves) + ball("y", moves) + ball("z", ""));
+    ASSERT_EQ(report.at("commands").size(), 1u);
+    const auto& type = report.at("commands").at(0);
+    EXPECT_EQ(type.at("robot"), "x");
+    EXPECT_EQ(type.at("robots"), 2);
+    EXPECT_EQ(type.at("commands").at(0).at("name"), "cmd_vel");
+    EXPECT_EQ(type.at("commands").at(0).at("topic"), "/model/{model}/cmd_vel");
+    EXPECT_EQ(type.at("commands").at(0).at("values").at(5).at("name"), "angular_z");
+    EXPECT_EQ(type.at("commands").at(0).at("values").at(5).at("unit"), "rad/s");
+}
+
+TEST(CheckCommand, SaysWhatBecomesOfEachPlugin) {
+    const std::string moves =
+        "<plugin filename='gz-sim-velocity-control-system' "
+        "name='gz::sim::systems::VelocityControl'/>";
+    const std::string unknown = "<plugin filename='libmine.so' name='mine'/>";
+    const auto report =
+        check_models("<plugin filename='gz-sim-physics-system' name='gz::sim::systems::Physics'/>\n" +
+                     ball("x", moves) + ball("y", moves) + ball("z", unknown));
+    ASSERT_EQ(report.at("plugins").size(), 3u);
+    const auto& physics = report.at("plugins").at(0);
+    EXPECT_EQ(physics.at("fate"), "not needed");
+    EXPECT_EQ(physics.at("in"), "world");
+    EXPECT_EQ(physics.at("line"), 2);
+    const auto& control = report.at("plugins").at(1);
+    EXPECT_EQ(control.at("class"), "gz::sim::systems::VelocityControl");
+    EXPECT_EQ(control.at("fate"), "runs");
+    EXPECT_EQ(control.at("model"), "x");
+    EXPECT_EQ(control.at("count"), 2) << "copies of a model";
+    EXPECT_EQ(control.at("line"), 3);
+    const auto& mine = report.at("plugins").at(2);
+    EXPECT_EQ(mine.at("class"), "libmine.so");
+    EXPECT_EQ(mine.at("fate"), "not run");
+    EXPECT_FALSE(mine.at("reason").get<std::string>().empty());
+}
+
+TEST(CheckCommand, NamesTheSensorsThatGiveNoReadings) {
+    const auto report = nlohmann::json::parse(check(world("1"), {"--json"}).printed);
+    EXPECT_TRUE(report.at("sensors_without_readings").empty());
+    const auto silent = check_models(
+        "<model name='m'><link name='a'><sensor name='s' type='thermal_camera'/>"
+        "</link></model>");
+    EXPECT_EQ(silent.at("sensors_without_readings").at("thermal_camera"), 1) << silent;
+}
+
 TEST(CheckCommand, AWrongOptionIsRefused) {
     CLI::App app;
     int exit_code = 0;

@@ -88,6 +88,10 @@ void EventLog::event(Tick tick, const std::string& text) {
     logger_->info("tick={} event=notice text={}", tick, quoted(text));
 }
 
+void EventLog::message(Tick tick, const std::string& text) {
+    logger_->info("tick={} event=message text={}", tick, quoted(text));
+}
+
 void EventLog::end(Tick tick, const std::string& code) {
     logger_->info("tick={} event=end code={}", tick, code);
 }

@@ -27,6 +27,8 @@ class EventLog {
     static Result<EventLog> open(const std::string& path, double every_s);
 
     void event(Tick tick, const std::string& text);
+    /// A message that the world's message board published (client/triggers/triggers.h).
+    void message(Tick tick, const std::string& text);
     /// The end of the run, with `code` done or failed.
     void end(Tick tick, const std::string& code);
     /// Writes the state of the run: now, or if the interval is over.

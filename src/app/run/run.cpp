@@ -11,6 +11,7 @@
 #include "app/processes/threads.h"
 #include "app/worlds/orders_file.h"
 #include "client/plugin.h"
+#include "client/triggers/triggers.h"
 #include "core/hash.h"
 #include "scene/scene_file.h"
 #include "sdf/load_world.h"
@@ -97,18 +98,23 @@ CompileOptions Run::compile_options() const {
     return options;
 }
 
-bool Run::load_programs(std::vector<NamedProgram>& programs) const {
+bool Run::load_programs(const std::shared_ptr<const Model>& model, std::vector<NamedProgram>& programs) {
     for (const std::string& path : o_.clients) {
         Result<std::unique_ptr<ControlProgram>> program = load_control_program(path);
         if (!program) return print(program.error()), false;
         programs.push_back({fmt::format("{}#{}", path, programs.size()), std::move(program.value())});
     }
+    if (!o_.replay.empty() || !has_message_board(*model)) return true;
+    const auto told = [this](Tick tick, const std::string& text) {
+        if (log_) log_->message(tick, text);
+    };
+    programs.push_back({Triggers::kName, std::make_unique<Triggers>(model, told)});
     return true;
 }
 
 bool Run::create() {
     std::vector<NamedProgram> programs;
-    if (!load_programs(programs)) return false;
+    if (!load_programs(model_, programs)) return false;
     std::vector<std::string> names;
     names.reserve(programs.size());
     for (const NamedProgram& program : programs) names.push_back(program.name);
@@ -165,7 +171,7 @@ SimulationOptions Run::simulation_options(const SavedRun* from) {
 
 Result<> Run::start_again(std::shared_ptr<const Model> model, const SavedRun& from, const Turn& turn) {
     std::vector<NamedProgram> programs;
-    if (!load_programs(programs))
+    if (!load_programs(model, programs))
         return Error{"a control program cannot be loaded again", "see the messages above"};
     SimulationOptions options = simulation_options(&from);
     members_->configure(options);

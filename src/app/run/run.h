@@ -38,7 +38,8 @@ class Run {
     bool prepare_replay();
     CompileOptions compile_options() const;
     bool create();
-    bool load_programs(std::vector<NamedProgram>& programs) const;
+    /// Those that the user named, and what the world brings along.
+    bool load_programs(const std::shared_ptr<const Model>& model, std::vector<NamedProgram>& programs);
     bool submit(const std::vector<Order>& orders, Tick start);
     bool open_files();
     bool begin();

@@ -1,12 +1,15 @@
 // JSON lines to checked orders. Unknown keys are refused: a misspelt key must not become a silent default.
 #include "app/worlds/orders_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
+
+#include "model/topics.h"
 
 namespace roboss {
 namespace {
@@ -139,24 +142,35 @@ std::string names_of(const RobotType& type) {
     return all.empty() ? "it takes no commands" : "it takes: " + all;
 }
 
-/// The values as a list, or each by its name; those that are left out are 0.
-std::vector<double> command_values(const json& o, const Channel& channel) {
+/// A value of a command: a number, a truth value, or one of the texts that it knows.
+double command_value(const json& o, const ChannelValue& value) {
+    const json& given = o[value.name];
+    if (given.is_boolean()) return given.get<bool>() ? 1.0 : 0.0;
+    if (value.words.empty() || !given.is_string()) return number(o, value.name.c_str());
+    const auto found = std::ranges::find(value.words, given.get<std::string>());
+    if (found == value.words.end())  // it is none of those that anything in the world waits for
+        return static_cast<double>(value.words.size() + 1);
+    return static_cast<double>(found - value.words.begin() + 1);
+}
+
+/// The values as a list, or each by its name; those that are left out are 0. `name`: the key of its name.
+std::vector<double> command_values(const json& o, const Channel& channel, const char* name = "name") {
     std::vector<double> values;
     if (o.contains("values")) {
         if (!o["values"].is_array()) throw LineFault("'values' is not a list", "give a list of numbers");
-        only_keys(o, "command", {"name", "values"});
+        only_keys(o, "command", {name, "values"});
         return numbers(o, "values", o["values"].size());
     }
     std::size_t known = 1;
     for (const ChannelValue& value : channel.values) {
         known += o.contains(value.name) ? 1 : 0;
-        values.push_back(o.contains(value.name) ? number(o, value.name.c_str()) : 0.0);
+        values.push_back(o.contains(value.name) ? command_value(o, value) : 0.0);
     }
     if (known == o.size()) return values;
     std::string all = "values";
     for (const ChannelValue& value : channel.values) all += ", " + value.name;
     throw LineFault("the command has keys that '" + channel.name + "' does not have",
-                    "known keys: name, " + all);
+                    std::string("known keys: ") + name + ", " + all);
 }
 
 Action parse_command(const json& o, const RobotType& type, const std::string& robot) {
@@ -202,19 +216,47 @@ Action parse_detach(const json& o, const Model& model) {
     return Detach{o.contains("robot") ? other_robot(o, model) : RobotId()};
 }
 
-Order parse_line(const std::string& line, const Model& model) {
-    json o;
+json parse_json(const std::string& line) {
     try {
-        o = json::parse(line);
+        return json::parse(line);
     } catch (const json::exception& error) {
         throw LineFault("not valid JSON: " + std::string(error.what()),
                         "write one complete JSON object per line");
     }
-    only_keys(o, "an order",
-              {"t", "robot", "set_pose", "set_velocity", "wrench", "joint", "command", "attach", "detach"});
+}
+
+Tick tick_of(const json& o, const Model& model) {
     const double time_s = number(o, "t");
     if (!(time_s >= 0 && time_s < 1e12))
         throw LineFault("'t' is not in [0, 1e12) s", "give the time of the order, in s");
+    return tick_at(time_s, model.dt_s);
+}
+
+/// A message on a topic: a command to each robot and message board that takes it.
+std::vector<Order> parse_publish(const json& o, const Model& model) {
+    only_keys(o, "an order", {"t", "publish"});
+    const json& message = o["publish"];
+    if (!message.is_object()) throw LineFault("publish is not a JSON object", "write {\"topic\": ..., ...}");
+    const std::string topic = text(message, "topic");
+    std::vector<Order> orders;
+    for (const TopicPlace& place : find_topic(model, topic)) {
+        const Channel& channel = model.type_of(place.robot).channels[place.channel].channel;
+        Order order;
+        order.apply_at = tick_of(o, model);
+        order.robot = place.robot;
+        order.action = Command{place.channel, command_values(message, channel, "topic")};
+        orders.push_back(std::move(order));
+    }
+    if (orders.empty())
+        throw LineFault("nobody in the world takes messages at '" + topic + "'",
+                        "`roboss check WORLD` lists the topics of all commands");
+    return orders;
+}
+
+Order parse_order(const json& o, const Model& model) {
+    only_keys(o, "an order",
+              {"t", "robot", "set_pose", "set_velocity", "wrench", "joint", "command", "attach", "detach"});
+    const Tick tick = tick_of(o, model);
     const std::string robot = text(o, "robot");
     const auto id = model.find_robot(robot);
     if (!id)
@@ -223,9 +265,11 @@ Order parse_line(const std::string& line, const Model& model) {
     const int actions = static_cast<int>(o.size()) - 2;
     if (actions != 1)
         throw LineFault("the order has " + std::to_string(actions) + " actions",
-                        "name one of set_pose, set_velocity, wrench, joint, command, attach, detach");
+                        "name one of set_pose, set_velocity, wrench, joint, command, attach, detach, or "
+                        "publish without a "
+                        "robot");
     Order order;
-    order.apply_at = tick_at(time_s, model.dt_s);
+    order.apply_at = tick;
     order.robot = *id;
     if (o.contains("set_pose")) order.action = parse_pose(o["set_pose"]);
     if (o.contains("set_velocity")) order.action = parse_velocity(o["set_velocity"]);
@@ -234,9 +278,20 @@ Order parse_line(const std::string& line, const Model& model) {
     if (o.contains("command")) order.action = parse_command(o["command"], type, robot);
     if (o.contains("attach")) order.action = parse_attach(o["attach"], model, type, robot);
     if (o.contains("detach")) order.action = parse_detach(o["detach"], model);
-    const Result<> checked = check_order(model, order);
-    if (!checked) throw LineFault(checked.error().message, checked.error().remedy);
     return order;
+}
+
+std::vector<Order> parse_line(const std::string& line, const Model& model) {
+    const json o = parse_json(line);
+    std::vector<Order> orders;
+    if (o.is_object() && o.contains("publish"))
+        orders = parse_publish(o, model);
+    else
+        orders.push_back(parse_order(o, model));
+    for (const Order& order : orders)
+        if (const Result<> checked = check_order(model, order); !checked)
+            throw LineFault(checked.error().message, checked.error().remedy);
+    return orders;
 }
 
 json list(const Vec3& v) {
@@ -312,8 +367,12 @@ std::vector<Order> parse_orders(std::string_view content, const std::string& fil
         const std::size_t start = line.find_first_not_of(" \t\r");
         if (start == std::string::npos || line[start] == '#') continue;
         try {
-            orders.push_back(parse_line(line, model));
-            orders.back().sequence = static_cast<std::uint64_t>(at);
+            std::uint64_t sequence = static_cast<std::uint64_t>(at);
+            for (Order& order : parse_line(line, model)) {
+                order.sequence = sequence;
+                orders.push_back(std::move(order));
+                sequence += std::uint64_t{1} << 32;  // a line may give several; no two may be equal
+            }
         } catch (const LineFault& fault) {
             diagnostics.error({file, at}, "bad-order", fault.what(), fault.remedy);
         }

@@ -54,6 +54,61 @@ TEST(OrdersFile, EveryLevelIsRead) {
     EXPECT_EQ(orders[3].sequence, 6u) << "the line number";
 }
 
+/// Two robots "a" and "b" with a message board that knows the topic "/key" and the word "go".
+std::shared_ptr<const Model> board_model() {
+    World world;
+    ModelSpec car;
+    car.canonical_link = "base";
+    car.links.emplace_back().name = "base";
+    VelocityControlSpec control;
+    control.topic = "/cmd_vel";
+    car.onboard.push_back({"c", control, {}});
+    MessageBoardSpec board;
+    board.words = {{"go"}};
+    board.topics = {{"key", "/key", "", {{"data"}, {"text", 0, true}}}};
+    ModelSpec messages;
+    messages.is_static = true, messages.canonical_link = "base";
+    messages.links = car.links;
+    messages.onboard.push_back({"m", board, {}});
+    world.prototypes = {car, messages};
+    world.instances = {{"a", 0, {}, {}}, {"b", 0, {}, {}}, {"message_board", 1, {}, {}}};
+    Diagnostics diagnostics;
+    return compile(world, {}, diagnostics);
+}
+
+TEST(OrdersFile, AMessageCommandsAllThatTakeItsTopic) {
+    Diagnostics d;
+    const auto orders = parse_orders(R"({"t":1,"publish":{"topic":"/cmd_vel","linear_x":2}})"
+                                     "\n"
+                                     R"({"t":1,"publish":{"topic":"/key","data":true,"text":"go"}})"
+                                     "\n"
+                                     R"({"t":1,"publish":{"topic":"/key","data":87,"text":"stop"}})"
+                                     "\n"
+                                     R"({"t":1,"publish":{"topic":"/key","values":[3,1]}})",
+                                     "f.jsonl", *board_model(), d);
+    ASSERT_TRUE(d.items().empty()) << to_text(d.items().front());
+    ASSERT_EQ(orders.size(), 5u);
+    EXPECT_EQ(orders[0].robot, RobotId(0u));
+    EXPECT_EQ(orders[1].robot, RobotId(1u));
+    EXPECT_EQ(std::get<Command>(orders[1].action).values, (std::vector<double>{2, 0, 0, 0, 0, 0}));
+    EXPECT_NE(orders[0].sequence, orders[1].sequence) << "equal ones would count as one";
+    EXPECT_EQ(std::get<Command>(orders[2].action).values, (std::vector<double>{1, 1}));
+    EXPECT_EQ(std::get<Command>(orders[3].action).values, (std::vector<double>{87, 2}))
+        << "no word that counts";
+    EXPECT_EQ(std::get<Command>(orders[4].action).values, (std::vector<double>{3, 1}));
+}
+
+TEST(OrdersFile, AMessageThatNobodyTakesIsRefused) {
+    for (const char* line :
+         {R"({"t":1,"publish":{"topic":"/nobody"}})", R"({"t":1,"publish":{"topic":"/key","date":1}})",
+          R"({"t":1,"publish":7})", R"({"t":1,"robot":"a","publish":{"topic":"/key"}})",
+          R"({"t":1,"publish":{"topic":"/key","data":"go"}})"}) {
+        Diagnostics d;
+        EXPECT_TRUE(parse_orders(line, "f.jsonl", *board_model(), d).empty()) << line;
+        EXPECT_EQ(d.count(Severity::kError), 1u) << line;
+    }
+}
+
 struct BadLine {
     const char* line;
     const char* names;  // the key or value of the line that the message must name; empty: the whole line

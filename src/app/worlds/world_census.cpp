@@ -1,6 +1,8 @@
 // Each prototype is counted once and multiplied by its instances.
 #include "app/worlds/world_census.h"
 
+#include <algorithm>
+
 #include "world/joint_type.h"
 
 namespace roboss {
@@ -29,15 +31,28 @@ const char* to_text(GeometryKind kind) {
     return "?";
 }
 
+namespace {
+
+bool is_message_board(const ModelSpec& model) {
+    return std::ranges::any_of(model.onboard, [](const OnboardSpec& onboard) {
+        return std::holds_alternative<MessageBoardSpec>(onboard.parameters);
+    });
+}
+
+}  // namespace
+
 WorldCensus take_census(const World& world) {
     std::vector<std::size_t> times(world.prototypes.size(), 0);
     for (const ModelInstance& instance : world.instances) ++times[instance.prototype];
     WorldCensus census;
     for (std::size_t i = 0; i < times.size(); ++i) {
         const ModelSpec& model = world.prototypes[i];
+        if (is_message_board(model)) continue;  // the importer's, not the file's
         for (const LinkSpec& link : model.links) {
             for (const CollisionSpec& collision : link.collisions)
                 census.shapes[to_text(collision.geometry.kind)] += times[i];
+            for (const SensorSpec& sensor : link.sensors)
+                if (!sensor.measures() && times[i] > 0) census.silent[sensor.sdf_type] += times[i];
         }
         if (model.is_static) {
             census.static_models += times[i];

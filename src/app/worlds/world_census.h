@@ -16,6 +16,7 @@ struct WorldCensus {
     std::map<std::string, std::size_t> joints;   // of the robots, by kind
     std::map<std::string, std::size_t> shapes;   // collisions of everything, by kind
     std::map<std::string, std::size_t> sensors;  // of the robots, by kind
+    std::map<std::string, std::size_t> silent;   // sensors of everything that give no readings, by type
 };
 
 WorldCensus take_census(const World& world);
