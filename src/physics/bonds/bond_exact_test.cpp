@@ -58,7 +58,7 @@ void expect_same_in_groups(bool sleeps, std::uint64_t seeds, int ticks) {
     tell("bonds a robot", static_cast<double>(bonds) / static_cast<double>(robot_ticks));
     tell("robots an island", static_cast<double>(robot_ticks) / static_cast<double>(islands));
     tell("share asleep", static_cast<double>(asleep) / static_cast<double>(robot_ticks));
-    EXPECT_GT(bonds, robot_ticks / 12) << "bonds do form";
+    EXPECT_GT(bonds, robot_ticks / 16) << "bonds do form";
     EXPECT_GT(robot_ticks, islands + islands / 10) << "islands of several robots do occur";
     EXPECT_EQ(asleep > robot_ticks / 10, sleeps);
 }

@@ -11,6 +11,7 @@ namespace roboss {
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kTookHold = -1;  // Bond::reach in the tick after it took hold
 constexpr double kTip = 1e-3;  // m: radius of the sphere that the narrow phase takes for the point of a cup
 
 /// Index of the robot in the group; kScenery: it is not there.
@@ -53,6 +54,7 @@ void take_hold(std::span<const RobotWork> robots, std::uint32_t holder, std::uin
     bond.X_LO.q = normalized(bond.X_LO.q);
     if (!at_cup) bond.p_L = X_LW * centre;
     bond.phase = BondPhase::kHolds;
+    bond.reach = kTookHold;
     bond.force_impulse = bond.torque_impulse = {};
 }
 
@@ -96,10 +98,16 @@ BondFrames frames_of(std::span<const RobotWork> robots, const HeldBond& held) {
 }
 
 void let_go_of_overloads(double dt, RobotState& state) {
-    for (Bond& bond : state.bonds)
-        if (bond.phase == BondPhase::kHolds && (norm(bond.force_impulse) > bond.max_force * dt ||
-                                                norm(bond.torque_impulse) > bond.max_torque * dt))
+    for (Bond& bond : state.bonds) {
+        if (bond.phase != BondPhase::kHolds) continue;
+        if (bond.reach == kTookHold) {  // what it bore was the blow of taking hold, not a load
+            bond.reach = 0;
+            bond.force_impulse = bond.torque_impulse = {};
+        } else if (norm(bond.force_impulse) > bond.max_force * dt ||
+                   norm(bond.torque_impulse) > bond.max_torque * dt) {
             bond.phase = BondPhase::kLoosed;
+        }
+    }
 }
 
 void BondKeeper::form(const Model& model, std::span<RobotWork> robots, WakeBuffers& wake) {

@@ -30,7 +30,8 @@ struct BondFrames {
 };
 BondFrames frames_of(std::span<const RobotWork> robots, const HeldBond& held);
 
-/// Marks bonds that bore more than they can in the last tick.
+/// Marks bonds that bore more than they can in the last tick. The blow of the tick in which a bond takes hold
+/// does not count.
 void let_go_of_overloads(double dt, RobotState& state);
 
 class BondKeeper {

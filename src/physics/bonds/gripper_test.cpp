@@ -67,6 +67,18 @@ TEST(Gripper, FindsNothingBeyondItsReachAndTakesWhatComesNear) {
     EXPECT_EQ(held_by(sim), 1u);
 }
 
+TEST(Gripper, CatchesWhatFliesByWithMoreThanItsForce) {
+    GripperSpec gripper = cup();
+    gripper.on = true, gripper.max_force = 60;
+    Simulation sim(gripper_world(gripper));
+    hold_still(sim);
+    sim.states[1].v = {0, 0, 0, 0.3, 0, 0};  // 900 N in one tick
+    sim.step();
+    ASSERT_EQ(held_by(sim), 1u);
+    sim.run(0.5);
+    EXPECT_EQ(held_by(sim), 1u) << "the blow does not count";
+}
+
 TEST(Gripper, LetsGoAtItsForceAndWaitsForACommand) {
     GripperSpec gripper = cup();
     gripper.on = true, gripper.max_force = 40;
