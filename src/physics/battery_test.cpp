@@ -120,6 +120,33 @@ TEST(Battery, TheCommandedPowerReplacesItsLoad) {
     EXPECT_NEAR(memory(sim, Spec::kCurrent), 0.5, 1e-3);
 }
 
+TEST(Battery, ThrustersLoadItAndStopWhenItIsEmpty) {
+    ModelSpec boat;
+    boat.name = "boat", boat.canonical_link = "hull";
+    const Mat3 inertia = Mat3::diagonal(0.1, 0.1, 0.1);
+    boat.links = {link("hull", 1.0, inertia), link("propeller", 1.0, inertia)};
+    boat.joints = {joint(JointSpecKind::kPrismatic, "slide", "world", "hull", {}, {1, 0, 0}),
+                   joint(JointSpecKind::kContinuous, "spin", "hull", "propeller", {}, {1, 0, 0})};
+    ThrusterSpec thruster;
+    thruster.joint = {"spin"}, thruster.battery = "cell", thruster.power_load = 12;
+    LinearBatterySpec cell = battery();
+    cell.power_load = 0, cell.initial_charge = 3 / kHour, cell.smooth_current_tau = 0.01;
+    boat.onboard = {{"thruster", thruster, {}}, {"battery", cell, {}}};
+    World world = empty_world(kDt, {});
+    place(world, boat, "robot");
+    Simulation sim(world);
+    give(sim, "joint/spin/cmd_thrust", 4);
+    sim.run(1.999);
+    EXPECT_NEAR(memory(sim, Spec::kCurrent), 1, 1e-6);
+    EXPECT_NEAR(sim.states[0].v[0], 4.0 / 2 * 2, 0.01);
+    sim.run(1.5);  // after 3 s at 1 A it is empty
+    EXPECT_EQ(memory(sim, Spec::kCharge), 0);
+    const double kept = sim.states[0].v[0];
+    EXPECT_NEAR(kept, 4.0 / 2 * 3, 0.1);
+    sim.run(1);
+    EXPECT_EQ(sim.states[0].v[0], kept);
+}
+
 TEST(Battery, ARobotWhoseCurrentFlowsDoesNotSleep) {
     LinearBatterySpec spec = battery();
     spec.draining_topics = {"go"}, spec.stop_topics = {"stop"};
