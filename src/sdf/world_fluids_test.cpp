@@ -1,7 +1,6 @@
 // Plugins of the world: fluids and wind, and which links float.
 #include <gtest/gtest.h>
 
-#include "model/model.h"
 #include "sdf/test_files.h"
 
 namespace roboss::sdf_test {
@@ -32,12 +31,6 @@ TEST(WorldFluids, AUniformFluidCarriesEverything) {
     EXPECT_EQ(FluidLayers::of(*loaded.world->buoyancy).densities, std::vector<double>{1025});
     EXPECT_TRUE(loaded.world->prototypes[0].links[0].buoyant);
     EXPECT_EQ(loaded.world->extensions[0].fate, PluginFate::kRuns);
-    Diagnostics diagnostics;
-    const auto model = compile(*loaded.world, {}, diagnostics);
-    ASSERT_TRUE(model);
-    ASSERT_EQ(model->types[0].fluids.size(), 1u);
-    EXPECT_TRUE(model->types[0].fluids[0].buoyant);
-    EXPECT_TRUE(model->types[0].feels_flow);
 }
 
 TEST(WorldFluids, LayersAreSortedByHeight) {
