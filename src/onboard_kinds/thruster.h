@@ -30,7 +30,7 @@ struct ThrusterSpec {
         alpha_1 = 1,              ///< thrust coefficient at rest
         alpha_2 = 0;              ///< its slope by the advance ratio
     double power_load = 0;        ///< W, taken from the battery
-    std::string battery_name;     ///< name of the battery that it loads; empty: none
+    std::string battery;          ///< name of the battery that it loads; empty: none
 
     /// Elements that have no effect.
     static constexpr IgnoredElement kIgnored[] = {{"i_gain", "0", "Gazebo does not read it either"},
@@ -62,7 +62,7 @@ struct ThrusterSpec {
         visit({"alpha_1", "alpha_1"}, s.alpha_1);
         visit({"alpha_2", "alpha_2"}, s.alpha_2);
         visit({"power_load", "power_load", "W"}, s.power_load);
-        visit({"battery_name", "battery_name"}, s.battery_name);
+        visit({"battery_name", "battery_name"}, s.battery);
     }
     /// The commands that it takes: the thrust or velocity, and the switch of the deadband.
     std::vector<Channel> channels() const;

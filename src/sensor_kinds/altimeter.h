@@ -32,7 +32,7 @@ struct AltimeterSpec {
         velocity_noise;        ///< m/s
 
     /// What this kind states about itself.
-    static constexpr SensorKind kKind{.number = 20,
+    static constexpr SensorKind kKind{.number = 30,
                                       .name = "altimeter",
                                       .phrase = "an altimeter",
                                       .sdf_types = "altimeter",

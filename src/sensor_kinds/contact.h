@@ -40,7 +40,7 @@ struct ContactSpec {
         {"topic", "", "readings go to Clients, not to topics"},
     };
     /// What this kind states about itself.
-    static constexpr SensorKind kKind{.number = 24,
+    static constexpr SensorKind kKind{.number = 34,
                                       .name = "contact",
                                       .phrase = "a contact sensor",
                                       .sdf_types = "contact",

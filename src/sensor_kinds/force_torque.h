@@ -36,7 +36,7 @@ struct ForceTorqueSpec {
     NoiseSpec torque_x, torque_y, torque_z;     ///< N m
 
     /// What this kind states about itself.
-    static constexpr SensorKind kKind{.number = 26,
+    static constexpr SensorKind kKind{.number = 36,
                                       .name = "force_torque",
                                       .phrase = "a force-torque sensor",
                                       .sdf_types = "force_torque",

@@ -30,7 +30,7 @@ struct MagnetometerSpec {
         noise_z;        ///< T
 
     /// What this kind states about itself.
-    static constexpr SensorKind kKind{.number = 22,
+    static constexpr SensorKind kKind{.number = 32,
                                       .name = "magnetometer",
                                       .phrase = "a magnetometer",
                                       .sdf_types = "magnetometer",

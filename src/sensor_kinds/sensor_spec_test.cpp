@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 namespace roboss {
 namespace {
 
@@ -54,6 +56,14 @@ struct TypesOf<std::variant<UnsupportedSensor, Kinds...>> {
     using Type = testing::Types<Kinds...>;
 };
 TYPED_TEST_SUITE(OfEveryKind, TypesOf<SensorParameters>::Type);
+
+TEST(SensorKinds, HaveNumbersOfTheirOwn) {
+    std::set<std::uint32_t> numbers;
+    (void)parameters_of_kind([&](const SensorKind& kind) {
+        EXPECT_TRUE(numbers.insert(kind.number).second) << kind.name;
+        return false;
+    });
+}
 
 TYPED_TEST(OfEveryKind, EveryParameterIsListed) {
     const TypeParam parameters;
