@@ -105,6 +105,12 @@ bool is_zero(const std::vector<double>& values) {
     return std::ranges::all_of(values, [](double x) { return x == 0; });
 }
 
+/// What flows round a fin by itself: the wind, which blows in gases only.
+Vec3 wind_in(double density, const Model& model, const RobotWork& work) {
+    constexpr double kDensestGas = 100;  // kg/m^3
+    return density < kDensestGas ? wind_of(model, work) : Vec3{};
+}
+
 /// A controller's law; false: it is none.
 bool law_of(const Model& model, const RobotWork& work, const OnboardInfo& info, std::span<const double> q,
             std::span<const Spatial> accelerations, Law& law) {
@@ -117,7 +123,7 @@ bool law_of(const Model& model, const RobotWork& work, const OnboardInfo& info, 
     if (const auto* wing = std::get_if<LiftDragSpec>(&info.spec.parameters)) {
         start();
         const double control = info.axes.empty() ? 0.0 : angle(0);
-        law.flow = lift_drag_force(*wing, through(law.motion, wind_of(model, work)), control);
+        law.flow = lift_drag_force(*wing, through(law.motion, wind_in(wing->density, model, work)), control);
         return true;
     }
     if (const auto* plane = std::get_if<AdvancedLiftDragSpec>(&info.spec.parameters)) {
@@ -126,7 +132,8 @@ bool law_of(const Model& model, const RobotWork& work, const OnboardInfo& info, 
         std::array<double, kMost> angles{};
         const std::size_t count = std::min(info.axes.size(), kMost);
         for (std::size_t k = 0; k < count; ++k) angles[k] = angle(k);
-        law.flow = aeroplane_force(*plane, through(law.motion, wind_of(model, work)), std::span(angles));
+        law.flow =
+            aeroplane_force(*plane, through(law.motion, wind_in(plane->density, model, work)), std::span(angles));
         return true;
     }
     if (const auto* water = std::get_if<HydrodynamicsSpec>(&info.spec.parameters)) {

@@ -52,7 +52,7 @@ void expect_depth(const ModelSpec& model, double expected, double tolerance) {
     World world = sea();
     place(world, in_water(afloat(model), strong_damping()), "body", {{0, 0, 0.3}, {}});
     Simulation sim(world);
-    sim.run(60);
+    sim.run(30);
     EXPECT_NEAR(sim.states[0].q[2], expected, tolerance) << model.name;
     EXPECT_LT(std::fabs(sim.states[0].v[5]), 1e-7) << model.name;
 }
@@ -94,7 +94,7 @@ TEST(Water, TiltedBoxesComeToTheirStableAttitude) {
     box({0.8, 0.8, 0.2}, 500, 0.5, 0);
     box({1.5, 0.3, 0.3}, 500, 0.3, 5);
     Simulation sim(world);
-    sim.run(60);
+    sim.run(30);
     const auto up = [&](std::size_t i) {
         const std::vector<double>& q = sim.states[i].q;
         return to_matrix(Quat{q[3], q[4], q[5], q[6]}).r2;
@@ -176,7 +176,7 @@ TEST(Water, LayersCarryWithTheirOwnDensities) {
     place(world, in_water(afloat(solid_box(1100 * 0.064, {0.4, 0.4, 0.4}, surface(0.5))), strong_damping()),
           "box", {{0, 0, -1}, {}});
     Simulation sim(world);
-    sim.run(60);
+    sim.run(30);
     EXPECT_NEAR(sim.states[0].q[2], -2, 1e-7);
 }
 
