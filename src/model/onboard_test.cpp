@@ -94,10 +94,15 @@ TEST(AttachOrder, IsRefusedWhereItNamesNothing) {
 RobotState busy_state(const Model& model) {
     RobotState state = initial_state(model, kFirst);
     state.onboard[3] = 0.25;
-    state.surfaces.push_back({LinkId(std::size_t{1}), {1, 2, 3}, {4, 5, 6}});
+    SurfaceMotion belt;
+    belt.link = LinkId(std::size_t{1});
+    belt.linear_L = {1, 2, 3}, belt.angular_L = {4, 5, 6}, belt.belt_L = {7, 8, 9};
+    belt.turns = true, belt.centre_W = {10, 11, 12};
+    state.surfaces.push_back(belt);
     Bond bond;
-    bond.phase = BondPhase::kHolds, bond.other = 1, bond.other_link = LinkId(std::size_t{2});
-    bond.link = LinkId(std::size_t{0}), bond.X_LO = {{1, 2, 3}, {}}, bond.p_L = {4, 5, 6};
+    bond.phase = BondPhase::kHolds;
+    bond.link = LinkId(std::size_t{0}), bond.other = 1, bond.other_link = LinkId(std::size_t{2});
+    bond.X_LO.p = {1, 2, 3}, bond.p_L = {0.5, 0, 0}, bond.reach = 0.1;
     bond.max_force = 50, bond.max_torque = 2;
     bond.force_impulse = {1, 0, 0}, bond.torque_impulse = {0, 1, 0};
     state.bonds.push_back(bond);

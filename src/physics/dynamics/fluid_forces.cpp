@@ -132,8 +132,8 @@ bool law_of(const Model& model, const RobotWork& work, const OnboardInfo& info, 
         std::array<double, kMost> angles{};
         const std::size_t count = std::min(info.axes.size(), kMost);
         for (std::size_t k = 0; k < count; ++k) angles[k] = angle(k);
-        law.flow =
-            aeroplane_force(*plane, through(law.motion, wind_in(plane->density, model, work)), std::span(angles));
+        law.flow = aeroplane_force(*plane, through(law.motion, wind_in(plane->density, model, work)),
+                                   std::span(angles));
         return true;
     }
     if (const auto* water = std::get_if<HydrodynamicsSpec>(&info.spec.parameters)) {
