@@ -102,7 +102,7 @@ RobotState busy_state(const Model& model) {
     Bond bond;
     bond.phase = BondPhase::kHolds;
     bond.link = LinkId(std::size_t{0}), bond.other = 1, bond.other_link = LinkId(std::size_t{2});
-    bond.X_LO.p = {1, 2, 3}, bond.p_L = {0.5, 0, 0}, bond.reach = 0.1;
+    bond.X_LO.p = {1, 2, 3}, bond.p_L = {0.5, 0, 0.25}, bond.reach = 0.1;
     bond.max_force = 50, bond.max_torque = 2;
     bond.force_impulse = {1, 0, 0}, bond.torque_impulse = {0, 1, 0};
     state.bonds.push_back(bond);
