@@ -101,7 +101,7 @@ inline void add_sensor(RobotType& type, std::size_t link, const SensorSpec& spec
 }
 
 inline void add_static(Model& model, const Shape& shape, const Transform& X_WS) {
-    model.statics.push_back({shape, X_WS, {}, "scenery", {}, {}});
+    model.statics.push_back({shape, X_WS, {}, "scenery", {}, {}, {}, false});
 }
 
 /// The model with `count` robots of this type.

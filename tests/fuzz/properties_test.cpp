@@ -56,7 +56,7 @@ TEST(Property, MomentumStaysWhereNothingActsFromOutside) {
 }
 
 TEST(Property, StatesStayFinite) {
-    expect_holds({"finite", 48, 2, {"wild", "crowd", "room"}});
+    expect_holds({"finite", 64, 2, {"wild", "crowd", "room", "acting"}});
 }
 
 TEST(Property, WhoPassesClearIsNotPushed) {
@@ -72,7 +72,7 @@ TEST(Property, AClusterWithFaultsEndsWithTheUndisturbedHash) {
 }
 
 TEST(Property, HashIsTheSameInFiveConfigurations) {
-    expect_holds({"hash", 48, 0.3, {"fleet", "wild", "crowd", "room", "loop", "coupled"}});
+    expect_holds({"hash", 56, 0.3, {"fleet", "wild", "crowd", "room", "loop", "coupled", "acting"}});
 }
 
 }  // namespace

@@ -6,7 +6,8 @@
 
 namespace roboss::fuzz {
 
-/// Gives random orders of every level; what it does depends on what it sees.
+/// Gives random orders of every level, commands and attachments included; what it does depends on what it
+/// sees.
 class RandomProgram : public ControlProgram {
   public:
     explicit RandomProgram(std::uint64_t seed) : seed_(seed) {}
@@ -21,10 +22,22 @@ class RandomProgram : public ControlProgram {
     }
 
   private:
+    /// Any command of the robot.
+    static Result<> give_command(Client& client, RobotId robot, Random& random) {
+        const RobotType& type = client.model().type_of(robot);
+        const ChannelInfo& channel = type.channels[static_cast<std::size_t>(
+            random.integer(0, static_cast<int>(type.channels.size()) - 1))];
+        std::vector<double> values;
+        for (std::size_t i = 0; i < channel.channel.values.size(); ++i)
+            values.push_back(random.integer(0, 3) == 0 ? 0.0 : random.uniform(-3, 3));
+        return client.command(robot, channel.channel.name, values);
+    }
+
     Result<> give_order(Client& client, RobotId robot, Random& random) {
         const RobotType& type = client.model().type_of(robot);
         const RobotState& state = client.state(robot);
         const double pull = state.q[0] - state.q[1];
+        if (!type.channels.empty() && random.integer(0, 2) > 0) return give_command(client, robot, random);
         const int pick = random.integer(0, 12);
         if (pick < 6 && !type.joints.empty()) {
             const JointId joint(

@@ -198,6 +198,86 @@ Scene wild(Random& random, const Setting& setting) {
     return scene;
 }
 
+void put_on_board(ModelSpec& model, const char* name, OnboardParameters parameters) {
+    model.onboard.push_back({name, std::move(parameters), {}});
+}
+
+/// A car that drives by commands, from a battery.
+ModelSpec driven_car(Random& random) {
+    ModelSpec model = with_own_joint_names(test::car());
+    DiffDriveSpec drive;
+    for (std::size_t i = 0; i < 4; ++i)
+        (i % 2 == 0 ? drive.left : drive.right).push_back(model.joints[i].name);
+    drive.linear.max_acceleration = random.uniform(0.5, 10);
+    drive.linear.min_acceleration = -drive.linear.max_acceleration;
+    put_on_board(model, "drive", drive);
+    LinearBatterySpec battery;
+    battery.battery_name = "cell", battery.voltage = 12, battery.capacity = 1e-3;
+    battery.power_load = random.uniform(0, 50);
+    put_on_board(model, "battery", battery);
+    return model;
+}
+
+/// A solid with a gripper, a surface that moves, wings, or a velocity that is commanded.
+ModelSpec acting_solid(Random& random) {
+    ModelSpec model = random_solid(random, 0.9);
+    const std::string& link = model.links[0].name;
+    if (chance(random, 0.5)) {
+        GripperSpec gripper;
+        gripper.link = {link}, gripper.reach = 0.3, gripper.max_force = random.uniform(5, 500);
+        put_on_board(model, "gripper", gripper);
+    }
+    if (chance(random, 0.4)) {
+        SurfaceVelocitySpec surface;
+        surface.link = {link}, surface.linear = random.vector(2), surface.angular = random.vector(2);
+        put_on_board(model, "belt", surface);
+    }
+    if (chance(random, 0.3)) {
+        LiftDragSpec wing;
+        wing.link = {link};
+        put_on_board(model, "wing", wing);
+    }
+    if (chance(random, 0.2)) put_on_board(model, "velocity", VelocityControlSpec{});
+    return model;
+}
+
+/// A mechanism whose first joint with one axis is held by a controller.
+ModelSpec held_mechanism(Random& random) {
+    ModelSpec model = something(random, 0.5);
+    for (const JointSpec& joint : model.joints) {
+        if (joint.axes.size() != 1) continue;
+        if (chance(random, 0.5)) {
+            JointControllerSpec controller;
+            controller.joints = {joint.name};
+            put_on_board(model, "hold", controller);
+        } else {
+            JointPositionControllerSpec controller;
+            controller.joints = {joint.name};
+            put_on_board(model, "hold", controller);
+        }
+        break;
+    }
+    return model;
+}
+
+/// Robots with on-board controllers, to be commanded, that hold and carry each other.
+Scene acting(Random& random, const Setting& setting) {
+    Scene scene;
+    scene.world = test::empty_world(setting.dt_s);
+    scene.world.air_density = 1.2;
+    scene.world.sleep = chance(random, 0.5);
+    test::place(scene.world, test::ground(test::surface(0.7)), "ground");
+    for (int i = 0; i < 8; ++i) {
+        const Vec3 at{0.6 * (i % 3 - 1), 0.6 * (i / 3 - 1), 0.01};
+        const std::string name = "robot_" + std::to_string(i);
+        const int pick = random.integer(0, 2);
+        if (pick == 0) test::place(scene.world, driven_car(random), name, {at, {}});
+        if (pick == 1) test::place(scene.world, acting_solid(random), name, {at + Vec3{0, 0, 0.5}, {}});
+        if (pick == 2) test::place(scene.world, held_mechanism(random), name, {at + Vec3{0, 0, 0.8}, {}});
+    }
+    return scene;
+}
+
 constexpr SceneKind kKinds[] = {
     {"tree", "a free tree of links in empty space", tree, true, true},
     {"bare", "a free tree on which no row ever acts", bare, true, true},
@@ -211,6 +291,8 @@ constexpr SceneKind kKinds[] = {
     {"fleet", "twelve copies of one robot dropped on the ground", fleet, true, false},
     {"crowd", "nine driven robots on the ground that obstruct each other", crowd, false, false},
     {"wild", "driven robots that start interpenetrating, soft contacts, any accuracy", wild, false, false},
+    {"acting", "robots with on-board controllers that are commanded and hold each other", acting, false,
+     false},
 };
 
 /// Any motor at all, with targets far beyond what it can reach.

@@ -19,7 +19,8 @@ std::size_t count(const std::string& text, const std::string& what) {
 
 Model small_world() {
     Model model;
-    model.statics.push_back({{ShapeKind::kPlane, {}, 0, 0}, {}, {}, "ground::link::plane", {}, {}});
+    model.statics.push_back(
+        {{ShapeKind::kPlane, {}, 0, 0}, {}, {}, "ground::link::plane", {}, {}, {}, false});
     model.statics.push_back(
         {{ShapeKind::kBox, {2, 1, 3}, 0, 0}, {Mat3::identity(), {5, 0, 3}}, {}, "house::link::part", {}, {}});
     model.statics.push_back(
