@@ -98,12 +98,10 @@ struct Bond {
     LinkId link;                            ///< of this robot
     /// RobotId of the other one; Id::kNone: the scenery, or, while it forms, whatever is in reach.
     std::uint32_t other = 0xFFFFFFFF;
-    LinkId other_link;  ///< of the other robot; not valid: of the scenery
-    Pose X_LO;          ///< m, the other link (scenery: the world) in this link's frame: what it keeps
-    Vec3 p_L;           ///< m, in this link's frame: where its force and torque are counted
-    /// m, while it forms: how far away the other one may be; -1: it took hold in the last tick, and the blow
-    /// of that does not count as a load.
-    double reach = 0;
+    LinkId other_link;     ///< of the other robot; not valid: of the scenery
+    Pose X_LO;             ///< m, the other link (scenery: the world) in this link's frame: what it keeps
+    Vec3 p_L;              ///< m, in this link's frame: where its force and torque are counted
+    double reach = 0;      ///< m, while it forms: how far the other one may be; -1: it just took hold, a blow
     double max_force = 0,  ///< N: it lets go beyond; infinite: never
         max_torque = 0;    ///< N m: it lets go beyond; infinite: never
     Vec3 force_impulse,    ///< N s, world axes, on the other one, of the last tick
