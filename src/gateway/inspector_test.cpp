@@ -116,7 +116,9 @@ TEST_F(InspectorTest, TellsOfCommandsSurfacesAndBondsWhereThereAreSome) {
     }
     states[1].onboard[3] = 30;
     states[1].lists = {{1, 2, 3, 4}};
-    states[1].surfaces = {{LinkId(1u), {0.3, 0, 0}, {0, 0, 2}}};
+    SurfaceMotion belt;
+    belt.link = LinkId(1u), belt.linear_L = {0.3, 0, 0}, belt.angular_L = {0, 0, 2};
+    states[1].surfaces = {belt};
     Bond bond;
     bond.phase = BondPhase::kHolds;
     bond.link = LinkId(1u), bond.other = 0, bond.other_link = LinkId(0u);

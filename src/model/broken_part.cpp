@@ -203,8 +203,8 @@ class TypeCheck {
 
     bool shapes_fit() const {
         for (const BodyShape& s : t_.shapes)
-            if (!on_body(s.body) || !on_body(s.direction_body) || s.link.index() >= t_.links.size() ||
-                !finite(s.X_BS) || !sensible(s.shape, false))
+            if (!on_body(s.body) || !within(s.direction_body, t_.bodies.size(), -1) ||
+                s.link.index() >= t_.links.size() || !finite(s.X_BS) || !sensible(s.shape, false))
                 return false;
         for (const LinkDrag& drag : t_.drags)
             if (drag.link.index() >= t_.links.size() || t_.links[drag.link.index()].body < 0) return false;

@@ -183,7 +183,7 @@ struct MessageBoardSpec {
 
     /// What this kind states about itself. No plugin of this name exists.
     static constexpr OnboardKind kKind{
-        .number = 90, .name = "message-board", .phrase = "a message board", .classes = "", .files = ""};
+        .number = 91, .name = "message-board", .phrase = "a message board", .classes = "", .files = ""};
 
     /// Calls visit(Parameter, value) for each parameter, always in the same order.
     template <class Visitor, class Self>

@@ -76,8 +76,9 @@ TEST(Plugins, DetachableJointsNameTheirChild) {
 }
 
 Loaded with_gripper(const std::string& children) {
-    return load_elements("<model name='m'><link name='a'><roboss:gripper name='cup'>" + children +
-                         "</roboss:gripper></link></model>");
+    return load_elements("<model name='m'>" +
+                         link("a", "<roboss:gripper name='cup'>" + children + "</roboss:gripper>") +
+                         "</model>");
 }
 
 TEST(Grippers, AreReadWithTheirParameters) {
