@@ -90,8 +90,8 @@ class ClientService {
     const std::vector<ClientSeat>& seats() const { return seats_; }
     /// Names of all Clients that ever joined or are expected, by ClientId.
     std::vector<std::string> names() const;
-    /// Names of those that are here or expected, without observers. A run that is changed twice in a row still
-    /// waits for who had no time to join again.
+    /// Names of those that are here or expected, without observers. A run that is changed twice in a row
+    /// still waits for who had no time to join again.
     std::vector<std::string> names_serving() const;
 
   private:
