@@ -49,7 +49,8 @@ std::vector<std::uint64_t> hashes_of(const Stepper& stepped) {
     const auto hash = [](const Stand& s) { return state_hash_of(*s.model, s.tick, s.states); };
     const Stand first = stepped(beginning(world), kFirst);
     const Stand more = stepped(changed(first, with_models(*world, *pair_world(), places(6))), kSecond);
-    const std::vector<std::string> gone{world->robots[1].name, "guest0*", "guest3*", "guest5::ball"};
+    const std::vector<std::string> gone{world->robots[1].name, "guest0*", "guest3*",
+                                        more.model->robots.back().name};
     const Stand less = stepped(changed(more, without_robots(*more.model, gone)), kThird);
     const Stand again = stepped(beginning(world), kFirst);
     EXPECT_EQ(hash(again), hash(first)) << "after the reset";
@@ -74,11 +75,13 @@ Stepper embedded(std::size_t simulators, std::size_t lanes, Tick window) {
 
 Stepper troubled(std::uint64_t& seed, int& kills) {
     return [&](const Stand& from, Tick until) {
-        FaultyCluster cluster(from.model, {}, {++seed, 0.05, 0.05, 5}, {.kill = 150, .rescue = 20'000}, 3);
+        FaultyCluster cluster(from.model, {}, {++seed, 0.05, 0.05, 5}, {.kill = 1'500, .rescue = 20'000}, 3);
         cluster.restart_controller({from.tick, from.states, {}, from.tick, {}});
         EXPECT_TRUE(cluster.run_until(until)) << "seed " << seed;
-        cluster.controller().request_states();
-        for (int i = 0; i < 100'000 && cluster.controller().states() == nullptr; ++i) cluster.turn();
+        for (int i = 0; i < 100'000 && cluster.controller().states() == nullptr; ++i) {
+            if (i % 1'000 == 0 && cluster.controller().resting()) cluster.controller().request_states();
+            cluster.turn();
+        }
         EXPECT_NE(cluster.controller().states(), nullptr) << "seed " << seed;
         kills += cluster.kills();
         return Stand{from.model, until, *cluster.controller().states()};
@@ -108,10 +111,12 @@ TEST(Edits, AThousandRobotsComeAndGoAndTheOthersDoNotNotice) {
     for (std::size_t i = 0; i < stand.states.size(); ++i)
         before.push_back(state_hash(RobotId(i), stand.tick, stand.states[i]));
     const auto model = stand.model;
+    Model guests = *pair_world();
+    guests.statics.clear();  // scenery that comes wakes all sleepers, and stays
     for (int round = 0; round < 3; ++round) {
         std::vector<CopyPlace> crowd = places(250);
         for (CopyPlace& place : crowd) place.X_WA.p.z += 100;
-        const Stand more = changed(stand, with_models(*stand.model, *pair_world(), crowd));
+        const Stand more = changed(stand, with_models(*stand.model, guests, crowd));
         ASSERT_EQ(more.states.size(), before.size() + 1000);
         for (std::size_t i = 0; i < before.size(); ++i)
             ASSERT_EQ(state_hash(RobotId(i), more.tick, more.states[i]), before[i]);
