@@ -348,8 +348,9 @@ void gather_bonds(std::span<const std::uint32_t> members, GroupScratch& s) {
     const std::span<const HeldBond> held = s.bonds.held();
     if (held.empty()) return;
     for (const std::uint32_t m : members)
-        for (const HeldBond& bond : std::ranges::equal_range(held, m, {}, &HeldBond::holder))
-            s.island_bonds.push_back(bond);
+        for (auto at = std::ranges::lower_bound(held, m, {}, &HeldBond::holder);
+             at != held.end() && at->holder == m; ++at)
+            s.island_bonds.push_back(*at);
 }
 
 }  // namespace
