@@ -102,6 +102,17 @@ TEST(Wing, WindIsFlow) {
     EXPECT_NEAR(sim.states[0].v[3], f.force.x / 2 * 1e-4, 3e-6);
 }
 
+TEST(Wing, FinsInWaterDoNotFeelTheWind) {
+    LiftDragSpec spec = wing();
+    spec.density = 1000;
+    World world = empty_world(1e-3, {});
+    world.wind = {-20, 0, 2};
+    place(world, glider(spec), "fin");
+    Simulation sim(world);
+    sim.run(1);
+    EXPECT_EQ(sim.states[0].v, std::vector<double>(6, 0.0));
+}
+
 TEST(Wing, StrongLiftIsStable) {
     LiftDragSpec spec = wing();
     spec.area = 5e3, spec.alpha_stall = 2, spec.cma = 0, spec.reversible = true;
