@@ -40,7 +40,7 @@ class ClientProcess {
         if (!member_.open()) return kBadInput;
         const Address self = member_.new_address(Role::kClient);
         const auto model = member_.fetch_model(self);
-        if (!model) return interrupted() ? kDone : kBadInput;
+        if (!model) return interrupted() ? kSuccess : kBadInput;
         const std::string name =
             o_.name.empty() ? std::filesystem::path(o_.program).filename().string() : o_.name;
         if (Result<BusClientOptions> times = client_options(program.value()->options(), *model, name); !times)
@@ -52,7 +52,7 @@ class ClientProcess {
             member_.report("the world has changed; fetching it again");  // and start() is called again
             const Address again = member_.new_address(Role::kClient);
             const auto changed = member_.fetch_model(again);
-            if (!changed) return interrupted() ? kDone : kBadInput;
+            if (!changed) return interrupted() ? kSuccess : kBadInput;
             host = std::make_unique<ProgramHost>(changed, again, name, host->take_program());
         }
     }
@@ -79,7 +79,7 @@ class ClientProcess {
             return kRunFailed;
         }
         if (!host.client().over().empty()) member_.report(host.client().over());
-        return kDone;
+        return kSuccess;
     }
 
     const ClientProcessOptions& o_;

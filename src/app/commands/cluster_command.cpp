@@ -125,7 +125,7 @@ int up(const std::string& path) {
                    path);
     if (Result<> written = write_notes(file.value(), outcome.started); !written)
         print(written.error()), good = false;
-    return good ? kDone : kRunFailed;
+    return good ? kSuccess : kRunFailed;
 }
 
 /// Ends processes, and remembers hosts that do not answer any more: it does not wait for them again.
@@ -199,7 +199,7 @@ int down(const std::string& path) {
     }
     std::filesystem::remove(notes_of(file.value()));
     fmt::print("all {} processes have ended\n", all.value().size());
-    return kDone;
+    return kSuccess;
 }
 
 void print_status(const Json& o) {
@@ -281,9 +281,9 @@ int status(const StatusOptions& o) {
     if (!run.is_object() || !run.contains("members") || !run.contains("robots"))
         return print(Error{"unexpected reply of the run: " + text.value(), ""}), kRunFailed;
     if (file) run["processes"] = processes;
-    if (o.json) return fmt::print("{}\n", run.dump(2)), kDone;
+    if (o.json) return fmt::print("{}\n", run.dump(2)), kSuccess;
     print_status(run);
-    return kDone;
+    return kSuccess;
 }
 
 }  // namespace

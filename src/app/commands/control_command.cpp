@@ -185,7 +185,7 @@ int ask_controller(const MemberOptions& options, const std::vector<std::string>&
         return kRunFailed;
     }
     fmt::print("{}\n", text_of(*outcome));
-    return kDone;
+    return kSuccess;
 }
 
 void add_control_command(CLI::App& app, int& exit_code) {

@@ -106,7 +106,7 @@ int diff(const DiffOptions& o) {
         fmt::print("{}\n", to_json(compared.value()).dump(2, ' ', false, Json::error_handler_t::replace));
     else
         print_text(compared.value(), model.value()->dt_s);
-    return compared.value().divergence ? kRunFailed : kDone;
+    return compared.value().divergence ? kRunFailed : kSuccess;
 }
 
 }  // namespace

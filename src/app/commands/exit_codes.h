@@ -4,7 +4,7 @@
 namespace roboss {
 
 enum ExitCode {
-    kDone = 0,
+    kSuccess = 0,
     kBadInput = 1,
     kWrongUsage = 2,
     kRunFailed = 3,

@@ -103,14 +103,14 @@ int info(const JournalOptions& o) {
     }
     if (o.json) {
         print_json({{"file", journal.path()}, {"version", journal.version()}, {"branches", branches}});
-        return kDone;
+        return kSuccess;
     }
     const Branch& youngest = journal.branches().back();
     fmt::print("journal           {}, written by RoBOSS {}\n", journal.path(), journal.version());
     fmt::print("world             {}, model hash {}\n", youngest.world_file, to_hex(youngest.model_hash));
     fmt::print("robots            {}, step {:g} ms, seed {}\n", robots, dt_s.back() * 1e3, youngest.seed);
     print_tree(journal, 0, 0, dt_s);
-    return kDone;
+    return kSuccess;
 }
 
 Json to_json(const Stretch& s) {
@@ -143,7 +143,7 @@ int verify(const JournalOptions& o) {
         print_json(
             {{"file", journal.path()}, {"good", bad == 0}, {"different", bad}, {"stretches", stretches}});
     if (!o.json) fmt::print("{} stretches replayed, {} different\n", stretches.size(), bad);
-    return bad == 0 ? kDone : kRunFailed;
+    return bad == 0 ? kSuccess : kRunFailed;
 }
 
 void print_line(const Json& o) {
@@ -170,7 +170,7 @@ int export_branch(const Journal& journal, const JournalTime& time, bool from_her
         if (Result<> good = check_order(model, o.order); !good) return print(good.error()), kBadInput;
         fmt::print("{}\n", order_line(o.order, model));
     }
-    return kDone;
+    return kSuccess;
 }
 
 int export_log(const JournalOptions& o) {

@@ -41,7 +41,7 @@ int save_from_journal(const SaveOptions& o) {
         return print(saved.error()), kRunFailed;
     fmt::print("saved {:.6f} s (tick {}) in {}\n", static_cast<double>(time.tick) * model.dt_s, time.tick,
                o.file);
-    return kDone;
+    return kSuccess;
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ class SimulatorProcess {
         for (;;) {
             const Address self = member_.new_address(Role::kSimulator);
             const auto model = member_.fetch_model(self);
-            if (!model) return interrupted() ? kDone : kBadInput;
+            if (!model) return interrupted() ? kSuccess : kBadInput;
             member_.report(
                 fmt::format("received world '{}' (model hash {})", model->name, to_hex(model->hash)));
             SimulatorOptions role;
@@ -52,15 +52,15 @@ class SimulatorProcess {
             role.name = process_name(getpid());
             Simulator simulator(model, self, role, pool_);
             if (!serve(simulator)) return kBadInput;
-            if (interrupted()) return kDone;
+            if (interrupted()) return kSuccess;
             if (simulator.outdated()) {
                 member_.report("the world has changed; fetching it again");
             } else if (simulator.dismissed()) {
                 member_.report("dismissed by the Controller");
-                return kDone;
+                return kSuccess;
             } else if (!simulator.over().empty()) {
                 member_.report(simulator.over());
-                if (!o_.stay) return kDone;
+                if (!o_.stay) return kSuccess;
             } else if (!o_.stay && !simulator.refusal().empty()) {
                 return member_.report_error({"refused by the Controller: " + simulator.refusal(),
                                              "start it again", "refused"}),

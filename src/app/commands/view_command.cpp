@@ -39,7 +39,7 @@ int view(const ViewCommandOptions& o) {
         if (!member.wait()) return kBadInput;
     }
     member.bus().flush(500);
-    return kDone;
+    return kSuccess;
 }
 
 }  // namespace

@@ -287,7 +287,7 @@ int Run::finish(bool fine, double wall_s) {
     fmt::print("{}", to_text(s));
     if (abandoned_) return kProcessesFailed;
     if (!fine || !written) return kRunFailed;
-    return interrupted() ? kInterrupted : kDone;
+    return interrupted() ? kInterrupted : kSuccess;
 }
 
 }  // namespace roboss
