@@ -21,12 +21,30 @@ Model small_world() {
     Model model;
     model.statics.push_back(
         {{ShapeKind::kPlane, {}, 0, 0}, {}, {}, "ground::link::plane", {}, {}, {}, false});
-    model.statics.push_back(
-        {{ShapeKind::kBox, {2, 1, 3}, 0, 0}, {Mat3::identity(), {5, 0, 3}}, {}, "house::link::part", {}, {}});
-    model.statics.push_back(
-        {{ShapeKind::kCylinder, {}, 0.5, 1}, {Mat3::identity(), {0, 5, 1}}, {}, "tree::link::part", {}, {}});
-    model.statics.push_back(
-        {{ShapeKind::kSphere, {}, 0.5, 0}, {Mat3::identity(), {0, -5, 0}}, {}, "ball::link::part", {}, {}});
+    model.statics.push_back({{ShapeKind::kBox, {2, 1, 3}, 0, 0},
+                             {Mat3::identity(), {5, 0, 3}},
+                             {},
+                             "house::link::part",
+                             {},
+                             {},
+                             {},
+                             false});
+    model.statics.push_back({{ShapeKind::kCylinder, {}, 0.5, 1},
+                             {Mat3::identity(), {0, 5, 1}},
+                             {},
+                             "tree::link::part",
+                             {},
+                             {},
+                             {},
+                             false});
+    model.statics.push_back({{ShapeKind::kSphere, {}, 0.5, 0},
+                             {Mat3::identity(), {0, -5, 0}},
+                             {},
+                             "ball::link::part",
+                             {},
+                             {},
+                             {},
+                             false});
     return model;
 }
 

@@ -27,7 +27,8 @@ World world_of(const std::string& robot, const Vec3& rgb) {
         spec.is_static = is_static;
         LinkSpec link;
         link.name = "body";
-        link.collisions.push_back({"c", {}, {}, {}, {}});
+        link.collisions.push_back(CollisionSpec{});
+        link.collisions.back().name = "c";
         link.visuals.push_back(ball(rgb));
         spec.links.push_back(link);
         world.prototypes.push_back(spec);
