@@ -44,7 +44,8 @@ std::pair<Element, std::string> place_of(const Element& block, const char* paths
         if (!first) first = {parent, name};
         if (!written && parent && parent.child(name.c_str())) written = {parent, name};
     });
-    return written ? *written : *first;
+    if (written) return *written;
+    return first.value_or(std::pair<Element, std::string>{});  // a parameter without an element
 }
 
 void report_ignored(const Element& block, std::span<const IgnoredElement> ignored, const char* phrase,
