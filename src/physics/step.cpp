@@ -178,10 +178,12 @@ void find_near(const Model& model, std::span<const RobotId> robots, std::span<Ro
     s.joined.sort_by_set(s.near);
 }
 
-/// Steps the chosen robots, which may meet each other and no others.
+/// Steps the chosen robots, which may meet each other and no others. `tried`: it is one robot that lanes did
+/// not step. One that did not fit for a bond may fit once that is dropped: in floats it must then be stepped so,
+/// as it is where others are near.
 void step_group(const StepCall& call, std::span<const std::uint32_t> chosen, std::span<RobotWork> works,
-                Impl& s) {
-    s.group.tried_alone = works.data() == s.alone.data();
+                Impl& s, bool tried = false) {
+    s.group.tried_alone = tried;
     const int before = call.report.iterations;
     RobotGroup group(call, chosen, works, s.group);
     if (!step_robots(group, call.clock)) return;
@@ -220,7 +222,7 @@ void step_in_lanes(const StepCall& call, std::vector<std::uint32_t>& batch, Impl
         },
         [&](std::uint32_t i, bool stepped) {
             call.report.placed += stepped ? 1 : 0;
-            if (!stepped) step_group(call, {&i, 1}, s.alone, s);
+            if (!stepped) step_group(call, {&i, 1}, s.alone, s, true);
         });
     share_effort(s.batch, call.report.iterations - before, s.efforts);
 }
