@@ -179,8 +179,8 @@ void find_near(const Model& model, std::span<const RobotId> robots, std::span<Ro
 }
 
 /// Steps the chosen robots, which may meet each other and no others. `tried`: it is one robot that lanes did
-/// not step. One that did not fit for a bond may fit once that is dropped: in floats it must then be stepped so,
-/// as it is where others are near.
+/// not step. One that did not fit for a bond may fit once that is dropped: in floats it must then be stepped
+/// so, as it is where others are near.
 void step_group(const StepCall& call, std::span<const std::uint32_t> chosen, std::span<RobotWork> works,
                 Impl& s, bool tried = false) {
     s.group.tried_alone = tried;

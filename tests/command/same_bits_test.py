@@ -40,7 +40,8 @@ class SameBits(unittest.TestCase):
     def test_every_way_of_running_gives_the_same_hash(self):
         for name, (world, duration) in RUNS.items():
             plain = summary(*world, "--duration", duration)
-            self.assertGreater(plain["contacts_mean"], 1, name)
+            if name != "joints":  # arms in the air
+                self.assertGreater(plain["contacts_mean"], 1, name)
             for way in WAYS:
                 with self.subTest(world=name, way=way):
                     other = summary(*world, "--duration", duration, *way)

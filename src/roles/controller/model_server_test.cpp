@@ -57,7 +57,7 @@ TEST(ModelServer, KnowsEarlierModelsAndNeverTakesTheCurrentOneForEarlier) {
     EXPECT_TRUE(server.is_earlier(5));
     EXPECT_FALSE(server.is_earlier(7)) << "an earlier Model of the run is the current one again";
     EXPECT_FALSE(server.is_earlier(6));
-    EXPECT_EQ(server.hashes(), (std::vector<std::uint64_t>{5, 7, 7}));
+    EXPECT_EQ(server.hashes(), (std::vector<std::uint64_t>{5, 7})) << "each once, however often it came back";
 }
 
 /// Messages to a Controller and its replies, without other roles.
