@@ -39,10 +39,12 @@ bench.test("the inspector lists a robot's commands, and sends what is set", asyn
     await until("the last command", async () => /last at \d+\.\d\d s/.test((await drive.textContent()) ?? ""));
     await drive.getByRole("button", { name: "Zero" }).click();
     await until("zero", async () => (await lastCommand(page)).values.every((value) => value === 0));
-    await page.waitForTimeout(500);
-    const to = await place(page, "rover");
-    await page.waitForTimeout(1000);
-    assert.ok(Math.abs((await place(page, "rover")).x - to.x) < 0.01, "it stands");
+    await until("it stands", async () => {
+        const { x } = await place(page, "rover"),
+            then = await time(page);
+        await until("time goes on", async () => (await time(page)) > then + 0.5);
+        return Math.abs((await place(page, "rover")).x - x) < 0.001;
+    });
 });
 
 bench.test("the pad drives by the robot's own command, and stops it by that", async (page) => {

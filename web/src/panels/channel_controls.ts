@@ -147,17 +147,24 @@ class ChannelControl {
         this.element = h(
             "div",
             { class: "joint command" },
-            h("div", { class: "joint-head" }, h("span", { class: "joint-name" }, channel.name), this.last),
+            h(
+                "div",
+                { class: "joint-head" },
+                h("span", { class: "joint-name", title: channel.name }, channel.name),
+                this.last,
+            ),
             this.fields.element,
             h(
                 "div",
                 { class: "command-buttons" },
                 this.fault,
-                h(
-                    "button",
-                    { type: "button", class: "small", onclick: () => this.zero() },
-                    channel.list ? "Clear" : "Zero",
-                ),
+                channel.list || channel.values.length > 0
+                    ? h(
+                          "button",
+                          { type: "button", class: "small", onclick: () => this.zero() },
+                          channel.list ? "Clear" : "Zero",
+                      )
+                    : null,
                 h(
                     "button",
                     {
