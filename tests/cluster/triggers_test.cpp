@@ -2,6 +2,7 @@
 // the crate enters a region. The same bits for every grouping, over saves, and with faults.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "client/triggers/triggers.h"
@@ -47,7 +48,7 @@ BoardOutput message(const std::string& topic) {
 }
 
 /// What an importer makes of TouchPlugin, PerformerDetector and TriggeredPublisher.
-MessageBoardSpec board() {
+MessageBoardSpec board(Tick touch_time) {
     MessageBoardSpec board;
     board.topics = {{"start", "/start", "", {}},
                     {"wall/touched", "/wall/touched", "wall", {{"data"}}},
@@ -79,7 +80,7 @@ MessageBoardSpec board() {
     return board;
 }
 
-std::shared_ptr<const Model> chain_world() {
+std::shared_ptr<const Model> chain_world(Tick touch_time = kTouchTime) {
     World world;
     world.dt_s = kDt;
     ModelSpec floor = box("floor", {1, 1, 1}, true);
@@ -89,7 +90,7 @@ std::shared_ptr<const Model> chain_world() {
     ModelSpec messages;
     messages.name = "message_board", messages.is_static = true, messages.canonical_link = "board";
     messages.links.emplace_back().name = "board";
-    messages.onboard.push_back({"message board", board(), {}});
+    messages.onboard.push_back({"message board", board(touch_time), {}});
     world.prototypes = {floor, car, box("wall", {0.1, 2, 1}, true), messages};
     world.instances = {{"floor", 0, {}, {}},
                        {"car", 1, {{0, 0, 0.1}, {}}, {}},
@@ -175,6 +176,27 @@ TEST(Triggers, AChainFromAMessageOverATouchToARegion) {
     EXPECT_LE(at_gate, entered + 2 * kPeriod);
     EXPECT_EQ(rest.find(" /gate state=1 count=1 position_y=-0."), 0u) << rest;
     EXPECT_EQ(seen[3], std::to_string(at_gate) + " /done") << "and nobody has left";
+}
+
+TEST(Triggers, ATouchOfOneTickIsSeenInThatTick) {
+    const auto model = chain_world(1);
+    EXPECT_EQ(Triggers(model).options().period_s, kDt);
+    std::vector<std::string> seen;
+    auto made = Simulation::create(model, {}, programs_for(model, &seen));
+    ASSERT_TRUE(made.value()->run_until(kEnd).ok());
+    ASSERT_GE(seen.size(), 2u);
+    const Tick touched = std::stol(seen[1]);
+    auto again = make(model, 1, 1, 0);
+    const auto touches_wall = [&] {
+        const auto& contacts = again->states()[model->find_robot("car")->index()].contacts;
+        return std::ranges::any_of(contacts, [&](const ContactMemory& contact) {
+            return model->statics[contact.other_shape].name.starts_with("wall::");
+        });
+    };
+    ASSERT_TRUE(again->run_until(touched - 1).ok());
+    EXPECT_FALSE(touches_wall());
+    ASSERT_TRUE(again->run_until(touched).ok());
+    EXPECT_TRUE(touches_wall());
 }
 
 TEST(Triggers, ATouchIsToldOnceUntilItIsEnabledAgain) {

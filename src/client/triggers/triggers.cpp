@@ -78,6 +78,7 @@ Triggers::Triggers(std::shared_ptr<const Model> model, std::function<void(Tick, 
         Board board{RobotId(r), spec, {}, std::vector<char>(spec->detectors.size(), 0)};
         for (const BoardTouch& touch : spec->touches) {
             board.touches.push_back({ContactWatch(*model_, touch), touch.enabled});
+            if (touch.time < 2 * kPeriod) period_ = std::min(kPeriod, model_->dt_s);
             inputs.push_back(touch.enable);
         }
         for (const BoardTrigger& trigger : spec->triggers) {

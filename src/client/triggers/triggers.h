@@ -19,7 +19,8 @@ namespace roboss {
 /// Whether a robot of the world is a message board.
 bool has_message_board(const Model& model);
 
-/// Observes the world every kPeriod; its orders take effect at the tick that it has observed.
+/// Observes the world every kPeriod, or at every tick if a touch of less than two periods counts. Its orders
+/// take effect at the tick that it has observed.
 class Triggers : public ControlProgram {
   public:
     static constexpr double kPeriod = 0.01;           ///< s
@@ -29,7 +30,7 @@ class Triggers : public ControlProgram {
     explicit Triggers(std::shared_ptr<const Model> model,
                       std::function<void(Tick, const std::string&)> told = {});
 
-    ControlOptions options() const override { return {kPeriod, 0, true}; }
+    ControlOptions options() const override { return {period_, 0, true}; }
     void start(Client& client) override { seen_ = client.tick(); }
     void control(Client& client) override;
     std::string memory() const override;
@@ -74,6 +75,7 @@ class Triggers : public ControlProgram {
 
     std::shared_ptr<const Model> model_;
     std::function<void(Tick, const std::string&)> told_;
+    double period_ = kPeriod;  // s
     std::vector<Board> boards_;
     std::map<std::string, std::vector<TopicPlace>> places_;  // of the topics in use
     std::vector<TopicPlace> inputs_;                         // that are watched, ascending
