@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -30,6 +31,11 @@ int option(const char* name) {
 std::string text_option(const char* name) {
     const char* text = std::getenv(name);
     return text == nullptr ? "" : text;
+}
+
+/// CPU time of all threads of this process, s.
+double cpu_s() {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 /// Resident memory of this process after free memory has been given back, MiB.
@@ -65,14 +71,19 @@ struct Soak {
     bool asked = false;  // and nothing has changed yet
     Tick since = 0;      // the tick at which the last change was seen
     Clock::time_point asked_at;
-    std::vector<double> add_s, remove_s, reset_s, mib;
+    double asked_cpu_s = 0;
+    std::vector<double> add_s, remove_s, reset_s, add_cpu_s, remove_cpu_s, reset_cpu_s, mib;
 
     void ask(Client& client, ControlAction action) {
         asked = true;
         asked_at = Clock::now();
+        asked_cpu_s = cpu_s();
         client.control(std::move(action));
     }
-    double took_s() const { return std::chrono::duration<double>(Clock::now() - asked_at).count(); }
+    void note_times(std::vector<double>& wall, std::vector<double>& cpu) const {
+        wall.push_back(std::chrono::duration<double>(Clock::now() - asked_at).count());
+        cpu.push_back(cpu_s() - asked_cpu_s);
+    }
 
     void check(const Client& client) const {
         const auto tick = static_cast<std::size_t>(client.tick());
@@ -104,12 +115,12 @@ struct Soak {
         since = client.tick();
         const bool is_reset = client.tick() == 0;
         if (phase == Phase::kResets) {
-            reset_s.push_back(took_s());
+            note_times(reset_s, reset_cpu_s);
             if (done % 100 == 0) mib.push_back(resident_mib());
             if (++done >= resets) finish();
         } else if (phase == Phase::kRounds && !is_reset) {
             const bool added = client.model().robots.size() > expected[0].size();
-            (added ? add_s : remove_s).push_back(took_s());
+            note_times(added ? add_s : remove_s, added ? add_cpu_s : remove_cpu_s);
             if (added) return;
             mib.push_back(resident_mib());
             if (++done >= rounds) phase = resets > 0 ? Phase::kResets : Phase::kDone, done = 0;
@@ -127,7 +138,8 @@ struct Soak {
         };
         out << '{';
         list("add_s", add_s, ",\n"), list("remove_s", remove_s, ",\n"), list("reset_s", reset_s, ",\n");
-        list("mib", mib, "}\n");
+        list("add_cpu_s", add_cpu_s, ",\n"), list("remove_cpu_s", remove_cpu_s, ",\n");
+        list("reset_cpu_s", reset_cpu_s, ",\n"), list("mib", mib, "}\n");
     }
 };
 

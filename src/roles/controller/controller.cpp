@@ -54,7 +54,7 @@ Controller::Controller(std::shared_ptr<const Model> model, const ControllerOptio
       options_(options),
       model_server_(model_, options.scene, options.before.models),
       control_(options.before.control),
-      roster_(options.before.seats, options.before.first_id),
+      roster_(options.before.first_id),
       recorder_(options.log, options.log_ticks, std::max(start.tick, start.logged_until),
                 std::move(start.answered)),
       directory_(model_->robots.size(), start.tick),
@@ -165,7 +165,7 @@ void Controller::take_hello(Bus& bus, const Address& from, const Hello& hello) {
 
 ControllerOptions::Before Controller::hand_over() {
     ControllerOptions::Before before = options_.before;
-    before.seats = roster_.size();
+    before.first_id += static_cast<std::uint32_t>(roster_.size());  // its ids are never given again
     before.epoch = epoch_ + 1;
     before.window = window_;
     before.models = model_server_.hashes();
@@ -239,10 +239,6 @@ std::vector<MemberReport> Controller::members() const {
     for (std::size_t i = 0; i < islands_.count(); ++i)
         if (const SeatId seat_id = directory_.holder_of(islands_.of(i).front()); seat_id < members.size())
             ++members[seat_id].islands;
-    // seats of the run before a rewind have no address
-    std::erase_if(members, [this](const MemberReport& member) {
-        return roster_.seat(member.number).address.role != Role::kSimulator;
-    });
     return members;
 }
 

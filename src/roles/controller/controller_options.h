@@ -32,8 +32,7 @@ struct ControllerOptions {
     double checkpoint_work_s = 0;
     /// State of the Controller that this one succeeds on the same Bus (after a rewind, say).
     struct Before {
-        std::size_t seats = 0;  // never used again
-        /// Id of the first Simulator; a process of its own takes one that no other had.
+        /// Id of the first Simulator; no other Simulator of the run had it, or a greater one.
         std::uint32_t first_id = 0;
         std::uint32_t epoch = 0;            // of the assignments
         std::uint64_t window = 0;           // number of the last window

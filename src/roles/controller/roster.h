@@ -31,10 +31,8 @@ struct SimulatorSeat {
 
 class Roster {
   public:
-    /// `taken`: number of seats used before, all of them lost. `first_id`: the id of seat 0.
-    explicit Roster(std::size_t taken = 0, std::uint32_t first_id = 0) : seats_(taken), first_id_(first_id) {
-        for (SimulatorSeat& seat : seats_) seat.alive = false;
-    }
+    /// `first_id`: the id of seat 0.
+    explicit Roster(std::uint32_t first_id = 0) : first_id_(first_id) {}
     /// The seat of the Simulator that is alive at this address, or a new one. None if it has left: then the
     /// hello is a late copy.
     std::optional<SeatId> seat_for(const Address& address, const Hello& hello, std::int64_t now_ms,
