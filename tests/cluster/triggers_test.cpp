@@ -68,7 +68,7 @@ MessageBoardSpec board(Tick touch_time) {
     board.touches = {{"wall",
                       {{"body"}},
                       "car",
-                      static_cast<double>(kTouchTime) * kDt,
+                      static_cast<double>(touch_time) * kDt,
                       true,
                       "/wall/enable",
                       "wall/touched"}};
