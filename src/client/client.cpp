@@ -100,7 +100,7 @@ Result<> Client::command(RobotId robot, const std::string& name, std::vector<dou
 Result<> Client::publish(const std::string& topic, const std::vector<double>& values) {
     const std::vector<TopicPlace> places = find_topic(model(), topic);
     if (places.empty())
-        return Error{"nobody in the world takes messages at '" + topic + "'",
+        return Error{"no robot of the world takes messages at '" + topic + "'",
                      "`roboss check` lists the topics of all commands"};
     for (const TopicPlace& place : places)
         if (Result<> given = order(place.robot, Command{place.channel, values}); !given) return given;

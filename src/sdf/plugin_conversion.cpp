@@ -1,7 +1,6 @@
 // See plugin_conversion.h.
 #include "sdf/plugin_conversion.h"
 
-#include <array>
 #include <cctype>
 #include <sstream>
 

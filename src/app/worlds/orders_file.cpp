@@ -248,7 +248,7 @@ std::vector<Order> parse_publish(const json& o, const Model& model) {
         orders.push_back(std::move(order));
     }
     if (orders.empty())
-        throw LineFault("nobody in the world takes messages at '" + topic + "'",
+        throw LineFault("no robot of the world takes messages at '" + topic + "'",
                         "`roboss check WORLD` lists the topics of all commands");
     return orders;
 }
