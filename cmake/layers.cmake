@@ -1,6 +1,8 @@
 # roboss_layer(name DEPENDS layers...): src/name/*.cpp becomes the static library roboss_name; every src/name/*_test.cpp goes into one
 # test program, roboss_name_test. A layer with external libraries adds them in src/name/layer.cmake (included after the target exists);
 # cmake/install.cmake must know each such library, so that an installed RoBOSS finds it again.
+# UNITY: no two files of the layer use the same private name, so CMAKE_UNITY_BUILD may compile many of them as one
+# (tools/check_builds does: two minutes instead of five). Leave it out for a layer where files share names.
 add_library(roboss_options INTERFACE)
 target_compile_options(roboss_options INTERFACE
   -Wall -Wextra -Wshadow -Wconversion -Werror -ffp-contract=off -fno-fast-math)
@@ -22,7 +24,7 @@ if(ROBOSS_TESTS)
 endif()
 
 function(roboss_layer name)
-  cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "UNITY" "" "DEPENDS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/*.cpp)
   file(GLOB_RECURSE tests CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/*_test.cpp)
   list(REMOVE_ITEM sources ${tests} "")
@@ -39,6 +41,9 @@ function(roboss_layer name)
   target_include_directories(${target} ${scope}
     $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include/roboss>)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  if(NOT ARG_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
+  endif()
   # A program outside compiles our inline arithmetic too, and the linker may keep its copy: it needs C++20 and must not fuse.
   target_compile_features(${target} ${scope} cxx_std_20)
   target_compile_options(${target} INTERFACE $<INSTALL_INTERFACE:-ffp-contract=off>)
@@ -51,6 +56,7 @@ function(roboss_layer name)
   set_property(GLOBAL APPEND PROPERTY ROBOSS_LAYERS ${name})
   if(ROBOSS_TESTS AND tests)
     add_executable(${target}_test ${tests})
+    set_target_properties(${target}_test PROPERTIES UNITY_BUILD OFF)
     target_link_libraries(${target}_test PRIVATE ${target} roboss_options GTest::gtest_main)
     target_include_directories(${target}_test PRIVATE ${CMAKE_SOURCE_DIR}/tests)  # <support/...>: worlds that tests share
     gtest_discover_tests(${target}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60)
