@@ -3,7 +3,9 @@
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
 import type { Mesh, Object3D, ShaderMaterial, Vector3 } from "three";
-import { Bench, choose, PROGRAM, seen, time, until } from "./bench";
+import type { PoseArray } from "../src/wire/messages";
+import { Bench, choose, PROGRAM, time, until } from "./bench";
+import { resting, seen, visiblePoint } from "./sight";
 
 const mockOnly = PROGRAM === "" ? false : "no plugin of that world takes a list";
 const bench = new Bench({ world: "../web/e2e/acting.sdf" });
@@ -180,34 +182,51 @@ bench.test("a robot takes hold of another that is chosen in the list, carries it
     await until("no bond", async () => (await bonds(page)) === 0 && (await row.count()) === 0);
 });
 
+/** Puts the gripper so far from the box, along x, and waits until the page sees it there. */
+async function putBesideBox(page: Page, x: number): Promise<void> {
+    const gripper = await numberOf(page, "gripper"),
+        box = await place(page, "box_2"),
+        pose = [box.x + x, box.y, 0.3, 1, 0, 0, 0];
+    await page.evaluate(
+        ([robot, ...to]) => window.roboss.run.order(robot, { action: "pose", pose: to as PoseArray }),
+        [gripper, ...pose],
+    );
+    await until("it is there", async () => {
+        const [a, b] = [await place(page, "gripper"), await place(page, "box_2")];
+        return Math.abs(a.x - b.x - x) < 0.04 && Math.abs(a.z - 0.3) < 0.02;
+    });
+}
+
+/** Clicks on the box with Shift held, once the picture rests and the box is under the pointer. */
+async function clickBox(page: Page): Promise<void> {
+    const box = await numberOf(page, "box_2");
+    await selected(page, "gripper");
+    await page.getByLabel("Look at the selected robot").click();
+    const at = await visiblePoint(page, box, await resting(page, box));
+    assert.ok(at !== null, "the box is seen");
+    await page.keyboard.down("Shift");
+    await page.mouse.click(at.left, at.top);
+    await page.keyboard.up("Shift");
+}
+
+/** Puts and clicks until `done`. A slow machine may draw the picture that is clicked into a moment late. */
+async function clickUntil(page: Page, x: number, what: string, done: () => Promise<boolean>): Promise<void> {
+    for (let left = 4; left > 0 && !(await done()); --left) {
+        await putBesideBox(page, x);
+        await clickBox(page);
+        await until(what, done, 8000).catch((error: unknown) => {
+            if (left === 1) throw error;
+        });
+    }
+}
+
 bench.test(
     "with Shift, a click in the picture attaches to the selected robot; out of reach, that is said",
     async (page) => {
-        const gripper = await numberOf(page, "gripper"),
-            box = await place(page, "box_2");
-        const put = (x: number) =>
-            page.evaluate(
-                ([robot, px, py]) =>
-                    window.roboss.run.order(robot, { action: "pose", pose: [px, py, 0.3, 1, 0, 0, 0] }),
-                [gripper, x, box.y],
-            );
-        const clickBox = async () => {
-            await page.getByLabel("Look at the selected robot").click();
-            await page.waitForTimeout(1500);
-            const at = await place(page, "box_2");
-            await page.keyboard.down("Shift");
-            await page.mouse.click(at.left, at.top);
-            await page.keyboard.up("Shift");
-        };
-        await selected(page, "gripper");
-        await put(box.x - 1);
-        await until("away", async () => (await place(page, "gripper")).x < box.x - 0.9);
-        await clickBox();
-        await until("it is out of reach", async () => (await notice(page)).includes("gripper does not hold box_2"));
-        await put(box.x - 0.3);
-        await until("beside it", async () => (await place(page, "gripper")).x > box.x - 0.4);
-        await clickBox();
-        await until("the bond", async () => (await bonds(page)) === 1);
+        const said = async () => (await notice(page)).includes("gripper does not hold box_2");
+        await clickUntil(page, -1, "it is out of reach", said);
+        assert.equal(await bonds(page), 0);
+        await clickUntil(page, -0.3, "the bond", async () => (await bonds(page)) === 1);
         await page.locator(".bond").getByRole("button", { name: "Release" }).click();
         await until("no bond", async () => (await bonds(page)) === 0);
     },

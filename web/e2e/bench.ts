@@ -192,35 +192,6 @@ export async function openPage(browser: Browser, run: Run, query = ""): Promise<
     return { page, errors };
 }
 
-/** Numbers that the page has of a robot, and where it is seen. */
-export interface Seen {
-    x: number;
-    y: number;
-    z: number;
-    left: number;
-    top: number;
-}
-
-export function seen(page: Page, robot: number): Promise<Seen> {
-    return page.evaluate((r) => {
-        const { state, stage } = window.roboss;
-        const base = state.world.value?.history.drawn.base ?? new Float32Array(7),
-            at = r * 7,
-            box = stage.canvas.getBoundingClientRect();
-        const place = stage.camera.position
-            .clone()
-            .set(base[at], base[at + 1], base[at + 2])
-            .project(stage.camera);
-        return {
-            x: base[at],
-            y: base[at + 1],
-            z: base[at + 2],
-            left: box.left + ((place.x + 1) / 2) * box.width,
-            top: box.top + ((1 - place.y) / 2) * box.height,
-        };
-    }, robot);
-}
-
 /** Waits until `ask` says yes; fails with `what` otherwise. */
 export async function until(what: string, ask: () => Promise<boolean>, wait_ms = 20_000): Promise<void> {
     const end = Date.now() + wait_ms;
@@ -239,22 +210,6 @@ export async function choose(page: Page, name: string): Promise<void> {
     await page.getByLabel("Find a robot").fill(name);
     await page.locator(".row.robot", { hasText: new RegExp(`^${name}$`) }).click();
     await page.getByLabel("Find a robot").fill("");
-}
-
-/** Takes a robot with the hand and drops it some pixels away; where it was before. */
-export async function drag(page: Page, robot: number, right: number, down: number): Promise<Seen> {
-    await page.getByRole("button", { name: "Follow", exact: true }).last().click();
-    await page.waitForTimeout(1500);
-    await page.getByRole("button", { name: "Orbit" }).click();
-    await page.getByLabel("Move a robot").click();
-    const from = await seen(page, robot);
-    await page.mouse.move(from.left, from.top);
-    await page.mouse.down();
-    await page.mouse.move(from.left + right / 2, from.top + down / 2, { steps: 6 });
-    await page.mouse.move(from.left + right, from.top + down, { steps: 6 });
-    await page.mouse.up();
-    await page.getByLabel("Select", { exact: true }).click();
-    return from;
 }
 
 /** A run with a browser that shows its page, for all tests of a file. `told`: robots that a Client tells of. */

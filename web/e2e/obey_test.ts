@@ -2,7 +2,8 @@
 // network, says so. It knows nothing of the page, nor of the gateway.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
-import { Bench, choose, type CppClient, drag, PROGRAM, until } from "./bench";
+import { Bench, choose, type CppClient, PROGRAM, until } from "./bench";
+import { drag } from "./sight";
 
 const skip = PROGRAM === "" ? "the mock has no cluster" : false;
 const bench = new Bench({ cluster: true, told: ["car_3", "car_11"] }, skip);

@@ -1,7 +1,8 @@
 // The page in a browser, with a run behind it: the picture, time, choosing robots and ordering them about by hand.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
-import { Bench, choose, drag, seen, time, until } from "./bench";
+import { Bench, choose, time, until } from "./bench";
+import { drag, seen } from "./sight";
 
 const bench = new Bench();
 const paused = (page: Page) => page.getByLabel("Play", { exact: true }).isVisible();

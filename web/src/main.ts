@@ -35,6 +35,7 @@ import { h } from "./ui/dom";
 import { Colouring } from "./view/colouring";
 import { Effort } from "./view/effort";
 import { FrameTimes } from "./view/frame_times";
+import { pick } from "./view/picking";
 import { Stage } from "./view/stage";
 
 const LOW_INTERVAL_MS = 45;
@@ -248,7 +249,19 @@ for (const name of ["pointerdown", "pointermove", "keydown", "resize"])
 applyAddress(address, state);
 
 // For tests and measurements; the page itself never reads it.
-const hooks = { state, rig, times, stage, run };
+const hooks = {
+    state,
+    rig,
+    times,
+    stage,
+    run,
+    /** The robot that a click at this place of the window would meet; null: none. */
+    robotAt: (left: number, top: number): number | null => {
+        const box = canvas.getBoundingClientRect(),
+            world = state.world.value;
+        return world === null ? null : (pick(stage, world, left - box.left, top - box.top)?.robot ?? null);
+    },
+};
 /** What the console and the tests take hold of, as `window.roboss`. */
 export type Hooks = typeof hooks;
 Object.assign(window, { roboss: hooks });
