@@ -1,5 +1,5 @@
 """Journals: recording does not change the result, every point in time can be restored, kill -9 and full disks are survived,
-and `diff` finds where two runs diverge. Three worlds with collisions, one of them with a control program that has memory."""
+and `diff` finds where two runs diverge. Worlds with collisions, a control program that has memory, bonds and belts."""
 import json
 import random
 import resource
@@ -15,6 +15,8 @@ RUNS = {
     "city": [WORLDS / "city.sdf", "--client", DRIVER],
     "crossroads": [WORLDS / "crossroads.sdf", "--orders", WORLDS / "crossroads.jsonl"],
     "pile": [WORLDS / "pile.sdf"],
+    "bonds": [WORLDS / "bonds.sdf", "--orders", WORLDS / "bonds.jsonl"],
+    "conveyor": [WORLDS / "conveyor.sdf", "--orders", WORLDS / "conveyor.jsonl"],
 }
 UNTIL = 1.2
 expected = {}
@@ -69,7 +71,8 @@ class Journal(RobossTest):
                 self.assertEqual((branch["committed_hash"], branch["end_s"]), (undisturbed(name), UNTIL))
 
     def test_from_any_time_the_run_goes_on_to_the_same_end(self):
-        for name, at in (("city", 0.734), ("city", 0.5), ("crossroads", 1.1), ("pile", 0.001)):
+        for name, at in (("city", 0.734), ("city", 0.5), ("crossroads", 1.1), ("pile", 0.001),
+                         ("bonds", 0.45), ("bonds", 1.05), ("conveyor", 0.6)):
             with self.subTest(world=name, at=at):
                 self.assertEqual(summary(*RUNS[name], "--until", UNTIL, "--from", f"{kept(name)}@{at}")["state_hash"],
                                  undisturbed(name))
@@ -111,8 +114,15 @@ class Journal(RobossTest):
         self.assertGreater(len(orders.read_text().splitlines()), 1000)
         self.assertEqual(summary(WORLDS / "city.sdf", "--orders", orders, "--until", UNTIL)["state_hash"], undisturbed("city"))
 
+    def test_exported_commands_and_attachments_make_the_same_run(self):
+        for name in ("bonds", "conveyor"):
+            with self.subTest(world=name):
+                orders = FOLDER / f"exported_{name}.jsonl"
+                orders.write_text(roboss("journal", "export", kept(name), "--orders").stdout)
+                self.assertEqual(summary(*RUNS[name][:2], orders, "--until", UNTIL)["state_hash"], undisturbed(name))
+
     def test_killed_at_random_moments_and_started_again_nothing_is_lost(self):
-        for name, seed in (("city", 1), ("city", 2), ("crossroads", 3), ("pile", 4)):
+        for name, seed in (("city", 1), ("city", 2), ("crossroads", 3), ("pile", 4), ("bonds", 5)):
             with self.subTest(world=name, seed=seed):
                 print(f"    seed {seed}")
                 chance = random.Random(seed)
