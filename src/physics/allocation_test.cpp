@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <new>
 
+#include <support/bonds.h>
 #include <support/drives.h>
 #include <support/mechanisms.h>
 #include <support/scenes.h>
@@ -103,6 +104,33 @@ TEST(Allocation, ARobotThatIsPushedOnboardAllocatesNothing) {
           {{0, 0, 0.05}, {}});
     Simulation sim(world);
     EXPECT_EQ(allocations_of(sim, 500), 0u);
+}
+
+TEST(Allocation, BondsAllocateNothing) {
+    World world = empty_world(2e-3);
+    place(world, ground(surface(0.6)), "ground");
+    place(world, gantry(), "gantry", {{0, 0, 2}, {}});
+    place(world, solid_box(1.0, {0.2, 0.2, 0.2}, surface(0.5)), "box_0", {{0, 0, 1.8}, {}});
+    for (int i = 1; i < 4; ++i)
+        world.instances.push_back({"box_" + std::to_string(i), 2, {{0, 0, 1.8 - 0.2 * i}, {}}, {}});
+    Simulation sim(world);
+    for (std::size_t d = 0; d < 4; ++d) sim.set_motor(0, d, MotorMode::kVelocity, d == 2 ? 0 : 0.3);
+    ASSERT_NO_FATAL_FAILURE(attach(sim, 0, 1, kHand));
+    for (std::size_t r = 1; r < 4; ++r) ASSERT_NO_FATAL_FAILURE(attach(sim, r, r + 1));
+    EXPECT_EQ(allocations_of(sim, 300), 0u);
+    EXPECT_EQ(sim.states[3].bonds.size(), 1u) << "all hold";
+}
+
+TEST(Allocation, ABeltAndWhatLiesOnItAllocateNothing) {
+    const ModelSpec belt = scenery(box_shape({4, 0.5, 0.2}, surface(0.6)));
+    SurfaceVelocitySpec motion;
+    motion.link = LinkNames{"link"}, motion.linear = {0.5, 0, 0};
+    World world = empty_world(2e-3);
+    place(world, with_onboard(belt, motion), "belt");
+    place(world, solid_box(1.0, {0.2, 0.2, 0.2}, surface(0.6)), "box", {{-1, 0, 0.2}, {}});
+    Simulation sim(world);
+    EXPECT_EQ(allocations_of(sim, 300), 0u);
+    EXPECT_GT(base_pose(sim.states[1]).p.x, -0.8) << "it is conveyed";
 }
 
 TEST(Allocation, StackOfTenAllocatesNothing) {

@@ -138,6 +138,54 @@ TEST(AckermannSteering, SteeringOnlyTakesAnAngle) {
         << "no further than steering_limit";
 }
 
+/// The car with the drive of classic Gazebo.
+World classic_car_world() {
+    RosAckermannSpec spec;
+    spec.front_left = {"front_left_joint"}, spec.front_right = {"front_right_joint"};
+    spec.rear_left = {"rear_left_joint"}, spec.rear_right = {"rear_right_joint"};
+    spec.left_steering = {"left_steering"}, spec.right_steering = {"right_steering"};
+    spec.left_gain = spec.right_gain = {20, 20, 0.5}, spec.speed_gain = {1, 2, 0};
+    spec.left_range = spec.right_range = spec.speed_range = {-20, 20};
+    spec.ros.update_rate = 0;
+    return on_plane(with_onboard(steered_car(), spec));
+}
+
+TEST(RosAckermann, TheWheelsPointAtOneCentreAndTheRightRearWheelHasTheSpeed) {
+    Simulation sim(classic_car_world());
+    const double v = 0.6, angle = 0.3, radius = kBase / std::tan(angle);
+    give(sim, "cmd_vel", {v, 0, 0, 0, 0, angle});
+    sim.run(6);
+    EXPECT_NEAR(joint_position(sim, "left_steering"), std::atan(kBase / (radius - kKingpins / 2)), 2e-3);
+    EXPECT_NEAR(joint_position(sim, "right_steering"), std::atan(kBase / (radius + kKingpins / 2)), 2e-3);
+    EXPECT_NEAR(joint_velocity(sim, "rear_right_joint"), v / kWheelRadius, 0.01);
+    const double t = 3, w = v / (radius + kSeparation / 2);
+    const Stand from = stand(sim);
+    sim.run(t);
+    const Stand at = stand(sim);
+    const double turned = from.heading + w * t;
+    tell("heading beyond the closed form, rad", std::remainder(at.heading - turned, 2 * kPi));
+    EXPECT_NEAR(std::remainder(at.heading - turned, 2 * kPi), 0, 0.02);
+    EXPECT_NEAR(at.x - from.x, radius * (std::sin(turned) - std::sin(from.heading)), 0.03);
+    EXPECT_NEAR(at.y - from.y, -radius * (std::cos(turned) - std::cos(from.heading)), 0.03);
+}
+
+TEST(RosAckermann, KeepsItsLimitsAndTurnsTheSameWayBackwards) {
+    Simulation sim(classic_car_world());
+    give(sim, "cmd_vel", {-0.5, 0, 0, 0, 0, 2});
+    sim.run(3);
+    const double least = kBase / std::tan(0.6);
+    EXPECT_NEAR(joint_position(sim, "left_steering"), -std::atan(kBase / (least + kKingpins / 2)), 5e-3)
+        << "max_steer; the sign of the angle is that of the turn";
+    EXPECT_NEAR(joint_velocity(sim, "rear_right_joint"), -0.5 / kWheelRadius, 0.05);
+}
+
+TEST(RosAckermann, LanesChangeNoBit) {
+    Simulation lanes(classic_car_world()), alone(classic_car_world());
+    alone.scratch.use_lanes(1);
+    for (Simulation* sim : {&lanes, &alone}) give(*sim, "cmd_vel", {0.6, 0, 0, 0, 0, 0.3});
+    expect_same_run(lanes, alone, 0.5);
+}
+
 TEST(AckermannSteering, LanesChangeNoBit) {
     Simulation lanes(car_world(steering())), alone(car_world(steering()));
     alone.scratch.use_lanes(1);
