@@ -68,11 +68,27 @@ std::string fault_of_joint(const RobotType& type, const std::string& name) {
     return {};
 }
 
-std::string fault_of(const RobotType& type, const OnboardSpec& spec) {
+/// Why a detachable joint has nothing to join: its child is a link of its own robot. Empty: it is not.
+std::string fault_of_child(const std::string& model, const RobotType& type,
+                           const DetachableJointSpec& joint) {
+    if (joint.parent_link.empty()) return {};
+    const std::string& parent = joint.parent_link.front();
+    const std::size_t at = parent.rfind("::");
+    const std::string scope = at == std::string::npos ? "" : parent.substr(0, at + 2);
+    const bool own = joint.child_model == "__model__" || joint.child_model == model;
+    const std::string link = own ? joint.child_link : joint.child_model + "::" + joint.child_link;
+    if (!type.find_link(scope + link) && !type.find_link(link)) return {};
+    return "holds the link '" + link + "' of its own robot, which joints connect with '" + parent +
+           "' already";
+}
+
+std::string fault_of(const std::string& model, const RobotType& type, const OnboardSpec& spec) {
     for (const std::string& name : joints_named(spec.parameters))
         if (std::string fault = fault_of_joint(type, name); !fault.empty()) return fault;
     for (const std::string& name : links_named(spec.parameters))
         if (!type.find_link(name)) return "names the link '" + name + "', which is not in this robot";
+    if (const auto* detachable = std::get_if<DetachableJointSpec>(&spec.parameters))
+        if (std::string fault = fault_of_child(model, type, *detachable); !fault.empty()) return fault;
     for (const Channel& channel : channels_of(spec.parameters))
         if (conflicting(type, channel) != nullptr)
             return "takes the command '" + channel.name +
@@ -182,7 +198,7 @@ void lay_out_onboard(RobotType& type) {
 void add_onboard(const ModelSpec& spec, bool is_main, RobotType& type, Diagnostics& diagnostics) {
     for (const OnboardSpec& onboard : spec.onboard) {
         if (!belongs_here(spec, onboard, is_main, type)) continue;
-        if (const std::string fault = fault_of(type, onboard); !fault.empty()) {
+        if (const std::string fault = fault_of(spec.name, type, onboard); !fault.empty()) {
             diagnostics.warning(
                 onboard.where, "plugin-not-run",
                 "plugin '" + onboard.name + "' of model '" + spec.name + "' " + fault + "; it is not run",

@@ -44,6 +44,23 @@ TEST(OnboardModel, ListsTheCommandsOfARobot) {
     EXPECT_TRUE(model->type_of(kSecond).onboard.empty());
 }
 
+TEST(OnboardModel, ReportsADetachableJointBetweenLinksOfOneRobot) {
+    for (const char* child : {"wheel_0", "elsewhere"}) {
+        DetachableJointSpec joint;
+        joint.parent_link = LinkNames{"chassis"}, joint.child_model = "__model__", joint.child_link = child;
+        ModelSpec spec = car();
+        spec.onboard.push_back({"bond", joint, {}});
+        World world = empty_world(1e-3);
+        place(world, spec, "first");
+        Diagnostics found;
+        const auto model = compile(world, {}, found);
+        ASSERT_NE(model, nullptr);
+        const bool runs = std::string(child) == "elsewhere";
+        EXPECT_EQ(model->type_of(kFirst).onboard.size(), runs ? 1u : 0u);
+        EXPECT_EQ(found.count(Severity::kWarning), runs ? 0u : 1u);
+    }
+}
+
 TEST(OnboardModel, HashesParametersAndLeavesOtherTypesAlone) {
     const auto plain = compiled_cars(car()), controlled = compiled_cars(controlled_car());
     EXPECT_NE(plain->hash, controlled->hash);
