@@ -41,6 +41,7 @@ void BondProjection::gather_robots(std::span<const RobotWork> robots, std::span<
         bond.holder = static_cast<std::uint32_t>(slot_of(bond.holder));
         if (bond.other != HeldBond::kScenery) bond.other = static_cast<std::uint32_t>(slot_of(bond.other));
     }
+    places_.find(bonds_, members_.size());
 }
 
 std::size_t BondProjection::slot_of(std::uint32_t robot) const {
@@ -64,6 +65,7 @@ void BondProjection::add_bond_rows(std::size_t number) {
     for (std::size_t k = 0; k < 6; ++k) {
         Row row;
         row.axis = bond_axis(k), row.bond = static_cast<int>(number);
+        row.slots = {held.holder, held.other == HeldBond::kScenery ? kNone : held.other};
         row.first = columns_.size(), row.error = dot(off, row.axis);
         const auto add_side = [&](std::uint32_t slot, int body, const Vec3& p_W, double sign) {
             visit_bond_columns(works_[slot], body, p_W, row.axis, [&](int dof, double j) {
@@ -86,6 +88,7 @@ void BondProjection::add_own_rows(std::size_t slot) {
         if (!(equality.mobility > 0)) continue;
         Row row;
         row.first = columns_.size(), row.error = equality.error;
+        row.slots = {slot, kNone};
         for (std::size_t c = equality.first; c < equality.last; ++c)
             columns_.push_back(
                 {offsets_[slot] + static_cast<std::size_t>(own_.columns[c].dof), own_.columns[c].j});
@@ -111,7 +114,68 @@ double BondProjection::times(const Row& row, std::span<const double> x) const {
     return sum;
 }
 
-/// Mass matrices, M^-1 J^T in y_ and J M^-1 J^T in a_, scaled to a diagonal of ones.
+/// The order of the rows, and the envelope of each: from the first row that moves one of its robots.
+void BondProjection::sort_rows() {
+    const std::size_t count = rows_.size();
+    order_.resize(count), begin_.resize(count), start_.resize(count);
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    const auto place = [&](std::size_t row) {
+        const Row& r = rows_[row];
+        const std::size_t one = places_[r.slots[0]];
+        return r.slots[1] == kNone ? one : std::max(one, places_[r.slots[1]]);
+    };
+    std::ranges::sort(order_, [&](std::size_t a, std::size_t b) {
+        const std::size_t at_a = place(a), at_b = place(b);
+        return at_a != at_b ? at_a < at_b : a < b;
+    });
+    earliest_.assign(members_.size(), kNone);
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        begin_[i] = i;
+        for (const std::size_t slot : rows_[order_[i]].slots) {
+            if (slot == kNone) continue;
+            earliest_[slot] = std::min(earliest_[slot], i);
+            begin_[i] = std::min(begin_[i], earliest_[slot]);
+        }
+        start_[i] = size;
+        size += i - begin_[i] + 1;
+    }
+    a_.assign(size, 0.0);
+}
+
+/// Its part of M^-1 J^T, and its scale.
+void BondProjection::prepare_row(Row& row) {
+    double mobility = 0;
+    std::size_t column = row.first;
+    for (std::size_t side = 0; side < 2 && row.slots[side] != kNone; ++side) {
+        const std::size_t slot = row.slots[side], offset = offsets_[slot], end = offsets_[slot + 1];
+        row.y[side] = y_.size();
+        y_.resize(y_.size() + (end - offset), 0.0);
+        double* const y = y_.data() + row.y[side];
+        const std::size_t first = column;
+        for (; column < row.last && columns_[column].dof >= offset && columns_[column].dof < end; ++column)
+            y[columns_[column].dof - offset] += columns_[column].j;
+        tree_solve(works_[slot].type->paths, works_[slot].mass_matrix.data(), y);
+        for (std::size_t c = first; c < column; ++c) mobility += columns_[c].j * y[columns_[c].dof - offset];
+    }
+    row.scale = mobility > 0 ? 1.0 / std::sqrt(mobility) : 0.0;
+}
+
+/// row * M^-1 * other^T.
+double BondProjection::coupling(const Row& row, const Row& other) const {
+    double sum = 0;
+    for (std::size_t side = 0; side < 2 && other.slots[side] != kNone; ++side) {
+        const std::size_t slot = other.slots[side], offset = offsets_[slot], end = offsets_[slot + 1];
+        if (row.slots[0] != slot && row.slots[1] != slot) continue;
+        const double* const y = y_.data() + other.y[side];
+        for (std::size_t c = row.first; c < row.last; ++c)
+            if (const std::size_t dof = columns_[c].dof; dof >= offset && dof < end)
+                sum += columns_[c].j * y[dof - offset];
+    }
+    return sum;
+}
+
+/// Mass matrices, M^-1 J^T in y_ and J M^-1 J^T in a_, scaled to a diagonal of ones, and its factor.
 void BondProjection::prepare() {
     for (std::size_t m = 0; m < members_.size(); ++m) {
         RobotWork& work = works_[m];
@@ -119,68 +183,55 @@ void BondProjection::prepare() {
         compute_mass_matrix<double>(*work.type, 0.0, work);
         tree_factor(work.type->paths, work.mass_matrix.data());
     }
-    const std::size_t n = offsets_.back(), count = rows_.size();
-    y_.assign(count * n, 0.0);
-    a_.resize(count * count);
-    for (std::size_t i = 0; i < count; ++i) {
-        Row& row = rows_[i];
-        double* const y = y_.data() + i * n;
-        for (std::size_t c = row.first; c < row.last; ++c) y[columns_[c].dof] = columns_[c].j;
-        for (std::size_t m = 0; m < members_.size(); ++m) {
-            const auto own = std::span(y, n).subspan(offsets_[m], offsets_[m + 1] - offsets_[m]);
-            if (std::ranges::any_of(own, [](double x) { return x != 0; }))
-                tree_solve(works_[m].type->paths, works_[m].mass_matrix.data(), own.data());
+    y_.clear();
+    for (Row& row : rows_) prepare_row(row);
+    sort_rows();
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+        const Row& row = rows_[order_[i]];
+        for (std::size_t j = begin_[i]; j <= i; ++j) {
+            const Row& other = rows_[order_[j]];
+            at(i, j) = row.scale * other.scale * coupling(row, other);
         }
-        const double mobility = times(row, {y, n});
-        row.scale = mobility > 0 ? 1.0 / std::sqrt(mobility) : 0.0;
     }
-    for (std::size_t i = 0; i < count; ++i)
-        for (std::size_t j = 0; j < count; ++j)
-            a_[i * count + j] = rows_[i].scale * rows_[j].scale * times(rows_[i], {y_.data() + j * n, n});
     factor();
 }
 
-/// Cholesky's method with diagonal pivoting; stops where only implied rows are left.
+/// Cholesky's method by rows. The diagonal of a row that the rows before it imply becomes zero.
 void BondProjection::factor() {
-    const std::size_t count = rows_.size();
-    order_.resize(count);
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
-    for (rank_ = 0; rank_ < count; ++rank_) {
-        const std::size_t k = rank_;
-        std::size_t best = k;
-        for (std::size_t i = k + 1; i < count; ++i)
-            if (at(i, i) > at(best, best)) best = i;
-        if (!(at(best, best) > kImplied)) return;
-        std::swap(order_[k], order_[best]);
-        const double pivot = std::sqrt(at(k, k));
-        at(k, k) = pivot;
-        for (std::size_t i = k + 1; i < count; ++i) at(i, k) /= pivot;
-        for (std::size_t i = k + 1; i < count; ++i) {
-            if (at(i, k) == 0) continue;
-            for (std::size_t j = k + 1; j < count; ++j) at(i, j) -= at(i, k) * at(j, k);
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+        for (std::size_t j = begin_[i]; j <= i; ++j) {
+            double sum = at(i, j);
+            for (std::size_t k = std::max(begin_[i], begin_[j]); k < j; ++k) sum -= at(i, k) * at(j, k);
+            if (j == i)
+                at(i, i) = sum > kImplied ? std::sqrt(sum) : 0.0;
+            else
+                at(i, j) = at(j, j) > 0 ? sum / at(j, j) : 0.0;
         }
     }
 }
 
 /// change_ = M^-1 J^T impulses_, such that J change = wanted.
 void BondProjection::solve(std::span<const double> wanted) {
-    x_.resize(rank_);
-    for (std::size_t i = 0; i < rank_; ++i) {
-        x_[i] = wanted[order_[i]] * rows_[order_[i]].scale;
-        for (std::size_t k = 0; k < i; ++k) x_[i] -= at(i, k) * x_[k];
-        x_[i] /= at(i, i);
+    const std::size_t count = rows_.size();
+    x_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        double sum = wanted[order_[i]] * rows_[order_[i]].scale;
+        for (std::size_t k = begin_[i]; k < i; ++k) sum -= at(i, k) * x_[k];
+        x_[i] = at(i, i) > 0 ? sum / at(i, i) : 0.0;
     }
-    for (std::size_t i = rank_; i-- > 0;) {
-        for (std::size_t k = i + 1; k < rank_; ++k) x_[i] -= at(k, i) * x_[k];
-        x_[i] /= at(i, i);
+    for (std::size_t i = count; i-- > 0;) {
+        x_[i] = at(i, i) > 0 ? x_[i] / at(i, i) : 0.0;
+        for (std::size_t k = begin_[i]; k < i; ++k) x_[k] -= at(i, k) * x_[i];
     }
-    const std::size_t n = offsets_.back();
-    change_.assign(n, 0.0), impulses_.assign(rows_.size(), 0.0);
-    for (std::size_t i = 0; i < rank_; ++i) {
-        const std::size_t row = order_[i];
-        impulses_[row] = x_[i] * rows_[row].scale;
-        const double* const y = y_.data() + row * n;
-        for (std::size_t k = 0; k < n; ++k) change_[k] += impulses_[row] * y[k];
+    change_.assign(offsets_.back(), 0.0), impulses_.assign(count, 0.0);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Row& row = rows_[order_[i]];
+        const double impulse = impulses_[order_[i]] = x_[i] * row.scale;
+        for (std::size_t side = 0; side < 2 && row.slots[side] != kNone; ++side) {
+            const std::size_t offset = offsets_[row.slots[side]],
+                              size = offsets_[row.slots[side] + 1] - offset;
+            for (std::size_t k = 0; k < size; ++k) change_[offset + k] += impulse * y_[row.y[side] + k];
+        }
     }
 }
 
