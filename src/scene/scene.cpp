@@ -11,7 +11,7 @@
 namespace roboss {
 namespace {
 
-const Vec3 kGround{0.62, 0.64, 0.66};
+const Vec3 kGround{0.50, 0.53, 0.57};  // darker than a body without material that stands on it
 const Vec3 kScenery{0.55, 0.60, 0.68};
 
 /// A pleasant colour for what has none, the same for the same name.
@@ -111,7 +111,9 @@ class SceneMaker {
         if (!shape) return;
         shape->name = name;
         shape->frame = X_FL * visual.X_LV;
-        shape->rgb = visual.rgb;
+        const bool plain_ground =
+            visual.geometry.kind == GeometryKind::kPlane && visual.rgb == VisualSpec{}.rgb;
+        shape->rgb = plain_ground ? kGround : visual.rgb;
         shape->alpha = visual.alpha;
         shape->finish = shapes_.finish_of(visual.finish);
         shapes.push_back(std::move(*shape));

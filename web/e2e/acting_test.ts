@@ -157,6 +157,37 @@ bench.test("a belt shows marks that go as fast as it does, and none when it stan
     await until("no marks", async () => (await marks(page)) === null);
 });
 
+/** The middle of the marked shape, in the world. */
+function marksMiddle(page: Page): Promise<number[] | null> {
+    return page.evaluate(() => {
+        let middle: number[] | null = null;
+        window.roboss.stage.overlays.traverse((object: Object3D) => {
+            const { uniforms } = ((object as Mesh).material ?? {}) as ShaderMaterial;
+            if (uniforms?.["belt"] === undefined) return;
+            const { geometry, matrix } = object as Mesh;
+            geometry.computeBoundingBox();
+            const { min, max } = geometry.boundingBox!;
+            middle = min.clone().add(max).multiplyScalar(0.5).applyMatrix4(matrix).toArray();
+        });
+        return middle;
+    });
+}
+
+bench.test("a page that is opened while a belt runs draws the marks on it", async (page) => {
+    await selected(page, "belt");
+    await page.getByLabel("velocity of track_cmd_vel", { exact: true }).fill("0.2");
+    await page.getByRole("button", { name: "Send track_cmd_vel" }).click();
+    await until("marks", async () => (await marksMiddle(page)) !== null);
+    await page.reload();
+    await page.waitForSelector("body[data-ready=true]");
+    await until("marks again", async () => (await marksMiddle(page)) !== null);
+    const middle = (await marksMiddle(page))!;
+    assert.ok(Math.hypot(middle[0], middle[1], middle[2] - 0.15) < 1e-3, `the marks are at ${middle}`);
+    await selected(page, "belt");
+    await command(page, "track_cmd_vel").getByRole("button", { name: "Zero" }).click();
+    await until("no marks", async () => (await marksMiddle(page)) === null);
+});
+
 const bonds = (page: Page) => page.evaluate(() => window.roboss.state.extras.value?.bonds.length ?? 0);
 
 bench.test("a robot takes hold of another that is chosen in the list, carries it, and lets go", async (page) => {

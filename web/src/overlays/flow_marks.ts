@@ -36,6 +36,8 @@ export class FlowMarks {
     private readonly group = new THREE.Group();
     private readonly surfaces = new Map<string, Surface>();
     private shown: World | null = null;
+    /** What robots say of their surfaces is still to be taken: it needs to know where the robots are. */
+    private stale = false;
     private time = 0;
 
     constructor(
@@ -44,7 +46,7 @@ export class FlowMarks {
     ) {
         stage.overlays.add(this.group);
         state.world.follow((world) => this.begin(world));
-        state.extras.follow(() => this.take());
+        state.extras.follow(() => (this.stale = true));
     }
 
     /** Some surface moves. */
@@ -64,7 +66,7 @@ export class FlowMarks {
             } as SurfaceMotion;
             this.put(`scenery ${k}`, null, motion, () => [flow.shape], flow.at);
         });
-        this.take();
+        this.stale = true;
     }
 
     /** What robots say of their surfaces has changed. */
@@ -124,6 +126,10 @@ export class FlowMarks {
         const passed = this.state.drawnTime.value - this.time,
             seconds = Math.abs(passed) < JUMP_S ? passed : 0;
         this.time = this.state.drawnTime.value;
+        if (this.stale && world !== null && world === this.shown && world.history.latest !== null) {
+            this.stale = false;
+            this.take();
+        }
         this.group.visible = world !== null && world === this.shown && this.any;
         if (world === null || !this.group.visible) return;
         for (const { of, marked } of this.surfaces.values()) {
