@@ -1,7 +1,7 @@
 // The roboss command: one subcommand per file.
 #include <CLI/CLI.hpp>
 #include <csignal>
-#include <cstdio>
+#include <optional>
 
 #include "app/commands/check_command.h"
 #include "app/commands/client_command.h"
@@ -12,6 +12,7 @@
 #include "app/commands/run_command.h"
 #include "app/commands/save_command.h"
 #include "app/commands/simulator_command.h"
+#include "app/commands/usage.h"
 #include "app/commands/view_command.h"
 #include "app/viewer/snapshot.h"
 
@@ -21,6 +22,7 @@ int main(int argc, char** argv) {
         "machines.\n"
         "To start:  roboss check WORLD   then   roboss run WORLD --duration 10"};
     app.require_subcommand(1);
+    app.set_version_flag("--version", "roboss " ROBOSS_VERSION, "print the version");
     app.set_help_all_flag("--help-all", "print the help of all subcommands");
     std::signal(SIGXFSZ,
                 SIG_IGN);  // a file at its size limit gives its writer an error instead of ending the run
@@ -38,10 +40,6 @@ int main(int argc, char** argv) {
     roboss::add_save_command(app, exit_code);
     roboss::add_journal_command(app, exit_code);
     roboss::add_diff_command(app, exit_code);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 2;
-    }
+    if (const std::optional<int> ended = roboss::read_command_line(app, argc, argv)) return *ended;
     return exit_code;
 }

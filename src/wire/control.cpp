@@ -23,9 +23,9 @@ const char* rule(const StepRun& step) {
 }
 const char* rule(const SetSpeed& speed) {
     if (speed.kind > SetSpeed::Kind::kWorld) return "its kind of speed is unknown";
-    return speed.kind != SetSpeed::Kind::kFactor || (std::isfinite(speed.factor) && speed.factor > 0)
+    return speed.kind != SetSpeed::Kind::kFactor || (speed.factor >= kSlowest && speed.factor <= kFastest)
                ? nullptr
-               : "a speed is greater than 0";
+               : "a speed is from 0.001 to 1000000";
 }
 const char* rule(const SetWindow& window) {
     return window.ticks >= 0 && window.ticks <= kLongestWindow ? nullptr : "a window has 1 to 1000000 ticks";

@@ -50,6 +50,8 @@ struct StepRun {
     /// Compares all members.
     friend bool operator==(const StepRun&, const StepRun&) = default;
 };
+/// The slowest and the fastest speed that can be wanted, simulated seconds per real second.
+inline constexpr double kSlowest = 1e-3, kFastest = 1e6;
 /// Sets the wanted speed.
 struct SetSpeed {
     /// How the speed is given.
@@ -59,7 +61,7 @@ struct SetSpeed {
         kWorld,   ///< as the world file says
     };
     Kind kind = Kind::kFactor;  ///< which of them
-    double factor = 1;          // simulated seconds per real second, > 0; of kFactor
+    double factor = 1;          ///< simulated seconds per real second, kSlowest to kFastest; of kFactor
     /// Compares all members.
     friend bool operator==(const SetSpeed&, const SetSpeed&) = default;
 };

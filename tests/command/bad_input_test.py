@@ -46,7 +46,23 @@ class BadInput(RobossTest):
         self.refused(["run"], 2, "world")
         self.refused(["run", PILE, "--speed", "fast"], 2, "--speed")
         self.refused(["run", PILE, "--no-such-option"], 2, "--no-such-option")
-        self.refused(["fly"], 2)
+        self.refused(["fly"], 2, "'fly'")
+        self.refused(["rn"], 2, "did you mean 'run'?")
+        self.refused(["run", PILE, "--durration", "1"], 2, "'--durration'", "did you mean '--duration'?")
+        self.refused(["control", "pasue"], 2, "did you mean 'pause'?")
+        self.refused(["run", PILE, "--duration", "abc"], 2, "--duration: 'abc' is not a number")
+        self.refused(["run", PILE, "--duration=-1"], 2, "--duration: '-1' is not 0 or above")
+        self.refused(["run", PILE, "--threads", "1.5"], 2, "--threads: '1.5' is not a whole number")
+        self.refused(["run", PILE, "--speed", "1e-9"], 2, "--speed: '1e-9' is not from 0.001")
+
+    def test_a_picture_of_what_is_not_there(self):
+        picture = ["snapshot", PILE, "-o", FOLDER / "none.png"]
+        self.refused([*picture, "--camera", "nowhere"], 2, "--camera: 'nowhere'")
+        self.refused([*picture, "--camera", "1,2,3,4,5,0"], 2, "distance")
+        self.refused([*picture, "--show", "rays,nothing"], 2, "--show: 'nothing'")
+        self.refused([*picture, "--select", "amr"], 1, "[no-robot]", "did you mean 'arm'?")
+        self.refused([*picture, "--camera", "follow:amr"], 1, "[no-robot]", "did you mean 'arm'?")
+        self.assertFalse((FOLDER / "none.png").exists())
 
     def test_an_order_to_an_unknown_robot_stops_before_the_start(self):
         orders = written("orders.jsonl", '{"t":0,"robot":"arm","joint":{"name":"shoulder","effort":1}}\n{"t":0,"robot":"nobody","joint":{}}\n')

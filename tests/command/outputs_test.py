@@ -30,6 +30,16 @@ class Outputs(unittest.TestCase):
         self.assertAlmostEqual(row["z"], 3.08 - 0.5 * 9.8 * 0.01, delta=2e-3, msg="0.1 s of free fall from 3 m (chassis .08 higher)")
         self.assertAlmostEqual(row["wz"], 2.0, delta=1e-3)
 
+    def test_a_table_on_standard_output_is_all_that_is_there(self):
+        for option, first in (("--trace", HEADER), ("--json", "{"), ("--contacts", "time_s,robot_a,")):
+            with self.subTest(option=option):
+                done = roboss("run", WORLDS / "pile.sdf", "--duration", 0.004, "--headless", "--quiet", option, "-")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertTrue(done.stdout.startswith(first), done.stdout[:200])
+                self.assertIn("state hash", done.stderr)
+                self.assertNotIn("state hash", done.stdout)
+        self.assertEqual(json.loads(roboss("run", WORLDS / "pile.sdf", "--duration", 0.004, "--headless", "--json", "-").stdout)["ticks"], 2)
+
     def test_the_contacts_bear_the_weight_of_what_rests(self):
         world, file = FOLDER / "rest.sdf", FOLDER / "contacts.csv"
         world.write_text("""<sdf version="1.9"><world name="w"><gravity>0 0 -10</gravity>
@@ -129,6 +139,15 @@ class Outputs(unittest.TestCase):
         self.assertEqual(run.returncode, 130)
         self.assertRegex(output, "[0-9a-f]{16}", "the summary with its hashes")
         self.assertGreater(summary(WORLDS / "pile.sdf", "--from", saved, "--duration", 0)["sim_time_s"], 0.1)
+
+    def test_a_closed_terminal_ends_a_run_with_its_state(self):
+        saved = FOLDER / "hung_up.roboss"
+        run = subprocess.Popen([ROBOSS, "run", str(WORLDS / "pile.sdf"), "--headless", "--quiet", "--speed", "1", "--save", str(saved)],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        time.sleep(1)
+        run.send_signal(signal.SIGHUP)
+        self.assertEqual(run.wait(30), 130)
+        self.assertTrue(saved.exists())
 
     def test_speed_follows_the_clock(self):
         data = summary(WORLDS / "crossroads.sdf", "--duration", 1.0, "--speed", 2)

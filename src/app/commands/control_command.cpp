@@ -10,6 +10,7 @@
 
 #include "app/commands/add_copies.h"
 #include "app/commands/exit_codes.h"
+#include "app/commands/numbers.h"
 #include "app/processes/interrupt.h"
 #include "app/run/run.h"
 #include "client/control_text.h"
@@ -118,7 +119,7 @@ void add_changes(CLI::App& command, ControlCommandOptions& o, const Ask& ask, in
     sub->add_option("--name", o.name, "name in the world (default: the name in the file)");
     CLI::Option* count =
         sub->add_option("--count", o.copies.count, "add so many copies at once, NAME_0, NAME_1 ...")
-            ->check(CLI::Range(1, 1'000'000));
+            ->check(whole_number(1, 1'000'000));
     sub->add_option("--grid", o.copies.grid,
                     "\"DX DY [COLUMNS]\": distances of the copies, m (default: 1 m, a square)")
         ->needs(count);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/exit_codes.h"
+#include "app/commands/numbers.h"
 #include "app/run/journal_location.h"
 #include "app/run/run.h"
 #include "core/hash.h"
@@ -119,7 +120,7 @@ void add_diff_command(CLI::App& app, int& exit_code) {
     command->add_option("a", o->a, "a journal: FILE or FILE#BRANCH")->required();
     command->add_option("b", o->b, "another journal: FILE or FILE#BRANCH")->required();
     command->add_option("--threads", o->threads, "number of threads")
-        ->check(CLI::Range(1, 1024))
+        ->check(whole_number(1, 1024))
         ->capture_default_str();
     command->add_flag("--json", o->json, "print one JSON object");
     command->callback([o, &exit_code] { exit_code = diff(*o); });

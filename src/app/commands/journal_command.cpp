@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/exit_codes.h"
+#include "app/commands/numbers.h"
 #include "app/run/journal_location.h"
 #include "app/run/run.h"
 #include "app/worlds/orders_file.h"
@@ -200,7 +201,7 @@ void add_journal_command(CLI::App& app, int& exit_code) {
     CLI::App* sub = add("verify", "replay every stretch between two checkpoints and compare hashes", verify);
     sub->add_flag("--json", o->json, "print one JSON object");
     sub->add_option("--threads", o->threads, "number of threads")
-        ->check(CLI::Range(1, 1024))
+        ->check(whole_number(1, 1024))
         ->capture_default_str();
     add("export",
         "print a branch as JSON lines: checkpoints, Clients, notes, orders (from TIME on, if given)",

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "app/commands/exit_codes.h"
+#include "app/commands/numbers.h"
 #include "app/processes/interrupt.h"
 #include "app/processes/local_process.h"
 #include "app/processes/member.h"
@@ -103,13 +104,13 @@ void add_simulator_command(CLI::App& app, int& exit_code) {
             "--threads", options->threads,
             "threads; the result is the same (default: one per core of this computer; if several Simulators "
             "share the computer, give each its share)")
-        ->check(CLI::Range(1, 1024));
+        ->check(whole_number(1, 1024));
     command
         ->add_option("--lanes", options->lanes,
                      "SIMD lanes: largest number of robots of a type stepped together: 1, 4 (AVX2) or 8 "
                      "(AVX-512), with "
                      "floats 1, 8 or 16; the result is the same")
-        ->check(CLI::Range(std::size_t{1}, kMostLanes))
+        ->check(whole_number(1, kMostLanes))
         ->capture_default_str();
     command->add_flag("--stay", options->stay, "wait for the next run when one ends");
     add_member_options(*command, options->member);

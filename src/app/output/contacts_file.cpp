@@ -15,7 +15,7 @@ const char* link_name(const Model& model, RobotId robot, LinkId link) {
 Result<ContactsFile> ContactsFile::create(const std::string& path) {
     ContactsFile contacts;
     contacts.path_ = path;
-    contacts.file_.reset(std::fopen(path.c_str(), "w"));
+    contacts.file_ = open_output(path);
     if (!contacts.file_) return cannot_write(path);
     std::fputs("time_s,robot_a,link_a,robot_b,link_b,x,y,z,nx,ny,nz,gap,impulse,fx,fy,fz\n",
                contacts.file_.get());

@@ -1,11 +1,10 @@
 // --contacts: who touches whom where and how hard, as CSV with all digits.
 #pragma once
 
-#include <cstdio>
-#include <memory>
 #include <span>
 #include <string>
 
+#include "app/output/output_file.h"
 #include "core/result.h"
 #include "physics/step.h"
 
@@ -13,6 +12,7 @@ namespace roboss {
 
 class ContactsFile {
   public:
+    /// "-" is standard output.
     static Result<ContactsFile> create(const std::string& path);
 
     /// One line a contact point:
@@ -23,10 +23,7 @@ class ContactsFile {
     Result<> close();
 
   private:
-    struct Closer {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-    std::unique_ptr<std::FILE, Closer> file_;
+    OutputFile file_;
     std::string path_;
 };
 

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "app/output/cannot_write.h"
+#include "app/output/output_file.h"
 #include "core/hash.h"
 
 namespace roboss {
@@ -40,6 +40,7 @@ std::string to_json(const Summary& s) {
     o["dt_s"] = s.dt_s;
     o["sim_time_s"] = s.sim_time_s;
     o["wall_time_s"] = s.wall_time_s;
+    o["paused_time_s"] = s.paused_time_s;
     o["real_time_factor"] = s.real_time_factor;
     o["step_cpu_s"] = s.step_cpu_s;
     o["windows"] = s.windows;
@@ -66,7 +67,7 @@ std::string to_text(const Summary& s) {
         "world             {}\n"
         "robots            {}\n"
         "simulated         {:.3f} s ({} steps of {:g} ms), world time now {:.3f} s\n"
-        "wall time         {:.2f} s, {:.1f} x real time\n"
+        "wall time         {:.2f} s, {}{:.1f} x real time\n"
         "stepping          {:.2f} s of CPU, {:.2f} us per robot and step\n"
         "windows           {} ({} repeated), {:.1f} islands on average\n"
         "contacts          {:.1f} points per step, {:.4f} of them with static models\n"
@@ -74,6 +75,7 @@ std::string to_text(const Summary& s) {
         "model hash        {}\n"
         "state hash        {}\n",
         s.world, s.robots, ticks * s.dt_s, s.ticks, s.dt_s * 1e3, s.sim_time_s, s.wall_time_s,
+        s.paused_time_s > 0.005 ? fmt::format("paused for {:.2f} s of them, ", s.paused_time_s) : "",
         s.real_time_factor, s.step_cpu_s, robot_ticks > 0 ? s.step_cpu_s * 1e6 / robot_ticks : 0.0, s.windows,
         s.windows_repeated, s.islands_mean, s.contacts_mean, s.building_contacts_mean, s.simulators, s.losses,
         s.migrations, to_hex(s.model_hash), to_hex(s.state_hash));
@@ -82,10 +84,10 @@ std::string to_text(const Summary& s) {
 }
 
 Result<> write_json(const Summary& summary, const std::string& file) {
-    std::ofstream out(file);
-    out << to_json(summary);
-    out.close();
-    if (!out) return cannot_write(file, "the summary to ");
+    const std::string text = to_json(summary);
+    OutputFile out = open_output(file);
+    const bool written = out && std::fwrite(text.data(), 1, text.size(), out.get()) == text.size();
+    if (!out || std::fclose(out.release()) != 0 || !written) return cannot_write(file, "the summary to ");
     return Ok{};
 }
 

@@ -18,8 +18,9 @@ struct Summary {
     double dt_s = 0;
     double sim_time_s = 0;  // world time at the end
     double wall_time_s = 0;
-    double real_time_factor = 0;
-    double step_cpu_s = 0;  // thread CPU time of stepping alone
+    double paused_time_s = 0;     // of wall_time_s: paused, or serving a picture
+    double real_time_factor = 0;  // while it ran
+    double step_cpu_s = 0;        // thread CPU time of stepping alone
     std::uint64_t windows = 0, windows_repeated = 0;
     double islands_mean = 0;            // per window
     double contacts_mean = 0;           // contact points per tick
@@ -34,6 +35,7 @@ struct Summary {
 
 std::string to_json(const Summary& summary);
 std::string to_text(const Summary& summary);
+/// "-" is standard output.
 Result<> write_json(const Summary& summary, const std::string& file);
 
 }  // namespace roboss

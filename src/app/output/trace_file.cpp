@@ -9,7 +9,7 @@ namespace roboss {
 Result<TraceFile> TraceFile::create(const std::string& path) {
     TraceFile trace;
     trace.path_ = path;
-    trace.file_.reset(std::fopen(path.c_str(), "w"));
+    trace.file_ = open_output(path);
     if (!trace.file_) return cannot_write(path);
     std::fputs("time_s,robot,link,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n", trace.file_.get());
     return trace;

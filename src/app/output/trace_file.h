@@ -2,11 +2,10 @@
 // them.
 #pragma once
 
-#include <cstdio>
-#include <memory>
 #include <span>
 #include <string>
 
+#include "app/output/output_file.h"
 #include "core/result.h"
 #include "model/model.h"
 #include "model/robot_state.h"
@@ -15,6 +14,7 @@ namespace roboss {
 
 class TraceFile {
   public:
+    /// "-" is standard output.
     static Result<TraceFile> create(const std::string& path);
 
     /// One line a link: time_s,robot,link,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz (world frame, link origin).
@@ -22,10 +22,7 @@ class TraceFile {
     Result<> close();
 
   private:
-    struct Closer {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-    std::unique_ptr<std::FILE, Closer> file_;
+    OutputFile file_;
     std::string path_;
 };
 

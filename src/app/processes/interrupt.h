@@ -1,4 +1,5 @@
-// Ctrl-C and SIGTERM: the first one requests an orderly end, the second one ends the process immediately.
+// Ctrl-C, SIGTERM and SIGHUP: the first one requests an orderly end, the second one ends the process
+// immediately.
 #pragma once
 
 namespace roboss {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <random>
 
+#include "app/commands/numbers.h"
 #include "app/processes/interrupt.h"
 #include "app/processes/network_options.h"
 
@@ -26,7 +27,7 @@ void add_member_options(CLI::App& command, MemberOptions& o) {
     command
         .add_option("--patience", o.patience_s,
                     "give up after this long without a Controller, s (default: wait without limit)")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number());
     command.add_flag("--quiet", o.quiet, "print errors only");
 }
 

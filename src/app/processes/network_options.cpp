@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "app/commands/numbers.h"
+
 namespace roboss {
 
 void add_network_options(CLI::App& command, DdsOptions& o) {
@@ -17,7 +19,7 @@ void add_network_options(CLI::App& command, DdsOptions& o) {
                            "network interface, by name or IPv4 address; the default reaches processes of "
                            "this computer only"),
         "ROBOSS_INTERFACE");
-    add(command.add_option("--domain", o.domain, "DDS domain")->check(CLI::Range(0, 232)), "ROBOSS_DOMAIN");
+    add(command.add_option("--domain", o.domain, "DDS domain")->check(whole_number(0, 232)), "ROBOSS_DOMAIN");
     add(command
             .add_option(
                 "--peer", o.peers,
@@ -31,7 +33,7 @@ void add_network_options(CLI::App& command, DdsOptions& o) {
     add(command
             .add_option("--peer-range", o.peer_range,
                         "largest number of members on a --peer given without a port")
-            ->check(CLI::Range(1, 120)),
+            ->check(whole_number(1, 120)),
         "ROBOSS_PEER_RANGE");
     add(command.add_option("--discovery-server", o.discovery_server,
                            "HOST:PORT of a Fast DDS discovery server (fastdds discovery -i 0), instead of "
@@ -40,7 +42,7 @@ void add_network_options(CLI::App& command, DdsOptions& o) {
     add(command
             .add_option("--liveliness-ms", o.liveliness_ms,
                         "silence after which a process counts as lost; use the same value for all members")
-            ->check(CLI::Range(20, 60'000)),
+            ->check(whole_number(20, 60'000)),
         "ROBOSS_LIVELINESS_MS");
     add(command.add_flag("--through-controller", o.through_controller,
                          "send messages to other members through the Controller, for networks on which "

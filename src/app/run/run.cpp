@@ -66,6 +66,7 @@ bool Run::prepare() {
     if (model_ && !o_.orders.empty()) orders_ = load_orders(o_.orders, *model_, diagnostics);
     print(diagnostics, o_.world);
     if (!model_ || refused()) return false;
+    if (Result<> found = check_snapshot(o_.snapshot, *model_); !found) return print(found.error()), false;
     world_model_ = model_;
     if (is_shown()) visuals_.begin(*model_, std::move(*world));
     Result<std::unique_ptr<RunJournal>> journal = RunJournal::open(o_, *model_);
@@ -233,6 +234,11 @@ bool Run::begin() {
     return begun.ok();
 }
 
+/// A table or the summary as JSON: what is for people goes to standard error then.
+bool Run::writes_to_standard_output() const {
+    return o_.json == kStandardOutput || o_.trace == kStandardOutput || o_.contacts == kStandardOutput;
+}
+
 Summary Run::summary(double wall_s) const {
     const Counters& c = simulation_->counters();
     const double ticks = std::max(1.0, static_cast<double>(c.ticks));
@@ -243,7 +249,9 @@ Summary Run::summary(double wall_s) const {
     s.dt_s = model_->dt_s;
     s.sim_time_s = simulation_->time_s();
     s.wall_time_s = wall_s;
-    s.real_time_factor = wall_s > 0 ? static_cast<double>(s.ticks) * s.dt_s / wall_s : 0.0;
+    s.paused_time_s = std::min(wall_s, std::chrono::duration<double>(rested_).count());
+    const double running_s = wall_s - s.paused_time_s;
+    s.real_time_factor = running_s > 0 ? static_cast<double>(s.ticks) * s.dt_s / running_s : 0.0;
     s.step_cpu_s = c.step_cpu_s;
     s.windows = c.windows;
     s.windows_repeated = c.windows_repeated;
@@ -284,7 +292,7 @@ int Run::finish(bool fine, double wall_s) {
     }
     simulation_->dismiss(fine ? "the run has ended" : "the run has failed");
     members_->await_exit(abandoned_);
-    fmt::print("{}", to_text(s));
+    fmt::print(writes_to_standard_output() ? stderr : stdout, "{}", to_text(s));
     if (abandoned_) return kProcessesFailed;
     if (!fine || !written) return kRunFailed;
     return interrupted() ? kInterrupted : kSuccess;

@@ -55,6 +55,7 @@ class Run {
     bool open_gateway();
     /// Here, or by `roboss view` elsewhere.
     bool is_shown() const { return !o_.viewer.headless || o_.is_controller; }
+    bool writes_to_standard_output() const;
     Summary summary(double wall_s) const;
     int finish(bool fine, double wall_s);
 
@@ -127,6 +128,7 @@ class Run {
             begin(tick);
         }
     } pace_;
+    Clock::duration rested_{};  // wall time in which the run was paused
     TrafficMeter traffic_;
     StageTimes stage_times_;          // of the steps in this process
     std::vector<ControlCall> calls_;  // requests to be served

@@ -55,10 +55,12 @@ bool Run::advance_to(Tick target) {
 
 /// One turn of a paused run; false if it cannot continue.
 bool Run::rest() {
+    const Clock::time_point began = Clock::now();
     simulation_->serve();
     if (!members_->reaches_others()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     show_progress();
     const Result<> looked_after = members_->look_after(*simulation_);
+    rested_ += Clock::now() - began;
     if (!looked_after) return abandoned_ = true, print(looked_after.error()), false;
     return true;
 }

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 
+#include "app/commands/numbers.h"
 #include "app/processes/network_options.h"
 #include "model/accuracy.h"
+#include "wire/control.h"
 
 namespace roboss {
 namespace {
@@ -57,23 +59,6 @@ const char* const kExitCodes =
 not be written), 4 processes of --processes ended at the start or did not join (later losses are recovered from),
 130 interrupted by Ctrl-C (the summary is printed).)";
 
-/// Accepts a positive number or one of the given keywords.
-CLI::Validator number_or(const std::vector<std::string>& words) {
-    std::string known;
-    for (const std::string& word : words) known += (known.empty() ? "" : "|") + word;
-    return CLI::Validator(
-        [words, known](std::string& text) -> std::string {
-            if (std::find(words.begin(), words.end(), text) != words.end()) return {};
-            try {
-                std::size_t used = 0;
-                if (std::stod(text, &used) > 0 && used == text.size()) return {};
-            } catch (const std::exception&) {
-            }
-            return "'" + text + "' is neither a positive number nor '" + known + "'";
-        },
-        "NUMBER|" + known);
-}
-
 /// --accuracy and one option for each number, --newton-max for newton_max; on the command line as in the file
 /// the numbers count after the setting.
 void add_accuracy_options(CLI::App& command, AccuracySpec& spec) {
@@ -101,15 +86,15 @@ void add_accuracy_options(CLI::App& command, AccuracySpec& spec) {
 /// How far and how fast.
 void add_pace_options(CLI::App& command, RunOptions& o) {
     command.add_option("--duration", o.duration_s, "simulated time to run, s (default: until Ctrl-C)")
-        ->check(CLI::NonNegativeNumber);
+        ->check(non_negative_number());
     command
         .add_option("--until", o.until_s,
                     "world time at which the run ends, s; also the end of a resumed run")
-        ->check(CLI::NonNegativeNumber);
+        ->check(non_negative_number());
     command
         .add_option("--speed", o.speed,
                     "simulated seconds per real second, max, or world (the world's real_time_factor)")
-        ->check(number_or({"max", "world"}))
+        ->check(number_or({"max", "world"}, kSlowest, kFastest))
         ->capture_default_str();
     command.add_flag("--paused", o.paused, "start paused; `roboss control resume` starts it");
     command
@@ -117,36 +102,42 @@ void add_pace_options(CLI::App& command, RunOptions& o) {
             "--threads", o.threads,
             "threads per Simulator; the result is the same (default: one per core of this computer; with "
             "--processes an equal share, at least 1)")
-        ->check(CLI::Range(1, 1024));
+        ->check(whole_number(1, 1024));
     command
         .add_option("--lanes", o.lanes,
                     "SIMD lanes: largest number of robots of a type stepped together: 1, 4 (AVX2) or 8 "
                     "(AVX-512), with "
                     "floats 1, 8 or 16; the result is the same")
-        ->check(CLI::Range(std::size_t{1}, kMostLanes))
+        ->check(whole_number(1, kMostLanes))
         ->capture_default_str();
     command.add_option("--window", o.window, "synchronization interval in ticks, or auto")
-        ->check(number_or({"auto"}))
+        ->check(number_or({"auto"}, 1, 1e6))
         ->capture_default_str();
 }
 
 /// Output files, log and viewer.
 void add_watch_options(CLI::App& command, RunOptions& o, ViewerDefault viewer) {
-    command.add_option("--trace", o.trace, "write poses and velocities of all links to this CSV file");
+    command.add_option("--trace", o.trace,
+                       "write poses and velocities of all links to this CSV file (-: standard output)");
     command
         .add_option("--trace-every", o.trace_every_s,
                     "simulated time between two samples of the trace, s (default: every step)")
-        ->check(CLI::PositiveNumber);
-    command.add_option("--contacts", o.contacts,
-                       "write all contacts with bodies, point, normal and forces to this CSV file");
+        ->check(positive_number());
+    command.add_option(
+        "--contacts", o.contacts,
+        "write all contacts with bodies, point, normal and forces to this CSV file (-: standard "
+        "output; columns: docs/physics.md)");
     command
         .add_option("--contacts-every", o.contacts_every_s,
                     "simulated time between two samples of the contacts, s (default: every step)")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number());
     command
         .add_option("--hash-every", o.hash_every_s, "simulated time between two prints of the state hash, s")
-        ->check(CLI::PositiveNumber);
-    command.add_option("--json", o.json, "write the summary as JSON to this file");
+        ->check(positive_number());
+    command.add_option(
+        "--json", o.json,
+        "write the summary as JSON to this file (-: standard output; the text then goes to standard "
+        "error)");
     command.add_flag("--stage-times", o.stage_times,
                      "measure how long each stage of the steps takes; the summary has a table of it (of the "
                      "Simulators in this process; docs/performance.md)");
@@ -157,7 +148,7 @@ void add_watch_options(CLI::App& command, RunOptions& o, ViewerDefault viewer) {
             "the run: window, repeated windows, efficiency, robots and load of each Simulator")
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     command.add_option("--log-every", o.log_every_s, "real time between two such state lines, s")
-        ->check(CLI::PositiveNumber)
+        ->check(positive_number())
         ->capture_default_str();
     command.add_option("--picture", o.paths_picture, "draw the paths of the robots into this SVG file");
     add_viewer_options(command, o.viewer, viewer);
@@ -179,7 +170,7 @@ void add_kept_options(CLI::App& command, RunOptions& o) {
         .add_option(
             "--journal-every", o.journal_every_s,
             "simulated time between two checkpoints of the journal, s; rewinding repeats at most this much")
-        ->check(CLI::PositiveNumber)
+        ->check(positive_number())
         ->capture_default_str();
 }
 
@@ -191,7 +182,7 @@ void add_common_options(CLI::App& command, RunOptions& o) {
                      "refuse a world with any error (default: a model with errors is left out and reported, "
                      "and the rest runs)");
     command.add_option("--dt", o.dt_s, "time step, s (default: the world's max_step_size)")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_number());
     command.add_option(
         "--profile", o.profile,
         "name of the world's <physics> to use (default: the one with default=\"true\", else the "
@@ -232,14 +223,14 @@ void add_run_options(CLI::App& command, RunOptions& o) {
         command
             .add_option("--simulators", o.simulators,
                         "number of Simulators among which the robots are divided, all in this process")
-            ->check(CLI::Range(1, 1024))
+            ->check(whole_number(1, 1024))
             ->capture_default_str();
     command
         .add_option(
             "--processes", o.processes,
             "number of Simulators, each as a separate process on this computer; if one fails, the end of "
             "its output is printed")
-        ->check(CLI::Range(1, 100))
+        ->check(whole_number(1, 100))
         ->excludes(simulators)
         ->excludes("--stage-times");
 }
@@ -252,7 +243,7 @@ void add_replay_options(CLI::App& command, RunOptions& o) {
     command
         .add_option("--simulators", o.simulators,
                     "number of Simulators among which the robots are divided, all in this process")
-        ->check(CLI::Range(1, 1024))
+        ->check(whole_number(1, 1024))
         ->capture_default_str();
 }
 
@@ -264,14 +255,14 @@ void add_controller_options(CLI::App& command, RunOptions& o) {
         .add_option(
             "--simulators", o.simulators,
             "the run starts when this many `roboss simulator` have joined; others may join at any time")
-        ->check(CLI::Range(0, 1024))
+        ->check(whole_number(0, 1024))
         ->capture_default_str();
     command
         .add_option(
             "--local", o.local,
             "Simulators inside this process; with --simulators 0 the run needs no other process, and can "
             "still be controlled and joined")
-        ->check(CLI::Range(0, 1024))
+        ->check(whole_number(0, 1024))
         ->capture_default_str();
     command.add_option(
         "--await-client", o.clients_awaited,

@@ -3,11 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <chrono>
 #include <fstream>
 #include <memory>
+#include <optional>
+#include <sstream>
 
+#include "app/commands/numbers.h"
+#include "app/commands/usage.h"
 #include "app/run/run.h"
 #include "app/viewer/headless_browser.h"
 
@@ -49,6 +54,43 @@ std::string address(const SnapshotOptions& options, const std::string& url) {
     return result + (panels ? "" : "&hide=panels");
 }
 
+std::vector<std::string> words_of(const std::string& text) {
+    std::vector<std::string> words;
+    std::stringstream in(text);
+    for (std::string word; std::getline(in, word, ',');) words.push_back(word);
+    return words;
+}
+
+/// "follow:car_7" and the like: where the name of the robot begins; npos: the camera follows none.
+std::size_t followed_at(const std::string& camera) {
+    for (const std::string mode : {"follow:", "chase:"})
+        if (camera.starts_with(mode)) return mode.size();
+    return std::string::npos;
+}
+
+std::string fault_of_camera(const std::string& camera) {
+    if (camera == "top" || followed_at(camera) != std::string::npos) return {};
+    std::vector<double> numbers;
+    for (const std::string& word : words_of(camera))
+        if (const std::optional<double> number = read_number(word)) numbers.push_back(*number);
+    if (numbers.size() != 6 || words_of(camera).size() != 6)
+        return "'" + camera +
+               "' is no camera: give x,y,z,azimuth,elevation,distance, or top, follow:ROBOT or chase:ROBOT";
+    return numbers[5] > 0 ? std::string() : "the distance of '" + camera + "' is not above 0";
+}
+
+/// Every word of a list with commas is one of these.
+CLI::Validator list_of(const std::vector<std::string>& known) {
+    return CLI::Validator(
+        [known](std::string& text) -> std::string {
+            for (const std::string& word : words_of(text))
+                if (std::ranges::find(known, word) == known.end())
+                    return fmt::format("'{}' is not one of {}", word, fmt::join(known, ", "));
+            return {};
+        },
+        "LIST");
+}
+
 Result<> write_file(const std::string& file, const std::string& bytes) {
     std::ofstream out(file, std::ios::binary);
     if (out << bytes && out.flush()) return Ok{};
@@ -62,7 +104,7 @@ void add_snapshot_options(CLI::App& command, SnapshotOptions& o) {
     const std::string group = "Picture";
     command.add_option("-o,--output", o.file, "PNG file")->required()->group(group);
     const auto parameter = [&](const char* key, const char* what) {
-        command
+        return command
             .add_option_function<std::string>(
                 std::string("--") + key,
                 [&o, key](const std::string& value) { o.parameters.emplace_back(key, value); }, what)
@@ -70,20 +112,41 @@ void add_snapshot_options(CLI::App& command, SnapshotOptions& o) {
     };
     parameter("camera",
               "x,y,z,azimuth,elevation,distance (point to look at, m; degrees; m), top, follow:ROBOT or "
-              "chase:ROBOT");
+              "chase:ROBOT")
+        ->check(CLI::Validator([](std::string& text) { return fault_of_camera(text); }, "CAMERA"));
     parameter("select", "name of the robot to select");
-    parameter("colour", "colour robots by model, simulator, island or speed");
-    parameter("show", "layers to draw: rays,tracks,compass,contacts,bounds,spheres,islands,names,collisions");
-    parameter("theme", "theme of the page: light or dark");
-    parameter("panel", "show the panels, with this one open: inspector, cluster or view");
+    parameter("colour", "colour robots by model, simulator, island or speed")
+        ->check(list_of({"model", "simulator", "island", "speed"}));
+    parameter("show", "layers to draw: rays,tracks,compass,contacts,bounds,spheres,islands,names,collisions")
+        ->check(list_of({"rays", "tracks", "compass", "contacts", "bounds", "spheres", "islands", "names",
+                         "collisions"}));
+    parameter("theme", "theme of the page: light or dark")->check(list_of({"light", "dark"}));
+    parameter("panel", "show the panels, with this one open: inspector, cluster or view")
+        ->check(list_of({"inspector", "cluster", "view"}));
     command.add_option("--width", o.width, "width of the picture, pixels")
-        ->check(CLI::Range(64, 7680))
+        ->check(whole_number(64, 7680))
         ->capture_default_str()
         ->group(group);
     command.add_option("--height", o.height, "height of the picture, pixels")
-        ->check(CLI::Range(64, 4320))
+        ->check(whole_number(64, 4320))
         ->capture_default_str()
         ->group(group);
+}
+
+Result<> check_snapshot(const SnapshotOptions& options, const Model& model) {
+    for (const auto& [key, value] : options.parameters) {
+        const std::size_t at = key == "camera" ? followed_at(value) : key == "select" ? 0 : std::string::npos;
+        if (at == std::string::npos) continue;
+        const std::string robot = value.substr(at);
+        if (model.find_robot(robot)) continue;
+        std::vector<std::string> names;
+        for (const Robot& one : model.robots) names.push_back(one.name);
+        const std::string meant = similar_to(robot, names);
+        return Error{"--" + key + ": the world has no robot '" + robot + "'",
+                     meant.empty() ? "see `roboss check` for their names" : "did you mean '" + meant + "'?",
+                     "no-robot"};
+    }
+    return Ok{};
 }
 
 Result<> take_snapshot(const SnapshotOptions& options, const std::string& url,
@@ -124,7 +187,7 @@ void add_snapshot_command(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<RunOptions>();
     add_run_options(*command, *options);
     command->add_option("--at", options->until_s, "world time of the picture, s (default: the start)")
-        ->check(CLI::NonNegativeNumber)
+        ->check(non_negative_number())
         ->group("Picture");
     add_snapshot_options(*command, options->snapshot);
     command->footer(kFooter);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "model/model.h"
 
 namespace roboss {
 
@@ -17,6 +18,9 @@ struct SnapshotOptions {
     std::vector<std::pair<std::string, std::string>> parameters;  // of the page's URL (docs/viewer-page.md)
 };
 void add_snapshot_options(CLI::App& command, SnapshotOptions& options);
+
+/// Whether the robots that the options name are there.
+Result<> check_snapshot(const SnapshotOptions& options, const Model& model);
 
 /// Takes the picture of the page at `url`; `serve` drives the run meanwhile; false ends it.
 Result<> take_snapshot(const SnapshotOptions& options, const std::string& url,

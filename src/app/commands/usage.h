@@ -1,0 +1,19 @@
+// Reads the command line; what is wrong with it is said in the words that were typed, with what was probably
+// meant.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace roboss {
+
+/// Reads the command line and runs the subcommand. The exit code if that is all: 0 after --help, 2 after
+/// wrong usage, which is printed.
+std::optional<int> read_command_line(CLI::App& app, int argc, const char* const* argv);
+
+/// The name that is most like the word that was typed; empty: none is much like it.
+std::string similar_to(const std::string& word, const std::vector<std::string>& names);
+
+}  // namespace roboss
