@@ -86,6 +86,49 @@ void report_transmissions(const SourceFile& urdf, Diagnostics& diagnostics) {
     }
 }
 
+/// Whether the SDF has the link, or a frame where it was merged into its parent.
+bool has_link(const std::string& sdf, const std::string& name) {
+    return sdf.find("<link name='" + name + "'") != std::string::npos ||
+           sdf.find("<frame name='" + name + "'") != std::string::npos;
+}
+
+/// "'a', 'b' and 10 more".
+std::string first_of(const std::vector<std::string>& names) {
+    constexpr std::size_t kShown = 5;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i)
+        text += (i == 0 ? "'" : ", '") + names[i] + "'";
+    if (names.size() > kShown) text += " and " + std::to_string(names.size() - kShown) + " more";
+    return text;
+}
+
+/// libsdformat leaves out a link without <inertial>, and all that hangs on it, silently. False: nothing is
+/// left.
+bool report_lost_links(const SourceFile& urdf, const std::string& sdf, Diagnostics& diagnostics) {
+    std::vector<std::string> without, lost;
+    SourceLocation where;
+    for (const auto link : urdf.root().children("link")) {
+        const std::string name = link.attribute("name").value();
+        if (name == "world" || has_link(sdf, name)) continue;
+        lost.push_back(name);
+        if (link.child("inertial")) continue;
+        if (without.empty()) where = urdf.where(link);
+        without.push_back(name);
+    }
+    if (without.empty()) return true;
+    const bool any = sdf.find("<link name=") != std::string::npos;
+    std::string message = "<inertial> is missing in " + std::to_string(without.size()) +
+                          (without.size() == 1 ? " link: " : " links: ") + first_of(without);
+    message += any ? "; left out, with what hangs on them, are " + std::to_string(lost.size()) + " links"
+                   : "; no link is left that could be simulated";
+    const char* const remedy = "Give each link an <inertial> with <mass> and <inertia>.";
+    if (any)
+        diagnostics.warning(where, "no-inertial", message, remedy);
+    else
+        diagnostics.error(where, "no-inertial", message, remedy);
+    return any;
+}
+
 /// For each line of the SDF the line of the URDF link or joint it came from (the robot's until the first).
 std::vector<int> map_lines(const SourceFile& urdf, const std::string& sdf) {
     std::map<std::string, int> line_of;
@@ -152,6 +195,7 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
         }
         return nullptr;
     }
+    if (!report_lost_links(urdf, text, diagnostics)) return nullptr;
     add_mimics(robot, text);
     add_joint_types(joint_types, text);
     std::vector<int> lines = map_lines(urdf, text);

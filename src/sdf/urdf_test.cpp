@@ -49,6 +49,26 @@ TEST(Urdf, ThatIsBrokenIsAnErrorAtTheLink) {
     EXPECT_TRUE(load_text("<robot name='r'/>", "r.urdf").diagnostics.has_errors());
 }
 
+TEST(Urdf, SaysWhichLinksHaveNoInertial) {
+    const Loaded none = load_text(
+        "<robot name='r'>\n<link name='base'/>\n<link name='arm'/>\n<joint name='j' type='continuous'>"
+        "<parent link='base'/><child link='arm'/></joint></robot>",
+        "bare.urdf");
+    EXPECT_FALSE(none.world);
+    EXPECT_NE(none.text().find("bare.urdf:2: error: <inertial> is missing in 2 links: 'base', 'arm'"),
+              std::string::npos)
+        << none.text();
+    std::string part = kArm;
+    part.insert(part.rfind("</robot>"),
+                "<link name='tip'/><joint name='t' type='continuous'><parent link='upper'/><child "
+                "link='tip'/></joint>");
+    const Loaded some = load_text(part, "part.urdf");
+    ASSERT_TRUE(some.world) << some.text();
+    EXPECT_EQ(some.diagnostics.count(Severity::kWarning), 1u) << some.text();
+    EXPECT_NE(some.text().find("[no-inertial]"), std::string::npos) << some.text();
+    EXPECT_FALSE(load_text(kArm, "arm.urdf").diagnostics.count(Severity::kWarning));
+}
+
 TEST(Urdf, MimicJointsFollow) {
     std::string hand = kArm;
     const std::string finger =
