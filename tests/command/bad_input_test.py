@@ -55,6 +55,20 @@ class BadInput(RobossTest):
         self.refused(["run", PILE, "--threads", "1.5"], 2, "--threads: '1.5' is not a whole number")
         self.refused(["run", PILE, "--speed", "1e-9"], 2, "--speed: '1e-9' is not from 0.001")
 
+    def test_a_bare_robot_gets_ground_or_a_fixed_base(self):
+        urdf = written("pole.urdf", """<robot name="pole"><link name="base"><inertial><origin xyz="0 0 0.5"/><mass value="2"/>
+<inertia ixx="0.2" iyy="0.2" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>
+<collision><origin xyz="0 0 0.5"/><geometry><box size="0.1 0.1 1"/></geometry></collision></link></robot>""")
+        heights = {}
+        for option in ([], ["--ground"], ["--fixed-base", "pole"]):
+            trace = FOLDER / "pole.csv"
+            summary(urdf, "--duration", 1, *option, "--trace", trace, "--trace-every", 1)
+            heights[tuple(option)] = float(trace.read_text().splitlines()[-1].split(",")[5])
+        self.assertAlmostEqual(heights[()], -4.9, delta=0.1, msg="it falls")
+        self.assertAlmostEqual(heights["--ground",], 0, delta=1e-3)
+        self.assertEqual(heights["--fixed-base", "pole"], 0)
+        self.refused(["run", urdf, "--duration", 1, "--fixed-base", "poll"], 1, "[no-model]", "did you mean 'pole'?")
+
     def test_a_picture_of_what_is_not_there(self):
         picture = ["snapshot", PILE, "-o", FOLDER / "none.png"]
         self.refused([*picture, "--camera", "nowhere"], 2, "--camera: 'nowhere'")

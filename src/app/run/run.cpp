@@ -61,6 +61,9 @@ bool Run::prepare() {
     Diagnostics diagnostics;
     std::optional<World> world = load_world(o_.world, {o_.paths, o_.profile, is_shown()}, diagnostics);
     const auto refused = [&] { return o_.strict ? diagnostics.has_errors() : diagnostics.refuses(); };
+    if (world)
+        if (Result<> completed = complete(*world, o_.bare); !completed)
+            return print(completed.error()), false;
     if (world && !refused()) model_ = compile(*world, compile_options(), diagnostics);
     if (world) world_speed_ = world->real_time_factor;
     if (model_ && !o_.orders.empty()) orders_ = load_orders(o_.orders, *model_, diagnostics);

@@ -22,6 +22,9 @@ const char* const kFooter = R"(Examples:
   roboss run world.sdf --journal run.journal --until 60      after a crash, run it again to resume
   roboss run world.sdf --from run.journal@12.5 --journal run.journal    starts a new branch at 12.5 s
 
+  roboss run arm.urdf --fixed-base arm --duration 5
+  roboss run rover.urdf --ground --speed 1
+
   roboss run world.sdf --profile precise --accuracy high --tolerance 1e-13
 
 An orders file has one JSON object per line:
@@ -181,6 +184,10 @@ void add_common_options(CLI::App& command, RunOptions& o) {
     command.add_flag("--strict", o.strict,
                      "refuse a world with any error (default: a model with errors is left out and reported, "
                      "and the rest runs)");
+    command.add_flag("--ground", o.bare.ground,
+                     "add a ground plane at z = 0 (for a file with a robot alone, such as a URDF)");
+    command.add_option("--fixed-base", o.bare.fixed_base,
+                       "fix the base of this model to the world where it stands (may be repeated)");
     command.add_option("--dt", o.dt_s, "time step, s (default: the world's max_step_size)")
         ->check(positive_number());
     command.add_option(

@@ -9,6 +9,7 @@
 
 #include "app/viewer/snapshot.h"
 #include "app/viewer/viewer.h"
+#include "app/worlds/bare_model.h"
 #include "dds/dds_options.h"
 #include "physics/step.h"
 #include "world/world.h"
@@ -20,8 +21,9 @@ struct RunOptions {
     std::vector<std::string> paths;  // --path: where model:// and package:// URIs are looked up
     std::optional<double> duration_s;
     std::optional<double> dt_s;
-    std::string profile;  // of <physics>
-    bool strict = false;  // a model with errors refuses the world; else it is left out
+    std::string profile;    // of <physics>
+    bool strict = false;    // a model with errors refuses the world; else it is left out
+    BareModelOptions bare;  // what is added to the world
     bool no_sleep = false;
     std::optional<Precision> precision;
     AccuracySpec accuracy;        // --accuracy and each number by itself
