@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <optional>
 
 namespace roboss {
 namespace {
@@ -24,15 +25,13 @@ bool is_tiff(const std::string& path) {
     return std::memcmp(magic, "II*\0", 4) == 0 || std::memcmp(magic, "MM\0*", 4) == 0;
 }
 
-}  // namespace
-
-Result<GreyImage> read_png(const std::string& path) {
+/// Opens the picture and checks its size; nullopt: it can be read.
+std::optional<Error> begin(const std::string& path, png_image& image) {
     if (is_tiff(path))
         return Error{
             "is a TIFF file, which is not read",
             "Convert it: gdal_translate -of PNG -ot UInt16 -scale FILE.tif FILE.png; heights then run from 0 "
             "to the z of <size>."};
-    png_image image;
     std::memset(&image, 0, sizeof image);
     image.version = PNG_IMAGE_VERSION;
     if (png_image_begin_read_from_file(&image, path.c_str()) == 0) return unreadable(image.message);
@@ -42,6 +41,27 @@ Result<GreyImage> read_png(const std::string& path) {
         return Error{"has " + size + " pixels",
                      "Give a picture from 2 x 2 to 8193 x 8193 pixels, usually 2^n + 1."};
     }
+    return std::nullopt;
+}
+
+}  // namespace
+
+Result<ColourImage> read_png_colours(const std::string& path) {
+    png_image image;
+    if (std::optional<Error> error = begin(path, image)) return *error;
+    image.format = PNG_FORMAT_RGB;
+    ColourImage out{image.width, image.height, {}};
+    out.samples.resize(PNG_IMAGE_SIZE(image));
+    const png_color black{0, 0, 0};
+    if (png_image_finish_read(&image, &black, out.samples.data(), 0, nullptr) != 0) return out;
+    const std::string why = image.message;
+    png_image_free(&image);
+    return unreadable(why);
+}
+
+Result<GreyImage> read_png(const std::string& path) {
+    png_image image;
+    if (std::optional<Error> error = begin(path, image)) return *error;
     const bool wide = (image.format & PNG_FORMAT_FLAG_LINEAR) != 0;
     const bool colour = (image.format & PNG_FORMAT_FLAG_COLOR) != 0;
     // Without alpha and gamma, every sample comes as it stands in the file.

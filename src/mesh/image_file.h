@@ -1,6 +1,7 @@
-// PNG pictures as grey values. The only place that knows libpng.
+// PNG pictures as numbers. The only place that knows libpng.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -16,5 +17,14 @@ struct GreyImage {
 /// 8 or 16 bits a channel; of a colour picture the red channel counts. Errors: no such file, no PNG, smaller
 /// than 2 x 2 or larger than 8193 x 8193.
 Result<GreyImage> read_png(const std::string& path);
+
+struct ColourImage {
+    std::size_t columns = 0, rows = 0;
+    std::vector<std::uint8_t> samples;  // red, green, blue of each pixel; row by row from the top
+};
+
+/// The colours of a picture; samples of 8 bits as they stand in the file, transparent ones before black.
+/// Errors as above.
+Result<ColourImage> read_png_colours(const std::string& path);
 
 }  // namespace roboss

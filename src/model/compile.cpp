@@ -129,6 +129,7 @@ std::shared_ptr<const Model> compile(const World& world, const CompileOptions& o
     model->magnetic_field_T = world.magnetic_field_T;
     model->wind = world.wind;
     model->air_density = world.air_density;
+    if (world.wind_effects) model->wind_regions = world.wind_effects->regions;
     if (world.buoyancy) model->fluid = FluidLayers::of(*world.buoyancy);
     model->spherical = world.spherical;
     model->sleep = options.sleep.value_or(world.sleep);

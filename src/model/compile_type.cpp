@@ -250,7 +250,10 @@ class PartBuilder {
         LinkDrag drag{id, drag_area(spec), spec.drag.linear, spec.drag.wind};
         if (!drag.wind || around_.wind == nullptr) return drag;
         if (spec.drag.area < 0 && spec.drag.coefficient < 0) drag.area = {};
-        drag.linear += spec.mass * around_.wind->scale;
+        if (around_.wind->regions.empty())
+            drag.linear += spec.mass * around_.wind->scale;
+        else
+            drag.carried = spec.mass;
         return drag;
     }
 

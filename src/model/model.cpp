@@ -85,6 +85,7 @@ void add_shape(Hash& hash, const BodyShape& s) {
 void add_drag(Hash& hash, const LinkDrag& drag) {
     add(hash, static_cast<int>(drag.link.value)), add(hash, drag.area);
     hash.add(drag.linear), add(hash, drag.wind ? 1 : 0);
+    if (drag.carried != 0) hash.add(std::string_view("carried")), hash.add(drag.carried);
 }
 
 void add_fluid(Hash& hash, const LinkFluid& fluid) {

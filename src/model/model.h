@@ -184,10 +184,11 @@ struct BodyShape {
 /// velocity through the air. A(u): projected area times coefficient, given along the link's axes, in between
 /// as an ellipsoid's.
 struct LinkDrag {
-    LinkId link;        ///< on a body
-    Vec3 area;          ///< m^2, projected area times coefficient, along each axis of the link
-    double linear = 0;  ///< N s/m
-    bool wind = false;  ///< u is measured against the wind, else against the world
+    LinkId link;         ///< on a body
+    Vec3 area;           ///< m^2, projected area times coefficient, along each axis of the link
+    double linear = 0;   ///< N s/m
+    bool wind = false;   ///< u is measured against the wind, else against the world
+    double carried = 0;  ///< kg, that the wind carries along by Model::wind_regions
 };
 
 /// What the fluids of the world do to one link.
@@ -256,6 +257,7 @@ struct RobotType {
     std::vector<LinkDrag> drags;                ///< of the links on which the air acts
     std::vector<LinkFluid> fluids;              ///< of the links that float or have added mass
     bool feels_flow = false;  ///< it has `fluids`, or controllers that are force laws; computed by seal()
+    bool has_slip = false;    ///< it has wheels that slip (WheelSlip); computed by seal()
     int wind_index = -1;      ///< in RobotState::onboard, of the wind that it feels; -1: Model::wind
     std::vector<std::pair<int, int>> self_pairs;  ///< shapes of this robot that may collide with each other
     std::vector<SensorInfo> sensors;              ///< by the index that find_sensor() gives
@@ -343,13 +345,14 @@ struct Accuracy {
 
 /// The compiled world. It is never changed: an edit makes a new one (model/edit.h).
 struct Model {
-    std::string name;                               ///< as World::name
-    double dt_s = 0.001;                            ///< s, length of a tick
-    Vec3 gravity{0, 0, -9.8};                       ///< m/s^2, world axes
-    Vec3 magnetic_field_T;                          ///< T, world axes
-    Vec3 wind;                                      ///< m/s, world axes
-    double air_density = 0.0;                       ///< kg/m^3
-    FluidLayers fluid;                              ///< in which robots float
+    std::string name;                      ///< as World::name
+    double dt_s = 0.001;                   ///< s, length of a tick
+    Vec3 gravity{0, 0, -9.8};              ///< m/s^2, world axes
+    Vec3 magnetic_field_T;                 ///< T, world axes
+    Vec3 wind;                             ///< m/s, world axes
+    std::vector<WindRegion> wind_regions;  ///< where it carries links; empty: LinkDrag::linear counts
+    double air_density = 0.0;              ///< kg/m^3
+    FluidLayers fluid;                     ///< in which robots float
     std::optional<SphericalCoordinates> spherical;  ///< where on Earth; none: not given
     Accuracy accuracy;                              ///< of the solver
     Precision precision = Precision::kDouble;       ///< of the steps

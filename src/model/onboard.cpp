@@ -14,22 +14,49 @@ bool has_one_axis(const RobotType& type, const Joint& joint) {
     return joint.nv == 1 && joint.loop < 0 && joint.v_index >= type.base_nv();
 }
 
+AxisRef axis_of(const RobotType& type, JointId id) {
+    const Joint& joint = type.joints[id.index()];
+    return {id, static_cast<int>(type.motor_index(joint, 0)), joint.q_index, joint.v_index};
+}
+
+/// The joint of the tree whose child, as the file has it, is the link; nullopt: there is none with one axis.
+std::optional<JointId> axle_of(const RobotType& type, LinkId wheel) {
+    for (std::size_t l = 0; l < type.links.size(); ++l) {
+        const Link& link = type.links[l];
+        if (link.carrier < 0) continue;
+        const JointId id(static_cast<std::size_t>(link.carrier));
+        const Joint& joint = type.joints[id.index()];
+        const int child = joint.reversed ? link.parent : static_cast<int>(l);
+        if (child == static_cast<int>(wheel.index()) && has_one_axis(type, joint)) return id;
+    }
+    return std::nullopt;
+}
+
+/// The axles of wheels that slip; false: a wheel has none.
+bool find_axles(const RobotType& type, OnboardInfo& info) {
+    if (!std::holds_alternative<WheelSlipSpec>(info.spec.parameters)) return true;
+    for (const LinkId link : info.links) {
+        const std::optional<JointId> axle = axle_of(type, link);
+        if (!axle) return false;
+        info.axes.push_back(axis_of(type, *axle));
+    }
+    return true;
+}
+
 /// The axes and links that the controller names; false: one of them is not in this type.
 bool resolve_names(const RobotType& type, OnboardInfo& info) {
     info.axes.clear(), info.links.clear();
     for (const std::string& name : joints_named(info.spec.parameters)) {
         const std::optional<JointId> id = type.find_joint(name);
         if (!id || !has_one_axis(type, type.joints[id->index()])) return false;
-        const Joint& joint = type.joints[id->index()];
-        info.axes.push_back(
-            {*id, static_cast<int>(type.motor_index(joint, 0)), joint.q_index, joint.v_index});
+        info.axes.push_back(axis_of(type, *id));
     }
     for (const std::string& name : links_named(info.spec.parameters)) {
         const std::optional<LinkId> id = type.find_link(name);
         if (!id) return false;
         info.links.push_back(*id);
     }
-    return true;
+    return find_axles(type, info);
 }
 
 /// Channel `wanted` of the type, which is added if there is none of its name.
@@ -89,6 +116,11 @@ std::string fault_of(const std::string& model, const RobotType& type, const Onbo
         if (!type.find_link(name)) return "names the link '" + name + "', which is not in this robot";
     if (const auto* detachable = std::get_if<DetachableJointSpec>(&spec.parameters))
         if (std::string fault = fault_of_child(model, type, *detachable); !fault.empty()) return fault;
+    if (std::holds_alternative<WheelSlipSpec>(spec.parameters))
+        for (const std::string& name : links_named(spec.parameters))
+            if (!axle_of(type, *type.find_link(name)))
+                return "lets the link '" + name +
+                       "' slip, which has no axle: no joint with one axis carries it";
     for (const Channel& channel : channels_of(spec.parameters))
         if (conflicting(type, channel) != nullptr)
             return "takes the command '" + channel.name +
@@ -112,16 +144,10 @@ bool belongs_here(const ModelSpec& model, const OnboardSpec& spec, bool is_main,
     return joints.empty() ? !in_model(model.links, links.front()) : !in_model(model.joints, joints.front());
 }
 
-/// Whether the dynamics evaluate it, in place of its `run`.
-bool is_force_law(const OnboardParameters& p) {
-    return std::holds_alternative<LiftDragSpec>(p) || std::holds_alternative<AdvancedLiftDragSpec>(p) ||
-           std::holds_alternative<HydrodynamicsSpec>(p);
-}
-
 /// Whether what the controller does depends on the wind.
 bool feels_wind(const OnboardParameters& p) {
     return std::holds_alternative<LiftDragSpec>(p) || std::holds_alternative<AdvancedLiftDragSpec>(p) ||
-           std::holds_alternative<MotorModelSpec>(p);
+           std::holds_alternative<MotorModelSpec>(p) || std::holds_alternative<LighterThanAirSpec>(p);
 }
 
 /// Adds parameters to a Model hash, by name and value.
@@ -173,6 +199,7 @@ void lay_out_onboard(RobotType& type) {
     type.channels.clear();
     type.onboard_size = type.list_count = 0;
     type.wind_index = -1;
+    type.has_slip = false;
     type.feels_flow = !type.fluids.empty();
     for (OnboardInfo& info : type.onboard) {
         resolve_names(type, info);
@@ -183,6 +210,7 @@ void lay_out_onboard(RobotType& type) {
         info.memory_index = type.onboard_size;
         type.onboard_size += static_cast<int>(info.memory.size());
         type.feels_flow = type.feels_flow || is_force_law(info.spec.parameters);
+        type.has_slip = type.has_slip || std::holds_alternative<WheelSlipSpec>(info.spec.parameters);
         if (std::holds_alternative<WindEffectsSpec>(info.spec.parameters))
             type.wind_index = info.memory_index + WindEffectsSpec::kWindX;
     }
@@ -220,6 +248,7 @@ void add_wind(const WindEffectsSpec& wind, RobotType& type) {
     if (!carried && !flown) return;
     OnboardInfo info;
     info.spec = {WindEffectsSpec::kKind.name, wind, {}};
+    std::get<WindEffectsSpec>(info.spec.parameters).regions.clear();  // the Model has them
     info.base = LinkId(std::size_t{0});
     type.onboard.insert(type.onboard.begin(), std::move(info));  // before those that feel it
     lay_out_onboard(type);

@@ -19,6 +19,12 @@ std::uint64_t model_hash(const Model& model) {
     Hash hash;
     hash.add(model.dt_s);
     hash.add(model.air_density);
+    for (const WindRegion& region : model.wind_regions) {
+        hash.add(std::string_view("wind region"));
+        for (const Vec3& v : {region.lower, region.upper, region.cubic, region.square, region.linear})
+            hash.add(v.x), hash.add(v.y), hash.add(v.z);
+        hash.add(region.constant);
+    }
     hash.add(static_cast<std::uint64_t>(model.sleep));
     for (const Vec3& v : {model.gravity, model.magnetic_field_T, model.wind})
         hash.add(v.x), hash.add(v.y), hash.add(v.z);

@@ -43,6 +43,10 @@ void run(const WindEffectsSpec& spec, OnboardContext& c);
 inline void run(const LiftDragSpec&, OnboardContext&) {}
 inline void run(const AdvancedLiftDragSpec&, OnboardContext&) {}
 inline void run(const HydrodynamicsSpec&, OnboardContext&) {}
+inline void run(const LighterThanAirSpec&, OnboardContext&) {}
+/// Nothing: contacts read it (physics/contact/wheel_slip.h).
+inline void run(const WheelSlipSpec&, OnboardContext&) {}
+void run(const LookupWheelSlipSpec& spec, OnboardContext& c);
 void run(const TrackControllerSpec& spec, OnboardContext& c);
 void run(const SurfaceVelocitySpec& spec, OnboardContext& c);
 void run(const ActorSpec& spec, OnboardContext& c);

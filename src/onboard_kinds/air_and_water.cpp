@@ -8,6 +8,7 @@
 #include "onboard_kinds/buoyancy_engine.h"
 #include "onboard_kinds/hydrodynamics.h"
 #include "onboard_kinds/lift_drag.h"
+#include "onboard_kinds/lighter_than_air.h"
 #include "onboard_kinds/motor_model.h"
 #include "onboard_kinds/multicopter_control.h"
 #include "onboard_kinds/thruster.h"
@@ -215,6 +216,14 @@ bool is_positive_semidefinite(const double* matrix) {
         }
     }
     return true;
+}
+
+void LighterThanAirSpec::check(Problems& problems) const {
+    expect(link.size() == 1, "does not name one link", "Write <link_name>.", problems);
+    expect(density >= 0, "has a negative <air_density>", "Write it in kg/m^3.", problems);
+    expect(force_viscous >= 0 && axial_drag >= 0,
+           "has a negative <force_viscous_coeff> or <axial_drag_coeff>, which would feed the motion",
+           "Write at least 0: drag takes energy.", problems);
 }
 
 void WindEffectsSpec::check(Problems& problems) const {

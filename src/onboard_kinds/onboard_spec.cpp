@@ -80,6 +80,11 @@ std::vector<std::string> links_named(const OnboardParameters& parameters) {
     return names;
 }
 
+bool is_force_law(const OnboardParameters& p) {
+    return std::holds_alternative<LiftDragSpec>(p) || std::holds_alternative<AdvancedLiftDragSpec>(p) ||
+           std::holds_alternative<HydrodynamicsSpec>(p) || std::holds_alternative<LighterThanAirSpec>(p);
+}
+
 std::vector<Channel> channels_of(const OnboardParameters& parameters) {
     return std::visit([](const auto& p) { return p.channels(); }, parameters);
 }

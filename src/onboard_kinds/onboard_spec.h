@@ -29,7 +29,9 @@
 #include "onboard_kinds/kind.h"
 #include "onboard_kinds/kinetic_energy_monitor.h"
 #include "onboard_kinds/lift_drag.h"
+#include "onboard_kinds/lighter_than_air.h"
 #include "onboard_kinds/linear_battery.h"
+#include "onboard_kinds/lookup_wheel_slip.h"
 #include "onboard_kinds/mecanum_drive.h"
 #include "onboard_kinds/message_board.h"
 #include "onboard_kinds/motor_model.h"
@@ -43,6 +45,7 @@
 #include "onboard_kinds/tracked_vehicle.h"
 #include "onboard_kinds/trajectory_follower.h"
 #include "onboard_kinds/velocity_control.h"
+#include "onboard_kinds/wheel_slip.h"
 #include "onboard_kinds/wind_effects.h"
 
 namespace roboss {
@@ -56,7 +59,8 @@ using OnboardParameters =
                  JointPoseTrajectorySpec, LinearBatterySpec, KineticEnergyMonitorSpec, DetachableJointSpec,
                  GripperSpec, MotorModelSpec, MulticopterControlSpec, LiftDragSpec, AdvancedLiftDragSpec,
                  ThrusterSpec, BuoyancyEngineSpec, HydrodynamicsSpec, WindEffectsSpec, TrackControllerSpec,
-                 SurfaceVelocitySpec, ActorSpec, MessageBoardSpec>;
+                 SurfaceVelocitySpec, ActorSpec, MessageBoardSpec, WheelSlipSpec, LookupWheelSlipSpec,
+                 LighterThanAirSpec>;
 
 /// An on-board controller of a model.
 struct OnboardSpec {
@@ -104,6 +108,9 @@ std::vector<std::string> links_named(const OnboardParameters& parameters);
 
 /// The links whose surfaces it moves.
 std::vector<std::string> surfaces_moved(const OnboardParameters& parameters);
+
+/// Whether it is a force law, which the dynamics evaluate in place of its `run`.
+bool is_force_law(const OnboardParameters& parameters);
 
 /// The commands that it takes, in the order in which it counts them.
 std::vector<Channel> channels_of(const OnboardParameters& parameters);

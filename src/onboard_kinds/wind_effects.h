@@ -5,14 +5,41 @@
 #include <string>
 #include <vector>
 
+#include "math/vec3.h"
 #include "onboard_kinds/kind.h"
 
 namespace roboss {
 
+/// A part of space, and how strongly the wind pushes there: a sum of three polynomials, one for each
+/// coordinate of the place (m, world axes).
+struct WindRegion {
+    Vec3 lower{-1e300, -1e300, -1e300},  ///< m, of the box that it is; the faces belong to it
+        upper{1e300, 1e300, 1e300};      ///< m
+    Vec3 cubic, square, linear;          ///< coefficients of each coordinate's polynomial
+    double constant = 0;                 ///< 1/s
+
+    /// Whether the place is in it.
+    bool holds(const Vec3& p) const {
+        return p.x >= lower.x && p.y >= lower.y && p.z >= lower.z && p.x <= upper.x && p.y <= upper.y &&
+               p.z <= upper.z;
+    }
+    /// 1/s; at least 0, since a negative factor would feed motion against the wind.
+    double factor(const Vec3& p) const {
+        double sum = constant;
+        for (std::size_t k = 0; k < 3; ++k) sum += ((cubic[k] * p[k] + square[k]) * p[k] + linear[k]) * p[k];
+        return sum > 0 ? sum : 0.0;
+    }
+    /// Compares all members.
+    friend bool operator==(const WindRegion&, const WindRegion&) = default;
+};
+
 /// The wind's horizontal magnitude and direction and its vertical part approach the world's wind, each with a
 /// lag, and get a sine and Gaussian noise on top.
 struct WindEffectsSpec {
-    double scale = 1;                   ///< 1/s: force = mass * scale * (wind - velocity)
+    double scale = 1;  ///< 1/s: force = mass * scale * (wind - velocity)
+    /// In place of `scale`, if there are any: the first that holds a place counts there, elsewhere the wind
+    /// does not push. Part of the Model, not of the controllers.
+    std::vector<WindRegion> regions;
     double magnitude_rise = 1,          ///< s, lag of the magnitude
         magnitude_amplitude = 0,        ///< share of the magnitude
         magnitude_period = 1,           ///< s

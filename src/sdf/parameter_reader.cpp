@@ -148,6 +148,11 @@ void ParameterReader::read(const Parameter&, const Element& parent, const std::s
     }
 }
 
+void ParameterReader::read_attribute(const char* name, std::vector<std::string>& names) const {
+    if (std::string one = trimmed(block.node.attribute(name).value()); !one.empty())
+        names.push_back(scope + one);
+}
+
 void ParameterReader::read_names(const Element& parent, const std::string& name,
                                  std::vector<std::string>& names) const {
     if (!parent) return;

@@ -45,6 +45,8 @@ struct ParameterReader {
 
     template <class Value>
     void operator()(const Parameter& p, Value& value) const {
+        if constexpr (std::is_same_v<Value, LinkNames>)
+            if (p.element[0] == '@') return read_attribute(p.element + 1, value);
         const auto [parent, name] = place_of(block, p.element);
         read(p, parent, name, value);
     }
@@ -65,6 +67,8 @@ struct ParameterReader {
     /// Repeated elements, each with one number or several.
     void read(const Parameter& p, const Element& parent, const std::string& name,
               std::vector<double>& value) const;
+    /// Of `block`.
+    void read_attribute(const char* name, std::vector<std::string>& names) const;
     void read_names(const Element& parent, const std::string& name, std::vector<std::string>& names) const;
 
     template <ParameterRecord Record>

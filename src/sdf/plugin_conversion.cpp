@@ -7,6 +7,7 @@
 #include "sdf/event_conversion.h"
 #include "sdf/parameter_reader.h"
 #include "sdf/plugin_sensors.h"
+#include "sdf/slip_map.h"
 
 namespace roboss::sdf_import {
 namespace {
@@ -133,6 +134,7 @@ void convert_plugin(const Element& plugin, const std::string& scope, const Impor
     visit_parameters(spec.parameters, ParameterReader{plugin, scope, local});
     report_ignored(plugin, spec.kind().ignored, spec.kind().phrase, local);
     use_model(plugin, scope, spec.parameters);
+    if (auto* slip = std::get_if<LookupWheelSlipSpec>(&spec.parameters)) read_slip_map(plugin, local, *slip);
     const bool unreadable = found.has_errors();
     pass_on(found, import);
     const std::vector<OnboardProblem> problems = problems_of(spec);

@@ -89,14 +89,47 @@ TEST(WorldFluids, WindEffectsAreRead) {
     EXPECT_EQ(loaded.world->wind_effects->vertical_rise, 1);
 }
 
-TEST(WorldFluids, AFactorByPlaceIsReported) {
-    const Loaded loaded = load_elements(
+Loaded load_factor(const std::string& factor) {
+    return load_elements(
         "<plugin filename='gz-sim-wind-effects-system' name='gz::sim::systems::WindEffects'>"
-        "<force_approximation_scaling_factor><k>1</k></force_approximation_scaling_factor></plugin>" +
-        ball("a"));
-    ASSERT_TRUE(loaded.world) << loaded.text();
-    EXPECT_FALSE(loaded.world->wind_effects);
-    EXPECT_NE(loaded.find("plugin-not-run"), nullptr) << loaded.text();
+        "<force_approximation_scaling_factor>" +
+        factor + "</force_approximation_scaling_factor></plugin>" + ball("a"));
+}
+
+/// The factor at a place.
+double factor_at(const WindEffectsSpec& wind, const Vec3& p) {
+    for (const WindRegion& region : wind.regions)
+        if (region.holds(p)) return region.factor(p);
+    return 0;
+}
+
+TEST(WorldFluids, AFactorDependsOnThePlace) {
+    const Loaded loaded = load_factor(
+        "<when zgt='0' zlt='5'>0.2</when><when zge='5'><k>0.5</k><px>1 0.01 0 0</px><qy>0 0.01 2 0</qy>"
+        "<rz>0 0 0.01 0.45</rz></when>");
+    ASSERT_TRUE(loaded.world && loaded.world->wind_effects) << loaded.text();
+    EXPECT_EQ(loaded.diagnostics.items().size(), 0u) << loaded.text();
+    const WindEffectsSpec& wind = *loaded.world->wind_effects;
+    EXPECT_EQ(factor_at(wind, {3, 4, 0}), 0);
+    EXPECT_EQ(factor_at(wind, {3, 4, 1e-9}), 0.2);
+    EXPECT_EQ(factor_at(wind, {3, 4, 4.999999}), 0.2);
+    EXPECT_NEAR(factor_at(wind, {3, 4, 5}), 0.5 * (27 + 0.09 + 0.16 + 8 + 0.05 + 0.45), 1e-12);
+    EXPECT_EQ(factor_at(wind, {-30, 4, 5}), 0) << "a negative factor would feed the motion";
+}
+
+TEST(WorldFluids, AFactorMayBeOnePolynomialForAllSpace) {
+    const Loaded loaded = load_factor("<k>2</k><px>0 0 0 1</px><rz>0 1 0 0</rz>");
+    ASSERT_TRUE(loaded.world && loaded.world->wind_effects) << loaded.text();
+    EXPECT_EQ(factor_at(*loaded.world->wind_effects, {-1e9, 0, -3}), 2 * (1 + 9));
+}
+
+TEST(WorldFluids, AFactorThatCannotBeReadIsReported) {
+    for (const char* bad : {"<when zge='five'>1</when>", "<when zge='0'>much</when>", "<px>1 2 3</px>"}) {
+        const Loaded loaded = load_factor(bad);
+        ASSERT_TRUE(loaded.world) << loaded.text();
+        EXPECT_FALSE(loaded.world->wind_effects) << bad;
+        EXPECT_NE(loaded.find("plugin-not-run"), nullptr) << loaded.text();
+    }
 }
 
 TEST(WorldFluids, HydrodynamicsHasItsMatrices) {

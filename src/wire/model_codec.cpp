@@ -130,9 +130,10 @@ template <class A> void field(A& a, Of<A, Aabb>& m) { fields(a, m.min, m.max); }
 template <class A> void field(A& a, Of<A, BodyShape>& m) {
     fields(a, m.shape, m.body, m.link, m.X_BS, m.material, m.direction_body, m.moves);
 }
-template <class A> void field(A& a, Of<A, LinkDrag>& m) { fields(a, m.link, m.area, m.linear, m.wind); }
+template <class A> void field(A& a, Of<A, LinkDrag>& m) { fields(a, m.link, m.area, m.linear, m.wind, m.carried); }
 template <class A> void field(A& a, Of<A, LinkFluid>& m) { fields(a, m.link, m.buoyant, m.added_mass); }
 template <class A> void field(A& a, Of<A, FluidLayers>& m) { fields(a, m.heights, m.densities, m.everywhere); }
+template <class A> void field(A& a, Of<A, WindRegion>& m) { fields(a, m.lower, m.upper, m.cubic, m.square, m.linear, m.constant); }
 template <class A> void field(A& a, Of<A, NoiseSpec>& m) {
     fields(a, m.mean, m.stddev, m.bias_mean, m.bias_stddev, m.precision);
 }
@@ -168,7 +169,7 @@ template <class A> void field(A& a, Of<A, MeshSource>& m) { fields(a, m.vertices
 template <class A> void field(A& a, Of<A, HeightSource>& m) { fields(a, m.columns, m.rows, m.heights, m.size_x, m.size_y); }
 /// Everything behind the hulls and surfaces.
 template <class A> void field(A& a, Of<A, Model>& m) {
-    fields(a, m.name, m.dt_s, m.gravity, m.magnetic_field_T, m.wind, m.air_density, m.fluid, m.accuracy, m.precision, m.sleep, m.types, m.robots, m.statics);
+    fields(a, m.name, m.dt_s, m.gravity, m.magnetic_field_T, m.wind, m.wind_regions, m.air_density, m.fluid, m.accuracy, m.precision, m.sleep, m.types, m.robots, m.statics);
 }
 
 /// Does nothing but name every field: a new one breaks the build here, so that it is not forgotten above. (What seal()
@@ -183,17 +184,18 @@ template <class A> void field(A& a, Of<A, Model>& m) {
 [[maybe_unused]] void know_fields(const Shape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const BodyShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6] = m; }
 [[maybe_unused]] void know_fields(const SurfaceFlow& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3] = m; }
-[[maybe_unused]] void know_fields(const LinkDrag& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3] = m; }
+[[maybe_unused]] void know_fields(const LinkDrag& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4] = m; }
 [[maybe_unused]] void know_fields(const LinkFluid& m) { [[maybe_unused]] const auto& [f0, f1, f2] = m; }
+[[maybe_unused]] void know_fields(const WindRegion& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const FluidLayers& m) { [[maybe_unused]] const auto& [f0, f1, f2] = m; }
 [[maybe_unused]] void know_fields(const SensorSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const NoiseSpec& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4] = m; }
 [[maybe_unused]] void know_fields(const SensorInfo& m) { [[maybe_unused]] const auto& [f0, f1] = m; }
-[[maybe_unused]] void know_fields(const RobotType& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17, f18, f19, f20, f21, f22, f23, f24, f25, f26, f27, f28, f29, f30, f31, f32] = m; }
+[[maybe_unused]] void know_fields(const RobotType& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17, f18, f19, f20, f21, f22, f23, f24, f25, f26, f27, f28, f29, f30, f31, f32, f33] = m; }
 [[maybe_unused]] void know_fields(const Robot& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const StaticShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7] = m; }
 [[maybe_unused]] void know_fields(const Accuracy& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
-[[maybe_unused]] void know_fields(const Model& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17] = m; }
+[[maybe_unused]] void know_fields(const Model& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17, f18] = m; }
 // clang-format on
 
 template <class A, class... Fields>

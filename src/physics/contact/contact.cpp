@@ -12,6 +12,7 @@
 #include "physics/bonds/bond_keeper.h"
 #include "physics/contact/surface_motion.h"
 #include "physics/contact/swept_contact.h"
+#include "physics/contact/wheel_slip.h"
 #include "physics/dynamics/free_course.h"
 
 namespace roboss {
@@ -122,6 +123,7 @@ SurfacePair surface_of(const Model& model, std::span<const RobotWork> robots, co
                             friction_axes(b, contact.shape_b), contact.normal, -contact.gap);
     }
     add_motion(model, robots, contact, pair);
+    add_slip(robots, contact, pair);
     return pair;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "physics/solver/rows.h"
 
@@ -267,6 +268,10 @@ MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const Surfac
     row.slip.coefficient = surface.friction.mu;
     row.slip.bound = surface.friction.mu * c.impulse;
     row.slip.compliance = compliance;
+    if constexpr (std::is_same_v<T, double>) {  // impulses of a tick, not forces
+        row.slip.slip_11 = surface.slip_11 / dt, row.slip.slip_12 = surface.slip_12 / dt;
+        row.slip.slip_22 = surface.slip_22 / dt;
+    }
     row.inverse_effective_mass = inverse_effective_mass;
     row.warm_start_max =
         larger(4.0 * c.load, T(contact::kWeights * norm(model.gravity) * dt / inverse_effective_mass));

@@ -78,6 +78,17 @@ MaskOf<T> couple_bounds(IslandRowsT<T>& rows) {
         FrictionDiscT<T>& disc = row.slip;
         const MaskOf<T> pressed = (!equal(row.normal.d, T(0))) & (disc.bound > T(0));
         if (!any(pressed)) continue;
+        if constexpr (std::is_same_v<T, double>) {
+            if (slip_disc::slips(disc)) {
+                const auto at = slip_disc::solve(disc, {disc.u_1, disc.u_2}, disc.bound);
+                if (!at.bounded) continue;
+                const slip_disc::Plane by = slip_disc::by_bound(at, disc.bound);
+                const double share = disc.coefficient * row.normal.d;
+                disc.d_1n = share * by.x, disc.d_2n = share * by.y;
+                slides = true;
+                continue;
+            }
+        }
         const T speed = sqrt(disc.u_1 * disc.u_1 + disc.u_2 * disc.u_2);
         const MaskOf<T> here = pressed & is_sliding(disc, speed);
         if (!any(here)) continue;

@@ -37,6 +37,8 @@ struct SurfacePair {
     // Of A's surface against B's, on top of what the bodies move: m/s and rad/s, world axes
     // (surface_motion.h).
     Vec3 velocity, turning;
+    // Slip below the friction bound, m/s per N, by tangents of the contact's frame (wheel_slip.h).
+    double slip_11 = 0, slip_12 = 0, slip_22 = 0;
 
     bool moves() const { return velocity != Vec3{} || turning != Vec3{}; }
 };

@@ -15,6 +15,13 @@ const Link& link_of(const RobotWork& work, const LinkDrag& drag) {
     return work.type->links[drag.link.index()];
 }
 
+/// 1/s: how strongly the wind carries a link along at this place.
+double carrying(const Model& model, const Vec3& p) {
+    for (const WindRegion& region : model.wind_regions)
+        if (region.holds(p)) return region.factor(p);
+    return 0;
+}
+
 LinkAir air_of(const Model& model, const RobotWork& work, const LinkDrag& drag) {
     const Link& link = link_of(work, drag);
     const BodyWork& body = work.bodies[static_cast<std::size_t>(link.body)];
@@ -26,6 +33,7 @@ LinkAir air_of(const Model& model, const RobotWork& work, const LinkDrag& drag) 
     // |A(u)| |u|: the length of the vector of areas times velocities
     const double flow = norm(Vec3{drag.area.x * u_L.x, drag.area.y * u_L.y, drag.area.z * u_L.z});
     air.factor = 0.5 * model.air_density * flow + drag.linear;
+    if (drag.carried != 0) air.factor += drag.carried * carrying(model, body.X_WB * link.X_BL.p);
     return air;
 }
 

@@ -199,6 +199,29 @@ FlowForce aeroplane_force(const AdvancedLiftDragSpec& spec, const FlowVelocity& 
     return sum;
 }
 
+FlowForce hull_force(const LighterThanAirSpec& spec, const FlowVelocity& flow) {
+    FlowForce sum;
+    const Vec3 v = flow.linear + cross(flow.angular, Vec3{-spec.eps_v, 0, 0});
+    const double across = std::sqrt(v.y * v.y + v.z * v.z);
+    if (across > 0) {  // q sin 2a = density v.x across, q sin^2 a = density across^2 / 2, a: to the axis
+        const Vec3 n{0, v.y / across, v.z / across};
+        const double brake = spec.density * (0.5 * spec.force_viscous * across - spec.force_inviscid * v.x);
+        const double moment =
+            spec.density * across * (0.5 * spec.moment_viscous * across - spec.moment_inviscid * v.x);
+        sum.force += n * (-brake * across);
+        sum.torque += Vec3{0, n.z, -n.y} * moment;
+        sum.brake(std::max(brake, 0.0), n, {});
+    }
+    const Vec3& u = flow.linear;
+    const double in_plane = u.x * u.x + u.z * u.z;
+    if (in_plane > 0) {
+        const double brake = 0.5 * spec.density * spec.axial_drag * dot(u, u) * std::fabs(u.x) / in_plane;
+        sum.force.x -= brake * u.x;
+        sum.brake(brake, {1, 0, 0}, {});
+    }
+    return sum;
+}
+
 FlowForce water_damping(const HydrodynamicsSpec& spec, const FlowVelocity& flow) {
     Matrix6 D;  // force = D velocity
     Vec3 parts[2];

@@ -57,6 +57,9 @@ FlowForce lift_drag_force(const LiftDragSpec& spec, const FlowVelocity& flow, do
 FlowForce aeroplane_force(const AdvancedLiftDragSpec& spec, const FlowVelocity& flow,
                           std::span<const double> angles);
 
+/// Without what the added mass does.
+FlowForce hull_force(const LighterThanAirSpec& spec, const FlowVelocity& flow);
+
 /// Linear and quadratic damping of Hydrodynamics.
 FlowForce water_damping(const HydrodynamicsSpec& spec, const FlowVelocity& flow);
 

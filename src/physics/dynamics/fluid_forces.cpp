@@ -66,6 +66,8 @@ struct Law {
     bool has_inertia = false,  // `added` counts as inertia
         has_coriolis = false;  // and in forces of turning with it
     Vec3 current;              // m/s, of the water, link axes
+    FlowVelocity velocity;     // that `flow` was found at
+    bool is_wing = false;      // it may push across the flow
 };
 
 FlowVelocity through(const LinkMotion& m, const Vec3& fluid_W) {
@@ -101,6 +103,18 @@ Matrix6 added_mass_of(const HydrodynamicsSpec& spec) {
     return M;
 }
 
+/// The moment of flow round a hull that moves at an angle to it (Munk) is in the hull's own law; that of the
+/// link's added mass is taken off again.
+Vec3 munk_moment(const RobotWork& work, LinkId link, const Vec3& velocity) {
+    for (const LinkFluid& fluid : work.type->fluids) {
+        if (fluid.link != link || fluid.added_mass.empty()) continue;
+        const Matrix6 mass = full_matrix(fluid.added_mass);
+        const Spatial momentum = times(mass, {{}, velocity});
+        return cross(velocity, momentum.linear);
+    }
+    return {};
+}
+
 bool is_zero(const std::vector<double>& values) {
     return std::ranges::all_of(values, [](double x) { return x == 0; });
 }
@@ -111,9 +125,9 @@ Vec3 wind_in(double density, const Model& model, const RobotWork& work) {
     return density < kDensestGas ? wind_of(model, work) : Vec3{};
 }
 
-/// A controller's law; false: it is none.
+/// A controller's law; false: it is none. `ahead`: m/s, what a wing moves faster by than it does.
 bool law_of(const Model& model, const RobotWork& work, const OnboardInfo& info, std::span<const double> q,
-            std::span<const Spatial> accelerations, Law& law) {
+            std::span<const Spatial> accelerations, const Vec3& ahead, Law& law) {
     if (info.links.empty() || work.type->links[info.links[0].index()].body < 0) return false;
     const auto start = [&] {
         law = {};
@@ -123,7 +137,9 @@ bool law_of(const Model& model, const RobotWork& work, const OnboardInfo& info, 
     if (const auto* wing = std::get_if<LiftDragSpec>(&info.spec.parameters)) {
         start();
         const double control = info.axes.empty() ? 0.0 : angle(0);
-        law.flow = lift_drag_force(*wing, through(law.motion, wind_in(wing->density, model, work)), control);
+        law.velocity = through(law.motion, wind_in(wing->density, model, work) - ahead);
+        law.flow = lift_drag_force(*wing, law.velocity, control);
+        law.is_wing = true;
         return true;
     }
     if (const auto* plane = std::get_if<AdvancedLiftDragSpec>(&info.spec.parameters)) {
@@ -132,14 +148,25 @@ bool law_of(const Model& model, const RobotWork& work, const OnboardInfo& info, 
         std::array<double, kMost> angles{};
         const std::size_t count = std::min(info.axes.size(), kMost);
         for (std::size_t k = 0; k < count; ++k) angles[k] = angle(k);
-        law.flow = aeroplane_force(*plane, through(law.motion, wind_in(plane->density, model, work)),
-                                   std::span(angles));
+        law.velocity = through(law.motion, wind_in(plane->density, model, work) - ahead);
+        law.flow = aeroplane_force(*plane, law.velocity, std::span(angles));
+        law.is_wing = true;
+        return true;
+    }
+    if (const auto* hull = std::get_if<LighterThanAirSpec>(&info.spec.parameters)) {
+        start();
+        law.velocity = through(law.motion, wind_of(model, work) - ahead);
+        law.flow = hull_force(*hull, law.velocity);
+        law.is_wing = true;
+        const Vec3 current = transpose_times(law.motion.R_WL, current_at(work, info.links[0]));
+        law.flow.torque += munk_moment(work, info.links[0], law.motion.velocity.linear - current);
         return true;
     }
     if (const auto* water = std::get_if<HydrodynamicsSpec>(&info.spec.parameters)) {
         start();
         const Vec3 current = current_of(work, info, *water);
-        law.flow = water_damping(*water, through(law.motion, current));
+        law.velocity = through(law.motion, current);
+        law.flow = water_damping(*water, law.velocity);
         law.current = transpose_times(law.motion.R_WL, current);
         if (is_zero(water->added_mass)) return true;
         law.added = added_mass_of(*water);
@@ -161,12 +188,12 @@ Law added_mass_law(const RobotWork& work, const LinkFluid& fluid, std::span<cons
 /// Calls visit(law, link) for each law of the robot.
 template <class Visit>
 void for_each_law(const Model& model, const RobotWork& work, std::span<const double> q,
-                  std::span<const Spatial> accelerations, Visit&& visit) {
+                  std::span<const Spatial> accelerations, Visit&& visit, const Vec3& ahead = {}) {
     for (const LinkFluid& fluid : work.type->fluids)
         if (!fluid.added_mass.empty()) visit(added_mass_law(work, fluid, accelerations), fluid.link);
     Law law;
     for (const OnboardInfo& info : work.type->onboard)
-        if (law_of(model, work, info, q, accelerations, law)) visit(law, info.links[0]);
+        if (law_of(model, work, info, q, accelerations, ahead, law)) visit(law, info.links[0]);
 }
 
 /// Force of a law, link axes, at the link's origin.
@@ -238,6 +265,106 @@ double stopping(const Body& body, const Link& link, const Law& law, double dt) {
     return most;
 }
 
+/// Inertia of the link's body by itself (in its robot it has no less), about the link's origin, link axes.
+Matrix6 inertia_of(const Body& body, const Link& link, const Law& law) {
+    const Vec3 centre = transpose_times(link.X_BL.R, body.p_BC - link.X_BL.p);
+    Matrix6 M{};
+    for (std::size_t j = 0; j < 6; ++j) {
+        Vec3 v, w;
+        (j < 3 ? v[j] : w[j - 3]) = 1;
+        const Vec3 momentum = (v + cross(w, centre)) * body.mass;
+        const Vec3 spin = transpose_times(link.X_BL.R, body.inertia_C * (link.X_BL.R * w));
+        const Vec3 turning = spin + cross(centre, momentum);
+        for (std::size_t k = 0; k < 3; ++k) M[6 * k + j] = momentum[k], M[6 * (k + 3) + j] = turning[k];
+    }
+    for (std::size_t i = 0; law.has_inertia && i < 36; ++i) M[i] += law.added[i];
+    return M;
+}
+
+using Vector6 = std::array<double, 6>;
+
+/// x := A^-1 x of a positive definite matrix, by Cholesky's method.
+void solve(Matrix6 A, Vector6& x) {
+    for (std::size_t j = 0; j < 6; ++j) {
+        for (std::size_t i = j; i < 6; ++i) {
+            double sum = A[6 * i + j];
+            for (std::size_t k = 0; k < j; ++k) sum -= A[6 * i + k] * A[6 * j + k];
+            A[6 * i + j] = i == j ? std::sqrt(sum) : sum / A[7 * j];
+        }
+    }
+    for (std::size_t i = 0; i < 6; ++i) {
+        for (std::size_t k = 0; k < i; ++k) x[i] -= A[6 * i + k] * x[k];
+        x[i] /= A[7 * i];
+    }
+    for (std::size_t i = 6; i-- > 0;) {
+        for (std::size_t k = i + 1; k < 6; ++k) x[i] -= A[6 * k + i] * x[k];
+        x[i] /= A[7 * i];
+    }
+}
+
+double product(const Vector6& a, const Matrix6& M, const Vector6& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < 6; ++i)
+        for (std::size_t j = 0; j < 6; ++j) sum += a[i] * M[6 * i + j] * b[j];
+    return sum;
+}
+
+/// u.M u of the velocity through the fluid, and the energies' changes by the velocity's change d within the
+/// tick.
+struct Kick {
+    double have = 0, work = 0,  // u.M u, u.M d
+        change = 0;             // d.M d
+    Vec3 turning, more;         // rad/s: angular velocity, and its change
+
+    /// Of the velocity, that changes.
+    double share() const { return have > 0 ? std::sqrt(change / have) : 0.0; }
+};
+
+/// What the law alone does to its body within the tick. With `implicit`, its damping is taken as the step
+/// takes it. A body with `count` laws is shared out among them.
+Kick kick(const Body& body, const Link& link, const Law& law, double count, double dt, bool implicit) {
+    Matrix6 M = inertia_of(body, link, law);
+    for (double& m : M) m /= count;
+    Matrix6 A = M;
+    for (std::size_t i = 0; implicit && i < 36; ++i) A[i] += dt * law.flow.damping[i];
+    Vector6 u, d;
+    for (std::size_t k = 0; k < 3; ++k) {
+        u[k] = law.velocity.linear[k], u[k + 3] = law.velocity.angular[k];
+        d[k] = law.flow.force[k] * dt, d[k + 3] = law.flow.torque[k] * dt;
+    }
+    solve(A, d);
+    return {product(u, M, u), product(u, M, d), product(d, M, d), law.velocity.angular, {d[3], d[4], d[5]}};
+}
+
+/// How much of a law's force may act in this tick. Lift does no work, but taken at the start of the tick it
+/// adds to the energy of the motion through the fluid. A wing that is no larger than what flies has a tick
+/// much too short for that to show. Of one that would change its velocity by more than kOrdinary of it within
+/// the tick, only so much acts that this energy does not grow: the share s that makes (u + s d).M (u + s d)
+/// equal to u.M u. Nor does it turn a body by more than kTurn (rad) in a tick: from there on the step does
+/// not keep the energy of the rotation itself.
+double share_of(const Body& body, const Link& link, const Law& law, double count, double dt) {
+    constexpr double kOrdinary = 0.05, kTurn = 0.1;
+    if (!(body.mass > 0)) return 1;
+    const Kick own = kick(body, link, law, count, dt, true);
+    if (!(own.share() > kOrdinary)) return 1;
+    double share = 1;
+    if (own.work + 0.5 * own.change > 0) share = own.work < 0 ? -2 * own.work / own.change : 0.0;
+    const double a = dot(own.more, own.more), b = dot(own.turning, own.more);
+    const double spin = dot(own.turning, own.turning), most = std::max(spin, kTurn * kTurn / (dt * dt));
+    if (spin + 2 * share * b + share * share * a > most)
+        share = (std::sqrt(b * b + a * (most - spin)) - b) / a;
+    return share;
+}
+
+/// How many laws that push act on the body.
+double count_laws(const RobotWork& work, int body) {
+    int count = 0;
+    for (const OnboardInfo& info : work.type->onboard)
+        if (is_force_law(info.spec.parameters) && work.type->links[info.links[0].index()].body == body)
+            ++count;
+    return std::max(count, 1);
+}
+
 }  // namespace
 
 void add_fluid_forces(const Model& model, double dt, double momentum_weight, std::span<const double> q,
@@ -249,7 +376,13 @@ void add_fluid_forces(const Model& model, double dt, double momentum_weight, std
         work.bodies[static_cast<std::size_t>(body)].impulse += buoyancy(model, work, fluid) * dt;
     }
     const bool implicit = momentum_weight != 0;
-    for_each_law(model, work, q, {}, [&](const Law& law, LinkId) {
+    for_each_law(model, work, q, {}, [&](Law law, LinkId id) {
+        if (implicit) {
+            const Link& link = work.type->links[id.index()];
+            const Body& body = work.type->bodies[static_cast<std::size_t>(link.body)];
+            const double share = share_of(body, link, law, count_laws(work, link.body), dt);
+            if (share < 1) law.flow.force = law.flow.force * share, law.flow.torque = law.flow.torque * share;
+        }
         Spatial impulse = force_of(law) * dt;
         FlowWork& flow = add_flow(law.motion, work);
         flow.inertia = {};
@@ -302,14 +435,50 @@ void add_flow_inertia(const RobotType& type, Mechanics<double>& work) {
     }
 }
 
+namespace {
+
+/// Whether a wing might push so hard within the tick that an explicit step could not follow, although it does
+/// not now: its centre of pressure may stand still while the robot moves.
+bool may_stiffen(const Model& model, const RobotWork& work) {
+    constexpr double kStiff = 2, kQuarterTurn = 1.5707963267948966;
+    for (const OnboardInfo& info : work.type->onboard) {
+        const auto* wing = std::get_if<LiftDragSpec>(&info.spec.parameters);
+        if (wing == nullptr || work.type->links[info.links[0].index()].body < 0) continue;
+        const LinkMotion m = motion_of(work, info.links[0]);
+        const Body& body = work.type->bodies[static_cast<std::size_t>(m.body)];
+        const Vec3 wind = wind_in(wing->density, model, work);
+        const double arm = norm(wing->centre) + norm(body.p_BC),
+                     speed = norm(through(m, wind).linear) + norm(m.velocity.angular) * norm(wing->centre) +
+                             norm(model.gravity) * model.dt_s;
+        const double stall = std::min(wing->alpha_stall, kQuarterTurn);
+        const double most =
+            (std::fabs(wing->cla) + std::fabs(wing->cda)) * stall +
+            (std::fabs(wing->cla_stall) + std::fabs(wing->cda_stall)) * (kQuarterTurn - stall);
+        const double mobility = body.inverse_mass_linear + arm * arm * body.inverse_inertia_angular;
+        if (0.5 * wing->density * wing->area * speed * most * mobility * model.dt_s > kStiff) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
 bool flow_is_stiff(const Model& model, const RobotWork& work) {
     constexpr double kRateMax = 0.25;  // as that of the air (drag.cpp)
+    if (may_stiffen(model, work)) return true;
     double sum = 0;
-    for_each_law(model, work, work.state->q, {}, [&](const Law& law, LinkId id) {
+    bool kicks = false;
+    const auto look = [&](const Law& law, LinkId id) {
         const Link& link = work.type->links[id.index()];
-        sum += stopping(work.type->bodies[static_cast<std::size_t>(link.body)], link, law, model.dt_s);
-    });
-    return sum > kRateMax;
+        const Body& body = work.type->bodies[static_cast<std::size_t>(link.body)];
+        sum += stopping(body, link, law, model.dt_s);
+        kicks |= law.is_wing && body.mass > 0 &&
+                 !(kick(body, link, law, 1, model.dt_s, false).share() <= kRateMax);
+    };
+    for_each_law(model, work, work.state->q, {}, look);
+    if (kicks || sum > kRateMax) return true;
+    sum = 0;  // once more, as fast as gravity makes it within the tick: at rest there is no force yet
+    for_each_law(model, work, work.state->q, {}, look, model.gravity * model.dt_s);
+    return kicks || sum > kRateMax;
 }
 
 void sum_fluid_forces(const Model& model, const RobotWork& work, std::span<const Spatial> accelerations,

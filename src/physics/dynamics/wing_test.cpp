@@ -127,6 +127,191 @@ TEST(Wing, StrongLiftIsStable) {
     }
 }
 
+/// Wings of any size, in air at rest and without gravity: energy only ever falls.
+TEST(Wing, NoWingGainsEnergyHoweverLarge) {
+    for (const double area : {0.4, 4.0, 40.0, 5e2, 5e4, 5e8}) {
+        for (const double stall : {0.05, 0.3, 2.0}) {
+            LiftDragSpec spec = wing();
+            spec.area = area, spec.alpha_stall = stall, spec.cla_stall = 3, spec.reversible = true;
+            spec.cma = spec.cma_stall = 0;  // a moment by itself is no passive law
+            World world = empty_world(1e-2, {});
+            place(world, glider(spec), "glider");
+            Simulation sim(world);
+            std::vector<double>& v = sim.states[0].v;
+            v[1] = 0.2, v[3] = 30, v[4] = 3, v[5] = -20;
+            const double start = sim.energy();
+            double most = start;
+            for (int i = 0; i < 2000; ++i) {
+                sim.step();
+                ASSERT_LE(sim.energy(), most * (1 + 5e-3) + 1e-12) << area << " " << stall << " " << i;
+                most = std::min(most, sim.energy());
+            }
+            EXPECT_LT(most, start);
+        }
+    }
+}
+
+/// A wing of 5e4 m^2 on 2 kg, falling and driven along by wind, in ticks of 10 ms.
+TEST(Wing, AnAbsurdWingStaysFinite) {
+    for (const double wind : {0.0, 30.0}) {
+        for (const Vec3& centre : {Vec3{}, Vec3{-0.1, 0.2, 0.05}}) {
+            LiftDragSpec spec = wing();
+            spec.area = 5e4, spec.alpha_stall = 0.1, spec.cla_stall = 1, spec.reversible = true;
+            spec.centre = centre;
+            World world = empty_world(1e-2, {0, 0, -9.81});
+            world.wind = {-wind, 0, 0.2 * wind};
+            place(world, glider(spec), "glider");
+            Simulation sim(world);
+            sim.states[0].v[1] = 1, sim.states[0].v[3] = 30, sim.states[0].v[5] = -20;
+            for (int i = 0; i < 4000; ++i) {
+                sim.step();
+                const std::vector<double>& v = sim.states[0].v;
+                ASSERT_LT(norm(Vec3{v[3], v[4], v[5]}), 40 + 9.81 * sim.time() + 2 * wind) << i;
+                ASSERT_LT(norm(Vec3{v[0], v[1], v[2]}), 1e3) << i;
+            }
+        }
+    }
+}
+
+TEST(Wing, AnOrdinaryWingIsLeftAlone) {
+    LiftDragSpec spec = wing();
+    World world = empty_world(1e-3, {});
+    place(world, glider(spec), "glider");
+    Simulation sim(world);
+    sim.states[0].v[3] = 30 * std::cos(0.5), sim.states[0].v[5] = -30 * std::sin(0.5);  // beyond stall
+    const FlowForce f = lift_drag_force(spec, at_angle(0.5, 30), 0);
+    sim.step();
+    EXPECT_NEAR(sim.states[0].v[3] - 30 * std::cos(0.5), f.force.x / 2 * 1e-3, 2e-2 * norm(f.force) * 1e-3);
+    EXPECT_NEAR(sim.states[0].v[5] + 30 * std::sin(0.5), f.force.z / 2 * 1e-3, 2e-2 * norm(f.force) * 1e-3);
+}
+
+LighterThanAirSpec hull() {
+    LighterThanAirSpec spec;
+    spec.link = {"box"};
+    spec.density = 1.2754;
+    spec.force_inviscid = -0.064, spec.force_viscous = 0.072;
+    spec.moment_inviscid = 0.085, spec.moment_viscous = -0.094;
+    spec.eps_v = 2.4, spec.axial_drag = 0.1;
+    return spec;
+}
+
+/// As Gazebo writes the law, by angles.
+FlowForce hull_by_angles(const LighterThanAirSpec& s, const FlowVelocity& flow) {
+    const Vec3 v = flow.linear + cross(flow.angular, Vec3{-s.eps_v, 0, 0});
+    const double q = 0.5 * s.density * dot(v, v), side = std::hypot(v.y, v.z), gamma = std::atan2(side, v.x);
+    const double twice = std::sin(2 * gamma), squared = std::sin(gamma) * std::sin(gamma);
+    const double f = q * (-s.force_inviscid * twice + s.force_viscous * squared);
+    const double m = q * (-s.moment_inviscid * twice + s.moment_viscous * squared);
+    const Vec3& u = flow.linear;
+    const double attack = std::cos(std::atan2(u.z, u.x));
+    const double axial = 0.5 * s.density * dot(u, u) * s.axial_drag * attack * attack;
+    FlowForce sum;
+    sum.force = Vec3{-axial, -f * v.y / side, -f * v.z / side};
+    sum.torque = Vec3{0, m * v.z / side, -m * v.y / side};
+    return sum;
+}
+
+TEST(Hull, ForcesFollowTheFormulas) {
+    const FlowVelocity flows[] = {{{5, 1, -0.5}, {0.1, 0.2, -0.3}}, {{2, -3, 1}, {0, 0.5, 0}}};
+    for (const FlowVelocity& flow : flows) {
+        const FlowForce f = hull_force(hull(), flow), expected = hull_by_angles(hull(), flow);
+        EXPECT_NEAR(norm(f.force - expected.force), 0, 1e-12);
+        EXPECT_NEAR(norm(f.torque - expected.torque), 0, 1e-12);
+    }
+    const FlowForce astern = hull_force(hull(), {{-4, 0, 0}, {}});
+    EXPECT_NEAR(astern.force.x, 0.5 * 1.2754 * 16 * 0.1, 1e-12) << "drag brakes backward motion, too";
+}
+
+/// du/dt = -k u^2: u = u0 / (1 + k u0 t).
+TEST(Hull, AxialDragSlowsDownHyperbolically) {
+    World world = empty_world(1e-3, {});
+    ModelSpec m = solid_box(5, {3, 0.5, 0.5}, surface(0.5));
+    m.onboard.push_back({"hull", hull(), {}});
+    place(world, m, "airship");
+    Simulation sim(world);
+    sim.states[0].v[3] = 10;
+    sim.run(20);
+    EXPECT_NEAR(sim.states[0].v[3], 10 / (1 + 0.5 * 1.2754 * 0.1 / 5 * 10 * 20), 1e-6);
+}
+
+/// With added mass, Munk's moment is the law's own: that of the added masses does not come on top.
+TEST(Hull, MunksMomentCountsOnce) {
+    World world = empty_world(1e-4, {});
+    ModelSpec m = solid_box(5, {3, 0.5, 0.5}, surface(0.5));
+    m.links[0].added_mass.assign(kAddedMassNumbers, 0.0);
+    m.links[0].added_mass[0] = 0.1, m.links[0].added_mass[6] = m.links[0].added_mass[11] = 3;
+    LighterThanAirSpec still = hull();
+    still.force_inviscid = still.force_viscous = still.moment_viscous = still.axial_drag = 0;
+    for (const double moment : {0.0, 0.085}) {
+        still.moment_inviscid = moment;
+        m.onboard.assign(1, {"hull", still, {}});
+        World own = world;
+        place(own, m, "airship");
+        Simulation sim(own);
+        sim.states[0].v[3] = 5, sim.states[0].v[5] = 1;
+        sim.step();
+        const double inertia = m.links[0].inertia_C.r1.y;
+        EXPECT_NEAR(sim.states[0].v[1] / 1e-4, -moment * 1.2754 * 5 * 1 / inertia, 1e-3);
+    }
+}
+
+TEST(Hull, AnyStrengthIsStable) {
+    for (const double strength : {1.0, 1e2, 1e5}) {
+        LighterThanAirSpec spec = hull();
+        for (double* c : {&spec.force_inviscid, &spec.force_viscous, &spec.moment_inviscid,
+                          &spec.moment_viscous, &spec.axial_drag})
+            *c *= strength;
+        World world = empty_world(1e-2, {});
+        ModelSpec m = solid_box(5, {3, 0.5, 0.5}, surface(0.5));
+        m.onboard.push_back({"hull", spec, {}});
+        place(world, m, "airship");
+        Simulation sim(world);
+        sim.states[0].v[1] = 0.5, sim.states[0].v[3] = 8, sim.states[0].v[4] = 2;
+        for (int i = 0; i < 3000; ++i) {
+            sim.step();
+            ASSERT_LT(sim.energy(), 400) << strength << " " << i;
+        }
+    }
+}
+
+/// The wind carries a link where it is: in a layer at 0.5 1/s, above it not at all.
+TEST(Wind, PushesByThePlace) {
+    World world = empty_world(1e-3, {});
+    world.wind = {10, 0, 0};
+    WindEffectsSpec wind;
+    wind.regions.emplace_back();
+    wind.regions[0].lower = {-1e3, -1e3, 0}, wind.regions[0].upper = {1e3, 1e3, 5};
+    wind.regions[0].constant = 0.5;
+    wind.magnitude_rise = 1e-3;  // blows at once
+    world.wind_effects = wind;
+    for (const double z : {2.0, 7.0}) {
+        ModelSpec m = solid_box(2, {0.5, 0.5, 0.5}, surface(0.5));
+        m.links[0].drag.acts = m.links[0].drag.wind = true;
+        place(world, m, "at_" + std::to_string(static_cast<int>(z)), {{0, 10 * z, z}, {}});
+    }
+    Simulation sim(world);
+    sim.run(2);
+    EXPECT_NEAR(sim.states[0].v[3], 10 * (1 - std::exp(-0.5 * 2.0)), 5e-3);
+    EXPECT_EQ(sim.states[1].v[3], 0);
+}
+
+/// A factor that grows with x: dv/dt = k x (w - v) at w = 0 is dv/dx = -k x, so v = v0 - k x^2 / 2.
+TEST(Wind, TheFactorIsTakenWhereTheLinkIs) {
+    World world = empty_world(1e-4, {});
+    WindEffectsSpec wind;
+    wind.regions.emplace_back();
+    wind.regions[0].linear = {0.2, 0, 0};
+    world.wind_effects = wind;
+    ModelSpec m = solid_box(2, {0.5, 0.5, 0.5}, surface(0.5));
+    m.links[0].drag.acts = m.links[0].drag.wind = true;
+    place(world, m, "box");
+    Simulation sim(world);
+    sim.states[0].v[3] = 3;
+    sim.run(1);
+    const double x = sim.states[0].q[0];
+    EXPECT_NEAR(sim.states[0].v[3], 3 - 0.1 * x * x, 1e-3);
+}
+
 TEST(Aeroplane, ForcesFollowTheDerivatives) {
     AdvancedLiftDragSpec spec;
     spec.link = {"body"};

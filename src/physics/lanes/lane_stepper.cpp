@@ -10,7 +10,7 @@ LaneStepper::~LaneStepper() = default;
 bool fits_lanes(const RobotType& type, const RobotState& state) {
     const bool is_lone_body = type.free_base && type.nv == 6;
     return type.nv > 0 && !is_lone_body && !type.has_equalities() && type.drags.empty() && !type.feels_flow &&
-           type.self_pairs.empty() && state.wrenches.empty() && state.bonds.empty() &&
+           !type.has_slip && type.self_pairs.empty() && state.wrenches.empty() && state.bonds.empty() &&
            state.surfaces.empty() && is_driven<double>(state.motors);
 }
 

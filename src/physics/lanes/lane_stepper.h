@@ -96,9 +96,9 @@ void step_batch(const LaneSteppers& steppers, const Model& model, std::vector<st
 }
 
 /// Whether a robot may be stepped in lanes at all: no loops, couplings or drag, no contact with itself, no
-/// wrench, no bond that it holds; no lone body (what slides without turning is stepped apart, see
-/// contact_island.cpp), and nothing without a driven motor (its energy is guarded, see kick_drift.h and
-/// island_guard.h).
+/// wheels that slip, no wrench, no bond that it holds; no lone body (what slides without turning is stepped
+/// apart, see contact_island.cpp), and nothing without a driven motor (its energy is guarded, see
+/// kick_drift.h and island_guard.h).
 bool fits_lanes(const RobotType& type, const RobotState& state);
 
 /// The widest stepper of at most `most` lanes that this processor can run. If there is none: nullptr for

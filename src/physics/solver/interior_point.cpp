@@ -54,11 +54,13 @@ Tangential prepare(FrictionDisc& disc, double mu) {
     if (disc.bound <= 0) return {};
     const double left = room(disc), x = disc.impulse_1, y = disc.impulse_2;
     const double a = disc.compliance + disc.slack, s = disc.slack / left;
-    const double a11 = a + s * x * x, a12 = s * x * y, a22 = a + s * y * y;
+    const double a11 = a + disc.slip_11 + s * x * x, a12 = disc.slip_12 + s * x * y,
+                 a22 = a + disc.slip_22 + s * y * y;
     const double inverse = 1.0 / (a11 * a22 - a12 * a12);
     disc.d_11 = a22 * inverse, disc.d_12 = -a12 * inverse, disc.d_22 = a11 * inverse;
     const double k = disc.compliance + mu / left;
-    const double r1 = -disc.u_1 - k * x, r2 = -disc.u_2 - k * y;
+    const double r1 = -disc.u_1 - k * x - disc.slip_11 * x - disc.slip_12 * y,
+                 r2 = -disc.u_2 - k * y - disc.slip_12 * x - disc.slip_22 * y;
     return {disc.d_11 * r1 + disc.d_12 * r2, disc.d_12 * r1 + disc.d_22 * r2};
 }
 

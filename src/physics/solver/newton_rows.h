@@ -40,6 +40,13 @@ struct DiscCurvature {
 template <class T>
 [[gnu::always_inline]] inline DiscCurvature<T> curvature_of(const FrictionDiscT<T>& disc) {
     using std::sqrt;
+    if constexpr (std::is_same_v<T, double>) {
+        if (slip_disc::slips(disc)) {
+            const auto at = slip_disc::solve(disc, {disc.u_1, disc.u_2}, disc.bound);
+            const slip_disc::Sym2 d = slip_disc::curvature(at);
+            return {d.xx, d.xy, d.yy};
+        }
+    }
     const T speed = sqrt(disc.u_1 * disc.u_1 + disc.u_2 * disc.u_2);
     return either(
         is_sliding(disc, speed),
@@ -78,6 +85,16 @@ MaskOf<T> expect_sticking(IslandRowsT<T>& rows) {
         normal.d = select(sticks, normal.stiffness, normal.d);
         normal.impulse = select(sticks, (normal.target - normal.u) * normal.stiffness, normal.impulse);
         FrictionDiscT<T>& slip = row.slip;
+        if constexpr (std::is_same_v<T, double>) {
+            if (slip_disc::slips(slip)) {
+                const slip_disc::Sym2 d = slip_disc::inverse(slip_disc::compliance(slip));
+                const slip_disc::Plane t = slip_disc::times(d, {slip.u_1, slip.u_2});
+                slip.d_11 = d.xx, slip.d_12 = d.xy, slip.d_22 = d.yy;
+                slip.impulse_1 = -t.x, slip.impulse_2 = -t.y;
+                some = true;
+                continue;
+            }
+        }
         slip.d_11 = select(sticks, slip.stiffness, slip.d_11);
         slip.d_22 = select(sticks, slip.stiffness, slip.d_22);
         slip.d_12 = select(sticks, T(0), slip.d_12);

@@ -7,6 +7,7 @@
 
 #include "core/pair.h"
 #include "physics/solver/rows.h"
+#include "physics/solver/slip_disc.h"
 
 namespace roboss {
 
@@ -29,6 +30,12 @@ template <class T>
 [[gnu::always_inline]] inline TangentialT<T> impulse_at(const FrictionDiscT<T>& disc, const T& u_1,
                                                         const T& u_2, const T& bound) {
     using std::sqrt;
+    if constexpr (std::is_same_v<T, double>) {
+        if (slip_disc::slips(disc)) {
+            const slip_disc::Plane t = slip_disc::solve(disc, {u_1, u_2}, bound).impulse;
+            return {t.x, t.y};
+        }
+    }
     const T t1 = -u_1 * disc.stiffness, t2 = -u_2 * disc.stiffness;
     const T size2 = t1 * t1 + t2 * t2;
     return either(

@@ -51,6 +51,8 @@ struct FrictionDiscT {
     double coefficient = 0;
     T bound{}, compliance{1};
     T stiffness{1};  // 1 / compliance, set by the solver
+    // Compliance besides: it slips (slip_disc.h). Not in lanes.
+    double slip_11 = 0, slip_12 = 0, slip_22 = 0;
     T target_1{}, target_2{};
     T u_1{}, u_2{}, du_1{}, du_2{};  // velocity minus target; per unit step of the line search
     T impulse_1{}, impulse_2{};
