@@ -46,6 +46,7 @@ inline void run(const HydrodynamicsSpec&, OnboardContext&) {}
 void run(const TrackControllerSpec& spec, OnboardContext& c);
 void run(const SurfaceVelocitySpec& spec, OnboardContext& c);
 void run(const ActorSpec& spec, OnboardContext& c);
+void run(const AudioSourceSpec& spec, OnboardContext& c);
 /// Nothing: a control program reacts to the messages (onboard_kinds/message_board.h).
 inline void run(const MessageBoardSpec&, OnboardContext&) {}
 

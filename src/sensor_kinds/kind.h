@@ -38,6 +38,7 @@ struct PublishingPlugin {
     const char* usual_topic = "";  ///< the sensor's name where no topic is written
     const char* rate = "";         ///< its element for the rate in Hz, or "first|second"
     double usual_rate_hz = 0;      ///< 0: whenever it is asked
+    const char* element = "";      ///< its element that is one sensor, repeated; "": the plugin is
 };
 
 /// What a kind of sensor may ask about the plugin that it was made from.
