@@ -34,7 +34,7 @@ struct FieldArchive {
     }
     void put(Of<A, std::vector<std::string>>& texts) const {
         if constexpr (A::kReading)
-            texts.resize(a.count(sizeof(std::uint64_t)));
+            texts.resize(a.count(sizeof(std::uint32_t)));
         else
             a.count(texts.size());
         for (auto& text : texts) field(a, text);
