@@ -146,6 +146,7 @@ class Client : private SensorSources {
 
   private:
     StepProbe& step_probe() override;
+    const RobotState& state_of(RobotId robot) override { return state(robot); }
     const RobotType& known_type(RobotId robot, LinkId link) const;
     Sample sample(RobotId robot, std::size_t sensor, const SensorKind& asked);
     Sample measure(RobotId robot, std::size_t sensor);

@@ -32,6 +32,13 @@ struct FieldArchive {
             a.count(values.size());
         for (auto& x : values) field(a, x);
     }
+    void put(Of<A, std::vector<std::string>>& texts) const {
+        if constexpr (A::kReading)
+            texts.resize(a.count(sizeof(std::uint32_t)));
+        else
+            a.count(texts.size());
+        for (auto& text : texts) field(a, text);
+    }
     template <class Value>
     void operator()(const ReadingField&, Value& value) const {
         put(value);

@@ -55,6 +55,9 @@ HeldSamples some() {
     odometer.joint_positions = {1, 2}, odometer.joint_velocities = {3, 4}, odometer.speed = -0.0,
     odometer.tick = 13;
     held.put({5, 0}, odometer);
+    LogicalCameraReading camera;
+    camera.names = {"a", "", "wall"}, camera.models = {2, 3, -1}, camera.tick = 13;
+    held.put({6, 2}, camera);
     return held;
 }
 
@@ -69,6 +72,9 @@ TEST(HeldSamples, SurviveBeingBytes) {
     EXPECT_EQ(std::get<GpsReading>(*back.find({3, 0})).p_W, (Vec3{1, -2, 0.1}));
     EXPECT_EQ(taken_at(*back.find({0, 7})), 12);
     EXPECT_EQ(std::get<OdometerReading>(*back.find({5, 0})).joint_velocities, (std::vector<double>{3, 4}));
+    ASSERT_NE(back.find({6, 2}), nullptr);
+    EXPECT_EQ(std::get<LogicalCameraReading>(*back.find({6, 2})).names,
+              (std::vector<std::string>{"a", "", "wall"}));
 }
 
 TEST(HeldSamples, GoBackToWhatWasHeldBeforeAnObservation) {

@@ -40,6 +40,10 @@ Json json_of(const std::vector<double>& values) {
     return list;
 }
 
+Json json_of(const std::vector<std::string>& texts) {
+    return texts;
+}
+
 const char* name_of(MotorMode mode) {
     static constexpr const char* kNames[] = {"passive", "velocity", "position", "effort"};
     return kNames[static_cast<std::size_t>(mode) % 4];
@@ -186,6 +190,11 @@ StepProbe& Inspector::step_probe() {
         probe_->step(tick_, states);
     }
     return *probe_;
+}
+
+const RobotState& Inspector::state_of(RobotId robot) {
+    ROBOSS_CHECK(states_[robot.index()].has_value(), "a sensor looks at a robot whose state is not here");
+    return *states_[robot.index()];
 }
 
 /// Also after a rewind to before its last sample.

@@ -33,6 +33,7 @@ class Inspector : private SensorSources {
   private:
     RayScene& ray_scene() override;
     StepProbe& step_probe() override;
+    const RobotState& state_of(RobotId robot) override;
     bool is_due(RobotId robot, std::size_t sensor) const;
     /// What it measured last, now if it is due; nullptr: nothing reads it.
     const Sample* sample(RobotId robot, std::size_t sensor);

@@ -211,6 +211,10 @@ TEST(ModelHash, ChangesWithEveryParameterOfEverySensor) {
                     value = "slider";
                 else if constexpr (std::is_same_v<Value, Vec3>)
                     value = {0, 7, 0};
+                else if constexpr (std::is_same_v<Value, Pose>)
+                    value.p = {0, 7, 0};
+                else if constexpr (std::is_same_v<Value, std::vector<double>>)
+                    value = {7};
                 else if constexpr (std::is_same_v<Value, bool>)
                     value = !value;
                 else

@@ -35,6 +35,16 @@ void add(Hash& hash, const std::vector<std::string>& texts) {
     for (const std::string& text : texts) add(hash, text);
 }
 
+void add(Hash& hash, const std::vector<double>& values) {
+    hash.add(static_cast<std::uint64_t>(values.size()));
+    hash.add(std::span<const double>(values));
+}
+
+void add(Hash& hash, const Pose& X) {
+    add(hash, X.p);
+    for (const double x : {X.q.w, X.q.x, X.q.y, X.q.z}) hash.add(x);
+}
+
 /// The record; parameters that are not in it go to `rest`.
 struct Record {
     std::array<std::pair<std::string_view, double>, 8> numbers{{{"min_angle", 0},
@@ -64,6 +74,8 @@ struct Record {
     void operator()(const Parameter& p, const Vec3& value) { keep(p, value); }
     void operator()(const Parameter& p, const std::string& value) { keep(p, value); }
     void operator()(const Parameter& p, const std::vector<std::string>& value) { keep(p, value); }
+    void operator()(const Parameter& p, const std::vector<double>& value) { keep(p, value); }
+    void operator()(const Parameter& p, const Pose& value) { keep(p, value); }
 
   private:
     template <class Slots, class Value>

@@ -50,6 +50,7 @@ void run(const LookupWheelSlipSpec& spec, OnboardContext& c);
 void run(const TrackControllerSpec& spec, OnboardContext& c);
 void run(const SurfaceVelocitySpec& spec, OnboardContext& c);
 void run(const ActorSpec& spec, OnboardContext& c);
+void run(const AudioSourceSpec& spec, OnboardContext& c);
 /// Nothing: a control program reacts to the messages (onboard_kinds/message_board.h).
 inline void run(const MessageBoardSpec&, OnboardContext&) {}
 

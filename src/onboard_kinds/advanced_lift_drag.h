@@ -54,7 +54,9 @@ struct AdvancedLiftDragSpec {
         pitch_0 = 0;                           ///< moment at zero angle of attack
     AeroCoefficients by_alpha,                 ///< 1/rad, angle of attack
         by_beta,                               ///< 1/rad, angle of sideslip
-        by_p, by_q, by_r;                      ///< by dimensionless angular rates
+        by_p,                                  ///< by the dimensionless rate of roll
+        by_q,                                  ///< by the dimensionless rate of pitch
+        by_r;                                  ///< by the dimensionless rate of yaw
     double alpha_stall = 1.5707963267948966,   ///< rad
         pitch_stall = 0,                       ///< 1/rad, slope of the pitching moment beyond stall
         aspect_ratio = 0,                      ///< span^2 / area

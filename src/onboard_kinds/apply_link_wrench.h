@@ -29,7 +29,7 @@ struct PersistentWrench {
 };
 
 /// The plugin acts on all models of its world. Each model gets a controller for its canonical link, and one
-/// for each other link that a <persistent> names (for_model).
+/// for each other link that a `<persistent>` names (for_model).
 struct ApplyLinkWrenchSpec {
     std::vector<PersistentWrench> persistent;  ///< from the start; of a model's controller: on its link
     LinkNames link;                            ///< one: that it pushes; none: the canonical link

@@ -19,6 +19,7 @@ struct DetachableJointSpec {
         old_topic,             ///< what detach_topic was called before; empty: the default topic
         attach_topic;          ///< empty: the default topic
 
+    /// Its elements of SDF that have no effect.
     static constexpr IgnoredElement kIgnored[] = {
         {"output_topic", "", "Clients read the bonds of a robot from its state"},
         {"suppress_child_warning", "true|false|1|0", "RoBOSS does not warn of a child that comes later"},

@@ -15,13 +15,15 @@ namespace roboss {
 /// for each component of the force. Negative damping brakes, negative derivatives by the acceleration add
 /// mass.
 struct HydrodynamicsSpec {
-    LinkNames link;                                ///< that the water pushes
-    std::string robot_namespace;                   ///< part of the topic; empty: the topic has none
-    std::vector<double> linear, absolute, square,  ///< N s/m; N s^2/m^2 times |velocity|; times velocity
-        added_mass;                                ///< kg: derivatives by the acceleration
-    bool no_coriolis = false,                      ///< leaves out forces of turning with the added mass
-        no_added_mass = false;                     ///< leaves out its inertia
-    Vec3 current;                                  ///< m/s, world axes, before the first command
+    LinkNames link;               ///< that the water pushes
+    std::string robot_namespace;  ///< part of the topic; empty: the topic has none
+    std::vector<double> linear,   ///< N s/m
+        absolute,                 ///< N s^2/m^2, times |velocity|
+        square,                   ///< N s^2/m^2, times velocity
+        added_mass;               ///< kg: derivatives by the acceleration
+    bool no_coriolis = false,     ///< leaves out forces of turning with the added mass
+        no_added_mass = false;    ///< leaves out its inertia
+    Vec3 current;                 ///< m/s, world axes, before the first command
 
     /// Sizes of the matrices.
     HydrodynamicsSpec() : linear(36), absolute(216), square(216), added_mass(36) {}
@@ -44,8 +46,12 @@ struct HydrodynamicsSpec {
 
     /// Names of the elements: xU, xUabsU, xUU, xDotU and their like, by number.
     struct Names {
-        std::vector<std::string> linear, absolute, square, added_mass;
+        std::vector<std::string> linear,  ///< of HydrodynamicsSpec::linear
+            absolute,                     ///< of HydrodynamicsSpec::absolute
+            square,                       ///< of HydrodynamicsSpec::square
+            added_mass;                   ///< of HydrodynamicsSpec::added_mass
     };
+    /// Of all elements.
     static const Names& names();
 
     /// Calls visit(Parameter, value) for each parameter, always in the same order.

@@ -12,7 +12,14 @@ namespace roboss {
 /// Gains of a PID controller for each joint, in the order of the joints; what is missing has the default of
 /// PidGains, which does nothing.
 struct JointGains {
-    std::vector<double> p, i, d, i_min, i_max, cmd_min, cmd_max, cmd_offset;
+    std::vector<double> p,  ///< PidGains::p
+        i,                  ///< PidGains::i
+        d,                  ///< PidGains::d
+        i_min,              ///< PidGains::i_min
+        i_max,              ///< PidGains::i_max
+        cmd_min,            ///< PidGains::cmd_min
+        cmd_max,            ///< PidGains::cmd_max
+        cmd_offset;         ///< PidGains::cmd_offset
 
     /// Of one joint.
     PidGains of(std::size_t joint) const {

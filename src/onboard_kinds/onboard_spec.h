@@ -16,6 +16,7 @@
 #include "onboard_kinds/advanced_lift_drag.h"
 #include "onboard_kinds/apply_joint_force.h"
 #include "onboard_kinds/apply_link_wrench.h"
+#include "onboard_kinds/audio_source.h"
 #include "onboard_kinds/buoyancy_engine.h"
 #include "onboard_kinds/detachable_joint.h"
 #include "onboard_kinds/diff_drive.h"
@@ -60,7 +61,7 @@ using OnboardParameters =
                  GripperSpec, MotorModelSpec, MulticopterControlSpec, LiftDragSpec, AdvancedLiftDragSpec,
                  ThrusterSpec, BuoyancyEngineSpec, HydrodynamicsSpec, WindEffectsSpec, TrackControllerSpec,
                  SurfaceVelocitySpec, ActorSpec, MessageBoardSpec, WheelSlipSpec, LookupWheelSlipSpec,
-                 LighterThanAirSpec>;
+                 LighterThanAirSpec, AudioSourceSpec>;
 
 /// An on-board controller of a model.
 struct OnboardSpec {

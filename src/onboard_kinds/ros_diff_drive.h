@@ -23,7 +23,8 @@ struct RosDiffDriveMemory {
 /// Pairs of wheels, each with a separation and diameter of its own. Motors of bounded torque hold the wheels'
 /// speeds; an acceleration bounds the change of each rim's speed.
 struct RosDiffDriveSpec {
-    JointNames left, right;           ///< wheel joints, as many on each side
+    JointNames left,                  ///< wheel joints
+        right;                        ///< wheel joints, as many
     std::vector<double> separations,  ///< m, one a pair
         diameters;                    ///< m, one a pair
     int pairs = 1;                    ///< number of pairs

@@ -33,6 +33,7 @@ struct TrackControllerSpec {
     /// From here on a coordinate of the centre of rotation means that the track runs straight, m.
     static constexpr double kStraight = 1e8;
 
+    /// Its elements of SDF that have no effect.
     static constexpr IgnoredElement kIgnored[] = {
         {"debug", "0|false", "nothing is drawn for it"},
     };

@@ -158,7 +158,7 @@ Json json_of(const RobotType& type, const Joint& joint) {
             {"max_velocity", std::move(speed)}};
 }
 
-/// Writes the parameters that a viewer draws by, not the noise.
+/// Writes the parameters that a viewer draws by, not the noise and the tables.
 struct ParameterWriter {
     Json& o;
     void operator()(const Parameter& p, double value) const { o[p.name] = bound_of(value); }
@@ -168,7 +168,9 @@ struct ParameterWriter {
     void operator()(const Parameter& p, const Vec3& value) const { o[p.name] = json_of(value); }
     void operator()(const Parameter& p, const std::string& value) const { o[p.name] = value; }
     void operator()(const Parameter& p, const std::vector<std::string>& value) const { o[p.name] = value; }
+    void operator()(const Parameter& p, const Pose& value) const { o[p.name] = json_of(value); }
     void operator()(const Parameter&, const NoiseSpec&) const {}
+    void operator()(const Parameter&, const std::vector<double>&) const {}
 };
 
 /// The units of a sensor's readings by their names.

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "sdf/environment.h"
 #include "sdf/event_conversion.h"
 #include "sdf/include_store.h"
 #include "sdf/libsdformat_reader.h"
@@ -65,6 +66,8 @@ class WorldLoader {
         state.report_unused(diagnostics_);
         attach_world_plugins(plugins, result, diagnostics_);
         mark_buoyant(result);
+        convert_environment(result, import_);
+        show_scenery(result);
         convert_events(result, diagnostics_);
         validate_settings(result, diagnostics_);
         return result;

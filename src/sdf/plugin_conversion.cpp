@@ -4,6 +4,7 @@
 #include <cctype>
 #include <sstream>
 
+#include "sdf/environment.h"
 #include "sdf/event_conversion.h"
 #include "sdf/parameter_reader.h"
 #include "sdf/plugin_sensors.h"
@@ -113,8 +114,8 @@ void convert_plugin(const Element& plugin, const std::string& scope, const Impor
         record.fate = PluginFate::kNotNeeded;
         return;
     }
-    if (is_one_of(kEventPlugins, name.class_name))
-        return;  // convert_events() does, when all models are known
+    if (is_one_of(kEventPlugins, name.class_name) || is_environment_plugin(name))
+        return;  // convert_events() and convert_environment() do, when all models are known
     std::optional<OnboardParameters> parameters = parameters_for(name);
     if (!parameters && is_sensor_plugin(name)) {
         record.fate = PluginFate::kRuns;  // see convert_plugin_sensors()

@@ -50,8 +50,19 @@ double rate_of(const Element& plugin, const PublishingPlugin& source, const Impo
     return std::max(0.0, import.reader.number(parent, name.c_str(), usual));
 }
 
-/// Reads a sensor of this kind; problems become warnings, as with Gazebo, and then there is no sensor.
-std::optional<PluginSensor> read_sensor(const Element& plugin, const std::string& scope,
+/// What a kind derives from its parameters: its name, and its place in the model's frame.
+void use_parameters(PluginSensor& sensor) {
+    std::visit(
+        [&](const auto& spec) {
+            if constexpr (requires { spec.sensor_name(); }) sensor.spec.name = spec.sensor_name();
+            if constexpr (requires { spec.X_RM; }) sensor.spec.X_LS = spec.X_RM;
+        },
+        sensor.spec.parameters);
+}
+
+/// Reads a sensor of this kind from `block`, the plugin or one of its elements; problems become warnings, as
+/// with Gazebo, and then there is no sensor.
+std::optional<PluginSensor> read_sensor(const Element& plugin, const Element& block, const std::string& scope,
                                         SensorParameters parameters, const Import& import) {
     Diagnostics found;
     const Import local{import.paths, ElementReader(found), import.files,
@@ -68,10 +79,11 @@ std::optional<PluginSensor> read_sensor(const Element& plugin, const std::string
             if constexpr (requires { spec.use_plugin(facts); }) spec.use_plugin(facts);
         },
         sensor.spec.parameters);
-    visit_parameters(sensor.spec.parameters, ParameterReader{plugin, scope, local});
-    report_ignored(plugin, kind.ignored, kind.phrase, local);
+    visit_parameters(sensor.spec.parameters, ParameterReader{block, scope, local});
+    report_ignored(block, kind.ignored, kind.phrase, local);
     sensor.spec.name = sensor_name(plugin, kind.plugin);
     sensor.spec.update_rate_hz = rate_of(plugin, kind.plugin, local);
+    use_parameters(sensor);
     for (const SensorProblem& problem : problems_of(sensor.spec))
         found.error(plugin.where(), "bad-sensor", "plugin '" + plugin.name() + "' " + problem.text,
                     problem.remedy);
@@ -107,9 +119,15 @@ std::vector<PluginSensor> convert_plugin_sensors(const Element& plugin, const st
                                                  const Import& import) {
     std::vector<PluginSensor> sensors;
     const PluginName name = plugin_name(plugin);
-    const auto add = [&](SensorParameters parameters) {
-        if (auto sensor = read_sensor(plugin, scope, std::move(parameters), import))
+    const auto add_from = [&](const Element& block, SensorParameters parameters) {
+        if (auto sensor = read_sensor(plugin, block, scope, std::move(parameters), import))
             sensors.push_back(std::move(*sensor));
+    };
+    const auto add = [&](const SensorParameters& parameters) {
+        const char* const element =
+            std::visit([](const auto& p) { return p.kKind.plugin.element; }, parameters);
+        if (*element == '\0') return add_from(plugin, parameters);
+        for (const auto node : plugin.node.children(element)) add_from({plugin.source, node}, parameters);
     };
     for_each_kind([&]<class Kind>(std::in_place_type_t<Kind>) {
         if constexpr (!kReadsController<Kind>) {
@@ -140,7 +158,7 @@ void attach_plugin_sensor(PluginSensor sensor, const std::string& canonical_link
                                      "Correct the name.");
         return;
     }
-    if (sensor.link.empty()) sensor.spec.X_LS = inverse(link->X_ML) * X_MS;
+    if (sensor.link.empty()) sensor.spec.X_LS = inverse(link->X_ML) * X_MS * sensor.spec.X_LS;
     const std::string name = sensor.spec.name;
     const auto is_taken = [&] {
         return std::ranges::any_of(model.links, [&](const LinkSpec& other) {

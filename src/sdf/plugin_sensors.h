@@ -13,7 +13,7 @@ namespace roboss::sdf_import {
 
 /// A sensor that was made from a plugin, before the model's links are known.
 struct PluginSensor {
-    SensorSpec spec;   ///< X_LS is identity
+    SensorSpec spec;   ///< X_LS: in the frame that it observes
     std::string link;  ///< that it observes; "": the model's frame
 };
 

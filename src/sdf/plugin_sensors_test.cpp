@@ -110,6 +110,45 @@ TEST(PluginSensors, ThatMakeNoSenseAreReportedAndTheModelStays) {
     EXPECT_NE(loaded.find("plugin-not-run"), nullptr);
 }
 
+const std::string kSource =
+    "<source><id>3</id><pose>1 0 0 0 0 0</pose><attenuation_function> linear</attenuation_function>"
+    "<attenuation_shape>sphere</attenuation_shape><inner_radius>1</inner_radius>"
+    "<falloff_distance>5</falloff_distance><volume_level>.8</volume_level><playing>true</playing>"
+    "<play_duration>10</play_duration></source>";
+
+TEST(LogicalAudio, MicrophonesAreSensorsAndSourcesAController) {
+    const Loaded loaded = model_with(plugin(
+        "LogicalAudioSensorPlugin",
+        kSource + "<microphone><id>1</id><pose>0 .5 0 0 0 0</pose><volume_threshold>.4</volume_threshold>"
+                  "</microphone><microphone><id>2</id></microphone>"));
+    const auto sensors = sensors_of(loaded);
+    ASSERT_EQ(sensors.size(), 2u) << loaded.text();
+    EXPECT_EQ(sensors[0].name, "mic_1");
+    EXPECT_EQ(sensors[0].X_LS.p, (Vec3{0, 0.5, -1}));  // the canonical link is 1 m above the model's frame
+    EXPECT_EQ(sensors[0].as<MicrophoneSpec>()->volume_threshold, 0.4);
+    EXPECT_EQ(sensors[1].name, "mic_2");
+    EXPECT_EQ(sensors[1].as<MicrophoneSpec>()->volume_threshold, 0);
+    const auto& onboard = loaded.world->prototypes[0].onboard;
+    ASSERT_EQ(onboard.size(), 1u);
+    const auto& source = std::get<AudioSourceSpec>(onboard[0].parameters).sources.at(0);
+    EXPECT_EQ(source.X_RS.p.x, 1);
+    EXPECT_EQ(source.falloff_distance, 5);
+    EXPECT_EQ(source.play_duration, 10);
+    EXPECT_TRUE(source.playing);
+    EXPECT_EQ(channels_of(onboard[0].parameters).at(1).topic, "/model/{model}/sensor/source_3/stop");
+}
+
+TEST(LogicalAudio, AMicrophoneNeedsNoSourceAndASourceNeedsAllItsElements) {
+    const Loaded listener =
+        model_with(plugin("LogicalAudioSensorPlugin", "<microphone><id>1</id></microphone>"));
+    ASSERT_TRUE(listener.world) << listener.text();
+    EXPECT_TRUE(listener.world->prototypes[0].onboard.empty());
+    EXPECT_EQ(listener.world->prototypes[0].extensions.at(0).fate, PluginFate::kRuns);
+    const Loaded broken = model_with(plugin("LogicalAudioSensorPlugin", "<source><id>1</id></source>"));
+    EXPECT_NE(broken.find("plugin-not-run"), nullptr);
+    EXPECT_TRUE(sensors_of(model_with(plugin("LogicalAudioSensorPlugin", "<microphone/>"))).empty());
+}
+
 TEST(PluginControllers, OfJointsTakeAllOfTheModelWhereNoneIsNamed) {
     const Loaded loaded =
         model_with(plugin("JointTrajectoryController", "<position_p_gain>3</position_p_gain>"));

@@ -20,6 +20,32 @@ bool is_ours(const Element& sensor) {
     return std::strcmp(sensor.node.name(), "roboss:sensor") == 0;
 }
 
+/// Gazebo's type of a sensor of type "custom": "environmental_sensor/humidity".
+std::string type_of(const Element& sensor) {
+    std::string type = sensor.node.attribute("type").value();
+    if (type != "custom") return type;
+    for (const char* name : {"gz:type", "ignition:type"})
+        if (const auto custom = sensor.node.attribute(name)) return custom.value();
+    return type;
+}
+
+/// What the name of a custom type says: the column of the table; and what its elements may not say.
+void complete(EnvironmentalSpec& spec, const Element& sensor, const std::string& type, const Import& import) {
+    const auto check = [&](std::string& value, const char* name, const char* allowed, const char* usual) {
+        if (is_one_of(allowed, value)) return;
+        import.diagnostics().warning(
+            sensor.where(), "sensor",
+            "<" + std::string(name) + "> is '" + value + "'; it is taken as " + usual,
+            "Use one of " + std::string(allowed) + ".");
+        value = usual;
+    };
+    check(spec.output_format, "output_format", "scalar|vector3", "scalar");
+    check(spec.transform_type, "transform_type", "GLOBAL|LOCAL|ADD_VELOCITY_GLOBAL|ADD_VELOCITY_LOCAL",
+          "GLOBAL");
+    if (const std::size_t slash = type.find('/'); spec.variable.empty() && slash != std::string::npos)
+        spec.variable = type.substr(slash + 1);
+}
+
 /// "a or b": the types of <roboss:sensor>.
 std::string own_types() {
     std::string types;
@@ -46,9 +72,9 @@ void report_unsupported(const Element& sensor, const SensorSpec& spec, const Imp
 SensorParameters read_parameters(const Element& sensor, const SensorSpec& spec, const std::string& scope,
                                  const Import& import) {
     const bool ours = is_ours(sensor);
-    SensorParameters parameters = parameters_of_kind([&](const SensorKind& kind) {
-        return kind.ours == ours && is_one_of(kind.sdf_types, spec.sdf_type);
-    });
+    const std::string type = spec.sdf_type.substr(0, spec.sdf_type.find('/'));
+    SensorParameters parameters = parameters_of_kind(
+        [&](const SensorKind& kind) { return kind.ours == ours && is_one_of(kind.sdf_types, type); });
     if (std::holds_alternative<UnsupportedSensor>(parameters)) {
         report_unsupported(sensor, spec, import);
         return parameters;
@@ -66,6 +92,8 @@ SensorParameters read_parameters(const Element& sensor, const SensorSpec& spec, 
     const ParameterReader reader{block, scope, import};
     visit_parameters(parameters, reader);
     report_ignored(block, kind.ignored, kind.phrase, import);
+    if (auto* environmental = std::get_if<EnvironmentalSpec>(&parameters))
+        complete(*environmental, sensor, spec.sdf_type, import);
     return parameters;
 }
 
@@ -75,7 +103,7 @@ SensorSpec convert_sensor(const Element& sensor, const Pose& X_LS, const std::st
                           const Import& import) {
     SensorSpec spec;
     spec.name = sensor.name();
-    spec.sdf_type = sensor.node.attribute("type").value();
+    spec.sdf_type = type_of(sensor);
     spec.where = sensor.where();
     spec.X_LS = X_LS;
     spec.update_rate_hz = import.reader.number(sensor, "update_rate", 0);

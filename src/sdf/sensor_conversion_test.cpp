@@ -137,13 +137,55 @@ TEST(Sensors, AnOdometerOfAJointThatIsNotThereIsAnError) {
 TEST(Sensors, OthersAreKeptAndReportedOnceAKind) {
     const Loaded loaded = with_sensor(
         "<sensor name='c1' type='camera'><camera><image><width>oops</width></image></camera></sensor>"
-        "<sensor name='c2' type='camera'/><sensor name='i' type='logical_camera'/><sensor name='n' "
-        "type='air_speed'/>");
+        "<sensor name='c2' type='camera'/><sensor name='i' type='wireless_receiver'/>"
+        "<sensor name='n' type='sonar'/>");
     ASSERT_TRUE(loaded.world);
     EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
     EXPECT_EQ(loaded.diagnostics.items().size(), 3u) << loaded.text();
     EXPECT_FALSE(first(loaded).measures());
     EXPECT_EQ(first(loaded).sdf_type, "camera");
+}
+
+TEST(Sensors, ALogicalCameraHasItsFrustumAndTheSceneryOfTheWorld) {
+    const Loaded loaded = load_elements(
+        "<model name='m'>" +
+        link("a",
+             "<sensor name='eye' type='logical_camera'><update_rate>10</update_rate><logical_camera>"
+             "<near>0.5</near><far>7</far><horizontal_fov>1.2</horizontal_fov><aspect_ratio>2</aspect_ratio>"
+             "</logical_camera></sensor>") +
+        "</model><model name='wall'><static>true</static><pose>3 1 0 0 0 0</pose><link name='l'/></model>"
+        "<model name='mast'><static>true</static>" +
+        link("l", "<sensor name='i' type='imu'/>") + "</model>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_TRUE(loaded.diagnostics.items().empty()) << loaded.text();
+    const auto camera = first_as<LogicalCameraSpec>(loaded);
+    EXPECT_EQ(camera.near, 0.5);
+    EXPECT_EQ(camera.far, 7);
+    EXPECT_EQ(camera.horizontal_fov, 1.2);
+    EXPECT_EQ(camera.aspect_ratio, 2);
+    EXPECT_EQ(camera.scenery, (std::vector<std::string>{"wall"}))
+        << "the mast carries a sensor: it is a robot";
+    EXPECT_EQ(camera.scenery_poses, (std::vector<double>{3, 1, 0, 1, 0, 0, 0}));
+}
+
+TEST(Sensors, ALogicalCameraWithoutItsElementMeasuresNothing) {
+    const Loaded loaded = with_sensor("<sensor name='eye' type='logical_camera'/>");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_NE(loaded.find("sensor"), nullptr);
+    EXPECT_FALSE(first(loaded).measures());
+}
+
+TEST(Sensors, ABarometerAndAnAirSpeedSensorHaveTheirNoise) {
+    const std::string noise = "<pressure><noise type='gaussian'><stddev>0.25</stddev></noise></pressure>";
+    const auto barometer = first_as<AirPressureSpec>(
+        with_sensor("<sensor name='b' type='air_pressure'><air_pressure><reference_altitude>123"
+                    "</reference_altitude>" +
+                    noise + "</air_pressure></sensor>"));
+    EXPECT_EQ(barometer.reference_altitude, 123);
+    EXPECT_EQ(barometer.noise.stddev, 0.25);
+    const auto tube = first_as<AirSpeedSpec>(
+        with_sensor("<sensor name='t' type='air_speed'><air_speed>" + noise + "</air_speed></sensor>"));
+    EXPECT_EQ(tube.noise.stddev, 0.25);
 }
 
 TEST(Sensors, ALaserThatSeesNothingIsAnError) {

@@ -28,7 +28,7 @@ struct CompassReading {
     }
 };
 
-/// North is true north at the sensor's own position; without <spherical_coordinates> it is world y. `noise`
+/// North is true north at the sensor's own position; without `<spherical_coordinates>` it is world y. `noise`
 /// turns heading and orientation together, about the vertical; `gyro_noise` is drawn for each axis.
 struct CompassSpec {
     using Reading = CompassReading;  ///< what it measures

@@ -32,8 +32,12 @@ struct ForceTorqueSpec {
     std::string joint;                          ///< that it measures, of the same robot
     std::string frame = "child",                ///< of the axes: "child", "parent" (link) or "sensor"
         measure_direction = "child_to_parent";  ///< on the parent; "parent_to_child": on the child
-    NoiseSpec force_x, force_y, force_z;        ///< N
-    NoiseSpec torque_x, torque_y, torque_z;     ///< N m
+    NoiseSpec force_x,                          ///< N
+        force_y,                                ///< N
+        force_z;                                ///< N
+    NoiseSpec torque_x,                         ///< N m
+        torque_y,                               ///< N m
+        torque_z;                               ///< N m
 
     /// What this kind states about itself.
     static constexpr SensorKind kKind{.number = 36,

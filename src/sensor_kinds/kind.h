@@ -9,7 +9,7 @@
 
 namespace roboss {
 
-/// Gaussian noise as in SDF's <noise type="gaussian">, in the unit of the value that it disturbs; all zero:
+/// Gaussian noise as in SDF's `<noise type="gaussian">`, in the unit of the value that it disturbs; all zero:
 /// none.
 struct NoiseSpec {
     double mean = 0,       ///< of the draw of each measurement
@@ -38,6 +38,7 @@ struct PublishingPlugin {
     const char* usual_topic = "";  ///< the sensor's name where no topic is written
     const char* rate = "";         ///< its element for the rate in Hz, or "first|second"
     double usual_rate_hz = 0;      ///< 0: whenever it is asked
+    const char* element = "";      ///< its element that is one sensor, repeated; "": the plugin is
 };
 
 /// What a kind of sensor may ask about the plugin that it was made from.
@@ -53,8 +54,8 @@ struct SensorKind {
     std::uint32_t number;
     const char* name;        ///< in the viewer's JSON and in `roboss check`
     const char* phrase;      ///< for messages: "a laser"
-    const char* sdf_types;   ///< values of <sensor type="...">, separated by |
-    bool ours = false;       ///< in <roboss:sensor> rather than <sensor>
+    const char* sdf_types;   ///< values of `<sensor type="...">`, separated by |
+    bool ours = false;       ///< in `<roboss:sensor>` rather than `<sensor>`
     const char* block = "";  ///< the child element that holds the parameters, or "first|second"; "": none
     bool block_required = false;                ///< without it the sensor measures nothing
     bool needs_all_states = false;              ///< a reading depends on the states of other robots

@@ -11,11 +11,12 @@ namespace roboss {
 
 /// Where a drive takes the robot to be: integrated from its wheels, from zero at the start.
 struct WheelOdometryReading {
-    double x = 0, y = 0,  ///< m, in the frame of the start
-        heading = 0;      ///< rad
-    double linear = 0,    ///< m/s, ahead
-        angular = 0;      ///< rad/s, about z
-    Tick tick = 0;        ///< of the measurement
+    double x = 0,       ///< m, in the frame of the start
+        y = 0,          ///< m, in the frame of the start
+        heading = 0;    ///< rad
+    double linear = 0,  ///< m/s, ahead
+        angular = 0;    ///< rad/s, about z
+    Tick tick = 0;      ///< of the measurement
 
     /// Calls visit(ReadingField, value) for each value, always in the same order.
     template <class Visitor, class Self>

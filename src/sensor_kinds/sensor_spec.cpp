@@ -27,6 +27,12 @@ struct ProblemFinder {
     void operator()(const Parameter& parameter, const Vec3& value) const {
         if (!is_finite(value)) (*this)(parameter, std::nan(""));
     }
+    void operator()(const Parameter& parameter, const Pose& value) const {
+        if (!is_finite(value)) (*this)(parameter, std::nan(""));
+    }
+    void operator()(const Parameter& parameter, const std::vector<double>& values) const {
+        for (const double value : values) (*this)(parameter, value);
+    }
     template <class Value>
     requires(!std::is_same_v<Value, double>) void operator()(const Parameter&, const Value&) const {}
 };

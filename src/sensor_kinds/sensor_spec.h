@@ -11,9 +11,12 @@
 
 #include "core/diagnostics.h"
 #include "math/pose.h"
+#include "sensor_kinds/air_pressure.h"
+#include "sensor_kinds/air_speed.h"
 #include "sensor_kinds/altimeter.h"
 #include "sensor_kinds/compass.h"
 #include "sensor_kinds/contact.h"
+#include "sensor_kinds/environmental.h"
 #include "sensor_kinds/force_torque.h"
 #include "sensor_kinds/gps.h"
 #include "sensor_kinds/imu.h"
@@ -21,7 +24,9 @@
 #include "sensor_kinds/kind.h"
 #include "sensor_kinds/laser.h"
 #include "sensor_kinds/link_poses.h"
+#include "sensor_kinds/logical_camera.h"
 #include "sensor_kinds/magnetometer.h"
+#include "sensor_kinds/microphone.h"
 #include "sensor_kinds/odometer.h"
 #include "sensor_kinds/odometry.h"
 #include "sensor_kinds/onboard_values.h"
@@ -53,7 +58,8 @@ struct SensorKindList {
 using SensorKinds =
     SensorKindList<LaserSpec, GpsSpec, CompassSpec, OdometerSpec, ImuSpec, AltimeterSpec, MagnetometerSpec,
                    ContactSpec, ForceTorqueSpec, OdometrySpec, JointStatesSpec, LinkPosesSpec,
-                   WheelOdometrySpec, BatterySensorSpec, KineticEnergySpec, TrajectoryProgressSpec>;
+                   WheelOdometrySpec, BatterySensorSpec, KineticEnergySpec, TrajectoryProgressSpec,
+                   LogicalCameraSpec, MicrophoneSpec, AirPressureSpec, AirSpeedSpec, EnvironmentalSpec>;
 
 /// Parameters of any kind.
 using SensorParameters = SensorKinds::Parameters;

@@ -70,5 +70,10 @@ Result<WheelOdometryReading> read(const WheelOdometrySpec& odometry, const Senso
 Result<BatteryReading> read(const BatterySensorSpec& battery, const SensorQuery& query);
 Result<KineticEnergyReading> read(const KineticEnergySpec& energy, const SensorQuery& query);
 Result<TrajectoryProgressReading> read(const TrajectoryProgressSpec& progress, const SensorQuery& query);
+Result<LogicalCameraReading> read(const LogicalCameraSpec& camera, const SensorQuery& query);
+Result<MicrophoneReading> read(const MicrophoneSpec& microphone, const SensorQuery& query);
+Result<AirPressureReading> read(const AirPressureSpec& barometer, const SensorQuery& query);
+Result<AirSpeedReading> read(const AirSpeedSpec& tube, const SensorQuery& query);
+Result<EnvironmentalReading> read(const EnvironmentalSpec& sensor, const SensorQuery& query);
 
 }  // namespace roboss

@@ -20,6 +20,8 @@ class SensorSources {
     virtual RayScene& ray_scene() = 0;
     /// The states of all robots at the tick of the query, and one tick later if no order takes effect at it.
     virtual StepProbe& step_probe() = 0;
+    /// The state of any robot at the tick of the query.
+    virtual const RobotState& state_of(RobotId robot) = 0;
 };
 
 /// Sensor number `sensor` (of RobotType::sensors) of a robot in `state` at `tick`, in a run with this seed.

@@ -80,6 +80,8 @@ class KnownStates final : public SensorSources {
         return probe_;
     }
 
+    const RobotState& state_of(RobotId robot) override { return *states_[robot.index()]; }
+
   private:
     std::shared_ptr<const Model> model_;
     std::vector<const RobotState*> states_;

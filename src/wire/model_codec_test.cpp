@@ -34,6 +34,10 @@ std::vector<SensorSpec> sensors_of_all_kinds() {
                                                      : "slide";
             else if constexpr (std::is_same_v<Value, Vec3>)
                 value.y = ++next;
+            else if constexpr (std::is_same_v<Value, Pose>)
+                value.p.y = ++next;
+            else if constexpr (std::is_same_v<Value, std::vector<double>>)
+                value = {++next, ++next};
             else if constexpr (std::is_same_v<Value, bool>)
                 value = !value;
             else

@@ -55,6 +55,11 @@ class CheckPlugins(unittest.TestCase):
         self.assertIn("1 of 2 elements", ran.stdout)
         self.assertIn("sensors of type altimeter give no readings", rows["Altimeter"])
 
+    def test_custom_sensors_count_by_their_kind(self):
+        self.world("a.sdf", {"plugins": [plugin("EnvironmentalSystem", "runs")],
+                             "sensors_without_readings": {"environmental_sensor/humidity": 1}})
+        self.assertIn("0 of 1 elements", self.count()[0].stdout)
+
     def test_a_world_that_cannot_be_read_counts_against_the_share(self):
         self.world("a.sdf", {"diagnostics": [{"severity": "error", "message": "no 'x'"}]},
                    "<sdf><world><plugin name='gz::sim::systems::Thruster'/><gui><plugin name='Shapes'/></gui></world></sdf>")

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { append } from "../src/model/plotted";
-import { readings } from "../src/model/readings";
+import { perceived, readings } from "../src/model/readings";
 import { sliderRange } from "../src/panels/joint_controls";
 import { StepTimes } from "../src/panels/cluster_panel";
 import type { JointInfo, RobotReport } from "../src/wire/messages";
@@ -60,6 +60,17 @@ test("a sensor of any kind shows its numbers and vectors with their units", () =
             ["imu temperature", "", 20],
         ],
     );
+});
+
+test("what a logical camera sees has its distance, what a microphone hears its volume", () => {
+    assert.deepEqual(perceived({ names: ["wall", "car"], models: [-1, 2], positions: [3, 4, 0, 0, 0, null] }), [
+        { name: "wall", value: 5, unit: "m" },
+        { name: "car", value: null, unit: "m" },
+    ]);
+    assert.deepEqual(perceived({ sources: ["horn/source_1"], volumes: [0.5] }), [
+        { name: "horn/source_1", value: 0.5, unit: "" },
+    ]);
+    assert.equal(perceived({ ranges: [1, 2, 3] }), null);
 });
 
 test("a curve forgets what a rewind undid", () => {

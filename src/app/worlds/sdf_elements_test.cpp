@@ -231,7 +231,12 @@ const Element kElements[] = {
     {In::kLink, "<battery name='b'><voltage>12</voltage></battery>", "battery"},
     {In::kLink, "<sensor name='i' type='imu'/>"},
     {In::kLink, "<sensor name='a' type='altimeter'/>"},
-    {In::kLink, "<sensor name='a' type='air_speed'/>", "air_speed"},
+    {In::kLink, "<sensor name='a' type='air_speed'/>"},
+    {In::kLink, "<sensor name='a' type='air_pressure'/>"},
+    {In::kLink,
+     "<sensor name='l' "
+     "type='logical_camera'><logical_camera><near>0</near><far>5</far></logical_camera></sensor>"},
+    {In::kLink, "<sensor name='a' type='sonar'/>", "sonar"},
     {In::kInertial, "<pose>0 0 .1 0 0 0</pose>"},
     {In::kInertial, "<fluid_added_mass><xx>1</xx></fluid_added_mass>", "", "1.10"},
     {In::kModel, "<self_collide>1</self_collide>"},

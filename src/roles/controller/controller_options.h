@@ -19,8 +19,8 @@ struct ControllerOptions {
     std::size_t simulators = 1;  // the first window waits for this many
     std::vector<std::string> clients;  // and for these Clients; their ids are their indices here
     std::uint64_t seed = 1;            // sent to Clients
-    std::int64_t resend_ms = 100;
-    std::size_t ahead_least = 500;  // orders of the next window that are worth sending ahead of it
+    std::int64_t resend_ms = 100;      // after which an unanswered message is sent again
+    std::size_t ahead_least = 500;     // orders of the next window that are worth sending ahead of it
     /// Work stealing only in windows with at least this much work per Simulator.
     double stealing_least_ns = 500'000;
     std::int64_t heartbeat_ms = 250;  // heartbeat interval
@@ -48,7 +48,7 @@ struct ControllerOptions {
 
 /// Where a run starts: the world's beginning, a saved run, or a journal.
 struct StartingPoint {
-    Tick tick = 0;
+    Tick tick = 0;                    // of the states
     std::vector<RobotState> states;   // by RobotId
     std::vector<LoggedOrder> orders;  // still to be applied
     /// Up to here the run follows `orders`: no new order gets an earlier tick.

@@ -79,6 +79,24 @@ const COURSE_NAMES = ["east", "north", "up"];
 /** What is not shown as it comes: parts of it are shown under other names. */
 const SHOWN_OTHERWISE = ["ranges", "position", "velocity", "world", "taken"];
 
+/** What a logical camera sees, with its distance, or a microphone hears, with its volume; null: another sensor. */
+export function perceived(told: SensorReport): { name: string; value: number | null; unit: string }[] | null {
+    const { names, positions, sources, volumes } = told,
+        number = (value: unknown) => (typeof value === "number" ? value : null);
+    if (Array.isArray(names) && Array.isArray(positions))
+        return names.map((name, k) => {
+            const place = positions.slice(3 * k, 3 * k + 3).map(number);
+            return {
+                name: String(name),
+                value: place.includes(null) ? null : Math.hypot(...(place as number[])),
+                unit: "m",
+            };
+        });
+    if (Array.isArray(sources) && Array.isArray(volumes))
+        return sources.map((name, k) => ({ name: String(name), value: number(volumes[k]), unit: "" }));
+    return null;
+}
+
 function sensorReadings({ name, units }: SensorInfo, told: SensorReport): Reading[] {
     const found: Reading[] = [],
         add = (field: string, unit: string, value: unknown) =>
@@ -88,6 +106,7 @@ function sensorReadings({ name, units }: SensorInfo, told: SensorReport): Readin
                 unit,
                 value: typeof value === "number" ? value : null,
             });
+    if (perceived(told) !== null) return found;
     if (Array.isArray(told.ranges)) {
         const met = told.ranges.filter((range): range is number => typeof range === "number" && Number.isFinite(range));
         add("nearest", "m", met.length > 0 ? Math.min(...met) : null);

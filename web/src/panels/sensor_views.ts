@@ -1,6 +1,8 @@
-// Sensors as people read them: a laser as a small map of its beams, a compass as a dial, the rest as numbers.
-import type { Reading } from "../model/readings";
+// Sensors as people read them: a laser as a small map of its beams, a compass as a dial, what cameras
+// and microphones perceive as a list, the rest as numbers.
+import { perceived, type Reading } from "../model/readings";
 import { h } from "../ui/dom";
+import { fixed } from "../ui/numbers";
 import type { RobotReport, SensorInfo, TypeInfo } from "../wire/messages";
 import { beamAngle } from "../overlays/beams";
 import type { ReadingRows } from "./reading_rows";
@@ -106,6 +108,22 @@ function compassView(sensor: SensorInfo, index: number): View {
     return { element: canvas, show };
 }
 
+/** The models that a logical camera sees, or the sources that a microphone hears. */
+function perceptionView(sensor: SensorInfo, index: number): View {
+    const list = h("ul", { class: "perceived", "aria-label": `What ${sensor.name} perceives` });
+    let shown: string | null = null;
+    const show = (report: RobotReport) => {
+        const lines = (perceived(report.sensors[index] ?? {}) ?? []).map(({ name, value, unit }) =>
+                `${name} ${fixed(value, 2)} ${unit}`.trim(),
+            ),
+            text = lines.join("\n");
+        if (text === shown) return;
+        shown = text;
+        list.replaceChildren(...(lines.length > 0 ? lines : ["nothing"]).map((line) => h("li", {}, line)));
+    };
+    return { element: list, show };
+}
+
 export class SensorViews {
     readonly element = h("div", { class: "sensors" });
     private readonly views: View[] = [];
@@ -117,7 +135,9 @@ export class SensorViews {
                     ? laserView(sensor, index)
                     : sensor.kind === "compass"
                       ? compassView(sensor, index)
-                      : null;
+                      : sensor.kind === "logical camera" || sensor.kind === "microphone"
+                        ? perceptionView(sensor, index)
+                        : null;
             if (view !== null) this.views.push(view);
             const prefix = `${sensor.name} `;
             this.element.append(
