@@ -155,6 +155,11 @@ void add_watch_options(CLI::App& command, RunOptions& o, ViewerDefault viewer) {
         ->capture_default_str();
     command.add_option("--picture", o.paths_picture, "draw the paths of the robots into this SVG file");
     add_viewer_options(command, o.viewer, viewer);
+    command
+        .add_option("--save-folder", o.save_folder,
+                    "files that `roboss control save`, pages and Clients ask to write lie below this folder "
+                    "(default: the current one)")
+        ->check(CLI::ExistingDirectory);
     command.add_flag("--quiet", o.quiet, "print no progress, only the summary");
 }
 
