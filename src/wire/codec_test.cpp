@@ -69,7 +69,7 @@ std::vector<Message> one_of_each() {
             ClientWelcome{ClientId(0u), 40, 99},
             Observation{40, 3, {{{Role::kController, 0}, {kRobot}}}},
             ClientReply{ClientId(0u), 4, 40, orders},
-            ReplyAck{ClientId(0u), 4, {{2, "no such link"}}},
+            ReplyAck{ClientId(0u), 4, {{2, "no such link", "no-link"}}},
             ClientBye{ClientId(0u), 5, true, "it threw"},
             RunOver{"the run has ended"},
             ModelRequest{Whole::kScene, 7},
