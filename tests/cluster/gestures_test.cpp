@@ -6,6 +6,7 @@
 
 #include "client/bus_client.h"
 #include "faulty_cluster.h"
+#include "simulation/simulation.h"
 #include "test_worlds.h"
 
 namespace roboss::test {
@@ -77,6 +78,40 @@ TEST(Gestures, HalfOfTheOrdersAreInTimeAtAFifthLost) {
     EXPECT_GT(share_within(all, 50), 0.5);
     EXPECT_GT(share_within(all, 500), 0.99);
     std::printf("    measured: share within 50 ms at 20 %% loss = %.3f\n", share_within(all, 50));
+}
+
+/// A pull is part of the state: it goes on wherever the robot is stepped, and after a save.
+TEST(Gestures, APullGivesTheSameStateForEveryNumberOfSimulatorsAndWindow) {
+    const auto model = pair_world();
+    const auto make = [&](std::size_t simulators, Tick window, const SavedRun* from = nullptr) {
+        SimulationOptions options;
+        options.simulators = simulators;
+        auto made = std::move(Simulation::create(model, options, {}, from).value());
+        made->set_window(window);
+        return made;
+    };
+    const auto pull = [](Simulation& run) {
+        for (std::uint64_t r = 0; r < 4; ++r)
+            EXPECT_TRUE(run.submit({20, ClientId(), r + 1, RobotId(r),
+                                    Pull{LinkId(0u), {0.1, 0, 0.1}, {1, 1, 1.5}, 15, 500, 200}})
+                            .ok());
+    };
+    const auto reference = make(1, 1);
+    pull(*reference);
+    ASSERT_TRUE(reference->run_until(150).ok());
+    const SavedRun half = reference->saved_run();
+    EXPECT_FALSE(half.states[3].pulls.empty());
+    ASSERT_TRUE(reference->run_until(300).ok());
+    for (const std::size_t simulators : {1u, 3u})
+        for (const Tick window : {1, 7, 40}) {
+            const auto run = make(simulators, window);
+            pull(*run);
+            ASSERT_TRUE(run->run_until(300).ok());
+            EXPECT_EQ(run->hash(), reference->hash()) << simulators << " Simulators, windows of " << window;
+        }
+    const auto continued = make(2, 10, &half);
+    ASSERT_TRUE(continued->run_until(300).ok());
+    EXPECT_EQ(continued->hash(), reference->hash());
 }
 
 /// What the Controller refuses is named with its code in each acknowledgement until the Client has had one.
