@@ -5,6 +5,11 @@
 #include <utility>
 
 namespace roboss {
+namespace {
+
+constexpr std::int64_t kSoon_ms = 20;  // to the first repetition of what cannot wait
+
+}  // namespace
 
 BusClient::BusClient(std::shared_ptr<const Model> model, const Address& self, BusClientOptions options)
     : model_(std::move(model)), self_(self), options_(std::move(options)) {
@@ -41,26 +46,9 @@ void BusClient::handle(Envelope& envelope) {
                      [&](RobotId robot, RobotState&& s) { coming_[robot.index()] = std::move(s); });
     } else if (const auto* ack = std::get_if<ReplyAck>(&envelope.message)) {
         if (ack->client != id_) return;
-        const bool news = !replies_.empty() && replies_.front().number <= ack->number;
-        if (news)
-            for (const RefusedOrder& r : ack->refused)
-                refusals_.push_back("order " + std::to_string(r.sequence) + ": " + r.reason);
-        heard_up_to(ack->number);
+        take_ack(*ack);
     } else if (const auto* welcome = std::get_if<ClientWelcome>(&envelope.message)) {
-        if (id_.valid()) return;
-        id_ = welcome->client;
-        seed_ = welcome->seed;
-        if (was_here_ && welcome->first < expected_) {  // a rewind
-            replies_.clear();
-            orders_.clear();
-            observing_ = false;
-            tick_ = -1;
-            scene_tick_ = -1;
-            forget_measured();
-        }
-        expected_ = welcome->first;
-        for (ClientReply& sent : replies_) sent.client = id_;
-        if (bye_) bye_->client = id_;
+        take_welcome(*welcome);
     } else if (const auto* unknown = std::get_if<ClientUnknown>(&envelope.message)) {
         if (unknown->client == id_) join_again();
     } else if (const auto* refused = std::get_if<Refused>(&envelope.message)) {
@@ -77,17 +65,53 @@ void BusClient::handle(Envelope& envelope) {
     }
 }
 
+void BusClient::take_ack(const ReplyAck& ack) {
+    for (const RefusedOrder& r : ack.refused) {
+        if (r.sequence <= refused_up_to_) continue;
+        refused_up_to_ = r.sequence;
+        refused_orders_.push_back(r);
+    }
+    heard_up_to(ack.number);
+}
+
+/// What was given before goes out at once, by resend().
+void BusClient::take_welcome(const ClientWelcome& welcome) {
+    if (id_.valid()) return;
+    id_ = welcome.client;
+    seed_ = welcome.seed;
+    if (was_here_ && welcome.first < expected_) {  // a rewind
+        replies_.clear();
+        orders_.clear();
+        observing_ = false;
+        tick_ = -1;
+        scene_tick_ = -1;
+        forget_measured();
+    }
+    expected_ = welcome.first;
+    for (OpenReply& open : replies_) open.reply.client = id_, open.resent = {};
+    if (bye_) bye_->client = id_, bye_resent_ = {};
+}
+
+std::vector<std::string> BusClient::take_refusals() {
+    std::vector<std::string> refusals = std::exchange(refusals_, {});
+    for (const RefusedOrder& r : take_refused_orders())
+        refusals.push_back("order " + std::to_string(r.sequence) + ": " + r.reason);
+    return refusals;
+}
+
 /// The Controller was restarted: resends the replies that it has not acknowledged, and waits for the
 /// observations not shown yet.
 void BusClient::join_again() {
     id_ = ClientId();
+    hello_resent_ = {};
     was_here_ = true;
     offers_.clear();
     pull_.cancel();
 }
 
 void BusClient::heard_up_to(std::uint64_t number) {
-    while (!replies_.empty() && replies_.front().number <= number) replies_.pop_front();
+    acknowledged_ = std::max(acknowledged_, std::min(number, reply_number_));
+    while (!replies_.empty() && replies_.front().reply.number <= number) replies_.pop_front();
     if (bye_ && bye_->number <= number) bye_.reset();
 }
 
@@ -124,17 +148,14 @@ void BusClient::show() {
 void BusClient::answer(Bus& bus) {
     ROBOSS_CHECK(observing_, "an answer without an observation");
     observing_ = false;
-    replies_.push_back({id_, ++reply_number_, tick_, std::exchange(orders_, {})});
-    bus.send(self_, kControllerAddress, replies_.back());
-    sent_ms_ = bus.now_ms();
+    replies_.push_back({{id_, ++reply_number_, tick_, std::exchange(orders_, {}), acknowledged_}, {}});
+    if (id_.valid()) send_open_replies(bus, bus.now_ms());
 }
 
 void BusClient::send(Bus& bus, Tick observed) {
     ROBOSS_CHECK(!options_.synchronous, "only a free-running Client sends without an observation");
-    replies_.push_back({id_, ++reply_number_, observed, std::exchange(orders_, {})});
-    if (!id_.valid()) return;  // it is sent once it has joined
-    bus.send(self_, kControllerAddress, replies_.back());
-    sent_ms_ = bus.now_ms();
+    replies_.push_back({{id_, ++reply_number_, observed, std::exchange(orders_, {}), acknowledged_}, {}});
+    if (id_.valid()) send_open_replies(bus, bus.now_ms());  // else once it has joined
 }
 
 void BusClient::leave(Bus& bus, const std::string& failure) {
@@ -142,8 +163,40 @@ void BusClient::leave(Bus& bus, const std::string& failure) {
     observing_ = false;
     offers_.clear();
     pull_.cancel();
+    bye_resent_ = {};
     bus.send(self_, kControllerAddress, *bye_);
-    sent_ms_ = bus.now_ms();
+}
+
+bool BusClient::Resent::due(std::int64_t now_ms, std::int64_t first_ms, std::int64_t most_ms) {
+    if (now_ms - sent_ms < wait_ms) return false;
+    constexpr int kQuick = 4;  // times, before the intervals grow
+    wait_ms = ++times <= kQuick ? first_ms : std::min(2 * wait_ms, most_ms);
+    sent_ms = now_ms;
+    return true;
+}
+
+/// Each by its own clock: a Client that goes on sending would put off the repetition of what was lost.
+void BusClient::send_open_replies(Bus& bus, std::int64_t now_ms) {
+    // A synchronous Client's next reply waits for the next observation; a free-running one, which shows what
+    // a hand does, is at most a moment late.
+    const std::int64_t first_ms =
+        options_.synchronous ? options_.resend_ms : std::min(kSoon_ms, options_.resend_ms);
+    for (OpenReply& open : replies_) {
+        if (!open.resent.due(now_ms, first_ms, options_.resend_ms)) continue;
+        open.reply.acknowledged = acknowledged_;
+        bus.send(self_, kControllerAddress, open.reply);
+        sent_ms_ = now_ms;
+    }
+}
+
+ClientHello BusClient::hello() const {
+    ClientHello hello{options_.name,    model_->hash,         options_.period,
+                      options_.latency, options_.synchronous, options_.observer};
+    const std::uint64_t last = reply_number_ - (bye_ ? 1 : 0);
+    if (was_here_) hello.expected = expected_;
+    hello.last_reply = last;
+    hello.acknowledged = last - replies_.size();
+    return hello;
 }
 
 void BusClient::resend(Bus& bus) {
@@ -152,22 +205,19 @@ void BusClient::resend(Bus& bus) {
         requested_ms_ = now;
         bus.send(self_, kControllerAddress, requests_.front());
     }
-    if (now - sent_ms_ < options_.resend_ms) return;
-    sent_ms_ = now;
     if (!id_.valid()) {
-        ClientHello hello{options_.name,    model_->hash,         options_.period,
-                          options_.latency, options_.synchronous, options_.observer};
-        const std::uint64_t last = reply_number_ - (bye_ ? 1 : 0);
-        if (was_here_) hello.expected = expected_;
-        hello.last_reply = last;
-        hello.acknowledged = last - replies_.size();
-        return bus.send(self_, kControllerAddress, std::move(hello));
+        if (hello_resent_.due(now, kSoon_ms, options_.resend_ms))
+            bus.send(self_, kControllerAddress, hello());
+        return;
     }
-    for (const ClientReply& reply : replies_) bus.send(self_, kControllerAddress, reply);
+    send_open_replies(bus, now);
     // Nothing to send: repeats its last reply now and then to find out whether the Controller still knows it.
-    if (replies_.empty() && !bye_ && ++silent_ % kAskEvery == 0)
-        bus.send(self_, kControllerAddress, ClientReply{id_, reply_number_, tick_, {}});
-    if (bye_) bus.send(self_, kControllerAddress, *bye_);
+    if (replies_.empty() && !bye_ && now - sent_ms_ >= kAskEvery * options_.resend_ms) {
+        bus.send(self_, kControllerAddress, ClientReply{id_, reply_number_, tick_, {}, acknowledged_});
+        sent_ms_ = now;
+    }
+    if (bye_ && bye_resent_.due(now, options_.resend_ms, options_.resend_ms))
+        bus.send(self_, kControllerAddress, *bye_);
 }
 
 void BusClient::control(ControlAction request) {

@@ -17,8 +17,8 @@ struct BusClientOptions {
     std::string name = "client";
     Tick period = 1, latency = 1;  // ticks
     bool synchronous = true;
-    bool observer = false;  // comes and goes: the run never waits for it
-    std::int64_t resend_ms = 100;
+    bool observer = false;         // comes and goes: the run never waits for it
+    std::int64_t resend_ms = 100;  // what is not acknowledged; of a free-running Client sooner at first
 };
 
 class BusClient : public Client {
@@ -54,25 +54,47 @@ class BusClient : public Client {
     Tick expected() const { return expected_; }
     /// The Controller has acknowledged every reply.
     bool heard() const { return replies_.empty() && !bye_; }
+    /// Number of the last reply that was given, and of the last one that was acknowledged.
+    std::uint64_t last_reply() const { return reply_number_; }
+    std::uint64_t acknowledged() const { return acknowledged_; }
     /// Why the run has ended; empty: it has not.
     const std::string& over() const { return over_; }
     /// The run has another Model than this one: make another BusClient with that.
     bool outdated() const { return outdated_; }
     /// Refusals by the Controller since the last call.
-    std::vector<std::string> take_refusals() { return std::exchange(refusals_, {}); }
+    std::vector<std::string> take_refusals();
+    /// Those of orders alone; take_refusals() then has the others.
+    std::vector<RefusedOrder> take_refused_orders() { return std::exchange(refused_orders_, {}); }
 
   protected:
     RayScene& ray_scene() override;
     Tick observed_before() const override { return before_; }
 
   private:
+    /// Sent again and again, at growing intervals, until it is acknowledged.
+    struct Resent {
+        static constexpr std::int64_t kLongAgo = -1'000'000'000;
+        std::int64_t sent_ms = kLongAgo, wait_ms = 0;
+        int times = 0;
+        /// Whether it is to be sent now; then it counts as sent.
+        bool due(std::int64_t now_ms, std::int64_t first_ms, std::int64_t most_ms);
+    };
+    struct OpenReply {
+        ClientReply reply;
+        Resent resent;
+    };
+
     void handle(Envelope& envelope);
+    void take_ack(const ReplyAck& ack);
+    void take_welcome(const ClientWelcome& welcome);
     void join_again();
     void heard_up_to(std::uint64_t number);
     void take_observation(Observation& observation);
     void pull_next();
     void show();
     void resend(Bus& bus);
+    void send_open_replies(Bus& bus, std::int64_t now_ms);
+    ClientHello hello() const;
 
     std::shared_ptr<const Model> model_;
     Address self_;
@@ -90,19 +112,21 @@ class BusClient : public Client {
     Tick expected_ = 0;                            // the next observation of a synchronous Client
 
     std::vector<ClientOrder> orders_;  // for the next reply
-    std::uint64_t sequence_ = 0, reply_number_ = 0;
-    std::deque<ClientReply> replies_;  // not known to have arrived
+    std::uint64_t sequence_ = 0, reply_number_ = 0, acknowledged_ = 0;
+    std::deque<OpenReply> replies_;  // not known to have arrived
     std::optional<ClientBye> bye_;
-    static constexpr std::int64_t kLongAgo = -1'000'000'000;
-    std::int64_t sent_ms_ = kLongAgo;
-    std::int64_t requested_ms_ = kLongAgo;         // when the first of `requests_` was sent
-    static constexpr std::uint64_t kAskEvery = 5;  // resend times
-    std::uint64_t silent_ = 0;
+    Resent hello_resent_, bye_resent_;
+    static constexpr std::int64_t kLongAgo = Resent::kLongAgo;
+    std::int64_t sent_ms_ = kLongAgo;             // when the last reply was
+    std::int64_t requested_ms_ = kLongAgo;        // when the first of `requests_` was sent
+    static constexpr std::int64_t kAskEvery = 5;  // resend times
     bool outdated_ = false;
     std::uint64_t request_ = 0;
     std::deque<ControlRequest> requests_;  // the first is sent again until it is answered, then the next
     std::vector<ControlAnswer> answers_;
     std::vector<std::string> refusals_;
+    std::vector<RefusedOrder> refused_orders_;
+    std::uint64_t refused_up_to_ = 0;  // sequence number of the last refusal taken
     std::string over_;
 
     std::unique_ptr<RayScene> scene_;

@@ -74,13 +74,25 @@ Result<> Client::set_velocity(RobotId robot, const Vec3& linear, const Vec3& ang
     return order(robot, SetVelocity{linear, angular});
 }
 
+Result<Tick> Client::ticks_of(double duration_s) const {
+    if (!(duration_s > 0) || duration_s > 1e9)
+        return Error{"a force for " + std::to_string(duration_s) + " s",
+                     "give a duration between 0 and 1e9 s", "bad-duration"};
+    return std::max<Tick>(static_cast<Tick>(std::floor(duration_s / model().dt_s + 0.5)), 1);
+}
+
 Result<> Client::apply_wrench(RobotId robot, LinkId link, const Vec3& force, const Vec3& torque,
                               double duration_s) {
-    if (!(duration_s > 0) || duration_s > 1e9)
-        return Error{"a wrench for " + std::to_string(duration_s) + " s",
-                     "give a duration between 0 and 1e9 s"};
-    const auto ticks = static_cast<Tick>(std::floor(duration_s / model().dt_s + 0.5));
-    return order(robot, ApplyWrench{link, force, torque, std::max<Tick>(ticks, 1)});
+    const Result<Tick> ticks = ticks_of(duration_s);
+    if (!ticks) return ticks.error();
+    return order(robot, ApplyWrench{link, force, torque, ticks.value()});
+}
+
+Result<> Client::pull(RobotId robot, LinkId link, const Vec3& p_L, const Vec3& target_W, double max_force,
+                      double duration_s, double rate) {
+    const Result<Tick> ticks = ticks_of(duration_s);
+    if (!ticks) return ticks.error();
+    return order(robot, Pull{link, p_L, target_W, rate, max_force, ticks.value()});
 }
 
 Result<> Client::set_joint(RobotId robot, JointId joint, MotorMode mode, double target, double max_effort,

@@ -68,6 +68,13 @@ class Client : private SensorSources {
     /// `duration_s`, in (0, 1e9], rounded to ticks, and for at least one tick.
     Result<> apply_wrench(RobotId robot, LinkId link, const Vec3& force, const Vec3& torque,
                           double duration_s);
+    /// Pulls a point of a link, p_L in the link's frame, to a point of the world, m, by a spring with damping
+    /// of at most `max_force`, N, for `duration_s`, in (0, 1e9]. It replaces an earlier pull on this link;
+    /// `max_force` 0 lets go. `rate`: natural frequency of the spring, rad/s.
+    Result<> pull(RobotId robot, LinkId link, const Vec3& p_L, const Vec3& target_W, double max_force,
+                  double duration_s, double rate = 15);
+    /// So many seconds in ticks, at least one. An Error if it is not in (0, 1e9].
+    Result<Tick> ticks_of(double duration_s) const;
     /// Setpoint of one axis of a joint; it holds until the next one. The mode gives the unit of `target`:
     /// kVelocity rad/s or m/s, kPosition rad or m, kEffort N m or N; kPassive ignores it. `max_effort` in N m
     /// or N bounds the motor; negative: the joint's own bound.

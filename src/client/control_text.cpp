@@ -175,6 +175,7 @@ Parsed parse(const Words& words) {
     if (verb == "window" && n == 2) return window(words);
     if (verb == "simulators" && n >= 2) return simulators(words);
     if (verb == "save" && n == 2) return SaveRun{words[1]};
+    if (verb == "save" && n == 3 && words[2] == "overwrite") return SaveRun{words[1], true};
     if (verb == "rewind" && n == 2) return rewind(words);
     if (verb == "accuracy" && n >= 2) return accuracy(words);
     if (verb == "add" && (n == 5 || n == 6)) return add(words);

@@ -29,6 +29,7 @@ TEST(ControlText, ReadsEachRequest) {
         {{"simulators", "remove"}, RemoveSimulator{}},
         {{"simulators", "kill", "3"}, KillSimulator{3}},
         {{"save", "a.roboss"}, SaveRun{"a.roboss"}},
+        {{"save", "a.roboss", "overwrite"}, SaveRun{"a.roboss", true}},
         {{"rewind", "12.5"}, RewindRun{0, 12.5}},
         {{"rewind", "@12.5"}, RewindRun{0, 12.5}},
         {{"rewind", "#2@12.5"}, RewindRun{2, 12.5}},

@@ -112,17 +112,29 @@ Result<ListenAddress> parse_listen_address(const std::string& text) {
     return result;
 }
 
-bool Access::named_token(const Visitor& visitor) const {
-    return !token_.empty() && same_secret(value_of(query_of(visitor.target), "token", '&'), token_);
+std::optional<PageRole> Access::role_by(std::string_view token) const {
+    std::optional<PageRole> found;
+    for (std::size_t i = 0; i < tokens_.size(); ++i)
+        if (!tokens_[i].empty() && same_secret(token, tokens_[i])) found = static_cast<PageRole>(i);
+    return found;
+}
+
+std::string_view Access::named_token(const Visitor& visitor) const {
+    const std::string_view token = value_of(query_of(visitor.target), "token", '&');
+    return role_by(token) ? token : std::string_view();
+}
+
+std::optional<PageRole> Access::role_of(const Visitor& visitor) const {
+    if (!by_token_) return all_;
+    if (const auto named = role_by(value_of(query_of(visitor.target), "token", '&'))) return named;
+    return role_by(value_of(visitor.cookie, "roboss_token", ';'));
 }
 
 std::string Access::refusal(const Visitor& visitor) const {
     if (visitor.hosts != 1) return std::to_string(visitor.hosts) + " Host headers instead of one";
-    if (token_.empty() && !names_loopback(visitor.host))
+    if (!by_token_ && !names_loopback(visitor.host))
         return "wrong Host header " + quoted(visitor.host) + " [wrong-host]";
-    if (!token_.empty() && !named_token(visitor) &&
-        !same_secret(value_of(visitor.cookie, "roboss_token", ';'), token_))
-        return "the token that was printed at the start is missing [no-token]";
+    if (!role_of(visitor)) return "the token that was printed at the start is missing [no-token]";
     if (!visitor.wants_socket) return {};
     if (visitor.origins == 0) return "the Origin header is missing [no-origin]";
     if (visitor.origins > 1 || !same_origin(visitor.origin, visitor.host))

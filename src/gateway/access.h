@@ -2,11 +2,14 @@
 // tested without a network.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "core/result.h"
+#include "gateway/roles.h"
 
 namespace roboss {
 
@@ -30,17 +33,27 @@ struct Visitor {
 
 class Access {
   public:
-    /// `token`: empty: the gateway listens on loopback and needs none.
-    explicit Access(std::string token) : token_(std::move(token)) {}
+    /// The token of each role; empty: nobody gets this role by a token.
+    using Tokens = std::array<std::string, 3>;
+
+    /// The gateway listens on loopback and needs no token: all get this role.
+    explicit Access(PageRole all) : all_(all) {}
+    explicit Access(Tokens tokens) : tokens_(std::move(tokens)), by_token_(true) {}
 
     /// Why the visitor is refused; empty: it may come in.
     std::string refusal(const Visitor& visitor) const;
-    /// The visitor named the token in its address (then it may keep it).
-    bool named_token(const Visitor& visitor) const;
-    const std::string& token() const { return token_; }
+    /// What the visitor may do, by its token; nothing: it may not come in.
+    std::optional<PageRole> role_of(const Visitor& visitor) const;
+    /// The token that the visitor named in its address, if it is right: it may keep it.
+    std::string_view named_token(const Visitor& visitor) const;
+    const std::string& token(PageRole role) const { return tokens_[static_cast<std::size_t>(role)]; }
 
   private:
-    std::string token_;
+    std::optional<PageRole> role_by(std::string_view token) const;
+
+    Tokens tokens_;
+    bool by_token_ = false;
+    PageRole all_ = PageRole::kAdminister;
 };
 
 /// 128 random bits as hex.

@@ -16,6 +16,8 @@ TEST(Access, ReadsAddresses) {
         EXPECT_FALSE(parse_listen_address(wrong).ok()) << wrong;
 }
 
+const Access::Tokens kSecret{"watchword", "", "secret"};
+
 /// Why a page whose address bar shows `host` is refused; empty: it is not.
 std::string refusal_of_page(const Access& access, std::string_view host) {
     const std::string origin = "http://" + std::string(host);
@@ -26,7 +28,7 @@ std::string refusal_of_page(const Access& access, std::string_view host) {
 }
 
 TEST(Access, OnLoopbackTheHostIsLocalhostOrAnAddressOfLoopback) {
-    const Access access("");
+    const Access access(PageRole::kAdminister);
     for (const char* host : {"127.0.0.1:8090", "127.0.0.1", "127.255.0.7:1", "localhost:8090", "localhost",
                              "LocalHost:8090", "[::1]:8090", "[::1]", "[0:0:0:0:0:0:0:1]:8090"})
         EXPECT_EQ(refusal_of_page(access, host), "") << host;
@@ -34,7 +36,7 @@ TEST(Access, OnLoopbackTheHostIsLocalhostOrAnAddressOfLoopback) {
 
 /// A foreign site may make any name of its own resolve to this computer.
 TEST(Access, ANameThatOnlyLooksLikeLoopbackIsRefused) {
-    const Access access("");
+    const Access access(PageRole::kAdminister);
     for (const char* host : {"127.evil.com",
                              "127.evil.com:8090",
                              "127.0.0.1.evil.com:8090",
@@ -92,7 +94,7 @@ TEST(Access, ANameThatOnlyLooksLikeLoopbackIsRefused) {
 }
 
 TEST(Access, ARequestHasOneHost) {
-    for (const Access& access : {Access(""), Access("secret")}) {
+    for (const Access& access : {Access(PageRole::kAdminister), Access(kSecret)}) {
         const char* target = "/?token=secret";
         EXPECT_EQ(access.refusal({"127.0.0.1:8090", "", target, "", false, 1, 0}), "");
         EXPECT_NE(access.refusal({"", "", target, "", false, 0, 0}), "") << "no Host";
@@ -101,7 +103,7 @@ TEST(Access, ARequestHasOneHost) {
 }
 
 TEST(Access, AWebSocketIsForThePageOfThisServerOnly) {
-    const Access access("");
+    const Access access(PageRole::kAdminister);
     const char* host = "127.0.0.1:8090";
     EXPECT_EQ(access.refusal({host, "http://127.0.0.1:8090", "/ws", "", true}), "");
     EXPECT_EQ(access.refusal({host, "https://127.0.0.1:8090", "/ws", "", true}), "") << "a proxy's TLS";
@@ -117,7 +119,7 @@ TEST(Access, AWebSocketIsForThePageOfThisServerOnly) {
 }
 
 TEST(Access, ElsewhereTheTokenDecides) {
-    const Access access("secret");
+    const Access access(kSecret);
     EXPECT_NE(access.refusal({"lab:8090", "", "/", "", false}), "");
     EXPECT_NE(access.refusal({"lab:8090", "", "/?token=secre", "", false}), "");
     EXPECT_NE(access.refusal({"lab:8090", "", "/?nottoken=secret", "", false}), "");
@@ -125,6 +127,19 @@ TEST(Access, ElsewhereTheTokenDecides) {
     EXPECT_EQ(access.refusal({"lab:8090", "", "/main.js", "other=1; roboss_token=secret", false}), "");
     EXPECT_NE(access.refusal({"lab:8090", "http://evil", "/ws?token=secret", "", true}), "");
     EXPECT_EQ(access.refusal({"lab:8090", "http://lab:8090", "/ws?token=secret", "", true}), "");
+}
+
+TEST(Access, ATokenGivesItsRole) {
+    const Access access(kSecret);
+    EXPECT_EQ(access.role_of({"lab:8090", "", "/?token=watchword", "", false}), PageRole::kWatch);
+    EXPECT_EQ(access.role_of({"lab:8090", "", "/?token=secret", "", false}), PageRole::kAdminister);
+    EXPECT_EQ(access.role_of({"lab:8090", "", "/", "roboss_token=secret", false}), PageRole::kAdminister);
+    EXPECT_EQ(access.role_of({"lab:8090", "", "/?token=watchword", "roboss_token=secret", false}),
+              PageRole::kWatch)
+        << "the address counts more than what the browser kept";
+    EXPECT_EQ(access.role_of({"lab:8090", "", "/?token=", "", false}), std::nullopt);
+    EXPECT_EQ(access.role_of({"lab:8090", "", "/", "", false}), std::nullopt);
+    EXPECT_EQ(Access(PageRole::kSteer).role_of({"localhost", "", "/", "", false}), PageRole::kSteer);
 }
 
 TEST(Access, TokensAreLongAndDiffer) {

@@ -36,7 +36,7 @@ bool needs_everybody(const Model& model, RobotId robot);
 struct PageCall {
     std::uint64_t page = 0;
     std::int64_t id = 0;
-    std::variant<ControlArguments, PageOrder> what;
+    std::variant<ControlAction, PageOrder> what;
 };
 
 /// A Model and what it looks like; never changed.

@@ -27,6 +27,10 @@ const std::string& Gateway::url() const {
     return parts_->server->url();
 }
 
+const std::vector<std::string>& Gateway::other_urls() const {
+    return parts_->server->other_urls();
+}
+
 void Gateway::advance(Bus& bus) {
     parts_->watcher.advance(bus);
 }

@@ -11,6 +11,7 @@
 
 #include "bus/bus.h"
 #include "core/result.h"
+#include "gateway/roles.h"
 
 namespace roboss {
 
@@ -19,7 +20,8 @@ struct GatewayOptions {
     std::string page_folder;      // empty: where it was built or installed
     bool next_port = true;        // if the port is taken, one of those behind it
     std::string program = "roboss";
-    bool journal = false;  // the run keeps one: pages offer to rewind
+    bool journal = false;                   // the run keeps one: pages offer to rewind
+    PageRole role = PageRole::kAdminister;  // the greatest that a page gets
     /// A new address for the Bus, never used before.
     std::function<Address()> new_address;
 };
@@ -37,6 +39,8 @@ class Gateway {
 
     /// Where browsers find it, with the token if one is needed.
     const std::string& url() const;
+    /// For pages of lower roles, with their tokens; none on loopback.
+    const std::vector<std::string>& other_urls() const;
     /// The run's side: a turn. Never waits; costs nothing while nobody watches.
     void advance(Bus& bus);
     /// Refusals and such, one line each, since the last call.

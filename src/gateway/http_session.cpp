@@ -46,7 +46,7 @@ HttpSession::HttpSession(asio::ip::tcp::socket&& socket, ServerCore& core)
     : stream_(std::move(socket)), core_(core), peer_(name_of(stream_.socket())) {}
 
 HttpSession::~HttpSession() {
-    core_.connection_ended();
+    core_.connection_ended(this);
 }
 
 void HttpSession::read() {
@@ -54,6 +54,7 @@ void HttpSession::read() {
     parser_->header_limit(kHeaderBytesMax);
     parser_->body_limit(0);
     stream_.expires_after(kPatience);
+    idle_since_ms_ = steady_ms();
     http::async_read(
         stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
             if (error == http::error::end_of_stream || error == asio::error::operation_aborted ||
@@ -65,6 +66,7 @@ void HttpSession::read() {
                 return self->refuse(http::status::bad_request, "malformed request: " + error.message());
             }
             self->request_ = self->parser_->release();
+            self->idle_since_ms_.reset();
             self->serve();
         });
 }
@@ -83,14 +85,14 @@ void HttpSession::serve() {
         return refuse(http::status::forbidden, refusal);
     if (request_.method() != http::verb::get && request_.method() != http::verb::head)
         return refuse(http::status::method_not_allowed, "only GET and HEAD are allowed");
-    if (socket) return upgrade();
+    if (socket) return upgrade(core_.access().role_of(visitor).value_or(PageRole::kWatch));
     if (path == "/scene") return serve_scene();
     Answer answer = answer_for(path);
-    answer.keeps_token = core_.access().named_token(visitor);
+    answer.kept_token = core_.access().named_token(visitor);
     send(std::move(answer));
 }
 
-void HttpSession::upgrade() {
+void HttpSession::upgrade(PageRole role) {
     if (!beast::websocket::is_upgrade(request_))
         return refuse(http::status::upgrade_required, "/ws needs a WebSocket upgrade");
     http::token_list subprotocols(request_[http::field::sec_websocket_protocol]);
@@ -98,7 +100,7 @@ void HttpSession::upgrade() {
         return refuse(http::status::bad_request,
                       std::string("the WebSocket does not offer the subprotocol ") +
                           viewer_protocol::kSubprotocol + " [no-subprotocol]");
-    auto page = std::make_shared<PageSession>(std::move(stream_), core_, core_.next_page(), peer_);
+    auto page = std::make_shared<PageSession>(std::move(stream_), core_, core_.next_page(), peer_, role);
     if (!core_.admit(page)) {
         core_.notice("viewer: a page from " + peer_ + " is refused: too many pages [too-many-pages]");
         return page->close();
@@ -112,8 +114,8 @@ void HttpSession::serve_scene() {
         const auto& scene = self->core_.scene();
         if (!scene)
             return self->send({http::status::service_unavailable, "text/plain; charset=utf-8",
-                               "the run does not reply yet\n", false});
-        self->send({http::status::ok, "application/json", numbered(scene->file, scene->number), false});
+                               "the run does not reply yet\n"});
+        self->send({http::status::ok, "application/json", numbered(scene->file, scene->number)});
     });
 }
 
@@ -123,9 +125,9 @@ HttpSession::Answer HttpSession::mesh(std::string_view number) const {
     const auto& scene = core_.scene();
     if (error != std::errc() || end != number.data() + number.size() || !scene ||
         n >= scene->file.meshes.size())
-        return {http::status::not_found, "text/plain; charset=utf-8", "no such mesh\n", false};
+        return {http::status::not_found, "text/plain; charset=utf-8", "no such mesh\n"};
     const std::vector<std::uint8_t>& bytes = scene->file.meshes[n];
-    return {http::status::ok, "application/octet-stream", std::string(bytes.begin(), bytes.end()), false};
+    return {http::status::ok, "application/octet-stream", std::string(bytes.begin(), bytes.end())};
 }
 
 /// Only pictures that the scene has, by the hash of their bytes: no name of a file comes from outside.
@@ -133,8 +135,11 @@ HttpSession::Answer HttpSession::texture(std::string_view hash) const {
     if (const auto& scene = core_.scene())
         for (const TextureFile& t : scene->file.textures)
             if (to_hex(t.hash) == hash)
-                return {http::status::ok, mime_type(t.kind), std::string(t.bytes.begin(), t.bytes.end()),
-                        false, true};
+                return {http::status::ok,
+                        mime_type(t.kind),
+                        std::string(t.bytes.begin(), t.bytes.end()),
+                        {},
+                        true};
     return {http::status::not_found, "text/plain; charset=utf-8", "no such picture\n"};
 }
 
@@ -143,14 +148,14 @@ HttpSession::Answer HttpSession::answer_for(std::string_view path) const {
     if (path.starts_with(kMesh)) return mesh(path.substr(kMesh.size()));
     if (path.starts_with(kTexture)) return texture(path.substr(kTexture.size()));
     std::optional<PageFile> file = core_.files().find(path);
-    if (!file) return {http::status::not_found, "text/plain; charset=utf-8", "no such file\n", false};
-    return {http::status::ok, file->type, std::move(file->content), false};
+    if (!file) return {http::status::not_found, "text/plain; charset=utf-8", "no such file\n"};
+    return {http::status::ok, file->type, std::move(file->content)};
 }
 
 void HttpSession::refuse(http::status status, const std::string& why) {
     core_.notice("viewer: a request from " + peer_ + " is refused: " + why);
     request_.keep_alive(false);
-    send({status, "text/plain; charset=utf-8", "refused: " + why + "\n", false});
+    send({status, "text/plain; charset=utf-8", "refused: " + why + "\n"});
 }
 
 void HttpSession::send(Answer answer) {
@@ -163,9 +168,9 @@ void HttpSession::send(Answer answer) {
     response->set("X-Content-Type-Options", "nosniff");
     response->set("Referrer-Policy", "no-referrer");
     response->set("Cross-Origin-Resource-Policy", "same-origin");
-    if (answer.keeps_token)
+    if (!answer.kept_token.empty())
         response->set(http::field::set_cookie,
-                      "roboss_token=" + core_.access().token() + "; HttpOnly; SameSite=Strict; Path=/");
+                      "roboss_token=" + answer.kept_token + "; HttpOnly; SameSite=Strict; Path=/");
     response->body() = std::move(answer.body);
     response->prepare_payload();
     if (request_.method() == http::verb::head) response->body().clear();

@@ -7,6 +7,8 @@
 #include <optional>
 #include <string>
 
+#include "gateway/roles.h"
+
 namespace roboss {
 
 class ServerCore;
@@ -16,6 +18,11 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     HttpSession(boost::asio::ip::tcp::socket&& socket, ServerCore& core);
     ~HttpSession();
     void start() { read(); }
+    const std::string& peer() const { return peer_; }
+    /// Since when it waits for a request, ms; nothing: one is being answered.
+    std::optional<std::int64_t> idle_since_ms() const { return idle_since_ms_; }
+    /// Closes it; no more is read.
+    void close() { stream_.close(); }
 
   private:
     using Request = boost::beast::http::request<boost::beast::http::empty_body>;
@@ -23,13 +30,13 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
         boost::beast::http::status status = boost::beast::http::status::ok;
         std::string type = "text/plain; charset=utf-8";
         std::string body;
-        bool keeps_token = false;
+        std::string kept_token{};    // goes into a cookie
         bool never_changes = false;  // what is at this address
     };
 
     void read();
     void serve();
-    void upgrade();
+    void upgrade(PageRole role);
     void serve_scene();
     Answer answer_for(std::string_view path) const;
     Answer mesh(std::string_view number) const;
@@ -43,6 +50,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     boost::beast::flat_buffer buffer_;
     std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> parser_;
     Request request_;
+    std::optional<std::int64_t> idle_since_ms_;
 };
 
 }  // namespace roboss

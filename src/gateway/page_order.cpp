@@ -10,7 +10,13 @@ struct Give {
     RobotId robot;
 
     Result<> operator()(const PageWrench& a) const {
-        return client.apply_wrench(robot, a.link, a.force, a.torque, a.duration_s);
+        const Result<Tick> ticks = client.ticks_of(a.duration_s);
+        if (!ticks) return ticks.error();
+        return client.order(robot, ApplyWrench{a.link, a.force, a.torque, ticks.value(), a.replaces});
+    }
+    Result<> operator()(const PagePull& a) const {
+        const Pull& p = a.pull;
+        return client.pull(robot, p.link, p.p_L, p.target_W, p.max_force, a.duration_s, p.rate);
     }
     Result<> operator()(const PageCommand& a) const {
         const Model& model = client.model();
@@ -23,7 +29,7 @@ struct Give {
             known += (known.empty() ? "it has '" : ", '") + info.channel.name + "'";
         return Error{
             "robot '" + model.robots[robot.index()].name + "' has no command '" + a.name.substr(0, 100) + "'",
-            known.empty() ? "it takes no commands" : known};
+            known.empty() ? "it takes no commands" : known, "no-command"};
     }
     template <class Action>
     Result<> operator()(const Action& a) const {

@@ -97,6 +97,23 @@ SetPose pose_of(Fields& fields) {
     return {{{v[0], v[1], v[2]}, normalized(Quat{v[3], v[4], v[5], v[6]})}};
 }
 
+bool flag_of(Fields& fields, const char* name) {
+    const Json* value = fields.find(name);
+    if (value != nullptr && !value->is_boolean()) fields.fail(name, "true or false");
+    return value != nullptr && value->is_boolean() && value->get<bool>();
+}
+
+PagePull pull_of(Fields& fields) {
+    PagePull pull;
+    pull.pull.link = LinkId(fields.index("link", 0u));
+    pull.pull.p_L = fields.vec3("point");
+    pull.pull.target_W = fields.vec3("target");
+    pull.pull.rate = fields.number("rate", pull.pull.rate);
+    pull.pull.max_force = fields.number("max_force");
+    pull.duration_s = fields.number("duration", pull.duration_s);
+    return pull;
+}
+
 SetJoint joint_of(Fields& fields) {
     SetJoint joint;
     joint.joint = JointId(fields.index("joint"));
@@ -139,8 +156,11 @@ PageOrder order_of(Fields& fields) {
     } else if (action == "velocity") {
         order.action = SetVelocity{fields.vec3("linear"), fields.vec3("angular")};
     } else if (action == "wrench") {
-        order.action = PageWrench{LinkId(fields.index("link", 0u)), fields.vec3("force"),
-                                  fields.vec3("torque"), fields.number("duration", 0.1)};
+        order.action =
+            PageWrench{LinkId(fields.index("link", 0u)), fields.vec3("force"), fields.vec3("torque"),
+                       fields.number("duration", 0.1), flag_of(fields, "replaces")};
+    } else if (action == "pull") {
+        order.action = pull_of(fields);
     } else if (action == "joint") {
         order.action = joint_of(fields);
     } else if (action == "command") {
@@ -150,7 +170,7 @@ PageOrder order_of(Fields& fields) {
     } else if (action == "detach") {
         order.action = Detach{RobotId(fields.index("other", RobotId::kNone))};
     } else {
-        fields.fail("action", "pose, velocity, wrench, joint, command, attach or detach");
+        fields.fail("action", "pose, velocity, wrench, pull, joint, command, attach or detach");
     }
     return order;
 }
@@ -176,6 +196,14 @@ PageWatch watch_of(Fields& fields) {
     if (!(watch.rate >= 0)) fields.fail("rate", "a number from 0 on");
     watch.rate = std::min(watch.rate, static_cast<double>(viewer_protocol::kRateMax));
     return watch;
+}
+
+PageDesk desk_of(Fields& fields, PageDesk::Kind kind) {
+    PageDesk desk;
+    desk.kind = kind;
+    if (kind == PageDesk::Kind::kKeep || (kind == PageDesk::Kind::kYield && fields.find("page") != nullptr))
+        desk.page = fields.index("page");
+    return desk;
 }
 
 /// Deep nesting costs a parser its stack: it is counted before anything is parsed.
@@ -205,7 +233,7 @@ Result<PageRequest> parse_page_request(std::string_view text) {
     Fields fields(json);
     const std::string type = fields.text("type");
     PageRequest request;
-    if (type == "control" || type == "order") request.id = static_cast<std::int64_t>(fields.index("id", 0u));
+    if (type != "watch" && type != "whole") request.id = static_cast<std::int64_t>(fields.index("id", 0u));
     if (type == "control") {
         request.what = control_of(fields);
     } else if (type == "order") {
@@ -214,8 +242,14 @@ Result<PageRequest> parse_page_request(std::string_view text) {
         request.what = watch_of(fields);
     } else if (type == "whole") {
         request.what = PageWhole{};
+    } else if (type == "ask") {
+        request.what = desk_of(fields, PageDesk::Kind::kAsk);
+    } else if (type == "yield") {
+        request.what = desk_of(fields, PageDesk::Kind::kYield);
+    } else if (type == "keep") {
+        request.what = desk_of(fields, PageDesk::Kind::kKeep);
     } else {
-        fields.fail("type", "control, order, watch or whole");
+        fields.fail("type", "control, order, watch, whole, ask, yield or keep");
     }
     if (!fields.wrong().empty()) return refused(fields.wrong());
     return request;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -21,6 +22,12 @@ struct PageWrench {
     LinkId link;
     Vec3 force, torque;
     double duration_s = 0.1;
+    bool replaces = false;
+};
+/// A pull as pages give it: its duration in seconds.
+struct PagePull {
+    Pull pull;
+    double duration_s = 0.1;
 };
 /// A command as pages give it: its channel by name.
 struct PageCommand {
@@ -29,7 +36,7 @@ struct PageCommand {
 };
 struct PageOrder {
     RobotId robot;
-    std::variant<SetPose, SetVelocity, PageWrench, SetJoint, PageCommand, Attach, Detach> action;
+    std::variant<SetPose, SetVelocity, PageWrench, PagePull, SetJoint, PageCommand, Attach, Detach> action;
 };
 struct PageWatch {
     std::vector<RobotId> robots;
@@ -37,10 +44,16 @@ struct PageWatch {
     double rate = 30;  // States a second
 };
 struct PageWhole {};
+/// About control of the run, among pages (roles.h).
+struct PageDesk {
+    enum class Kind : std::uint8_t { kAsk, kYield, kKeep };
+    Kind kind = Kind::kAsk;
+    std::optional<std::uint64_t> page;  // to whom control is yielded, or from whom it is kept
+};
 
 struct PageRequest {
     std::int64_t id = 0;  // of words and orders, for the answer
-    std::variant<ControlArguments, PageOrder, PageWatch, PageWhole> what;
+    std::variant<ControlArguments, PageOrder, PageWatch, PageWhole, PageDesk> what;
 };
 
 Result<PageRequest> parse_page_request(std::string_view text);

@@ -54,6 +54,31 @@ TEST(PageRequest, UnderstandsCommandsAndBonds) {
     EXPECT_FALSE(std::get<Detach>(order(R"("action":"detach")").action).other.valid()) << "of all";
 }
 
+TEST(PageRequest, UnderstandsPullsReplacingPushesAndControl) {
+    const auto request = [](const std::string& rest) { return parse_page_request("{" + rest + "}"); };
+    const std::string order = R"("type":"order","robot":7,)";
+    const auto pull = request(
+        order + R"("action":"pull","link":1,"point":[1,2,3],"target":[4,5,6],"max_force":7,"duration":2)");
+    ASSERT_TRUE(pull.ok()) << pull.error().text();
+    const auto& wanted = std::get<PagePull>(std::get<PageOrder>(pull.value().what).action);
+    EXPECT_EQ(wanted.pull.link, LinkId(1u));
+    EXPECT_EQ(wanted.pull.p_L, (Vec3{1, 2, 3}));
+    EXPECT_EQ(wanted.pull.target_W, (Vec3{4, 5, 6}));
+    EXPECT_EQ(wanted.pull.max_force, 7);
+    EXPECT_EQ(wanted.duration_s, 2);
+    EXPECT_FALSE(request(order + R"("action":"pull","point":[1,2,3],"target":[4,5,6])").ok()) << "no force";
+    const std::string push = order + R"("action":"wrench","force":[1,2,3],"torque":[0,0,0],"replaces":)";
+    EXPECT_TRUE(
+        std::get<PageWrench>(std::get<PageOrder>(request(push + "true").value().what).action).replaces);
+    EXPECT_FALSE(request(push + "1").ok());
+    EXPECT_EQ(std::get<PageDesk>(request(R"("type":"ask","id":3)").value().what).kind, PageDesk::Kind::kAsk);
+    const auto yield = request(R"("type":"yield","id":4,"page":9)");
+    EXPECT_EQ(yield.value().id, 4);
+    EXPECT_EQ(std::get<PageDesk>(yield.value().what).page, 9u);
+    EXPECT_FALSE(std::get<PageDesk>(request(R"("type":"yield")").value().what).page);
+    EXPECT_FALSE(request(R"("type":"keep")").ok()) << "from whom?";
+}
+
 TEST(PageRequest, UnderstandsWatchesAndBoundsTheirRate) {
     const auto request =
         parse_page_request(R"({"type":"watch","robots":[3,9],"overlays":["contacts","new"],"rate":500})");

@@ -18,11 +18,13 @@ constexpr std::int64_t kSilent_s = 30, kExtrasEvery_ms = 100;
 
 }  // namespace
 
-PageSession::PageSession(beast::tcp_stream&& stream, ServerCore& core, std::uint64_t number, std::string peer)
+PageSession::PageSession(beast::tcp_stream&& stream, ServerCore& core, std::uint64_t number, std::string peer,
+                         PageRole role)
     : socket_(std::move(stream)),
       core_(core),
       number_(number),
       peer_(std::move(peer)),
+      role_(role),
       timer_(socket_.get_executor()),
       rate_(static_cast<double>(viewer_protocol::kMessagesASecondMax)) {}
 
@@ -44,6 +46,7 @@ void PageSession::start(const Request& request) {
         if (error) return self->end("the handshake failed: " + error.message());
         self->open_ = true;
         if (self->core_.scene()) self->greet();
+        self->core_.entered(*self);
         self->core_.watch_changed();
         self->show_state();
         self->read();
@@ -96,6 +99,8 @@ void PageSession::take(const std::string& text) {
         shelf_.whole = true;
         shelf_.extras = 0;
         show_state();
+    } else if (const auto* desk = std::get_if<PageDesk>(&request.value().what)) {
+        core_.take(*this, *desk, request.value().id);
     } else {
         core_.call(*this, std::move(request).value());
     }

@@ -22,11 +22,14 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
   public:
     using Request = boost::beast::http::request<boost::beast::http::empty_body>;
 
-    PageSession(boost::beast::tcp_stream&& stream, ServerCore& core, std::uint64_t number, std::string peer);
+    PageSession(boost::beast::tcp_stream&& stream, ServerCore& core, std::uint64_t number, std::string peer,
+                PageRole role);
 
     void start(const Request& request);
     void close();
     std::uint64_t number() const { return number_; }
+    const std::string& peer() const { return peer_; }
+    PageRole role() const { return role_; }
     const PageWatch& watch() const { return watch_; }
     std::uint64_t sent_bytes() const { return sent_bytes_; }
     bool open() const { return open_; }
@@ -51,7 +54,8 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
     boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
     ServerCore& core_;
     std::uint64_t number_;
-    std::string peer_;
+    std::string peer_;  // the address of its computer
+    PageRole role_;
     boost::asio::steady_timer timer_;
     boost::beast::flat_buffer buffer_;
     RateLimit rate_;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "client/control_text.h"
 #include "gateway/page_order.h"
 #include "gateway/run_json.h"
 
@@ -237,12 +236,10 @@ void RunWatcher::serve(Bus& bus, PageCall& call) {
     if (const auto* page_order = std::get_if<PageOrder>(&call.what)) return order(bus, call, *page_order);
     if (control_.questions.size() >= kQuestionsMax)
         return answer(call.page, call.id, false, "too many requests are waiting for replies", "busy");
-    Result<ControlAction> parsed = parse_control(std::get<ControlArguments>(call.what).words);
-    if (!parsed) return answer(call.page, call.id, ControlRefused(parsed.error()));
-    control_.questions.push_back(
-        {std::move(parsed).value(), [this, page = call.page, id = call.id](const ControlOutcome& outcome) {
-             answer(page, id, outcome);
-         }});
+    control_.questions.push_back({std::move(std::get<ControlAction>(call.what)),
+                                  [this, page = call.page, id = call.id](const ControlOutcome& outcome) {
+                                      answer(page, id, outcome);
+                                  }});
 }
 
 void RunWatcher::order(Bus& bus, const PageCall& call, const PageOrder& wanted) {
@@ -259,8 +256,8 @@ void RunWatcher::order(Bus& bus, const PageCall& call, const PageOrder& wanted) 
     }
     const Result<> given = give(*client_, wanted);
     if (!given) return answer(call.page, call.id, ControlRefused(given.error()));
-    orders_.push_back({call.page, ++sequence_, call.id});
     client_->send(bus, tick_);
+    orders_.push_back({call.page, ++sequence_, client_->last_reply(), call.id});
 }
 
 /// It knows a world that is no more; the next order makes another.
@@ -273,20 +270,15 @@ void RunWatcher::drop_client() {
 void RunWatcher::serve_orders(Bus& bus) {
     if (!client_) return;
     client_->advance(bus);
-    const auto end = [&](const OpenOrder& o, bool done, const std::string& text) {
-        answer(o.page, o.id, done, text);
-    };
-    for (const std::string& refusal : client_->take_refusals()) {
-        const auto found = std::find_if(orders_.begin(), orders_.end(), [&](const OpenOrder& o) {
-            return refusal.starts_with("order " + std::to_string(o.sequence) + ": ");
-        });
+    for (const RefusedOrder& refused : client_->take_refused_orders()) {
+        const auto found = std::ranges::find(orders_, refused.sequence, &OpenOrder::sequence);
         if (found == orders_.end()) continue;
-        end(*found, false, refusal);
+        answer(found->page, found->id, false, refused.reason, refused.code);
         orders_.erase(found);
     }
     if (client_->outdated() || !client_->over().empty()) return drop_client();
-    if (!client_->heard()) return;
-    for (const OpenOrder& o : std::exchange(orders_, {})) end(o, true, "order accepted");
+    for (; !orders_.empty() && orders_.front().reply <= client_->acknowledged(); orders_.pop_front())
+        answer(orders_.front().page, orders_.front().id, true, "order accepted");
 }
 
 }  // namespace roboss

@@ -44,7 +44,7 @@ class RunWatcher {
         void advance(Bus& bus);
     };
     struct OpenOrder {
-        std::uint64_t page = 0, sequence = 0;
+        std::uint64_t page = 0, sequence = 0, reply = 0;
         std::int64_t id = 0;
     };
     struct Pulls {

@@ -22,6 +22,7 @@ class Server {
     ~Server();
 
     const std::string& url() const { return url_; }
+    const std::vector<std::string>& other_urls() const { return other_urls_; }
     std::vector<std::string> take_notices();
     GatewayLoad load() const;
 
@@ -29,6 +30,7 @@ class Server {
     Server() = default;
     std::unique_ptr<ServerCore> core_;
     std::string url_;
+    std::vector<std::string> other_urls_;
 };
 
 }  // namespace roboss

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "client/control_text.h"
 #include "core/thread_cpu.h"
 #include "gateway/http_session.h"
 #include "gateway/page_session.h"
@@ -15,13 +16,23 @@ namespace roboss {
 namespace {
 
 namespace asio = boost::asio;
+using Json = nlohmann::ordered_json;
 using tcp = asio::ip::tcp;
 
-constexpr std::size_t kConnectionsMax = 64, kPagesMax = 16;
+constexpr std::size_t kConnectionsMax = 64, kConnectionsOfOneMax = 48;  // before they are WebSockets
+constexpr std::size_t kPagesMax = 16, kPagesOfOneMax = 12;              // of one address; loopback: all
 constexpr double kNoticesASecond = 20;  // the rest is counted: the log is not theirs to fill
 constexpr int kSendBytes = 256 << 10;   // what lies in a socket is old when it is read: not much of it
 constexpr auto kLatePart = std::chrono::milliseconds(8);
 constexpr auto kSceneWait = std::chrono::seconds(5);
+
+std::string answer_line(std::int64_t id, bool done, const std::string& text) {
+    return Json{{"type", "answer"}, {"id", id}, {"done", done}, {"text", text}}.dump();
+}
+std::string answer_line(std::int64_t id, const Error& error) {
+    return Json{{"type", "answer"}, {"id", id}, {"done", false}, {"text", error.text()}, {"code", error.code}}
+        .dump(-1, ' ', false, Json::error_handler_t::replace);
+}
 
 }  // namespace
 
@@ -31,10 +42,9 @@ std::int64_t steady_ms() {
         .count();
 }
 
-ServerCore::ServerCore(const GatewayOptions& options, const std::string& token,
-                       std::shared_ptr<Exchange> exchange)
+ServerCore::ServerCore(const GatewayOptions& options, Access access, std::shared_ptr<Exchange> exchange)
     : options_(options),
-      access_(token),
+      access_(std::move(access)),
       files_(find_page_folder(options.page_folder)),
       exchange_(std::move(exchange)),
       io_(1),
@@ -101,29 +111,69 @@ void ServerCore::stop() {
 void ServerCore::accept() {
     acceptor_.async_accept([this](boost::system::error_code error, tcp::socket socket) {
         if (error == asio::error::operation_aborted) return;
-        if (!error && connections_ < kConnectionsMax) {
+        if (!error) {
             boost::system::error_code ignored;
             socket.set_option(tcp::no_delay(true), ignored);
             socket.set_option(asio::socket_base::send_buffer_size(kSendBytes), ignored);
-            ++connections_;
-            std::make_shared<HttpSession>(std::move(socket), *this)->start();
-        } else if (!error) {
-            notice("viewer: a connection is refused, there are already " + std::to_string(kConnectionsMax));
+            const auto session = std::make_shared<HttpSession>(std::move(socket), *this);
+            if (make_room(session->peer())) {
+                connections_.insert(session.get());
+                session->start();
+            } else {
+                notice("viewer: a connection from " + session->peer() +
+                       " is refused: too many are busy [too-many-connections]");
+            }
         }
         accept();
     });
 }
 
+/// For one more connection from this address. Where there are too many, the one goes that has been idle for
+/// longest: of this address if it has too many, else of the address that has the most.
+bool ServerCore::make_room(const std::string& address) {
+    std::map<std::string, std::size_t> counts;
+    for (const HttpSession* session : connections_) ++counts[session->peer()];
+    const bool one_has_too_many = counts[address] >= kConnectionsOfOneMax;
+    if (!one_has_too_many && connections_.size() < kConnectionsMax) return true;
+    HttpSession* idlest = nullptr;
+    const auto goes_before = [&](const HttpSession& a, const HttpSession& b) {
+        if (counts[a.peer()] != counts[b.peer()]) return counts[a.peer()] > counts[b.peer()];
+        return *a.idle_since_ms() < *b.idle_since_ms();
+    };
+    for (HttpSession* session : connections_) {
+        if (!session->idle_since_ms() || (one_has_too_many && session->peer() != address)) continue;
+        if (idlest == nullptr || goes_before(*session, *idlest)) idlest = session;
+    }
+    if (idlest == nullptr) return false;
+    connections_.erase(idlest);
+    idlest->close();
+    return true;
+}
+
+std::size_t ServerCore::pages_of(const std::string& address) const {
+    std::size_t count = 0;
+    for (const auto& [number, page] : pages_) count += page->peer() == address ? 1 : 0;
+    return count;
+}
+
 bool ServerCore::admit(const std::shared_ptr<PageSession>& page) {
     if (pages_.size() >= kPagesMax) return false;
+    if (!is_loopback(page->peer()) && pages_of(page->peer()) >= kPagesOfOneMax) return false;
     pages_[page->number()] = page;
     page_count_ = pages_.size();
     return true;
 }
 
+void ServerCore::entered(PageSession& page) {
+    desk_.enter({page.number(), page.peer(), page.role()});
+    send_roles();
+}
+
 void ServerCore::dismiss(std::uint64_t page) {
     if (pages_.erase(page) == 0) return;
     page_count_ = pages_.size();
+    desk_.leave(page);
+    send_roles();
     watch_changed();
 }
 
@@ -148,18 +198,52 @@ void ServerCore::watch_changed() {
 }
 
 void ServerCore::call(PageSession& page, PageRequest&& request) {
-    PageCall call{page.number(), request.id, ControlArguments{}};
-    if (auto* words = std::get_if<ControlArguments>(&request.what)) {
-        call.what = std::move(*words);
+    PageCall call{page.number(), request.id, ControlAction{}};
+    PageRole needed = PageRole::kSteer;
+    if (const auto* words = std::get_if<ControlArguments>(&request.what)) {
+        Result<ControlAction> action = parse_control(words->words);
+        if (!action) return page.send(answer_line(request.id, action.error()), false);
+        needed = role_needed(action.value());
+        call.what = std::move(action).value();
     } else {
         call.what = std::get<PageOrder>(std::move(request.what));
     }
-    const std::int64_t id = call.id;
+    const Result<> may = desk_.act(page.number(), needed);
+    send_roles();
+    if (!may) return page.send(answer_line(request.id, may.error()), false);
     if (exchange_->call(std::move(call))) return;
-    page.send(
-        nlohmann::json{{"type", "answer"}, {"id", id}, {"done", false}, {"text", "too many requests at once"}}
-            .dump(),
-        false);
+    page.send(answer_line(request.id, {"too many requests at once", "wait for replies", "busy"}), false);
+}
+
+void ServerCore::take(PageSession& page, const PageDesk& request, std::int64_t id) {
+    const bool asks = request.kind == PageDesk::Kind::kAsk;
+    const Result<> done = asks ? desk_.ask(page.number(), id, steady_ms())
+                          : request.kind == PageDesk::Kind::kYield
+                              ? desk_.yield(page.number(), request.page)
+                              : desk_.keep(page.number(), request.page.value_or(0));
+    if (!done) page.send(answer_line(id, done.error()), false);
+    if (done && !asks) page.send(answer_line(id, true, "done"), false);
+    send_roles();
+}
+
+/// Tells pages what the desk has decided.
+void ServerCore::send_roles() {
+    for (const ControlDesk::Decision& d : desk_.take_decisions())
+        if (const auto page = pages_.find(d.page); page != pages_.end())
+            page->second->send(answer_line(d.id, d.granted, d.text), false);
+    if (!desk_.take_changed()) return;
+    for (const auto& [number, page] : std::map(pages_)) page->send(roles_line(*page), false);
+}
+
+std::string ServerCore::roles_line(const PageSession& page) const {
+    const auto shown = [](const OpenPage& p) {
+        return Json{{"page", p.number}, {"address", p.address}, {"role", name_of(p.role)}};
+    };
+    Json line{{"type", "roles"}, {"page", page.number()}, {"role", name_of(page.role())}};
+    line["holder"] = desk_.holder() == nullptr ? Json() : shown(*desk_.holder());
+    line["asking"] = Json::array();
+    for (const OpenPage& p : desk_.asking()) line["asking"].push_back(shown(p));
+    return line.dump();
 }
 
 void ServerCore::want_scene(std::function<void()> then) {
@@ -290,7 +374,10 @@ void ServerCore::measure() {
     if (thread_.joinable()) cpu_ns_ = thread_cpu_ns();
     clock_.expires_after(std::chrono::milliseconds(100));
     clock_.async_wait([this](boost::system::error_code error) {
-        if (!error) measure();
+        if (error) return;
+        desk_.advance(steady_ms());
+        send_roles();
+        measure();
     });
 }
 

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -22,11 +23,12 @@
 
 namespace roboss {
 
+class HttpSession;
 class PageSession;
 
 class ServerCore {
   public:
-    ServerCore(const GatewayOptions& options, const std::string& token, std::shared_ptr<Exchange> exchange);
+    ServerCore(const GatewayOptions& options, Access access, std::shared_ptr<Exchange> exchange);
     ~ServerCore();
 
     /// Binds and listens; an Error if the port is taken.
@@ -44,13 +46,16 @@ class ServerCore {
     /// The line with surfaces in motion and bonds.
     std::string extras_line() const;
     std::uint64_t next_page() { return ++last_page_; }
-    /// False: there are too many.
+    /// False: there are too many, in all or from its address.
     bool admit(const std::shared_ptr<PageSession>& page);
+    /// Its WebSocket is open: it hears who has control.
+    void entered(PageSession& page);
     void dismiss(std::uint64_t page);
-    void connection_ended() { --connections_; }
+    void connection_ended(HttpSession* session) { connections_.erase(session); }
     /// What the page wants has changed.
     void watch_changed();
     void call(PageSession& page, PageRequest&& request);
+    void take(PageSession& page, const PageDesk& request, std::int64_t id);
     void count_sent(std::size_t bytes) { sent_bytes_.fetch_add(bytes, std::memory_order_relaxed); }
     void notice(std::string text);
     /// Somebody waits for the scene: it is fetched.
@@ -67,13 +72,18 @@ class ServerCore {
     void send_lines(std::vector<Line>& lines);
     void send_states(const News& news);
     void send_exact();
+    void send_roles();
+    std::string roles_line(const PageSession& page) const;
+    bool make_room(const std::string& address);
+    std::size_t pages_of(const std::string& address) const;
     void measure();
 
     GatewayOptions options_;
     Access access_;
     PageFiles files_;
     std::shared_ptr<Exchange> exchange_;
-    std::size_t connections_ = 0;  // sessions count themselves off, the last ones when io_ ends
+    std::set<HttpSession*> connections_;  // sessions take themselves out, the last ones when io_ ends
+    ControlDesk desk_;
     boost::asio::io_context io_;
     boost::asio::ip::tcp::acceptor acceptor_;
     boost::asio::steady_timer clock_,

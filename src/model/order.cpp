@@ -41,7 +41,7 @@ Result<> check_limits(const std::string& what, std::initializer_list<Bounded> nu
         if (std::fabs(n.value) > n.limit)
             return Error{what + ": a " + n.name + " of " + text(n.value) + " " + n.unit +
                              " is beyond the limit of " + text(n.limit) + " " + n.unit,
-                         "give at most that; docs/physics.md lists the limits of orders"};
+                         "give at most that; docs/physics.md lists the limits of orders", "beyond-limit"};
     return Ok{};
 }
 
@@ -59,25 +59,27 @@ struct Check {
 
     Result<> operator()(const SetPose& a) const {
         if (!is_finite(a.X_WR))
-            return Error{"set_pose of " + called(model, order) + " is not finite", kFiniteRemedy};
+            return Error{"set_pose of " + called(model, order) + " is not finite", kFiniteRemedy,
+                         "not-finite"};
         if (type.is_static)
             return Error{"set_pose: " + called(model, order) + " is static",
-                         "make the model movable (<static>false)"};
+                         "make the model movable (<static>false)", "static-model"};
         const Quat& q = a.X_WR.q;
         const double n = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
         if (std::fabs(n - 1.0) > 1e-6)
             return Error{"set_pose of " + called(model, order) + " has a quaternion of norm " +
                              std::to_string(std::sqrt(n)),
-                         "give a unit quaternion [w, x, y, z]"};
+                         "give a unit quaternion [w, x, y, z]", "bad-rotation"};
         return check_limits("set_pose of " + called(model, order),
                             {{"position", largest(a.X_WR.p), kOrderLimits.position, "m"}});
     }
     Result<> operator()(const SetVelocity& a) const {
         if (!is_finite(a.linear) || !is_finite(a.angular))
-            return Error{"set_velocity of " + called(model, order) + " is not finite", kFiniteRemedy};
+            return Error{"set_velocity of " + called(model, order) + " is not finite", kFiniteRemedy,
+                         "not-finite"};
         if (!type.free_base)
             return Error{"set_velocity: the base of " + called(model, order) + " is fixed to the world",
-                         "order its joints instead"};
+                         "order its joints instead", "fixed-base"};
         return check_limits("set_velocity of " + called(model, order),
                             {{"linear velocity", largest(a.linear), kOrderLimits.speed, "m/s"},
                              {"angular velocity", largest(a.angular), kOrderLimits.turn_rate, "rad/s"}});
@@ -85,43 +87,55 @@ struct Check {
     Result<> operator()(const ApplyWrench& a) const {
         if (a.link.index() >= type.links.size())
             return Error{"wrench on a link that " + called(model, order) + " does not have",
-                         "see `roboss check` for its links"};
+                         "see `roboss check` for its links", "no-link"};
         if (!is_finite(a.force) || !is_finite(a.torque))
-            return Error{"wrench on " + called(model, order) + " is not finite", kFiniteRemedy};
-        if (a.duration > kDurationMax)
-            return Error{"the duration of the wrench on " + called(model, order) + " is longer than any run",
-                         "give a duration in ticks below 2^60"};
-        if (a.duration < 1)
-            return Error{"wrench on " + called(model, order) + " lasts less than one tick",
-                         "give a duration > 0"};
-        return check_limits("wrench on " + called(model, order),
-                            {{"force", largest(a.force), kOrderLimits.force, "N"},
-                             {"torque", largest(a.torque), kOrderLimits.torque, "N m"}});
+            return Error{"wrench on " + called(model, order) + " is not finite", kFiniteRemedy, "not-finite"};
+        const std::string what = "wrench on " + called(model, order);
+        if (Result<> lasts = check_duration(what, a.duration); !lasts) return lasts;
+        return check_limits(what, {{"force", largest(a.force), kOrderLimits.force, "N"},
+                                   {"torque", largest(a.torque), kOrderLimits.torque, "N m"}});
+    }
+    Result<> operator()(const Pull& a) const {
+        const std::string what = "pull on " + called(model, order);
+        if (a.link.index() >= type.links.size())
+            return Error{what + " at a link that it does not have", "see `roboss check` for its links",
+                         "no-link"};
+        if (!is_finite(a.p_L) || !is_finite(a.target_W) || !std::isfinite(a.max_force) ||
+            !std::isfinite(a.rate))
+            return Error{what + " is not finite", kFiniteRemedy, "not-finite"};
+        if (!(a.max_force >= 0) || !(a.rate > 0))
+            return Error{what + " has a negative force, or a rate that is not above 0",
+                         "give a greatest force in N and a rate in rad/s", "bad-value"};
+        if (Result<> lasts = check_duration(what, a.duration); !lasts) return lasts;
+        return check_limits(what, {{"position", largest(a.p_L), kOrderLimits.position, "m"},
+                                   {"position", largest(a.target_W), kOrderLimits.position, "m"},
+                                   {"force", a.max_force, kOrderLimits.force, "N"},
+                                   {"rate", a.rate, kOrderLimits.rate, "rad/s"}});
     }
     Result<> operator()(const SetJoint& a) const {
         if (a.joint.index() >= type.joints.size())
             return Error{"order for a joint that " + called(model, order) + " does not have",
-                         "see `roboss check` for its joints"};
+                         "see `roboss check` for its joints", "no-joint"};
         const Joint& joint = type.joints[a.joint.index()];
         if (a.axis < 0 || a.axis >= joint.nv)
             return Error{"joint '" + joint.name + "' of " + called(model, order) + " has " +
                              std::to_string(joint.nv) + " degrees of freedom; axis " +
                              std::to_string(a.axis) + " is not one of them",
-                         joint.nv == 0 ? "fixed joints take no orders" : "count axes from 0"};
+                         joint.nv == 0 ? "fixed joints take no orders" : "count axes from 0", "no-axis"};
         if (joint_type(joint.kind).is_isotropic() && a.mode == MotorMode::kPosition)
             return Error{std::string(joint_type(joint.kind).name) + " joint '" + joint.name +
                              "' takes no position order per axis",
-                         "order its velocity or effort"};
+                         "order its velocity or effort", "no-position"};
         if (!std::isfinite(a.target) || std::isnan(a.max_effort))
             return Error{"order for joint '" + joint.name + "' of " + called(model, order) + " is not finite",
-                         kFiniteRemedy};
+                         kFiniteRemedy, "not-finite"};
         return check_target("order for joint '" + joint.name + "' of " + called(model, order), a);
     }
     Result<> operator()(const Command& a) const {
         if (a.channel >= type.channels.size())
             return Error{"command number " + std::to_string(a.channel) + " of " + called(model, order) +
                              ", which takes " + std::to_string(type.channels.size()) + " commands",
-                         "see `roboss check` for its commands"};
+                         "see `roboss check` for its commands", "no-command"};
         const Channel& channel = type.channels[a.channel].channel;
         const std::string what = "command '" + channel.name + "' of " + called(model, order);
         const std::size_t width = channel.values.size();
@@ -130,9 +144,10 @@ struct Check {
         if (!fits || a.values.size() > kCommandValuesMax)
             return Error{what + " has " + std::to_string(a.values.size()) + " values; it takes " +
                              std::to_string(width) + (channel.is_list ? " in each of its rows" : ""),
-                         "give " + names_of(channel)};
+                         "give " + names_of(channel), "bad-values"};
         for (std::size_t i = 0; i < a.values.size(); ++i) {
-            if (!std::isfinite(a.values[i])) return Error{what + " is not finite", kFiniteRemedy};
+            if (!std::isfinite(a.values[i]))
+                return Error{what + " is not finite", kFiniteRemedy, "not-finite"};
             const ChannelValue& value = channel.values[i % width];
             if (auto ok =
                     check_limits(what, {{value.name.c_str(), a.values[i], kCommandMax, value.unit.c_str()}});
@@ -144,20 +159,30 @@ struct Check {
     Result<> operator()(const Attach& a) const {
         const std::string what = "attach order of " + called(model, order);
         if (a.other.index() >= model.robots.size() || a.other == order.robot)
-            return Error{what + " names no other robot", "name the robot that shall be held"};
+            return Error{what + " names no other robot", "name the robot that shall be held", "no-robot"};
         if (a.link.index() >= type.links.size() ||
             a.other_link.index() >= model.type_of(a.other).links.size())
-            return Error{what + " names a link that does not exist", "see `roboss check` for the links"};
+            return Error{what + " names a link that does not exist", "see `roboss check` for the links",
+                         "no-link"};
         if (!(a.max_force > 0) || !(a.max_torque > 0))
-            return Error{what + " holds with no force or no torque", "give a maximum above 0, or none"};
-        if (!(a.reach >= 0)) return Error{what + " has a negative reach", "give a reach in m"};
+            return Error{what + " holds with no force or no torque", "give a maximum above 0, or none",
+                         "bad-value"};
+        if (!(a.reach >= 0)) return Error{what + " has a negative reach", "give a reach in m", "bad-value"};
         return check_limits(what, {{"reach", a.reach, kOrderLimits.position, "m"}});
     }
     Result<> operator()(const Detach& a) const {
         if (!a.other.valid() || (a.other.index() < model.robots.size() && a.other != order.robot))
             return Ok{};
         return Error{"detach order of " + called(model, order) + " names no other robot",
-                     "name the robot that is held, or none to let go of all"};
+                     "name the robot that is held, or none to let go of all", "no-robot"};
+    }
+    static Result<> check_duration(const std::string& what, Tick duration) {
+        if (duration > kDurationMax)
+            return Error{what + " lasts longer than any run", "give a duration in ticks below 2^60",
+                         "bad-duration"};
+        if (duration < 1)
+            return Error{what + " lasts less than one tick", "give a duration > 0", "bad-duration"};
+        return Ok{};
     }
     static std::string names_of(const Channel& channel) {
         std::string names;
@@ -179,7 +204,7 @@ struct Check {
                 return check_limits(what, {{"effort", a.target, kOrderLimits.force, "N m or N"}});
         }
         return Error{what + " names a motor mode that does not exist",
-                     "give passive, velocity, position or effort"};
+                     "give passive, velocity, position or effort", "bad-mode"};
     }
 };
 
@@ -200,7 +225,14 @@ struct Apply {
         for (std::size_t i = 0; i < 6; ++i) state.v[i] = numbers[i];
     }
     void operator()(const ApplyWrench& a) const {
+        if (a.replaces) std::erase_if(state.wrenches, [&](const TimedWrench& w) { return w.link == a.link; });
         state.wrenches.push_back({a.link, a.force, a.torque, order.apply_at + a.duration});
+    }
+    void operator()(const Pull& a) const {
+        std::erase_if(state.pulls, [&](const TimedPull& p) { return p.link == a.link; });
+        if (a.max_force > 0)
+            state.pulls.push_back(
+                {a.link, a.p_L, a.target_W, a.rate, a.max_force, order.apply_at + a.duration});
     }
     void operator()(const SetJoint& a) const {
         const Joint& joint = type.joints[a.joint.index()];
@@ -247,7 +279,7 @@ Result<> check_order(const Model& model, const Order& order) {
     if (order.robot.index() >= model.robots.size())
         return Error{"order for robot number " + std::to_string(order.robot.value) + ", but the world has " +
                          std::to_string(model.robots.size()) + " robots",
-                     "see `roboss check` for their names"};
+                     "see `roboss check` for their names", "no-robot"};
     return std::visit(Check{model, order, model.type_of(order.robot)}, order.action);
 }
 

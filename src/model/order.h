@@ -28,13 +28,28 @@ struct SetVelocity {
 };
 
 /// Level 3: force at the link's centre of mass and torque, world axes, for `duration` ticks (at least 1).
+/// Wrenches on a link add up, unless one `replaces` those before it.
 struct ApplyWrench {
-    LinkId link;        ///< that the wrench acts on
-    Vec3 force,         ///< N, world axes, at the centre of mass
-        torque;         ///< N m, world axes
-    Tick duration = 1;  ///< ticks
+    LinkId link;            ///< that the wrench acts on
+    Vec3 force,             ///< N, world axes, at the centre of mass
+        torque;             ///< N m, world axes
+    Tick duration = 1;      ///< ticks
+    bool replaces = false;  ///< ends the wrenches that earlier orders put on this link
     /// Compares all members.
     friend bool operator==(const ApplyWrench&, const ApplyWrench&) = default;
+};
+
+/// Level 3: a spring with damping between a point of a link and a point of the world, for `duration` ticks,
+/// as a hand pulls (physics/dynamics/pull.h). It replaces an earlier pull on this link.
+struct Pull {
+    LinkId link;           ///< that is pulled
+    Vec3 p_L,              ///< m, the point that is held, in the link's frame
+        target_W;          ///< m, world, where it is pulled
+    double rate = 15;      ///< rad/s: natural frequency of the spring, which is critically damped
+    double max_force = 0;  ///< N; 0: the hand lets go
+    Tick duration = 1;     ///< ticks
+    /// Compares all members.
+    friend bool operator==(const Pull&, const Pull&) = default;
 };
 
 /// Level 4: latches a setpoint of one degree of freedom of a joint. A negative max_effort means the joint's
@@ -78,7 +93,7 @@ struct Detach {
 };
 
 /// What an order does.
-using Action = std::variant<SetPose, SetVelocity, ApplyWrench, SetJoint, Command, Attach, Detach>;
+using Action = std::variant<SetPose, SetVelocity, ApplyWrench, SetJoint, Command, Attach, Detach, Pull>;
 
 /// An action on one robot at one tick.
 struct Order {
@@ -100,6 +115,7 @@ struct OrderLimits {
     double turn_rate = 1e5;  ///< rad/s, of a base
     double force = 1e9;      ///< N: on a link; N or N m: target of a joint's effort
     double torque = 1e9;     ///< N m, on a link
+    double rate = 1e3;       ///< rad/s, of a pull
 };
 /// The limits in force.
 inline constexpr OrderLimits kOrderLimits;

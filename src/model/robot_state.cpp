@@ -53,7 +53,9 @@ class Teller {
     void tick(Tick t) { word(static_cast<std::uint64_t>(t)); }
     void id(std::uint32_t i) { word(i); }
     void pair(std::uint32_t a, std::uint32_t b) { word(static_cast<std::uint64_t>(a) << 32 | b); }
-    void flagged(std::uint32_t n, bool flag, bool flag_2) { pair(n, (flag ? 1 : 0) | (flag_2 ? 2 : 0)); }
+    void flagged(std::uint32_t n, bool flag, bool flag_2, bool flag_3) {
+        pair(n, (flag ? 1 : 0) | (flag_2 ? 2 : 0) | (flag_3 ? 4 : 0));
+    }
     void flag(bool on) { word(on ? 1 : 0); }
     template <class Enum>
     void mode(Enum m) {
@@ -90,11 +92,11 @@ class Reader {
         const std::uint64_t w = word();
         a = static_cast<std::uint32_t>(w >> 32), b = static_cast<std::uint32_t>(w);
     }
-    void flagged(std::uint32_t& n, bool& flag, bool& flag_2) {
+    void flagged(std::uint32_t& n, bool& flag, bool& flag_2, bool& flag_3) {
         std::uint32_t flags = 0;
         pair(n, flags);
-        flag = (flags & 1) != 0, flag_2 = (flags & 2) != 0;
-        if (flags > 3) fail();
+        flag = (flags & 1) != 0, flag_2 = (flags & 2) != 0, flag_3 = (flags & 4) != 0;
+        if (flags > 7) fail();
     }
     void flag(bool& on) {
         const std::uint64_t w = word();
@@ -153,6 +155,13 @@ void fields(A& a, Of<A, TimedWrench>& wrench) {
 }
 
 template <class A>
+void fields(A& a, Of<A, TimedPull>& pull) {
+    auto& [link, p_L, target_W, rate, max_force, until] = pull;
+    a.id(link.value), fields(a, p_L), fields(a, target_W);
+    a.number(rate), a.number(max_force), a.tick(until);
+}
+
+template <class A>
 void fields(A& a, Of<A, ContactMemory>& contact) {
     auto& [other_robot, shape, other_shape, feature, impulse, load, friction] = contact;
     a.pair(other_robot, shape), a.pair(other_shape, feature);
@@ -177,11 +186,11 @@ void fields(A& a, Of<A, Bond>& bond) {
     a.number(max_force), a.number(max_torque), fields(a, force_impulse), fields(a, torque_impulse);
 }
 
-/// Who is awake has no bound. `acts`: what on-board controllers keep follows later.
+/// Who is awake has no bound. `acts`: what on-board controllers keep follows later; `pulled`: pulls do.
 template <class A, class Flag>
-void fields(A& a, Of<A, Rest>& rest, Flag& acts) {
+void fields(A& a, Of<A, Rest>& rest, Flag& acts, Flag& pulled) {
     auto& [still_ticks, asleep, neighbours, bound] = rest;
-    a.flagged(still_ticks, asleep, acts);
+    a.flagged(still_ticks, asleep, acts, pulled);
     a.length(neighbours);
     for (auto& id : neighbours) a.id(id);
     auto& [min, max] = bound;
@@ -190,15 +199,18 @@ void fields(A& a, Of<A, Rest>& rest, Flag& acts) {
 
 template <class A>
 void fields(A& a, Of<A, RobotState>& state) {
-    auto& [q, v, motors, wrenches, contacts, rest, onboard, lists, surfaces, bonds] = state;
+    auto& [q, v, motors, wrenches, contacts, rest, onboard, lists, surfaces, bonds, pulls] = state;
     bool acts = !onboard.empty() || !lists.empty() || !surfaces.empty() || !bonds.empty();
+    bool pulled = !pulls.empty();
     a.length(q), a.length(v), a.length(motors), a.length(wrenches), a.length(contacts);
     for (auto& x : q) a.number(x);
     for (auto& x : v) a.number(x);
     for (auto& motor : motors) fields(a, motor);
     for (auto& wrench : wrenches) fields(a, wrench);
     for (auto& contact : contacts) fields(a, contact);
-    fields(a, rest, acts);
+    fields(a, rest, acts, pulled);
+    if (pulled) a.length(pulls);
+    for (auto& pull : pulls) fields(a, pull);
     if (!acts) return;
     a.length(onboard), a.length(lists), a.length(surfaces), a.length(bonds);
     for (auto& x : onboard) a.number(x);
@@ -219,6 +231,12 @@ const char* inconsistency_of(const RobotState& state, const RobotType& type, std
     if (!std::all_of(state.wrenches.begin(), state.wrenches.end(), has_link))
         return "names a link that does not exist";
     const auto finite = [](double x) { return std::isfinite(x); };
+    const auto pull_fits = [&](const TimedPull& p) {
+        return p.link.index() < type.links.size() && is_finite(p.p_L) && is_finite(p.target_W) &&
+               std::isfinite(p.rate) && std::isfinite(p.max_force);
+    };
+    if (!std::all_of(state.pulls.begin(), state.pulls.end(), pull_fits))
+        return "is pulled by a link that does not exist, or is not finite";
     if (state.onboard.size() != static_cast<std::size_t>(type.onboard_size) ||
         state.lists.size() != static_cast<std::size_t>(type.list_count))
         return "has not as many commands or as much memory of on-board controllers as that";

@@ -44,6 +44,18 @@ struct TimedWrench {
     friend bool operator==(const TimedWrench&, const TimedWrench&) = default;
 };
 
+/// A spring with damping from a point of a link to a point of the world, while tick < until.
+struct TimedPull {
+    LinkId link;        ///< that is pulled
+    Vec3 p_L,           ///< m, the point that is held, in the link's frame
+        target_W;       ///< m, world
+    double rate = 0,    ///< rad/s
+        max_force = 0;  ///< N
+    Tick until = 0;     ///< first tick without it
+    /// Compares all members.
+    friend bool operator==(const TimedPull&, const TimedPull&) = default;
+};
+
 /// The impulses of a contact at the last tick: the solver's first guess of the friction bound, and the load
 /// that its rows start from. Owned by the lower robot id of the pair; dropped at the first tick without the
 /// contact. Kept sorted by key (the first four members).
@@ -123,7 +135,8 @@ struct RobotState {
     std::vector<double> onboard;
     std::vector<std::vector<double>> lists;  ///< latched commands that are lists, row by row
     std::vector<SurfaceMotion> surfaces;     ///< in motion, by ascending link
-    std::vector<Bond> bonds;  ///< attachments that this robot holds, in the order in which they came
+    std::vector<Bond> bonds;       ///< attachments that this robot holds, in the order in which they came
+    std::vector<TimedPull> pulls;  ///< in force, at most one on a link
     /// Compares all members.
     friend bool operator==(const RobotState&, const RobotState&) = default;
 };

@@ -13,6 +13,7 @@
 #include "physics/bonds/bond_keeper.h"
 #include "physics/contact/coarse_bound.h"
 #include "physics/contact/meetings.h"
+#include "physics/dynamics/pull.h"
 #include "physics/lanes/lane_stepper.h"
 #include "physics/robot_group.h"
 #include "physics/tick.h"
@@ -38,6 +39,7 @@ struct StepScratch::Impl {
     LaneQueue queue;
     OnboardScratch onboard;
     RobotWork holder;  // for the coarse boxes of those that hold others
+    RobotWork pulled;  // for those that are pulled
 
     /// Forgets the last call.
     void start(const Model& model, std::size_t robots) {
@@ -110,6 +112,13 @@ void run_controllers(const Model& model, Tick tick, std::span<const RobotId> rob
     for (std::size_t i = 0; i < robots.size(); ++i)
         if (!model.type_of(robots[i]).onboard.empty() && !states[i]->rest.asleep)
             run_onboard(model, tick, robots[i], *states[i], scratch);
+}
+
+/// Pulls become wrenches of this tick.
+void pull_robots(const Model& model, Tick tick, std::span<const RobotId> robots,
+                 std::span<RobotState* const> states, RobotWork& work) {
+    for (std::size_t i = 0; i < robots.size(); ++i)
+        if (!states[i]->pulls.empty()) apply_pulls(model, tick, robots[i], *states[i], work);
 }
 
 constexpr float kEffort = 2;  // of a step beside its Newton iterations
@@ -272,6 +281,7 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
     let_go(model, states);
     s.clock.enter(Stage::kOnboard);
     run_controllers(model, tick, robots, states, s.onboard);
+    pull_robots(model, tick, robots, states, s.pulled);
     s.clock.enter(Stage::kBroadPhase);
     find_near(model, robots, states, s);
     const StepCall call{model, tick, robots, states, bounds, s.ordered, report, s.clock};

@@ -75,7 +75,7 @@ bool describe(const Model& model, const States& a, const States& b, Divergence& 
 
 std::string describe(const Model& model, const Order& order) {
     static constexpr const char* kKinds[] = {"set pose", "set velocity", "wrench", "joint",
-                                             "command",  "attach",       "detach"};
+                                             "command",  "attach",       "detach", "pull"};
     static_assert(std::size(kKinds) == std::variant_size_v<Action>);
     std::string text = std::string(kKinds[order.action.index()]) + " of robot '" +
                        model.robots[order.robot.index()].name + "'";

@@ -91,6 +91,20 @@ void compare_orders(const RobotState& a, const RobotState& b, Fields& fields) {
     }
 }
 
+void compare_pulls(const RobotState& a, const RobotState& b, Fields& fields) {
+    fields.count("number of pulls", a.pulls.size(), b.pulls.size());
+    for (std::size_t i = 0; i < a.pulls.size() && !fields.done(); ++i) {
+        const std::string name = "pull " + std::to_string(i);
+        fields.count(name + " link", a.pulls[i].link.value, b.pulls[i].link.value);
+        fields.vector(name + " point", a.pulls[i].p_L, b.pulls[i].p_L);
+        fields.vector(name + " target", a.pulls[i].target_W, b.pulls[i].target_W);
+        fields.number(name + " rate", a.pulls[i].rate, b.pulls[i].rate);
+        fields.number(name + " maximum force", a.pulls[i].max_force, b.pulls[i].max_force);
+        fields.count(name + " end", static_cast<std::uint64_t>(a.pulls[i].until),
+                     static_cast<std::uint64_t>(b.pulls[i].until));
+    }
+}
+
 void compare_contacts(const RobotState& a, const RobotState& b, Fields& fields) {
     fields.count("number of contacts", a.contacts.size(), b.contacts.size());
     for (std::size_t i = 0; i < a.contacts.size() && !fields.done(); ++i) {
@@ -156,6 +170,7 @@ std::optional<FieldDifference> first_difference(const RobotType& type, const Rob
     if (fields.done()) return fields.take();
     compare_coordinates(type, a, b, fields);
     compare_orders(a, b, fields);
+    compare_pulls(a, b, fields);
     compare_contacts(a, b, fields);
     compare_rest(a.rest, b.rest, fields);
     compare_onboard(a, b, fields);

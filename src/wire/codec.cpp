@@ -116,7 +116,7 @@ template <class A> void field(A& a, Of<A, Holding>& m) { auto& [source, robots] 
 template <class A> void field(A& a, Of<A, HandOver>& m) { auto& [to, robots] = m; fields(a, to, robots); }
 template <class A> void field(A& a, Of<A, SetPose>& m) { auto& [X_WR] = m; auto& [p, q] = X_WR; fields(a, p, q); }
 template <class A> void field(A& a, Of<A, SetVelocity>& m) { auto& [linear, angular] = m; fields(a, linear, angular); }
-template <class A> void field(A& a, Of<A, ApplyWrench>& m) { auto& [link, force, torque, duration] = m; fields(a, link, force, torque, duration); }
+template <class A> void field(A& a, Of<A, ApplyWrench>& m) { auto& [link, force, torque, duration, replaces] = m; fields(a, link, force, torque, duration, replaces); }
 template <class A> void field(A& a, Of<A, SetJoint>& m) {
     auto& [joint, axis, mode, target, max_effort] = m;
     fields(a, joint, axis, mode, target, max_effort);
@@ -128,6 +128,10 @@ template <class A> void field(A& a, Of<A, Attach>& m) {
     fields(a, link, other, other_link, reach, max_force, max_torque);
 }
 template <class A> void field(A& a, Of<A, Detach>& m) { auto& [other] = m; fields(a, other); }
+template <class A> void field(A& a, Of<A, Pull>& m) {
+    auto& [link, p_L, target_W, rate, max_force, duration] = m;
+    fields(a, link, p_L, target_W, rate, max_force, duration);
+}
 template <class A> void field(A& a, Of<A, Order>& m) { auto& [apply_at, client, sequence, robot, action] = m; fields(a, apply_at, client, sequence, robot, action); }
 template <class A> void field(A& a, Of<A, Hello>& m) { auto& [model_hash, threads, name] = m; fields(a, model_hash, threads, name); }
 template <class A> void field(A& a, Of<A, Welcome>& m) { auto& [simulator] = m; fields(a, simulator); }
@@ -178,8 +182,8 @@ template <class A> void field(A& a, Of<A, ClientHello>& m) {
 template <class A> void field(A& a, Of<A, ClientWelcome>& m) { auto& [client, first, seed] = m; fields(a, client, first, seed); }
 template <class A> void field(A& a, Of<A, Observation>& m) { auto& [tick, last_reply, holders] = m; fields(a, tick, last_reply, holders); }
 template <class A> void field(A& a, Of<A, ClientOrder>& m) { auto& [sequence, robot, action] = m; fields(a, sequence, robot, action); }
-template <class A> void field(A& a, Of<A, ClientReply>& m) { auto& [client, number, observed, orders] = m; fields(a, client, number, observed, orders); }
-template <class A> void field(A& a, Of<A, RefusedOrder>& m) { auto& [sequence, reason] = m; fields(a, sequence, reason); }
+template <class A> void field(A& a, Of<A, ClientReply>& m) { auto& [client, number, observed, orders, acknowledged] = m; fields(a, client, number, observed, orders, acknowledged); }
+template <class A> void field(A& a, Of<A, RefusedOrder>& m) { auto& [sequence, reason, code] = m; fields(a, sequence, reason, code); }
 template <class A> void field(A& a, Of<A, ReplyAck>& m) { auto& [client, number, refused] = m; fields(a, client, number, refused); }
 template <class A> void field(A& a, Of<A, ClientBye>& m) { auto& [client, number, failed, reason] = m; fields(a, client, number, failed, reason); }
 template <class A> void field(A& a, Of<A, RunOver>& m) { auto& [reason] = m; fields(a, reason); }
@@ -197,7 +201,7 @@ template <class A> void field(A& a, Of<A, StepRun>& m) { auto& [ticks] = m; fiel
 template <class A> void field(A& a, Of<A, SetSpeed>& m) { auto& [kind, factor] = m; fields(a, kind, factor); }
 template <class A> void field(A& a, Of<A, SetWindow>& m) { auto& [ticks] = m; fields(a, ticks); }
 template <class A> void field(A& a, Of<A, KillSimulator>& m) { auto& [id] = m; fields(a, id); }
-template <class A> void field(A& a, Of<A, SaveRun>& m) { auto& [file] = m; fields(a, file); }
+template <class A> void field(A& a, Of<A, SaveRun>& m) { auto& [file, overwrite] = m; fields(a, file, overwrite); }
 template <class A> void field(A& a, Of<A, RewindRun>& m) { auto& [branch, time_s] = m; fields(a, branch, time_s); }
 template <class A> void field(A& a, Of<A, ChangeAccuracy::Number>& m) { auto& [name, value] = m; fields(a, name, value); }
 template <class A> void field(A& a, Of<A, ChangeAccuracy>& m) { auto& [setting, numbers] = m; fields(a, setting, numbers); }

@@ -16,11 +16,12 @@ const RobotId kRobot(7u), kOther(9u);
 std::vector<Order> some_orders() {
     return {{10, ClientId(1u), 1, kRobot, SetPose{{{1, 2, 3}, {0.5, 0.5, 0.5, 0.5}}}},
             {10, ClientId(1u), 2, kRobot, SetVelocity{{1, 0, 0}, {0, 0, -2}}},
-            {11, ClientId(2u), 1, kOther, ApplyWrench{LinkId(2u), {1, 2, 3}, {4, 5, 6}, 12}},
+            {11, ClientId(2u), 1, kOther, ApplyWrench{LinkId(2u), {1, 2, 3}, {4, 5, 6}, 12, true}},
             {12, ClientId(2u), 2, kOther, SetJoint{JointId(1u), 1, MotorMode::kPosition, 0.25, 8.5}},
             {13, ClientId(2u), 3, kRobot, Command{2, {0.5, -1, 3}}},
             {14, ClientId(2u), 4, kRobot, Attach{LinkId(1u), kOther, LinkId(3u), 0.25, 40, 2}},
-            {15, ClientId(2u), 5, kRobot, Detach{kOther}}};
+            {15, ClientId(2u), 5, kRobot, Detach{kOther}},
+            {16, ClientId(2u), 6, kRobot, Pull{LinkId(1u), {1, 2, 3}, {4, 5, 6}, 7, 8, 9}}};
 }
 
 /// Of each kind one in which no field has the value that it has in a message just made, so that none can get
@@ -68,7 +69,7 @@ std::vector<Message> one_of_each() {
             ClientWelcome{ClientId(0u), 40, 99},
             Observation{40, 3, {{{Role::kController, 0}, {kRobot}}}},
             ClientReply{ClientId(0u), 4, 40, orders},
-            ReplyAck{ClientId(0u), 4, {{2, "no such link"}}},
+            ReplyAck{ClientId(0u), 4, {{2, "no such link", "no-link"}}},
             ClientBye{ClientId(0u), 5, true, "it threw"},
             RunOver{"the run has ended"},
             ModelRequest{Whole::kScene, 7},
@@ -98,8 +99,8 @@ std::vector<Message> every_control_message() {
           ControlAction(PauseRun{}), ControlAction(ResumeRun{}), ControlAction(StepRun{10}),
           ControlAction(SetSpeed{SetSpeed::Kind::kFactor, 2.5}), ControlAction(SetWindow{8}),
           ControlAction(AddSimulator{}), ControlAction(RemoveSimulator{}), ControlAction(KillSimulator{3}),
-          ControlAction(SaveRun{"a.roboss"}), ControlAction(QuitRun{}), ControlAction(RewindRun{2, 12.5}),
-          ControlAction(ChangeAccuracy{"high", {{"tolerance", 1e-10}}}),
+          ControlAction(SaveRun{"a.roboss", true}), ControlAction(QuitRun{}),
+          ControlAction(RewindRun{2, 12.5}), ControlAction(ChangeAccuracy{"high", {{"tolerance", 1e-10}}}),
           ControlAction(AddModels{"ball.sdf", "<sdf/>", {{1, 2, 3}, {}}, "ball"}),
           ControlAction(AddModels{"ball.sdf", "<sdf/>", {}, "", {{"a", {{1, 2, 3}, {}}}, {"b", {}}}}),
           ControlAction(RemoveRobots{{"a", "b"}}), ControlAction(ResetRun{})})

@@ -87,9 +87,10 @@ struct KillSimulator {
     /// Compares all members.
     friend bool operator==(const KillSimulator&, const KillSimulator&) = default;
 };
-/// Saves the run to a file.
+/// Saves the run to a file below the folder that the run allows (`--save-folder`).
 struct SaveRun {
-    std::string file;  // on the Controller's computer
+    std::string file;        ///< on the Controller's computer, from that folder on
+    bool overwrite = false;  ///< an existing file may be replaced; else that is refused [file-exists]
     /// Compares all members.
     friend bool operator==(const SaveRun&, const SaveRun&) = default;
 };

@@ -298,6 +298,7 @@ struct ClientReply {
     std::uint64_t number = 0;
     Tick observed = 0;
     std::vector<ClientOrder> orders;
+    std::uint64_t acknowledged = 0;  // the last reply that it knows to have arrived
     friend bool operator==(const ClientReply&, const ClientReply&) = default;
 };
 struct ClientUnknown {  // Controller -> Client that it does not know: it may send ClientHello again
@@ -306,13 +307,13 @@ struct ClientUnknown {  // Controller -> Client that it does not know: it may se
 };
 struct RefusedOrder {
     std::uint64_t sequence = 0;
-    std::string reason;
+    std::string reason, code;  // why, for people and for programs
     friend bool operator==(const RefusedOrder&, const RefusedOrder&) = default;
 };
 struct ReplyAck {
     ClientId client;
     std::uint64_t number = 0;           // the last reply accepted
-    std::vector<RefusedOrder> refused;  // orders of that reply that were refused
+    std::vector<RefusedOrder> refused;  // orders of the last replies that were refused, by ascending sequence
     friend bool operator==(const ReplyAck&, const ReplyAck&) = default;
 };
 /// Client -> Controller: its last reply; it leaves. A failure ends the run.

@@ -71,6 +71,22 @@ int http_raw(const ViewerUrl& url, const std::string& request) {
     return error ? 0 : static_cast<int>(parser.get().result_int());
 }
 
+SilentSocket::SilentSocket(const ViewerUrl& url, const std::string& beginning) {
+    beast::error_code error;
+    socket_.connect(endpoint_of(url), error);
+    connected_ = !error;
+    if (!beginning.empty()) asio::write(socket_, asio::buffer(beginning), error);
+}
+
+bool SilentSocket::closed() {
+    if (!connected_) return true;
+    beast::error_code error;
+    socket_.non_blocking(true, error);
+    char byte = 0;
+    socket_.read_some(asio::buffer(&byte, 1), error);
+    return error && error != asio::error::would_block;
+}
+
 Browser::Browser(const ViewerUrl& url, const SocketHeaders& headers) : socket_(io_) {
     beast::error_code error;
     auto& tcp_socket = beast::get_lowest_layer(socket_).socket();

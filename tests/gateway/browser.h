@@ -37,6 +37,19 @@ HttpAnswer http_get(const ViewerUrl& url, const std::string& target, const std::
 /// The status line's number for a request that is sent as it is; 0: no answer.
 int http_raw(const ViewerUrl& url, const std::string& request);
 
+/// Connects and says nothing, as long as it lives.
+class SilentSocket {
+  public:
+    explicit SilentSocket(const ViewerUrl& url, const std::string& beginning = {});
+    /// The gateway has closed it.
+    bool closed();
+
+  private:
+    boost::asio::io_context io_;
+    boost::asio::ip::tcp::socket socket_{io_};
+    bool connected_ = false;
+};
+
 /// In `origin` and `subprotocol`: the header is left out.
 inline constexpr char kLeftOut[] = "-";
 

@@ -8,54 +8,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include "browser.h"
-#include "core/hash.h"
-#include "live_run.h"
 #include "model/edit.h"
-#include "test_worlds.h"
+#include "viewed.h"
 #include "wire/view_state.h"
-#include "wire/viewer_protocol.h"
 
 namespace roboss::test {
 namespace {
-
-using Json = Browser::Json;
-
-std::vector<std::size_t> coordinates_of(const Model& model) {
-    std::vector<std::size_t> widths;
-    for (const Robot& robot : model.robots)
-        widths.push_back(view_ranges(model.types[robot.type.index()]).size());
-    return widths;
-}
-
-std::vector<NamedProgram> driver() {
-    std::vector<NamedProgram> programs;
-    programs.push_back({"driver", std::make_unique<DrivingProgram>(ControlOptions{0.05, -1, true})});
-    return programs;
-}
-
-Json watch(std::vector<int> robots, std::vector<std::string> overlays = {}, double rate = 60) {
-    return {{"type", "watch"}, {"robots", robots}, {"overlays", overlays}, {"rate", rate}};
-}
-
-/// The hash that the world has at `end` when nobody watches.
-std::uint64_t undisturbed(const std::shared_ptr<const Model>& model, Tick end) {
-    LiveRunOptions options;
-    options.viewer = false;
-    options.end = end;
-    options.speed = 0;
-    return LiveRun(model, options, driver()).hash_at_end();
-}
-
-class Viewed : public testing::Test {
-  protected:
-    std::unique_ptr<LiveRun> begin(LiveRunOptions options = {}) {
-        model = carts_world(6);
-        auto run = std::make_unique<LiveRun>(model, options, driver());
-        return run;
-    }
-    std::shared_ptr<const Model> model;
-};
 
 TEST_F(Viewed, BrowsersSeeEveryRobotWhereItIsAndTheHashStaysTheSame) {
     LiveRunOptions options;
@@ -228,80 +186,6 @@ TEST_F(Viewed, ASlowReaderHoldsNobodyUpAndSeesTheLatestWhenItReadsAgain) {
     EXPECT_TRUE(slow.until([&] { return slow.tick() >= static_cast<double>(tick); })) << slow.tick();
     EXPECT_LT(slow.states(), quick.states() / 2);
     EXPECT_FALSE(slow.closed());
-}
-
-TEST_F(Viewed, WrongHostsOriginsTokensAndPathsAreRefusedWithALine) {
-    const auto run = begin();
-    const ViewerUrl url(run->url());
-    EXPECT_EQ(http_get(url, "/").status, 200);
-    EXPECT_EQ(http_get(url, "/", "evil.example:80").status, 403);
-    EXPECT_TRUE(run->says("'evil.example"));
-    EXPECT_FALSE(Browser(url, {"/ws", "http://evil.example", ""}).connected());
-    EXPECT_TRUE(run->says("'http://evil.example' [wrong-origin]"));
-    EXPECT_FALSE(Browser(url, {"/ws", "null", ""}).connected());
-    EXPECT_TRUE(Browser(url, {"/ws", "http://" + url.authority(), ""}).connected());
-    for (const char* path :
-         {"/../etc/passwd", "/..%2f..%2fetc/passwd", "//etc/passwd", "/nothing.js", "/mesh/77", "/mesh/-1"})
-        EXPECT_EQ(http_get(url, path).status, 404) << path;
-    EXPECT_EQ(http_get(url, "/ws").status, 426);
-    const HttpAnswer page = http_get(url, "/");
-    EXPECT_NE(page.headers.at("Content-Security-Policy").find("script-src 'self'"), std::string::npos);
-    EXPECT_EQ(page.headers.at("X-Content-Type-Options"), "nosniff");
-}
-
-TEST_F(Viewed, APageOfANameThatIsMadeToPointHereIsRefused) {
-    const auto run = begin();
-    const ViewerUrl url(run->url());
-    for (const std::string name :
-         {"127.evil.com", "127.0.0.1.evil.com", "localhost.evil.com", "localhost."}) {
-        const std::string host = name + ":" + url.port;
-        EXPECT_EQ(http_get(url, "/", host).status, 403) << host;
-        EXPECT_EQ(http_get(url, "/scene", host).status, 403) << host;
-        EXPECT_FALSE(Browser(url, {"/ws", "http://" + host, host}).connected()) << host;
-    }
-    EXPECT_TRUE(run->says("'127.evil.com"));
-    const std::string own = "Host: " + url.authority() + "\r\n";
-    const auto get = [&](const std::string& headers) {
-        return http_raw(url, "GET / HTTP/1.1\r\n" + headers + "Connection: close\r\n\r\n");
-    };
-    EXPECT_EQ(get(own), 200);
-    EXPECT_EQ(get(""), 403);
-    EXPECT_EQ(get(own + "Host: 127.evil.com\r\n"), 403);
-    EXPECT_EQ(get("Host: 127.evil.com\r\n" + own), 403);
-    EXPECT_EQ(http_raw(url, "GET / HTTP/1.0\r\n\r\n"), 403);
-    EXPECT_NE(http_raw(url, "GET http://127.evil.com/ HTTP/1.1\r\n" + own + "\r\n"), 200);
-}
-
-TEST_F(Viewed, AWebSocketNamesItsOriginAndTheSubprotocol) {
-    const auto run = begin();
-    const ViewerUrl url(run->url());
-    EXPECT_TRUE(Browser(url, {"/ws", "", "", "other, roboss.1"}).connected());
-    EXPECT_FALSE(Browser(url, {"/ws", kLeftOut, ""}).connected());
-    EXPECT_TRUE(run->says("[no-origin]"));
-    for (const char* subprotocol : {kLeftOut, "roboss.2", "roboss", "roboss.10", "Xroboss.1"})
-        EXPECT_FALSE(Browser(url, {"/ws", "", "", subprotocol}).connected()) << subprotocol;
-    EXPECT_TRUE(run->says("[no-subprotocol]"));
-}
-
-TEST_F(Viewed, BeyondLoopbackATokenIsNeeded) {
-    LiveRunOptions options;
-    options.listen = "0.0.0.0:0";
-    const auto run = begin(options);
-    ViewerUrl url(run->url());
-    ASSERT_EQ(url.token.size(), 32u);
-    url.host = "127.0.0.1";
-    EXPECT_EQ(http_get(url, "/").status, 403);
-    EXPECT_EQ(http_get(url, "/?token=" + std::string(32, '0')).status, 403);
-    EXPECT_EQ(http_get(url, "/scene?token=" + url.token.substr(1)).status, 403);
-    EXPECT_FALSE(Browser(url).connected());
-    const HttpAnswer page = http_get(url, "/?token=" + url.token);
-    EXPECT_EQ(page.status, 200);
-    const std::string cookie = page.headers.at("Set-Cookie");
-    EXPECT_NE(cookie.find("HttpOnly; SameSite=Strict"), std::string::npos);
-    EXPECT_EQ(http_get(url, "/", {}, cookie.substr(0, cookie.find(';'))).status, 200);
-    EXPECT_TRUE(Browser(url, {"/ws?token=" + url.token, "http://" + url.authority(), ""}).connected());
-    EXPECT_FALSE(Browser(url, {"/ws?token=" + url.token, "http://evil.example", ""}).connected());
-    EXPECT_TRUE(run->says("[no-token]"));
 }
 
 struct Misdeed {

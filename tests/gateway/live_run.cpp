@@ -29,6 +29,7 @@ LiveRun::LiveRun(std::shared_ptr<const Model> model, const LiveRunOptions& optio
         GatewayOptions gateway;
         gateway.listen = options.listen;
         gateway.page_folder = options.page_folder;
+        gateway.role = options.role;
         gateway.new_address = new_address;
         auto opened = Gateway::open(gateway);
         ROBOSS_CHECK(opened.ok(), "the gateway listens");

@@ -23,8 +23,9 @@ struct LiveRunOptions {
     Tick end = 0;      // rests there; 0: goes on
     double speed = 1;  // simulated seconds per second; 0: as fast as it can
     bool paused = false;
-    std::vector<Order> orders;          // as of a file
-    std::vector<TextureFile> textures;  // that the scene has
+    PageRole role = PageRole::kAdminister;  // the greatest that a page gets
+    std::vector<Order> orders;              // as of a file
+    std::vector<TextureFile> textures;      // that the scene has
 };
 
 class LiveRun {

@@ -56,7 +56,7 @@ class Control(unittest.TestCase):
         expected = embedded(*PILE)
         with Cluster() as cluster:
             file = FOLDER / "controlled.journal"
-            controller = cluster.controller(*PILE, "--local", 1, "--simulators", 1, "--paused", "--journal", file)
+            controller = cluster.controller(*PILE, "--local", 1, "--simulators", 1, "--paused", "--journal", file, "--save-folder", FOLDER)
             other = cluster.simulator()
             controller.hears("joined", 2)
             self.assertEqual(self.status(cluster)["tick"], 0)
@@ -87,6 +87,10 @@ class Control(unittest.TestCase):
             self.assertTrue(self.status(cluster)["paused"])
             saved = FOLDER / "controlled.roboss"
             self.ask(cluster, "save", saved)
+            self.assertIn("[file-exists]", self.ask(cluster, "save", saved, code=3))
+            self.assertIn("[outside-folder]", self.ask(cluster, "save", "/tmp/controlled.roboss", code=3))
+            self.assertIn("[file-in-use]", self.ask(cluster, "save", file, "--overwrite", code=3))
+            self.ask(cluster, "save", saved, "--overwrite", "--yes")
             self.ask(cluster, "speed", "max")
             self.ask(cluster, "fly", code=2)
             self.ask(cluster, "rewind", 99, code=3)

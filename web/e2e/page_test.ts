@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
 import { Bench, choose, time, until } from "./bench";
-import { drag, seen } from "./sight";
+import { drag, resting, seen, visiblePoint } from "./sight";
 
 const bench = new Bench();
 const paused = (page: Page) => page.getByLabel("Play", { exact: true }).isVisible();
@@ -62,10 +62,10 @@ bench.test("a robot is found by name and looked at, and a click in the picture s
     await page.getByLabel("Pause", { exact: true }).click();
     await until("paused", () => paused(page));
     await page.getByLabel("Look at the selected robot").click();
-    await page.waitForTimeout(1500);
+    const at = await visiblePoint(page, 7, await resting(page, 7));
+    assert.ok(at !== null, "car_7 is seen");
     await page.keyboard.press("Escape");
     await until("nothing selected", async () => (await page.locator(".row[aria-selected=true]").count()) === 0);
-    const at = await seen(page, 7);
     await page.mouse.click(at.left, at.top);
     await until(
         "car_7 again",

@@ -59,7 +59,12 @@ bench.test(
         assert.match((await fact("Traffic")) ?? "", /^[1-9][\d.]* k?M?B\/s$/);
         assert.match((await rows.first().getAttribute("title")) ?? "", /messages\/s .* to the Controller/);
         const losses = Number(await fact("Losses"));
+        const dialog = page.getByRole("dialog", { name: /^Kill Simulator/ });
         await rows.nth(1).getByRole("button", { name: /Kill/ }).click();
+        await dialog.getByRole("button", { name: "Cancel" }).click();
+        assert.equal(Number(await fact("Losses")), losses, "nothing is killed without a confirmation");
+        await rows.nth(1).getByRole("button", { name: /Kill/ }).click();
+        await dialog.getByRole("button", { name: "Kill" }).click();
         await until(
             "the loss",
             async () => Number(await fact("Losses")) === losses + 1 && (await fact("Simulators")) === "2",

@@ -78,6 +78,11 @@ export async function drag(page: Page, robot: number, right: number, down: numbe
     await page.mouse.down();
     await page.mouse.move(from.left + right / 2, from.top + down / 2, { steps: 6 });
     await page.mouse.move(from.left + right, from.top + down, { steps: 6 });
+    const there = async () => {
+        const at = await seen(page, robot);
+        return Math.hypot(at.left - from.left - right, at.top - from.top - down) < 25;
+    };
+    await until("it follows the hand", there, 5000).catch(() => null); // a spring pulls it: wheels may hold it back
     await page.mouse.up();
     await page.getByLabel("Select", { exact: true }).click();
     return from;

@@ -64,6 +64,8 @@ class Page {
             rate: 30,
             program: "mock gateway",
         });
+        const self = { page: 1, address: "127.0.0.1", role: "administer" };
+        this.tell({ type: "roles", page: 1, role: "administer", holder: self, asking: [] });
         this.tell(run.status());
         socket.on(
             "message",
@@ -80,6 +82,8 @@ class Page {
             this.tell({ type: "answer", id: message.id, ...found });
         if (message.type === "control") answer(run.control(message.words as string[]));
         else if (message.type === "order") answer(run.order(message.robot as number, message as never));
+        else if (message.type === "ask" || message.type === "yield" || message.type === "keep")
+            answer({ done: true, text: "done" });
         else if (message.type === "watch") this.watch = message as never;
         else if (message.type === "whole") {
             this.whole = true;

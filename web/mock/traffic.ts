@@ -15,6 +15,8 @@ export interface Car {
     wheels: number[];
     targets: number[];
     manual: boolean;
+    /** N, while time < until. */
+    push: { x: number; y: number; until: number };
     loop: { x: number; y: number; half: number; at: number; speed: number; clockwise: boolean };
 }
 
@@ -32,6 +34,7 @@ export interface Traffic {
 }
 
 const CORNER_M = 0.9;
+const MASS_KG = 6.2;
 
 /** Place and heading on a square loop with round corners, `s` metres from its start. */
 function onLoop(loop: Car["loop"], s: number): { x: number; y: number; yaw: number } {
@@ -82,6 +85,7 @@ export function makeTraffic(scene: SceneInfo, half: number, seed: number): Traff
             wheels: [0, 0, 0, 0],
             targets: [0, 0, 0, 0],
             manual: false,
+            push: { x: 0, y: 0, until: 0 },
             loop,
         });
     }
@@ -95,11 +99,11 @@ export function makeTraffic(scene: SceneInfo, half: number, seed: number): Traff
             targets: [0.4, -0.3, 0.5].map((value, k) => ({ mode: k === 0 ? "velocity" : "position", value })),
         },
     };
-    for (const car of cars) drive(car, 0);
+    for (const car of cars) drive(car, 0, 0);
     return traffic;
 }
 
-function drive(car: Car, dt: number): void {
+function drive(car: Car, dt: number, time: number): void {
     if (!car.manual) {
         car.loop.at += car.loop.speed * dt;
         const before = { x: car.x, y: car.y, yaw: car.yaw };
@@ -122,6 +126,10 @@ function drive(car: Car, dt: number): void {
     car.vx += f * (pace * Math.cos(car.yaw) - car.vx);
     car.vy += f * (pace * Math.sin(car.yaw) - car.vy);
     car.turn += f * ((right - left) / (3 * TRACK_HALF) - car.turn);
+    if (time < car.push.until) {
+        car.vx += (car.push.x / MASS_KG) * dt;
+        car.vy += (car.push.y / MASS_KG) * dt;
+    }
     car.x += car.vx * dt;
     car.y += car.vy * dt;
     car.yaw += car.turn * dt;
@@ -130,7 +138,7 @@ function drive(car: Car, dt: number): void {
 }
 
 export function advance(traffic: Traffic, dt: number): void {
-    for (const car of traffic.cars) drive(car, dt);
+    for (const car of traffic.cars) drive(car, dt, traffic.time);
     const crane = traffic.crane;
     for (let k = 0; k < 3; ++k) {
         const target = crane.targets[k];
@@ -162,8 +170,13 @@ export function obey(traffic: Traffic, robot: number, order: OrderAction, tick: 
         [car.vx, car.vy] = order.linear;
         car.turn = order.angular[2];
     } else if (order.action === "wrench") {
-        car.vx += (order.force[0] * order.duration) / 6.2;
-        car.vy += (order.force[1] * order.duration) / 6.2;
+        car.push = { x: order.force[0], y: order.force[1], until: traffic.time + order.duration };
+    } else if (order.action === "pull") {
+        if (order.max_force === 0) return "";
+        const [c, s] = [Math.cos(car.yaw), Math.sin(car.yaw)];
+        car.x = order.target[0] - c * order.point[0] + s * order.point[1];
+        car.y = order.target[1] - s * order.point[0] - c * order.point[1];
+        car.vx = car.vy = 0;
     } else if (order.action === "joint") {
         car.targets[order.joint] = order.mode === "passive" ? 0 : order.target;
     }

@@ -22,6 +22,7 @@ import { RunOverlays } from "./overlays/run_overlays";
 import { SelectionMark } from "./overlays/selection_mark";
 import { Tracks } from "./overlays/tracks";
 import { ClusterPanel } from "./panels/cluster_panel";
+import { controlDesk } from "./panels/control_desk";
 import { helpCard, listen, type Shortcut } from "./panels/help";
 import { Inspector } from "./panels/inspector";
 import { banner, notices } from "./panels/notices";
@@ -88,6 +89,7 @@ const list = new RobotList(
     (robot) => bonding.take(robot),
 );
 const time = timeBar(state, run);
+const desk = controlDesk(state, run);
 const tabs = sideTabs([
     {
         id: "inspector",
@@ -198,7 +200,7 @@ const help = helpCard(shortcuts);
 listen(shortcuts);
 
 document.body.prepend(
-    topBar(state, capture, {
+    topBar(state, capture, desk.element, {
         copyLink: () => void copyLink(),
         help: () => help.showModal(),
         home: () => director.home(),
@@ -206,7 +208,7 @@ document.body.prepend(
         togglePanel,
     }),
 );
-view.append(labels.element, banner(state, run), said.element);
+view.append(labels.element, banner(state, run), desk.question, said.element);
 document.body.append(list.element, tabs.element, plotsDock(state, plotted), time.element, help);
 if (address.get("hide") === "panels") document.body.classList.add("bare");
 

@@ -2,9 +2,11 @@
 #include "app/commands/control_command.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <functional>
+#include <iostream>
 #include <memory>
 #include <sstream>
 
@@ -36,6 +38,10 @@ Examples:
   roboss control add robot.sdf --name crowd --count 1000 --grid "2 2 40" --pose "0 50 0.5 0 0 0"
   roboss control remove visitor 'crowd_*'
   roboss control reset
+  roboss control save noon.roboss --overwrite
+  roboss control quit --yes
+
+On a terminal, quit, kill and overwriting ask for confirmation; --yes answers it. Scripts are not asked.
 
 Exit codes: 0 done, 1 no Controller was found or a file cannot be read, 2 wrong usage, 3 the run refused the request.)";
 
@@ -44,9 +50,27 @@ struct ControlCommandOptions {
     std::string value, pose = "0 0 0 0 0 0", name;
     std::vector<std::string> values;
     CopyOptions copies;
+    bool overwrite = false, yes = false;
 };
 
 using Ask = std::function<void(const std::vector<std::string>&)>;
+
+void add_yes(CLI::App& command, ControlCommandOptions& o) {
+    command.add_flag("-y,--yes", o.yes, "do not ask for confirmation (only a terminal is asked)");
+}
+
+void add_save(CLI::App& command, ControlCommandOptions& o, const Ask& ask) {
+    CLI::App* save = command.add_subcommand(
+        "save", "save the state; the Controller writes the file on its computer, below its --save-folder");
+    save->add_option("file", o.value)->required();
+    save->add_flag("--overwrite", o.overwrite, "replace a saved run of this name");
+    add_yes(*save, o);
+    save->callback([ask, &o] {
+        std::vector<std::string> words{"save", o.value};
+        if (o.overwrite) words.emplace_back("overwrite");
+        ask(words);
+    });
+}
 
 void add_plain(CLI::App& command, ControlCommandOptions& o, const Ask& ask) {
     const auto none = [&](const char* verb, const char* what) {
@@ -68,12 +92,14 @@ void add_plain(CLI::App& command, ControlCommandOptions& o, const Ask& ask) {
     one("window", "set the synchronization interval in ticks, or auto", "window", true);
     none("groups", "print the Simulator and the island of each robot, as JSON");
     none("bounds", "print the bounding box that each robot swept in the last window (m), as JSON");
-    one("save", "save the state; the Controller writes the file on its computer", "file", true);
+    add_save(command, o, ask);
     one("rewind", "return to this time (s) of the journal, or #BRANCH@TIME, and continue from there", "time",
         true);
     none("reset",
          "return to the world's beginning and continue from there; added robots go, removed ones return");
-    none("quit", "end the run as if its duration were over");
+    CLI::App* quit = command.add_subcommand("quit", "end the run as if its duration were over");
+    add_yes(*quit, o);
+    quit->callback([ask] { ask({"quit"}); });
 }
 
 void ask_to_add(ControlCommandOptions& o, const Ask& ask, int& exit_code) {
@@ -103,6 +129,7 @@ void add_changes(CLI::App& command, ControlCommandOptions& o, const Ask& ask, in
     sub->add_option("action", o.values, "add, remove, or kill and a number from `status`")
         ->required()
         ->expected(1, 2);
+    add_yes(*sub, o);
     sub->callback([all] { all("simulators"); });
     sub = command.add_subcommand(
         "accuracy", "change the accuracy: fast, standard or high, and numbers (tolerance=1e-10)");
@@ -158,6 +185,30 @@ std::optional<ControlOutcome> reply_of_controller(const MemberOptions& options, 
     }
 }
 
+/// What a terminal is asked before this; empty: nothing.
+std::string question_before(const ControlAction& action) {
+    if (std::holds_alternative<QuitRun>(action)) return "End the run?";
+    if (const auto* kill = std::get_if<KillSimulator>(&action))
+        return fmt::format("Kill Simulator {}?", kill->id);
+    return {};
+}
+
+bool confirmed(const std::string& question) {
+    fmt::print(stderr, "{} [y/N] ", question);
+    std::string reply;
+    std::getline(std::cin, reply);
+    if (reply == "y" || reply == "Y" || reply == "yes") return true;
+    fmt::print(stderr, "roboss control: nothing was done\n");
+    return false;
+}
+
+/// The file of a request to save that was refused because it exists; empty: it was not.
+std::string file_that_exists(const ControlAction& action, const std::optional<ControlOutcome>& outcome) {
+    const auto* save = std::get_if<SaveRun>(&action);
+    const auto* refused = outcome ? std::get_if<ControlRefused>(&*outcome) : nullptr;
+    return save != nullptr && refused != nullptr && refused->code == "file-exists" ? save->file : "";
+}
+
 std::string text_of(const ControlOutcome& outcome) {
     if (const auto* status = std::get_if<RunStatus>(&outcome)) return status_json(*status);
     if (const auto* groups = std::get_if<RobotGroups>(&outcome)) return groups_json(*groups);
@@ -176,10 +227,17 @@ Result<RunStatus> status_of_controller(const MemberOptions& options) {
                  "wrong-reply"};
 }
 
-int ask_controller(const MemberOptions& options, const std::vector<std::string>& words) {
+int ask_controller(const MemberOptions& options, const std::vector<std::string>& words, bool yes) {
     const Result<ControlAction> action = parse_control(words);
     if (!action) return print(action.error()), kWrongUsage;
-    const std::optional<ControlOutcome> outcome = reply_of_controller(options, action.value());
+    const bool asks = !yes && isatty(STDIN_FILENO) != 0 && isatty(STDERR_FILENO) != 0;
+    if (const std::string question = question_before(action.value()); asks && !question.empty())
+        if (!confirmed(question)) return kSuccess;
+    std::optional<ControlOutcome> outcome = reply_of_controller(options, action.value());
+    if (const std::string file = file_that_exists(action.value(), outcome); asks && !file.empty()) {
+        if (!confirmed(file + " exists. Overwrite it?")) return kSuccess;
+        outcome = reply_of_controller(options, SaveRun{file, true});
+    }
     if (!outcome) return interrupted() ? kInterrupted : kBadInput;
     if (const auto* refused = std::get_if<ControlRefused>(&*outcome)) {
         fmt::print(stderr, "roboss control: {}\n", refused->error().text());
@@ -196,7 +254,7 @@ void add_control_command(CLI::App& app, int& exit_code) {
     auto o = std::make_shared<ControlCommandOptions>();
     add_member_options(*command, o->member);
     const Ask ask = [o, &exit_code](const std::vector<std::string>& words) {
-        exit_code = ask_controller(o->member, words);
+        exit_code = ask_controller(o->member, words, o->yes);
     };
     add_plain(*command, *o, ask);
     add_changes(*command, *o, ask, exit_code);

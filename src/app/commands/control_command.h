@@ -17,6 +17,6 @@ void add_control_command(CLI::App& app, int& exit_code);
 Result<RunStatus> status_of_controller(const MemberOptions& options);
 /// Sends a request, as its words on the command line, to the Controller, waits for its reply and prints it.
 /// Returns the exit code.
-int ask_controller(const MemberOptions& options, const std::vector<std::string>& words);
+int ask_controller(const MemberOptions& options, const std::vector<std::string>& words, bool yes = false);
 
 }  // namespace roboss

@@ -28,6 +28,7 @@ written.)";
 struct SaveOptions {
     MemberOptions member;
     std::string file, from;
+    bool overwrite = false;
 };
 
 int save_from_journal(const SaveOptions& o) {
@@ -55,9 +56,13 @@ void add_save_command(CLI::App& app, int& exit_code) {
     command->add_option(
         "--from", o->from,
         "FILE, FILE@TIME or FILE#BRANCH@TIME of a journal; without it, a running simulation saves its state");
+    command->add_flag("--overwrite", o->overwrite,
+                      "of a running simulation: replace a saved run of this name");
     add_member_options(*command, o->member);
     command->callback([o, &exit_code] {
-        exit_code = o->from.empty() ? ask_controller(o->member, {"save", o->file}) : save_from_journal(*o);
+        std::vector<std::string> words{"save", o->file};
+        if (o->overwrite) words.emplace_back("overwrite");
+        exit_code = o->from.empty() ? ask_controller(o->member, words) : save_from_journal(*o);
     });
 }
 

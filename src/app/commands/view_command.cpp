@@ -1,8 +1,6 @@
 // Joins the network of a run and serves the viewer.
 #include "app/commands/view_command.h"
 
-#include <fmt/format.h>
-
 #include "app/commands/exit_codes.h"
 #include "app/processes/interrupt.h"
 #include "app/processes/member.h"
@@ -32,7 +30,7 @@ int view(const ViewCommandOptions& o) {
     Result<std::unique_ptr<Gateway>> gateway = open_viewer(o.viewer, true);
     if (!gateway) return member.report_error(gateway.error()), kBadInput;
     if (!member.open()) return kBadInput;
-    fmt::print(stderr, "roboss: viewer at {}\n", gateway.value()->url());
+    print_urls(*gateway.value());
     while (!interrupted()) {
         gateway.value()->advance(member.bus());
         for (const std::string& line : gateway.value()->take_notices()) member.report(line);

@@ -150,7 +150,7 @@ bool Run::open_gateway() {
     Result<std::unique_ptr<Gateway>> gateway = open_viewer(o_.viewer, !o_.journal.empty());
     if (!gateway) return print(gateway.error()), false;
     gateway_ = std::move(gateway).value();
-    if (!o_.quiet) fmt::print(stderr, "roboss: viewer at {}\n", gateway_->url());
+    if (!o_.quiet) print_urls(*gateway_);
     return true;
 }
 

@@ -9,6 +9,7 @@
 #include "app/processes/private_folder.h"
 #include "app/run/journal_location.h"
 #include "app/run/run.h"
+#include "app/run/save_place.h"
 #include "model/accuracy.h"
 #include "model/edit.h"
 #include "sdf/load_world.h"
@@ -121,9 +122,11 @@ Run::Done Run::act(const KillSimulator& kill) {
 }
 
 Run::Done Run::act(const SaveRun& save) {
-    if (Result<> saved = simulation_->save(save.file); !saved) return saved.error();
+    const Result<std::filesystem::path> file = save_place(o_.save_folder, save, o_.journal);
+    if (!file) return file.error();
+    if (Result<> saved = simulation_->save(file.value().string()); !saved) return saved.error();
     return fmt::format("saved {:.6f} s (tick {}) in {}", simulation_->time_s(), simulation_->tick(),
-                       save.file);
+                       file.value().string());
 }
 
 Run::Done Run::act(const RewindRun& rewind) {

@@ -31,7 +31,8 @@ An orders file has one JSON object per line:
   {"t":0.5,"robot":"car_7","joint":{"name":"wheel_0","velocity":10,"max_effort":0.4}}
   {"t":1.0,"robot":"car_7","set_pose":{"position":[0,0,1],"orientation":[1,0,0,0]}}
   {"t":1.0,"robot":"car_7","set_velocity":{"linear":[1,0,0],"angular":[0,0,0]}}
-  {"t":2.0,"robot":"car_7","wrench":{"link":"chassis","force":[0,0,50],"torque":[0,0,0],"duration":0.1}})";
+  {"t":2.0,"robot":"car_7","wrench":{"link":"chassis","force":[0,0,50],"torque":[0,0,0],"duration":0.1}}
+  {"t":2.0,"robot":"car_7","pull":{"link":"chassis","point":[0,0,0],"target":[0,0,1],"max_force":500,"duration":3}})";
 
 const char* const kControllerFooter = R"(Examples:
   roboss controller worlds/city.sdf --simulators 2 --duration 60        then, in two other terminals
@@ -155,6 +156,11 @@ void add_watch_options(CLI::App& command, RunOptions& o, ViewerDefault viewer) {
         ->capture_default_str();
     command.add_option("--picture", o.paths_picture, "draw the paths of the robots into this SVG file");
     add_viewer_options(command, o.viewer, viewer);
+    command
+        .add_option("--save-folder", o.save_folder,
+                    "files that `roboss control save`, pages and Clients ask to write lie below this folder "
+                    "(default: the current one)")
+        ->check(CLI::ExistingDirectory);
     command.add_flag("--quiet", o.quiet, "print no progress, only the summary");
 }
 

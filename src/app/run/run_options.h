@@ -52,8 +52,9 @@ struct RunOptions {
     double log_every_s = 10;
     std::optional<std::uint64_t> seed;  // none: the seed of the saved run, else 0
     std::string save;
-    std::string from;     // FILE[#BRANCH][@TIME]
-    std::string journal;  // the run is recorded here; resumed if it exists
+    std::string save_folder;  // requests to save write below it; empty: the current one
+    std::string from;         // FILE[#BRANCH][@TIME]
+    std::string journal;      // the run is recorded here; resumed if it exists
     double journal_every_s = 1;
     std::optional<double> until_s;
     std::string replay;         // FILE[#BRANCH][@TIME]: stepped again and checked, instead of a world

@@ -1,6 +1,8 @@
 // Options and addresses.
 #include "app/viewer/viewer.h"
 
+#include <fmt/format.h>
+
 #include <random>
 
 namespace roboss {
@@ -25,6 +27,13 @@ void add_viewer_options(CLI::App& command, ViewerOptions& o, ViewerDefault by_de
                     "folder of the viewer's web page (default: the built or installed one)")
         ->check(CLI::ExistingDirectory)
         ->group(group);
+    command
+        .add_option("--view-role", o.role,
+                    "the most that a page may do: watch; steer (order robots, pause, rewind); or administer "
+                    "(also save files, end the run and its Simulators)")
+        ->check(CLI::IsMember({"watch", "steer", "administer"}))
+        ->capture_default_str()
+        ->group(group);
     if (by_default == ViewerDefault::kOn)
         command.add_flag("--headless", o.headless, "do not serve the viewer")->group(group);
     else if (on_demand)  // so that scripts may use the flag with every subcommand
@@ -35,12 +44,18 @@ void add_viewer_options(CLI::App& command, ViewerOptions& o, ViewerDefault by_de
             ->group(group);
 }
 
+void print_urls(const Gateway& gateway) {
+    fmt::print(stderr, "roboss: viewer at {}\n", gateway.url());
+    for (const std::string& url : gateway.other_urls()) fmt::print(stderr, "roboss: viewer {}\n", url);
+}
+
 Result<std::unique_ptr<Gateway>> open_viewer(const ViewerOptions& o, bool journal) {
     GatewayOptions options;
     options.listen = o.listen;
     options.page_folder = o.page_folder;
     options.program = "roboss " ROBOSS_VERSION;
     options.journal = journal;
+    options.role = parse_page_role(o.role).value_or(PageRole::kWatch);
     options.new_address = [] {
         std::random_device device;
         return Address{Role::kClient, static_cast<std::uint64_t>(device()) << 32 | device()};

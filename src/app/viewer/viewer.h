@@ -10,9 +10,10 @@
 namespace roboss {
 
 struct ViewerOptions {
-    std::string listen = "8090";  // [ADDRESS:]PORT
-    std::string page_folder;      // empty: where it was built or installed
-    bool headless = false;        // none at all
+    std::string listen = "8090";      // [ADDRESS:]PORT
+    std::string page_folder;          // empty: where it was built or installed
+    bool headless = false;            // none at all
+    std::string role = "administer";  // the greatest that a page gets
 };
 enum class ViewerDefault {
     kAlways,    // there is a viewer
@@ -23,5 +24,8 @@ void add_viewer_options(CLI::App& command, ViewerOptions& options, ViewerDefault
 
 /// Listens; `journal`: the run keeps one.
 Result<std::unique_ptr<Gateway>> open_viewer(const ViewerOptions& options, bool journal);
+
+/// Prints where the viewer is found, for each role.
+void print_urls(const Gateway& gateway);
 
 }  // namespace roboss

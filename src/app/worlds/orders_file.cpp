@@ -89,18 +89,36 @@ Action parse_velocity(const json& o) {
     return SetVelocity{vector(o, "linear"), vector(o, "angular")};
 }
 
-Action parse_wrench(const json& o, const Model& model, const RobotType& type, const std::string& robot) {
-    only_keys(o, "wrench", {"link", "force", "torque", "duration"});
+LinkId named_link(const json& o, const RobotType& type, const std::string& robot) {
     const std::string name = text(o, "link");
-    const auto link = type.find_link(name);
-    if (!link)
-        throw LineFault("robot '" + robot + "' has no link '" + name + "'",
-                        "its first link is '" + type.links.front().name + "'");
+    if (const auto link = type.find_link(name)) return *link;
+    throw LineFault("robot '" + robot + "' has no link '" + name + "'",
+                    "its first link is '" + type.links.front().name + "'");
+}
+
+/// The duration of a force; by default one tick.
+Tick ticks_of(const json& o, const Model& model) {
     const double duration = o.contains("duration") ? number(o, "duration") : model.dt_s;
     if (!(duration > 0 && duration < 1e9))
-        throw LineFault("'duration' is not in (0, 1e9) s", "give the duration of the wrench, in s");
-    const Tick ticks = std::max<Tick>(1, tick_at(duration, model.dt_s));
-    return ApplyWrench{*link, vector(o, "force"), vector(o, "torque"), ticks};
+        throw LineFault("'duration' is not in (0, 1e9) s", "give the duration of the force, in s");
+    return std::max<Tick>(1, tick_at(duration, model.dt_s));
+}
+
+Action parse_wrench(const json& o, const Model& model, const RobotType& type, const std::string& robot) {
+    only_keys(o, "wrench", {"link", "force", "torque", "duration", "replaces"});
+    return ApplyWrench{named_link(o, type, robot), vector(o, "force"), vector(o, "torque"),
+                       ticks_of(o, model), o.contains("replaces") && o["replaces"] == true};
+}
+
+Action parse_pull(const json& o, const Model& model, const RobotType& type, const std::string& robot) {
+    only_keys(o, "pull", {"link", "point", "target", "rate", "max_force", "duration"});
+    Pull pull;
+    pull.link = named_link(o, type, robot);
+    pull.p_L = vector(o, "point"), pull.target_W = vector(o, "target");
+    if (o.contains("rate")) pull.rate = number(o, "rate");
+    pull.max_force = number(o, "max_force");
+    pull.duration = ticks_of(o, model);
+    return pull;
 }
 
 Action parse_joint(const json& o, const RobotType& type, const std::string& robot) {
@@ -254,8 +272,9 @@ std::vector<Order> parse_publish(const json& o, const Model& model) {
 }
 
 Order parse_order(const json& o, const Model& model) {
-    only_keys(o, "an order",
-              {"t", "robot", "set_pose", "set_velocity", "wrench", "joint", "command", "attach", "detach"});
+    only_keys(
+        o, "an order",
+        {"t", "robot", "set_pose", "set_velocity", "wrench", "joint", "command", "attach", "detach", "pull"});
     const Tick tick = tick_of(o, model);
     const std::string robot = text(o, "robot");
     const auto id = model.find_robot(robot);
@@ -264,16 +283,18 @@ Order parse_order(const json& o, const Model& model) {
     const RobotType& type = model.type_of(*id);
     const int actions = static_cast<int>(o.size()) - 2;
     if (actions != 1)
-        throw LineFault("the order has " + std::to_string(actions) + " actions",
-                        "name one of set_pose, set_velocity, wrench, joint, command, attach, detach, or "
-                        "publish without a "
-                        "robot");
+        throw LineFault(
+            "the order has " + std::to_string(actions) + " actions",
+            "name one of set_pose, set_velocity, wrench, pull, joint, command, attach, detach, or "
+            "publish without a "
+            "robot");
     Order order;
     order.apply_at = tick;
     order.robot = *id;
     if (o.contains("set_pose")) order.action = parse_pose(o["set_pose"]);
     if (o.contains("set_velocity")) order.action = parse_velocity(o["set_velocity"]);
     if (o.contains("wrench")) order.action = parse_wrench(o["wrench"], model, type, robot);
+    if (o.contains("pull")) order.action = parse_pull(o["pull"], model, type, robot);
     if (o.contains("joint")) order.action = parse_joint(o["joint"], type, robot);
     if (o.contains("command")) order.action = parse_command(o["command"], type, robot);
     if (o.contains("attach")) order.action = parse_attach(o["attach"], model, type, robot);
@@ -316,6 +337,15 @@ struct ActionToJson {
                           {"force", list(a.force)},
                           {"torque", list(a.torque)},
                           {"duration", static_cast<double>(a.duration) * model.dt_s}};
+        if (a.replaces) line["wrench"]["replaces"] = true;
+    }
+    void operator()(const Pull& a) const {
+        line["pull"] = {{"link", type.links[a.link.index()].name},
+                        {"point", list(a.p_L)},
+                        {"target", list(a.target_W)},
+                        {"rate", a.rate},
+                        {"max_force", a.max_force},
+                        {"duration", static_cast<double>(a.duration) * model.dt_s}};
     }
     void operator()(const SetJoint& a) const {
         static constexpr const char* kModes[] = {"effort", "velocity", "position", "effort"};

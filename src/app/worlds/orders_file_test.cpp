@@ -54,6 +54,30 @@ TEST(OrdersFile, EveryLevelIsRead) {
     EXPECT_EQ(orders[3].sequence, 6u) << "the line number";
 }
 
+TEST(OrdersFile, APullAndAReplacingWrenchAreReadAndWrittenAlike) {
+    Diagnostics d;
+    const auto model = cart_model();
+    const auto orders = parse_orders(
+        R"({"t":1,"robot":"cart","pull":{"link":"top","point":[0,0,1],"target":[4,5,6],"max_force":50,"duration":0.1}})"
+        "\n"
+        R"({"t":1,"robot":"cart","wrench":{"link":"top","force":[0,0,9],"replaces":true}})",
+        "f.jsonl", *model, d);
+    ASSERT_TRUE(d.items().empty());
+    ASSERT_EQ(orders.size(), 2u);
+    const Pull& pull = std::get<Pull>(orders[0].action);
+    EXPECT_EQ(pull.p_L, (Vec3{0, 0, 1}));
+    EXPECT_EQ(pull.target_W, (Vec3{4, 5, 6}));
+    EXPECT_EQ(pull.max_force, 50);
+    EXPECT_EQ(pull.rate, 15) << "not given";
+    EXPECT_EQ(pull.duration, 50);
+    EXPECT_TRUE(std::get<ApplyWrench>(orders[1].action).replaces);
+    for (const Order& order : orders) {
+        const auto again = parse_orders(order_line(order, *model), "f.jsonl", *model, d);
+        ASSERT_EQ(again.size(), 1u);
+        EXPECT_EQ(again[0].action, order.action);
+    }
+}
+
 /// Two robots "a" and "b" with a message board that knows the topic "/key" and the word "go".
 std::shared_ptr<const Model> board_model() {
     World world;

@@ -9,6 +9,8 @@ namespace roboss {
 
 namespace {
 
+constexpr std::size_t kRefusalsKept = 1'000;
+
 /// The first multiple of `period` that is not before `tick`.
 Tick next_multiple(Tick tick, Tick period) {
     return (tick + period - 1) / period * period;
@@ -96,6 +98,8 @@ std::size_t ClientService::take_reply(Bus& bus, const Address& from, const Clien
     seat->heard_ms = bus.now_ms();
     seat->vanished_ms.reset();
     std::size_t refused = 0;
+    while (!seat->refused.empty() && seat->refused.front().reply <= reply.acknowledged)
+        seat->refused.pop_front();
     if (reply.number == seat->last_reply + 1) {
         seat->last_reply = reply.number;
         if (!recorder_.has_reply(reply.client, seat->synchronous, reply.observed))
@@ -113,13 +117,16 @@ Tick ClientService::stampable(Tick scheduled_until) const {
 }
 
 std::size_t ClientService::take_orders(ClientSeat& seat, const ClientReply& reply, Tick scheduled_until) {
-    seat.refused.clear();
+    std::size_t refused = 0;
     const Tick earliest = stampable(scheduled_until);
     const Tick apply_at = seat.synchronous ? std::max(reply.observed + seat.latency, earliest) : earliest;
     for (const ClientOrder& given : reply.orders) {
         const Order order{apply_at, reply.client, given.sequence, given.robot, given.action};
         if (Result<> checked = check_order(*model_, order); !checked) {
-            seat.refused.push_back({given.sequence, checked.error().text()});
+            ++refused;
+            seat.refused.push_back(
+                {reply.number, {given.sequence, checked.error().text(), checked.error().code}});
+            if (seat.refused.size() > kRefusalsKept) seat.refused.pop_front();
             notices_.add("order " + std::to_string(given.sequence) + " of client '" + seat.name +
                          "' refused: " + checked.error().message);
             continue;
@@ -128,7 +135,7 @@ std::size_t ClientService::take_orders(ClientSeat& seat, const ClientReply& repl
         recorder_.order(order, reply.observed);
     }
     recorder_.reply(reply.client, reply.observed);
-    return seat.refused.size();
+    return refused;
 }
 
 void ClientService::acknowledge(Bus& bus) {
@@ -137,7 +144,9 @@ void ClientService::acknowledge(Bus& bus) {
         if (!seat.acknowledge_at || !recorder_.safe(*seat.acknowledge_at)) continue;
         seat.acknowledge_at.reset();
         seat.acknowledged = seat.last_reply;
-        bus.send(kControllerAddress, seat.address, ReplyAck{ClientId(i), seat.last_reply, seat.refused});
+        ReplyAck ack{ClientId(i), seat.last_reply, {}};
+        for (const ClientSeat::Refusal& refusal : seat.refused) ack.refused.push_back(refusal.order);
+        bus.send(kControllerAddress, seat.address, std::move(ack));
     }
 }
 

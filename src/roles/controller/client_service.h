@@ -26,10 +26,14 @@ struct ClientSeat {
     bool observer = false;  // nobody waits for it
     Tick first = 0;         // tick of its first observation
     std::uint64_t last_reply = 0;
-    std::uint64_t acknowledged = 0;     // the last reply that was acknowledged to it
-    std::uint64_t reply_awaited = 0;    // its last reply to an earlier Controller, which it sends again
-    std::vector<RefusedOrder> refused;  // of the last reply
-    std::deque<Tick> unanswered;        // observations sent and not answered, ascending
+    std::uint64_t acknowledged = 0;   // the last reply that was acknowledged to it
+    std::uint64_t reply_awaited = 0;  // its last reply to an earlier Controller, which it sends again
+    struct Refusal {
+        std::uint64_t reply = 0;
+        RefusedOrder order;
+    };
+    std::deque<Refusal> refused;  // of replies whose acknowledgement it may not have
+    std::deque<Tick> unanswered;  // observations sent and not answered, ascending
     std::int64_t sent_ms = 0, heard_ms = 0;
     std::optional<std::uint64_t>
         acknowledge_at;                       // send the acknowledgement once so many log entries are safe

@@ -1,30 +1,37 @@
-// The hand in the picture. Select: a click chooses. Move: a drag carries a robot over the ground and orders its
-// pose. With Shift, the selected robot takes hold of it. Push: a drag pulls an arrow from where the robot was taken,
-// and orders that force for as long as it is held.
+// The hand in the picture. Select: a click chooses; with Shift, the selected robot takes hold of what is clicked. Move: a
+// drag pulls the point where the robot was taken by a spring; in a paused run, with Shift, and where the base is fixed, it
+// places the robot by pose orders. Push: a drag pulls an arrow, and orders that force for as long as it is held.
 import * as THREE from "three";
 import type { PointerHand } from "../camera/pointer";
 import { composed, fromAxisAngle } from "../kinematics/pose";
-import { bodyAt, placeBodies } from "../kinematics/tree";
 import type { Bonding } from "../model/bonding";
 import type { RunLink } from "../model/run_link";
-import type { ViewerState, World } from "../model/viewer_state";
+import type { ViewerState } from "../model/viewer_state";
 import { throttled } from "../ui/throttle";
 import { pick } from "../view/picking";
 import type { Stage } from "../view/stage";
 import type { PoseArray, Triple } from "../wire/messages";
+import { gripOf, gripPoint, robotFrame } from "./grip";
 import type { HandMark } from "./hand_mark";
 
 const ORDER_INTERVAL_MS = 50;
-const PUSH_MS = 50;
-const PUSH_S = 0.1;
+/** Simulated time for which an order of a held robot lasts at real time; it is renewed far more often. */
+const LEASE_S = 0.5;
+/** Of a pull: so many N/kg at most. */
+const PULL_ACCELERATION = 200;
 const METRES_A_TURN_PX = 0.01;
 /** Newton a metre of arrow and kilogram: a metre of arrow accelerates by this. */
 const PUSH_ACCELERATION = 10;
 
 interface Hold {
     robot: number;
+    link: number;
     tool: "move" | "push";
+    /** By pose orders, not by a spring. */
+    places: boolean;
     grab: THREE.Vector3;
+    /** The same point, in the link's frame. */
+    grip: Triple;
     pose: PoseArray;
     moved: THREE.Vector3;
     turned: number;
@@ -35,7 +42,8 @@ interface Hold {
 
 export class RobotHand implements PointerHand {
     private hold: Hold | null = null;
-    private pushTimer = 0;
+    private timer = 0;
+    private readonly sendForce: (hold: Hold) => void;
     private readonly sendPose: (robot: number, pose: PoseArray) => void;
 
     constructor(
@@ -46,6 +54,7 @@ export class RobotHand implements PointerHand {
         private readonly bonding: Bonding,
         private readonly onFocus: (robot: number) => void,
     ) {
+        this.sendForce = throttled(ORDER_INTERVAL_MS, (hold) => hold === this.hold && this.give(hold));
         this.sendPose = throttled(ORDER_INTERVAL_MS, (robot, pose) => void run.order(robot, { action: "pose", pose }));
     }
 
@@ -56,10 +65,14 @@ export class RobotHand implements PointerHand {
         const picked = pick(this.stage, world, x, y);
         if (picked === null) return false;
         this.state.selected.set(picked.robot);
+        const type = world.fleet.type(picked.robot);
         this.hold = {
             robot: picked.robot,
+            link: picked.link,
             tool,
+            places: this.state.status.value?.paused === true || (type.links[picked.link]?.body ?? -1) < 0,
             grab: picked.point,
+            grip: gripOf(world, picked.robot, picked.link, picked.point.toArray() as Triple),
             pose: robotFrame(world, picked.robot),
             moved: new THREE.Vector3(),
             turned: 0,
@@ -76,6 +89,7 @@ export class RobotHand implements PointerHand {
         if (hold === null) return;
         hold.dragged ||= Math.hypot(x - hold.x, y - hold.y) > 3;
         if (!hold.dragged) return;
+        if (hold.tool === "move" && event.shiftKey) this.placeInstead(hold);
         if (hold.tool === "move" && event.shiftKey) hold.turned += (x - hold.x) * METRES_A_TURN_PX;
         else if (hold.tool === "move" && event.altKey)
             hold.moved.z -=
@@ -96,15 +110,67 @@ export class RobotHand implements PointerHand {
     }
 
     private act(hold: Hold): void {
-        if (hold.tool === "move") {
-            const target = this.target(hold);
-            this.mark.move(hold.grab.clone().add(hold.moved), "");
-            this.sendPose(hold.robot, target);
+        const force = this.force(hold).length(),
+            words = hold.tool === "push" ? `${force.toFixed(force < 10 ? 1 : 0)} N` : "";
+        this.mark.move(hold.grab.clone().add(hold.moved), words);
+        if (hold.tool === "move" && hold.places) return this.sendPose(hold.robot, this.target(hold));
+        this.sendForce(hold);
+        if (this.timer === 0) this.timer = window.setInterval(() => this.renew(), ORDER_INTERVAL_MS);
+    }
+
+    /** A hand at rest holds on; and the mark begins where the robot is held now. */
+    private renew(): void {
+        const hold = this.hold,
+            world = this.state.world.value;
+        if (hold === null || world === null) return this.stopTimer();
+        this.sendForce(hold);
+        if (hold.tool === "push") return;
+        this.mark.begin(hold.tool, new THREE.Vector3(...gripPoint(world, hold.robot, hold.link, hold.grip)));
+        this.mark.move(hold.grab.clone().add(hold.moved), "");
+    }
+
+    private stopTimer(): void {
+        clearInterval(this.timer);
+        this.timer = 0;
+    }
+
+    /** From a pull to pose orders, from where the robot is now. */
+    private placeInstead(hold: Hold): void {
+        const world = this.state.world.value;
+        if (hold.places || world === null) return;
+        if (this.timer !== 0) this.give(hold, true);
+        this.stopTimer();
+        hold.places = true;
+        hold.pose = robotFrame(world, hold.robot);
+        hold.grab = new THREE.Vector3(...gripPoint(world, hold.robot, hold.link, hold.grip));
+        hold.moved.set(0, 0, 0);
+    }
+
+    /** The order of the force or the pull, which replaces the last one; `over`: that ends it. */
+    private give(hold: Hold, over = false): void {
+        const rtf = this.state.status.value?.rtf ?? 1,
+            duration = LEASE_S * Math.max(1, rtf);
+        if (hold.tool === "push") {
+            const force = over ? ([0, 0, 0] as Triple) : (this.force(hold).toArray() as Triple);
+            void this.run.order(hold.robot, {
+                action: "wrench",
+                link: hold.link,
+                force,
+                torque: [0, 0, 0],
+                duration: over ? 1e-6 : duration,
+                replaces: true,
+            });
             return;
         }
-        const force = this.force(hold);
-        this.mark.move(hold.grab.clone().add(hold.moved), `${force.length().toFixed(force.length() < 10 ? 1 : 0)} N`);
-        if (this.pushTimer === 0) this.pushTimer = window.setInterval(() => this.push(), PUSH_MS);
+        const mass = this.state.world.value?.fleet.type(hold.robot).mass ?? 1;
+        void this.run.order(hold.robot, {
+            action: "pull",
+            link: hold.link,
+            point: hold.grip,
+            target: hold.grab.clone().add(hold.moved).toArray() as Triple,
+            max_force: over ? 0 : PULL_ACCELERATION * mass,
+            duration,
+        });
     }
 
     private target(hold: Hold): PoseArray {
@@ -125,20 +191,15 @@ export class RobotHand implements PointerHand {
         return new THREE.Vector3(hold.moved.x, hold.moved.y, 0).multiplyScalar(mass * PUSH_ACCELERATION);
     }
 
-    private push(): void {
-        const hold = this.hold;
-        if (hold === null) return;
-        const force = this.force(hold).toArray() as Triple;
-        void this.run.order(hold.robot, { action: "wrench", link: 0, force, torque: [0, 0, 0], duration: PUSH_S });
-    }
-
     release(cancelled: boolean): void {
         const hold = this.hold;
-        clearInterval(this.pushTimer);
-        this.pushTimer = 0;
+        const acts = this.timer !== 0;
+        this.stopTimer();
         this.hold = null;
         this.mark.end();
-        if (hold !== null && !cancelled && hold.dragged && hold.tool === "move")
+        if (hold === null) return;
+        if (acts) this.give(hold, true);
+        else if (!cancelled && hold.dragged && hold.tool === "move" && hold.places)
             this.sendPose(hold.robot, this.target(hold));
     }
 
@@ -156,14 +217,4 @@ export class RobotHand implements PointerHand {
             picked = world === null ? null : pick(this.stage, world, x, y);
         if (picked !== null) this.onFocus(picked.robot);
     }
-}
-
-/** Where the robot's own frame (its SDF model frame) is now: what a pose order moves. */
-export function robotFrame(world: World, robot: number): PoseArray {
-    const type = world.fleet.type(robot),
-        { drawn } = world.history,
-        bodies = new Float64Array((type.bodies.length + 1) * 7);
-    placeBodies(type, drawn.base, robot * 7, drawn.joints, world.fleet.firstCoordinate[robot], bodies);
-    const at = bodyAt(type.links[0]?.body ?? -1);
-    return composed(Array.from(bodies.subarray(at, at + 7)), type.origin) as PoseArray;
 }

@@ -12,7 +12,7 @@ import { type ViewerState, World } from "./viewer_state";
 export class RunLink {
     readonly clock = new PlayClock();
     readonly notice = new Signal<{ text: string; bad: boolean } | null>(null);
-    private readonly connection: Connection;
+    readonly connection: Connection;
     private loading = -1;
     private lastWatch = "";
 
@@ -49,7 +49,9 @@ export class RunLink {
 
     private onLink(link: "connecting" | "open" | "gone", why: string): void {
         this.state.link.set({ state: link, why });
-        if (link === "gone") this.state.status.set(null);
+        if (link !== "gone") return;
+        this.state.status.set(null);
+        this.state.roles.set(null);
     }
 
     private onMessage(message: Incoming): void {
@@ -75,6 +77,9 @@ export class RunLink {
                 break;
             case "extras":
                 if (message.scene === this.sceneNumber()) this.state.extras.set(message);
+                break;
+            case "roles":
+                this.state.roles.set(message);
                 break;
             case "notice":
                 this.notice.set({ text: message.text, bad: false });

@@ -8,6 +8,7 @@ import { History } from "./history";
 import type { Extras } from "../wire/onboard";
 import type { Attaching } from "./bonding";
 import { Signal } from "./signal";
+import type { Roles } from "../wire/roles";
 
 export type ColourBy = "model" | "simulator" | "island" | "speed";
 export type Tool = "select" | "move" | "push";
@@ -40,6 +41,8 @@ export class World {
 export class ViewerState {
     readonly link = new Signal<{ state: LinkState; why: string }>({ state: "connecting", why: "" });
     readonly program = new Signal("");
+    /** Who may do what, and who has control; null: not known. */
+    readonly roles = new Signal<Roles | null>(null);
     readonly world = new Signal<World | null>(null);
     readonly status = new Signal<Status | null>(null);
     readonly groups = new Signal<Groups | null>(null);

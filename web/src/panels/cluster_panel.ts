@@ -3,11 +3,13 @@
 import uPlot from "uplot";
 import type { RunLink } from "../model/run_link";
 import type { ViewerState } from "../model/viewer_state";
+import { confirmed } from "../ui/confirm";
 import { h, setText } from "../ui/dom";
 import { byteRate, fixed, percent, short } from "../ui/numbers";
 import type { MemberStatus, MessageRate, Status } from "../wire/messages";
 import { groupCss } from "../view/palette";
 import { plotAxes } from "./plots_dock";
+import { runButtons } from "./run_buttons";
 
 const KEPT = 240;
 const LOST_SHOWN_MS = 20_000;
@@ -93,6 +95,7 @@ export class ClusterPanel {
                 fact("Messages", "A second, to and from the Controller", "fact wide"),
                 fact("Traffic", "To and from the Controller; nothing is encoded within a process", "fact wide"),
             ),
+            runButtons(state, run),
             h("div", { class: "panel-head sub" }, h("h3", {}, "Members"), h("div", { class: "grow" }), add),
             h(
                 "div",
@@ -127,6 +130,7 @@ export class ClusterPanel {
     }
 
     private async kill(id: number): Promise<void> {
+        if (!(await confirmed(`Kill Simulator ${id}? The others take over its robots.`, "Kill"))) return;
         const answer = await this.run.control("simulators", "kill", String(id));
         if (answer.done) this.run.notice.set({ text: answer.text, bad: false });
     }

@@ -15,7 +15,7 @@ const MOUSE: [string, string][] = [
     ["Click", "select a robot"],
     ["Double click", "look at a robot"],
     ["W A S D, Q E", "move the camera (click the picture first)"],
-    ["Move tool", "drag a robot; Shift turns it, Alt lifts it"],
+    ["Move tool", "pull a robot where you took it; Alt lifts it, Shift places and turns it"],
     ["Push tool", "pull an arrow: the longer, the stronger"],
 ];
 

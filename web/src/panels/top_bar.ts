@@ -13,7 +13,7 @@ export interface TopBarActions {
     togglePanel(side: "left" | "right"): void;
 }
 
-export function topBar(state: ViewerState, capture: Capture, actions: TopBarActions): HTMLElement {
+export function topBar(state: ViewerState, capture: Capture, desk: HTMLElement, actions: TopBarActions): HTMLElement {
     const tools = choice(
         "Tool",
         [
@@ -47,6 +47,7 @@ export function topBar(state: ViewerState, capture: Capture, actions: TopBarActi
         h("h1", { class: "brand" }, "RoBOSS"),
         worldFacts(state),
         h("div", { class: "grow" }),
+        desk,
         tools.element,
         cameras.element,
         h(

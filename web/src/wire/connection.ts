@@ -63,6 +63,20 @@ export class Connection {
         return this.ask({ type: "order", robot, ...action });
     }
 
+    /** Asks for control; the answer comes when that is decided. */
+    askForControl(): Promise<Answer> {
+        return this.ask({ type: "ask" });
+    }
+
+    /** Hands control to a page that asks for it, or to whoever asks next. */
+    yieldControl(page?: number): Promise<Answer> {
+        return this.ask({ type: "yield", ...(page === undefined ? {} : { page }) });
+    }
+
+    keepControl(page: number): Promise<Answer> {
+        return this.ask({ type: "keep", page });
+    }
+
     watch(watch: Watch): void {
         this.send({ type: "watch", ...watch });
     }

@@ -1,6 +1,7 @@
 // The JSON that page and gateway exchange, as types (docs/viewer-protocol.md says what each means). SI units and
 // radians; a pose is [x, y, z, qw, qx, qy, qz].
 import type { BondReport, ChannelInfo, ChannelReport, Extras, FlowInfo, OnboardAction, SurfaceReport } from "./onboard";
+import type { Roles } from "./roles";
 
 export type PoseArray = [number, number, number, number, number, number, number];
 export type Triple = [number, number, number];
@@ -261,12 +262,24 @@ export type Incoming =
     | OverlayReport
     | Extras
     | Answer
+    | Roles
     | { type: "notice"; text: string };
+
+/** A spring from a point of a link (in its frame) to a point of the world; max_force 0 lets go. */
+export interface PullAction {
+    action: "pull";
+    link: number;
+    point: Triple;
+    target: Triple;
+    max_force: number;
+    duration: number;
+}
 
 export type OrderAction =
     | { action: "pose"; pose: PoseArray }
     | { action: "velocity"; linear: Triple; angular: Triple }
-    | { action: "wrench"; link: number; force: Triple; torque: Triple; duration: number }
+    | { action: "wrench"; link: number; force: Triple; torque: Triple; duration: number; replaces?: boolean }
+    | PullAction
     | { action: "joint"; joint: number; axis: number; mode: string; target: number; max_effort?: number }
     | OnboardAction;
 

@@ -1,0 +1,19 @@
+// Who may do what, as the gateway says it (docs/viewer-protocol.md): each page has a role, and one page has control.
+
+export type Role = "watch" | "steer" | "administer";
+
+export interface PageInfo {
+    page: number;
+    /** Of its computer. */
+    address: string;
+    role: Role;
+}
+
+export interface Roles {
+    type: "roles";
+    /** This page. */
+    page: number;
+    role: Role;
+    holder: PageInfo | null;
+    asking: PageInfo[];
+}
