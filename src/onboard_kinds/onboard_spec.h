@@ -16,10 +16,13 @@
 #include "onboard_kinds/advanced_lift_drag.h"
 #include "onboard_kinds/apply_joint_force.h"
 #include "onboard_kinds/apply_link_wrench.h"
+#include "onboard_kinds/breadcrumbs.h"
 #include "onboard_kinds/buoyancy_engine.h"
 #include "onboard_kinds/detachable_joint.h"
 #include "onboard_kinds/diff_drive.h"
 #include "onboard_kinds/drive_to_pose.h"
+#include "onboard_kinds/elevator.h"
+#include "onboard_kinds/follow_actor.h"
 #include "onboard_kinds/gripper.h"
 #include "onboard_kinds/hydrodynamics.h"
 #include "onboard_kinds/joint_controller.h"
@@ -59,8 +62,13 @@ using OnboardParameters =
                  JointPoseTrajectorySpec, LinearBatterySpec, KineticEnergyMonitorSpec, DetachableJointSpec,
                  GripperSpec, MotorModelSpec, MulticopterControlSpec, LiftDragSpec, AdvancedLiftDragSpec,
                  ThrusterSpec, BuoyancyEngineSpec, HydrodynamicsSpec, WindEffectsSpec, TrackControllerSpec,
+<<<<<<< HEAD
                  SurfaceVelocitySpec, ActorSpec, MessageBoardSpec, WheelSlipSpec, LookupWheelSlipSpec,
                  LighterThanAirSpec>;
+=======
+                 SurfaceVelocitySpec, ActorSpec, MessageBoardSpec, BreadcrumbsSpec, CrumbSpec, ElevatorSpec,
+                 FollowActorSpec>;
+>>>>>>> 484e973 (onboard: breadcrumbs, elevator, actors that follow, sensor topics)
 
 /// An on-board controller of a model.
 struct OnboardSpec {

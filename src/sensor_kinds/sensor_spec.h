@@ -50,10 +50,10 @@ struct SensorKindList {
 };
 
 /// All kinds of sensors that are simulated.
-using SensorKinds =
-    SensorKindList<LaserSpec, GpsSpec, CompassSpec, OdometerSpec, ImuSpec, AltimeterSpec, MagnetometerSpec,
-                   ContactSpec, ForceTorqueSpec, OdometrySpec, JointStatesSpec, LinkPosesSpec,
-                   WheelOdometrySpec, BatterySensorSpec, KineticEnergySpec, TrajectoryProgressSpec>;
+using SensorKinds = SensorKindList<LaserSpec, GpsSpec, CompassSpec, OdometerSpec, ImuSpec, AltimeterSpec,
+                                   MagnetometerSpec, ContactSpec, ForceTorqueSpec, OdometrySpec,
+                                   JointStatesSpec, LinkPosesSpec, WheelOdometrySpec, BatterySensorSpec,
+                                   KineticEnergySpec, TrajectoryProgressSpec, TrackOdometrySpec>;
 
 /// Parameters of any kind.
 using SensorParameters = SensorKinds::Parameters;
@@ -68,6 +68,7 @@ struct SensorSpec {
     double update_rate_hz = 0;    ///< samples a second; 0: one whenever it is asked
     SensorParameters parameters;  ///< of its kind
     SourceLocation where;         ///< in the file
+    std::string topic{};          ///< of Gazebo; a Model does not keep it
 
     /// The kind that it is of.
     const SensorKind& kind() const {

@@ -70,5 +70,6 @@ Result<WheelOdometryReading> read(const WheelOdometrySpec& odometry, const Senso
 Result<BatteryReading> read(const BatterySensorSpec& battery, const SensorQuery& query);
 Result<KineticEnergyReading> read(const KineticEnergySpec& energy, const SensorQuery& query);
 Result<TrajectoryProgressReading> read(const TrajectoryProgressSpec& progress, const SensorQuery& query);
+Result<TrackOdometryReading> read(const TrackOdometrySpec& odometry, const SensorQuery& query);
 
 }  // namespace roboss
