@@ -121,6 +121,8 @@ std::string fault_of(const std::string& model, const RobotType& type, const Onbo
             if (!axle_of(type, *type.find_link(name)))
                 return "lets the link '" + name +
                        "' slip, which has no axle: no joint with one axis carries it";
+    if (const auto* elevator = std::get_if<ElevatorSpec>(&spec.parameters))
+        if (std::string fault = elevator->fault(); !fault.empty()) return fault;
     for (const Channel& channel : channels_of(spec.parameters))
         if (conflicting(type, channel) != nullptr)
             return "takes the command '" + channel.name +
@@ -131,6 +133,7 @@ std::string fault_of(const std::string& model, const RobotType& type, const Onbo
 /// Whether this part of a model is the one to run the controller: it has all that it names, or, where no part
 /// has, it is the main one.
 bool belongs_here(const ModelSpec& model, const OnboardSpec& spec, bool is_main, const RobotType& type) {
+    if (std::holds_alternative<CrumbSpec>(spec.parameters)) return true;  // every part is stored
     const auto joints = joints_named(spec.parameters), links = links_named(spec.parameters);
     if (joints.empty() && links.empty()) return is_main;
     const auto here = [&](const std::string& joint) { return type.find_joint(joint).has_value(); };

@@ -108,10 +108,17 @@ bool jumps(const Place& from, const Place& to) {
     return !stays && from.points.back().pose.p != to.points.front().pose.p;
 }
 
+/// Whether it follows a model in place of its script.
+bool follows(const RobotType& type) {
+    return std::ranges::any_of(type.onboard, [](const OnboardInfo& info) {
+        return std::holds_alternative<FollowActorSpec>(info.spec.parameters);
+    });
+}
+
 }  // namespace
 
 void run(const ActorSpec& spec, OnboardContext& c) {
-    if (!c.type().kinematic || spec.waypoints.empty()) return;
+    if (!c.type().kinematic || spec.waypoints.empty() || follows(c.type())) return;
     const double time = c.time() - spec.delay_start;
     const Place now = place_at(spec, std::max(time, 0.0));
     const Place next = place_at(spec, std::max(time + c.dt(), 0.0));

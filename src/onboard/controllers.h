@@ -51,6 +51,10 @@ void run(const TrackControllerSpec& spec, OnboardContext& c);
 void run(const SurfaceVelocitySpec& spec, OnboardContext& c);
 void run(const ActorSpec& spec, OnboardContext& c);
 void run(const AudioSourceSpec& spec, OnboardContext& c);
+void run(const FollowActorSpec& spec, OnboardContext& c);
+void run(const ElevatorSpec& spec, OnboardContext& c);
+void run(const BreadcrumbsSpec& spec, OnboardContext& c);
+void run(const CrumbSpec& spec, OnboardContext& c);
 /// Nothing: a control program reacts to the messages (onboard_kinds/message_board.h).
 inline void run(const MessageBoardSpec&, OnboardContext&) {}
 

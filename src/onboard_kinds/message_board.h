@@ -66,6 +66,7 @@ struct BoardTopic {
 struct BoardMatch {
     bool whole = false;              ///< values that are not named must be 0
     bool negative = false;           ///< the comparison must fail
+    bool any_order = false;          ///< elements of a repeated field ("data_0") may stand anywhere in it
     double tolerance = 1e-8;         ///< of numbers
     std::vector<BoardValue> values;  ///< that the message must have
 
@@ -74,6 +75,7 @@ struct BoardMatch {
     static void parameters(Visitor&& visit, Self& s) {
         visit({"whole", "whole"}, s.whole);
         visit({"negative", "negative"}, s.negative);
+        visit({"any_order", "any_order"}, s.any_order);
         visit({"tolerance", "tolerance"}, s.tolerance);
         visit({"values", "values"}, s.values);
     }
@@ -173,6 +175,94 @@ struct BoardDetector {
     friend bool operator==(const BoardDetector&, const BoardDetector&) = default;
 };
 
+/// Breadcrumbs: which copies a robot still has to drop.
+struct BoardSupply {
+    std::string carrier;            ///< the robot that drops them
+    int supply = 0;                 ///< which of its BreadcrumbsSpec, from 0
+    std::string told;               ///< name of the board's channel that takes the number that is left
+    Pose X_MC;                      ///< where a crumb appears, in the carrier's frame
+    std::vector<BoardWord> crumbs;  ///< names of the copies, in the order in which they are dropped
+    int limit = -1;                 ///< copies at most, as written; negative: none
+    bool is_static = false;         ///< whether the carrier is scenery, at X_WM
+    Pose X_WM;                      ///< pose of a static carrier
+
+    /// Calls visit(Parameter, value) for each parameter, always in the same order.
+    template <class Visitor, class Self>
+    static void parameters(Visitor&& visit, Self& s) {
+        visit({"carrier", "carrier"}, s.carrier);
+        visit({"supply", "supply"}, s.supply);
+        visit({"told", "told"}, s.told);
+        visit({"X_MC", "pose_in_carrier"}, s.X_MC);
+        visit({"crumbs", "crumbs"}, s.crumbs);
+        visit({"limit", "limit"}, s.limit);
+        visit({"is_static", "is_static"}, s.is_static);
+        visit({"X_WM", "pose"}, s.X_WM);
+    }
+    /// Compares all members.
+    friend bool operator==(const BoardSupply&, const BoardSupply&) = default;
+};
+
+/// A sensor whose readings are messages that start others.
+struct BoardSensor {
+    std::string topic;   ///< of the sensor
+    std::string model;   ///< that has it
+    std::string sensor;  ///< its name
+    std::string link;    ///< that carries it
+    double rate = 0;     ///< Hz; 0: it is read at every observation
+
+    /// Calls visit(Parameter, value) for each parameter, always in the same order.
+    template <class Visitor, class Self>
+    static void parameters(Visitor&& visit, Self& s) {
+        visit({"topic", "topic"}, s.topic);
+        visit({"model", "model"}, s.model);
+        visit({"sensor", "sensor"}, s.sensor);
+        visit({"link", "link"}, s.link);
+        visit({"rate", "rate", "Hz"}, s.rate);
+    }
+    /// Compares all members.
+    friend bool operator==(const BoardSensor&, const BoardSensor&) = default;
+};
+
+/// A number in the memory of an on-board controller whose changes are messages.
+struct BoardReport {
+    std::string model;   ///< whose controller it is
+    int kind = 0,        ///< OnboardKind::number of the controller
+        controller = 0,  ///< which of the model's controllers of that kind, from 0
+        place = 0;       ///< in its memory
+    std::string told;    ///< name of the board's channel that takes the message
+
+    /// Calls visit(Parameter, value) for each parameter, always in the same order.
+    template <class Visitor, class Self>
+    static void parameters(Visitor&& visit, Self& s) {
+        visit({"model", "model"}, s.model);
+        visit({"kind", "kind"}, s.kind);
+        visit({"controller", "controller"}, s.controller);
+        visit({"place", "place"}, s.place);
+        visit({"told", "told"}, s.told);
+    }
+    /// Compares all members.
+    friend bool operator==(const BoardReport&, const BoardReport&) = default;
+};
+
+/// FollowActor: which actor is told where which model is.
+struct BoardFollower {
+    std::string actor,       ///< the robot that follows
+        target;              ///< the model that it follows
+    bool is_static = false;  ///< whether the target is scenery, at X_WM
+    Pose X_WM;               ///< pose of a static target
+
+    /// Calls visit(Parameter, value) for each parameter, always in the same order.
+    template <class Visitor, class Self>
+    static void parameters(Visitor&& visit, Self& s) {
+        visit({"actor", "actor"}, s.actor);
+        visit({"target", "target"}, s.target);
+        visit({"is_static", "is_static"}, s.is_static);
+        visit({"X_WM", "pose"}, s.X_WM);
+    }
+    /// Compares all members.
+    friend bool operator==(const BoardFollower&, const BoardFollower&) = default;
+};
+
 /// A board, its topics, and what reacts to messages.
 struct MessageBoardSpec {
     std::vector<BoardTopic> topics;        ///< its channels
@@ -180,6 +270,10 @@ struct MessageBoardSpec {
     std::vector<BoardTrigger> triggers;    ///< in the order of the file
     std::vector<BoardTouch> touches;       ///< in the order of the file
     std::vector<BoardDetector> detectors;  ///< in the order of the file
+    std::vector<BoardSupply> supplies;     ///< of breadcrumbs
+    std::vector<BoardSensor> sensors;      ///< whose readings start triggers
+    std::vector<BoardReport> reports;      ///< of controllers
+    std::vector<BoardFollower> followers;  ///< actors that follow models
 
     /// What this kind states about itself. No plugin of this name exists.
     static constexpr OnboardKind kKind{
@@ -193,6 +287,10 @@ struct MessageBoardSpec {
         visit({"triggers", "triggers"}, s.triggers);
         visit({"touches", "touches"}, s.touches);
         visit({"detectors", "detectors"}, s.detectors);
+        visit({"supplies", "supplies"}, s.supplies);
+        visit({"sensors", "sensors"}, s.sensors);
+        visit({"reports", "reports"}, s.reports);
+        visit({"followers", "followers"}, s.followers);
     }
     /// The messages that it takes.
     std::vector<Channel> channels() const;

@@ -17,10 +17,13 @@
 #include "onboard_kinds/apply_joint_force.h"
 #include "onboard_kinds/apply_link_wrench.h"
 #include "onboard_kinds/audio_source.h"
+#include "onboard_kinds/breadcrumbs.h"
 #include "onboard_kinds/buoyancy_engine.h"
 #include "onboard_kinds/detachable_joint.h"
 #include "onboard_kinds/diff_drive.h"
 #include "onboard_kinds/drive_to_pose.h"
+#include "onboard_kinds/elevator.h"
+#include "onboard_kinds/follow_actor.h"
 #include "onboard_kinds/gripper.h"
 #include "onboard_kinds/hydrodynamics.h"
 #include "onboard_kinds/joint_controller.h"
@@ -52,16 +55,15 @@
 namespace roboss {
 
 /// Parameters of any kind. The order does not count; the number of each kind does.
-using OnboardParameters =
-    std::variant<VelocityControlSpec, DiffDriveSpec, AckermannSteeringSpec, MecanumDriveSpec,
-                 TrackedVehicleSpec, RosDiffDriveSpec, RosSkidSteerSpec, RosAckermannSpec, DriveToPoseSpec,
-                 TrajectoryFollowerSpec, ApplyLinkWrenchSpec, PlanarMoveSpec, JointControllerSpec,
-                 JointPositionControllerSpec, JointTrajectoryControllerSpec, ApplyJointForceSpec,
-                 JointPoseTrajectorySpec, LinearBatterySpec, KineticEnergyMonitorSpec, DetachableJointSpec,
-                 GripperSpec, MotorModelSpec, MulticopterControlSpec, LiftDragSpec, AdvancedLiftDragSpec,
-                 ThrusterSpec, BuoyancyEngineSpec, HydrodynamicsSpec, WindEffectsSpec, TrackControllerSpec,
-                 SurfaceVelocitySpec, ActorSpec, MessageBoardSpec, WheelSlipSpec, LookupWheelSlipSpec,
-                 LighterThanAirSpec, AudioSourceSpec>;
+using OnboardParameters = std::variant<
+    VelocityControlSpec, DiffDriveSpec, AckermannSteeringSpec, MecanumDriveSpec, TrackedVehicleSpec,
+    RosDiffDriveSpec, RosSkidSteerSpec, RosAckermannSpec, DriveToPoseSpec, TrajectoryFollowerSpec,
+    ApplyLinkWrenchSpec, PlanarMoveSpec, JointControllerSpec, JointPositionControllerSpec,
+    JointTrajectoryControllerSpec, ApplyJointForceSpec, JointPoseTrajectorySpec, LinearBatterySpec,
+    KineticEnergyMonitorSpec, DetachableJointSpec, GripperSpec, MotorModelSpec, MulticopterControlSpec,
+    LiftDragSpec, AdvancedLiftDragSpec, ThrusterSpec, BuoyancyEngineSpec, HydrodynamicsSpec, WindEffectsSpec,
+    TrackControllerSpec, SurfaceVelocitySpec, ActorSpec, MessageBoardSpec, WheelSlipSpec, LookupWheelSlipSpec,
+    LighterThanAirSpec, AudioSourceSpec, BreadcrumbsSpec, CrumbSpec, ElevatorSpec, FollowActorSpec>;
 
 /// An on-board controller of a model.
 struct OnboardSpec {

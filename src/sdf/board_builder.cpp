@@ -35,17 +35,6 @@ bool is_true(const std::string& text) {
     return text == "true" || text == "1";
 }
 
-/// With exactly one "/" in front.
-std::string absolute(std::string topic) {
-    while (topic.starts_with('/')) topic.erase(0, 1);
-    return "/" + topic;
-}
-
-std::string with_model(std::string topic, const std::string& model) {
-    if (const std::size_t at = topic.find("{model}"); at != std::string::npos) topic.replace(at, 7, model);
-    return topic;
-}
-
 /// Links of the model whose contacts a TouchPlugin sees.
 std::vector<BoardWord> touching_links(const pugi::xml_node& plugin, const ModelSpec& spec) {
     std::vector<std::string> named;
@@ -65,6 +54,16 @@ std::vector<BoardWord> touching_links(const pugi::xml_node& plugin, const ModelS
 
 }  // namespace
 
+std::string absolute(std::string topic) {
+    while (topic.starts_with('/')) topic.erase(0, 1);
+    return "/" + topic;
+}
+
+std::string with_model(std::string topic, const std::string& model) {
+    if (const std::size_t at = topic.find("{model}"); at != std::string::npos) topic.replace(at, 7, model);
+    return topic;
+}
+
 BoardBuilder::BoardBuilder(World& world) : world_(world) {
     for (const ModelInstance& instance : world.instances) {
         for (const OnboardSpec& onboard : world.prototypes[instance.prototype].onboard) {
@@ -75,6 +74,7 @@ BoardBuilder::BoardBuilder(World& world) : world_(world) {
             }
         }
     }
+    find_outputs();
 }
 
 /// Number of a text in messages.
@@ -206,6 +206,7 @@ std::string BoardBuilder::add_match(const pugi::xml_node& node, const MessageTyp
     BoardMatch match;
     match.whole = path.empty();
     match.negative = logic == "negative";
+    match.any_order = !path.empty();
     match.tolerance = node.attribute("tol").as_double(match.tolerance);
     match.values = values_of(*fields);
     trigger.matches.push_back(std::move(match));
@@ -312,6 +313,7 @@ std::vector<std::string> BoardBuilder::topics_of_users() const {
         const auto publishes = [&](const BoardOutput& output) { return output.topic == topic; };
         const auto is_event = [&](const BoardTopic& t) { return t.topic == topic && !t.model.empty(); };
         return taken_.contains(topic) || std::ranges::any_of(board_.topics, is_event) ||
+               outputs_.contains(topic) ||
                std::ranges::any_of(board_.triggers, [&](const BoardTrigger& trigger) {
                    return std::ranges::any_of(trigger.outputs, publishes);
                });
@@ -323,7 +325,10 @@ std::vector<std::string> BoardBuilder::topics_of_users() const {
 }
 
 void BoardBuilder::finish() {
-    if (board_.triggers.empty() && board_.touches.empty() && board_.detectors.empty()) return;
+    if (!board_.triggers.empty()) add_sensors(), add_arrivals();
+    if (board_.triggers.empty() && board_.touches.empty() && board_.detectors.empty() &&
+        board_.supplies.empty() && board_.reports.empty() && board_.followers.empty())
+        return;
     ModelSpec spec;
     spec.name = "message_board";
     while (has_model(spec.name)) spec.name += "_";

@@ -29,8 +29,12 @@ class EventConverter {
     EventConverter(World& world, Diagnostics& diagnostics)
         : world_(world), diagnostics_(diagnostics), builder_(world) {}
 
-    void convert() {
+    void convert(const std::vector<CrumbSupply>& crumbs) {
         read_performers();
+        for (const CrumbSupply& supply : crumbs) builder_.add_supply(supply);
+        builder_.add_elevators();
+        for (const std::string& fault : builder_.add_followers())
+            diagnostics_.warning({world_.file, 0}, "plugin-not-run", fault, "Name a model of the world.");
         for (const ModelInstance& instance : world_.instances)
             for (ExtensionElement& record : world_.prototypes[instance.prototype].extensions)
                 convert_event(record, instance);
@@ -89,8 +93,8 @@ class EventConverter {
 
 }  // namespace
 
-void convert_events(World& world, Diagnostics& diagnostics) {
-    EventConverter(world, diagnostics).convert();
+void convert_events(World& world, const std::vector<CrumbSupply>& crumbs, Diagnostics& diagnostics) {
+    EventConverter(world, diagnostics).convert(crumbs);
 }
 
 }  // namespace roboss::sdf_import

@@ -3,7 +3,10 @@
 // (onboard_kinds/message_board.h) once all models are known.
 #pragma once
 
+#include <vector>
+
 #include "core/diagnostics.h"
+#include "sdf/crumb_conversion.h"
 #include "world/world.h"
 
 namespace roboss::sdf_import {
@@ -12,6 +15,6 @@ namespace roboss::sdf_import {
 inline constexpr const char* kEventPlugins = "TriggeredPublisher|TouchPlugin|PerformerDetector";
 
 /// Adds the message board to the world, if it needs one, and says what becomes of each of these plugins.
-void convert_events(World& world, Diagnostics& diagnostics);
+void convert_events(World& world, const std::vector<CrumbSupply>& crumbs, Diagnostics& diagnostics);
 
 }  // namespace roboss::sdf_import

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "sdf/crumb_conversion.h"
 #include "sdf/environment.h"
 #include "sdf/event_conversion.h"
 #include "sdf/include_store.h"
@@ -64,11 +65,12 @@ class WorldLoader {
         for (Distinct& distinct : distinct_) read_distinct(distinct, result);
         place(*world, placements, state, result);
         state.report_unused(diagnostics_);
+        const std::vector<CrumbSupply> crumbs = add_crumbs(prototype_sources(), import_, result);
         attach_world_plugins(plugins, result, diagnostics_);
         mark_buoyant(result);
         convert_environment(result, import_);
         show_scenery(result);
-        convert_events(result, diagnostics_);
+        convert_events(result, crumbs, diagnostics_);
         validate_settings(result, diagnostics_);
         return result;
     }
@@ -144,6 +146,13 @@ class WorldLoader {
         diagnostics_.warning(spec.where, "no-links", "model '" + spec.name + "' has no links; it is left out",
                              "Give it a link, or remove it.");
         return std::nullopt;
+    }
+
+    std::vector<PrototypeSource> prototype_sources() const {
+        std::vector<PrototypeSource> sources;
+        for (const Distinct& distinct : distinct_)
+            if (distinct.prototype) sources.push_back({*distinct.prototype, distinct.model});
+        return sources;
     }
 
     void place(const Element& world, const std::vector<Placement>& placements, SavedState& state,

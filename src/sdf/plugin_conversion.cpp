@@ -4,6 +4,7 @@
 #include <cctype>
 #include <sstream>
 
+#include "sdf/crumb_conversion.h"
 #include "sdf/environment.h"
 #include "sdf/event_conversion.h"
 #include "sdf/parameter_reader.h"
@@ -49,8 +50,16 @@ std::optional<OnboardParameters> parameters_for(const PluginName& name) {
     return found;
 }
 
-/// Tells a controller of the joints of the plugin's own model that can move, if it asks.
+std::vector<std::string> links_of(const Element& model, const std::string& scope) {
+    std::vector<std::string> links;
+    for (const auto link : model.node.children("link"))
+        links.push_back(scope + link.attribute("name").value());
+    return links;
+}
+
+/// Tells a controller of the joints of the plugin's own model that can move, and of its links, if it asks.
 void use_model(const Element& plugin, const std::string& scope, OnboardParameters& parameters) {
+    const Element model{plugin.source, plugin.node.parent()};
     std::vector<std::string> joints;
     for (const auto joint : plugin.node.parent().children("joint"))
         if (std::string_view(joint.attribute("type").value()) != "fixed")
@@ -58,8 +67,11 @@ void use_model(const Element& plugin, const std::string& scope, OnboardParameter
     std::visit(
         [&](auto& spec) {
             if constexpr (requires { spec.use_model(joints); }) spec.use_model(joints);
+            if constexpr (requires { spec.use_parts(scope, joints, joints); })
+                spec.use_parts(scope, joints, links_of(model, scope));
         },
         parameters);
+    if (auto* crumbs = std::get_if<BreadcrumbsSpec>(&parameters)) crumbs->crumb = name_of_crumb(plugin);
 }
 
 /// Gazebo logs what is wrong with a plugin and does not run it; the model stays.

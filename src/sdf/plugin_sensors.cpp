@@ -19,6 +19,10 @@ constexpr bool kReadsController = requires(Kind spec) {
     spec.controller = 0;
 };
 
+/// Whether there is such a sensor only if its topic is written.
+template <class Kind>
+constexpr bool kAsksForIt = std::is_same_v<Kind, TrackOdometrySpec>;
+
 /// Calls visit(std::in_place_type<Kind>) for each kind of sensor that measures.
 template <class Visit>
 void for_each_kind(Visit&& visit) {
@@ -82,6 +86,7 @@ std::optional<PluginSensor> read_sensor(const Element& plugin, const Element& bl
     visit_parameters(sensor.spec.parameters, ParameterReader{block, scope, local});
     report_ignored(block, kind.ignored, kind.phrase, local);
     sensor.spec.name = sensor_name(plugin, kind.plugin);
+    sensor.spec.topic = channel_of(text_of(plugin, kind.plugin.topic), kind.plugin.usual_topic, {}).topic;
     sensor.spec.update_rate_hz = rate_of(plugin, kind.plugin, local);
     use_parameters(sensor);
     for (const SensorProblem& problem : problems_of(sensor.spec))
@@ -140,7 +145,7 @@ std::vector<PluginSensor> convert_plugin_sensors(const Element& plugin, const st
                 spec.controller_kind = static_cast<int>(controller.number);
                 if (controller.odometry >= 0) add(spec);
             } else if (stands_for(Kind::kKind, name)) {
-                add(spec);
+                if (!kAsksForIt<Kind> || !text_of(plugin, Kind::kKind.plugin.topic).empty()) add(spec);
             }
         }
     });

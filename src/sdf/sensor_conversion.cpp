@@ -107,6 +107,8 @@ SensorSpec convert_sensor(const Element& sensor, const Pose& X_LS, const std::st
     spec.where = sensor.where();
     spec.X_LS = X_LS;
     spec.update_rate_hz = import.reader.number(sensor, "update_rate", 0);
+    if (sensor.child("topic")) spec.topic = sensor.text("topic");
+    if (sensor.child("contact").child("topic")) spec.topic = sensor.child("contact").text("topic");
     spec.parameters = read_parameters(sensor, spec, scope, import);
     return spec;
 }

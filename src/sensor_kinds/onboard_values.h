@@ -195,4 +195,48 @@ struct TrajectoryProgressSpec {
     void check(std::vector<SensorProblem>&) const {}
 };
 
+/// How far a track has run, and how fast.
+struct TrackOdometryReading {
+    double position = 0,  ///< m, that the belt has run since the start
+        velocity = 0;     ///< m/s, of the belt
+    Tick tick = 0;        ///< of the measurement
+
+    /// Calls visit(ReadingField, value) for each value, always in the same order.
+    template <class Visitor, class Self>
+    static void fields(Visitor&& visit, Self& r) {
+        visit({"position", "m"}, r.position);
+        visit({"velocity", "m/s"}, r.velocity);
+    }
+};
+
+/// The odometry of TrackController.
+struct TrackOdometrySpec {
+    using Reading = TrackOdometryReading;  ///< what it measures
+
+    int controller = 0;  ///< which of the model's track controllers, from 0
+
+    /// What this kind states about itself.
+    static constexpr SensorKind kKind{.number = 27,
+                                      .name = "track odometry",
+                                      .phrase = "a track's odometry",
+                                      .sdf_types = "",
+                                      .ours = true,
+                                      .plugin = {.classes = "TrackController",
+                                                 .files = "track-controller-system",
+                                                 .topic = "odometry_topic",
+                                                 .usual_topic = "track_odometry",
+                                                 .rate = "odometry_publish_frequency",
+                                                 .usual_rate_hz = 50}};
+
+    /// Calls visit(Parameter, value) for each parameter, always in the same order.
+    template <class Visitor, class Self>
+    static void parameters(Visitor&& visit, Self& s) {
+        visit({"controller", ""}, s.controller);
+    }
+    /// Compares all members.
+    friend bool operator==(const TrackOdometrySpec&, const TrackOdometrySpec&) = default;
+    /// Adds why it cannot measure, if it cannot.
+    void check(std::vector<SensorProblem>&) const {}
+};
+
 }  // namespace roboss

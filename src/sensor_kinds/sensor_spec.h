@@ -59,7 +59,8 @@ using SensorKinds =
     SensorKindList<LaserSpec, GpsSpec, CompassSpec, OdometerSpec, ImuSpec, AltimeterSpec, MagnetometerSpec,
                    ContactSpec, ForceTorqueSpec, OdometrySpec, JointStatesSpec, LinkPosesSpec,
                    WheelOdometrySpec, BatterySensorSpec, KineticEnergySpec, TrajectoryProgressSpec,
-                   LogicalCameraSpec, MicrophoneSpec, AirPressureSpec, AirSpeedSpec, EnvironmentalSpec>;
+                   LogicalCameraSpec, MicrophoneSpec, AirPressureSpec, AirSpeedSpec, EnvironmentalSpec,
+                   TrackOdometrySpec>;
 
 /// Parameters of any kind.
 using SensorParameters = SensorKinds::Parameters;
@@ -74,6 +75,7 @@ struct SensorSpec {
     double update_rate_hz = 0;    ///< samples a second; 0: one whenever it is asked
     SensorParameters parameters;  ///< of its kind
     SourceLocation where;         ///< in the file
+    std::string topic{};          ///< of Gazebo; a Model does not keep it
 
     /// The kind that it is of.
     const SensorKind& kind() const {

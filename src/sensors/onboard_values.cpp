@@ -75,4 +75,11 @@ Result<TrajectoryProgressReading> read(const TrajectoryProgressSpec& spec, const
     return TrajectoryProgressReading{memory[Trajectory::kProgress], memory[Trajectory::kIsActive] != 0, 0};
 }
 
+Result<TrackOdometryReading> read(const TrackOdometrySpec& spec, const SensorQuery& query) {
+    using Track = TrackControllerSpec;
+    const std::span<const double> memory = memory_of<Track>(spec.controller, query);
+    if (memory.empty()) return not_there(query);
+    return TrackOdometryReading{memory[Track::kWay], memory[Track::kSpeed], 0};
+}
+
 }  // namespace roboss

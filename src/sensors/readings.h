@@ -75,5 +75,6 @@ Result<MicrophoneReading> read(const MicrophoneSpec& microphone, const SensorQue
 Result<AirPressureReading> read(const AirPressureSpec& barometer, const SensorQuery& query);
 Result<AirSpeedReading> read(const AirSpeedSpec& tube, const SensorQuery& query);
 Result<EnvironmentalReading> read(const EnvironmentalSpec& sensor, const SensorQuery& query);
+Result<TrackOdometryReading> read(const TrackOdometrySpec& odometry, const SensorQuery& query);
 
 }  // namespace roboss

@@ -58,11 +58,11 @@ MessageBoardSpec board(Tick touch_time) {
                     {"left", "/left", "", {}}};
     BoardTrigger touched = trigger("/wall/touched", {drive("crate", {{"linear_y", 0.4}})});
     touched.delay = static_cast<double>(kDelay) * kDt;
-    touched.matches.push_back({true, false, 1e-8, {{"data", 1}}});
+    touched.matches.push_back({true, false, false, 1e-8, {{"data", 1}}});
     BoardTrigger entered = trigger("/gate", {message("/done"), drive("crate", {})});
-    entered.matches.push_back({false, false, 1e-8, {{"state", 1}}});
+    entered.matches.push_back({false, false, false, 1e-8, {{"state", 1}}});
     BoardTrigger left = trigger("/gate", {message("/left")});
-    left.matches.push_back({false, true, 1e-8, {{"state", 1}}});
+    left.matches.push_back({false, true, false, 1e-8, {{"state", 1}}});
     board.triggers = {trigger("/start", {drive("car", {{"linear_x", kSpeed}})}),
                       trigger("/wall/touched", {drive("car", {})}), touched, entered, left};
     board.touches = {{"wall",

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string_view>
 #include <tuple>
 
 #include "wire/archive.h"
@@ -26,8 +28,29 @@ bool are_equal(const BoardValue& wanted, double value, double tolerance) {
     return wanted.is_text ? wanted.value == value : std::fabs(wanted.value - value) <= tolerance;
 }
 
+/// "data_" of the element "data_3" of a repeated field; empty: it is none.
+std::string_view list_of(std::string_view name) {
+    const std::size_t end = name.find_last_not_of("0123456789");
+    if (end == std::string_view::npos || end + 1 == name.size() || name[end] != '_') return {};
+    return name.substr(0, end + 1);
+}
+
+/// Whether some element of the repeated field has the value; nullopt: the message has no such field.
+std::optional<bool> contains(const std::vector<BoardValue>& message, const BoardValue& wanted,
+                             double tolerance) {
+    const std::string_view written = list_of(wanted.name);
+    const std::string list = written.empty() ? wanted.name + "_" : std::string(written);
+    std::optional<bool> found;
+    for (const BoardValue& value : message)
+        if (list_of(value.name) == list)
+            found = found.value_or(false) || are_equal(wanted, value.value, tolerance);
+    return found;
+}
+
 bool holds(const BoardMatch& match, const std::vector<BoardValue>& message) {
     bool equal = std::ranges::all_of(match.values, [&](const BoardValue& wanted) {
+        if (match.any_order)
+            if (const auto found = contains(message, wanted, match.tolerance)) return *found;
         return are_equal(wanted, value_of(message, wanted.name), match.tolerance);
     });
     if (match.whole) {
@@ -75,7 +98,11 @@ Triggers::Triggers(std::shared_ptr<const Model> model, std::function<void(Tick, 
     for (std::size_t r = 0; r < model_->robots.size(); ++r) {
         const MessageBoardSpec* spec = board_of(model_->type_of(RobotId(r)));
         if (spec == nullptr) continue;
-        Board board{RobotId(r), spec, {}, std::vector<char>(spec->detectors.size(), 0)};
+        Board board{RobotId(r),
+                    spec,
+                    {},
+                    std::vector<char>(spec->detectors.size(), 0),
+                    BoardWatch(*model_, RobotId(r), *spec)};
         for (const BoardTouch& touch : spec->touches) {
             board.touches.push_back({ContactWatch(*model_, touch), touch.enabled});
             if (touch.time < 2 * kPeriod) period_ = std::min(kPeriod, model_->dt_s);
@@ -105,6 +132,7 @@ void Triggers::control(Client& client) {
     for (Board& board : boards_) {
         watch_touches(client, board);
         watch_regions(client, board);
+        watch_others(client, board);
     }
     publish_due(client);
     seen_ = client.tick();
@@ -158,6 +186,18 @@ void Triggers::react(const Message& message, Tick tick) {
             }
         }
     }
+}
+
+void Triggers::watch_others(Client& client, Board& board) {
+    const auto tell_it = [&](const std::string& channel, std::vector<BoardValue> values) {
+        tell(client, board, channel, std::move(values));
+    };
+    board.watch.read_sensors(client, [&](const std::string& topic, std::vector<BoardValue> values) {
+        react({topic, std::move(values)}, client.tick());
+    });
+    board.watch.report(client, tell_it);
+    board.watch.guide_actors(client);
+    board.watch.drop_crumbs(client, tell_it);
 }
 
 void Triggers::watch_touches(Client& client, Board& board) {

@@ -1,6 +1,7 @@
 // Triggers: the control program that a world with a message board brings along. It watches contacts and
-// regions, publishes what happens on the board, and passes messages on (TouchPlugin, PerformerDetector,
-// TriggeredPublisher). It gives ordinary orders, so journals and replays need nothing of it.
+// regions, publishes what happens on the board, passes messages on, drops breadcrumbs and guides actors
+// (TouchPlugin, PerformerDetector, TriggeredPublisher, Breadcrumbs, FollowActor). It gives ordinary orders,
+// so journals and replays need nothing of it.
 #pragma once
 
 #include <deque>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "client/control_program.h"
+#include "client/triggers/board_watch.h"
 #include "client/triggers/contact_watch.h"
 #include "model/topics.h"
 
@@ -57,6 +59,7 @@ class Triggers : public ControlProgram {
         const MessageBoardSpec* spec;
         std::vector<Touch> touches;
         std::vector<char> inside;  // by detector
+        BoardWatch watch;
     };
     /// What the program remembers, as an archive's fields.
     template <class A, class Self>
@@ -65,6 +68,7 @@ class Triggers : public ControlProgram {
     void read_messages(Client& client);
     Message message_at(const Client& client, const TopicPlace& place) const;
     void react(const Message& message, Tick tick);
+    void watch_others(Client& client, Board& board);
     void watch_touches(Client& client, Board& board);
     void watch_regions(Client& client, Board& board);
     Transform pose_of(const Client& client, const std::string& model) const;
