@@ -193,7 +193,8 @@ ClientHello BusClient::hello() const {
     ClientHello hello{options_.name,    model_->hash,         options_.period,
                       options_.latency, options_.synchronous, options_.observer};
     const std::uint64_t last = reply_number_ - (bye_ ? 1 : 0);
-    if (was_here_) hello.expected = expected_;
+    constexpr Tick kFarthest = Tick{1} << 60;  // beyond it a message is refused
+    if (was_here_) hello.expected = std::min(expected_, kFarthest);
     hello.last_reply = last;
     hello.acknowledged = last - replies_.size();
     return hello;
@@ -206,7 +207,10 @@ void BusClient::resend(Bus& bus) {
         bus.send(self_, kControllerAddress, requests_.front());
     }
     if (!id_.valid()) {
-        if (hello_resent_.due(now, kSoon_ms, options_.resend_ms))
+        // Two hellos of a synchronous Client are not under way at once: a late one would give a Controller
+        // that was restarted meanwhile the numbers of earlier replies.
+        const std::int64_t first_ms = options_.synchronous ? options_.resend_ms : kSoon_ms;
+        if (hello_resent_.due(now, first_ms, options_.resend_ms))
             bus.send(self_, kControllerAddress, hello());
         return;
     }

@@ -396,7 +396,7 @@ const char* broken_rule(const Hello& hello) {
 const char* broken_rule(const ClientHello& hello) {
     constexpr Tick kLongest = Tick{1} << 50;
     return hello.period < 1 || hello.period > kLongest || hello.latency < 0 || hello.latency > kLongest ||
-                   hello.expected < -1 || hello.expected > kLongest || hello.last_reply < hello.acknowledged
+                   !in_range(hello.expected) || hello.last_reply < hello.acknowledged
                ? "its period or latency is out of range"
                : nullptr;
 }

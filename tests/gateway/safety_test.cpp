@@ -117,6 +117,8 @@ TEST_F(Viewed, OnePageHasControlTheOthersSeeWhoAndAsk) {
     const auto roles = [](Browser& page) { return page.last("roles"); };
     ASSERT_TRUE(first.until([&] { return roles(first) != nullptr; }));
     ASSERT_TRUE(second.until([&] { return roles(second) != nullptr; }));
+    for (Browser* page : {&first, &second})  // orders before the scene is known are refused
+        ASSERT_TRUE(page->until([&] { return page->states() > 0; }));
     EXPECT_TRUE((*roles(first))["holder"].is_null());
     EXPECT_EQ((*roles(first))["role"], "administer");
     const auto order = [](int id) {

@@ -26,7 +26,7 @@ class CheckBuilds(unittest.TestCase):
         for tool in (TOOL, TOOL.parent / "jobs.sh"):
             shutil.copy(tool, self.root / "tools")
         self.script("tools/build.sh", "#!/bin/bash\n")
-        for preset in ("release", "dev", "clang"):
+        for preset in ("release", "check-debug", "check-clang"):
             self.build(preset, "aaaa", "1111")
         self.list = self.root / "tests/golden_hashes.txt"
         self.list.write_text("# comment\naaaa worlds/a.sdf --duration 1 --client @BUILD@/lib/x.so\n")
@@ -51,15 +51,15 @@ class CheckBuilds(unittest.TestCase):
 
     def test_gives_each_build_its_own_control_program(self):
         self.run_tool()
-        self.assertIn("run worlds/a.sdf --duration 1 --client build/dev/lib/x.so", (self.root / "build/dev/bin/calls").read_text())
+        self.assertIn("run worlds/a.sdf --duration 1 --client build/check-debug/lib/x.so", (self.root / "build/check-debug/bin/calls").read_text())
 
     def test_fails_when_one_build_has_another_state_or_model_hash(self):
-        self.build("clang", "bbbb", "1111")
+        self.build("check-clang", "bbbb", "1111")
         self.assertEqual(self.run_tool()[0], 1)
-        self.build("clang", "aaaa", "2222")
+        self.build("check-clang", "aaaa", "2222")
         code, output = self.run_tool()
         self.assertEqual((code, output.splitlines()[-1]), (1, "builds: 2 passed, 1 failed"))
-        self.assertIn("WRONG clang", output)
+        self.assertIn("WRONG check-clang", output)
 
     def test_fails_when_the_list_says_otherwise(self):
         self.list.write_text("cccc worlds/a.sdf\n")
@@ -67,13 +67,13 @@ class CheckBuilds(unittest.TestCase):
 
     def test_tells_each_run_in_the_order_of_the_list(self):
         self.list.write_text("".join(f"{'cccc' if i == 3 else 'aaaa'} worlds/{i}.sdf\n" for i in range(6)))
-        code, output = self.run_tool("release", "clang")
+        code, output = self.run_tool("release", "check-clang")
         self.assertEqual(code, 1)
         told = [(line.split()[0], line.split()[1], line.split()[-1]) for line in output.splitlines()[:-1]]
-        self.assertEqual(told, [("WRONG" if i == 3 else "ok", build, f"worlds/{i}.sdf") for i in range(6) for build in ("release", "clang")])
+        self.assertEqual(told, [("WRONG" if i == 3 else "ok", build, f"worlds/{i}.sdf") for i in range(6) for build in ("release", "check-clang")])
 
     def test_fails_when_a_run_fails_or_nothing_is_listed(self):
-        self.script("build/dev/bin/roboss", "#!/bin/bash\necho no such world >&2\nexit 3\n")
+        self.script("build/check-debug/bin/roboss", "#!/bin/bash\necho no such world >&2\nexit 3\n")
         code, output = self.run_tool()
         self.assertEqual(code, 1)
         self.assertIn("no such world", output)

@@ -37,7 +37,11 @@ class SavePlace : public testing::Test {
         ASSERT_TRUE(save_run(file.string(), *model, run));
     }
 
-    fs::path root_ = fs::canonical(testing::TempDir()) / "roboss_save_place", folder_ = root_ / "folder";
+    // Of this test alone: others run at the same time.
+    fs::path root_ = fs::canonical(testing::TempDir()) /
+                     (std::string("roboss_save_place_") +
+                      testing::UnitTest::GetInstance()->current_test_info()->name()),
+             folder_ = root_ / "folder";
 };
 
 TEST_F(SavePlace, IsBelowTheFolder) {
