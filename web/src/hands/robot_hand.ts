@@ -16,7 +16,7 @@ import type { HandMark } from "./hand_mark";
 
 const ORDER_INTERVAL_MS = 50;
 /** Simulated time for which an order of a held robot lasts at real time; it is renewed far more often. */
-const LEASE_S = 0.5;
+const LEASE_S = 2;
 /** Of a pull: so many N/kg at most. */
 const PULL_ACCELERATION = 200;
 const METRES_A_TURN_PX = 0.01;
