@@ -1,6 +1,6 @@
 // Where robots are seen in the picture, and what the hand does there.
 import type { Page } from "playwright-core";
-import { until } from "./bench";
+import { until, WAIT_MS } from "./bench";
 
 /** Numbers that the page has of a robot, and where it is seen. */
 export interface Seen {
@@ -35,17 +35,21 @@ export function seen(page: Page, robot: number): Promise<Seen> {
 export async function resting(page: Page, robot: number): Promise<Seen> {
     let before = await seen(page, robot),
         same = 0;
-    await until("the picture rests", async () => {
-        const arrived = await page.evaluate(() => {
-            const { goal, now } = window.roboss.rig,
-                off = Math.hypot(...goal.target.map((value, k) => value - now.target[k]));
-            return off < 0.002 * goal.distance && Math.abs(goal.distance / now.distance - 1) < 0.002;
-        });
-        const is = await seen(page, robot);
-        same = arrived && Math.hypot(is.left - before.left, is.top - before.top) < 0.5 ? same + 1 : 0;
-        before = is;
-        return same >= 4;
-    });
+    await until(
+        "the picture rests",
+        async () => {
+            const arrived = await page.evaluate(() => {
+                const { goal, now } = window.roboss.rig,
+                    off = Math.hypot(...goal.target.map((value, k) => value - now.target[k]));
+                return off < 0.002 * goal.distance && Math.abs(goal.distance / now.distance - 1) < 0.002;
+            });
+            const is = await seen(page, robot);
+            same = arrived && Math.hypot(is.left - before.left, is.top - before.top) < 0.5 ? same + 1 : 0;
+            before = is;
+            return same >= 4;
+        },
+        WAIT_MS,
+    );
     return before;
 }
 
