@@ -175,14 +175,17 @@ bool BusClient::Resent::due(std::int64_t now_ms, std::int64_t first_ms, std::int
     return true;
 }
 
-/// Each by its own clock: a Client that goes on sending would put off the repetition of what was lost.
+/// From sending to the first repetition. What a free-running Client sends often follows a user's hand, and
+/// must not be late. A synchronous Client is not in a hurry, and must not have two hellos under way: a late
+/// one would give a Controller that was restarted meanwhile the numbers of earlier replies.
+std::int64_t BusClient::first_resend_ms() const {
+    return options_.synchronous ? options_.resend_ms : std::min(kSoon_ms, options_.resend_ms);
+}
+
+/// Each reply has its own timer: with one for all, each new reply would delay the repetition of a lost one.
 void BusClient::send_open_replies(Bus& bus, std::int64_t now_ms) {
-    // A synchronous Client's next reply waits for the next observation; a free-running one, which shows what
-    // a hand does, is at most a moment late.
-    const std::int64_t first_ms =
-        options_.synchronous ? options_.resend_ms : std::min(kSoon_ms, options_.resend_ms);
     for (OpenReply& open : replies_) {
-        if (!open.resent.due(now_ms, first_ms, options_.resend_ms)) continue;
+        if (!open.resent.due(now_ms, first_resend_ms(), options_.resend_ms)) continue;
         open.reply.acknowledged = acknowledged_;
         bus.send(self_, kControllerAddress, open.reply);
         sent_ms_ = now_ms;
@@ -207,10 +210,7 @@ void BusClient::resend(Bus& bus) {
         bus.send(self_, kControllerAddress, requests_.front());
     }
     if (!id_.valid()) {
-        // Two hellos of a synchronous Client are not under way at once: a late one would give a Controller
-        // that was restarted meanwhile the numbers of earlier replies.
-        const std::int64_t first_ms = options_.synchronous ? options_.resend_ms : kSoon_ms;
-        if (hello_resent_.due(now, first_ms, options_.resend_ms))
+        if (hello_resent_.due(now, first_resend_ms(), options_.resend_ms))
             bus.send(self_, kControllerAddress, hello());
         return;
     }

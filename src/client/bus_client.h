@@ -94,6 +94,7 @@ class BusClient : public Client {
     void show();
     void resend(Bus& bus);
     void send_open_replies(Bus& bus, std::int64_t now_ms);
+    std::int64_t first_resend_ms() const;
     ClientHello hello() const;
 
     std::shared_ptr<const Model> model_;

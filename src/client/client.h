@@ -73,7 +73,7 @@ class Client : private SensorSources {
     /// `max_force` 0 lets go. `rate`: natural frequency of the spring, rad/s.
     Result<> pull(RobotId robot, LinkId link, const Vec3& p_L, const Vec3& target_W, double max_force,
                   double duration_s, double rate = 15);
-    /// So many seconds in ticks, at least one. An Error if it is not in (0, 1e9].
+    /// Converts seconds to ticks, at least one. An Error if it is not in (0, 1e9].
     Result<Tick> ticks_of(double duration_s) const;
     /// Setpoint of one axis of a joint; it holds until the next one. The mode gives the unit of `target`:
     /// kVelocity rad/s or m/s, kPosition rad or m, kEffort N m or N; kPassive ignores it. `max_effort` in N m

@@ -33,7 +33,7 @@ struct Visitor {
 
 class Access {
   public:
-    /// The token of each role; empty: nobody gets this role by a token.
+    /// The token of each role; empty: no token gives this role.
     using Tokens = std::array<std::string, 3>;
 
     /// The gateway listens on loopback and needs no token: all get this role.

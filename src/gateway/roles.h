@@ -35,7 +35,7 @@ struct OpenPage {
     PageRole role = PageRole::kWatch;
 };
 
-/// Which page has control. A page that acts takes it where nobody has it. Who asks for it gets it when the
+/// Which page has control. A page that acts takes it if no page has it. A page that asks gets it when the
 /// page that has it yields, leaves, or does not reply in time; at once from a page of a lower role.
 class ControlDesk {
   public:
@@ -54,7 +54,7 @@ class ControlDesk {
     Result<> act(std::uint64_t page, PageRole needed);
     /// Asks for control; the answer is a Decision. An Error if its role only watches.
     Result<> ask(std::uint64_t page, std::int64_t id, std::int64_t now_ms);
-    /// Hands control to a page that asks for it, or to nobody in particular. An Error: no-control,
+    /// Hands control to a page that asks for it, or, without `to`, gives it up. An Error: no-control,
     /// not-asking.
     Result<> yield(std::uint64_t page, std::optional<std::uint64_t> to);
     /// Keeps control from a page that asks for it. An Error: no-control, not-asking.

@@ -244,7 +244,7 @@ struct BoardReport {
     friend bool operator==(const BoardReport&, const BoardReport&) = default;
 };
 
-/// FollowActor: which actor is told where which model is.
+/// FollowActor: an actor, and the model whose position is sent to it.
 struct BoardFollower {
     std::string actor,       ///< the robot that follows
         target;              ///< the model that it follows

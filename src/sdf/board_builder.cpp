@@ -110,8 +110,7 @@ BoardTopic& BoardBuilder::add_topic(const std::string& topic, const std::string&
 }
 
 bool BoardBuilder::has_model(const std::string& name) const {
-    return std::ranges::any_of(world_.instances,
-                               [&](const ModelInstance& instance) { return instance.name == name; });
+    return find_model(name) != nullptr;
 }
 
 void BoardBuilder::add_performer(const pugi::xml_node& performer) {

@@ -29,7 +29,7 @@ class BoardBuilder {
     void add_supply(const CrumbSupply& supply);
     /// The floors at which the elevators are.
     void add_elevators();
-    /// What actors that follow something are told; why some cannot follow: whole sentences.
+    /// Adds the actors that follow a model. Returns why some cannot, in whole sentences.
     std::vector<std::string> add_followers();
     void add_performer(const pugi::xml_node& performer);
     std::string add_touch(const pugi::xml_node& plugin, const ModelInstance& instance);

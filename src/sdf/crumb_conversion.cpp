@@ -29,9 +29,7 @@ Element model_of(const Element& plugin) {
 }
 
 bool is_breadcrumbs(const Element& plugin) {
-    const PluginName name = plugin_name(plugin);
-    return name.class_name.empty() ? name.file == BreadcrumbsSpec::kKind.files
-                                   : name.class_name == BreadcrumbsSpec::kKind.classes;
+    return is_named(plugin_name(plugin), BreadcrumbsSpec::kKind.classes, BreadcrumbsSpec::kKind.files);
 }
 
 /// All such plugins of a model and of those in it.

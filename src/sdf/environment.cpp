@@ -255,8 +255,7 @@ bool is_scenery(const ModelSpec& model) {
 }  // namespace
 
 bool is_environment_plugin(const PluginName& name) {
-    if (!name.class_name.empty()) return is_one_of(kClasses, name.class_name);
-    return !name.file.empty() && is_one_of(kFiles, name.file);
+    return is_named(name, kClasses, kFiles);
 }
 
 void convert_environment(World& world, const Import& import) {

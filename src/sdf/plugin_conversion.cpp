@@ -42,10 +42,7 @@ bool remove_prefix(std::string& text, std::string_view prefix) {
 std::optional<OnboardParameters> parameters_for(const PluginName& name) {
     std::optional<OnboardParameters> found;
     for_each_onboard_kind([&]<class Kind>(std::in_place_type_t<Kind> type) {
-        const bool is_class = !name.class_name.empty() && is_one_of(Kind::kKind.classes, name.class_name);
-        const bool is_file =
-            name.class_name.empty() && !name.file.empty() && is_one_of(Kind::kKind.files, name.file);
-        if (is_class || is_file) found = OnboardParameters(type);
+        if (is_named(name, Kind::kKind.classes, Kind::kKind.files)) found = OnboardParameters(type);
     });
     return found;
 }
@@ -84,6 +81,11 @@ void pass_on(const Diagnostics& found, const Import& import) {
 }
 
 }  // namespace
+
+bool is_named(const PluginName& name, const char* classes, const char* files) {
+    if (!name.class_name.empty()) return is_one_of(classes, name.class_name);
+    return !name.file.empty() && is_one_of(files, name.file);
+}
 
 ExtensionElement kept_element(const Element& element, const std::string& scope) {
     std::ostringstream text;

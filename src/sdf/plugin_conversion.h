@@ -15,6 +15,8 @@ struct PluginName {
     std::string file;        ///< without "lib", ".so", "gz-sim-", "ignition-gazebo-"
 };
 PluginName plugin_name(const Element& plugin);
+/// Whether the plugin has one of the classes ("A|B") or, if it names no class, one of the files.
+bool is_named(const PluginName& name, const char* classes, const char* files);
 
 /// The plugin as the file has it, and where it stands; it does not run. `scope`: see convert_plugin().
 ExtensionElement kept_element(const Element& plugin, const std::string& scope = "");

@@ -9,8 +9,7 @@ namespace roboss::sdf_import {
 namespace {
 
 bool stands_for(const SensorKind& kind, const PluginName& name) {
-    if (!name.class_name.empty()) return is_one_of(kind.plugin.classes, name.class_name);
-    return !name.file.empty() && is_one_of(kind.plugin.files, name.file);
+    return is_named(name, kind.plugin.classes, kind.plugin.files);
 }
 
 /// Whether the kind reads the memory of a controller.

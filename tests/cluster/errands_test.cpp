@@ -107,7 +107,7 @@ TEST(Breadcrumbs, AreFixedWhereTheyAreAfterTheirTime) {
     EXPECT_NEAR(lamp.z, 2.1 - 0.5 * 9.8 * 0.2 * 0.2, 0.01);
     ASSERT_TRUE(run->run_until(kEnd).ok());
     EXPECT_LT(norm(place(*model, *run, "lamp_0") - lamp), 1e-6);
-    EXPECT_LT(place(*model, *run, "lamp_1").z, -900) << "nobody asked for it";
+    EXPECT_LT(place(*model, *run, "lamp_1").z, -900) << "no command asked for it";
 }
 
 TEST(Breadcrumbs, SayHowManyAreLeft) {
@@ -204,14 +204,9 @@ TEST(Errands, SeedsOfABadBusWithKillsEndWithTheUndisturbedHash) {
     int kills = 0;
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
-        FaultOptions faults;
-        faults.seed = seed;
-        faults.drop = 0.02 * static_cast<double>(seed % 4);
-        faults.duplicate = 0.02 * static_cast<double>(seed % 3);
-        faults.delay_ms_max = static_cast<std::int64_t>(seed % 6);
         ControllerOptions options;
         options.checkpoint_ticks = 20 + static_cast<Tick>(seed % 4) * 30;
-        FaultyCluster cluster(model, options, faults, {60, 30, 20, 250, 2000}, 1 + seed % 3);
+        FaultyCluster cluster(model, options, bad_network(seed), {60, 30, 20, 250, 2000}, 1 + seed % 3);
         cluster.add_program(Triggers::kName, std::make_unique<Triggers>(model));
         cluster.turn();  // makes the Controller
         for (const Order& order : orders_for(*model)) ASSERT_TRUE(cluster.controller().submit(order).ok());

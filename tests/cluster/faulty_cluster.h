@@ -20,6 +20,16 @@ struct Trouble {
     std::uint64_t rumour = 0;  // that a living Simulator is said to have vanished
 };
 
+/// A network that loses, doubles and delays some messages, by the seed.
+inline FaultOptions bad_network(std::uint64_t seed) {
+    FaultOptions faults;
+    faults.seed = seed;
+    faults.drop = 0.02 * static_cast<double>(seed % 4);
+    faults.duplicate = 0.02 * static_cast<double>(seed % 3);
+    faults.delay_ms_max = static_cast<std::int64_t>(seed % 6);
+    return faults;
+}
+
 class FaultyCluster {
   public:
     FaultyCluster(std::shared_ptr<const Model> model, ControllerOptions options, const FaultOptions& faults,

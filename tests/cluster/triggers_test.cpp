@@ -257,14 +257,9 @@ TEST(Triggers, SeedsOfABadBusWithKillsEndWithTheUndisturbedHash) {
     int kills = 0;
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
-        FaultOptions faults;
-        faults.seed = seed;
-        faults.drop = 0.02 * static_cast<double>(seed % 4);
-        faults.duplicate = 0.02 * static_cast<double>(seed % 3);
-        faults.delay_ms_max = static_cast<std::int64_t>(seed % 6);
         ControllerOptions options;
         options.checkpoint_ticks = 20 + static_cast<Tick>(seed % 4) * 30;
-        FaultyCluster cluster(model, options, faults, {60, 30, 20, 250, 2000}, 1 + seed % 3);
+        FaultyCluster cluster(model, options, bad_network(seed), {60, 30, 20, 250, 2000}, 1 + seed % 3);
         for (NamedProgram& program : programs_for(model))
             cluster.add_program(program.name, std::move(program.program));
         ASSERT_TRUE(cluster.run_until(kEnd)) << "stuck at tick " << cluster.controller().tick();

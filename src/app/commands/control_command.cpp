@@ -65,11 +65,7 @@ void add_save(CLI::App& command, ControlCommandOptions& o, const Ask& ask) {
     save->add_option("file", o.value)->required();
     save->add_flag("--overwrite", o.overwrite, "replace a saved run of this name");
     add_yes(*save, o);
-    save->callback([ask, &o] {
-        std::vector<std::string> words{"save", o.value};
-        if (o.overwrite) words.emplace_back("overwrite");
-        ask(words);
-    });
+    save->callback([ask, &o] { ask(save_words(o.value, o.overwrite)); });
 }
 
 void add_plain(CLI::App& command, ControlCommandOptions& o, const Ask& ask) {
@@ -225,6 +221,12 @@ Result<RunStatus> status_of_controller(const MemberOptions& options) {
     if (const auto* refused = std::get_if<ControlRefused>(&*outcome)) return refused->error();
     return Error{"the Controller replied to something else", "run the same version of RoBOSS everywhere",
                  "wrong-reply"};
+}
+
+std::vector<std::string> save_words(const std::string& file, bool overwrite) {
+    std::vector<std::string> words{"save", file};
+    if (overwrite) words.emplace_back("overwrite");
+    return words;
 }
 
 int ask_controller(const MemberOptions& options, const std::vector<std::string>& words, bool yes) {

@@ -15,6 +15,8 @@ void add_control_command(CLI::App& app, int& exit_code);
 
 /// The status of the run, with the names of its robots; an Error if no Controller was found.
 Result<RunStatus> status_of_controller(const MemberOptions& options);
+/// Words of a request to save.
+std::vector<std::string> save_words(const std::string& file, bool overwrite);
 /// Sends a request, as its words on the command line, to the Controller, waits for its reply and prints it.
 /// Returns the exit code.
 int ask_controller(const MemberOptions& options, const std::vector<std::string>& words, bool yes = false);

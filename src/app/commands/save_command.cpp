@@ -60,9 +60,8 @@ void add_save_command(CLI::App& app, int& exit_code) {
                       "of a running simulation: replace a saved run of this name");
     add_member_options(*command, o->member);
     command->callback([o, &exit_code] {
-        std::vector<std::string> words{"save", o->file};
-        if (o->overwrite) words.emplace_back("overwrite");
-        exit_code = o->from.empty() ? ask_controller(o->member, words) : save_from_journal(*o);
+        exit_code = o->from.empty() ? ask_controller(o->member, save_words(o->file, o->overwrite))
+                                    : save_from_journal(*o);
     });
 }
 

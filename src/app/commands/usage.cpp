@@ -30,6 +30,17 @@ std::size_t distance(const std::string& a, const std::string& b) {
     return before.back();
 }
 
+/// The name that is most like the word that was typed; empty: none is much like it.
+std::string similar_to(const std::string& word, const std::vector<std::string>& names) {
+    std::string best;
+    std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
+    for (const std::string& name : names) {
+        const std::size_t d = word.size() > 2 && name.starts_with(word) ? 1 : distance(word, name);
+        if (d < least) least = d, best = name;
+    }
+    return best;
+}
+
 /// The subcommand of the subcommand ... that was typed.
 const CLI::App& innermost(const CLI::App& app) {
     const std::vector<CLI::App*> chosen = app.get_subcommands();
@@ -60,12 +71,12 @@ std::string full_name(const CLI::App& app) {
 Error unexpected(const CLI::App& app, const std::string& word) {
     const bool is_option = word.size() > 1 && word.front() == '-';
     const std::string name = word.substr(0, word.find('='));
-    const std::string meant = similar_to(name, is_option ? option_names(app) : subcommand_names(app));
     const std::string what = is_option                       ? "has no option '" + name + "'"
                              : subcommand_names(app).empty() ? "does not expect '" + word + "'"
                                                              : "has no command '" + word + "'";
     return Error{"'" + full_name(app) + "' " + what,
-                 meant.empty() ? "see `" + full_name(app) + " --help`" : "did you mean '" + meant + "'?",
+                 did_you_mean(name, is_option ? option_names(app) : subcommand_names(app),
+                              "see `" + full_name(app) + " --help`"),
                  "wrong-usage"};
 }
 
@@ -81,14 +92,10 @@ Error usage_error(const CLI::App& app, const CLI::ParseError& error) {
 
 }  // namespace
 
-std::string similar_to(const std::string& word, const std::vector<std::string>& names) {
-    std::string best;
-    std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
-    for (const std::string& name : names) {
-        const std::size_t d = word.size() > 2 && name.starts_with(word) ? 1 : distance(word, name);
-        if (d < least) least = d, best = name;
-    }
-    return best;
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& names,
+                         const std::string& otherwise) {
+    const std::string name = similar_to(word, names);
+    return name.empty() ? otherwise : "did you mean '" + name + "'?";
 }
 
 std::optional<int> read_command_line(CLI::App& app, int argc, const char* const* argv) {

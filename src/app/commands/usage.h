@@ -13,7 +13,9 @@ namespace roboss {
 /// wrong usage, which is printed.
 std::optional<int> read_command_line(CLI::App& app, int argc, const char* const* argv);
 
-/// The name that is most like the word that was typed; empty: none is much like it.
-std::string similar_to(const std::string& word, const std::vector<std::string>& names);
+/// The remedy for a word that is none of these names: the name that is most like it, if one is, else
+/// `otherwise`.
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& names,
+                         const std::string& otherwise);
 
 }  // namespace roboss

@@ -141,10 +141,8 @@ Result<> check_snapshot(const SnapshotOptions& options, const Model& model) {
         if (model.find_robot(robot)) continue;
         std::vector<std::string> names;
         for (const Robot& one : model.robots) names.push_back(one.name);
-        const std::string meant = similar_to(robot, names);
         return Error{"--" + key + ": the world has no robot '" + robot + "'",
-                     meant.empty() ? "see `roboss check` for their names" : "did you mean '" + meant + "'?",
-                     "no-robot"};
+                     did_you_mean(robot, names, "see `roboss check` for their names"), "no-robot"};
     }
     return Ok{};
 }

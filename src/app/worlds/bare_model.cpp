@@ -10,8 +10,9 @@ namespace {
 
 constexpr const char* kGround = "ground_plane";
 
-bool has_instance(const World& world, const std::string& name) {
-    return std::ranges::any_of(world.instances, [&](const ModelInstance& i) { return i.name == name; });
+ModelInstance* find_model(World& world, const std::string& name) {
+    const auto found = std::ranges::find(world.instances, name, &ModelInstance::name);
+    return found == world.instances.end() ? nullptr : &*found;
 }
 
 void add_ground(World& world) {
@@ -47,19 +48,16 @@ void weld(World& world, ModelInstance& instance) {
 
 Result<> complete(World& world, const BareModelOptions& options) {
     for (const std::string& name : options.fixed_base) {
-        const auto found = std::ranges::find(world.instances, name, &ModelInstance::name);
-        if (found == world.instances.end()) {
+        ModelInstance* const found = find_model(world, name);
+        if (found == nullptr) {
             std::vector<std::string> names;
             for (const ModelInstance& instance : world.instances) names.push_back(instance.name);
-            const std::string meant = similar_to(name, names);
-            return Error{
-                "--fixed-base: the world has no model '" + name + "'",
-                meant.empty() ? "see `roboss check` for their names" : "did you mean '" + meant + "'?",
-                "no-model"};
+            return Error{"--fixed-base: the world has no model '" + name + "'",
+                         did_you_mean(name, names, "see `roboss check` for their names"), "no-model"};
         }
         if (!world.prototypes[found->prototype].is_static) weld(world, *found);
     }
-    if (options.ground && !has_instance(world, kGround)) add_ground(world);
+    if (options.ground && find_model(world, kGround) == nullptr) add_ground(world);
     return Ok{};
 }
 
