@@ -16,7 +16,7 @@ city=(build/release/bin/roboss run worlds/city.sdf --client build/release/lib/ro
 if [[ ${1:-} == --live ]]; then
     shift
     rm -f build/city.journal build/city.journal-*
-    exec "${city[@]}" --speed 1 --journal build/city.journal "$@"
+    exec "${city[@]}" --journal build/city.journal "$@"
 fi
 
 # Ours, unless the same option was given.
@@ -24,6 +24,7 @@ options=()
 default() { [[ " $given " == *" $1 "* || " $given " == *" $1="* ]] || options+=("$1" "$2"); }
 given=$*
 default --duration 60
+default --speed max
 default --json build/city.json
 default --picture build/city_paths.svg
 "${city[@]}" "${options[@]}" "$@"

@@ -10,6 +10,7 @@
 #include "app/commands/diff_command.h"
 #include "app/commands/journal_command.h"
 #include "app/commands/run_command.h"
+#include "app/commands/runs_command.h"
 #include "app/commands/save_command.h"
 #include "app/commands/simulator_command.h"
 #include "app/commands/usage.h"
@@ -36,6 +37,7 @@ int main(int argc, char** argv) {
     roboss::add_view_command(app, exit_code);
     roboss::add_replay_command(app, exit_code);
     roboss::add_control_command(app, exit_code);
+    roboss::add_runs_command(app, exit_code);
     roboss::add_cluster_command(app, exit_code);
     roboss::add_save_command(app, exit_code);
     roboss::add_journal_command(app, exit_code);

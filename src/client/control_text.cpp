@@ -110,6 +110,12 @@ Parsed rewind(const Words& words) {
     return rewind;
 }
 
+Parsed reset(const Words& words) {
+    if (words.size() == 1 || words[1] == "start") return ResetRun{};
+    if (words[1] == "save") return ResetRun{ResetRun::To::kLastSave};
+    return bad_value(words, "give start or save");
+}
+
 Parsed accuracy(const Words& words) {
     ChangeAccuracy change;
     for (std::size_t i = 1; i < words.size(); ++i) {
@@ -169,7 +175,7 @@ Parsed parse(const Words& words) {
     if (verb == "pause" && n == 1) return PauseRun{};
     if (verb == "resume" && n == 1) return ResumeRun{};
     if (verb == "quit" && n == 1) return QuitRun{};
-    if (verb == "reset" && n == 1) return ResetRun{};
+    if (verb == "reset" && n <= 2) return reset(words);
     if (verb == "step" && n <= 2) return step(words);
     if (verb == "speed" && n == 2) return speed(words);
     if (verb == "window" && n == 2) return window(words);

@@ -39,6 +39,8 @@ TEST(ControlText, ReadsEachRequest) {
         {{"add", "ball.sdf", "<sdf/>", "0 0 0 0 0 0", "", "a 1 2 3 0 0 0 # first\n\nb 0 0 0 0 0 0"},
          AddModels{"ball.sdf", "<sdf/>", {}, "", {{"a", {{1, 2, 3}, {}}}, {"b", {}}}}},
         {{"reset"}, ResetRun{}},
+        {{"reset", "start"}, ResetRun{}},
+        {{"reset", "save"}, ResetRun{ResetRun::To::kLastSave}},
         {{"remove", "a", "b"}, RemoveRobots{{"a", "b"}}}};
     std::vector<bool> met(std::variant_size_v<ControlAction>, false);
     for (const auto& [words, action] : cases) {
@@ -59,7 +61,7 @@ TEST(ControlText, RefusesWhatIsNoRequestAndNamesTheKindOfMistake) {
         {{"add", "f", "", "0 0 0 0 0 0", "", ""}, "bad-pose"},
         {{"add", "f", "", "0 0 0 0 0 0", "", "a 1 2 3"}, "bad-pose"},
         {{"add", "f", "", "0 0 0 0 0 0", "", "a 1e99 2 3 0 0 0"}, "bad-pose"},
-        {{"reset", "now"}, "unknown-request"},
+        {{"reset", "now"}, "bad-value"},
         {{"simulators", "sing"}, "unknown-request"},
         {{"simulators", "kill"}, "unknown-request"},
         {{"simulators", "kill", "-1"}, "bad-value"},

@@ -8,9 +8,12 @@
 
 namespace roboss {
 
+/// Name of a run that was given none.
+inline constexpr const char* kDefaultSimulation = "default";
+
 struct DdsOptions {
     /// Members of one run share this name; runs of different names never see each other's messages.
-    std::string simulation = "default";
+    std::string simulation = kDefaultSimulation;
     std::uint32_t domain = 0;             // DDS domain, 0 .. 232
     std::string interface = "127.0.0.1";  // address or name of the network interface to use
     /// Finding others: multicast on the interface, computers named here, or a discovery server.

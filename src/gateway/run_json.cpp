@@ -55,6 +55,7 @@ void append(Json& o, const RunStatus& s) {
               {"time_s", s.time_s},
               {"tick", s.tick},
               {"paused", s.paused},
+              {"over", s.over},
               {"speed", speed_text(s.speed)}});
     std::size_t active = 0;
     for (const MemberStatus& member : s.members)

@@ -195,7 +195,11 @@ template <class A> void field(A&, Of<A, ResumeRun>&) { static_assert(std::is_emp
 template <class A> void field(A&, Of<A, AddSimulator>&) { static_assert(std::is_empty_v<AddSimulator>); }
 template <class A> void field(A&, Of<A, RemoveSimulator>&) { static_assert(std::is_empty_v<RemoveSimulator>); }
 template <class A> void field(A&, Of<A, QuitRun>&) { static_assert(std::is_empty_v<QuitRun>); }
-template <class A> void field(A&, Of<A, ResetRun>&) { static_assert(std::is_empty_v<ResetRun>); }
+template <class A> void field(A& a, Of<A, ResetRun>& m) {
+    auto& [to] = m;
+    field(a, to);
+    if constexpr (A::kReading) if (to > ResetRun::To::kLastSave) a.fail("the place to reset to is unknown");
+}
 template <class A> void field(A& a, Of<A, GetStatus>& m) { auto& [robots] = m; fields(a, robots); }
 template <class A> void field(A& a, Of<A, StepRun>& m) { auto& [ticks] = m; fields(a, ticks); }
 template <class A> void field(A& a, Of<A, SetSpeed>& m) { auto& [kind, factor] = m; fields(a, kind, factor); }
@@ -215,9 +219,9 @@ template <class A> void field(A& a, Of<A, MemberStatus>& m) {
     if constexpr (A::kReading) if (state > MemberState::kLost) a.fail("the state of a member is unknown");
 }
 template <class A> void field(A& a, Of<A, RunStatus>& m) {
-    auto& [world, tick, time_s, paused, speed, islands, window, windows, repeated, efficiency, step_cpu_s, losses, recoveries, migrations, cuts,
+    auto& [world, tick, time_s, paused, over, speed, islands, window, windows, repeated, efficiency, step_cpu_s, losses, recoveries, migrations, cuts,
            messages, model_hash, state_hash, branch, first_s, members, robots, robot_count] = m;
-    fields(a, world, tick, time_s, paused, speed, islands, window, windows, repeated, efficiency, step_cpu_s, losses, recoveries, migrations, cuts,
+    fields(a, world, tick, time_s, paused, over, speed, islands, window, windows, repeated, efficiency, step_cpu_s, losses, recoveries, migrations, cuts,
            messages, model_hash, state_hash, branch, first_s, members, robots, robot_count);
 }
 template <class A> void field(A& a, Of<A, RobotGroups>& m) { auto& [model_hash, simulator, island] = m; fields(a, model_hash, simulator, island); }

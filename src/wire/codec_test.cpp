@@ -103,11 +103,11 @@ std::vector<Message> every_control_message() {
           ControlAction(RewindRun{2, 12.5}), ControlAction(ChangeAccuracy{"high", {{"tolerance", 1e-10}}}),
           ControlAction(AddModels{"ball.sdf", "<sdf/>", {{1, 2, 3}, {}}, "ball"}),
           ControlAction(AddModels{"ball.sdf", "<sdf/>", {}, "", {{"a", {{1, 2, 3}, {}}}, {"b", {}}}}),
-          ControlAction(RemoveRobots{{"a", "b"}}), ControlAction(ResetRun{})})
+          ControlAction(RemoveRobots{{"a", "b"}}), ControlAction(ResetRun{ResetRun::To::kLastSave})})
         all.emplace_back(ControlRequest{all.size() + 1, action});
     const MemberStatus member{2, "host/7", MemberState::kLost, 4, 10, 5, 7.5, 0.9, {1, 2, 3, 4}};
-    const RunStatus status{"w.sdf", 500, 1.0, true,         2.0, 3,  16, 40,  2,        0.95,  3.5, 1,
-                           1,       7,   2,   {5, 6, 7, 8}, 11,  12, 3,  0.5, {member}, {"a"}, 1};
+    const RunStatus status{"w.sdf", 500, 1.0, true, true,         2.0, 3,  16, 40,  2,        0.95,  3.5,
+                           1,       1,   7,   2,    {5, 6, 7, 8}, 11,  12, 3,  0.5, {member}, {"a"}, 1};
     Box32 box;
     box.min = {0, 1, 2}, box.max = {3, 4, 5};
     for (const ControlOutcome& outcome :

@@ -108,8 +108,14 @@ struct RewindRun {
     /// Compares all members.
     friend bool operator==(const RewindRun&, const RewindRun&) = default;
 };
-/// Continues from the world's beginning: the world file as it was loaded, at tick 0.
+/// Continues from the world's beginning (the world file as it was loaded, at tick 0) or from the last save.
 struct ResetRun {
+    /// Where the run returns to.
+    enum class To : std::uint8_t {
+        kStart,     ///< the world's beginning
+        kLastSave,  ///< the last SaveRun of this run, else the state that it was started from (`--from`)
+    };
+    To to = To::kStart;  ///< which of them
     /// Compares all members.
     friend bool operator==(const ResetRun&, const ResetRun&) = default;
 };
@@ -195,7 +201,8 @@ struct RunStatus {
     std::string world;           ///< the world file
     Tick tick = 0;               ///< committed
     double time_s = 0;           ///< simulated time of that tick
-    bool paused = false;         ///< by a request
+    bool paused = false;         ///< by a request, or because the duration is over
+    bool over = false;           ///< the duration is over; the run stays for inspection
     double speed = 0;            // simulated seconds per real second that are wanted; 0: as fast as possible
     std::uint64_t islands = 0;   // of the last window
     std::int64_t window = 0;     // ticks of the next window

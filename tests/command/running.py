@@ -19,7 +19,7 @@ def roboss(*arguments):
 def summary(*arguments):
     """What `roboss run ... --json` wrote; fails if the run did."""
     file = FOLDER / "summary.json"
-    done = roboss("run", *arguments, "--quiet", "--json", file)
+    done = roboss("run", *arguments, "--quiet", "--json", file, *([] if "--speed" in arguments else ["--speed", "max"]))
     if done.returncode != 0:
         raise AssertionError(f"roboss run {arguments} ended with {done.returncode}:\n{done.stderr}")
     return json.loads(file.read_text())

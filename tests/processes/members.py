@@ -13,6 +13,11 @@ FOLDER = Path(tempfile.mkdtemp(prefix="roboss_test_"))
 NETWORK = ["--domain", "91", "--no-multicast", "--peer", "127.0.0.1"]
 
 
+def as_fast_as_possible(arguments):
+    """The option for it, unless a speed is given: with a viewer the default is real time."""
+    return [] if "--speed" in arguments else ["--speed", "max"]
+
+
 class Member:
     """A process of the run; what it says goes to a file, so that nobody waits for a reader."""
 
@@ -75,7 +80,7 @@ class Cluster:
         return self.members[-1]
 
     def controller(self, *arguments):
-        return self.start("controller", *arguments, "--json", self.json)
+        return self.start("controller", *arguments, *as_fast_as_possible(arguments), "--json", self.json)
 
     def simulator(self, *arguments):
         return self.start("simulator", "--patience", 20, *arguments)
@@ -90,7 +95,7 @@ class Cluster:
 def embedded(*arguments):
     """The summary of the same run in one process."""
     file = FOLDER / "embedded.json"
-    done = subprocess.run([ROBOSS, "run", *map(str, arguments), "--quiet", "--json", file], capture_output=True, text=True, timeout=300)
+    done = subprocess.run([ROBOSS, "run", *map(str, [*arguments, *as_fast_as_possible(arguments)]), "--quiet", "--json", file], capture_output=True, text=True, timeout=300)
     if done.returncode != 0:
         raise AssertionError(f"roboss run {arguments} ended with {done.returncode}:\n{done.stderr}")
     return json.loads(file.read_text())

@@ -123,6 +123,22 @@ class Viewer(unittest.TestCase):
             self.assertGreater(page.states, 5)
         self.assertEqual(summary["state_hash"], embedded(*CITY, "--until", 3, "--headless")["state_hash"])
 
+    def test_a_run_with_an_open_page_stays_after_its_duration(self):
+        with Cluster() as cluster:
+            run = cluster.start_plain("run", *CITY, "--until", 0.5, "--view", 0)
+            with Browser(url_of(run)) as page:
+                page.hears(lambda said: said is not None and said["type"] == "status" and said["over"] and said["paused"])
+                self.assertTrue(page.asks({"type": "control", "id": 1, "words": ["step", "10"]})[0])
+                page.hears(lambda said: said is not None and said["type"] == "status" and said["tick"] > 250)
+            self.assertEqual(run.end(30), 0)
+
+    def test_a_run_that_must_not_stay_ends_while_its_page_is_open(self):
+        with Cluster() as cluster:
+            run = cluster.start_plain("run", *CITY, "--until", 1, "--no-stay", "--view", 0)
+            with Browser(url_of(run)) as page:
+                page.hears(lambda _: page.states > 0)
+                self.assertEqual(run.end(30), 0)
+
     def test_headless_serves_nothing(self):
         with Cluster() as cluster:
             run = cluster.start_plain("run", *CITY, "--until", 0.2, "--headless")

@@ -306,7 +306,10 @@ void add_cluster_command(CLI::App& app, int& exit_code) {
     sub->add_option("hosts", o->path, "TOML file; without it, the run is found by the network options");
     sub->add_flag("--json", o->json, "print JSON");
     add_member_options(*sub, o->member);
-    sub->callback([o, &exit_code] { exit_code = status(*o); });
+    sub->callback([o, sub, &exit_code] {
+        note_given(*sub, o->member);
+        exit_code = status(*o);
+    });
 }
 
 }  // namespace roboss

@@ -4,15 +4,20 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <fstream>
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <sstream>
+#include <thread>
 
 #include "app/commands/add_copies.h"
 #include "app/commands/exit_codes.h"
 #include "app/commands/numbers.h"
+#include "app/local/control_socket.h"
+#include "app/local/run_list.h"
 #include "app/processes/interrupt.h"
 #include "app/run/run.h"
 #include "client/control_text.h"
@@ -25,13 +30,15 @@ constexpr std::int64_t kAgain_ms = 250;
 constexpr double kPatience_s = 10;
 
 const char* const kFooter =
-    R"(The run is found by --simulation and the network options, as by its other members. A request takes effect at the end
-of the current window. pause, step, speed, window and simulators do not change the result. rewind, reset, add, remove and
+    R"(It reaches every run of this computer, by its name (`roboss runs` lists them) or, if there is only one, without. With a
+network option (--interface, --domain, --peer ...) it reaches a `roboss controller` on another computer, as the other
+members of the run do. A request takes effect at the end of the current window. pause, step, speed, window and simulators do not change the result. rewind, reset, add, remove and
 accuracy change the world at a tick; with a journal, each starts a new branch there.
 
 Examples:
-  roboss controller world.sdf --local 1 --simulators 0 --journal run.journal      a run that can be controlled
+  roboss run world.sdf --headless --journal run.journal      in another terminal
   roboss control pause
+  roboss control --simulation world status                   of several runs, the one of this name
   roboss control step 100
   roboss control rewind 12.5
   roboss control add robot.sdf --pose "1 0 0.5 0 0 0" --name visitor
@@ -43,14 +50,14 @@ Examples:
 
 On a terminal, quit, kill and overwriting ask for confirmation; --yes answers it. Scripts are not asked.
 
-Exit codes: 0 done, 1 no Controller was found or a file cannot be read, 2 wrong usage, 3 the run refused the request.)";
+Exit codes: 0 done, 1 no run was found or a file cannot be read, 2 wrong usage, 3 the run refused the request.)";
 
 struct ControlCommandOptions {
     MemberOptions member;
     std::string value, pose = "0 0 0 0 0 0", name;
     std::vector<std::string> values;
     CopyOptions copies;
-    bool overwrite = false, yes = false;
+    bool overwrite = false, yes = false, json = false;
 };
 
 using Ask = std::function<void(const std::vector<std::string>&)>;
@@ -91,8 +98,11 @@ void add_plain(CLI::App& command, ControlCommandOptions& o, const Ask& ask) {
     add_save(command, o, ask);
     one("rewind", "return to this time (s) of the journal, or #BRANCH@TIME, and continue from there", "time",
         true);
-    none("reset",
-         "return to the world's beginning and continue from there; added robots go, removed ones return");
+    one("reset",
+        "return to the world's beginning (start, the default; added robots go, removed ones return) or to "
+        "the "
+        "last `save` of this run (save), and continue from there",
+        "to", false);
     CLI::App* quit = command.add_subcommand("quit", "end the run as if its duration were over");
     add_yes(*quit, o);
     quit->callback([ask] { ask({"quit"}); });
@@ -160,8 +170,24 @@ std::optional<ControlOutcome> find_reply(const std::vector<Envelope>& inbox) {
     return std::nullopt;
 }
 
-/// The reply to a request; nullopt if no Controller was found (it has been reported) or on Ctrl-C.
-std::optional<ControlOutcome> reply_of_controller(const MemberOptions& options, const ControlAction& action) {
+/// The reply of a run of this computer; with --patience, of one that begins within that time.
+std::optional<ControlOutcome> reply_of_listed_run(const MemberOptions& options, const ControlAction& action) {
+    using Clock = std::chrono::steady_clock;
+    const auto end = Clock::now() + std::chrono::duration<double>(options.patience_s);
+    const std::string name = options.named ? options.network.simulation : "";
+    for (;;) {
+        const Result<ListedRun> run = find_run(name);
+        Result<ControlOutcome> reply = run ? ask_run(run.value().socket, action) : run.error();
+        if (reply) return std::move(reply).value();
+        if (reply.error().code != "no-run" || Clock::now() >= end || interrupted())
+            return fmt::print(stderr, "roboss control: {}\n", reply.error().text()), std::nullopt;
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+}
+
+/// The reply to a request; nullopt if no run was found (it has been reported) or on Ctrl-C.
+std::optional<ControlOutcome> reply_of_run(const MemberOptions& options, const ControlAction& action) {
+    if (!options.networked) return reply_of_listed_run(options, action);
     MemberOptions patient = options;
     if (patient.patience_s <= 0) patient.patience_s = kPatience_s;
     Member member("control", patient);
@@ -212,11 +238,32 @@ std::string text_of(const ControlOutcome& outcome) {
     return std::get<ControlDone>(outcome).text;
 }
 
+/// One object for every reply; what only asks has its own.
+std::string outcome_json(const ControlOutcome& outcome) {
+    using Json = nlohmann::ordered_json;
+    Json o;
+    if (const auto* done = std::get_if<ControlDone>(&outcome)) return done_json(done->tick, done->text);
+    if (const auto* refused = std::get_if<ControlRefused>(&outcome))
+        o = {{"done", false},
+             {"code", refused->code},
+             {"message", refused->message},
+             {"remedy", refused->remedy}};
+    else
+        return text_of(outcome);
+    return o.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 }  // namespace
 
+std::string done_json(Tick tick, const std::string& text) {
+    using Json = nlohmann::ordered_json;
+    return Json{{"done", true}, {"tick", tick}, {"text", text}}.dump(-1, ' ', false,
+                                                                     Json::error_handler_t::replace);
+}
+
 Result<RunStatus> status_of_controller(const MemberOptions& options) {
-    const std::optional<ControlOutcome> outcome = reply_of_controller(options, GetStatus{true});
-    if (!outcome) return Error{"no Controller replied", "see the network options", "no-controller"};
+    const std::optional<ControlOutcome> outcome = reply_of_run(options, GetStatus{true});
+    if (!outcome) return Error{"no run replied", "see the messages above", "no-controller"};
     if (const auto* status = std::get_if<RunStatus>(&*outcome)) return *status;
     if (const auto* refused = std::get_if<ControlRefused>(&*outcome)) return refused->error();
     return Error{"the Controller replied to something else", "run the same version of RoBOSS everywhere",
@@ -229,24 +276,26 @@ std::vector<std::string> save_words(const std::string& file, bool overwrite) {
     return words;
 }
 
-int ask_controller(const MemberOptions& options, const std::vector<std::string>& words, bool yes) {
+int ask_controller(const MemberOptions& options, const std::vector<std::string>& words,
+                   const AskOptions& ask) {
     const Result<ControlAction> action = parse_control(words);
     if (!action) return print(action.error()), kWrongUsage;
-    const bool asks = !yes && isatty(STDIN_FILENO) != 0 && isatty(STDERR_FILENO) != 0;
+    const bool asks = !ask.yes && isatty(STDIN_FILENO) != 0 && isatty(STDERR_FILENO) != 0;
     if (const std::string question = question_before(action.value()); asks && !question.empty())
         if (!confirmed(question)) return kSuccess;
-    std::optional<ControlOutcome> outcome = reply_of_controller(options, action.value());
+    std::optional<ControlOutcome> outcome = reply_of_run(options, action.value());
     if (const std::string file = file_that_exists(action.value(), outcome); asks && !file.empty()) {
         if (!confirmed(file + " exists. Overwrite it?")) return kSuccess;
-        outcome = reply_of_controller(options, SaveRun{file, true});
+        outcome = reply_of_run(options, SaveRun{file, true});
     }
     if (!outcome) return interrupted() ? kInterrupted : kBadInput;
-    if (const auto* refused = std::get_if<ControlRefused>(&*outcome)) {
-        fmt::print(stderr, "roboss control: {}\n", refused->error().text());
-        return kRunFailed;
-    }
-    fmt::print("{}\n", text_of(*outcome));
-    return kSuccess;
+    const auto* refused = std::get_if<ControlRefused>(&*outcome);
+    if (refused != nullptr) fmt::print(stderr, "roboss control: {}\n", refused->error().text());
+    if (ask.json)
+        fmt::print("{}\n", outcome_json(*outcome));
+    else if (refused == nullptr)
+        fmt::print("{}\n", text_of(*outcome));
+    return refused != nullptr ? kRunFailed : kSuccess;
 }
 
 void add_control_command(CLI::App& app, int& exit_code) {
@@ -255,8 +304,11 @@ void add_control_command(CLI::App& app, int& exit_code) {
     command->require_subcommand(1);
     auto o = std::make_shared<ControlCommandOptions>();
     add_member_options(*command, o->member);
-    const Ask ask = [o, &exit_code](const std::vector<std::string>& words) {
-        exit_code = ask_controller(o->member, words, o->yes);
+    command->add_flag("--json", o->json,
+                      "print every reply as one JSON object: done, tick, text; or code, message, remedy");
+    const Ask ask = [o, command, &exit_code](const std::vector<std::string>& words) {
+        note_given(*command, o->member);
+        exit_code = ask_controller(o->member, words, {o->yes, o->json});
     };
     add_plain(*command, *o, ask);
     add_changes(*command, *o, ask, exit_code);

@@ -19,16 +19,17 @@ const char* const kFooter =
 
 Examples:
   roboss save half.roboss --from run.journal@30       from a journal
-  roboss save half.roboss --simulation mine           from a running simulation: its Controller writes the file
-                                                      on its computer
+  roboss save half.roboss                             from the run of this computer
+  roboss save half.roboss --simulation mine           of several, the one of this name; with network options, from
+                                                      one on another computer, which writes the file there
 
-Exit codes: 0 done, 1 the journal cannot be read or no Controller was found, 2 wrong usage, 3 the file cannot be
+Exit codes: 0 done, 1 the journal cannot be read or no run was found, 2 wrong usage, 3 the file cannot be
 written.)";
 
 struct SaveOptions {
     MemberOptions member;
     std::string file, from;
-    bool overwrite = false;
+    bool overwrite = false, json = false;
 };
 
 int save_from_journal(const SaveOptions& o) {
@@ -40,8 +41,9 @@ int save_from_journal(const SaveOptions& o) {
     if (!run) return print(run.error()), kBadInput;
     if (Result<> saved = save_run(o.file, model, run.value()); !saved)
         return print(saved.error()), kRunFailed;
-    fmt::print("saved {:.6f} s (tick {}) in {}\n", static_cast<double>(time.tick) * model.dt_s, time.tick,
-               o.file);
+    const std::string text = fmt::format("saved {:.6f} s (tick {}) in {}",
+                                         static_cast<double>(time.tick) * model.dt_s, time.tick, o.file);
+    fmt::print("{}\n", o.json ? done_json(time.tick, text) : text);
     return kSuccess;
 }
 
@@ -58,10 +60,13 @@ void add_save_command(CLI::App& app, int& exit_code) {
         "FILE, FILE@TIME or FILE#BRANCH@TIME of a journal; without it, a running simulation saves its state");
     command->add_flag("--overwrite", o->overwrite,
                       "of a running simulation: replace a saved run of this name");
+    command->add_flag("--json", o->json, "print what was done as one JSON object");
     add_member_options(*command, o->member);
-    command->callback([o, &exit_code] {
-        exit_code = o->from.empty() ? ask_controller(o->member, save_words(o->file, o->overwrite))
-                                    : save_from_journal(*o);
+    command->callback([o, command, &exit_code] {
+        note_given(*command, o->member);
+        exit_code = o->from.empty()
+                        ? ask_controller(o->member, save_words(o->file, o->overwrite), {false, o->json})
+                        : save_from_journal(*o);
     });
 }
 

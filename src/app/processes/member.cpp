@@ -31,6 +31,12 @@ void add_member_options(CLI::App& command, MemberOptions& o) {
     command.add_flag("--quiet", o.quiet, "print errors only");
 }
 
+void note_given(const CLI::App& command, MemberOptions& o) {
+    o.named = command.get_option("--simulation")->count() > 0;
+    for (const char* name : kNetworkOptions)
+        o.networked = o.networked || command.get_option(name)->count() > 0;
+}
+
 bool Member::open() {
     Result<std::unique_ptr<DdsBus>> bus = DdsBus::create(o_.network);
     if (!bus) return report_error(bus.error()), false;

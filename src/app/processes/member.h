@@ -15,8 +15,12 @@ struct MemberOptions {
     DdsOptions network;
     double patience_s = 0;  // without a Controller; 0: any time
     bool quiet = false;
+    bool named = false;      // --simulation was given
+    bool networked = false;  // another network option was given
 };
 void add_member_options(CLI::App& command, MemberOptions& options);
+/// Sets `named` and `networked`, once the command line has been read.
+void note_given(const CLI::App& command, MemberOptions& options);
 
 class Member {
   public:

@@ -1,9 +1,12 @@
 // How a run begins and how it ends.
 #include "app/run/run.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <ctime>
+#include <filesystem>
 #include <random>
 
 #include "app/commands/exit_codes.h"
@@ -131,6 +134,7 @@ bool Run::create() {
     if (!members) return print(members.error()), false;
     members_ = std::move(members.value());
     if (!open_gateway()) return false;
+    if (!list()) return false;
     const SavedRun* from = journal_->from();
     SimulationOptions options = simulation_options(from);
     options.controller.log = journal_->resumed();
@@ -151,6 +155,34 @@ bool Run::open_gateway() {
     if (!gateway) return print(gateway.error()), false;
     gateway_ = std::move(gateway).value();
     if (!o_.quiet) print_urls(*gateway_);
+    return true;
+}
+
+bool Run::list() {
+    if (!o_.snapshot.file.empty() || listing_) return true;
+    const auto unlisted = [this](const Error& error) {
+        if (error.code == "run-exists") return print(error), false;
+        notices_.push_back(error.text());
+        return true;
+    };
+    const Result<std::filesystem::path> folder = run_folder();
+    if (!folder) return unlisted(folder.error());
+    ListedRun run;
+    run.pid = getpid();
+    run.command = !o_.replay.empty() ? "replay" : o_.is_controller ? "controller" : "run";
+    run.world = o_.replay.empty() ? o_.world : o_.replay;
+    const bool named = o_.network.simulation != kDefaultSimulation;
+    run.name =
+        o_.is_controller || named ? o_.network.simulation : std::filesystem::path(run.world).stem().string();
+    if (gateway_) run.viewer = gateway_->url();
+    run.started = fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)));
+    run.socket = folder.value() / fmt::format("{}.sock", run.pid);
+    Result<std::unique_ptr<ControlSocket>> socket = ControlSocket::open(run.socket);
+    if (!socket) return unlisted(socket.error());
+    socket_ = std::move(socket).value();
+    Result<RunListing> listing = RunListing::add(std::move(run), named && !o_.is_controller);
+    if (!listing) return unlisted(listing.error());
+    listing_.emplace(std::move(listing).value());
     return true;
 }
 
@@ -232,6 +264,7 @@ bool Run::begin() {
     busy_until_ = start_;
     if (start_ > simulation_->tick() && !advance_to(start_)) return false;
     if (interrupted()) return true;
+    if (!o_.from.empty()) last_save_ = Kept{model_, simulation_->saved_run()};
     const Result<> begun = journal_->begin(*simulation_);
     if (!begun) print(begun.error());
     return begun.ok();

@@ -3,9 +3,12 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 
+#include "app/local/control_socket.h"
+#include "app/local/run_list.h"
 #include "app/output/contacts_file.h"
 #include "app/output/event_log.h"
 #include "app/output/path_picture.h"
@@ -53,6 +56,8 @@ class Run {
     Result<> start_again(std::shared_ptr<const Model> model, const SavedRun& from, const Turn& turn);
     SimulationOptions simulation_options(const SavedRun* from);
     bool open_gateway();
+    /// Lists the run for `roboss control`; if that fails, a notice says so. False: its name is taken.
+    bool list();
     /// Here, or by `roboss view` elsewhere.
     bool is_shown() const { return !o_.viewer.headless || o_.is_controller; }
     bool writes_to_standard_output() const;
@@ -63,12 +68,16 @@ class Run {
     bool drive();
     bool look(const Schedule& due);
     bool rest();
+    /// At the end of the duration: whether the run stays, paused, for inspection.
+    bool stays();
     bool take_picture();
     Tick end_of_run() const;
+    Tick last_tick() const;
 
     // run_control.cpp: requests to the run (wire/control.h). An Error refuses one; nothing has changed then.
     using Done = Result<std::string>;  // what was done, for people
-    void serve_calls();
+    void take_requests();
+    void serve_requests();
     ControlOutcome execute(const ControlAction& action);
     Done act(const PauseRun&);
     Done act(const ResumeRun&);
@@ -84,7 +93,8 @@ class Run {
     Done act(const ChangeAccuracy& change);
     Done act(const AddModels& add);
     Done act(const RemoveRobots& remove);
-    Done act(const ResetRun&);
+    Done act(const ResetRun& reset);
+    Done reset_to_save();
     Done change_model(const ModelEdit& edit, const std::string& what);
     // run_status.cpp: what only asks
     RunStatus status(bool with_robots) const;
@@ -105,7 +115,15 @@ class Run {
         world_model_;                   // of the world file, to which a reset returns; null: of a replay
     ModelVisuals visuals_;              // for the viewer; none: of a replay
     std::unique_ptr<Gateway> gateway_;  // none: headless
-    std::vector<Order> orders_;         // of the orders file
+    std::unique_ptr<ControlSocket> socket_;
+    std::optional<RunListing> listing_;
+    /// To which `reset save` returns.
+    struct Kept {
+        std::shared_ptr<const Model> model;
+        SavedRun run;
+    };
+    std::optional<Kept> last_save_;
+    std::vector<Order> orders_;  // of the orders file
     std::unique_ptr<RunJournal> journal_;
     std::unique_ptr<RunMembers> members_;
     std::unique_ptr<Simulation> simulation_;
@@ -128,10 +146,18 @@ class Run {
             begin(tick);
         }
     } pace_;
-    Clock::duration rested_{};  // wall time in which the run was paused
+    bool over_ =
+        false;  // the duration is over; the run stays, until a page or `roboss control` continues or ends it
+    Clock::time_point last_page_;  // when it was last seen by a page since then
+    Clock::duration rested_{};     // wall time in which the run was paused
     TrafficMeter traffic_;
-    StageTimes stage_times_;          // of the steps in this process
-    std::vector<ControlCall> calls_;  // requests to be served
+    StageTimes stage_times_;  // of the steps in this process
+    /// A request and who waits for its outcome.
+    struct Request {
+        ControlAction action;
+        std::function<void(ControlOutcome)> answer;
+    };
+    std::vector<Request> requests_;  // to be served
     std::vector<std::string> notices_;
     Tick busy_until_ = 0;  // to which requests wait: the run is being brought to its start
     bool abandoned_ =

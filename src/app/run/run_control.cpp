@@ -25,12 +25,28 @@ std::string first_error(const Diagnostics& found) {
 
 }  // namespace
 
-void Run::serve_calls() {
+void Run::take_requests() {
+    for (ControlCall& call : simulation_->take_control_calls()) {
+        ControlAction action = call.request.action;
+        const auto answer = [this, call = std::move(call)](ControlOutcome outcome) {
+            simulation_->answer(call, std::move(outcome));
+        };
+        requests_.push_back({std::move(action), answer});
+    }
+    if (!socket_) return;
+    for (ControlSocket::Call& call : socket_->take_calls()) {
+        const auto shared = std::make_shared<ControlSocket::Call>(std::move(call));
+        requests_.push_back(
+            {shared->action(), [shared](ControlOutcome outcome) { shared->answer(std::move(outcome)); }});
+    }
+}
+
+void Run::serve_requests() {
     if (const std::int64_t now = simulation_->bus().now_ms(); traffic_.due(now))
         traffic_.take(simulation_->bus().flows(), now);
-    for (ControlCall& call : simulation_->take_control_calls()) calls_.push_back(std::move(call));
-    for (const ControlCall& call : std::exchange(calls_, {})) {
-        const ControlAction& action = call.request.action;
+    take_requests();
+    for (const Request& request : std::exchange(requests_, {})) {
+        const ControlAction& action = request.action;
         const Tick tick = simulation_->tick();
         ControlOutcome outcome = execute(action);
         if (const auto* done = std::get_if<ControlDone>(&outcome)) {
@@ -39,7 +55,7 @@ void Run::serve_calls() {
         }
         if (journal_->writes() && !only_asks(action))
             (void)journal_->writer().flush();  // a request that got its reply is in the journal
-        simulation_->answer(call, std::move(outcome));
+        request.answer(std::move(outcome));
     }
 }
 
@@ -125,6 +141,7 @@ Run::Done Run::act(const SaveRun& save) {
     const Result<std::filesystem::path> file = save_place(o_.save_folder, save, o_.journal);
     if (!file) return file.error();
     if (Result<> saved = simulation_->save(file.value().string()); !saved) return saved.error();
+    last_save_ = Kept{model_, simulation_->saved_run()};
     return fmt::format("saved {:.6f} s (tick {}) in {}", simulation_->time_s(), simulation_->tick(),
                        file.value().string());
 }
@@ -150,9 +167,10 @@ Run::Done Run::act(const RewindRun& rewind) {
     return text + fmt::format(", branch {}", journal_->writer().branch());
 }
 
-Run::Done Run::act(const ResetRun&) {
+Run::Done Run::act(const ResetRun& reset) {
     if (!world_model_)
         return Error{"a replay has no beginning to return to", "reset the run itself", "no-reset"};
+    if (reset.to == ResetRun::To::kLastSave) return reset_to_save();
     SavedRun run;
     run.world_file = o_.world;
     run.seed = simulation_->seed();
@@ -163,7 +181,20 @@ Run::Done Run::act(const ResetRun&) {
     if (Result<> again = start_again(world_model_, run, {parent, text, true, &orders_}); !again)
         return again.error();
     if (pace_.step_until) pace_.paused = true, pace_.step_until.reset();
-    if (!journal_->writes()) visuals_.keep_only(*world_model_);
+    if (!journal_->writes() && !last_save_) visuals_.keep_only(*world_model_);
+    return journal_->writes() ? text + fmt::format(", branch {}", journal_->writer().branch()) : text;
+}
+
+Run::Done Run::reset_to_save() {
+    if (!last_save_)
+        return Error{"nothing has been saved in this run",
+                     "save first: `roboss control save FILE`, or start with --from", "no-save"};
+    const auto [model, run] = *last_save_;
+    const std::string text =
+        fmt::format("reset from tick {} to the last save, tick {}", simulation_->tick(), run.tick);
+    const BranchId parent = journal_->writes() ? journal_->writer().branch() : 0;
+    if (Result<> again = start_again(model, run, {parent, text, true, nullptr}); !again) return again.error();
+    if (pace_.step_until) pace_.paused = true, pace_.step_until.reset();
     return journal_->writes() ? text + fmt::format(", branch {}", journal_->writer().branch()) : text;
 }
 
@@ -179,7 +210,7 @@ Run::Done Run::change_model(const ModelEdit& edit, const std::string& what) {
     const BranchId parent = journal_->writes() ? journal_->writer().branch() : 0;
     if (Result<> again = start_again(edit.model, run, {parent, text, false, nullptr}); !again)
         return again.error();
-    if (!journal_->writes()) visuals_.keep_only(*model_);  // there is no way back
+    if (!journal_->writes() && !last_save_) visuals_.keep_only(*model_);  // there is no way back
     return text;
 }
 

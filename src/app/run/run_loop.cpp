@@ -45,8 +45,9 @@ bool Run::advance_to(Tick target) {
     const Result<> stepped = simulation_->run_until(target, [&] {
         show_progress();
         looked_after = members_->look_after(*simulation_);
-        for (ControlCall& call : simulation_->take_control_calls()) calls_.push_back(std::move(call));
-        return looked_after.ok() && !interrupted() && (calls_.empty() || simulation_->tick() < busy_until_);
+        take_requests();
+        return looked_after.ok() && !interrupted() &&
+               (requests_.empty() || simulation_->tick() < busy_until_);
     });
     if (!looked_after) return abandoned_ = true, print(looked_after.error()), false;
     if (!stepped) return progress_.clear(), print(stepped.error()), false;
@@ -63,6 +64,21 @@ bool Run::rest() {
     rested_ += Clock::now() - began;
     if (!looked_after) return abandoned_ = true, print(looked_after.error()), false;
     return true;
+}
+
+bool Run::stays() {
+    constexpr auto kUnseen = std::chrono::seconds(10);  // a page that is loaded again comes back within
+    if (pace_.quit || interrupted() || !o_.snapshot.file.empty()) return false;
+    const bool seen = gateway_ && gateway_->load().pages > 0;
+    if (seen || !over_) last_page_ = Clock::now();  // a run that was continued ends with its last page, too
+    const bool stays = o_.stay || (!o_.no_stay && (seen || (over_ && Clock::now() - last_page_ < kUnseen)));
+    if (stays && !std::exchange(over_, true)) {
+        pace_.paused = true;
+        notices_.push_back(fmt::format("the duration is over; the run stays, paused, until {} [over]",
+                                       o_.stay ? "Ctrl-C or `roboss control quit`"
+                                               : "its last page closes, Ctrl-C or `roboss control quit`"));
+    }
+    return stays;
 }
 
 /// The run is paused meanwhile.
@@ -86,11 +102,15 @@ bool Run::look(const Schedule& due) {
     return checked.ok();
 }
 
+/// Beyond which there is nothing: the end of what a replay has.
+Tick Run::last_tick() const {
+    return journal_->replay() ? journal_->replay()->branch.end : kNever;
+}
+
 Tick Run::end_of_run() const {
     Tick end = o_.duration_s ? start_ + tick_at(*o_.duration_s, model_->dt_s) : kNever;
     if (o_.until_s) end = std::min(end, tick_at(*o_.until_s, model_->dt_s));
-    if (journal_->replay()) end = std::min(end, journal_->replay()->branch.end);
-    return end;
+    return std::min(end, last_tick());
 }
 
 /// True at the end of the duration or on Ctrl-C, false if the run failed.
@@ -102,23 +122,28 @@ bool Run::drive() {
                        {contacts_ ? every(o_.contacts_every_s) : 0.0, dt, start_},
                        {o_.hash_every_s, dt, start_},
                        {o_.paths_picture.empty() ? 0.0 : kPictureEvery_s, dt, start_}};
-    pace_.speed = o_.speed == "max" ? 0.0 : o_.speed == "world" ? world_speed_ : std::stod(o_.speed);
+    const bool watched = gateway_ != nullptr && o_.snapshot.file.empty();
+    const std::string speed = !o_.speed.empty() ? o_.speed : watched ? "world" : "max";
+    pace_.speed = speed == "max" ? 0.0 : speed == "world" ? world_speed_ : std::stod(speed);
     pace_.paused = o_.paused;
     pace_.begin(start_);
     Tick seen = -1;  // the last tick whose due work is done
     for (;;) {
-        serve_calls();
+        serve_requests();
         const Tick now = simulation_->tick();
         if (now != seen && !look(due)) return false;
         seen = now;
         if (pace_.step_until && now >= *pace_.step_until) pace_.paused = true, pace_.step_until.reset();
-        if (now >= end || interrupted() || pace_.quit) return take_picture();
+        if (now < end) over_ = false;
+        if ((now >= end && !stays()) || interrupted() || pace_.quit) return take_picture();
+        if (now >= last_tick()) pace_.paused = true;
         if (pace_.paused) {
             if (!rest()) return false;
             continue;
         }
         const Due pace(pace_.speed > 0 ? kPaceEvery_s * pace_.speed : 0.0, dt, start_);
-        const Tick next = std::min({end, due.next(now), pace.next(now), journal_->next_check(now)});
+        const Tick next = std::min(
+            {now < end ? end : last_tick(), due.next(now), pace.next(now), journal_->next_check(now)});
         if (!advance_to(std::min(next, pace_.step_until.value_or(kNever)))) return false;
         if (pace_.speed <= 0) continue;
         const double due_s = static_cast<double>(simulation_->tick() - pace_.from) * dt / pace_.speed;

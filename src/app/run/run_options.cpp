@@ -97,10 +97,17 @@ void add_pace_options(CLI::App& command, RunOptions& o) {
         ->check(non_negative_number());
     command
         .add_option("--speed", o.speed,
-                    "simulated seconds per real second, max, or world (the world's real_time_factor)")
-        ->check(number_or({"max", "world"}, kSlowest, kFastest))
-        ->capture_default_str();
-    command.add_flag("--paused", o.paused, "start paused; `roboss control resume` starts it");
+                    "simulated seconds per real second, max, or world (the world's real_time_factor, usually "
+                    "1); default: world with a viewer, max with --headless")
+        ->check(number_or({"max", "world"}, kSlowest, kFastest));
+    command.add_flag("--paused", o.paused,
+                     "start paused; the play button of the page or `roboss control resume` starts it");
+    CLI::Option* stay = command.add_flag(
+        "--stay", o.stay,
+        "stay, paused, when the duration is over, until Ctrl-C or `roboss control quit` (default: only while "
+        "a page of the viewer is open)");
+    command.add_flag("--no-stay", o.no_stay, "end when the duration is over, also while a page is open")
+        ->excludes(stay);
     command
         .add_option(
             "--threads", o.threads,
@@ -227,11 +234,19 @@ void add_common_options(CLI::App& command, RunOptions& o) {
     add_watch_options(command, o, ViewerDefault::kOn);
 }
 
+/// Of runs that no other computer joins.
+void add_name_option(CLI::App& command, RunOptions& o) {
+    command.add_option_function<std::string>(
+        "--simulation", [&o](const std::string& name) { o.network.simulation = name; },
+        "name of the run for `roboss control` and `roboss runs` (default: the name of the file)");
+}
+
 }  // namespace
 
 void add_run_options(CLI::App& command, RunOptions& o) {
     command.footer(fmt::format("{}\n\n{}", kFooter, kExitCodes));
     add_common_options(command, o);
+    add_name_option(command, o);
     CLI::Option* simulators =
         command
             .add_option("--simulators", o.simulators,
@@ -253,6 +268,7 @@ void add_replay_options(CLI::App& command, RunOptions& o) {
     command.add_option("journal", o.replay, "FILE, FILE@TIME to begin later, FILE#BRANCH@TIME")->required();
     add_pace_options(command, o);
     add_watch_options(command, o, ViewerDefault::kOnDemand);
+    add_name_option(command, o);
     command
         .add_option("--simulators", o.simulators,
                     "number of Simulators among which the robots are divided, all in this process")

@@ -27,8 +27,10 @@ struct RunOptions {
     bool no_sleep = false;
     std::optional<Precision> precision;
     AccuracySpec accuracy;        // --accuracy and each number by itself
-    std::string speed = "max";    // "max", "world" or a factor of real time
+    std::string speed;            // "max", "world" or a factor of real time; empty: world if viewed, else max
     bool paused = false;          // at the start
+    bool stay = false;            // at the end of the duration, paused
+    bool no_stay = false;         // not even while a page is open
     std::string window = "auto";  // "auto" or a number of ticks
     int threads = 0;              // 0: the cores of this computer, shared by `processes`
     std::size_t lanes = kMostLanes;

@@ -16,7 +16,7 @@ RunStatus Run::status(bool with_robots) const {
     RunStatus s;
     s.world = o_.world;
     s.tick = simulation_->tick(), s.time_s = simulation_->time_s();
-    s.paused = pace_.paused, s.speed = pace_.speed;
+    s.paused = pace_.paused, s.over = over_, s.speed = pace_.speed;
     s.islands = c.islands_now, s.window = simulation_->window_ticks();
     s.windows = c.windows, s.repeated = c.windows_repeated;
     s.efficiency = simulation_->balance(), s.step_cpu_s = c.step_cpu_s;
