@@ -39,7 +39,8 @@ function(roboss_layer name)
   endif()
   add_library(roboss::${name} ALIAS ${target})
   target_include_directories(${target} ${scope}
-    $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include/roboss>)
+    $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/src>
+    $<INSTALL_INTERFACE:include> $<INSTALL_INTERFACE:include/roboss>)  # <roboss/client/client.h>, and as our headers include each other
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   if(NOT ARG_UNITY)
     set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)

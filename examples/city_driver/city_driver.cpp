@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "client/control_program.h"
+#include <roboss/client/control_program.h>
 #include "core/fixed_math.h"
 #include "driving.h"
 

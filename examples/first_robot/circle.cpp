@@ -1,11 +1,9 @@
-#include "client/control_program.h"
+#include <roboss/client/control_program.h>
 
 class Circle : public roboss::ControlProgram {
     void control(roboss::Client& client) override {
-        const roboss::RobotId rover = client.model().find_robot("rover").value();
-        const roboss::RobotType& type = client.model().type_of(rover);
-        client.set_joint(rover, *type.find_joint("left_wheel"), roboss::MotorMode::kVelocity, 8.0).value();
-        client.set_joint(rover, *type.find_joint("right_wheel"), roboss::MotorMode::kVelocity, 10.0).value();
+        client.set_joint("rover", "left_wheel", roboss::MotorMode::kVelocity, 8.0);  // rad/s
+        client.set_joint("rover", "right_wheel", roboss::MotorMode::kVelocity, 10.0);
     }
 };
 ROBOSS_CONTROL_PROGRAM(Circle)

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "client/control_program.h"
+#include <roboss/client/control_program.h>
 
 namespace watch_robot {
 namespace {

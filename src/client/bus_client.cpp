@@ -22,9 +22,16 @@ Result<> BusClient::order(RobotId robot, const Action& action) {
     order.apply_at = std::max<Tick>(tick_, 0);
     order.robot = robot;
     order.action = action;
-    if (Result<> checked = check_order(*model_, order); !checked) return checked;
+    if (Result<> checked = check_order(*model_, order); !checked) return report_refusal(checked.error());
     orders_.push_back({++sequence_, robot, action});
     return Ok{};
+}
+
+Error BusClient::report_refusal(Error error) {
+    constexpr std::size_t kTextsMost = 100;
+    if (refused_texts_.size() < kTextsMost && refused_texts_.insert(error.text()).second)
+        refusals_.push_back("an order was refused: " + error.text());
+    return error;
 }
 
 void BusClient::advance(Bus& bus) {

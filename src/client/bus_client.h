@@ -6,6 +6,7 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <set>
 
 #include "bus/bus.h"
 #include "bus/state_pull.h"
@@ -61,7 +62,7 @@ class BusClient : public Client {
     const std::string& over() const { return over_; }
     /// The run has another Model than this one: make another BusClient with that.
     bool outdated() const { return outdated_; }
-    /// Refusals by the Controller since the last call.
+    /// Refusals since the last call: by the Controller, and of orders here. Each text once.
     std::vector<std::string> take_refusals();
     /// Those of orders alone; take_refusals() then has the others.
     std::vector<RefusedOrder> take_refused_orders() { return std::exchange(refused_orders_, {}); }
@@ -71,6 +72,7 @@ class BusClient : public Client {
     Tick observed_before() const override { return before_; }
 
   private:
+    Error report_refusal(Error error) override;
     /// Sent again and again, at growing intervals, until it is acknowledged.
     struct Resent {
         static constexpr std::int64_t kLongAgo = -1'000'000'000;
@@ -126,6 +128,7 @@ class BusClient : public Client {
     std::deque<ControlRequest> requests_;  // the first is sent again until it is answered, then the next
     std::vector<ControlAnswer> answers_;
     std::vector<std::string> refusals_;
+    std::set<std::string> refused_texts_;  // that were reported
     std::vector<RefusedOrder> refused_orders_;
     std::uint64_t refused_up_to_ = 0;  // sequence number of the last refusal taken
     std::string over_;

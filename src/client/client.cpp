@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/similar.h"
 #include "model/topics.h"
 
 namespace roboss {
@@ -19,13 +20,57 @@ std::string called(const Robot& robot) {
     return "robot '" + robot.name + "'";
 }
 
+constexpr std::size_t kListedMost = 20;
+
 /// "it has 0 'gps', 1 'scan'"
-template <class Items, class Name>
-std::string what_it_has(const Items& items, const Name& name_of) {
+std::string what_it_has(const std::string& owner, const std::vector<std::string>& names) {
+    if (names.empty()) return owner + " has none";
     std::string text;
-    for (std::size_t i = 0; i < items.size(); ++i)
-        text += (text.empty() ? "" : ", ") + std::to_string(i) + " '" + name_of(items[i]) + "'";
-    return text.empty() ? "it has none" : "it has " + text;
+    for (std::size_t i = 0; i < std::min(names.size(), kListedMost); ++i)
+        text += (text.empty() ? "" : ", ") + std::to_string(i) + " '" + names[i] + "'";
+    if (names.size() > kListedMost) text += " and " + std::to_string(names.size() - kListedMost) + " more";
+    return owner + " has " + text;
+}
+
+template <class Items, class Name>
+std::vector<std::string> names_of(const Items& items, const Name& name_of) {
+    std::vector<std::string> names;
+    names.reserve(items.size());
+    for (const auto& item : items) names.push_back(name_of(item));
+    return names;
+}
+
+std::vector<std::string> names_of(const std::vector<Link>& links) {
+    return names_of(links, [](const Link& l) { return l.name; });
+}
+std::vector<std::string> names_of(const std::vector<Joint>& joints) {
+    return names_of(joints, [](const Joint& j) { return j.name; });
+}
+std::vector<std::string> names_of(const std::vector<SensorInfo>& sensors) {
+    return names_of(sensors, [](const SensorInfo& s) { return s.spec.name; });
+}
+
+/// "robot 'rover' has no joint 'left_weel'", with what was probably meant.
+[[noreturn]] void refuse_name(const std::string& what, const std::string& name, const std::string& owner,
+                              const std::vector<std::string>& names) {
+    const std::string meant = did_you_mean(name, names, "");
+    refuse(what + " '" + name + "'", (meant.empty() ? "" : meant + " ") + what_it_has(owner, names));
+}
+
+/// Position of a link, joint or sensor; throws if there is none.
+template <class Items, class Ref>
+std::size_t place_of(const Items& items, const Ref& wanted, std::size_t index, const char* what,
+                     const std::string& owner) {
+    const std::string has_no = owner + " has no " + what;
+    if (!wanted.named()) {
+        if (index < items.size()) return index;
+        refuse(has_no + " number " + std::to_string(index), what_it_has("it", names_of(items)));
+    }
+    const std::string name(wanted.name());
+    const std::vector<std::string> names = names_of(items);
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) refuse_name(has_no, name, "it", names);
+    return static_cast<std::size_t>(found - names.begin());
 }
 
 }  // namespace
@@ -37,41 +82,67 @@ const Robot& Client::known(RobotId robot) const {
            "the world has " + std::to_string(robots.size()) + " robots, counted from 0");
 }
 
-const RobotType& Client::known_type(RobotId robot, LinkId link) const {
-    const std::string name = called(known(robot));
-    const RobotType& type = model().type_of(robot);
-    if (link.index() < type.links.size()) return type;
-    refuse(name + " has no link number " + std::to_string(link.value),
-           what_it_has(type.links, [](const Link& l) { return l.name; }));
+RobotId Client::robot_named(const std::string& name) const {
+    const std::vector<Robot>& robots = model().robots;
+    if (robot_ids_.empty())
+        for (std::size_t r = 0; r < robots.size(); ++r) robot_ids_.emplace(robots[r].name, RobotId(r));
+    if (const auto found = robot_ids_.find(name); found != robot_ids_.end()) return found->second;
+    refuse_name("there is no robot", name, "the world",
+                names_of(robots, [](const Robot& r) { return r.name; }));
 }
 
-Transform Client::pose(RobotId robot, LinkId link) const {
-    return link_pose(known_type(robot, link), state(robot), link);
+RobotId Client::robot(const RobotRef& robot) const {
+    if (robot.named()) return robot_named(std::string(robot.name()));
+    return (void)known(robot.id()), robot.id();
 }
 
-Twist Client::twist(RobotId robot, LinkId link) const {
-    return link_twist(known_type(robot, link), state(robot), link);
+const RobotType& Client::type(const RobotRef& robot) const {
+    return model().type_of(this->robot(robot));
 }
 
-JointState Client::joint(RobotId robot, JointId joint, int axis) const {
-    const std::string name = called(known(robot));
-    const RobotType& type = model().type_of(robot);
-    if (joint.index() >= type.joints.size())
-        refuse(name + " has no joint number " + std::to_string(joint.value),
-               what_it_has(type.joints, [](const Joint& j) { return j.name; }));
-    const Joint& known_joint = type.joints[joint.index()];
-    if (axis < 0 || axis >= known_joint.nv)
-        refuse("joint '" + known_joint.name + "' of " + name + " has no axis " + std::to_string(axis),
-               "it has " + std::to_string(known_joint.nv) + " degrees of freedom, counted from 0");
-    return joint_state(type, state(robot), joint, axis);
+LinkId Client::link(const RobotRef& robot, const LinkRef& link) const {
+    const RobotId id = this->robot(robot);
+    return LinkId(place_of(model().type_of(id).links, link, link.id().index(), "link", called(known(id))));
 }
 
-Result<> Client::set_pose(RobotId robot, const Pose& X_WR) {
-    return order(robot, SetPose{X_WR});
+JointId Client::joint_id(const RobotRef& robot, const JointRef& joint) const {
+    const RobotId id = this->robot(robot);
+    return JointId(
+        place_of(model().type_of(id).joints, joint, joint.id().index(), "joint", called(known(id))));
 }
 
-Result<> Client::set_velocity(RobotId robot, const Vec3& linear, const Vec3& angular) {
-    return order(robot, SetVelocity{linear, angular});
+std::size_t Client::sensor(const RobotRef& robot, const SensorRef& sensor) const {
+    const RobotId id = this->robot(robot);
+    return place_of(model().type_of(id).sensors, sensor, sensor.index(), "sensor", called(known(id)));
+}
+
+Transform Client::pose(const RobotRef& robot, const LinkRef& link) const {
+    const RobotId id = this->robot(robot);
+    return link_pose(model().type_of(id), state(id), this->link(id, link));
+}
+
+Twist Client::twist(const RobotRef& robot, const LinkRef& link) const {
+    const RobotId id = this->robot(robot);
+    return link_twist(model().type_of(id), state(id), this->link(id, link));
+}
+
+JointState Client::joint(const RobotRef& robot, const JointRef& joint, int axis) const {
+    const RobotId id = this->robot(robot);
+    const RobotType& type = model().type_of(id);
+    const JointId known_joint = joint_id(id, joint);
+    const Joint& info = type.joints[known_joint.index()];
+    if (axis < 0 || axis >= info.nv)
+        refuse("joint '" + info.name + "' of " + called(known(id)) + " has no axis " + std::to_string(axis),
+               "it has " + std::to_string(info.nv) + " degrees of freedom, counted from 0");
+    return joint_state(type, state(id), known_joint, axis);
+}
+
+OrderResult Client::set_pose(const RobotRef& robot, const Pose& X_WR) {
+    return order(id_for_order(robot), SetPose{X_WR});
+}
+
+OrderResult Client::set_velocity(const RobotRef& robot, const Vec3& linear, const Vec3& angular) {
+    return order(id_for_order(robot), SetVelocity{linear, angular});
 }
 
 Result<Tick> Client::ticks_of(double duration_s) const {
@@ -81,42 +152,47 @@ Result<Tick> Client::ticks_of(double duration_s) const {
     return std::max<Tick>(static_cast<Tick>(std::floor(duration_s / model().dt_s + 0.5)), 1);
 }
 
-Result<> Client::apply_wrench(RobotId robot, LinkId link, const Vec3& force, const Vec3& torque,
-                              double duration_s) {
+OrderResult Client::apply_wrench(const RobotRef& robot, const LinkRef& link, const Vec3& force,
+                                 const Vec3& torque, double duration_s) {
     const Result<Tick> ticks = ticks_of(duration_s);
-    if (!ticks) return ticks.error();
-    return order(robot, ApplyWrench{link, force, torque, ticks.value()});
+    if (!ticks) return report_refusal(ticks.error());
+    const RobotId id = id_for_order(robot);
+    return order(id, ApplyWrench{link_for_order(id, link), force, torque, ticks.value()});
 }
 
-Result<> Client::pull(RobotId robot, LinkId link, const Vec3& p_L, const Vec3& target_W, double max_force,
-                      double duration_s, double rate) {
+OrderResult Client::pull(const RobotRef& robot, const LinkRef& link, const Vec3& p_L, const Vec3& target_W,
+                         double max_force, double duration_s, double rate) {
     const Result<Tick> ticks = ticks_of(duration_s);
-    if (!ticks) return ticks.error();
-    return order(robot, Pull{link, p_L, target_W, rate, max_force, ticks.value()});
+    if (!ticks) return report_refusal(ticks.error());
+    const RobotId id = id_for_order(robot);
+    return order(id, Pull{link_for_order(id, link), p_L, target_W, rate, max_force, ticks.value()});
 }
 
-Result<> Client::set_joint(RobotId robot, JointId joint, MotorMode mode, double target, double max_effort,
-                           int axis) {
-    return order(robot, SetJoint{joint, axis, mode, target, max_effort});
+OrderResult Client::set_joint(const RobotRef& robot, const JointRef& joint, MotorMode mode, double target,
+                              double max_effort, int axis) {
+    const RobotId id = id_for_order(robot);
+    const JointId known_joint = joint.named() ? joint_id(id, joint) : joint.id();
+    return order(id, SetJoint{known_joint, axis, mode, target, max_effort});
 }
 
-Result<> Client::command(RobotId robot, const std::string& name, std::vector<double> values) {
-    const std::vector<ChannelInfo>& channels = model().types[known(robot).type.index()].channels;
-    const auto found = model().type_of(robot).find_channel(name);
+OrderResult Client::command(const RobotRef& robot, const std::string& name, std::vector<double> values) {
+    const RobotId id = this->robot(robot);
+    const auto found = model().type_of(id).find_channel(name);
     if (!found)
-        refuse(called(known(robot)) + " has no command '" + name + "'",
-               what_it_has(channels, [](const ChannelInfo& c) { return c.channel.name; }));
-    return order(robot, Command{static_cast<std::uint32_t>(*found), std::move(values)});
+        refuse_name(
+            called(known(id)) + " has no command", name, "it",
+            names_of(model().type_of(id).channels, [](const ChannelInfo& c) { return c.channel.name; }));
+    return order(id, Command{static_cast<std::uint32_t>(*found), std::move(values)});
 }
 
-Result<> Client::publish(const std::string& topic, const std::vector<double>& values) {
+OrderResult Client::publish(const std::string& topic, const std::vector<double>& values) {
     const std::vector<TopicPlace> places = find_topic(model(), topic);
     if (places.empty())
-        return Error{"no robot of the world takes messages at '" + topic + "'",
-                     "`roboss check` lists the topics of all commands"};
+        return report_refusal({"no robot of the world takes messages at '" + topic + "'",
+                               "`roboss check` lists the topics of all commands", "no-topic"});
     for (const TopicPlace& place : places)
         if (Result<> given = order(place.robot, Command{place.channel, values}); !given) return given;
-    return Ok{};
+    return Result<>(Ok{});
 }
 
 std::vector<RobotEvent> Client::events() const {
@@ -130,12 +206,25 @@ std::vector<RobotEvent> Client::events() const {
     return all;
 }
 
-Result<> Client::attach(RobotId robot, LinkId link, RobotId other, LinkId other_link) {
-    return order(robot, Attach{.link = link, .other = other, .other_link = other_link});
+OrderResult Client::attach(const RobotRef& robot, const LinkRef& link, const RobotRef& other,
+                           const LinkRef& other_link) {
+    const RobotId id = id_for_order(robot), other_id = id_for_order(other);
+    return order(id, Attach{.link = link_for_order(id, link),
+                            .other = other_id,
+                            .other_link = link_for_order(other_id, other_link)});
 }
 
-Result<> Client::detach(RobotId robot, RobotId other) {
-    return order(robot, Detach{other});
+OrderResult Client::detach(const RobotRef& robot, const RobotRef& other) {
+    return order(id_for_order(robot), Detach{id_for_order(other)});
+}
+
+/// Ids go on to the check of the order, which refuses one that does not exist.
+RobotId Client::id_for_order(const RobotRef& robot) const {
+    return robot.named() ? this->robot(robot) : robot.id();
+}
+
+LinkId Client::link_for_order(RobotId robot, const LinkRef& link) const {
+    return link.named() ? this->link(robot, link) : link.id();
 }
 
 Sample Client::measure(RobotId robot, std::size_t sensor) {
@@ -145,16 +234,12 @@ Sample Client::measure(RobotId robot, std::size_t sensor) {
 }
 
 /// The sample that the sensor holds, or a new one where it has no rate or holds none yet.
-Sample Client::sample(RobotId robot, std::size_t sensor, const SensorKind& asked) {
-    const std::string name = called(known(robot));
-    const std::vector<SensorInfo>& sensors = model().type_of(robot).sensors;
-    if (sensor >= sensors.size())
-        refuse(name + " has no sensor number " + std::to_string(sensor),
-               what_it_has(sensors, [](const SensorInfo& s) { return s.spec.name; }));
-    const SensorSpec& spec = sensors[sensor].spec;
+Sample Client::sample(RobotId robot, const SensorRef& wanted, const SensorKind& asked) {
+    const std::size_t sensor = this->sensor(robot, wanted);
+    const SensorSpec& spec = model().type_of(robot).sensors[sensor].spec;
     if (spec.measures() && spec.kind().number != asked.number)
-        refuse("sensor " + std::to_string(sensor) + " '" + spec.name + "' of " + name + " is read as " +
-                   asked.phrase,
+        refuse("sensor " + std::to_string(sensor) + " '" + spec.name + "' of " + called(known(robot)) +
+                   " is read as " + asked.phrase,
                std::string("it is ") + spec.kind().phrase);
     const HeldSamples::Key key{robot.value, static_cast<std::uint32_t>(sensor)};
     if (const Sample* held = samples_.find(key)) return *held;
@@ -206,9 +291,8 @@ std::span<const ContactReport> Client::contacts() {
     return step_probe().contacts();
 }
 
-std::vector<JointReaction> Client::joint_reactions(RobotId robot) {
-    (void)known(robot);
-    return step_probe().joint_reactions(robot);
+std::vector<JointReaction> Client::joint_reactions(const RobotRef& robot) {
+    return step_probe().joint_reactions(this->robot(robot));
 }
 
 }  // namespace roboss

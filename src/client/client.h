@@ -8,10 +8,12 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "client/events.h"
 #include "client/held_samples.h"
+#include "client/references.h"
 #include "core/result.h"
 #include "model/model.h"
 #include "model/order.h"
@@ -32,9 +34,10 @@ struct ControlAnswer {
 
 /// A control program's view of the run: observed states, orders, requests to the run, and sensors.
 ///
-/// Queries of a robot, link, joint or sensor that does not exist, or of a sensor of another kind, throw
-/// std::invalid_argument, which names what was asked and what there is. If a ControlProgram does not catch
-/// it, the run ends with that text.
+/// Robots, links, joints and sensors are given by name or by id. A name that does not exist, and in queries
+/// also an id that does not exist or a sensor of another kind, throws std::invalid_argument, which names what
+/// was asked, what there is, and what was probably meant. If a ControlProgram does not catch it, the run ends
+/// with that text.
 class Client : private SensorSources {
   public:
     // --- the world
@@ -46,50 +49,58 @@ class Client : private SensorSources {
     /// The robot's whole state at tick().
     virtual const RobotState& state(RobotId robot) const = 0;
     virtual std::uint64_t seed() const = 0;  // of the run; for noise and for the program's own random numbers
-    Transform pose(RobotId robot, LinkId link) const;  // X_WL
-    Twist twist(RobotId robot, LinkId link) const;     // of the link's origin, world axes
+    Transform pose(const RobotRef& robot, const LinkRef& link) const;  // X_WL
+    Twist twist(const RobotRef& robot, const LinkRef& link) const;     // of the link's origin, world axes
 
     /// Of any joint, those that close a loop included.
-    JointState joint(RobotId robot, JointId joint, int axis = 0) const;
+    JointState joint(const RobotRef& robot, const JointRef& joint, int axis = 0) const;
+
+    // --- ids of names, for programs that look them up once. Each throws if there is no such name or id.
+    RobotId robot(const RobotRef& robot) const;          ///< id of a robot
+    const RobotType& type(const RobotRef& robot) const;  ///< its links, joints, sensors and commands
+    LinkId link(const RobotRef& robot, const LinkRef& link) const;             ///< id of a link of the robot
+    JointId joint_id(const RobotRef& robot, const JointRef& joint) const;      ///< id of a joint of the robot
+    std::size_t sensor(const RobotRef& robot, const SensorRef& sensor) const;  ///< index of a sensor of it
 
     /// Messages on the world's message boards since the observation before this one: what happened to robots,
     /// and what was published on topics that no robot takes (docs/plugins.md). Of two messages on one topic,
     /// the last. The boards' states have them, so any Client sees the same, also in a replay.
     std::vector<RobotEvent> events() const;
 
-    // --- orders (checked at once; an Error says what is wrong and nothing is sent)
-    // -----------------------------------
+    // --- orders, checked at once: an Error says what is wrong, and nothing is sent. The run reports
+    // refusals, so a program may ignore the results.
     /// Puts the robot (SDF model) frame at X_WR; joint coordinates and all velocities stay.
-    Result<> set_pose(RobotId robot, const Pose& X_WR);
+    OrderResult set_pose(const RobotRef& robot, const Pose& X_WR);
     /// Velocity of the base's origin in m/s and angular velocity of the base in rad/s, both in world axes. An
     /// Error if the base is fixed.
-    Result<> set_velocity(RobotId robot, const Vec3& linear, const Vec3& angular);
+    OrderResult set_velocity(const RobotRef& robot, const Vec3& linear, const Vec3& angular);
     /// Force in N at the link's centre of mass and torque in N m, both in world axes. They act for
     /// `duration_s`, in (0, 1e9], rounded to ticks, and for at least one tick.
-    Result<> apply_wrench(RobotId robot, LinkId link, const Vec3& force, const Vec3& torque,
-                          double duration_s);
+    OrderResult apply_wrench(const RobotRef& robot, const LinkRef& link, const Vec3& force,
+                             const Vec3& torque, double duration_s);
     /// Pulls a point of a link, p_L in the link's frame, to a point of the world, m, by a spring with damping
     /// of at most `max_force`, N, for `duration_s`, in (0, 1e9]. It replaces an earlier pull on this link;
     /// `max_force` 0 lets go. `rate`: natural frequency of the spring, rad/s.
-    Result<> pull(RobotId robot, LinkId link, const Vec3& p_L, const Vec3& target_W, double max_force,
-                  double duration_s, double rate = 15);
+    OrderResult pull(const RobotRef& robot, const LinkRef& link, const Vec3& p_L, const Vec3& target_W,
+                     double max_force, double duration_s, double rate = 15);
     /// Converts seconds to ticks, at least one. An Error if it is not in (0, 1e9].
     Result<Tick> ticks_of(double duration_s) const;
     /// Setpoint of one axis of a joint; it holds until the next one. The mode gives the unit of `target`:
     /// kVelocity rad/s or m/s, kPosition rad or m, kEffort N m or N; kPassive ignores it. `max_effort` in N m
     /// or N bounds the motor; negative: the joint's own bound.
-    Result<> set_joint(RobotId robot, JointId joint, MotorMode mode, double target, double max_effort = -1,
-                       int axis = 0);
+    OrderResult set_joint(const RobotRef& robot, const JointRef& joint, MotorMode mode, double target,
+                          double max_effort = -1, int axis = 0);
     /// Latches a command of the robot's on-board controllers, e.g. "cmd_vel"; `roboss check` lists names,
     /// values and units. Of a list: row by row.
-    Result<> command(RobotId robot, const std::string& name, std::vector<double> values);
+    OrderResult command(const RobotRef& robot, const std::string& name, std::vector<double> values);
     /// The same to all robots that take a command at this topic of Gazebo, and to message boards. An Error if
     /// nobody does.
-    Result<> publish(const std::string& topic, const std::vector<double>& values);
+    OrderResult publish(const std::string& topic, const std::vector<double>& values);
     /// Attaches a link of `other` to a link of the robot, as they stand (model/order.h, Attach).
-    Result<> attach(RobotId robot, LinkId link, RobotId other, LinkId other_link);
+    OrderResult attach(const RobotRef& robot, const LinkRef& link, const RobotRef& other,
+                       const LinkRef& other_link);
     /// Loosens the bonds by which the robot holds `other`.
-    Result<> detach(RobotId robot, RobotId other);
+    OrderResult detach(const RobotRef& robot, const RobotRef& other);
     /// Any of the kinds above as data (model/order.h). An Error says why check_order() refuses it.
     virtual Result<> order(RobotId robot, const Action& action) = 0;
 
@@ -99,7 +110,7 @@ class Client : private SensorSources {
     /// The answers that have arrived since the last call.
     virtual std::vector<ControlAnswer> take_control_answers() = 0;
 
-    // --- sensors: `sensor` is an index into RobotType::sensors
+    // --- sensors: by name or by index into RobotType::sensors
     /// A reading with the sensor's noise, a pure function of (seed, robot, sensor, tick of the measurement).
     /// Units and frames: src/sensor_kinds. A sensor without `<update_rate>` measures when it is asked. One
     /// with it measures when it is asked for the first time, and from then on at the first observation at
@@ -107,30 +118,36 @@ class Client : private SensorSources {
     /// @throws std::invalid_argument if there is no such robot or sensor, if the sensor is of another kind,
     /// or if it cannot measure.
     template <class Reading>
-    Reading reading(RobotId robot, std::size_t sensor) {
-        return std::get<Reading>(sample(robot, sensor, kind_of_reading<Reading>()));
+    Reading reading(const RobotRef& robot, const SensorRef& sensor) {
+        return std::get<Reading>(sample(this->robot(robot), sensor, kind_of_reading<Reading>()));
     }
     /// reading<LaserReading>().
-    LaserReading laser(RobotId robot, std::size_t sensor) { return reading<LaserReading>(robot, sensor); }
+    LaserReading laser(const RobotRef& robot, const SensorRef& sensor) {
+        return reading<LaserReading>(robot, sensor);
+    }
     /// reading<OdometerReading>().
-    OdometerReading odometer(RobotId robot, std::size_t sensor) {
+    OdometerReading odometer(const RobotRef& robot, const SensorRef& sensor) {
         return reading<OdometerReading>(robot, sensor);
     }
     /// reading<GpsReading>().
-    GpsReading gps(RobotId robot, std::size_t sensor) { return reading<GpsReading>(robot, sensor); }
+    GpsReading gps(const RobotRef& robot, const SensorRef& sensor) {
+        return reading<GpsReading>(robot, sensor);
+    }
     /// reading<CompassReading>().
-    CompassReading compass(RobotId robot, std::size_t sensor) {
+    CompassReading compass(const RobotRef& robot, const SensorRef& sensor) {
         return reading<CompassReading>(robot, sensor);
     }
     /// reading<ImuReading>().
-    ImuReading imu(RobotId robot, std::size_t sensor) { return reading<ImuReading>(robot, sensor); }
+    ImuReading imu(const RobotRef& robot, const SensorRef& sensor) {
+        return reading<ImuReading>(robot, sensor);
+    }
 
     // --- forces, of the tick that begins now as long as no order takes effect at it (physics/probe.h). The
     // first question of a tick costs about as much as a step of the whole world.
     /// All contact points of the world that carry an impulse.
     std::span<const ContactReport> contacts();
     /// Reactions of the robot's joints.
-    std::vector<JointReaction> joint_reactions(RobotId robot);
+    std::vector<JointReaction> joint_reactions(const RobotRef& robot);
 
     // --- the held samples of sensors with an <update_rate>, for saved runs
     /// The samples that were held before the observation at `tick`, as bytes; empty: none.
@@ -154,11 +171,16 @@ class Client : private SensorSources {
   private:
     StepProbe& step_probe() override;
     const RobotState& state_of(RobotId robot) override { return state(robot); }
-    const RobotType& known_type(RobotId robot, LinkId link) const;
-    Sample sample(RobotId robot, std::size_t sensor, const SensorKind& asked);
+    /// Keeps a refusal for the report of the run.
+    virtual Error report_refusal(Error error) { return error; }
+    RobotId id_for_order(const RobotRef& robot) const;
+    LinkId link_for_order(RobotId robot, const LinkRef& link) const;
+    RobotId robot_named(const std::string& name) const;
+    Sample sample(RobotId robot, const SensorRef& sensor, const SensorKind& asked);
     Sample measure(RobotId robot, std::size_t sensor);
     HeldSamples samples_;
-    std::unique_ptr<StepProbe> probe_;  // made by the first question
+    std::unique_ptr<StepProbe> probe_;                            // made by the first question
+    mutable std::unordered_map<std::string, RobotId> robot_ids_;  // made by the first question by name
 };
 
 }  // namespace roboss

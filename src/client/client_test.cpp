@@ -123,5 +123,31 @@ TEST_F(Questions, RefusesUnknownRobotsLinksJointsAndAxes) {
     expect_refused([&] { (void)client.joint(kRover, JointId(0u), -1); }, {"no axis -1"});
 }
 
+TEST_F(Questions, AnswersByName) {
+    EXPECT_EQ(client.robot("rover"), kRover);
+    EXPECT_EQ(client.link(kRover, "chassis"), LinkId(0u));
+    EXPECT_EQ(client.joint_id("rover", std::string("wheel_3")), JointId(3u));
+    EXPECT_EQ(client.sensor("rover", std::string_view("sensor_2")), 2u);
+    EXPECT_EQ(client.pose("rover", "chassis").p.x, client.pose(kRover, LinkId(0u)).p.x);
+    EXPECT_EQ(client.joint("rover", "wheel_0").position, client.joint(kRover, JointId(0u)).position);
+    EXPECT_EQ(client.laser("rover", "sensor_0").ranges.size(), 1u);
+    EXPECT_TRUE(client.set_joint("rover", "wheel_0", MotorMode::kVelocity, 1).ok());
+    EXPECT_NO_THROW(client.set_pose("rover", Pose{}).value());
+}
+
+TEST_F(Questions, RefusesUnknownNamesAndSaysWhatWasProbablyMeant) {
+    expect_refused([&] { (void)client.pose("rovr", "chassis"); }, {"no robot 'rovr'", "mean 'rover'?"});
+    expect_refused([&] { (void)client.pose("rover", "chasis"); }, {"no link 'chasis'", "mean 'chassis'?"});
+    expect_refused([&] { (void)client.laser("rover", "lidar"); },
+                   {"no sensor 'lidar'", "it has 0 'sensor_0'"});
+    const auto turn = [&] { client.set_joint("rover", "weel_1", MotorMode::kVelocity, 1).value(); };
+    expect_refused(turn, {"robot 'rover' has no joint 'weel_1'", "did you mean 'wheel_1'?", "0 'wheel_0'"});
+    expect_refused(
+        [&] {
+            client.command("rover", "cmd_vel", {1, 0}).value();
+        },
+        {"no command 'cmd_vel'", "none"});
+}
+
 }  // namespace
 }  // namespace roboss::test

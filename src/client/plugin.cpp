@@ -6,6 +6,8 @@
 #include <exception>
 #include <filesystem>
 
+#include "client/user_code.h"
+
 namespace roboss {
 
 namespace {
@@ -27,6 +29,7 @@ Result<std::unique_ptr<ControlProgram>> load_control_program(const std::string& 
     if (error || !std::filesystem::is_regular_file(file, error))
         return Error{"control program " + path + ": there is no such file",
                      "give the path of a shared library (.so)", "no-file"};
+    const UserCode mark(path, "its initialization");
     void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr)
         return Error{"control program " + path + " cannot be loaded: " + loader_says(), kRemedy,

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <exception>
 
+#include "client/user_code.h"
+
 namespace roboss {
 
 Result<BusClientOptions> client_options(const ControlOptions& options, const Model& model,
@@ -64,6 +66,7 @@ ProgramHost::ProgramHost(const std::shared_ptr<const Model>& model, const Addres
 
 template <class Call>
 bool ProgramHost::guarded(Bus& bus, const char* what, Call&& call) {
+    const UserCode mark(name_, what);
     try {
         call();
         return true;

@@ -211,6 +211,9 @@ std::vector<std::string> Simulation::take_notices() {
     std::vector<std::string> notices = controller_.take_notices();
     for (auto& simulator : simulators_)
         for (std::string& line : simulator->take_notices()) notices.push_back(std::move(line));
+    for (auto& host : hosts_)
+        for (const std::string& line : host->client().take_refusals())
+            notices.push_back("client '" + host->name() + "': " + line);
     return notices;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/commands/exit_codes.h"
+#include "app/processes/crash_report.h"
 #include "app/processes/interrupt.h"
 #include "app/processes/member.h"
 #include "client/plugin.h"
@@ -35,6 +36,7 @@ class ClientProcess {
         : o_(options), member_("client", options.member) {}
 
     int go() {
+        report_crashes({});
         Result<std::unique_ptr<ControlProgram>> program = load_control_program(o_.program);
         if (!program) return member_.report_error(program.error()), kBadInput;
         if (!member_.open()) return kBadInput;

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "app/commands/exit_codes.h"
+#include "app/processes/crash_report.h"
 #include "app/processes/interrupt.h"
 #include "app/processes/threads.h"
 #include "app/worlds/orders_file.h"
@@ -49,6 +50,7 @@ void print(const Error& error) {
 }
 
 int Run::go() {
+    if (!o_.clients.empty()) report_crashes(o_.journal);
     if (!prepare()) return kBadInput;
     watch_for_interrupts();
     if (!begin()) return finish(false, 0);

@@ -12,9 +12,9 @@
 #include <sstream>
 
 #include "app/commands/numbers.h"
-#include "app/commands/usage.h"
 #include "app/run/run.h"
 #include "app/viewer/headless_browser.h"
+#include "core/similar.h"
 
 namespace roboss {
 namespace {

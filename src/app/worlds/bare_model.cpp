@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "app/commands/usage.h"
+#include "core/similar.h"
 
 namespace roboss {
 namespace {
