@@ -9,6 +9,7 @@
 #include "app/commands/control_command.h"
 #include "app/commands/diff_command.h"
 #include "app/commands/journal_command.h"
+#include "app/commands/new_client_command.h"
 #include "app/commands/run_command.h"
 #include "app/commands/runs_command.h"
 #include "app/commands/save_command.h"
@@ -34,6 +35,7 @@ int main(int argc, char** argv) {
     roboss::add_controller_command(app, exit_code);
     roboss::add_simulator_command(app, exit_code);
     roboss::add_client_command(app, exit_code);
+    roboss::add_new_client_command(app, exit_code);
     roboss::add_view_command(app, exit_code);
     roboss::add_replay_command(app, exit_code);
     roboss::add_control_command(app, exit_code);

@@ -30,3 +30,19 @@ run(${CMAKE_COMMAND} -S ${PROGRAM_DIR} -B ${WORK_DIR}/build -G Ninja -DCMAKE_BUI
   -DCMAKE_PREFIX_PATH=${WORK_DIR}/moved ${flags})
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
 run(${WORK_DIR}/build/outside ${PROGRAM_DIR}/ball.sdf)
+
+# The project that `roboss new-client` of the installed program writes builds against it and runs.
+if(EXISTS ${WORK_DIR}/moved/bin/roboss)
+  file(REMOVE_RECURSE ${WORK_DIR}/new)
+  run(${WORK_DIR}/moved/bin/roboss new-client my_driver --folder ${WORK_DIR}/new)
+  run(${CMAKE_COMMAND} -S ${WORK_DIR}/new/my_driver -B ${WORK_DIR}/new/my_driver/build -G Ninja -DCMAKE_CXX_COMPILER=${CXX}
+    -DCMAKE_PREFIX_PATH=${WORK_DIR}/moved ${flags})
+  run(${CMAKE_COMMAND} --build ${WORK_DIR}/new/my_driver/build)
+  run(${WORK_DIR}/moved/bin/roboss check ${WORK_DIR}/new/my_driver/world.sdf)
+  run(${WORK_DIR}/moved/bin/roboss run ${WORK_DIR}/new/my_driver/world.sdf --client ${WORK_DIR}/new/my_driver/build/my_driver.so
+    --duration 20 --headless --trace ${WORK_DIR}/new/trace.csv --trace-every 20 --strict)
+  execute_process(COMMAND ${WORK_DIR}/moved/bin/roboss new-client my_driver --folder ${WORK_DIR}/new RESULT_VARIABLE status ERROR_QUIET)
+  if(NOT status EQUAL 1)
+    message(FATAL_ERROR "a folder that exists was not refused (${status})")
+  endif()
+endif()

@@ -3,12 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "app/commands/exit_codes.h"
 #include "app/worlds/plugin_census.h"
 #include "app/worlds/world_census.h"
 #include "model/model.h"
@@ -23,15 +27,14 @@ constexpr const char* kHelp =
     "elements, each with file, line and remedy.\n"
     "WORLD is an SDFormat file (1.4 to 1.12) or a URDF file.\n\n"
     "Exit codes: 0 no errors (warnings and notes allowed), 1 errors: `roboss run` leaves out the models that "
-    "have "
-    "them, or\n"
-    "refuses the world if no other model is left, 2 the file cannot be read or wrong usage.\n"
+    "have\n"
+    "them, or refuses the world if no other model is left; also a file that cannot be read; 2 wrong usage.\n"
     "Example: roboss check worlds/city.sdf --path ~/models";
 
 struct CheckOptions {
     std::string world;
     std::vector<std::string> paths;
-    bool json = false;
+    bool json = false, all = false;
 };
 
 std::string counts(const std::map<std::string, std::size_t>& by_kind) {
@@ -48,7 +51,8 @@ void print_text(const World& world, const WorldCensus& census) {
     fmt::print("static models  {}\n", census.static_models);
     fmt::print("joints         {}\n", counts(census.joints));
     fmt::print("shapes         {}\n", counts(census.shapes));
-    fmt::print("sensors        {}\n", counts(census.sensors));
+    fmt::print("sensors        {}{}\n", counts(census.sensors),
+               census.silent.empty() ? "" : "; without readings: " + counts(census.silent));
     fmt::print("time step      {} s\n", world.dt_s);
 }
 
@@ -64,7 +68,8 @@ std::string values_of(const Channel& command) {
 
 void print_text(const std::vector<TypeCommands>& types) {
     for (const TypeCommands& type : types) {
-        fmt::print("commands of    {}{}\n", type.first,
+        fmt::print("{:15}{}{}\n", type.is_board ? "messages of" : "commands of",
+                   type.is_board ? "the world" : type.first,
                    type.robots > 1 ? fmt::format(" and {} like it", type.robots - 1) : "");
         for (const Channel& command : type.commands)
             fmt::print("    {}: {} [{}]\n", command.name, values_of(command), command.topic);
@@ -79,19 +84,55 @@ std::string place_of(const PluginReport& plugin) {
     return fmt::format("{} '{}' of {}", plugin.parent, plugin.owner, model);
 }
 
-void print_text(const std::vector<PluginReport>& plugins) {
-    for (const PluginReport& p : plugins) {
-        fmt::print("plugin         {} in {}{}: {}{} ({}:{})\n", p.name, place_of(p),
-                   p.count > 1 ? fmt::format(" and {} like it", p.count - 1) : "", to_text(p.fate),
-                   p.reason.empty() ? "" : ", " + p.reason, p.where.file, p.where.line);
-    }
+/// "line 12" in the world file, else "FILE:12".
+std::string where(const SourceLocation& place, const std::string& world_file) {
+    if (place.file == world_file) return fmt::format("line {}", place.line);
+    return fmt::format("{}:{}", place.file, place.line);
 }
 
-void print_text(const Diagnostics& diagnostics) {
+/// One line for each kind of plugin and what becomes of it.
+void print_text(const std::vector<PluginReport>& plugins, const std::string& world_file) {
+    using Key = std::tuple<std::string, PluginFate, std::string>;
+    std::vector<std::pair<Key, std::vector<const PluginReport*>>> kinds;  // in the order of the file
+    std::size_t width = 0;
+    for (const PluginReport& p : plugins) {
+        const Key key{p.name, p.fate, p.reason};
+        auto found = std::ranges::find(kinds, key, [](const auto& kind) { return kind.first; });
+        if (found == kinds.end()) found = kinds.insert(kinds.end(), {key, {}});
+        found->second.push_back(&p);
+        width = std::max(width, p.name.size());
+    }
+    for (const auto& [key, reports] : kinds) {
+        const PluginReport& first = *reports.front();
+        std::size_t elements = 0;
+        for (const PluginReport* p : reports) elements += p->count;
+        fmt::print("plugin         {:{}}  {:10}  {} ({}){}{}\n", first.name, width, to_text(first.fate),
+                   place_of(first), where(first.where, world_file),
+                   elements > 1 ? fmt::format(" and {} more", elements - 1) : "",
+                   first.reason.empty() ? "" : ": " + first.reason);
+    }
+    if (std::ranges::any_of(plugins, [](const PluginReport& p) { return p.fate == PluginFate::kNotRun; }))
+        fmt::print(
+            "    For plugins that do not run: docs/plugins.md lists those that do; a control program can "
+            "do their work.\n");
+}
+
+constexpr std::size_t kShownOfACode = 3;
+
+/// Errors first. Of a kind of finding the first three, and none of what the list of plugins says; `all`:
+/// every one.
+void print_text(const Diagnostics& diagnostics, bool all) {
     for (const Severity severity : {Severity::kError, Severity::kWarning, Severity::kNote}) {
+        std::map<std::string, std::size_t> met;
         for (const Diagnostic& d : diagnostics.items()) {
-            if (d.severity == severity) fmt::print("{}\n", to_text(d));
+            if (d.severity != severity || (d.code == "plugin" && severity == Severity::kNote && !all))
+                continue;
+            if (++met[d.code] <= kShownOfACode || all) fmt::print("{}\n", to_text(d));
         }
+        for (const auto& [code, times] : met)
+            if (times > kShownOfACode && !all)
+                fmt::print("... and {} more {}s of this kind [{}]; --all prints them\n",
+                           times - kShownOfACode, to_text(severity), code);
     }
     fmt::print("{} errors, {} warnings, {} notes\n", diagnostics.count(Severity::kError),
                diagnostics.count(Severity::kWarning), diagnostics.count(Severity::kNote));
@@ -169,7 +210,8 @@ int check(const CheckOptions& options) {
     const auto commands = runs ? list_commands(*model) : std::vector<TypeCommands>{};
     const auto plugins = world ? list_plugins(*world, model.get(), diagnostics) : std::vector<PluginReport>{};
     if (options.json) {
-        nlohmann::json report = world ? to_json(take_census(*world), *world) : nlohmann::json::object();
+        nlohmann::json report =
+            world ? to_json(take_census(*world, model.get()), *world) : nlohmann::json::object();
         report["runs"] = runs;
         report["commands"] = to_json(commands);
         report["plugins"] = to_json(plugins);
@@ -178,17 +220,16 @@ int check(const CheckOptions& options) {
         report["diagnostics"] = to_json(diagnostics);
         fmt::print("{}\n", report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     } else {
-        if (world) print_text(*world, take_census(*world));
+        if (world) print_text(*world, take_census(*world, model.get()));
         print_text(commands);
-        print_text(plugins);
-        print_text(diagnostics);
+        if (world) print_text(plugins, world->file);
+        print_text(diagnostics, options.all);
         if (diagnostics.has_errors())
             fmt::print("{}\n",
                        runs ? "`roboss run` leaves out the models with errors, or refuses with --strict"
                             : "`roboss run` refuses this world");
     }
-    if (!world) return 2;
-    return diagnostics.has_errors() ? 1 : 0;
+    return !world || diagnostics.has_errors() ? kBadInput : kSuccess;
 }
 
 }  // namespace
@@ -204,6 +245,7 @@ void add_check_command(CLI::App& app, int& exit_code) {
                      "folder in which model://, package:// and relative URIs are looked up (may be repeated)")
         ->type_name("DIR")
         ->take_all();
+    command->add_flag("--all", options->all, "print every finding (default: three of each kind)");
     command->add_flag("--json", options->json, "print one JSON object instead of text");
     command->callback([options, &exit_code] { exit_code = check(*options); });
 }

@@ -67,8 +67,8 @@ TEST(CheckCommand, AnErrorInTheWorldGivesOne) {
     EXPECT_NE(outcome.printed.find("[bad-mass]"), std::string::npos) << outcome.printed;
 }
 
-TEST(CheckCommand, AFileThatCannotBeReadGivesTwo) {
-    EXPECT_EQ(check("<sdf").exit_code, 2);
+TEST(CheckCommand, AFileThatCannotBeReadGivesOneAsInAllCommands) {
+    EXPECT_EQ(check("<sdf").exit_code, 1);
 }
 
 TEST(CheckCommand, JsonHoldsTheSame) {
@@ -146,6 +146,43 @@ TEST(CheckCommand, NamesTheSensorsThatGiveNoReadings) {
         "<model name='m'><link name='a'><sensor name='s' type='thermal_camera'/>"
         "</link></model>");
     EXPECT_EQ(silent.at("sensors_without_readings").at("thermal_camera"), 1) << silent;
+}
+
+TEST(CheckCommand, CountsTheRobotsOfTheRunAndTheSensorsOfStaticModels) {
+    const std::string link =
+        "<inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial>";
+    const auto report =
+        check_models("<model name='parts'><link name='a'>" + link + "</link><link name='b'>" + link +
+                     "</link></model><model name='post'><static>1</static><link name='l'>"
+                     "<sensor name='g' type='gps'/></link></model>");
+    EXPECT_EQ(report.at("robots"), 3) << "two parts that no joint connects, and the post, which senses";
+    EXPECT_EQ(report.at("links"), 3);
+    EXPECT_EQ(report.at("static_models"), 1);
+    EXPECT_EQ(report.at("sensors").at("gps"), 1);
+}
+
+TEST(CheckCommand, PrintsALineForEachKindOfPluginAndThreeFindingsOfAKind) {
+    std::string models;
+    for (const std::string name : {"a", "b", "c", "d", "e"})
+        models += ball(name, "<link name='b'/><joint name='j_" + name +
+                                 "' type='fixed'><parent>a</parent><child>b</child>"
+                                 "<physics><ode><cfm_damping>1</cfm_damping></ode></physics></joint>"
+                                 "<plugin filename='libmine.so' name='" +
+                                 name + "'/>");
+    const std::string text = "<sdf version='1.9'><world name='w'>\n" + models + "</world></sdf>";
+    const auto lines_with = [](const std::string& printed, const std::string& word) {
+        std::size_t count = 0;
+        std::istringstream in(printed);
+        for (std::string line; std::getline(in, line);) count += line.find(word) != std::string::npos ? 1 : 0;
+        return count;
+    };
+    const std::string printed = check(text).printed, all = check(text, {"--all"}).printed;
+    EXPECT_EQ(lines_with(printed, "libmine.so"), 1u) << printed;
+    EXPECT_EQ(lines_with(printed, "and 4 more:"), 1u) << printed;
+    EXPECT_EQ(lines_with(printed, "is not run [plugin]"), 0u) << printed;
+    EXPECT_EQ(lines_with(all, "is not run [plugin]"), 5u) << all;
+    EXPECT_EQ(lines_with(printed, "[joint-physics]"), 4u) << printed;
+    EXPECT_EQ(lines_with(all, "[joint-physics]"), 5u) << all;
 }
 
 TEST(CheckCommand, AWrongOptionIsRefused) {

@@ -14,6 +14,7 @@
 #include "app/processes/interrupt.h"
 #include "app/processes/threads.h"
 #include "app/worlds/orders_file.h"
+#include "app/worlds/world_census.h"
 #include "client/plugin.h"
 #include "client/triggers/triggers.h"
 #include "core/hash.h"
@@ -282,7 +283,7 @@ Summary Run::summary(double wall_s) const {
     const double ticks = std::max(1.0, static_cast<double>(c.ticks));
     Summary s;
     s.world = journal_->replay() ? journal_->replay()->branch.world_file : o_.world;
-    s.robots = model_->robots.size();
+    s.robots = count_robots(*model_);
     s.ticks = std::max<Tick>(simulation_->tick() - start_, 0);
     s.dt_s = model_->dt_s;
     s.sim_time_s = simulation_->time_s();

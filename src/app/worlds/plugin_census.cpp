@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "model/topics.h"
+
 namespace roboss {
 namespace {
 
@@ -86,6 +88,7 @@ std::vector<TypeCommands> list_commands(const Model& model) {
         TypeCommands& type = all[robot.type.index()];
         if (type.robots++ > 0) continue;
         type.first = robot.name;
+        type.is_board = board_of(model.types[robot.type.index()]) != nullptr;
         for (const ChannelInfo& info : model.types[robot.type.index()].channels)
             type.commands.push_back(info.channel);
     }

@@ -14,6 +14,7 @@ namespace roboss {
 struct TypeCommands {
     std::string first;       // name of the first of these robots
     std::size_t robots = 0;  // of this type
+    bool is_board = false;   // the board that carries the messages of the world, no robot of the file
     std::vector<Channel> commands;
 };
 
