@@ -6,6 +6,7 @@ import { CameraRig } from "./camera/rig";
 import { FrameLoop } from "./frame_loop";
 import { HandMark } from "./hands/hand_mark";
 import { RobotHand } from "./hands/robot_hand";
+import { Actions } from "./model/actions";
 import { Address } from "./model/address";
 import { Bonding } from "./model/bonding";
 import { Plotted } from "./model/plotted";
@@ -21,9 +22,10 @@ import { RobotOverlays } from "./overlays/robot_overlays";
 import { RunOverlays } from "./overlays/run_overlays";
 import { SelectionMark } from "./overlays/selection_mark";
 import { Tracks } from "./overlays/tracks";
+import { pageActions } from "./page_actions";
 import { ClusterPanel } from "./panels/cluster_panel";
 import { controlDesk } from "./panels/control_desk";
-import { helpCard, listen, type Shortcut } from "./panels/help";
+import { helpCard } from "./panels/help";
 import { Inspector } from "./panels/inspector";
 import { banner, notices } from "./panels/notices";
 import { plotsDock } from "./panels/plots_dock";
@@ -141,12 +143,6 @@ function focusSelected(): void {
     if (state.selected.value !== null) director.focus(state.selected.value);
 }
 
-function letGo(): void {
-    if (state.attaching.value !== null) state.attaching.set(null);
-    else if (state.tool.value !== "select") state.tool.set("select");
-    else state.selected.set(null);
-}
-
 function togglePanel(side: "left" | "right"): void {
     document.body.classList.toggle(`no-${side}`);
 }
@@ -162,54 +158,33 @@ async function copyLink(): Promise<void> {
     }
 }
 
-const shortcuts: Shortcut[] = [
-    { keys: [" "], words: "play or pause", group: "Time", act: time.playOrPause },
-    { keys: ["."], words: "one tick", group: "Time", act: () => time.step(1) },
-    { keys: ["+", "="], words: "faster", group: "Time", act: () => time.faster(1) },
-    { keys: ["-"], words: "slower", group: "Time", act: () => time.faster(-1) },
-    { keys: ["V"], words: "select", group: "Tools", act: () => state.tool.set("select") },
-    { keys: ["M"], words: "move a robot", group: "Tools", act: () => state.tool.set("move") },
-    { keys: ["P"], words: "push a robot", group: "Tools", act: () => state.tool.set("push") },
-    {
-        keys: ["Escape"],
-        words: "let go",
-        group: "Tools",
-        act: letGo,
-    },
-    { keys: ["1"], words: "orbit", group: "Camera", act: () => state.cameraMode.set("orbit") },
-    { keys: ["2"], words: "fly", group: "Camera", act: () => state.cameraMode.set("fly") },
-    { keys: ["3"], words: "follow the selected robot", group: "Camera", act: () => state.cameraMode.set("follow") },
-    { keys: ["4"], words: "chase it", group: "Camera", act: () => state.cameraMode.set("chase") },
-    { keys: ["H"], words: "whole world", group: "Camera", act: () => director.home() },
-    { keys: ["F"], words: "look at the selected robot", group: "Camera", act: focusSelected },
-    { keys: ["/"], words: "find a robot", group: "Page", act: () => list.search.focus() },
-    { keys: ["["], words: "robots panel", group: "Page", act: () => togglePanel("left") },
-    { keys: ["]"], words: "side panel", group: "Page", act: () => togglePanel("right") },
-    {
-        keys: ["T"],
-        words: "light or dark",
-        group: "Page",
-        act: () => state.theme.set(state.theme.value === "dark" ? "light" : "dark"),
-    },
-    { keys: ["X"], words: "save a picture", group: "Page", act: () => capture.picture() },
-    { keys: ["R"], words: "record a video", group: "Page", act: () => capture.toggleVideo() },
-    { keys: ["L"], words: "copy a link to this view", group: "Page", act: () => void copyLink() },
-    { keys: ["?"], words: "this card", group: "Page", act: () => help.showModal() },
-];
-const help = helpCard(shortcuts);
-listen(shortcuts);
+const actions = new Actions(),
+    help = helpCard(actions);
+actions.add(
+    ...pageActions({
+        state,
+        director,
+        capture,
+        time,
+        findRobot: () => list.search.focus(),
+        togglePanel,
+        copyLink: () => void copyLink(),
+        help: () => help.open(),
+    }),
+);
+actions.listen();
 
 document.body.prepend(
     topBar(state, capture, desk.element, {
         copyLink: () => void copyLink(),
-        help: () => help.showModal(),
+        help: () => help.open(),
         home: () => director.home(),
         focus: focusSelected,
         togglePanel,
     }),
 );
 view.append(labels.element, banner(state, run), desk.question, said.element);
-document.body.append(list.element, tabs.element, plotsDock(state, plotted), time.element, help);
+document.body.append(list.element, tabs.element, plotsDock(state, plotted), time.element, help.element);
 if (address.get("hide") === "panels") document.body.classList.add("bare");
 
 state.theme.follow((theme, before) => {
