@@ -30,7 +30,8 @@ import { Inspector } from "./panels/inspector";
 import { banner, notices } from "./panels/notices";
 import { plotsDock } from "./panels/plots_dock";
 import { RobotList } from "./panels/robot_list";
-import { sideTabs } from "./panels/side_tabs";
+import { type Sheet, Sheets } from "./panels/sheets";
+import { sideTabs, type Tab } from "./panels/side_tabs";
 import { timeBar } from "./panels/time_bar";
 import { topBar } from "./panels/top_bar";
 import { viewOptions } from "./panels/view_options";
@@ -70,7 +71,18 @@ const capture = new Capture(
 );
 const mark = new HandMark(labels);
 const bonding = new Bonding(state, run);
-const hand = new RobotHand(stage, state, run, mark, bonding, (robot) => director.focus(robot));
+const hand = new RobotHand(
+    stage,
+    state,
+    run,
+    mark,
+    bonding,
+    (robot) => director.focus(robot),
+    (robot) => {
+        state.selected.set(robot);
+        sheets.show("inspector");
+    },
+);
 let hurried = false;
 window.addEventListener("keydown", (event) => (hurried = event.shiftKey));
 window.addEventListener("keyup", (event) => (hurried = event.shiftKey));
@@ -92,17 +104,30 @@ const list = new RobotList(
 );
 const time = timeBar(state, run);
 const desk = controlDesk(state, run);
-const tabs = sideTabs([
+const sideTabList: Tab[] = [
     {
         id: "inspector",
         title: "Robot",
+        icon: "robot",
         content: new Inspector(state, run, plotted, (robot) => {
             state.selected.set(robot);
             state.cameraMode.set("follow");
         }).element,
     },
-    { id: "cluster", title: "Cluster", content: new ClusterPanel(state, run).element },
-    { id: "view", title: "View", content: viewOptions(state) },
+    { id: "cluster", title: "Cluster", icon: "cluster", content: new ClusterPanel(state, run).element },
+    { id: "view", title: "View", icon: "eye", content: viewOptions(state) },
+];
+const tabs = sideTabs(sideTabList);
+const sheets = new Sheets([
+    { id: "robots", title: "Robots", icon: "list", place: "left" },
+    ...sideTabList.map(({ id, title, icon }): Sheet => ({
+        id,
+        title,
+        icon,
+        place: "right",
+        show: () => tabs.open(id),
+    })),
+    { id: "plots", title: "Plots", icon: "plot", place: "dock" },
 ]);
 
 const selection = new SelectionMark(stage, state, labels),
@@ -144,6 +169,7 @@ function focusSelected(): void {
 }
 
 function togglePanel(side: "left" | "right"): void {
+    if (sheets.isNarrow()) return sheets.toggle(side === "left" ? "robots" : "inspector");
     document.body.classList.toggle(`no-${side}`);
 }
 
@@ -166,7 +192,10 @@ actions.add(
         director,
         capture,
         time,
-        findRobot: () => list.search.focus(),
+        findRobot: () => {
+            sheets.show("robots");
+            list.search.focus();
+        },
         togglePanel,
         copyLink: () => void copyLink(),
         help: () => help.open(),
@@ -174,17 +203,24 @@ actions.add(
 );
 actions.listen();
 
-document.body.prepend(
-    topBar(state, capture, desk.element, {
-        copyLink: () => void copyLink(),
-        help: () => help.open(),
-        home: () => director.home(),
-        focus: focusSelected,
-        togglePanel,
-    }),
-);
+const top = topBar(state, capture, desk.element, {
+    copyLink: () => void copyLink(),
+    help: () => help.open(),
+    home: () => director.home(),
+    focus: focusSelected,
+    togglePanel,
+});
+document.body.prepend(top.element, top.menu);
 view.append(labels.element, banner(state, run), desk.question, said.element);
-document.body.append(list.element, tabs.element, plotsDock(state, plotted), time.element, help.element);
+document.body.append(
+    sheets.head,
+    list.element,
+    tabs.element,
+    plotsDock(state, plotted),
+    time.element,
+    sheets.bar,
+    help.element,
+);
 if (address.get("hide") === "panels") document.body.classList.add("bare");
 
 state.theme.follow((theme, before) => {
@@ -205,8 +241,8 @@ state.overlays.follow(
     (on) => state.world.value !== null && stage.showCollisions(state.world.value, on.has("collisions")),
 );
 // A robot that is chosen is shown; the one that the address names leaves the panel that it names, too.
-state.selected.follow((robot) => robot !== null && robot !== named && tabs.open("inspector"));
-if (address.get("panel") !== null) tabs.open(address.get("panel") as string);
+state.selected.follow((robot) => robot !== null && robot !== named && sheets.reveal("inspector"));
+if (address.get("panel") !== null) sheets.show(address.get("panel") as string);
 for (const signal of [
     state.selected,
     state.overlays,
