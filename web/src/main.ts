@@ -6,6 +6,7 @@ import { CameraRig } from "./camera/rig";
 import { FrameLoop } from "./frame_loop";
 import { HandMark } from "./hands/hand_mark";
 import { RobotHand } from "./hands/robot_hand";
+import { Actions } from "./model/actions";
 import { Address } from "./model/address";
 import { Bonding } from "./model/bonding";
 import { Plotted } from "./model/plotted";
@@ -21,14 +22,16 @@ import { RobotOverlays } from "./overlays/robot_overlays";
 import { RunOverlays } from "./overlays/run_overlays";
 import { SelectionMark } from "./overlays/selection_mark";
 import { Tracks } from "./overlays/tracks";
+import { pageActions } from "./page_actions";
 import { ClusterPanel } from "./panels/cluster_panel";
 import { controlDesk } from "./panels/control_desk";
-import { helpCard, listen, type Shortcut } from "./panels/help";
+import { helpCard } from "./panels/help";
 import { Inspector } from "./panels/inspector";
 import { banner, notices } from "./panels/notices";
 import { plotsDock } from "./panels/plots_dock";
 import { RobotList } from "./panels/robot_list";
-import { sideTabs } from "./panels/side_tabs";
+import { type Sheet, Sheets } from "./panels/sheets";
+import { sideTabs, type Tab } from "./panels/side_tabs";
 import { timeBar } from "./panels/time_bar";
 import { topBar } from "./panels/top_bar";
 import { viewOptions } from "./panels/view_options";
@@ -68,7 +71,18 @@ const capture = new Capture(
 );
 const mark = new HandMark(labels);
 const bonding = new Bonding(state, run);
-const hand = new RobotHand(stage, state, run, mark, bonding, (robot) => director.focus(robot));
+const hand = new RobotHand(
+    stage,
+    state,
+    run,
+    mark,
+    bonding,
+    (robot) => director.focus(robot),
+    (robot) => {
+        state.selected.set(robot);
+        sheets.show("inspector");
+    },
+);
 let hurried = false;
 window.addEventListener("keydown", (event) => (hurried = event.shiftKey));
 window.addEventListener("keyup", (event) => (hurried = event.shiftKey));
@@ -90,17 +104,30 @@ const list = new RobotList(
 );
 const time = timeBar(state, run);
 const desk = controlDesk(state, run);
-const tabs = sideTabs([
+const sideTabList: Tab[] = [
     {
         id: "inspector",
         title: "Robot",
+        icon: "robot",
         content: new Inspector(state, run, plotted, (robot) => {
             state.selected.set(robot);
             state.cameraMode.set("follow");
         }).element,
     },
-    { id: "cluster", title: "Cluster", content: new ClusterPanel(state, run).element },
-    { id: "view", title: "View", content: viewOptions(state) },
+    { id: "cluster", title: "Cluster", icon: "cluster", content: new ClusterPanel(state, run).element },
+    { id: "view", title: "View", icon: "eye", content: viewOptions(state) },
+];
+const tabs = sideTabs(sideTabList);
+const sheets = new Sheets([
+    { id: "robots", title: "Robots", icon: "list", place: "left" },
+    ...sideTabList.map(({ id, title, icon }): Sheet => ({
+        id,
+        title,
+        icon,
+        place: "right",
+        show: () => tabs.open(id),
+    })),
+    { id: "plots", title: "Plots", icon: "plot", place: "dock" },
 ]);
 
 const selection = new SelectionMark(stage, state, labels),
@@ -141,13 +168,8 @@ function focusSelected(): void {
     if (state.selected.value !== null) director.focus(state.selected.value);
 }
 
-function letGo(): void {
-    if (state.attaching.value !== null) state.attaching.set(null);
-    else if (state.tool.value !== "select") state.tool.set("select");
-    else state.selected.set(null);
-}
-
 function togglePanel(side: "left" | "right"): void {
+    if (sheets.isNarrow()) return sheets.toggle(side === "left" ? "robots" : "inspector");
     document.body.classList.toggle(`no-${side}`);
 }
 
@@ -162,54 +184,43 @@ async function copyLink(): Promise<void> {
     }
 }
 
-const shortcuts: Shortcut[] = [
-    { keys: [" "], words: "play or pause", group: "Time", act: time.playOrPause },
-    { keys: ["."], words: "one tick", group: "Time", act: () => time.step(1) },
-    { keys: ["+", "="], words: "faster", group: "Time", act: () => time.faster(1) },
-    { keys: ["-"], words: "slower", group: "Time", act: () => time.faster(-1) },
-    { keys: ["V"], words: "select", group: "Tools", act: () => state.tool.set("select") },
-    { keys: ["M"], words: "move a robot", group: "Tools", act: () => state.tool.set("move") },
-    { keys: ["P"], words: "push a robot", group: "Tools", act: () => state.tool.set("push") },
-    {
-        keys: ["Escape"],
-        words: "let go",
-        group: "Tools",
-        act: letGo,
-    },
-    { keys: ["1"], words: "orbit", group: "Camera", act: () => state.cameraMode.set("orbit") },
-    { keys: ["2"], words: "fly", group: "Camera", act: () => state.cameraMode.set("fly") },
-    { keys: ["3"], words: "follow the selected robot", group: "Camera", act: () => state.cameraMode.set("follow") },
-    { keys: ["4"], words: "chase it", group: "Camera", act: () => state.cameraMode.set("chase") },
-    { keys: ["H"], words: "whole world", group: "Camera", act: () => director.home() },
-    { keys: ["F"], words: "look at the selected robot", group: "Camera", act: focusSelected },
-    { keys: ["/"], words: "find a robot", group: "Page", act: () => list.search.focus() },
-    { keys: ["["], words: "robots panel", group: "Page", act: () => togglePanel("left") },
-    { keys: ["]"], words: "side panel", group: "Page", act: () => togglePanel("right") },
-    {
-        keys: ["T"],
-        words: "light or dark",
-        group: "Page",
-        act: () => state.theme.set(state.theme.value === "dark" ? "light" : "dark"),
-    },
-    { keys: ["X"], words: "save a picture", group: "Page", act: () => capture.picture() },
-    { keys: ["R"], words: "record a video", group: "Page", act: () => capture.toggleVideo() },
-    { keys: ["L"], words: "copy a link to this view", group: "Page", act: () => void copyLink() },
-    { keys: ["?"], words: "this card", group: "Page", act: () => help.showModal() },
-];
-const help = helpCard(shortcuts);
-listen(shortcuts);
-
-document.body.prepend(
-    topBar(state, capture, desk.element, {
-        copyLink: () => void copyLink(),
-        help: () => help.showModal(),
-        home: () => director.home(),
-        focus: focusSelected,
+const actions = new Actions(),
+    help = helpCard(actions);
+actions.add(
+    ...pageActions({
+        state,
+        director,
+        capture,
+        time,
+        findRobot: () => {
+            sheets.show("robots");
+            list.search.focus();
+        },
         togglePanel,
+        copyLink: () => void copyLink(),
+        help: () => help.open(),
     }),
 );
+actions.listen();
+
+const top = topBar(state, capture, desk.element, {
+    copyLink: () => void copyLink(),
+    help: () => help.open(),
+    home: () => director.home(),
+    focus: focusSelected,
+    togglePanel,
+});
+document.body.prepend(top.element, top.menu);
 view.append(labels.element, banner(state, run), desk.question, said.element);
-document.body.append(list.element, tabs.element, plotsDock(state, plotted), time.element, help);
+document.body.append(
+    sheets.head,
+    list.element,
+    tabs.element,
+    plotsDock(state, plotted),
+    time.element,
+    sheets.bar,
+    help.element,
+);
 if (address.get("hide") === "panels") document.body.classList.add("bare");
 
 state.theme.follow((theme, before) => {
@@ -230,8 +241,8 @@ state.overlays.follow(
     (on) => state.world.value !== null && stage.showCollisions(state.world.value, on.has("collisions")),
 );
 // A robot that is chosen is shown; the one that the address names leaves the panel that it names, too.
-state.selected.follow((robot) => robot !== null && robot !== named && tabs.open("inspector"));
-if (address.get("panel") !== null) tabs.open(address.get("panel") as string);
+state.selected.follow((robot) => robot !== null && robot !== named && sheets.reveal("inspector"));
+if (address.get("panel") !== null) sheets.show(address.get("panel") as string);
 for (const signal of [
     state.selected,
     state.overlays,

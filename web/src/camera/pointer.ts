@@ -11,9 +11,15 @@ export interface PointerHand {
     /** A press and release without a drag between. */
     click(x: number, y: number, event: PointerEvent): void;
     doubleClick(x: number, y: number): void;
+    /** A finger that rests. */
+    longPress(x: number, y: number): void;
 }
 
 const CLICK_SLOP_PX = 4;
+/** Of a finger. */
+const TAP_SLOP_PX = 12;
+const LONG_PRESS_MS = 500;
+const DOUBLE_TAP_MS = 350;
 const RADIANS_A_PIXEL = 0.0052;
 const MOVING = new Map([
     ["KeyW", [0, 1, 0]],
@@ -34,6 +40,8 @@ export class CameraPointer {
     private taken = false;
     private travelled = 0;
     private button = 0;
+    private resting = 0;
+    private lastTap = { at: -Infinity, x: 0, y: 0 };
 
     constructor(
         private readonly canvas: HTMLElement,
@@ -74,6 +82,7 @@ export class CameraPointer {
         this.canvas.focus({ preventScroll: true });
         this.canvas.setPointerCapture(event.pointerId);
         this.down.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
+        clearTimeout(this.resting);
         if (this.down.size > 1) {
             if (this.taken) this.hand.release(true);
             this.taken = false;
@@ -82,6 +91,15 @@ export class CameraPointer {
         this.travelled = 0;
         this.button = event.button;
         this.taken = event.button === 0 && this.hand.press(event.offsetX, event.offsetY, event);
+        if (event.pointerType === "touch" && !this.taken) this.rest(event.offsetX, event.offsetY);
+    }
+
+    private rest(x: number, y: number): void {
+        this.resting = window.setTimeout(() => {
+            if (this.down.size !== 1 || this.travelled >= TAP_SLOP_PX) return;
+            this.travelled = Infinity; // it is no tap any more
+            this.hand.longPress(x, y);
+        }, LONG_PRESS_MS);
     }
 
     private move(event: PointerEvent): void {
@@ -120,11 +138,22 @@ export class CameraPointer {
 
     private release(event: PointerEvent, cancelled: boolean): void {
         const known = this.down.delete(event.pointerId);
+        clearTimeout(this.resting);
         if (!known || this.down.size > 0) return;
         if (this.taken) this.hand.release(cancelled);
-        if (!cancelled && event.button === 0 && this.travelled < CLICK_SLOP_PX)
-            this.hand.click(event.offsetX, event.offsetY, event);
+        const slop = event.pointerType === "touch" ? TAP_SLOP_PX : CLICK_SLOP_PX;
+        if (!cancelled && event.button === 0 && this.travelled < slop) this.click(event);
         this.taken = false;
+    }
+
+    /** Not every browser makes a double click of two taps. */
+    private click(event: PointerEvent): void {
+        const before = this.lastTap,
+            near = Math.hypot(event.offsetX - before.x, event.offsetY - before.y) < 2 * TAP_SLOP_PX;
+        this.lastTap = { at: event.timeStamp, x: event.offsetX, y: event.offsetY };
+        this.hand.click(event.offsetX, event.offsetY, event);
+        if (event.pointerType === "touch" && near && event.timeStamp - before.at < DOUBLE_TAP_MS)
+            this.hand.doubleClick(event.offsetX, event.offsetY);
     }
 
     private wheel(event: WheelEvent): void {

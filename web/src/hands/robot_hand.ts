@@ -53,6 +53,7 @@ export class RobotHand implements PointerHand {
         private readonly mark: HandMark,
         private readonly bonding: Bonding,
         private readonly onFocus: (robot: number) => void,
+        private readonly onOpen: (robot: number) => void,
     ) {
         this.sendForce = throttled(ORDER_INTERVAL_MS, (hold) => hold === this.hold && this.give(hold));
         this.sendPose = throttled(ORDER_INTERVAL_MS, (robot, pose) => void run.order(robot, { action: "pose", pose }));
@@ -216,5 +217,11 @@ export class RobotHand implements PointerHand {
         const world = this.state.world.value,
             picked = world === null ? null : pick(this.stage, world, x, y);
         if (picked !== null) this.onFocus(picked.robot);
+    }
+
+    longPress(x: number, y: number): void {
+        const world = this.state.world.value,
+            picked = world === null ? null : pick(this.stage, world, x, y);
+        if (picked !== null) this.onOpen(picked.robot);
     }
 }

@@ -1,28 +1,40 @@
-// The card of keys, and the keys themselves: one table for both, so that the card is always true.
+// The card of keys and gestures. It is made from the list of actions, so it is always true.
+import { type Actions, keyText } from "../model/actions";
 import { h } from "../ui/dom";
-
-export interface Shortcut {
-    keys: string[];
-    words: string;
-    group: string;
-    act: () => void;
-}
 
 const MOUSE: [string, string][] = [
     ["Drag", "turn the camera"],
     ["Right drag, Shift drag", "move the camera"],
-    ["Wheel, pinch", "nearer, farther"],
+    ["Wheel", "nearer, farther"],
     ["Click", "select a robot"],
     ["Double click", "look at a robot"],
     ["W A S D, Q E", "move the camera (click the picture first)"],
     ["Move tool", "pull a robot where you took it; Alt lifts it, Shift places and turns it"],
     ["Push tool", "pull an arrow: the longer, the stronger"],
 ];
+const TOUCH: [string, string][] = [
+    ["One finger", "turn the camera; with the tools Move and Push: pull or push a robot"],
+    ["Two fingers", "move the camera; pinch: nearer, farther"],
+    ["Tap", "select a robot"],
+    ["Double tap", "look at a robot"],
+    ["Long press", "open a robot's sheet"],
+];
 
-export function helpCard(shortcuts: readonly Shortcut[]): HTMLDialogElement {
-    const list = (rows: [string, string][]) =>
-        h("dl", {}, ...rows.flatMap(([key, words]) => [h("dt", {}, h("kbd", {}, key)), h("dd", {}, words)]));
-    const groups = [...new Set(shortcuts.map((one) => one.group))];
+export interface HelpCard {
+    element: HTMLDialogElement;
+    open(): void;
+}
+
+function list(rows: readonly [string, string][]): HTMLElement {
+    return h("dl", {}, ...rows.flatMap(([key, words]) => [h("dt", {}, h("kbd", {}, key)), h("dd", {}, words)]));
+}
+
+function section(title: string, rows: readonly [string, string][]): HTMLElement {
+    return h("section", {}, h("h3", {}, title), list(rows));
+}
+
+export function helpCard(actions: Actions): HelpCard {
+    const columns = h("div", { class: "help-columns" });
     const dialog = h(
         "dialog",
         {
@@ -33,42 +45,27 @@ export function helpCard(shortcuts: readonly Shortcut[]): HTMLDialogElement {
         h(
             "div",
             { class: "help-head" },
-            h("h2", { id: "help-title" }, "Keys and mouse"),
+            h("h2", { id: "help-title" }, "Keys and gestures"),
             h("button", { type: "button", class: "small", onclick: () => dialog.close() }, "Close"),
         ),
-        h(
-            "div",
-            { class: "help-columns" },
-            h("section", {}, h("h3", {}, "Mouse and touch"), list(MOUSE)),
+        columns,
+    );
+    const open = () => {
+        const keyed = actions.all().filter((action) => (action.keys?.length ?? 0) > 0),
+            groups = [...new Set(keyed.map((action) => action.group))];
+        columns.replaceChildren(
+            section("Mouse", MOUSE),
+            section("Touch", TOUCH),
             ...groups.map((group) =>
-                h(
-                    "section",
-                    {},
-                    h("h3", {}, group),
-                    list(
-                        shortcuts
-                            .filter((one) => one.group === group)
-                            .map((one) => [one.keys.map((key) => (key === " " ? "Space" : key)).join(" "), one.words]),
-                    ),
+                section(
+                    group,
+                    keyed
+                        .filter((action) => action.group === group)
+                        .map((action) => [(action.keys ?? []).map(keyText).join(", "), action.title]),
                 ),
             ),
-        ),
-    );
-    return dialog;
-}
-
-/** Keys count wherever no text is typed and no control of the page wants them. */
-export function listen(shortcuts: readonly Shortcut[]): void {
-    const byKey = new Map(shortcuts.flatMap((one) => one.keys.map((key) => [key.toLowerCase(), one] as const)));
-    window.addEventListener("keydown", (event) => {
-        const target = event.target as HTMLElement;
-        if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]") !== null) return;
-        if (target.matches("input:not([type=checkbox]):not([type=radio]), select, textarea")) return;
-        if (event.key === " " && target.matches("button, summary, input, [role=tab]")) return;
-        const found = byKey.get(event.key.toLowerCase());
-        // A key that is held steps on and on, but toggles nothing twice.
-        if (found === undefined || (event.repeat && event.key !== ".")) return;
-        event.preventDefault();
-        found.act();
-    });
+        );
+        dialog.showModal();
+    };
+    return { element: dialog, open };
 }

@@ -117,10 +117,11 @@ class Chart {
 
 export function plotsDock(state: ViewerState, plotted: Plotted): HTMLElement {
     const charts = h("div", { class: "charts" }),
-        heading = h("h2", {}, "Plots");
+        heading = h("h2", {}, "Plots"),
+        hint = h("p", { class: "empty" }, "Nothing is plotted. Select a robot, and choose the graph beside a number.");
     const element = h(
         "section",
-        { class: "dock", "aria-label": "Plots", hidden: true },
+        { class: "dock empty", "aria-label": "Plots" },
         h(
             "div",
             { class: "panel-head" },
@@ -128,6 +129,7 @@ export function plotsDock(state: ViewerState, plotted: Plotted): HTMLElement {
             h("div", { class: "grow" }),
             iconButton("close", "Remove all plots", () => plotted.clear()),
         ),
+        hint,
         charts,
     );
     let shown: Chart[] = [];
@@ -136,7 +138,8 @@ export function plotsDock(state: ViewerState, plotted: Plotted): HTMLElement {
         const curves = plotted.curves.value,
             units = [...new Set(curves.map((curve) => curve.unit))];
         let offset = 0;
-        element.hidden = curves.length === 0;
+        element.classList.toggle("empty", curves.length === 0);
+        hint.hidden = curves.length > 0;
         const robots = new Set(curves.map((curve) => curve.robotName));
         setText(heading, robots.size === 1 ? `Plots of ${curves[0].robotName}` : "Plots");
         shown = units.map((unit) => {

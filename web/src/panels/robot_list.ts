@@ -2,9 +2,10 @@
 // robots cost no more than twenty.
 import type { ViewerState, World } from "../model/viewer_state";
 import { h, icon } from "../ui/dom";
+import { COARSE } from "../ui/touch";
 import { meanColour } from "../view/finishes";
 
-const ROW_PX = 26;
+const ROW_PX = COARSE ? 44 : 26;
 const SPARE_ROWS = 6;
 
 type Row = { kind: "type"; type: number; count: number; open: boolean } | { kind: "robot"; robot: number };

@@ -1,9 +1,11 @@
 // The panel at the right: tabs, of which one is seen. Arrow keys go from tab to tab, as WAI-ARIA has it.
 import { h } from "../ui/dom";
+import type { IconName } from "../ui/icons";
 
 export interface Tab {
     id: string;
     title: string;
+    icon: IconName;
     content: HTMLElement;
 }
 

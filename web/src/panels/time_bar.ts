@@ -6,6 +6,7 @@ import type { Status } from "../wire/messages";
 import type { ViewerState } from "../model/viewer_state";
 import { h, icon, iconButton, setText } from "../ui/dom";
 import { clockText, factorText } from "../ui/numbers";
+import { moreMenu } from "../ui/overflow";
 import { sliderTime, timelineOf } from "../model/timeline";
 
 const SPEEDS = ["0.1", "0.25", "0.5", "1", "2", "5", "10", "max"];
@@ -54,19 +55,32 @@ export function timeBar(state: ViewerState, run: RunLink): TimeBar {
     });
     const showClock = throttled(33, (time: number) => setText(clock, clockText(time)));
     state.drawnTime.follow(showClock);
-    const element = h(
-        "footer",
-        { class: "time", role: "contentinfo", "aria-label": "Time" },
+    tick.dataset.yields = "4";
+    const row = h(
+        "div",
+        { class: "time-row" },
         h(
             "div",
             { class: "transport", role: "group", "aria-label": "Play and step" },
-            iconButton("reset", "Back to the beginning", reset),
+            h("div", { "data-yields": 2 }, iconButton("reset", "Back to the beginning", reset, "", "Beginning")),
             play,
-            iconButton("step", "Step", () => step(Number(ticks.value)), "."),
-            ticks,
+            h(
+                "div",
+                { class: "transport", "data-yields": 3 },
+                iconButton("step", "Step", () => step(Number(ticks.value)), ".", "Step"),
+                ticks,
+            ),
         ),
         speed,
         h("div", { class: "clocks" }, clock, rtf, tick),
+    );
+    const more = moreMenu(row, "More of time", true);
+    row.append(more.button);
+    const element = h(
+        "footer",
+        { class: "time", role: "contentinfo", "aria-label": "Time" },
+        row,
+        more.menu,
         timeline(state, run),
     );
     const faster = (by: number) => {

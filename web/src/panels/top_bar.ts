@@ -4,6 +4,7 @@ import type { Capture } from "../capture";
 import type { ViewerState } from "../model/viewer_state";
 import { choice, h, iconButton, setText } from "../ui/dom";
 import { percent, short } from "../ui/numbers";
+import { moreMenu } from "../ui/overflow";
 
 export interface TopBarActions {
     copyLink(): void;
@@ -13,13 +14,18 @@ export interface TopBarActions {
     togglePanel(side: "left" | "right"): void;
 }
 
-export function topBar(state: ViewerState, capture: Capture, desk: HTMLElement, actions: TopBarActions): HTMLElement {
+export function topBar(
+    state: ViewerState,
+    capture: Capture,
+    desk: HTMLElement,
+    actions: TopBarActions,
+): { element: HTMLElement; menu: HTMLElement } {
     const tools = choice(
         "Tool",
         [
-            { value: "select", text: "Select", icon: "cursor", key: "V" },
-            { value: "move", text: "Move a robot", icon: "move", key: "M" },
-            { value: "push", text: "Push a robot", icon: "push", key: "P" },
+            { value: "select", text: "Select", icon: "cursor", key: "V", words: "Select" },
+            { value: "move", text: "Move a robot", icon: "move", key: "M", words: "Move" },
+            { value: "push", text: "Push a robot", icon: "push", key: "P", words: "Push" },
         ] as const,
         (tool) => state.tool.set(tool),
     );
@@ -35,46 +41,60 @@ export function topBar(state: ViewerState, capture: Capture, desk: HTMLElement, 
         (mode) => state.cameraMode.set(mode),
     );
     state.cameraMode.follow(cameras.show);
-    const record = iconButton("record", "Record a video", () => capture.toggleVideo(), "R");
+    const record = iconButton("record", "Record a video", () => capture.toggleVideo(), "R", "Video");
     capture.recording.follow((on) => {
         record.classList.toggle("recording", on);
         record.setAttribute("aria-pressed", String(on));
     });
-    return h(
+    tools.element.dataset.yields = "1";
+    cameras.element.dataset.yields = "4";
+    const theme = () => state.theme.set(state.theme.value === "dark" ? "light" : "dark");
+    const bar = h(
         "header",
         { class: "top", role: "banner" },
-        iconButton("left", "Robots panel", () => actions.togglePanel("left"), "["),
+        h(
+            "div",
+            { class: "side-button" },
+            iconButton("left", "Robots panel", () => actions.togglePanel("left"), "["),
+        ),
         h("h1", { class: "brand" }, "RoBOSS"),
         worldFacts(state),
         h("div", { class: "grow" }),
         desk,
         tools.element,
         cameras.element,
-        h(
-            "div",
-            { class: "cluster-of-buttons", role: "group", "aria-label": "View" },
-            iconButton("home", "Whole world", actions.home, "H"),
-            iconButton("focus", "Look at the selected robot", actions.focus, "F"),
-        ),
-        h(
-            "div",
-            { class: "cluster-of-buttons", role: "group", "aria-label": "Take away" },
-            iconButton("camera", "Save a picture", () => capture.picture(), "X"),
+        group("View", 2, [
+            iconButton("home", "Whole world", actions.home, "H", "All"),
+            iconButton("focus", "Look at the selected robot", actions.focus, "F", "Robot"),
+        ]),
+        group("Take away", 5, [
+            iconButton("camera", "Save a picture", () => capture.picture(), "X", "Picture"),
             record,
-            iconButton("link", "Copy a link to this view", actions.copyLink, "L"),
-        ),
+            iconButton("link", "Copy a link to this view", actions.copyLink, "L", "Link"),
+        ]),
+        group("Page", 3, [
+            iconButton("theme", "Light or dark", theme, "T", "Theme"),
+            iconButton("help", "Keys and help", actions.help, "?", "Help"),
+        ]),
         h(
             "div",
-            { class: "cluster-of-buttons", role: "group", "aria-label": "Page" },
-            iconButton(
-                "theme",
-                "Light or dark",
-                () => state.theme.set(state.theme.value === "dark" ? "light" : "dark"),
-                "T",
-            ),
-            iconButton("help", "Keys and help", actions.help, "?"),
+            { class: "side-button" },
             iconButton("right", "Side panel", () => actions.togglePanel("right"), "]"),
         ),
+    );
+    desk.dataset.yields = "6";
+    const more = moreMenu(bar, "More", false);
+    bar.append(more.button);
+    // What a bar holds changes its width, too: who has control, what the run does.
+    state.roles.follow(() => requestAnimationFrame(() => more.fit()));
+    return { element: bar, menu: more.menu };
+}
+
+function group(label: string, yields: number, buttons: HTMLElement[]): HTMLElement {
+    return h(
+        "div",
+        { class: "cluster-of-buttons", role: "group", "aria-label": label, "data-yields": yields },
+        ...buttons,
     );
 }
 

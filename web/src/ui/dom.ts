@@ -36,16 +36,33 @@ export function icon(name: IconName): SVGSVGElement {
     return svg;
 }
 
-/** A button of one icon; its label is read aloud and shown as a tip. */
-export function iconButton(name: IconName, label: string, onclick: () => void, key = ""): HTMLButtonElement {
+/** A button of one icon; its label is read aloud and shown as a tip. `words`: shown beside it where there is room. */
+export function iconButton(
+    name: IconName,
+    label: string,
+    onclick: () => void,
+    key = "",
+    words = "",
+): HTMLButtonElement {
     const tip = key === "" ? label : `${label}  (${key})`;
-    return h("button", { type: "button", class: "icon-button", "aria-label": label, title: tip, onclick }, icon(name));
+    return h(
+        "button",
+        {
+            type: "button",
+            class: words === "" ? "icon-button" : "icon-button worded",
+            "aria-label": label,
+            title: tip,
+            onclick,
+        },
+        icon(name),
+        words === "" ? null : h("span", { class: "button-words", "aria-hidden": "true" }, words),
+    );
 }
 
 /** One of several buttons that exclude each other. */
 export function choice<T extends string>(
     label: string,
-    options: readonly { value: T; text: string; icon?: IconName; key?: string }[],
+    options: readonly { value: T; text: string; icon?: IconName; key?: string; words?: string }[],
     onchoose: (value: T) => void,
 ): { element: HTMLElement; show: (value: T) => void } {
     const buttons = new Map<T, HTMLButtonElement>();
@@ -55,6 +72,8 @@ export function choice<T extends string>(
         if (option.icon !== undefined) {
             button.append(icon(option.icon));
             button.setAttribute("aria-label", option.text);
+            if (option.words !== undefined)
+                button.append(h("span", { class: "button-words", "aria-hidden": "true" }, option.words));
         } else button.append(option.text);
         button.title = option.key === undefined ? option.text : `${option.text}  (${option.key})`;
         buttons.set(option.value, button);

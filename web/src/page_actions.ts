@@ -1,0 +1,139 @@
+// The page's own actions. What belongs to one part of the page may be added by that part instead (Actions.add).
+import type { Capture } from "./capture";
+import type { Director } from "./camera/director";
+import type { Action } from "./model/actions";
+import type { CameraMode, Tool, ViewerState } from "./model/viewer_state";
+import type { TimeBar } from "./panels/time_bar";
+import type { IconName } from "./ui/icons";
+
+export interface PageParts {
+    state: ViewerState;
+    director: Director;
+    capture: Capture;
+    time: TimeBar;
+    findRobot(): void;
+    togglePanel(side: "left" | "right"): void;
+    copyLink(): void;
+    help(): void;
+}
+
+function timeActions({ time }: PageParts): Action[] {
+    const group = "Time";
+    return [
+        { id: "time.play", title: "Play or pause", group, keys: [" "], icon: "play", run: () => time.playOrPause() },
+        {
+            id: "time.step",
+            title: "One tick",
+            group,
+            keys: ["."],
+            icon: "step",
+            repeats: true,
+            run: () => time.step(1),
+        },
+        { id: "time.faster", title: "Faster", group, keys: ["+", "="], run: () => time.faster(1) },
+        { id: "time.slower", title: "Slower", group, keys: ["-"], run: () => time.faster(-1) },
+    ];
+}
+
+function toolActions({ state }: PageParts): Action[] {
+    const group = "Tools",
+        tool = (value: Tool, title: string, key: string, icon: IconName): Action => ({
+            id: `tool.${value}`,
+            title,
+            group,
+            keys: [key],
+            icon,
+            run: () => state.tool.set(value),
+            on: () => state.tool.value === value,
+        });
+    const letGo = () => {
+        if (state.attaching.value !== null) state.attaching.set(null);
+        else if (state.tool.value !== "select") state.tool.set("select");
+        else state.selected.set(null);
+    };
+    return [
+        tool("select", "Select", "V", "cursor"),
+        tool("move", "Move a robot", "M", "move"),
+        tool("push", "Push a robot", "P", "push"),
+        { id: "tool.let_go", title: "Let go", group, keys: ["Escape"], run: letGo },
+    ];
+}
+
+function cameraActions({ state, director }: PageParts): Action[] {
+    const group = "Camera",
+        mode = (value: CameraMode, title: string, key: string): Action => ({
+            id: `camera.${value}`,
+            title,
+            group,
+            keys: [key],
+            words: "camera",
+            run: () => state.cameraMode.set(value),
+            on: () => state.cameraMode.value === value,
+        });
+    const focus = () => state.selected.value !== null && director.focus(state.selected.value);
+    return [
+        mode("orbit", "Orbit", "1"),
+        mode("fly", "Fly", "2"),
+        mode("follow", "Follow the selected robot", "3"),
+        mode("chase", "Chase the selected robot", "4"),
+        { id: "camera.home", title: "Whole world", group, keys: ["H"], icon: "home", run: () => director.home() },
+        {
+            id: "camera.focus",
+            title: "Look at the selected robot",
+            group,
+            keys: ["F"],
+            icon: "focus",
+            run: focus,
+            enabled: () => state.selected.value !== null,
+        },
+    ];
+}
+
+function ownActions(parts: PageParts): Action[] {
+    const group = "Page",
+        { state, capture } = parts;
+    const theme = () => state.theme.set(state.theme.value === "dark" ? "light" : "dark");
+    return [
+        { id: "page.find", title: "Find a robot", group, keys: ["/"], icon: "search", run: parts.findRobot },
+        {
+            id: "page.left",
+            title: "Robots panel",
+            group,
+            keys: ["["],
+            icon: "left",
+            run: () => parts.togglePanel("left"),
+        },
+        {
+            id: "page.right",
+            title: "Side panel",
+            group,
+            keys: ["]"],
+            icon: "right",
+            run: () => parts.togglePanel("right"),
+        },
+        { id: "page.theme", title: "Light or dark", group, keys: ["T"], icon: "theme", run: theme },
+        {
+            id: "page.picture",
+            title: "Save a picture",
+            group,
+            keys: ["X"],
+            icon: "camera",
+            run: () => capture.picture(),
+        },
+        {
+            id: "page.video",
+            title: "Record a video",
+            group,
+            keys: ["R"],
+            icon: "record",
+            run: () => capture.toggleVideo(),
+            on: () => capture.recording.value,
+        },
+        { id: "page.link", title: "Copy a link to this view", group, keys: ["L"], icon: "link", run: parts.copyLink },
+        { id: "page.help", title: "Keys and help", group, keys: ["?"], icon: "help", run: parts.help },
+    ];
+}
+
+export function pageActions(parts: PageParts): Action[] {
+    return [...timeActions(parts), ...toolActions(parts), ...cameraActions(parts), ...ownActions(parts)];
+}
