@@ -2,6 +2,8 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "app/commands/check_command.h"
 #include "app/commands/client_command.h"
@@ -18,6 +20,20 @@
 #include "app/commands/view_command.h"
 #include "app/viewer/snapshot.h"
 
+namespace {
+
+/// By what they are for, in the order in which a newcomer needs them.
+void group_commands(CLI::App& app) {
+    const std::pair<const char*, std::vector<const char*>> groups[] = {
+        {"Simulate a world", {"run", "check", "snapshot", "new-client"}},
+        {"Control and keep a run", {"control", "runs", "save", "replay", "journal", "diff"}},
+        {"Members of a run on several computers", {"controller", "simulator", "client", "view", "cluster"}}};
+    for (const auto& [group, commands] : groups)
+        for (const char* command : commands) app.get_subcommand(command)->group(group);
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
     CLI::App app{
         "RoBOSS simulates many robots in one physical world, with bit-identical results on any number of "
@@ -32,18 +48,19 @@ int main(int argc, char** argv) {
     roboss::add_run_command(app, exit_code);
     roboss::add_check_command(app, exit_code);
     roboss::add_snapshot_command(app, exit_code);
+    roboss::add_new_client_command(app, exit_code);
+    roboss::add_control_command(app, exit_code);
+    roboss::add_runs_command(app, exit_code);
+    roboss::add_save_command(app, exit_code);
+    roboss::add_replay_command(app, exit_code);
+    roboss::add_journal_command(app, exit_code);
+    roboss::add_diff_command(app, exit_code);
     roboss::add_controller_command(app, exit_code);
     roboss::add_simulator_command(app, exit_code);
     roboss::add_client_command(app, exit_code);
-    roboss::add_new_client_command(app, exit_code);
     roboss::add_view_command(app, exit_code);
-    roboss::add_replay_command(app, exit_code);
-    roboss::add_control_command(app, exit_code);
-    roboss::add_runs_command(app, exit_code);
     roboss::add_cluster_command(app, exit_code);
-    roboss::add_save_command(app, exit_code);
-    roboss::add_journal_command(app, exit_code);
-    roboss::add_diff_command(app, exit_code);
+    group_commands(app);
     if (const std::optional<int> ended = roboss::read_command_line(app, argc, argv)) return *ended;
     return exit_code;
 }

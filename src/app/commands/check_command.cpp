@@ -236,7 +236,9 @@ int check(const CheckOptions& options) {
 
 void add_check_command(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<CheckOptions>();
-    CLI::App* command = app.add_subcommand("check", kHelp);
+    CLI::App* command =
+        app.add_subcommand("check", "report what a world file holds and what is wrong with it");
+    command->footer(kHelp);
     command->add_option("world", options->world, "world file: SDFormat or URDF")
         ->required()
         ->type_name("WORLD");
