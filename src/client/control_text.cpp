@@ -5,6 +5,7 @@
 #include <concepts>
 #include <sstream>
 
+#include "core/number_text.h"
 #include "math/quat.h"
 
 namespace roboss {
@@ -36,19 +37,9 @@ Error bad_value(const Words& words, const std::string& wanted) {
             "bad-value"};
 }
 
-std::optional<double> number(const std::string& text) {
-    try {
-        std::size_t used = 0;
-        const double value = std::stod(text, &used);
-        if (used == text.size() && std::isfinite(value)) return value;
-    } catch (const std::exception&) {
-    }
-    return std::nullopt;
-}
-
 /// A whole number from 0 on.
 std::optional<std::int64_t> whole(const std::string& text) {
-    const std::optional<double> value = number(text);
+    const std::optional<double> value = read_number(text);
     if (!value || *value < 0 || *value > 1e15 || *value != std::floor(*value)) return std::nullopt;
     return static_cast<std::int64_t>(*value);
 }
@@ -74,7 +65,7 @@ Parsed step(const Words& words) {
 Parsed speed(const Words& words) {
     if (words[1] == "max") return SetSpeed{SetSpeed::Kind::kMax};
     if (words[1] == "world") return SetSpeed{SetSpeed::Kind::kWorld};
-    const std::optional<double> factor = number(words[1]);
+    const std::optional<double> factor = read_number(words[1]);
     if (!factor) return bad_value(words, "give a number greater than 0, max or world");
     return SetSpeed{SetSpeed::Kind::kFactor, *factor};
 }
@@ -100,7 +91,7 @@ Parsed rewind(const Words& words) {
     RewindRun rewind;
     const std::string& text = words[1];
     const std::size_t at = text.find('@');
-    const std::optional<double> time_s = number(at == std::string::npos ? text : text.substr(at + 1));
+    const std::optional<double> time_s = read_number(at == std::string::npos ? text : text.substr(at + 1));
     if (!time_s) return bad_value(words, "give a time in s, or #BRANCH@TIME");
     rewind.time_s = *time_s;
     if (at == std::string::npos || at == 0) return rewind;
@@ -124,7 +115,7 @@ Parsed accuracy(const Words& words) {
             change.setting = words[i];
             continue;
         }
-        const std::optional<double> value = number(words[i].substr(equals + 1));
+        const std::optional<double> value = read_number(words[i].substr(equals + 1));
         if (!value) return bad_value(words, "give NAME=NUMBER");
         change.numbers.push_back({words[i].substr(0, equals), *value});
     }

@@ -1,8 +1,7 @@
-// Parses numbers with from_chars: no locale, and the same double for the same text everywhere.
+// Reads what elements of a world file hold.
 #include "sdf/element_reader.h"
 
 #include <cctype>
-#include <charconv>
 #include <cmath>
 
 namespace roboss::sdf_import {
@@ -13,19 +12,6 @@ bool is_space(char c) {
 }
 
 }  // namespace
-
-std::optional<double> parse_number(std::string_view text) {
-    if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error == std::errc::result_out_of_range && end == text.data() + text.size()) {
-        // Too small for a double is zero for every reader of SDFormat; too large stays no number.
-        const bool tiny = text.find("e-") != text.npos || text.find("E-") != text.npos;
-        return tiny ? std::optional<double>(0.0) : std::nullopt;
-    }
-    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return value;
-}
 
 std::vector<std::string_view> words_of(std::string_view text) {
     std::vector<std::string_view> words;

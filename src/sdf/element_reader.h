@@ -10,15 +10,13 @@
 #include <vector>
 
 #include "core/diagnostics.h"
+#include "core/number_text.h"
 #include "math/pose.h"
 #include "sdf/source_file.h"
 
 namespace roboss::sdf_import {
 
 enum class Finite { kRequired, kInfinityAllowed };
-
-/// The whole text as one number; nullopt if it is none. Accepts what SDFormat accepts: "+1", "1e-3", "inf".
-std::optional<double> parse_number(std::string_view text);
 
 /// The number that a text begins with, whatever follows it; nullopt: none.
 std::optional<double> number_at_start(std::string_view text);

@@ -5,20 +5,16 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 
 namespace roboss {
 namespace {
 
-/// The number that the whole text is.
-template <class Number>
-std::optional<Number> read(const std::string& text) {
-    Number value{};
+std::optional<std::int64_t> read_whole(const std::string& text) {
+    std::int64_t value = 0;
     const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
     const char* const end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(begin, end, value);
-    if (error != std::errc{} || stop != end) return std::nullopt;
-    return value;
+    return error == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
 }
 
 template <class Fits>
@@ -34,11 +30,6 @@ CLI::Validator finite_number(const std::string& kind, const std::string& rule, F
 
 }  // namespace
 
-std::optional<double> read_number(const std::string& text) {
-    const std::optional<double> value = read<double>(text);
-    return value && std::isfinite(*value) ? value : std::nullopt;
-}
-
 CLI::Validator positive_number() {
     return finite_number("POSITIVE", "above 0", [](double x) { return x > 0; });
 }
@@ -50,7 +41,7 @@ CLI::Validator non_negative_number() {
 CLI::Validator whole_number(std::int64_t low, std::int64_t high) {
     return CLI::Validator(
         [low, high](std::string& text) -> std::string {
-            const std::optional<std::int64_t> value = read<std::int64_t>(text);
+            const std::optional<std::int64_t> value = read_whole(text);
             if (!value) return "'" + text + "' is not a whole number";
             return *value >= low && *value <= high
                        ? std::string()

@@ -4,14 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
-namespace roboss {
+#include "core/number_text.h"
 
-/// The finite number that the whole text is.
-std::optional<double> read_number(const std::string& text);
+namespace roboss {
 
 /// A finite number above 0.
 CLI::Validator positive_number();

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "app/worlds/orders_file.h"
+#include "core/number_text.h"
 
 namespace roboss {
 namespace {
@@ -13,14 +14,9 @@ Result<std::optional<double>> cut_number(std::string& text, char mark, const cha
     const std::size_t at = text.rfind(mark);
     if (at == std::string::npos || text.find('/', at) != std::string::npos) return std::optional<double>{};
     const std::string number = text.substr(at + 1);
-    try {
-        std::size_t used = 0;
-        const double value = std::stod(number, &used);
-        if (used == number.size() && value >= 0 && value < 1e12) {
-            text.resize(at);
-            return std::optional<double>(value);
-        }
-    } catch (const std::exception&) {
+    if (const auto value = read_number(number); value && *value >= 0 && *value < 1e12) {
+        text.resize(at);
+        return value;
     }
     return Error{"'" + number + "' in '" + text + "' is not a " + what,
                  "write FILE, FILE@TIME or FILE#BRANCH@TIME, with the time in s", "bad-location"};
