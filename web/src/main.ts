@@ -27,10 +27,11 @@ import { ClusterPanel } from "./panels/cluster_panel";
 import { controlDesk } from "./panels/control_desk";
 import { helpCard } from "./panels/help";
 import { Inspector } from "./panels/inspector";
-import { banner, notices } from "./panels/notices";
+import { notices } from "./panels/notices";
 import { plotsDock } from "./panels/plots_dock";
 import { RobotList } from "./panels/robot_list";
 import { type Sheet, Sheets } from "./panels/sheets";
+import { runBanner } from "./panels/run_banner";
 import { sideTabs, type Tab } from "./panels/side_tabs";
 import { timeBar } from "./panels/time_bar";
 import { topBar } from "./panels/top_bar";
@@ -211,7 +212,7 @@ const top = topBar(state, capture, desk.element, {
     togglePanel,
 });
 document.body.prepend(top.element, top.menu);
-view.append(labels.element, banner(state, run), desk.question, said.element);
+view.append(labels.element, runBanner(state, run), desk.question, said.element);
 document.body.append(
     sheets.head,
     list.element,

@@ -61,6 +61,7 @@ class Run {
 
     // run_loop.cpp: the time between
     bool drive();
+    std::string reason_of_end(bool fine) const;
     bool look(const Schedule& due);
     bool rest();
     bool take_picture();
