@@ -134,7 +134,10 @@ std::string Access::refusal(const Visitor& visitor) const {
     if (visitor.hosts != 1) return std::to_string(visitor.hosts) + " Host headers instead of one";
     if (!by_token_ && !names_loopback(visitor.host))
         return "wrong Host header " + quoted(visitor.host) + " [wrong-host]";
-    if (!role_of(visitor)) return "the token that was printed at the start is missing [no-token]";
+    if (!role_of(visitor))
+        return query_of(visitor.target).find("token=") == std::string_view::npos
+                   ? "the token that was printed at the start is missing [no-token]"
+                   : "the token is not that of this run [wrong-token]";
     if (!visitor.wants_socket) return {};
     if (visitor.origins == 0) return "the Origin header is missing [no-origin]";
     if (visitor.origins > 1 || !same_origin(visitor.origin, visitor.host))

@@ -45,6 +45,10 @@ std::vector<std::string> Gateway::take_notices() {
     return notices;
 }
 
+void Gateway::say_farewell(const std::string& reason) {
+    parts_->server->say_farewell(reason);
+}
+
 GatewayLoad Gateway::load() const {
     return parts_->server->load();
 }

@@ -47,6 +47,8 @@ class Gateway {
     std::vector<std::string> take_notices();
     /// Why the run is over, if a reason was sent; empty: it is not over.
     const std::string& over() const;
+    /// Says to all pages why the run is over (or the viewer ends), and closes them; takes a moment.
+    void say_farewell(const std::string& reason);
     GatewayLoad load() const;
 
   private:

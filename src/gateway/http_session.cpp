@@ -40,6 +40,24 @@ std::string name_of(const asio::ip::tcp::socket& socket) {
     return error ? "someone" : endpoint.address().to_string();
 }
 
+std::string escaped(std::string_view text) {
+    std::string safe;
+    for (const char c : text) safe += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
+    return safe;
+}
+
+std::string refusal_page(std::string_view why) {
+    return "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>RoBOSS: refused</title>"
+           "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><style>"
+           ":root{color-scheme:light dark}body{font:16px/1.5 system-ui,sans-serif;max-width:38rem;"
+           "margin:12vh auto;padding:0 1rem}</style><h1>The viewer refused this request</h1><p>Reason: " +
+           escaped(why) +
+           "</p><p>Open the address that the run printed at its start (<code>roboss: viewer at ...</code>), "
+           "with "
+           "the token in it. Each start of a run makes new tokens. On the computer of the run, use "
+           "<code>localhost</code> or <code>127.0.0.1</code>.</p></html>\n";
+}
+
 }  // namespace
 
 HttpSession::HttpSession(asio::ip::tcp::socket&& socket, ServerCore& core)
@@ -93,6 +111,9 @@ void HttpSession::serve() {
 }
 
 void HttpSession::upgrade(PageRole role) {
+    if (!core_.has_room(peer_))
+        return refuse(http::status::service_unavailable,
+                      "too many pages are open; close one of them [too-many-pages]");
     if (!beast::websocket::is_upgrade(request_))
         return refuse(http::status::upgrade_required, "/ws needs a WebSocket upgrade");
     http::token_list subprotocols(request_[http::field::sec_websocket_protocol]);
@@ -101,10 +122,7 @@ void HttpSession::upgrade(PageRole role) {
                       std::string("the WebSocket does not offer the subprotocol ") +
                           viewer_protocol::kSubprotocol + " [no-subprotocol]");
     auto page = std::make_shared<PageSession>(std::move(stream_), core_, core_.next_page(), peer_, role);
-    if (!core_.admit(page)) {
-        core_.notice("viewer: a page from " + peer_ + " is refused: too many pages [too-many-pages]");
-        return page->close();
-    }
+    core_.admit(page);
     page->start(request_);
 }
 
@@ -155,6 +173,9 @@ HttpSession::Answer HttpSession::answer_for(std::string_view path) const {
 void HttpSession::refuse(http::status status, const std::string& why) {
     core_.notice("viewer: a request from " + peer_ + " is refused: " + why);
     request_.keep_alive(false);
+    // Somebody who opened a wrong address reads this, not a program.
+    if (status == http::status::forbidden && path_of(view_of(request_.target())) == "/")
+        return send({status, "text/html; charset=utf-8", refusal_page(why)});
     send({status, "text/plain; charset=utf-8", "refused: " + why + "\n"});
 }
 

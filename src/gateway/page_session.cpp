@@ -2,6 +2,7 @@
 #include "gateway/page_session.h"
 
 #include <boost/asio/buffer.hpp>
+#include <charconv>
 
 #include "gateway/server_core_session.h"
 #include "wire/viewer_protocol.h"
@@ -15,6 +16,18 @@ namespace websocket = beast::websocket;
 
 constexpr std::size_t kLinesMissAt = 8, kLinesMax = 4'000;
 constexpr std::int64_t kSilent_s = 30, kExtrasEvery_ms = 100;
+
+/// The page's number in its last connection, as `was=N` of the request says; 0: none.
+std::uint64_t number_in(beast::string_view target) {
+    constexpr std::string_view kName = "was=";
+    const std::string_view text(target.data(), target.size());
+    std::uint64_t number = 0;
+    const std::size_t at = text.find(kName);
+    if (at == std::string_view::npos) return 0;
+    const auto [end, error] =
+        std::from_chars(text.data() + at + kName.size(), text.data() + text.size(), number);
+    return error == std::errc() ? number : 0;
+}
 
 }  // namespace
 
@@ -42,6 +55,7 @@ void PageSession::start(const Request& request) {
     socket_.read_message_max(viewer_protocol::kMessageBytesMax);
     socket_.write_buffer_bytes(1 << 16);
     socket_.auto_fragment(false);
+    before_ = number_in(request.target());
     socket_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
         if (error) return self->end("the handshake failed: " + error.message());
         self->open_ = true;
@@ -58,32 +72,39 @@ void PageSession::close() {
     beast::get_lowest_layer(socket_).socket().close(ignored);
 }
 
-/// The end of the session; `why` is for the log, empty: it left by itself.
-void PageSession::end(const std::string& why) {
+void PageSession::leave() {
+    leaving_ = true;
+    write_next();
+}
+
+void PageSession::end(const std::string& why, const std::string& code) {
     if (std::exchange(ended_, true)) return;
     open_ = false;
-    if (!why.empty()) core_.notice("viewer: page " + std::to_string(number_) + " of " + peer_ + ": " + why);
+    if (!why.empty())
+        core_.notice("viewer: page " + std::to_string(number_) + " of " + peer_ + ": " + why +
+                     (code.empty() ? "" : " [" + code + "]"));
     timer_.cancel();
     close();
-    core_.dismiss(number_);
+    core_.dismiss(number_, {why, code});
 }
 
 void PageSession::read() {
     buffer_.clear();
     socket_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
         if (self->ended_) return;
-        if (error == websocket::error::closed || error == asio::error::operation_aborted)
-            return self->end({});
+        if (error == websocket::error::closed || error == asio::error::operation_aborted) return self->end();
         if (error == websocket::error::message_too_big)
-            return self->end("a message is larger than " + std::to_string(viewer_protocol::kMessageBytesMax) +
-                             " bytes [too-large]");
-        if (error == beast::error::timeout) return self->end("it timed out [timeout]");
-        if (error) return self->end("the connection broke: " + error.message() + " [broken]");
-        if (!self->socket_.got_text()) return self->end("it sent a binary message [binary-message]");
+            return self->end(
+                "a message is larger than " + std::to_string(viewer_protocol::kMessageBytesMax) + " bytes",
+                "too-large");
+        if (error == beast::error::timeout) return self->end("it timed out", "timeout");
+        if (error) return self->end("the connection broke: " + error.message(), "broken");
+        if (!self->socket_.got_text()) return self->end("it sent a binary message", "binary-message");
         if (!self->rate_.take(steady_ms()))
             return self->end("too many messages: more than " +
-                             std::to_string(viewer_protocol::kMessagesASecondMax) +
-                             " messages per second [flood]");
+                                 std::to_string(viewer_protocol::kMessagesASecondMax) +
+                                 " messages per second",
+                             "flood");
         self->take(beast::buffers_to_string(self->buffer_.data()));
         if (!self->ended_) self->read();
     });
@@ -91,7 +112,7 @@ void PageSession::read() {
 
 void PageSession::take(const std::string& text) {
     Result<PageRequest> request = parse_page_request(text);
-    if (!request) return end(request.error().message + " [" + request.error().code + "]");
+    if (!request) return end(request.error().message, request.error().code);
     if (std::holds_alternative<PageWatch>(request.value().what)) {
         watch_ = std::get<PageWatch>(request.value().what);
         core_.watch_changed();
@@ -108,13 +129,13 @@ void PageSession::take(const std::string& text) {
 
 bool PageSession::greet() {
     if (!open_ || std::exchange(greeted_, true)) return false;
-    send(core_.hello(), false);
+    send(core_.hello(before_), false);
     return true;
 }
 
 void PageSession::send(std::string text, bool may_miss) {
     if (!open_ || (may_miss && lines_.size() >= kLinesMissAt)) return;
-    if (lines_.size() >= kLinesMax) return end("it does not read its replies");
+    if (lines_.size() >= kLinesMax) return end("it does not read its replies", "slow");
     lines_.push_back(std::move(text));
     write_next();
 }
@@ -171,6 +192,11 @@ void PageSession::write_next() {
         writing_ = true;
         socket_.text(true);
         return socket_.async_write(asio::buffer(line_under_way_), done);
+    }
+    if (leaving_) {
+        writing_ = true;
+        return socket_.async_close(websocket::close_code::going_away,
+                                   [self = shared_from_this()](beast::error_code) { self->end(); });
     }
     if (!state_wanted_ || !state_due()) return;
     state_wanted_ = false;

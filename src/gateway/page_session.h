@@ -27,6 +27,8 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
 
     void start(const Request& request);
     void close();
+    /// Closes it by the protocol, after the lines that wait.
+    void leave();
     std::uint64_t number() const { return number_; }
     const std::string& peer() const { return peer_; }
     PageRole role() const { return role_; }
@@ -47,7 +49,8 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
     void read();
     void take(const std::string& text);
     void write_next();
-    void end(const std::string& why);
+    /// `why` and its code are for the log and for the page, if it comes back; empty: it left by itself.
+    void end(const std::string& why = {}, const std::string& code = {});
     bool state_due();
     bool extras_due();
 
@@ -61,7 +64,8 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
     RateLimit rate_;
     PageWatch watch_;
     bool open_ = false, ended_ = false, writing_ = false, state_wanted_ = false, timing_ = false,
-         greeted_ = false;
+         greeted_ = false, leaving_ = false;
+    std::uint64_t before_ = 0;  // the number of this page in its last connection; 0: none
     std::deque<std::string> lines_;
     std::string line_under_way_;
     std::vector<std::uint8_t> state_under_way_;

@@ -154,6 +154,9 @@ void RunWatcher::handle(Bus&, Envelope& envelope) {
         outdated_ = outdated_ || changed->model_hash != scene_->model->hash;
     } else if (const auto* over = std::get_if<RunOver>(&envelope.message)) {
         over_ = over->reason;
+        Line line;
+        line.make = [reason = over->reason] { return dumped({{"type", "over"}, {"reason", reason}}); };
+        exchange_->send(std::move(line));
     }
 }
 

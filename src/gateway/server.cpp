@@ -48,6 +48,10 @@ Result<std::unique_ptr<Server>> Server::open(const GatewayOptions& options,
 
 Server::~Server() = default;
 
+void Server::say_farewell(const std::string& reason) {
+    core_->say_farewell(reason);
+}
+
 std::vector<std::string> Server::take_notices() {
     return core_->take_notices();
 }

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <thread>
 
 #include "client/control_text.h"
 #include "core/thread_cpu.h"
@@ -25,6 +26,8 @@ constexpr double kNoticesASecond = 20;  // the rest is counted: the log is not t
 constexpr int kSendBytes = 256 << 10;   // what lies in a socket is old when it is read: not much of it
 constexpr auto kLatePart = std::chrono::milliseconds(8);
 constexpr auto kSceneWait = std::chrono::seconds(5);
+constexpr std::int64_t kFarewell_ms = 300;
+constexpr std::size_t kFarewellsMax = 64;
 
 std::string answer_line(std::int64_t id, bool done, const std::string& text) {
     return Json{{"type", "answer"}, {"id", id}, {"done", done}, {"text", text}}.dump();
@@ -100,6 +103,21 @@ void ServerCore::serve() {
     }
 }
 
+void ServerCore::say_farewell(const std::string& reason) {
+    if (!thread_.joinable()) return;
+    asio::post(io_, [this, reason] {
+        const Json line{{"type", "over"}, {"reason", reason}};
+        const std::string text = line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+        for (const auto& [number, page] : std::map(pages_)) {
+            page->send(text, false);
+            page->leave();
+        }
+    });
+    const std::int64_t until_ms = steady_ms() + kFarewell_ms;
+    while (page_count_ > 0 && steady_ms() < until_ms)
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+}
+
 void ServerCore::stop() {
     if (!thread_.joinable()) return;
     exchange_->set_bell({});
@@ -156,12 +174,13 @@ std::size_t ServerCore::pages_of(const std::string& address) const {
     return count;
 }
 
-bool ServerCore::admit(const std::shared_ptr<PageSession>& page) {
-    if (pages_.size() >= kPagesMax) return false;
-    if (!is_loopback(page->peer()) && pages_of(page->peer()) >= kPagesOfOneMax) return false;
+bool ServerCore::has_room(const std::string& address) const {
+    return pages_.size() < kPagesMax && (is_loopback(address) || pages_of(address) < kPagesOfOneMax);
+}
+
+void ServerCore::admit(const std::shared_ptr<PageSession>& page) {
     pages_[page->number()] = page;
     page_count_ = pages_.size();
-    return true;
 }
 
 void ServerCore::entered(PageSession& page) {
@@ -169,8 +188,10 @@ void ServerCore::entered(PageSession& page) {
     send_roles();
 }
 
-void ServerCore::dismiss(std::uint64_t page) {
+void ServerCore::dismiss(std::uint64_t page, const Farewell& farewell) {
     if (pages_.erase(page) == 0) return;
+    if (!farewell.why.empty()) farewells_.emplace_back(page, farewell);
+    if (farewells_.size() > kFarewellsMax) farewells_.pop_front();
     page_count_ = pages_.size();
     desk_.leave(page);
     send_roles();
@@ -259,7 +280,7 @@ void ServerCore::want_scene(std::function<void()> then) {
     });
 }
 
-std::string ServerCore::hello() const {
+std::string ServerCore::hello(std::uint64_t before) const {
     nlohmann::ordered_json hello{{"type", "hello"},
                                  {"version", viewer_protocol::kVersion},
                                  {"scene", scene_ ? scene_->number : 0},
@@ -267,6 +288,8 @@ std::string ServerCore::hello() const {
                                  {"journal", options_.journal},
                                  {"rate", viewer_protocol::kRateMax},
                                  {"program", options_.program}};
+    for (const auto& [page, farewell] : farewells_)
+        if (page == before) hello["dropped"] = {{"why", farewell.why}, {"code", farewell.code}};
     return hello.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

@@ -6,6 +6,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <deque>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -26,6 +27,11 @@ namespace roboss {
 class HttpSession;
 class PageSession;
 
+/// Why a page was disconnected; empty: it left by itself.
+struct Farewell {
+    std::string why, code;
+};
+
 class ServerCore {
   public:
     ServerCore(const GatewayOptions& options, Access access, std::shared_ptr<Exchange> exchange);
@@ -35,6 +41,8 @@ class ServerCore {
     Result<> listen(const ListenAddress& address);
     std::uint16_t port() const;
     void start();
+    /// Says to all pages why the run is over and closes them; waits for that, but not long.
+    void say_farewell(const std::string& reason);
     void stop();
 
     // --- for sessions
@@ -42,15 +50,17 @@ class ServerCore {
     const PageFiles& files() const { return files_; }
     const std::shared_ptr<const ShownScene>& scene() const { return scene_; }
     const ViewStateCache& book() const { return order_log_; }
-    std::string hello() const;
+    /// The first line; it says why this page was disconnected when it had the number `before`.
+    std::string hello(std::uint64_t before) const;
     /// The line with surfaces in motion and bonds.
     std::string extras_line() const;
     std::uint64_t next_page() { return ++last_page_; }
-    /// False: there are too many, in all or from its address.
-    bool admit(const std::shared_ptr<PageSession>& page);
+    /// For one more page of this address.
+    bool has_room(const std::string& address) const;
+    void admit(const std::shared_ptr<PageSession>& page);
     /// Its WebSocket is open: it hears who has control.
     void entered(PageSession& page);
-    void dismiss(std::uint64_t page);
+    void dismiss(std::uint64_t page, const Farewell& farewell);
     void connection_ended(HttpSession* session) { connections_.erase(session); }
     /// What the page wants has changed.
     void watch_changed();
@@ -91,6 +101,7 @@ class ServerCore {
     std::thread thread_;
     std::map<std::uint64_t, std::shared_ptr<PageSession>> pages_;
     std::uint64_t last_page_ = 0;
+    std::deque<std::pair<std::uint64_t, Farewell>> farewells_;  // of the pages that were disconnected last
     std::vector<std::shared_ptr<std::function<void()>>> scene_waiters_;
     std::shared_ptr<const ShownScene> scene_;
     ViewStateCache order_log_;

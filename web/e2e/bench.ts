@@ -30,7 +30,7 @@ export interface Run {
     port: number;
     /** Options that lead a member to a run of RunOptions::cluster. */
     network: string[];
-    stop(): Promise<void>;
+    stop(signal?: NodeJS.Signals): Promise<void>;
 }
 
 function ended(child: ChildProcess): Promise<void> {
@@ -79,8 +79,8 @@ function clusterNetwork(): string[] {
     return ["--simulation", name, "--domain", "92", "--no-multicast", "--peer", "127.0.0.1"];
 }
 
-async function end(child: ChildProcess): Promise<void> {
-    child.kill("SIGTERM");
+async function end(child: ChildProcess, signal: NodeJS.Signals = "SIGTERM"): Promise<void> {
+    child.kill(signal);
     const hard = setTimeout(() => child.kill("SIGKILL"), 5000);
     await ended(child);
     clearTimeout(hard);
@@ -113,8 +113,8 @@ export async function startRun(options: RunOptions = {}): Promise<Run> {
         url,
         port: Number(new URL(url).port),
         network,
-        stop: async () => {
-            await Promise.all([child, ...simulators].map(end));
+        stop: async (signal) => {
+            await Promise.all([child, ...simulators].map((one) => end(one, signal)));
             rmSync(folder, { recursive: true, force: true });
         },
     };

@@ -7,6 +7,7 @@ import { parseArgs } from "node:util";
 import { type WebSocket, WebSocketServer } from "ws";
 import { actingExtras } from "./acting";
 import { MockRun } from "./run";
+import { NO_TROUBLE, refusalText, troubleOf } from "./trouble";
 import { encodeRobots, encodeState, groupsOf, overlayReport, robotReport } from "./reports";
 
 const { values: options } = parseArgs({
@@ -29,8 +30,27 @@ const POLICY =
     "default-src 'self'; img-src 'self' blob: data:; style-src 'self' 'unsafe-inline'; media-src 'self' blob:";
 const run = new MockRun(Number(options.cars), 1, Number(options.simulators), !options["no-journal"]);
 
+let trouble = NO_TROUBLE;
+/** Numbers of the pages that were dropped, with the code. */
+const dropped = new Map<number, string>();
+let lastPage = 0;
+
 const http = createServer((request, response) => {
-    const path = new URL(request.url ?? "/", "http://mock").pathname;
+    const url = new URL(request.url ?? "/", "http://mock"),
+        path = url.pathname,
+        asked = troubleOf(url);
+    if (asked !== null) {
+        trouble = asked;
+        if (trouble.over !== "") pages.forEach((page) => page.leave(trouble.over));
+        if (trouble.drop !== "") pages.forEach((page) => page.drop(trouble.drop));
+        response.writeHead(200).end("done");
+        return;
+    }
+    if (path === "/ws") {
+        const status = trouble.refuse === 0 ? 426 : trouble.refuse;
+        response.writeHead(status, { "Content-Type": "text/plain" }).end(refusalText(status));
+        return;
+    }
     if (path === "/scene") {
         response.writeHead(200, { "Content-Type": "application/json" }).end(JSON.stringify(run.scene));
         return;
@@ -54,23 +74,44 @@ class Page {
     private extras = JSON.stringify({ surfaces: [], bonds: [] });
     private watch = { robots: [] as number[], overlays: [] as string[] };
 
-    constructor(private readonly socket: WebSocket) {
+    private readonly number = ++lastPage;
+
+    constructor(
+        private readonly socket: WebSocket,
+        before: number,
+    ) {
+        const code = dropped.get(before);
         this.tell({
             type: "hello",
-            version: 1,
+            version: trouble.version,
+            ...(code === undefined ? {} : { dropped: { why: "it does not read its replies", code } }),
             scene: run.scene.scene,
             world: run.scene.world,
             journal: run.journal,
             rate: 30,
             program: "mock gateway",
         });
-        const self = { page: 1, address: "127.0.0.1", role: "administer" };
-        this.tell({ type: "roles", page: 1, role: "administer", holder: self, asking: [] });
-        this.tell(run.status());
+        const self = { page: this.number, address: "127.0.0.1", role: "administer" };
+        this.tell({ type: "roles", page: this.number, role: "administer", holder: self, asking: [] });
+        this.status();
         socket.on(
             "message",
             (data, binary) => !binary && this.hear(JSON.parse(data.toString()) as Record<string, unknown>),
         );
+    }
+
+    leave(reason: string): void {
+        this.tell({ type: "over", reason });
+        this.socket.close(1001);
+    }
+
+    drop(code: string): void {
+        dropped.set(this.number, code);
+        this.socket.terminate();
+    }
+
+    status(): void {
+        if (!trouble.mute) this.tell({ ...run.status(), ...(trouble.empty ? { simulators: 0 } : {}) });
     }
 
     tell(message: object): void {
@@ -126,8 +167,15 @@ class Page {
 }
 
 const pages = new Set<Page>();
-new WebSocketServer({ server: http, path: "/ws", handleProtocols: () => "roboss.1" }).on("connection", (socket) => {
-    const page = new Page(socket);
+new WebSocketServer({
+    server: http,
+    path: "/ws",
+    handleProtocols: () => "roboss.1",
+    verifyClient: (_: object, decide: (welcome: boolean, status?: number) => void) =>
+        decide(trouble.refuse === 0, trouble.refuse),
+}).on("connection", (socket, request) => {
+    const before = new URL(request.url ?? "/", "http://mock").searchParams.get("was");
+    const page = new Page(socket, Number(before ?? 0));
     pages.add(page);
     socket.on("close", () => pages.delete(page));
 });
@@ -144,7 +192,7 @@ setInterval(
     1000 / Number(options.rate),
 );
 setInterval(() => pages.forEach((page) => page.reports()), 100);
-setInterval(() => pages.forEach((page) => page.tell(run.status())), 500);
+setInterval(() => pages.forEach((page) => page.status()), 500);
 http.listen(Number(options.port), "127.0.0.1", () => {
     const address = http.address();
     console.log(

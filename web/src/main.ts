@@ -22,15 +22,18 @@ import { RobotOverlays } from "./overlays/robot_overlays";
 import { RunOverlays } from "./overlays/run_overlays";
 import { SelectionMark } from "./overlays/selection_mark";
 import { Tracks } from "./overlays/tracks";
-import { pageActions } from "./page_actions";
+import { pageActions, robotActions } from "./page_actions";
 import { ClusterPanel } from "./panels/cluster_panel";
 import { controlDesk } from "./panels/control_desk";
 import { helpCard } from "./panels/help";
+import { firstHints } from "./panels/hints";
 import { Inspector } from "./panels/inspector";
-import { banner, notices } from "./panels/notices";
+import { notices } from "./panels/notices";
+import { Palette } from "./panels/palette";
 import { plotsDock } from "./panels/plots_dock";
 import { RobotList } from "./panels/robot_list";
 import { type Sheet, Sheets } from "./panels/sheets";
+import { runBanner } from "./panels/run_banner";
 import { sideTabs, type Tab } from "./panels/side_tabs";
 import { timeBar } from "./panels/time_bar";
 import { topBar } from "./panels/top_bar";
@@ -185,7 +188,8 @@ async function copyLink(): Promise<void> {
 }
 
 const actions = new Actions(),
-    help = helpCard(actions);
+    help = helpCard(actions),
+    palette = new Palette(actions);
 actions.add(
     ...pageActions({
         state,
@@ -199,19 +203,23 @@ actions.add(
         togglePanel,
         copyLink: () => void copyLink(),
         help: () => help.open(),
+        palette: () => palette.open(),
+        openSheet: (id) => sheets.show(id),
     }),
 );
+actions.addSource(() => robotActions({ state, director }));
 actions.listen();
 
 const top = topBar(state, capture, desk.element, {
     copyLink: () => void copyLink(),
     help: () => help.open(),
+    palette: () => palette.open(),
     home: () => director.home(),
     focus: focusSelected,
     togglePanel,
 });
 document.body.prepend(top.element, top.menu);
-view.append(labels.element, banner(state, run), desk.question, said.element);
+view.append(labels.element, runBanner(state, run), desk.question, said.element);
 document.body.append(
     sheets.head,
     list.element,
@@ -220,7 +228,10 @@ document.body.append(
     time.element,
     sheets.bar,
     help.element,
+    palette.element,
 );
+const hints = firstHints(address);
+if (hints !== null) view.append(hints);
 if (address.get("hide") === "panels") document.body.classList.add("bare");
 
 state.theme.follow((theme, before) => {

@@ -2,7 +2,8 @@
 import type { Capture } from "./capture";
 import type { Director } from "./camera/director";
 import type { Action } from "./model/actions";
-import type { CameraMode, Tool, ViewerState } from "./model/viewer_state";
+import { type CameraMode, OVERLAYS, type Tool, type ViewerState } from "./model/viewer_state";
+import { COLOURS, WORDS } from "./panels/view_options";
 import type { TimeBar } from "./panels/time_bar";
 import type { IconName } from "./ui/icons";
 
@@ -15,6 +16,8 @@ export interface PageParts {
     togglePanel(side: "left" | "right"): void;
     copyLink(): void;
     help(): void;
+    palette(): void;
+    openSheet(id: string): void;
 }
 
 function timeActions({ time }: PageParts): Action[] {
@@ -134,6 +137,74 @@ function ownActions(parts: PageParts): Action[] {
     ];
 }
 
+function viewActions({ state }: PageParts): Action[] {
+    const colours = COLOURS.map(([value, name, words]): Action => ({
+        id: `colour.${value}`,
+        title: `Colour by ${name}`,
+        group: "Colours",
+        words: `color ${words}`,
+        icon: "eye",
+        run: () => state.colourBy.set(value),
+        on: () => state.colourBy.value === value,
+    }));
+    const overlays = OVERLAYS.map((overlay): Action => ({
+        id: `overlay.${overlay}`,
+        title: WORDS[overlay][0],
+        group: "Show",
+        words: WORDS[overlay][1],
+        icon: "eye",
+        run: () => state.toggle(overlay),
+        on: () => state.overlays.value.has(overlay),
+    }));
+    return [...colours, ...overlays];
+}
+
+function sheetActions({ openSheet, palette }: PageParts): Action[] {
+    const sheets: [string, string, IconName][] = [
+        ["robots", "Open the robots", "list"],
+        ["inspector", "Open the robot's panel", "robot"],
+        ["cluster", "Open the cluster's panel", "cluster"],
+        ["view", "Open the view's panel", "eye"],
+        ["plots", "Open the plots", "plot"],
+    ];
+    return [
+        ...sheets.map(([id, title, icon]): Action => ({
+            id: `sheet.${id}`,
+            title,
+            group: "Panels",
+            icon,
+            run: () => openSheet(id),
+        })),
+        {
+            id: "page.palette",
+            title: "All commands",
+            group: "Page",
+            keys: ["Mod+K"],
+            icon: "command",
+            everywhere: true,
+            run: palette,
+        },
+    ];
+}
+
+/** Each robot by its name: chosen and looked at. */
+export function robotActions({ state, director }: Pick<PageParts, "state" | "director">): Action[] {
+    return (state.world.value?.fleet.scene.robots ?? []).map((robot, k) => ({
+        id: `robot.${robot.name}`,
+        title: robot.name,
+        group: "Robots",
+        icon: "robot",
+        run: () => director.focus(k),
+    }));
+}
+
 export function pageActions(parts: PageParts): Action[] {
-    return [...timeActions(parts), ...toolActions(parts), ...cameraActions(parts), ...ownActions(parts)];
+    return [
+        ...timeActions(parts),
+        ...toolActions(parts),
+        ...cameraActions(parts),
+        ...ownActions(parts),
+        ...sheetActions(parts),
+        ...viewActions(parts),
+    ];
 }

@@ -57,9 +57,18 @@ int Run::go() {
     if (!begin()) return finish(false, 0);
     const auto began = Clock::now();
     const bool fine = drive();
+    if (gateway_) gateway_->say_farewell(reason_of_end(fine));
     report_notices();
     progress_.clear();
     return finish(fine, std::chrono::duration<double>(Clock::now() - began).count());
+}
+
+/// For pages: why the run is over.
+std::string Run::reason_of_end(bool fine) const {
+    if (!fine) return "it failed; its log says why";
+    if (pace_.quit) return "a request ended it";
+    if (interrupted()) return "a signal ended it (Ctrl-C or kill)";
+    return fmt::format("its duration was over at {:.3f} s", simulation_->time_s());
 }
 
 bool Run::prepare() {

@@ -66,6 +66,7 @@ class Run {
 
     // run_loop.cpp: the time between
     bool drive();
+    std::string reason_of_end(bool fine) const;
     bool look(const Schedule& due);
     bool rest();
     /// At the end of the duration: whether the run stays, paused, for inspection.

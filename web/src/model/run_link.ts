@@ -1,11 +1,13 @@
 // Joins the connection to the viewer's state: States into the history, reports into signals, and what the person looks
 // at into the one `watch` message that the gateway keeps.
-import { Connection } from "../wire/connection";
-import { RATE_MAX, WATCHED_ROBOTS_MAX } from "../protocol";
+import { Connection, type LinkState } from "../wire/connection";
+import type { Probe } from "../wire/probe";
+import { RATE_MAX, VERSION, WATCHED_ROBOTS_MAX } from "../protocol";
 import type { Answer, Incoming, OrderAction } from "../wire/messages";
 import { loadScene } from "../wire/scene_source";
 import { readHeader, readState } from "../wire/state";
 import { PlayClock } from "./play_clock";
+import { droppedWords } from "./run_state";
 import { Signal } from "./signal";
 import { type ViewerState, World } from "./viewer_state";
 
@@ -18,7 +20,7 @@ export class RunLink {
 
     constructor(private readonly state: ViewerState) {
         this.connection = new Connection({
-            state: (link, why) => this.onLink(link, why),
+            state: (link, probe) => this.onLink(link, probe),
             binary: (data) => this.onState(data),
             message: (message) => this.onMessage(message),
         });
@@ -47,8 +49,8 @@ export class RunLink {
         return answer;
     }
 
-    private onLink(link: "connecting" | "open" | "gone", why: string): void {
-        this.state.link.set({ state: link, why });
+    private onLink(link: LinkState, probe: Probe | null): void {
+        this.state.link.set({ state: link, probe });
         if (link !== "gone") return;
         this.state.status.set(null);
         this.state.roles.set(null);
@@ -58,12 +60,20 @@ export class RunLink {
         switch (message.type) {
             case "hello":
                 this.state.program.set(message.program);
+                this.state.version.set(message.version);
+                this.state.over.set(null);
+                if (message.dropped !== undefined) this.notice.set({ text: droppedWords(message.dropped), bad: true });
+                if (message.version !== VERSION) break;
                 void this.load(message.scene);
                 break;
             case "scene":
                 void this.load(message.scene);
                 break;
+            case "over":
+                this.state.over.set(message.reason);
+                break;
             case "status":
+                this.state.over.set(null);
                 this.state.status.set(message);
                 break;
             case "groups":

@@ -2,6 +2,7 @@
 // none knows another.
 import type { Groups, OverlayReport, RobotReport, Status } from "../wire/messages";
 import type { LinkState } from "../wire/connection";
+import type { Probe } from "../wire/probe";
 import type { LoadedScene } from "../wire/scene_source";
 import { Fleet } from "./fleet";
 import { History } from "./history";
@@ -39,7 +40,11 @@ export class World {
 }
 
 export class ViewerState {
-    readonly link = new Signal<{ state: LinkState; why: string }>({ state: "connecting", why: "" });
+    readonly link = new Signal<{ state: LinkState; probe: Probe | null }>({ state: "connecting", probe: null });
+    /** Of the protocol, as the run says it; null: not known. */
+    readonly version = new Signal<number | null>(null);
+    /** Why the run is over, in its own words; null: it is not, as far as known. */
+    readonly over = new Signal<string | null>(null);
     readonly program = new Signal("");
     /** Who may do what, and who has control; null: not known. */
     readonly roles = new Signal<Roles | null>(null);

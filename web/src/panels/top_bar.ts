@@ -9,6 +9,7 @@ import { moreMenu } from "../ui/overflow";
 export interface TopBarActions {
     copyLink(): void;
     help(): void;
+    palette(): void;
     home(): void;
     focus(): void;
     togglePanel(side: "left" | "right"): void;
@@ -82,6 +83,7 @@ export function topBar(
             iconButton("right", "Side panel", () => actions.togglePanel("right"), "]"),
         ),
     );
+    bar.insertBefore(iconButton("command", "All commands", actions.palette, "Ctrl K"), tools.element);
     desk.dataset.yields = "6";
     const more = moreMenu(bar, "More", false);
     bar.append(more.button);

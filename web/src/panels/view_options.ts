@@ -2,13 +2,13 @@
 import { type ColourBy, type Overlay, OVERLAYS, type ViewerState } from "../model/viewer_state";
 import { h } from "../ui/dom";
 
-const COLOURS: [ColourBy, string, string][] = [
+export const COLOURS: [ColourBy, string, string][] = [
     ["model", "Model", "As the world file says"],
     ["simulator", "Simulator", "Who steps it"],
     ["island", "Island", "Robots that may touch share one"],
     ["speed", "Speed", "Blue at rest, amber from 3 m/s on"],
 ];
-const WORDS: Record<Overlay, [string, string]> = {
+export const WORDS: Record<Overlay, [string, string]> = {
     rays: ["Laser rays", "of the selected robot"],
     tracks: ["Tracks", "where robots drove; the selected one: GPS, odometer"],
     compass: ["Compass", "north and heading of the selected robot"],

@@ -1,18 +1,22 @@
 // The WebSocket to the gateway: parses what comes, numbers what is asked, and connects again by itself when the run is
 // gone. It knows nothing of the page.
 import { MESSAGES_A_SECOND_MAX, SUBPROTOCOL } from "../protocol";
+import { type Probe, probe } from "./probe";
 import type { Answer, Incoming, OrderAction, Watch } from "./messages";
 
 export type LinkState = "connecting" | "open" | "gone";
 
 export interface Listener {
-    state(state: LinkState, why: string): void;
+    /** `probe`: what a request found, once it is known that the connection does not open. */
+    state(state: LinkState, probe: Probe | null): void;
     binary(data: ArrayBuffer): void;
     message(message: Incoming): void;
 }
 
 const RETRY_MIN_MS = 500;
 const RETRY_MAX_MS = 5000;
+/** A refused page does not become welcome by asking again soon. */
+const REFUSED_RETRY_MS = 30_000;
 /** Below what the gateway calls a flood. */
 const MESSAGES_A_SECOND = 0.75 * MESSAGES_A_SECOND_MAX;
 
@@ -29,22 +33,29 @@ export class Connection {
     private retryTimer = 0;
     private readonly waiting = new Map<number, (answer: Answer) => void>();
     private readonly sent: number[] = [];
+    private probed: Probe | null = null;
+    /** This page's number, as the gateway counts; 0: none yet. */
+    private page = 0;
 
     constructor(private readonly listener: Listener) {}
 
     open(): void {
         clearTimeout(this.retryTimer);
-        this.listener.state("connecting", "");
+        this.listener.state("connecting", this.probed);
         const url = new URL(withToken("ws"), document.baseURI);
+        if (this.page > 0) url.searchParams.set("was", String(this.page));
         url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
         const socket = new WebSocket(url, SUBPROTOCOL);
         socket.binaryType = "arraybuffer";
+        let opened = false;
         socket.onopen = () => {
+            opened = true;
             this.retryMs = RETRY_MIN_MS;
-            this.listener.state("open", "");
+            this.probed = null;
+            this.listener.state("open", null);
         };
         socket.onmessage = (event: MessageEvent<ArrayBuffer | string>) => this.receive(event.data);
-        socket.onclose = (event) => this.lost(event.reason);
+        socket.onclose = () => void this.lost(opened);
         this.socket = socket;
     }
 
@@ -109,6 +120,7 @@ export class Connection {
         if (typeof data !== "string") return this.listener.binary(data);
         const message = JSON.parse(data) as Incoming;
         if (message.type === "answer") this.settle(message);
+        if (message.type === "roles") this.page = message.page;
         this.listener.message(message);
     }
 
@@ -117,12 +129,17 @@ export class Connection {
         this.waiting.delete(answer.id);
     }
 
-    private lost(reason: string): void {
+    private async lost(opened: boolean): Promise<void> {
         for (const [id, resolve] of [...this.waiting])
             resolve({ type: "answer", id, done: false, text: "the connection was lost" });
         this.waiting.clear();
-        this.listener.state("gone", reason);
-        this.retryTimer = window.setTimeout(() => this.open(), this.retryMs);
+        this.listener.state("gone", this.probed);
+        const socket = this.socket;
+        if (!opened) this.probed = await probe(withToken("ws"));
+        if (socket !== this.socket) return; // somebody tried again meanwhile
+        this.listener.state("gone", this.probed);
+        const wait = this.probed?.kind === "refused" ? REFUSED_RETRY_MS : this.retryMs;
+        this.retryTimer = window.setTimeout(() => this.open(), wait);
         this.retryMs = Math.min(RETRY_MAX_MS, this.retryMs * 1.6);
     }
 }

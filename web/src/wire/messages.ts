@@ -243,6 +243,8 @@ export interface Hello {
     journal: boolean;
     rate: number;
     program: string;
+    /** Why this page was disconnected a moment ago, if it was. */
+    dropped?: { why: string; code: string };
 }
 
 export interface Answer {
@@ -263,6 +265,7 @@ export type Incoming =
     | Extras
     | Answer
     | Roles
+    | { type: "over"; reason: string }
     | { type: "notice"; text: string };
 
 /** A spring from a point of a link (in its frame) to a point of the world; max_force 0 lets go. */

@@ -1,0 +1,39 @@
+// What a newcomer needs to know, once: a card over the picture that never comes back after it was dismissed.
+import type { Address } from "../model/address";
+import { h } from "../ui/dom";
+import { COARSE } from "../ui/touch";
+
+const KEPT = "roboss.hints";
+const MOUSE = [
+    "Drag turns the picture, right drag moves it, the wheel zooms.",
+    "Click a robot to inspect it; double click looks at it.",
+    "Ctrl K finds every command and every robot. ? shows all keys.",
+];
+const TOUCH = [
+    "One finger turns the picture, two fingers move and zoom it.",
+    "Tap a robot to select it; a long press opens its sheet.",
+    "The tabs below open the panels. ⋯ holds what has no room.",
+];
+
+/** null: they were dismissed before, or are not wanted. */
+export function firstHints(address: Address): HTMLElement | null {
+    // Pictures and tests ask for a quality or for less around the picture.
+    if (["hide", "quality", "panel"].some((name) => address.get(name) !== null)) return null;
+    try {
+        if (localStorage.getItem(KEPT) === "dismissed") return null;
+    } catch {
+        return null; // where nothing can be kept, they would come each time
+    }
+    const element = h(
+        "aside",
+        { class: "hints", "aria-label": "First steps" },
+        h("strong", {}, "First steps"),
+        h("ul", {}, ...(COARSE ? TOUCH : MOUSE).map((line) => h("li", {}, line))),
+        h("div", { class: "buttons" }, h("button", { type: "button", class: "small", onclick: dismiss }, "Got it")),
+    );
+    function dismiss(): void {
+        localStorage.setItem(KEPT, "dismissed");
+        element.remove();
+    }
+    return element;
+}
