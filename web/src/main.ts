@@ -2,7 +2,8 @@
 import { Capture } from "./capture";
 import { Director } from "./camera/director";
 import { CameraPointer } from "./camera/pointer";
-import { CameraRig } from "./camera/rig";
+import { ViewKeeper } from "./camera/view_keeper";
+import { Views } from "./camera/views";
 import { FrameLoop } from "./frame_loop";
 import { HandMark } from "./hands/hand_mark";
 import { RobotHand } from "./hands/robot_hand";
@@ -34,6 +35,8 @@ import { type Sheet, Sheets } from "./panels/sheets";
 import { sideTabs, type Tab } from "./panels/side_tabs";
 import { timeBar } from "./panels/time_bar";
 import { topBar } from "./panels/top_bar";
+import { viewActions, viewBar } from "./panels/view_bar";
+import { viewFrames } from "./panels/view_frames";
 import { viewOptions } from "./panels/view_options";
 import { h } from "./ui/dom";
 import { Colouring } from "./view/colouring";
@@ -48,7 +51,7 @@ const address = new Address(location.search, location.hash);
 const state = new ViewerState();
 state.theme.set(startTheme(address));
 const run = new RunLink(state);
-const rig = new CameraRig();
+const views = new Views();
 const times = new FrameTimes();
 
 const canvas = h("canvas", {
@@ -61,7 +64,7 @@ const view = h("main", { class: "view" }, canvas);
 document.body.append(view);
 const stage = new Stage(canvas, quality);
 const labels = new LabelLayer(stage);
-const director = new Director(stage, state, rig, address);
+const director = new Director(stage, state, views, address);
 const said = notices(run);
 const capture = new Capture(
     stage,
@@ -77,7 +80,7 @@ const hand = new RobotHand(
     run,
     mark,
     bonding,
-    (robot) => director.focus(robot),
+    (robot) => director.followRobot(robot),
     (robot) => {
         state.selected.set(robot);
         sheets.show("inspector");
@@ -88,12 +91,13 @@ window.addEventListener("keydown", (event) => (hurried = event.shiftKey));
 window.addEventListener("keyup", (event) => (hurried = event.shiftKey));
 const pointer = new CameraPointer(
     canvas,
-    rig,
+    views,
     hand,
     () => state.cameraMode.value,
     () => {
         if (state.cameraMode.value === "follow" || state.cameraMode.value === "chase") state.cameraMode.set("orbit");
     },
+    stage,
 );
 
 const plotted = new Plotted(state);
@@ -143,7 +147,7 @@ const loop = new FrameLoop({
     stage,
     state,
     run,
-    rig,
+    views,
     director,
     pointer,
     times,
@@ -174,7 +178,7 @@ function togglePanel(side: "left" | "right"): void {
 }
 
 async function copyLink(): Promise<void> {
-    const link = viewLink(state, rig.goal);
+    const link = viewLink(state, views);
     history.replaceState(null, "", link);
     try {
         await navigator.clipboard.writeText(link);
@@ -201,6 +205,7 @@ actions.add(
         help: () => help.open(),
     }),
 );
+actions.add(...viewActions(views, director));
 actions.listen();
 
 const top = topBar(state, capture, desk.element, {
@@ -211,7 +216,14 @@ const top = topBar(state, capture, desk.element, {
     togglePanel,
 });
 document.body.prepend(top.element, top.menu);
-view.append(labels.element, banner(state, run), desk.question, said.element);
+view.append(
+    viewBar(state, views, director),
+    viewFrames(state, views),
+    labels.element,
+    banner(state, run),
+    desk.question,
+    said.element,
+);
 document.body.append(
     sheets.head,
     list.element,
@@ -254,6 +266,8 @@ for (const signal of [
     state.world,
     state.tool,
     state.extras,
+    views.count,
+    views.active,
 ])
     (signal as Signal<unknown>).follow(() => loop.wake());
 state.attaching.follow((attaching) => document.body.classList.toggle("attaching", attaching !== null));
@@ -264,7 +278,8 @@ applyAddress(address, state);
 // For tests and measurements; the page itself never reads it.
 const hooks = {
     state,
-    rig,
+    views,
+    director,
     times,
     stage,
     run,
@@ -279,5 +294,6 @@ const hooks = {
 export type Hooks = typeof hooks;
 Object.assign(window, { roboss: hooks });
 window.addEventListener("hashchange", () => location.reload());
+new ViewKeeper(views, state).start();
 run.open();
 loop.start();
