@@ -31,6 +31,15 @@ double prism_shadow(const GeometrySpec& g, const Vec3& d) {
     return std::fabs(d.z * area) + sides;
 }
 
+/// The hull of an ellipse (the base) and a point (the tip), stretched to a circle. `z`: cosine of the angle
+/// to the axis.
+double cone_shadow(const GeometrySpec& g, double z) {
+    const double r = g.radius, tip = g.length * std::sqrt(std::fmax(0.0, 1.0 - z * z));
+    if (tip <= r * z) return kPi * r * r * z;
+    const double share = r * z / tip;  // r / (distance of the tip), stretched
+    return r * r * z * (kPi - fixed_acos(share)) + r * tip * std::sqrt(1.0 - share * share);
+}
+
 /// Shadow of the shape along the unit vector d of its own frame, m^2.
 double shadow(const GeometrySpec& g, const Vec3& d) {
     const double x = std::fabs(d.x), y = std::fabs(d.y), z = std::fabs(d.z);
@@ -51,6 +60,8 @@ double shadow(const GeometrySpec& g, const Vec3& d) {
         }
         case GeometryKind::kMesh:
             return g.mesh ? mesh_shadow(*g.mesh, d) : 0.0;
+        case GeometryKind::kCone:
+            return cone_shadow(g, z);
         case GeometryKind::kPolyline:
             return prism_shadow(g, d);
         default:

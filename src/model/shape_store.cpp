@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fixed_math.h"
 #include "geometry/height_field.h"
 #include "geometry/hull_points.h"
 #include "geometry/polygon_pieces.h"
@@ -13,6 +14,7 @@ namespace roboss {
 namespace {
 
 constexpr std::size_t kCostlyCorners = 500;
+constexpr int kConeCorners = 128;   // of the rim: flatter by 0.03 % of the radius than a circle
 constexpr double kThinnest = 1e-3;  // m, of the hull of a flat mesh
 
 Shape primitive(ShapeKind kind, const GeometrySpec& geometry) {
@@ -29,6 +31,17 @@ double volume_of(const MeshSpec& mesh) {
     for (const auto& t : mesh.triangles)
         six += dot(mesh.vertices[t[0]], cross(mesh.vertices[t[1]], mesh.vertices[t[2]]));
     return six / 6.0;
+}
+
+/// The rim is as wide as a circle of the same area: the volume is the cone's own.
+std::vector<Vec3> cone_corners(const GeometrySpec& geometry) {
+    const double step = 2.0 * kPi / kConeCorners;
+    const double radius = geometry.radius * std::sqrt(step / fixed_sin(step));
+    std::vector<Vec3> corners{{0, 0, 0.5 * geometry.length}};
+    for (int k = 0; k < kConeCorners; ++k)
+        corners.push_back(
+            {radius * fixed_cos(k * step), radius * fixed_sin(k * step), -0.5 * geometry.length});
+    return corners;
 }
 
 }  // namespace
@@ -55,6 +68,8 @@ std::vector<PlacedShape> ShapeStore::shapes_of(const CollisionSpec& collision, b
             return geometry.heights ? height_field_of(collision, is_static) : std::vector<PlacedShape>{};
         case GeometryKind::kPolyline:
             return prisms_of(collision);
+        case GeometryKind::kCone:
+            return cone_of(collision);
     }
     return {};
 }
@@ -112,6 +127,20 @@ Result<ConvexHull> ShapeStore::mended_hull(const CollisionSpec& collision) {
                               "' is flat; it collides as if it were 1 mm thick",
                           "Give it a box or a mesh with a volume.");
     return hull;
+}
+
+std::vector<PlacedShape> ShapeStore::cone_of(const CollisionSpec& collision) {
+    const std::pair size(collision.geometry.radius, collision.geometry.length);
+    if (const auto known = cones_.find(size); known != cones_.end()) return {known->second};
+    auto hull = build_hull(cone_corners(collision.geometry));
+    if (!hull) {
+        diagnostics_.error(
+            collision.where, "bad-size",
+            "the cone of collision '" + collision.name + "' is too flat or too thin to collide",
+            "Use a cylinder.");
+        return {};
+    }
+    return {cones_.emplace(size, keep(std::move(hull).value())).first->second};
 }
 
 std::vector<PlacedShape> ShapeStore::surface_of(const CollisionSpec& collision) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "model/model.h"
@@ -28,6 +29,7 @@ class ShapeStore {
     std::vector<PlacedShape> surface_of(const CollisionSpec& collision);
     std::vector<PlacedShape> height_field_of(const CollisionSpec& collision, bool is_static);
     std::vector<PlacedShape> prisms_of(const CollisionSpec& collision);
+    std::vector<PlacedShape> cone_of(const CollisionSpec& collision);
     Result<ConvexHull> mended_hull(const CollisionSpec& collision);
     PlacedShape keep(ConvexHull hull);
 
@@ -35,6 +37,7 @@ class ShapeStore {
     Diagnostics& diagnostics_;
     std::map<const MeshSpec*, PlacedShape> hulls_;
     std::map<const void*, Shape> surfaces_;
+    std::map<std::pair<double, double>, PlacedShape> cones_;  // by radius and length
 };
 
 }  // namespace roboss

@@ -45,7 +45,10 @@ class SceneMaker {
             if (is_new) add_type(robot.type, key.second);
             scene_.robots.push_back(entry->second);
         }
-        for (const World* world : worlds_) add_world_statics(*world);
+        for (const World* world : worlds_) {
+            add_world_statics(*world);
+            add_look(*world);
+        }
         add_other_statics();
         for (const StaticShape& from : model_.statics) add_flow(from);
         scene_.meshes = shapes_.take_meshes();
@@ -93,6 +96,7 @@ class SceneMaker {
         for (std::size_t l = 0; l < type.links.size(); ++l) {
             SceneLink& link = result.links[l];
             if (type.is_static) continue;  // its visuals are scenery
+            if (spec != nullptr) link.lights = link_of(*spec, type.links[l].name)->lights;
             if (!drawn) {
                 link.visuals = link.collisions;
                 continue;
@@ -103,6 +107,16 @@ class SceneMaker {
             if (unreadable) link.visuals = link.collisions;
         }
         scene_.types.push_back(std::move(result));
+    }
+
+    /// Bright highlights make it smoother, where no <pbr> says how smooth it is.
+    static void add_shine(const VisualSpec& visual, SceneFinish& finish) {
+        constexpr double kDull = 0.35, kRough = 0.9, kGloss = 0.5;
+        if (visual.emissive && norm(*visual.emissive) > 0) finish.emissive = visual.emissive;
+        if (!visual.specular || finish.roughness || finish.roughness_map) return;
+        const Vec3& s = *visual.specular;
+        const double bright = std::max({s.x, s.y, s.z});
+        if (bright >= kDull) finish.roughness = kRough - kGloss * std::min(1.0, bright);
     }
 
     void add_visual(const VisualSpec& visual, const Pose& X_FL, const std::string& name,
@@ -116,6 +130,8 @@ class SceneMaker {
         shape->rgb = plain_ground ? kGround : visual.rgb;
         shape->alpha = visual.alpha;
         shape->finish = shapes_.finish_of(visual.finish);
+        add_shine(visual, shape->finish);
+        shape->casts = visual.cast_shadows;
         shapes.push_back(std::move(*shape));
     }
 
@@ -131,6 +147,23 @@ class SceneMaker {
                 for (const CollisionSpec& collision : link.collisions)
                     drawn_.insert(instance.name + "::" + link.name + "::" + collision.name);
             }
+        }
+    }
+
+    /// The first world's sky and camera; the lights of all, those of scenery included.
+    void add_look(const World& world) {
+        WorldLook& look = scene_.look;
+        if (!look.scene) look.scene = world.look.scene;
+        if (!look.camera) look.camera = world.look.camera;
+        look.lights.insert(look.lights.end(), world.look.lights.begin(), world.look.lights.end());
+        for (const ModelInstance& instance : world.instances) {
+            const ModelSpec& spec = world.prototypes[instance.prototype];
+            if (!spec.is_static) continue;
+            for (const LinkSpec& link : spec.links)
+                for (LightSpec light : link.lights) {
+                    light.X_FL = instance.X_WM * link.X_ML * light.X_FL;
+                    look.lights.push_back(std::move(light));
+                }
         }
     }
 

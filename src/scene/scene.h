@@ -16,12 +16,13 @@
 
 namespace roboss {
 
-enum class SceneShapeKind { kPlane, kBox, kSphere, kCylinder, kCapsule, kEllipsoid, kMesh };
+enum class SceneShapeKind { kPlane, kBox, kSphere, kCylinder, kCapsule, kEllipsoid, kMesh, kCone };
 
 /// What lies over a colour: places in Scene::textures, and numbers from 0 to 1; none: the viewer's own.
 struct SceneFinish {
     std::optional<std::size_t> colour, normal, roughness_map, metalness_map;
     std::optional<double> roughness, metalness;
+    std::optional<Vec3> emissive;
 };
 
 struct SceneShape {
@@ -33,6 +34,7 @@ struct SceneShape {
     Pose frame;            // in the link, or in the world
     Vec3 rgb{0.7, 0.7, 0.7};
     double alpha = 1;
+    bool casts = true;   // shadows
     bool still = false;  // of a collision shape: it takes no part in the surface motion of its link
     SceneFinish finish;
 };
@@ -51,6 +53,7 @@ struct SceneTexture {
 
 struct SceneLink {
     std::vector<SceneShape> visuals, collisions;
+    std::vector<LightSpec> lights;
 };
 
 /// Robots that move alike and look alike.
@@ -72,6 +75,7 @@ struct Scene {
     std::vector<std::size_t> robots;  // by RobotId: place in `types`
     std::vector<SceneShape> statics;
     std::vector<SceneFlow> flows;
+    WorldLook look;  // lights: those of scenery, too
     std::vector<SceneMesh> meshes;
     std::vector<SceneTexture> textures;
 };

@@ -1,4 +1,4 @@
-// The scene's JSON. Numbers are rounded to a millionth of a millimetre: shorter, and nobody sees it.
+// The scene's JSON.
 #include "scene/scene_file.h"
 
 #include <cmath>
@@ -7,6 +7,7 @@
 
 #include "core/hash.h"
 #include "model/joint_motion.h"
+#include "scene/look_json.h"
 #include "wire/archive.h"
 #include "wire/view_state.h"
 #include "world/joint_type.h"
@@ -15,20 +16,6 @@ namespace roboss {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double tidy(double value) {
-    constexpr double kSteps = 1e9;
-    const double rounded = std::floor(value * kSteps + 0.5) / kSteps;
-    return rounded == 0 ? 0 : rounded;  // no -0
-}
-
-Json json_of(const Vec3& v) {
-    return {tidy(v.x), tidy(v.y), tidy(v.z)};
-}
-
-Json json_of(const Pose& X) {
-    return {tidy(X.p.x), tidy(X.p.y), tidy(X.p.z), tidy(X.q.w), tidy(X.q.x), tidy(X.q.y), tidy(X.q.z)};
-}
 
 Json json_of(const Transform& X) {
     return json_of(to_pose(X));
@@ -41,7 +28,7 @@ Json bound_of(double value) {
 
 const char* name_of(SceneShapeKind kind) {
     static constexpr const char* kNames[] = {"plane",   "box",       "sphere", "cylinder",
-                                             "capsule", "ellipsoid", "mesh"};
+                                             "capsule", "ellipsoid", "mesh",   "cone"};
     return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -56,6 +43,7 @@ Json json_of(const SceneFinish& finish, const Scene& scene) {
     picture("roughness_map", finish.roughness_map);
     picture("metalness_map", finish.metalness_map);
     if (finish.roughness) o["roughness"] = tidy(*finish.roughness);
+    if (finish.emissive) o["emissive"] = json_of(*finish.emissive);
     if (finish.metalness) o["metalness"] = tidy(*finish.metalness);
     return o;
 }
@@ -77,6 +65,7 @@ Json json_of(const SceneShape& shape, const Scene& scene) {
             break;
         case SceneShapeKind::kCylinder:
         case SceneShapeKind::kCapsule:
+        case SceneShapeKind::kCone:
             o["length"] = tidy(shape.length);
             [[fallthrough]];
         case SceneShapeKind::kSphere:
@@ -85,6 +74,7 @@ Json json_of(const SceneShape& shape, const Scene& scene) {
     o["frame"] = json_of(shape.frame);
     o["rgb"] = json_of(shape.rgb);
     o["alpha"] = tidy(shape.alpha);
+    if (!shape.casts) o["casts"] = false;
     if (shape.still) o["still"] = true;
     if (Json finish = json_of(shape.finish, scene); !finish.is_null()) o["finish"] = std::move(finish);
     return o;
@@ -211,6 +201,8 @@ Json json_of(const SceneType& scene_type, const Scene& scene, const Model& model
                          {"frame", json_of(link.X_BL)},
                          {"visuals", json_of(scene_type.links[l].visuals, scene)},
                          {"collisions", json_of(scene_type.links[l].collisions, scene)}});
+        if (Json lights = json_of(scene_type.links[l].lights); !lights.empty())
+            links.back()["lights"] = std::move(lights);
     }
     for (const Joint& joint : type.joints) joints.push_back(json_of(type, joint));
     for (const SensorInfo& sensor : type.sensors) sensors.push_back(json_of(sensor));
@@ -267,6 +259,7 @@ SceneFile scene_file(const Scene& scene, const Model& model, std::uint64_t seed)
            {"robots", std::move(robots)},
            {"statics", json_of(scene.statics, scene)},
            {"groups_max", kGroupsMax}};
+    if (Json look = json_of(scene.look); !look.is_null()) o["look"] = std::move(look);
     for (const SceneFlow& flow : scene.flows) o["flows"].push_back(json_of(flow, scene));
     SceneFile file{model.hash, seed, o.dump(-1, ' ', false, Json::error_handler_t::replace), {}, {}};
     for (const SceneMesh& mesh : scene.meshes) file.meshes.push_back(bytes_of(mesh));

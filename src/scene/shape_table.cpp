@@ -84,6 +84,8 @@ SceneShapeKind kind_of(GeometryKind kind) {
             return SceneShapeKind::kCapsule;
         case GeometryKind::kEllipsoid:
             return SceneShapeKind::kEllipsoid;
+        case GeometryKind::kCone:
+            return SceneShapeKind::kCone;
         case GeometryKind::kMesh:
         case GeometryKind::kHeightmap:
         case GeometryKind::kPolyline:
@@ -136,8 +138,13 @@ std::optional<std::size_t> ShapeTable::texture_of(const std::shared_ptr<const Pi
 }
 
 SceneFinish ShapeTable::finish_of(const FinishSpec& finish) {
-    return {texture_of(finish.colour),        texture_of(finish.normal), texture_of(finish.roughness_map),
-            texture_of(finish.metalness_map), finish.roughness,          finish.metalness};
+    return {texture_of(finish.colour),
+            texture_of(finish.normal),
+            texture_of(finish.roughness_map),
+            texture_of(finish.metalness_map),
+            finish.roughness,
+            finish.metalness,
+            {}};
 }
 
 std::optional<SceneMesh> ShapeTable::mesh_of(const GeometrySpec& geometry) const {

@@ -131,9 +131,6 @@ std::optional<Solid> prism(const std::vector<Vec3>& outline, double height) {
 }
 
 std::optional<Solid> solid_of(const Element& geometry, const Import& import) {
-    if (const Element shape = geometry.child("cone")) {
-        return cone(import.reader.number(shape, "radius", 0.5), import.reader.number(shape, "length", 1.0));
-    }
     Pose unused;
     const auto spec = convert_geometry(geometry, GeometryUse::kCollide, import, unused);
     if (!spec) return std::nullopt;
@@ -148,6 +145,8 @@ std::optional<Solid> solid_of(const Element& geometry, const Import& import) {
             return capsule(spec->radius, spec->length);
         case GeometryKind::kEllipsoid:
             return ellipsoid(spec->size);
+        case GeometryKind::kCone:
+            return cone(spec->radius, spec->length);
         case GeometryKind::kMesh:
             return spec->mesh ? mesh_solid(*spec->mesh) : std::nullopt;
         case GeometryKind::kPolyline:

@@ -48,7 +48,7 @@ void expect_mesh(const Loaded& loaded, const std::string& what) {
     EXPECT_NE(part.collisions[0].geometry.mesh, nullptr) << what;
 }
 
-TEST(ForeignFiles, AnIncludedLightIsANote) {
+TEST(ForeignFiles, AnIncludedLightShines) {
     const TestFolder folder;
     folder.write("models/sun/model.sdf", model_file("<light name='sun' type='directional'/>"));
     folder.write("world.sdf", world_file("<include><uri>model://sun</uri></include><model name='m'>" +
@@ -57,8 +57,8 @@ TEST(ForeignFiles, AnIncludedLightIsANote) {
     EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
     ASSERT_TRUE(loaded.world);
     EXPECT_EQ(loaded.world->instances.size(), 1u);
-    ASSERT_NE(loaded.find("light"), nullptr) << loaded.text();
-    EXPECT_EQ(loaded.find("light")->severity, Severity::kNote);
+    ASSERT_EQ(loaded.world->look.lights.size(), 1u);
+    EXPECT_EQ(loaded.world->look.lights[0].kind, LightKind::kDirectional);
 }
 
 TEST(ForeignFiles, AFileWithALightOnlyIsAnEmptyWorld) {

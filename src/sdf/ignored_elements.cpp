@@ -31,8 +31,6 @@ constexpr IgnoredElement kIgnored[] = {
     {"collision", "laser_retro", "", kNote, "laser readings have ranges and no intensities", ""},
     {"contact", "collide_without_contact_bitmask", "", kNote, "shapes that meet by their bitmasks do collide",
      "Give the shape a <collide_bitmask> of 0 to keep it from colliding."},
-    {"material", "script", "", kNote, "OGRE's material scripts are not read",
-     "Write <diffuse>, or <pbr><metal> with an <albedo_map>."},
     {"metal", "environment_map", "", kNote, "the viewer has its own sky", ""},
     {"metal", "ambient_occlusion_map", "", kNote, "it is not drawn", ""},
     {"metal", "emissive_map", "", kNote, "nothing is drawn as if it shone", ""},

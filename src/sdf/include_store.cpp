@@ -24,16 +24,9 @@ bool holds_scenery_only(const SourceFile& file) {
 
 namespace {
 
-/// model://sun is in nearly every world of Gazebo's older version: a file with a light.
 void report_no_model(const SourceFile& file, Diagnostics& diagnostics) {
-    const SourceLocation where = file.where(file.root());
-    if (!holds_scenery_only(file)) {
-        diagnostics.error(where, "no-model", "the file is included, but holds no <model>",
-                          "Include a file with a <model>.");
-    } else {
-        diagnostics.note(where, "light",
-                         "the file is included and holds a light; lights are left out, nothing here is lit");
-    }
+    diagnostics.error(file.where(file.root()), "no-model", "the file is included, but holds no <model>",
+                      "Include a file with a <model>.");
 }
 
 }  // namespace
@@ -70,7 +63,10 @@ const SourceFile* IncludeStore::file_of(const Element& include) {
         auto file = SourceFile::read(*found.path, diagnostics_);
         if (file && std::string(file->root().name()) == "robot") file = urdf_to_sdf(*file, diagnostics_);
         if (file && !first_model(*file)) {
-            report_no_model(*file, diagnostics_);
+            // model://sun is in nearly every world of Gazebo's older version: a file with a light.
+            const bool lights = holds_scenery_only(*file);
+            if (!lights) report_no_model(*file, diagnostics_);
+            if (lights) lights_[*found.path] = std::move(file);
             file = nullptr;
         }
         if (file) check_version(*file, diagnostics_);
@@ -82,6 +78,12 @@ const SourceFile* IncludeStore::file_of(const Element& include) {
 Element IncludeStore::model_of(const Element& include) {
     const SourceFile* file = file_of(include);
     return file ? first_model(*file) : Element{};
+}
+
+const SourceFile* IncludeStore::lights_of(const Element& include) {
+    const Resolved found = paths_.resolve_model(include.text("uri"), include.source->folder());
+    const auto known = found.path ? lights_.find(*found.path) : lights_.end();
+    return known == lights_.end() ? nullptr : known->second.get();
 }
 
 std::optional<std::string> IncludeStore::folder() {

@@ -24,6 +24,9 @@ class IncludeStore : public SkeletonIncludes {
     /// The model that an <include> names, or nothing (reported). URDF files are converted.
     Element model_of(const Element& include);
 
+    /// The file of an <include> that holds lights and no model; nullptr: it holds something else.
+    const SourceFile* lights_of(const Element& include);
+
     /// For a nested include: the file with the skeleton of the included model, for libsdformat to read.
     std::optional<std::string> skeleton_file(const Element& include) override;
 
@@ -36,9 +39,10 @@ class IncludeStore : public SkeletonIncludes {
 
     const ResourcePaths& paths_;
     Diagnostics& diagnostics_;
-    std::map<std::string, std::unique_ptr<SourceFile>> files_;  // by path; nullptr: cannot be read
-    std::map<std::string, std::string> written_;                // source path to skeleton file
-    std::map<std::string, Skeleton> skeletons_;                 // by skeleton file
+    std::map<std::string, std::unique_ptr<SourceFile>> files_;   // by path; nullptr: cannot be read
+    std::map<std::string, std::unique_ptr<SourceFile>> lights_;  // by path: files without a model
+    std::map<std::string, std::string> written_;                 // source path to skeleton file
+    std::map<std::string, Skeleton> skeletons_;                  // by skeleton file
     std::vector<std::string> open_;  // sources whose skeletons are being written: cycles
     std::string folder_;
 };
@@ -46,7 +50,7 @@ class IncludeStore : public SkeletonIncludes {
 /// The first <model> of a file: under the root, or in its first world.
 Element first_model(const SourceFile& file);
 
-/// Whether a file has no model but lights, which are left out.
+/// Whether a file has no model but lights.
 bool holds_scenery_only(const SourceFile& file);
 
 }  // namespace roboss::sdf_import

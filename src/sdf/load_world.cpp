@@ -10,6 +10,7 @@
 #include "sdf/event_conversion.h"
 #include "sdf/include_store.h"
 #include "sdf/libsdformat_reader.h"
+#include "sdf/look_conversion.h"
 #include "sdf/model_conversion.h"
 #include "sdf/newer_versions.h"
 #include "sdf/placements.h"
@@ -103,8 +104,7 @@ class WorldLoader {
         }
         if (first_model(*file_)) return root;
         if (holds_scenery_only(*file_)) {
-            diagnostics_.note(root.where(), "no-model",
-                              "the file holds lights only; they are left out, nothing moves",
+            diagnostics_.note(root.where(), "no-model", "the file holds lights only: nothing moves",
                               "Include it in a world with models.");
             return root;
         }
@@ -181,6 +181,8 @@ class WorldLoader {
             }
         }
         if (result.instances.empty()) return diagnostics_.refuse_since(0);  // nothing is left
+        const auto pose_of = [&](const Element& element) { return frames.pose_of(element); };
+        read_look(world, includes_, pose_of, import_, result.look);
         for (const auto& [model, alike] : left_out)
             report_left_out(alike.front()->name, alike.size(), alike.front()->where.where(), diagnostics_);
     }

@@ -8,6 +8,7 @@
 #include "sdf/ignored_elements.h"
 #include "sdf/joint_conversion.h"
 #include "sdf/libsdformat_reader.h"
+#include "sdf/look_conversion.h"
 #include "sdf/newer_versions.h"
 #include "sdf/plugin_sensors.h"
 
@@ -179,7 +180,7 @@ class ModelConverter {
                                    "Write <self_collide> in the model, or leave it out.");
     }
 
-    /// A <collision>, <visual> or sensor of a link.
+    /// A <collision>, <visual>, <light> or sensor of a link.
     void convert_part(const Element& part, const sdf::Link& link, const Scope& scope, LinkSpec& spec) {
         const char* tag = part.node.name();
         if (std::strcmp(tag, "collision") == 0) {
@@ -191,6 +192,9 @@ class ModelConverter {
             for (VisualSpec& visual :
                  convert_visual(part, pose_of(part, link.VisualByName(part.name()), link), import_))
                 spec.visuals.push_back(std::move(visual));
+        } else if (std::strcmp(tag, "light") == 0) {
+            if (auto light = convert_light(part, pose_of(part, link.LightByName(part.name()), link), import_))
+                spec.lights.push_back(std::move(*light));
         } else if (std::strcmp(tag, "sensor") == 0 || std::strcmp(tag, "roboss:sensor") == 0) {
             const Pose X_LS = pose_of(part, link.SensorByName(part.name()), link);
             spec.sensors.push_back(convert_sensor(part, X_LS, scope.prefix, import_));

@@ -107,16 +107,19 @@ TEST(NewerVersions, AWorldsJointIsReported) {
     ASSERT_NE(loaded.find("world-joint"), nullptr);
 }
 
-TEST(NewerVersions, AConeIsReportedAndLeftOut) {
+TEST(NewerVersions, AConeCollides) {
     const Loaded loaded = load_elements(
         "<model name='m'>" +
             link("a",
                  "<collision name='c'><geometry><cone><radius>1</radius></cone></geometry></collision>") +
             "</model>",
         "1.12");
-    ASSERT_NE(loaded.find("unknown-shape"), nullptr) << loaded.text();
-    EXPECT_FALSE(loaded.diagnostics.has_errors()) << loaded.text();
-    EXPECT_TRUE(loaded.world->prototypes[0].links[0].collisions.empty());
+    EXPECT_EQ(loaded.diagnostics.items().size(), 0u) << loaded.text();
+    ASSERT_EQ(loaded.world->prototypes[0].links[0].collisions.size(), 1u);
+    const GeometrySpec& geometry = loaded.world->prototypes[0].links[0].collisions[0].geometry;
+    EXPECT_EQ(geometry.kind, GeometryKind::kCone);
+    EXPECT_EQ(geometry.radius, 1);
+    EXPECT_EQ(geometry.length, 1);
 }
 
 }  // namespace

@@ -57,6 +57,9 @@ bool read_shape(const Element& shape, GeometryUse use, const Import& import, Geo
         spec.kind = GeometryKind::kCylinder;
     } else if (kind == "capsule") {
         spec.kind = GeometryKind::kCapsule;
+    } else if (kind == "cone") {
+        spec.kind = GeometryKind::kCone;
+        spec.radius = reader.number(shape, "radius", 0.5);
     } else if (kind == "ellipsoid") {
         spec.kind = GeometryKind::kEllipsoid;
         spec.size = reader.vector(shape, "radii", {1, 1, 1});
@@ -100,7 +103,9 @@ void give_size(CollisionSpec& spec, const Import& import) {
     if (g.kind == GeometryKind::kBox || g.kind == GeometryKind::kEllipsoid)
         sizes = {&g.size.x, &g.size.y, &g.size.z};
     if (g.kind == GeometryKind::kSphere) sizes = {&g.radius};
-    if (g.kind == GeometryKind::kCylinder || g.kind == GeometryKind::kCapsule) sizes = {&g.radius, &g.length};
+    if (g.kind == GeometryKind::kCylinder || g.kind == GeometryKind::kCapsule ||
+        g.kind == GeometryKind::kCone)
+        sizes = {&g.radius, &g.length};
     bool given = false;
     for (double* size : sizes) {
         if (*size != 0) continue;

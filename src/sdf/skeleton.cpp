@@ -91,7 +91,8 @@ class Writer {
   private:
     void element(const Element& e, const char* parent) {
         const char* name = e.node.name();
-        if (is_any(name, {"visual", "sensor"}) && std::strcmp(parent, "link") == 0) return posed_only(e);
+        if (is_any(name, {"visual", "sensor", "light"}) && std::strcmp(parent, "link") == 0)
+            return posed_only(e);
         if (is_left_out(parent, name) || !known_to_libsdformat(e)) return;
         if (std::strcmp(name, "include") == 0) return include(e);
         if (std::strcmp(name, "pose") == 0 && is_any(parent, {"collision", "inertial"}) &&
@@ -128,13 +129,16 @@ class Writer {
         }
     }
 
-    /// A visual or sensor whose pose depends on other frames: a stand-in that libsdformat can place.
+    /// A visual, sensor or light whose pose depends on other frames: a stand-in that libsdformat can place.
     void posed_only(const Element& e) {
         const Element pose = e.child("pose");
         if (relative_to(pose).empty()) return;
-        const bool visual = std::strcmp(e.node.name(), "visual") == 0;
+        const bool visual = std::strcmp(e.node.name(), "visual") == 0,
+                   light = std::strcmp(e.node.name(), "light") == 0;
         out_.body += std::string("\n<") + e.node.name() + " name=\"" + escaped(e.name()) +
-                     (visual ? "\">" : "\" type=\"contact\">");
+                     (visual  ? "\">"
+                      : light ? "\" type=\"point\">"
+                              : "\" type=\"contact\">");
         out_.lines.push_back(e);
         element(pose, e.node.name());
         if (visual) out_.body += "<geometry><sphere><radius>1</radius></sphere></geometry>";

@@ -6,6 +6,34 @@
 namespace roboss::sdf_import {
 namespace {
 
+std::optional<Vec3> colour_in(const Element& material, const char* child) {
+    const auto words = words_of(material.node.child(child).text().get());
+    if (words.size() < 3) return std::nullopt;
+    return Vec3{parse_number(words[0]).value_or(0), parse_number(words[1]).value_or(0),
+                parse_number(words[2]).value_or(0)};
+}
+
+/// Highlights and glow, in any material.
+void read_glow(const Element& material, VisualSpec& spec) {
+    if (const auto specular = colour_in(material, "specular")) spec.specular = specular;
+    if (const auto emissive = colour_in(material, "emissive")) spec.emissive = emissive;
+}
+
+/// What an OGRE script says; colours that the file writes itself come after it.
+void read_script(const Element& material, const Import& import, VisualSpec& spec) {
+    const auto ogre = import.looks.script_material(material, import.diagnostics());
+    if (!ogre) return;
+    const bool picture = !ogre->texture.empty();
+    if (picture && !spec.finish.colour)
+        spec.finish.colour = import.looks.picture_of_script(ogre->texture, material, import.diagnostics());
+    const std::optional<Vec3> rgb = ogre->diffuse ? ogre->diffuse : picture ? std::nullopt : ogre->ambient;
+    if (rgb) spec.rgb = *rgb;
+    if (!rgb && picture) spec.rgb = {1, 1, 1};
+    spec.alpha = ogre->alpha;
+    spec.specular = ogre->specular;
+    spec.emissive = ogre->emissive;
+}
+
 void read_colour(const Element& material, VisualSpec& spec) {
     for (const char* colour : {"diffuse", "ambient"}) {
         const auto words = words_of(material.node.child(colour).text().get());
@@ -15,7 +43,8 @@ void read_colour(const Element& material, VisualSpec& spec) {
         if (words.size() > 3) spec.alpha = parse_number(words[3]).value_or(1.0);
         return;
     }
-    if (spec.finish.colour) spec.rgb = {1, 1, 1};  // the picture alone
+    const bool scripted = static_cast<bool>(material.child("script"));
+    if (spec.finish.colour && !scripted) spec.rgb = {1, 1, 1};  // the picture alone
 }
 
 FinishSpec read_finish(const Element& material, const Import& import) {
@@ -78,7 +107,10 @@ std::vector<VisualSpec> convert_visual(const Element& visual, const Pose& X_LV, 
     spec.finish = read_finish(material, import);
     if (is_heightmap && !spec.finish.colour)
         read_heightmap_texture(geometry.child("heightmap"), import, spec);
+    read_script(material, import, spec);
     read_colour(material, spec);
+    read_glow(material, spec);
+    spec.cast_shadows = import.reader.boolean(visual, "cast_shadows", true);
     spec.alpha *= 1.0 - import.reader.number(visual, "transparency", 0.0);
     if (spec.geometry.kind != GeometryKind::kMesh) return {spec};
     return parts_of(spec, geometry.child("mesh"), static_cast<bool>(material), import);

@@ -25,6 +25,11 @@ Pose WorldFrames::pose_of(std::size_t placement) {
     return solve({false, placement});
 }
 
+Pose WorldFrames::pose_of(const Element& element) {
+    const Element pose = element.child("pose");
+    return named_pose(relative_to(pose), element) * import_.reader.pose(pose);
+}
+
 Pose WorldFrames::solve(const Named& named) {
     Solved& solved = named.is_frame ? solved_frames_[named.index] : solved_models_[named.index];
     if (solved.state == State::kBusy) {

@@ -22,6 +22,9 @@ class WorldFrames {
     /// X_WM of placement i. Names that lead nowhere and circles are reported, and taken as the world's frame.
     Pose pose_of(std::size_t placement);
 
+    /// The pose in the world of an element with a <pose>, a light for instance.
+    Pose pose_of(const Element& element);
+
   private:
     struct Named {
         bool is_frame = false;

@@ -103,7 +103,7 @@ class ModelCheck {
         }
         const bool box = g.kind == GeometryKind::kBox || g.kind == GeometryKind::kEllipsoid;
         const bool round = g.kind == GeometryKind::kSphere || g.kind == GeometryKind::kCylinder ||
-                           g.kind == GeometryKind::kCapsule;
+                           g.kind == GeometryKind::kCapsule || g.kind == GeometryKind::kCone;
         const bool bad_box = box && !(g.size.x > 0 && g.size.y > 0 && g.size.z > 0 && is_finite(g.size));
         const bool bad_radius = round && !(g.radius > 0 && std::isfinite(g.radius));
         const bool bad_length =

@@ -17,6 +17,7 @@
 #include "onboard_kinds/buoyancy.h"
 #include "onboard_kinds/onboard_spec.h"
 #include "sensor_kinds/sensor_spec.h"
+#include "world/look.h"
 
 namespace roboss {
 
@@ -30,7 +31,8 @@ enum class GeometryKind {
     kEllipsoid,  ///< `<ellipsoid>`
     kMesh,       ///< `<mesh>`: triangles of a file
     kHeightmap,  ///< `<heightmap>`
-    kPolyline    ///< `<polyline>`: an outline, extruded along z
+    kPolyline,   ///< `<polyline>`: an outline, extruded along z
+    kCone        ///< `<cone>`: axis along z, tip up, centred on its height
 };
 
 /// The triangles of a mesh file, scale applied, equal corners joined; m. Shared by all elements that name it.
@@ -59,8 +61,8 @@ struct HeightGridSpec {
 struct GeometrySpec {
     GeometryKind kind = GeometryKind::kBox;  ///< which members below count
     Vec3 size{1, 1, 1};                      ///< m; see above
-    double radius = 0;                       ///< m; sphere, cylinder, capsule
-    double length = 0;        ///< m; cylinder, polyline: height along z; capsule: of the straight part
+    double radius = 0;                       ///< m; sphere, cylinder, capsule; cone: of its base
+    double length = 0;        ///< m; cylinder, cone, polyline: height along z; capsule: of the straight part
     std::string uri;          ///< mesh, heightmap: the resolved file
     Vec3 scale{1, 1, 1};      ///< mesh: `<scale>`, already applied to `mesh`
     double texture_size = 0;  ///< m of a heightmap that one picture covers; 0: all of it
@@ -131,12 +133,15 @@ struct FinishSpec {
 /// A shape that is only drawn (SDF `<visual>`).
 /// A mesh of several materials is one visual for each.
 struct VisualSpec {
-    std::string name;         ///< as in the file
-    GeometrySpec geometry;    ///< shape and dimensions
-    Pose X_LV;                ///< visual in link
-    Vec3 rgb{0.7, 0.7, 0.7};  ///< colour, 0..1 each
-    double alpha = 1.0;       ///< opacity: 0 is invisible, 1 opaque
-    FinishSpec finish{};      ///< pictures and gloss
+    std::string name;                ///< as in the file
+    GeometrySpec geometry;           ///< shape and dimensions
+    Pose X_LV;                       ///< visual in link
+    Vec3 rgb{0.7, 0.7, 0.7};         ///< colour, 0..1 each
+    double alpha = 1.0;              ///< opacity: 0 is invisible, 1 opaque
+    FinishSpec finish{};             ///< pictures and gloss
+    std::optional<Vec3> specular{},  ///< colour of highlights, 0..1 each; none: the viewer's own
+        emissive{};                  ///< light that it gives off, 0..1 each; none: nothing
+    bool cast_shadows = true;        ///< SDF `<cast_shadows>`
 };
 
 /// Resistance of the air (SDF `<enable_wind>`, `<roboss:drag>`).
@@ -166,6 +171,7 @@ struct LinkSpec {
     std::vector<CollisionSpec> collisions;  ///< shapes that touch
     std::vector<VisualSpec> visuals;        ///< shapes that are drawn
     std::vector<SensorSpec> sensors;        ///< sensors that it carries
+    std::vector<LightSpec> lights;          ///< lights that move with it
     SourceLocation where;                   ///< of the element
 };
 
@@ -339,6 +345,7 @@ struct World {
     std::vector<ModelSpec> prototypes;              ///< distinct models, each kept once
     std::vector<ModelInstance> instances;           ///< models of the world, in the order of the file
     std::vector<ExtensionElement> extensions;       ///< kept for other programs
+    WorldLook look;                                 ///< lights, sky and first camera, for viewers
 };
 
 /// Everything about a World that needs no XML to be judged: finite numbers, masses that are not negative,

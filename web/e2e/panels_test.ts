@@ -116,10 +116,10 @@ bench.test("a picture is saved, and a link brings back camera and selection", as
     await page.waitForTimeout(1000);
     await page.getByLabel("Copy a link to this view").click();
     const link = page.url(),
-        camera = await page.evaluate(() => window.roboss.rig.goal.distance);
+        camera = await page.evaluate(() => window.roboss.views.rig.goal.distance);
     const other = await openPage(bench.browser, { ...bench.run, url: link });
     await until("the same robot", async () => (await other.page.locator(".robot-head h3").textContent()) === "car_9");
-    const found = await other.page.evaluate(() => window.roboss.rig.goal.distance);
+    const found = await other.page.evaluate(() => window.roboss.views.rig.goal.distance);
     assert.ok(Math.abs(found - camera) < 0.02, `${found} is not ${camera}`);
     assert.deepEqual(other.errors, []);
     await other.page.context().close();

@@ -151,7 +151,7 @@ for (const { name, width, height } of SIZES)
 
 test("fingers turn, move and zoom the picture, and a long press opens a robot's sheet", limit, async () => {
     await sized(390, 844);
-    const goal = () => page.evaluate(() => structuredClone(window.roboss.rig.goal)),
+    const goal = () => page.evaluate(() => structuredClone(window.roboss.views.rig.goal)),
         client = await page.context().newCDPSession(page);
     const touch = (type: "touchStart" | "touchMove" | "touchEnd", ...points: [number, number][]) =>
         client.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });

@@ -39,7 +39,7 @@ export async function resting(page: Page, robot: number): Promise<Seen> {
         "the picture rests",
         async () => {
             const arrived = await page.evaluate(() => {
-                const { goal, now } = window.roboss.rig,
+                const { goal, now } = window.roboss.views.rig,
                     off = Math.hypot(...goal.target.map((value, k) => value - now.target[k]));
                 return off < 0.002 * goal.distance && Math.abs(goal.distance / now.distance - 1) < 0.002;
             });

@@ -3,6 +3,7 @@
 import type { Director } from "./camera/director";
 import type { CameraPointer } from "./camera/pointer";
 import type { CameraRig } from "./camera/rig";
+import type { Views } from "./camera/views";
 import type { RunLink } from "./model/run_link";
 import type { ViewerState, World } from "./model/viewer_state";
 import type { Effort } from "./view/effort";
@@ -13,7 +14,7 @@ export interface FrameParts {
     stage: Stage;
     state: ViewerState;
     run: RunLink;
-    rig: CameraRig;
+    views: Views;
     director: Director;
     pointer: CameraPointer;
     times: FrameTimes;
@@ -29,6 +30,11 @@ export interface FrameParts {
 
 const IDLE_REDRAW_S = 0.5;
 const AWAKE_S = 0.4;
+
+function lookOf(rig: CameraRig): string {
+    const numbers = [...rig.eye(), ...rig.now.target].map((value) => value.toFixed(4));
+    return `${numbers.join()}${rig.orthographic ? "o" : ""}`;
+}
 
 export class FrameLoop {
     private last = 0;
@@ -57,7 +63,7 @@ export class FrameLoop {
             interval = stamp - this.last,
             seconds = Math.min(0.1, Math.max(0, interval / 1000));
         this.last = stamp;
-        const { stage, state, run, rig, director, pointer, layers, times } = this.parts,
+        const { stage, state, run, views, director, pointer, layers, times } = this.parts,
             world = state.world.value;
         let moved = false;
         if (world !== null && world.history.latest !== null) {
@@ -71,11 +77,9 @@ export class FrameLoop {
             director.follow(world, seconds);
         }
         pointer.advance(seconds, this.parts.hurried());
-        rig.advance(seconds);
-        const eye = `${rig
-            .eye()
-            .map((value) => value.toFixed(4))
-            .join()} ${rig.now.target.map((value) => value.toFixed(4)).join()} ${stage.canvas.width} ${stage.canvas.height}`;
+        for (const { rig } of views.shown) rig.advance(seconds);
+        const eye =
+            views.shown.map(({ rig }) => lookOf(rig)).join(" ") + ` ${stage.canvas.width} ${stage.canvas.height}`;
         const idle = !moved && eye === this.lastEye && now > this.awakeUntil && now - this.drawn < IDLE_REDRAW_S;
         this.lastEye = eye;
         if (idle) {
@@ -84,7 +88,7 @@ export class FrameLoop {
         }
         if (this.drewLast && document.visibilityState === "visible") this.parts.effort?.take(interval);
         this.drewLast = true;
-        stage.aim(rig);
+        stage.aim(views);
         for (const update of layers) update(world, now);
         const updated = performance.now();
         stage.draw();

@@ -2,7 +2,8 @@
 import { Capture } from "./capture";
 import { Director } from "./camera/director";
 import { CameraPointer } from "./camera/pointer";
-import { CameraRig } from "./camera/rig";
+import { ViewKeeper } from "./camera/view_keeper";
+import { Views } from "./camera/views";
 import { FrameLoop } from "./frame_loop";
 import { HandMark } from "./hands/hand_mark";
 import { RobotHand } from "./hands/robot_hand";
@@ -37,6 +38,8 @@ import { runBanner } from "./panels/run_banner";
 import { sideTabs, type Tab } from "./panels/side_tabs";
 import { timeBar } from "./panels/time_bar";
 import { topBar } from "./panels/top_bar";
+import { viewActions, viewBar } from "./panels/view_bar";
+import { viewFrames } from "./panels/view_frames";
 import { viewOptions } from "./panels/view_options";
 import { h } from "./ui/dom";
 import { Colouring } from "./view/colouring";
@@ -51,7 +54,7 @@ const address = new Address(location.search, location.hash);
 const state = new ViewerState();
 state.theme.set(startTheme(address));
 const run = new RunLink(state);
-const rig = new CameraRig();
+const views = new Views();
 const times = new FrameTimes();
 
 const canvas = h("canvas", {
@@ -64,7 +67,7 @@ const view = h("main", { class: "view" }, canvas);
 document.body.append(view);
 const stage = new Stage(canvas, quality);
 const labels = new LabelLayer(stage);
-const director = new Director(stage, state, rig, address);
+const director = new Director(stage, state, views, address);
 const said = notices(run);
 const capture = new Capture(
     stage,
@@ -80,7 +83,7 @@ const hand = new RobotHand(
     run,
     mark,
     bonding,
-    (robot) => director.focus(robot),
+    (robot) => director.followRobot(robot),
     (robot) => {
         state.selected.set(robot);
         sheets.show("inspector");
@@ -91,12 +94,13 @@ window.addEventListener("keydown", (event) => (hurried = event.shiftKey));
 window.addEventListener("keyup", (event) => (hurried = event.shiftKey));
 const pointer = new CameraPointer(
     canvas,
-    rig,
+    views,
     hand,
     () => state.cameraMode.value,
     () => {
         if (state.cameraMode.value === "follow" || state.cameraMode.value === "chase") state.cameraMode.set("orbit");
     },
+    stage,
 );
 
 const plotted = new Plotted(state);
@@ -146,7 +150,7 @@ const loop = new FrameLoop({
     stage,
     state,
     run,
-    rig,
+    views,
     director,
     pointer,
     times,
@@ -177,7 +181,7 @@ function togglePanel(side: "left" | "right"): void {
 }
 
 async function copyLink(): Promise<void> {
-    const link = viewLink(state, rig.goal);
+    const link = viewLink(state, views);
     history.replaceState(null, "", link);
     try {
         await navigator.clipboard.writeText(link);
@@ -208,6 +212,7 @@ actions.add(
     }),
 );
 actions.addSource(() => robotActions({ state, director }));
+actions.add(...viewActions(views, director));
 actions.listen();
 
 const top = topBar(state, capture, desk.element, {
@@ -219,7 +224,14 @@ const top = topBar(state, capture, desk.element, {
     togglePanel,
 });
 document.body.prepend(top.element, top.menu);
-view.append(labels.element, runBanner(state, run), desk.question, said.element);
+view.append(
+    viewBar(state, views, director),
+    viewFrames(state, views),
+    labels.element,
+    runBanner(state, run),
+    desk.question,
+    said.element,
+);
 document.body.append(
     sheets.head,
     list.element,
@@ -265,6 +277,8 @@ for (const signal of [
     state.world,
     state.tool,
     state.extras,
+    views.count,
+    views.active,
 ])
     (signal as Signal<unknown>).follow(() => loop.wake());
 state.attaching.follow((attaching) => document.body.classList.toggle("attaching", attaching !== null));
@@ -275,7 +289,8 @@ applyAddress(address, state);
 // For tests and measurements; the page itself never reads it.
 const hooks = {
     state,
-    rig,
+    views,
+    director,
     times,
     stage,
     run,
@@ -290,5 +305,6 @@ const hooks = {
 export type Hooks = typeof hooks;
 Object.assign(window, { roboss: hooks });
 window.addEventListener("hashchange", () => location.reload());
+new ViewKeeper(views, state).start();
 run.open();
 loop.start();

@@ -69,13 +69,16 @@ std::size_t followed_at(const std::string& camera) {
 }
 
 std::string fault_of_camera(const std::string& camera) {
-    if (camera == "top" || followed_at(camera) != std::string::npos) return {};
+    for (const char* named : {"top", "front", "side", "isometric", "file"})
+        if (camera == named) return {};
+    if (followed_at(camera) != std::string::npos) return {};
     std::vector<double> numbers;
     for (const std::string& word : words_of(camera))
         if (const std::optional<double> number = read_number(word)) numbers.push_back(*number);
     if (numbers.size() != 6 || words_of(camera).size() != 6)
         return "'" + camera +
-               "' is no camera: give x,y,z,azimuth,elevation,distance, or top, follow:ROBOT or chase:ROBOT";
+               "' is no camera: give x,y,z,azimuth,elevation,distance, or top, front, side, isometric, file, "
+               "follow:ROBOT or chase:ROBOT";
     return numbers[5] > 0 ? std::string() : "the distance of '" + camera + "' is not above 0";
 }
 
@@ -111,8 +114,8 @@ void add_snapshot_options(CLI::App& command, SnapshotOptions& o) {
             ->group(group);
     };
     parameter("camera",
-              "x,y,z,azimuth,elevation,distance (point to look at, m; degrees; m), top, follow:ROBOT or "
-              "chase:ROBOT")
+              "x,y,z,azimuth,elevation,distance (point to look at, m; degrees; m), top, front, side, "
+              "isometric, file (the file's camera), follow:ROBOT or chase:ROBOT")
         ->check(CLI::Validator([](std::string& text) { return fault_of_camera(text); }, "CAMERA"));
     parameter("select", "name of the robot to select");
     parameter("colour", "colour robots by model, simulator, island or speed")

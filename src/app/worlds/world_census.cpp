@@ -29,6 +29,8 @@ const char* to_text(GeometryKind kind) {
             return "heightmap";
         case GeometryKind::kPolyline:
             return "polyline";
+        case GeometryKind::kCone:
+            return "cone";
     }
     return "?";
 }

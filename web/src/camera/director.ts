@@ -1,158 +1,141 @@
-// Which way the camera looks in the large: the whole world, one robot, along with one robot. Written into and read from
-// the page's address.
-import * as THREE from "three";
+// What the camera does in the large: the whole world, views with names, one robot, along with one robot. It acts on the
+// active view.
 import { type Address, type CameraWords, parseCamera } from "../model/address";
 import type { ViewerState, World } from "../model/viewer_state";
 import type { Stage } from "../view/stage";
-import type { CameraRig } from "./rig";
+import { ballsOf } from "./extent";
+import { fitted, type FreePart } from "./fit";
+import { freePart } from "./free_part";
+import { DIRECTIONS, type NamedView, wordsOfCamera } from "./named_views";
+import { closeness, placeOf } from "./view_camera";
+import type { Views } from "./views";
 
-const OVERVIEW_AZIMUTH = -2.05;
-/** A longer reach hardly ever shows. */
-const REACH_SEEN_M = 3;
-const CLEAR_MIN_M = 0.4;
-/** Larger scenery is not searched each frame. */
-const RAY_VERTICES_MAX = 200_000;
-const OVERVIEW_ELEVATION = 0.62;
+const OVERVIEW = { azimuth: -2.05, elevation: 0.62 };
 
 export class Director {
-    private carriedYaw: number | null = null;
+    private activating = false;
 
     constructor(
         private readonly stage: Stage,
         private readonly state: ViewerState,
-        private readonly rig: CameraRig,
+        private readonly views: Views,
         private readonly address: Address,
     ) {
         state.cameraMode.follow((mode, before) => {
-            this.carriedYaw = null;
-            if (mode !== before && (mode === "follow" || mode === "chase")) this.approach();
+            if (this.activating) return;
+            const camera = views.camera;
+            camera.mode = mode;
+            camera.robot = state.selected.value;
+            if (mode !== before) this.approach();
         });
-        state.selected.follow(() => {
-            this.carriedYaw = null;
-            if (this.following()) this.approach();
+        state.selected.follow((robot) => {
+            views.camera.robot = robot;
+            this.approach();
+        });
+        views.active.follow(() => {
+            this.activating = true;
+            state.cameraMode.set(views.camera.mode);
+            this.activating = false;
         });
     }
 
-    private following(): boolean {
-        return this.state.cameraMode.value === "follow" || this.state.cameraMode.value === "chase";
+    private approach(): void {
+        if (this.state.world.value !== null) this.views.camera.approach(this.state.world.value);
     }
 
-    /** Where the page starts: as its address says, else the whole world. */
+    private free(): FreePart {
+        return freePart(this.stage.canvas, this.stage.viewport);
+    }
+
+    /** Where the page starts: as its address says, else as the file says, else the whole world. */
     start(world: World): void {
         const words = this.address.get("camera") ?? "",
-            asked = parseCamera(words);
-        if (asked !== null) return this.rig.jump(asked);
-        const top = words === "top",
-            overview = this.overview(world, top);
-        this.rig.jump(overview);
-        const named =
-            words.startsWith("follow:") || words.startsWith("chase:")
-                ? world.fleet.find(words.slice(words.indexOf(":") + 1))
-                : undefined;
-        if (named === undefined) return;
-        this.state.selected.set(named);
-        this.state.cameraMode.set(words.startsWith("chase") ? "chase" : "follow");
-        this.follow(world, 0);
-        this.rig.jump(this.rig.goal);
+            asked = parseCamera(words),
+            rig = this.views.rig,
+            named = (["top", "front", "side", "isometric"] as const).find((name) => name === words),
+            followed = /^(follow|chase):(.*)$/.exec(words);
+        if (asked !== null) rig.jump(asked);
+        else if (named !== undefined) rig.jump(this.overview(world, DIRECTIONS[named]));
+        else if (words === "file" || (words === "" && world.loaded.scene.look?.camera !== undefined))
+            this.startAtFile(world);
+        else rig.jump(this.overview(world));
+        const robot = followed === null ? undefined : world.fleet.find(followed[2]);
+        if (followed !== null && robot !== undefined) this.startWith(world, robot, followed[1] as "follow" | "chase");
+        this.views.read(this.address, world);
     }
 
-    overview(world: World, top = false): CameraWords {
-        const box = (this.stage.statics?.extent ?? new THREE.Box3()).clone(),
-            base = world.history.drawn.base;
-        const place = new THREE.Vector3(),
-            around = new THREE.Box3();
-        for (let r = 0; r < world.fleet.count; ++r) {
-            const reach = 2 * Math.min(REACH_SEEN_M, world.fleet.type(r).reach);
-            place.set(base[r * 7], base[r * 7 + 1], base[r * 7 + 2]);
-            box.union(around.setFromCenterAndSize(place, new THREE.Vector3(reach, reach, reach)));
-        }
-        const centre = box.isEmpty() ? new THREE.Vector3() : box.getCenter(new THREE.Vector3()),
-            size = box.isEmpty() ? new THREE.Vector3(4, 4, 1) : box.getSize(new THREE.Vector3());
-        const span = Math.max(1.2, Math.hypot(size.x, size.y)),
-            wide = Math.min(1, this.stage.camera.aspect / 1.5);
-        return {
-            target: [centre.x, centre.y, Math.max(0, box.isEmpty() ? 0 : box.min.z)],
-            azimuth: top ? -Math.PI / 2 : OVERVIEW_AZIMUTH,
-            elevation: top ? Math.PI / 2 - 0.001 : OVERVIEW_ELEVATION,
-            distance: (span * 0.62) / wide,
-        };
+    private startWith(world: World, robot: number, mode: "follow" | "chase"): void {
+        this.state.selected.set(robot);
+        this.state.cameraMode.set(mode);
+        this.views.camera.follow(world, 0, []);
+        this.views.rig.jump(this.views.rig.goal);
     }
 
+    private startAtFile(world: World): void {
+        this.fileView();
+        this.views.rig.jump(this.views.rig.goal);
+        const track = world.loaded.scene.look?.camera?.track,
+            robot = track === undefined ? undefined : world.fleet.find(track);
+        if (robot === undefined) return;
+        this.state.selected.set(robot);
+        this.state.cameraMode.set("follow");
+    }
+
+    overview(world: World, from: { azimuth: number; elevation: number } = OVERVIEW): CameraWords {
+        const sight = { ...from, orthographic: this.views.rig.orthographic };
+        return fitted(ballsOf(world), sight, this.free());
+    }
+
+    private goTo(words: CameraWords): void {
+        this.state.cameraMode.set("orbit");
+        const goal = this.views.rig.goal,
+            turn = words.azimuth - goal.azimuth;
+        Object.assign(goal, words, { azimuth: goal.azimuth + Math.atan2(Math.sin(turn), Math.cos(turn)) });
+    }
+
+    /** The whole world, from where the first sight is. */
     home(): void {
         const world = this.state.world.value;
-        if (world === null) return;
-        this.state.cameraMode.set("orbit");
-        Object.assign(this.rig.goal, this.overview(world));
+        if (world !== null) this.goTo(this.overview(world));
+    }
+
+    view(name: NamedView): void {
+        const world = this.state.world.value;
+        if (world !== null) this.goTo(this.overview(world, DIRECTIONS[name]));
+    }
+
+    /** Where the file puts the camera; nothing where it does not. */
+    fileView(): void {
+        const world = this.state.world.value,
+            camera = world?.loaded.scene.look?.camera;
+        if (world === null || camera === undefined) return;
+        this.views.rig.orthographic = camera.orthographic;
+        this.goTo(wordsOfCamera(camera, this.overview(world).distance));
+        if (camera.view === "fps") this.state.cameraMode.set("fly");
+    }
+
+    /** With or without perspective. */
+    flatten(): void {
+        this.views.rig.orthographic = !this.views.rig.orthographic;
     }
 
     focus(robot: number): void {
         this.state.selected.set(robot);
         const world = this.state.world.value;
         if (world === null) return;
-        this.rig.goal.target = this.place(world, robot);
-        this.rig.goal.distance = this.closeness(world, robot);
+        this.views.rig.goal.target = placeOf(world, robot);
+        this.views.rig.goal.distance = closeness(world, robot);
     }
 
-    private place(world: World, robot: number): [number, number, number] {
-        const base = world.history.drawn.base,
-            at = robot * 7;
-        return [base[at], base[at + 1], base[at + 2]];
+    /** The camera stays on this robot from now on. */
+    followRobot(robot: number): void {
+        this.state.selected.set(robot);
+        this.state.cameraMode.set("follow");
+        this.approach();
     }
 
-    private closeness(world: World, robot: number): number {
-        const reach = world.fleet.type(robot).reach;
-        return Math.max(0.8, Math.min(11 * reach, 1.9 + 3.4 * reach));
-    }
-
-    private approach(): void {
-        const world = this.state.world.value,
-            robot = this.state.selected.value;
-        if (world === null || robot === null) return;
-        const goal = this.rig.goal;
-        goal.distance = Math.min(goal.distance, this.closeness(world, robot));
-        goal.elevation = Math.min(goal.elevation, 0.5);
-        if (this.state.cameraMode.value !== "chase") return;
-        // The nearest way round to behind the robot.
-        const behind = this.yaw(world, robot) + Math.PI;
-        goal.azimuth += Math.atan2(Math.sin(behind - goal.azimuth), Math.cos(behind - goal.azimuth));
-        goal.elevation = 0.26;
-    }
-
-    /** How far from the target the camera may be before scenery comes between. */
-    private clearDistance(): number {
-        const solids = (this.stage.statics?.solids ?? []).filter(
-            (mesh) => mesh.name !== "planes" && mesh.geometry.getAttribute("position").count < RAY_VERTICES_MAX,
-        );
-        const target = new THREE.Vector3(...this.rig.now.target),
-            way = new THREE.Vector3(...this.rig.eye({ ...this.rig.now, distance: 1 })).sub(target).normalize();
-        const met = new THREE.Raycaster(target, way, 0, this.rig.now.distance).intersectObjects(solids, false)[0];
-        return met === undefined ? this.rig.now.distance * 1.05 : Math.max(CLEAR_MIN_M, met.distance * 0.92);
-    }
-
-    private yaw(world: World, robot: number): number {
-        const base = world.history.drawn.base,
-            at = robot * 7,
-            w = base[at + 3],
-            x = base[at + 4],
-            y = base[at + 5],
-            z = base[at + 6];
-        return Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z));
-    }
-
-    /** Each frame: the target stays on the robot; chasing, the camera turns with it. */
+    /** Each frame, all views. */
     follow(world: World, seconds: number): void {
-        const robot = this.state.selected.value;
-        this.rig.clear = Infinity;
-        if (!this.following() || robot === null) return;
-        this.rig.clear = this.clearDistance();
-        const place = this.place(world, robot),
-            far = Math.hypot(...place.map((value, k) => value - this.rig.now.target[k]));
-        if (far < Math.max(2, this.rig.now.distance) || seconds === 0) this.rig.carry(place);
-        else this.rig.goal.target = place;
-        if (this.state.cameraMode.value !== "chase") return;
-        const yaw = this.yaw(world, robot);
-        if (this.carriedYaw !== null)
-            this.rig.goal.azimuth += Math.atan2(Math.sin(yaw - this.carriedYaw), Math.cos(yaw - this.carriedYaw));
-        this.carriedYaw = yaw;
+        for (const camera of this.views.shown) camera.follow(world, seconds, this.stage.statics?.solids ?? []);
     }
 }

@@ -1,7 +1,8 @@
 // Mouse, touch and keys for the camera. Left drag turns, right or middle drag (or Shift) pans, the wheel zooms, two
 // fingers do both; W A S D Q E and the arrows move. A hand (hands/) may take a drag before the camera sees it.
-import type { CameraRig } from "./rig";
 import type { CameraMode } from "../model/viewer_state";
+import type { CameraRig } from "./rig";
+import type { Views } from "./views";
 
 export interface PointerHand {
     /** True: this hand has the drag. */
@@ -45,10 +46,12 @@ export class CameraPointer {
 
     constructor(
         private readonly canvas: HTMLElement,
-        private readonly rig: CameraRig,
+        private readonly views: Views,
         private readonly hand: PointerHand,
         private readonly mode: () => CameraMode,
         private readonly free: () => void,
+        /** Which view is at a point, and how high the active one is, in pixels. */
+        private readonly picture: { viewAt(x: number, y: number): number; viewport: { height: number } },
     ) {
         canvas.addEventListener("pointerdown", (event) => this.press(event));
         canvas.addEventListener("pointermove", (event) => this.move(event));
@@ -66,6 +69,10 @@ export class CameraPointer {
         window.addEventListener("blur", () => this.keys.clear());
     }
 
+    private get rig(): CameraRig {
+        return this.views.rig;
+    }
+
     /** Moves with the keys held. */
     advance(seconds: number, hurried: boolean): void {
         if (this.keys.size === 0) return;
@@ -81,6 +88,7 @@ export class CameraPointer {
     private press(event: PointerEvent): void {
         this.canvas.focus({ preventScroll: true });
         this.canvas.setPointerCapture(event.pointerId);
+        if (this.down.size === 0) this.views.activate(this.picture.viewAt(event.offsetX, event.offsetY));
         this.down.set(event.pointerId, { x: event.offsetX, y: event.offsetY });
         clearTimeout(this.resting);
         if (this.down.size > 1) {
@@ -123,7 +131,7 @@ export class CameraPointer {
 
     private panPixels(dx: number, dy: number): void {
         this.free();
-        const scale = (1.15 * this.rig.goal.distance) / Math.max(1, this.canvas.clientHeight);
+        const scale = (1.15 * this.rig.goal.distance) / Math.max(1, this.picture.viewport.height);
         this.rig.pan(-dx * scale, (dy * scale) / Math.max(0.35, Math.sin(Math.abs(this.rig.goal.elevation))));
     }
 
@@ -158,6 +166,7 @@ export class CameraPointer {
 
     private wheel(event: WheelEvent): void {
         event.preventDefault();
+        this.views.activate(this.picture.viewAt(event.offsetX, event.offsetY));
         const steps = event.deltaMode === 1 ? event.deltaY * 16 : event.deltaY;
         this.rig.zoom(Math.exp(Math.max(-240, Math.min(240, steps)) * 0.0011));
     }

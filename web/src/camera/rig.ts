@@ -1,6 +1,5 @@
 // Where the camera is, as numbers: a target, the direction from it, and a distance; z is up. Motion is damped: what the
 // person asks for is the goal, what is drawn runs after it.
-import * as THREE from "three";
 import type { CameraWords } from "../model/address";
 
 export const ELEVATION_MIN = -0.2;
@@ -13,6 +12,7 @@ export class CameraRig {
     /** At most so far from the target: what stands between would hide it. */
     clear = Infinity;
     private squeezed = Infinity;
+    orthographic = false;
     readonly now: CameraWords = { target: [0, 0, 0], azimuth: -1.1, elevation: 0.6, distance: 40 };
 
     /** Goes there at once. */
@@ -81,16 +81,5 @@ export class CameraRig {
             place.target[1] + Math.sin(place.azimuth) * flat,
             place.target[2] + Math.sin(place.elevation) * distance,
         ];
-    }
-
-    apply(camera: THREE.PerspectiveCamera): void {
-        const eye = this.eye();
-        camera.position.set(eye[0], eye[1], eye[2]);
-        camera.up.set(0, 0, 1);
-        camera.lookAt(this.now.target[0], this.now.target[1], this.now.target[2]);
-        camera.near = Math.max(0.02, this.now.distance / 400);
-        camera.far = Math.max(400, this.now.distance * 60);
-        camera.updateProjectionMatrix();
-        camera.updateMatrixWorld();
     }
 }

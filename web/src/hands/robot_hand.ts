@@ -52,7 +52,7 @@ export class RobotHand implements PointerHand {
         private readonly run: RunLink,
         private readonly mark: HandMark,
         private readonly bonding: Bonding,
-        private readonly onFocus: (robot: number) => void,
+        private readonly onFollow: (robot: number) => void,
         private readonly onOpen: (robot: number) => void,
     ) {
         this.sendForce = throttled(ORDER_INTERVAL_MS, (hold) => hold === this.hold && this.give(hold));
@@ -94,8 +94,7 @@ export class RobotHand implements PointerHand {
         if (hold.tool === "move" && event.shiftKey) hold.turned += (x - hold.x) * METRES_A_TURN_PX;
         else if (hold.tool === "move" && event.altKey)
             hold.moved.z -=
-                ((y - hold.y) * 1.1 * this.stage.camera.position.distanceTo(hold.grab)) /
-                this.stage.canvas.clientHeight;
+                ((y - hold.y) * 1.1 * this.stage.camera.position.distanceTo(hold.grab)) / this.stage.viewport.height;
         else this.slide(hold, x, y);
         hold.x = x;
         hold.y = y;
@@ -216,7 +215,7 @@ export class RobotHand implements PointerHand {
     doubleClick(x: number, y: number): void {
         const world = this.state.world.value,
             picked = world === null ? null : pick(this.stage, world, x, y);
-        if (picked !== null) this.onFocus(picked.robot);
+        if (picked !== null) this.onFollow(picked.robot);
     }
 
     longPress(x: number, y: number): void {

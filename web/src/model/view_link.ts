@@ -1,5 +1,6 @@
 // Choices from the page's address, and the address of the choices: what one copies to show another person the same view.
-import { type Address, type CameraWords, formatCamera } from "./address";
+import type { Views } from "../camera/views";
+import { type Address, formatCamera } from "./address";
 import { type CameraMode, type ColourBy, type Overlay, OVERLAYS, type Theme, type ViewerState } from "./viewer_state";
 
 const THEME_KEPT = "roboss.theme";
@@ -25,13 +26,15 @@ export function applyAddress(address: Address, state: ViewerState): void {
     if (mode !== null && ["orbit", "fly", "follow", "chase"].includes(mode)) state.cameraMode.set(mode as CameraMode);
 }
 
-export function viewLink(state: ViewerState, camera: CameraWords): string {
+export function viewLink(state: ViewerState, views: Views): string {
     const words = new URLSearchParams(),
         url = new URL(location.href),
         selected = state.selected.value;
-    words.set("camera", formatCamera(camera));
+    words.set("camera", formatCamera(views.cameras[0].rig.goal));
     if (selected !== null) words.set("select", state.world.value?.fleet.name(selected) ?? "");
-    if (state.cameraMode.value !== "orbit") words.set("mode", state.cameraMode.value);
+    const { mode } = views.cameras[0];
+    if (mode !== "orbit") words.set("mode", mode);
+    for (const [name, value] of views.words(state.world.value)) words.set(name, value);
     if (state.colourBy.value !== "model") words.set("colour", state.colourBy.value);
     if (state.overlays.value.size > 0) words.set("show", [...state.overlays.value].join(","));
     url.hash = decodeURIComponent(words.toString());

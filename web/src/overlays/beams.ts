@@ -23,3 +23,21 @@ export function beamDirection(sensor: SensorInfo, k: number): [number, number, n
             : spread(sensor.vertical_min_angle ?? 0, sensor.vertical_max_angle ?? 0, rows, row);
     return [Math.cos(pitch) * Math.cos(yaw), Math.cos(pitch) * Math.sin(yaw), Math.sin(pitch)];
 }
+
+/** Of one sensor, in the picture: a lidar of 64 x 1024 beams stays readable, and fast. */
+export const RAYS_MAX = 720;
+export const HITS_MAX = 12_000;
+
+/**
+ * Which beams of a sensor are drawn, at most `most` of them: every n-th of each row and every m-th row, so that what is
+ * left is as dense in both directions.
+ */
+export function thinned(sensor: SensorInfo, count: number, most: number): (beam: number) => boolean {
+    if (count <= most) return () => true;
+    const rows = Math.max(1, Math.min(sensor.vertical_samples ?? 1, count)),
+        columns = Math.max(1, Math.floor(count / rows)),
+        rowStep = Math.max(1, Math.ceil(rows / Math.max(1, Math.sqrt(most / 4)))),
+        rowsLeft = Math.ceil(rows / rowStep),
+        columnStep = Math.max(1, Math.ceil(columns / Math.max(1, Math.floor(most / rowsLeft))));
+    return (beam) => Math.floor(beam / columns) % rowStep === 0 && (beam % columns) % columnStep === 0;
+}

@@ -38,14 +38,14 @@ export class LabelLayer {
     }
 
     update(): void {
-        const width = this.stage.canvas.clientWidth,
-            height = this.stage.canvas.clientHeight;
+        const { left, top, width, height } = this.stage.viewport;
         for (const { element, at } of this.labels.values()) {
             this.place.copy(at).project(this.stage.camera);
-            const seen = this.place.z < 1 && Math.abs(this.place.x) < 1.05 && Math.abs(this.place.y) < 1.05;
+            const seen = this.place.z < 1 && Math.abs(this.place.x) <= 1 && Math.abs(this.place.y) <= 1;
             element.style.visibility = seen ? "visible" : "hidden";
-            if (seen)
-                element.style.transform = `translate(${((this.place.x + 1) * width) / 2}px, ${((1 - this.place.y) * height) / 2}px)`;
+            const x = left + ((this.place.x + 1) * width) / 2,
+                y = top + ((1 - this.place.y) * height) / 2;
+            if (seen) element.style.transform = `translate(${x}px, ${y}px)`;
         }
     }
 }

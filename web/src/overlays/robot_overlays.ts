@@ -4,7 +4,7 @@ import { composed, rotate, transform } from "../kinematics/pose";
 import { bodyAt, placeBodies } from "../kinematics/tree";
 import type { ViewerState, World } from "../model/viewer_state";
 import type { Stage } from "../view/stage";
-import { beamDirection } from "./beams";
+import { beamDirection, HITS_MAX, RAYS_MAX, thinned } from "./beams";
 import { LineField } from "./line_field";
 
 const RAY = new THREE.Color(0xff5d73),
@@ -58,14 +58,18 @@ export class RobotOverlays {
             if (ranges === undefined || link === undefined) return;
             const at = bodyAt(link.body),
                 frame = composed(composed(this.bodies.subarray(at, at + 7), link.frame), sensor.frame);
+            const hits = thinned(sensor, ranges.length, HITS_MAX),
+                rays = thinned(sensor, ranges.length, RAYS_MAX),
+                most = sensor.range_max ?? 10;
             ranges.forEach((told, beam) => {
-                const most = sensor.range_max ?? 10,
-                    met = typeof told === "number" && Number.isFinite(told) && told < most,
+                if (!hits(beam) && !rays(beam)) return;
+                const met = typeof told === "number" && Number.isFinite(told) && told < most,
                     range = met ? told : most;
                 const way = beamDirection(sensor, beam),
                     end = transform(frame, [way[0] * range, way[1] * range, way[2] * range]);
-                this.rays.add(frame[0], frame[1], frame[2], end[0], end[1], end[2], met ? RAY : RAY_FREE);
-                if (met) points.push(...end);
+                if (rays(beam))
+                    this.rays.add(frame[0], frame[1], frame[2], end[0], end[1], end[2], met ? RAY : RAY_FREE);
+                if (met && hits(beam)) points.push(end[0], end[1], end[2]);
             });
         });
         this.rays.end();

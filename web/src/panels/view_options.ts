@@ -1,5 +1,6 @@
 // What the picture shows beside robots and scenery, and by what robots are coloured.
 import { type ColourBy, type Overlay, OVERLAYS, type ViewerState } from "../model/viewer_state";
+import { HITS_MAX, RAYS_MAX } from "../overlays/beams";
 import { h } from "../ui/dom";
 
 export const COLOURS: [ColourBy, string, string][] = [
@@ -9,7 +10,7 @@ export const COLOURS: [ColourBy, string, string][] = [
     ["speed", "Speed", "Blue at rest, amber from 3 m/s on"],
 ];
 export const WORDS: Record<Overlay, [string, string]> = {
-    rays: ["Laser rays", "of the selected robot"],
+    rays: ["Laser rays", `of the selected robot; at most ${RAYS_MAX} rays and ${HITS_MAX} points a sensor`],
     tracks: ["Tracks", "where robots drove; the selected one: GPS, odometer"],
     compass: ["Compass", "north and heading of the selected robot"],
     contacts: ["Contact forces", "arrows, 1 m for 100 N"],

@@ -6,7 +6,8 @@ const ANISOTROPY = 8;
 
 /** Visuals with equal keys can be drawn as one. */
 export function finishKey(visual: Visual): string {
-    return visual.finish === undefined ? "" : JSON.stringify(visual.finish);
+    const shadow = visual.casts === false ? "no shadow" : "";
+    return visual.finish === undefined ? shadow : JSON.stringify(visual.finish) + shadow;
 }
 
 /** The visuals by what lies over them. */
@@ -54,6 +55,7 @@ export class Finishes {
             roughnessMap,
             metalnessMap,
             roughness: roughnessMap !== null ? 1 : (finish.roughness ?? plain.roughness),
+            emissive: new THREE.Color().setRGB(...(finish.emissive ?? [0, 0, 0]), THREE.SRGBColorSpace),
             metalness: metalnessMap !== null ? 1 : (finish.metalness ?? plain.metalness),
         });
     }

@@ -41,6 +41,8 @@ export function shapeGeometry(visual: Visual, meshes: ReadonlyMap<number, MeshDa
             return new THREE.CylinderGeometry(radius, radius, length, segments(radius)).rotateX(Math.PI / 2);
         case "capsule":
             return new THREE.CapsuleGeometry(radius, length, 8, 24).rotateX(Math.PI / 2);
+        case "cone":
+            return new THREE.ConeGeometry(radius, length, segments(radius)).rotateX(Math.PI / 2);
         case "ellipsoid":
             return ellipsoid(visual.radii ?? [1, 1, 1]);
         case "plane":

@@ -1,7 +1,13 @@
 // Sky and ground: a dome whose colour runs from the horizon up, and a grid of metres that fades with the distance, its
 // lines drawn by the fragment shader so that they stay thin and calm at any zoom.
 import * as THREE from "three";
+import type { SkyInfo } from "../wire/look";
+import type { Lens } from "./lens";
 import type { ScenePalette } from "./palette";
+
+/** A sky of the day, whatever the theme. */
+const DAY_TOP = 0x5f97cf,
+    DAY_HORIZON = 0xdce8f2;
 
 const SKY_VERTEX = `
 varying vec3 direction;
@@ -50,6 +56,11 @@ export class Ground {
     private readonly grid: THREE.ShaderMaterial;
     private readonly floor: THREE.Mesh<THREE.CircleGeometry, THREE.MeshStandardMaterial>;
     private readonly gridMesh: THREE.Mesh;
+    private readonly dome: THREE.Mesh;
+    private grids = true;
+    private floors = true;
+    /** Colour of the sky at its rim. */
+    readonly horizon = new THREE.Color();
 
     constructor() {
         this.sky = new THREE.ShaderMaterial({
@@ -60,9 +71,9 @@ export class Ground {
             depthTest: false,
             uniforms: { top: { value: new THREE.Color() }, horizon: { value: new THREE.Color() } },
         });
-        const dome = new THREE.Mesh(new THREE.SphereGeometry(1, 32, 24), this.sky);
-        dome.frustumCulled = false;
-        dome.renderOrder = -10;
+        this.dome = new THREE.Mesh(new THREE.SphereGeometry(1, 32, 24), this.sky);
+        this.dome.frustumCulled = false;
+        this.dome.renderOrder = -10;
         this.grid = new THREE.ShaderMaterial({
             vertexShader: GRID_VERTEX,
             fragmentShader: GRID_FRAGMENT,
@@ -87,25 +98,39 @@ export class Ground {
         this.floor.renderOrder = -9;
         this.floor.receiveShadow = true;
         this.floor.frustumCulled = false;
-        this.group.add(dome, this.floor, this.gridMesh);
+        this.group.add(this.dome, this.floor, this.gridMesh);
     }
 
     /** A world with a ground plane of its own needs no floor below it, but for what lies beyond its edge. */
-    follow(camera: THREE.Camera, target: THREE.Vector3): void {
+    follow(camera: Lens, target: THREE.Vector3): void {
         const reach = Math.max(40, camera.position.distanceTo(target) * 4, camera.position.z * 6);
         this.grid.uniforms.reach.value = reach;
         (this.grid.uniforms.centre.value as THREE.Vector2).set(target.x, target.y);
         this.gridMesh.scale.setScalar(reach);
         this.gridMesh.position.set(target.x, target.y, 0.001);
-        this.gridMesh.visible = camera.position.z > 0;
+        this.gridMesh.visible = this.grids && camera.position.z > 0;
         this.floor.scale.setScalar(Math.max(2000, reach * 4));
         this.floor.position.set(target.x, target.y, -0.005);
-        this.floor.visible = camera.position.z > 0;
+        this.floor.visible = this.floors && camera.position.z > 0;
+        // Without perspective every pixel looks the same way: the dome fills the picture.
+        const flat = camera instanceof THREE.OrthographicCamera;
+        if (flat) this.dome.scale.setScalar((camera.right + camera.top) * 2);
+        else this.dome.scale.setScalar(1);
     }
 
-    paint(palette: ScenePalette): void {
-        (this.sky.uniforms.top.value as THREE.Color).setHex(palette.skyTop);
-        (this.sky.uniforms.horizon.value as THREE.Color).setHex(palette.skyHorizon);
+    /** `scene`: the file's own sky; it has no floor below it, as the file says what is there. */
+    paint(palette: ScenePalette, scene?: SkyInfo): void {
+        const top = this.sky.uniforms.top.value as THREE.Color,
+            horizon = this.sky.uniforms.horizon.value as THREE.Color,
+            own = scene?.background !== undefined && !scene.sky;
+        top.setHex(scene?.sky === true ? DAY_TOP : palette.skyTop);
+        horizon.setHex(scene?.sky === true ? DAY_HORIZON : palette.skyHorizon);
+        if (own)
+            for (const colour of [top, horizon])
+                colour.setRGB(...(scene.background ?? [0, 0, 0]), THREE.SRGBColorSpace);
+        this.horizon.copy(horizon);
+        this.floors = !own;
+        this.grids = scene?.grid !== false;
         (this.grid.uniforms.colour.value as THREE.Color).setHex(palette.grid);
         this.grid.uniforms.strength.value = palette.gridStrength;
         this.floor.material.color.setHex(palette.ground);

@@ -123,7 +123,7 @@ export class RobotsLayer {
         const mesh = new THREE.InstancedMesh(geometry, material, members.length);
         mesh.instanceMatrix.setUsage(THREE.DynamicDrawUsage);
         mesh.frustumCulled = false;
-        mesh.castShadow = look.alpha >= 1;
+        mesh.castShadow = look.alpha >= 1 && look.parts[0].visual.casts !== false;
         mesh.receiveShadow = true;
         this.group.add(mesh);
         const number =

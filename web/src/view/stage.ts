@@ -1,22 +1,24 @@
-// The picture: renderer, sky, light, and the layers of the scene of the moment. One draw() a frame; the times that
-// JavaScript took for it are kept (`?measure` shows them).
+// The picture: renderer, sky, light, and the layers of the scene of the moment. One draw() a frame, of all its views; the
+// times that JavaScript took for it are kept (`?measure` shows them).
 import * as THREE from "three";
+import type { Views } from "../camera/views";
 import type { CameraRig } from "../camera/rig";
 import type { Theme, World } from "../model/viewer_state";
+import { Atmosphere } from "./atmosphere";
 import { Finishes } from "./finishes";
-import { Ground } from "./ground";
+import { type Lens, Lenses } from "./lens";
 import { PALETTES, type ScenePalette } from "./palette";
-import { skyLight } from "./sky_light";
 import { RobotsLayer } from "./robots_layer";
 import { StaticsLayer } from "./statics_layer";
-import { Sunlight } from "./sunlight";
+import { viewAt, type Viewport, viewports } from "./viewports";
 
 /** auto: as good as the machine draws smoothly. low: for machines that draw in software. */
 export type Quality = "low" | "high" | "auto";
 
+const VIEWS_MAX = 4;
+
 export class Stage {
     readonly scene = new THREE.Scene();
-    readonly camera = new THREE.PerspectiveCamera(46, 1, 0.1, 1000);
     /** What overlays draw; they add to it and take away what they added. */
     readonly overlays = new THREE.Group();
     readonly renderer: THREE.WebGLRenderer;
@@ -24,9 +26,13 @@ export class Stage {
     collisions: RobotsLayer | null = null;
     statics: StaticsLayer | null = null;
     private finishes = new Finishes(new Map());
-    palette: ScenePalette = PALETTES.dark;
-    private readonly ground = new Ground();
-    private readonly sunlight: Sunlight;
+    private theme: Theme = "dark";
+    private readonly atmosphere: Atmosphere;
+    private readonly lenses = Array.from({ length: VIEWS_MAX }, () => new Lenses());
+    private rigs: CameraRig[] = [];
+    private active = 0;
+    private size = { width: 1, height: 1 };
+    ports: Viewport[] = viewports(1, 1, 1);
 
     constructor(
         readonly canvas: HTMLCanvasElement,
@@ -42,27 +48,36 @@ export class Stage {
         this.renderer.toneMappingExposure = 1.0;
         this.renderer.shadowMap.enabled = quality !== "low";
         this.renderer.shadowMap.type = THREE.PCFShadowMap;
-        this.sunlight = new Sunlight(quality === "low" ? 0 : 2048);
-        this.scene.add(this.ground.group, this.sunlight.group, this.overlays);
+        this.atmosphere = new Atmosphere(this.renderer, this.scene, quality === "low" ? 0 : 2048);
+        this.scene.add(this.overlays);
         new ResizeObserver(() => this.resize()).observe(canvas.parentElement as HTMLElement);
         this.resize();
+    }
+
+    /** The camera of the active view. */
+    get camera(): Lens {
+        return this.lenses[this.active].lens;
+    }
+
+    /** Where the active view is on the canvas. */
+    get viewport(): Viewport {
+        return this.ports[Math.min(this.active, this.ports.length - 1)];
+    }
+
+    get palette(): ScenePalette {
+        return PALETTES[this.theme];
     }
 
     /** Draws with less effort (view/effort.ts). */
     lower(level: number): void {
         this.renderer.setPixelRatio(level === 1 ? 1 : 0.75);
         this.resize();
-        if (level > 1) this.sunlight.endShadows();
+        if (level > 1) this.atmosphere.endShadows();
     }
 
     paint(theme: Theme): void {
-        this.palette = PALETTES[theme];
-        this.ground.paint(this.palette);
-        this.sunlight.paint(this.palette);
-        this.scene.environment?.dispose();
-        this.scene.environment = skyLight(this.renderer, this.palette);
-        this.scene.environmentIntensity = this.palette.skyStrength;
-        this.scene.fog = new THREE.Fog(this.palette.skyHorizon, 100, 600);
+        this.theme = theme;
+        this.atmosphere.paint(this.palette);
     }
 
     show(world: World | null): void {
@@ -73,6 +88,7 @@ export class Stage {
         }
         this.finishes.dispose();
         this.robots = this.statics = this.collisions = null;
+        this.atmosphere.show(world);
         if (world === null) return;
         const { scene, meshes, pictures } = world.loaded;
         this.finishes = new Finishes(pictures);
@@ -94,36 +110,50 @@ export class Stage {
 
     place(world: World): void {
         this.robots?.update(world.history);
+        this.atmosphere.place(world);
         if (this.collisions?.group.visible === true) this.collisions.update(world.history);
     }
 
-    aim(rig: CameraRig): void {
-        rig.apply(this.camera);
-        const target = new THREE.Vector3(...rig.now.target);
-        this.ground.follow(this.camera, target);
-        this.sunlight.follow(target, rig.now.distance);
-        const fog = this.scene.fog as THREE.Fog;
-        fog.near = Math.max(80, rig.now.distance * 2);
-        fog.far = Math.max(500, rig.now.distance * 9);
+    aim(views: Views): void {
+        this.rigs = views.shown.map(({ rig }) => rig);
+        this.active = views.active.value;
+        this.ports = viewports(views.count.value, this.size.width, this.size.height);
+        this.rigs.forEach((rig, k) => this.lenses[k].aim(rig, this.ports[k].width / this.ports[k].height));
     }
 
     draw(): void {
-        this.renderer.render(this.scene, this.camera);
+        const single = this.ports.length === 1;
+        this.renderer.setScissorTest(!single);
+        this.rigs.forEach((rig, k) => {
+            const { left, top, width, height } = this.ports[k],
+                bottom = this.size.height - top - height;
+            this.renderer.setViewport(left, bottom, width, height);
+            if (!single) this.renderer.setScissor(left, bottom, width, height);
+            this.atmosphere.follow(this.lenses[k].lens, rig);
+            this.renderer.render(this.scene, this.lenses[k].lens);
+        });
     }
 
-    /** The ray through a point of the canvas, in CSS pixels. */
+    /** The ray through a point of the active view, in CSS pixels of the canvas. */
     ray(x: number, y: number): THREE.Raycaster {
-        const caster = new THREE.Raycaster();
-        const at = new THREE.Vector2((x / this.canvas.clientWidth) * 2 - 1, 1 - (y / this.canvas.clientHeight) * 2);
-        caster.setFromCamera(at, this.camera);
+        const caster = new THREE.Raycaster(),
+            { left, top, width, height } = this.viewport;
+        caster.setFromCamera(
+            new THREE.Vector2(((x - left) / width) * 2 - 1, 1 - ((y - top) / height) * 2),
+            this.camera,
+        );
         return caster;
+    }
+
+    viewAt(x: number, y: number): number {
+        return viewAt(this.ports, x, y);
     }
 
     private resize(): void {
         const box = (this.canvas.parentElement as HTMLElement).getBoundingClientRect();
         if (box.width < 1 || box.height < 1) return;
+        this.size = { width: box.width, height: box.height };
         this.renderer.setSize(box.width, box.height, false);
-        this.camera.aspect = box.width / box.height;
-        this.camera.updateProjectionMatrix();
+        this.ports = viewports(this.ports.length as 1 | 2 | 4, box.width, box.height);
     }
 }

@@ -69,7 +69,7 @@ export class StaticsLayer {
             shadowSide: THREE.FrontSide, // back faces would let light through at the foot of a wall
         });
         const mesh = new THREE.Mesh(geometry, material);
-        mesh.castShadow = !planes && alpha >= 1;
+        mesh.castShadow = !planes && alpha >= 1 && visuals[0].casts !== false;
         mesh.receiveShadow = true;
         mesh.name = planes ? "planes" : "solids";
         this.group.add(mesh);

@@ -1,6 +1,7 @@
 // The JSON that page and gateway exchange, as types (docs/viewer-protocol.md says what each means). SI units and
 // radians; a pose is [x, y, z, qw, qx, qy, qz].
 import type { BondReport, ChannelInfo, ChannelReport, Extras, FlowInfo, OnboardAction, SurfaceReport } from "./onboard";
+import type { LightInfo, LookInfo } from "./look";
 import type { Roles } from "./roles";
 
 export type PoseArray = [number, number, number, number, number, number, number];
@@ -14,11 +15,13 @@ export interface Finish {
     metalness_map?: string;
     roughness?: number;
     metalness?: number;
+    /** Light that it gives off. */
+    emissive?: Triple;
 }
 
 export interface Visual {
     name: string;
-    shape: "box" | "sphere" | "cylinder" | "capsule" | "ellipsoid" | "plane" | "mesh";
+    shape: "box" | "sphere" | "cylinder" | "capsule" | "cone" | "ellipsoid" | "plane" | "mesh";
     frame: PoseArray;
     rgb?: Triple;
     alpha?: number;
@@ -30,6 +33,8 @@ export interface Visual {
     /** Of a collision shape: it takes no part in the surface motion of its link. */
     still?: boolean;
     finish?: Finish;
+    /** false: it throws no shadow. */
+    casts?: boolean;
 }
 
 /** Which way a body's coordinates go from one value to another; "none": the base, which has no joint coordinates. */
@@ -53,6 +58,7 @@ export interface LinkInfo {
     frame: PoseArray;
     visuals: Visual[];
     collisions: Visual[];
+    lights?: LightInfo[];
 }
 
 export interface JointInfo {
@@ -110,6 +116,7 @@ export interface SceneInfo {
     robots: { name: string; type: number }[];
     statics: Visual[];
     flows?: FlowInfo[];
+    look?: LookInfo;
     groups_max: number;
 }
 
