@@ -6,6 +6,7 @@ import type { Answer, Incoming, OrderAction } from "../wire/messages";
 import { loadScene } from "../wire/scene_source";
 import { readHeader, readState } from "../wire/state";
 import { PlayClock } from "./play_clock";
+import { Preview } from "./preview";
 import { Signal } from "./signal";
 import { type ViewerState, World } from "./viewer_state";
 
@@ -13,6 +14,7 @@ export class RunLink {
     readonly clock = new PlayClock();
     readonly notice = new Signal<{ text: string; bad: boolean } | null>(null);
     readonly connection: Connection;
+    readonly preview: Preview;
     private loading = -1;
     private lastWatch = "";
 
@@ -22,6 +24,7 @@ export class RunLink {
             binary: (data) => this.onState(data),
             message: (message) => this.onMessage(message),
         });
+        this.preview = new Preview(state, this.connection, (text) => this.notice.set({ text, bad: true }));
         for (const signal of [state.selected, state.overlays, state.colourBy, state.pinned, state.world])
             (signal as Signal<unknown>).follow(() => this.sendWatch());
     }
@@ -52,6 +55,7 @@ export class RunLink {
         if (link !== "gone") return;
         this.state.status.set(null);
         this.state.roles.set(null);
+        this.state.timeline.set(null);
     }
 
     private onMessage(message: Incoming): void {
@@ -81,10 +85,14 @@ export class RunLink {
             case "roles":
                 this.state.roles.set(message);
                 break;
+            case "timeline":
+                this.state.timeline.set(message);
+                break;
             case "notice":
                 this.notice.set({ text: message.text, bad: false });
                 break;
             case "answer":
+                if (message.preview !== undefined) this.preview.heard(message.preview);
                 break;
         }
     }
@@ -126,6 +134,7 @@ export class RunLink {
         try {
             const header = readHeader(view);
             if (header.scene !== this.sceneNumber()) return;
+            if (header.preview) return this.preview.take(view, world);
             if (!header.whole && world.history.latest === null) return;
             readState(view, world.fleet, world.history.next());
             world.history.take();

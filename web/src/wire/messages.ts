@@ -2,6 +2,7 @@
 // radians; a pose is [x, y, z, qw, qx, qy, qz].
 import type { BondReport, ChannelInfo, ChannelReport, Extras, FlowInfo, OnboardAction, SurfaceReport } from "./onboard";
 import type { Roles } from "./roles";
+import type { PreviewInfo, Timeline } from "./timeline";
 
 export type PoseArray = [number, number, number, number, number, number, number];
 export type Triple = [number, number, number];
@@ -149,7 +150,11 @@ export interface Status {
     model_hash?: string;
     state_hash?: string;
     branch?: number | string;
-    journal?: { first_s: number; last_s: number } | null;
+    journal?: { first_s: number; last_s: number; bytes?: number; mb_per_min?: number } | null;
+    /** Serial of the timeline. */
+    timeline?: number;
+    /** A recorded run is stepped again. */
+    replay?: boolean;
     members?: MemberStatus[];
     losses?: number;
     migrations?: number;
@@ -251,6 +256,7 @@ export interface Answer {
     done: boolean;
     text: string;
     code?: string; // of a refusal
+    preview?: PreviewInfo; // the State of that moment follows
 }
 
 export type Incoming =
@@ -263,6 +269,7 @@ export type Incoming =
     | Extras
     | Answer
     | Roles
+    | Timeline
     | { type: "notice"; text: string };
 
 /** A spring from a point of a link (in its frame) to a point of the world; max_force 0 lets go. */
