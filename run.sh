@@ -2,6 +2,7 @@
 # Sets up, builds, and drives the city: fifty cars for 60 s of simulated time. Arguments go on to `roboss run`,
 # e.g. ./run.sh --simulators 4 --threads 2. Ends with the summary and a picture of where the cars drove.
 # ./run.sh --live: the same in real time until Ctrl-C, to be watched, steered and rewound in a browser; it says where.
+# Its journal keeps the last 10 min (another --journal-keep changes that).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 tools/setup.sh build
@@ -16,7 +17,7 @@ city=(build/release/bin/roboss run worlds/city.sdf --client build/release/lib/ro
 if [[ ${1:-} == --live ]]; then
     shift
     rm -f build/city.journal build/city.journal-*
-    exec "${city[@]}" --journal build/city.journal "$@"
+    exec "${city[@]}" --journal build/city.journal --journal-keep 10min "$@"
 fi
 
 # Ours, unless the same option was given.

@@ -86,19 +86,46 @@ Parsed simulators(const Words& words) {
     return KillSimulator{static_cast<std::uint32_t>(*id)};
 }
 
-/// [#BRANCH@]TIME.
-Parsed rewind(const Words& words) {
-    RewindRun rewind;
-    const std::string& text = words[1];
+/// [#BRANCH@]TIME; branch 0: none is given.
+std::optional<RewindRun> moment(const std::string& text) {
+    RewindRun moment;
     const std::size_t at = text.find('@');
     const std::optional<double> time_s = read_number(at == std::string::npos ? text : text.substr(at + 1));
-    if (!time_s) return bad_value(words, "give a time in s, or #BRANCH@TIME");
-    rewind.time_s = *time_s;
-    if (at == std::string::npos || at == 0) return rewind;
+    if (!time_s) return std::nullopt;
+    moment.time_s = *time_s;
+    if (at == std::string::npos || at == 0) return moment;
     const std::optional<std::int64_t> branch = text[0] == '#' ? whole(text.substr(1, at - 1)) : std::nullopt;
-    if (!branch || *branch == 0) return bad_value(words, "give a time in s, or #BRANCH@TIME");
-    rewind.branch = *branch;
-    return rewind;
+    if (!branch || *branch == 0) return std::nullopt;
+    moment.branch = *branch;
+    return moment;
+}
+
+constexpr const char* kMoment = "give a time in s, or #BRANCH@TIME";
+
+Parsed rewind(const Words& words) {
+    const std::optional<RewindRun> to = moment(words[1]);
+    if (!to) return bad_value(words, kMoment);
+    return *to;
+}
+
+Parsed preview(const Words& words) {
+    const std::optional<RewindRun> of = moment(words[1]);
+    if (!of) return bad_value(words, kMoment);
+    return PreviewRun{of->branch, of->time_s};
+}
+
+/// NAME [MOMENT], or "remove" and a number.
+Parsed bookmark(const Words& words) {
+    if (words.size() == 2) return AddBookmark{words[1]};
+    if (words[1] == "remove") {
+        const std::optional<std::int64_t> id = whole(words[2]);
+        if (!id) return bad_value(words, "give the number of a bookmark from `timeline`");
+        return RemoveBookmark{*id};
+    }
+    const std::optional<RewindRun> at = moment(words[2]);
+    if (!at) return bad_value(words, kMoment);
+    if (at->time_s < 0) return bad_value(words, "a time is at least 0 s");
+    return AddBookmark{words[1], at->branch, at->time_s};
 }
 
 Parsed reset(const Words& words) {
@@ -174,6 +201,9 @@ Parsed parse(const Words& words) {
     if (verb == "save" && n == 2) return SaveRun{words[1]};
     if (verb == "save" && n == 3 && words[2] == "overwrite") return SaveRun{words[1], true};
     if (verb == "rewind" && n == 2) return rewind(words);
+    if (verb == "timeline" && n == 1) return GetTimeline{};
+    if (verb == "preview" && n == 2) return preview(words);
+    if (verb == "bookmark" && (n == 2 || n == 3)) return bookmark(words);
     if (verb == "accuracy" && n >= 2) return accuracy(words);
     if (verb == "add" && (n == 5 || n == 6)) return add(words);
     if (verb == "remove" && n >= 2) return RemoveRobots{{words.begin() + 1, words.end()}};

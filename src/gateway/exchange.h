@@ -49,11 +49,12 @@ struct ShownScene {
 
 /// A line for pages. Its text is made where it is sent from, so that the run does not pay for it.
 struct Line {
-    enum class To { kPage, kAll, kStatus, kGroups, kBounds };
+    enum class To { kPage, kAll, kStatus, kGroups, kBounds, kTimeline };
     To to = To::kAll;
     std::uint64_t page = 0;
     bool may_miss = false;  // by a page that is slow
     std::function<std::string()> make;
+    std::vector<std::uint8_t> preview{};  // a State message that follows the line; of kPage only
 };
 
 /// What the gateway's thread has not seen yet.

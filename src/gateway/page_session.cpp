@@ -130,6 +130,7 @@ void PageSession::take(const std::string& text) {
 bool PageSession::greet() {
     if (!open_ || std::exchange(greeted_, true)) return false;
     send(core_.hello(before_), false);
+    if (!core_.timeline().empty()) send(core_.timeline(), false);
     return true;
 }
 
@@ -140,8 +141,14 @@ void PageSession::send(std::string text, bool may_miss) {
     write_next();
 }
 
+void PageSession::show_preview(std::vector<std::uint8_t> state) {
+    preview_ = std::move(state);
+    write_next();
+}
+
 void PageSession::begin_scene() {
     shelf_ = {};
+    preview_.clear();
     state_wanted_ = false;
 }
 
@@ -198,10 +205,14 @@ void PageSession::write_next() {
         return socket_.async_close(websocket::close_code::going_away,
                                    [self = shared_from_this()](beast::error_code) { self->end(); });
     }
-    if (!state_wanted_ || !state_due()) return;
-    state_wanted_ = false;
-    state_ms_ = steady_ms();
-    state_under_way_ = core_.book().message(shelf_);
+    if (!preview_.empty()) {
+        state_under_way_ = std::exchange(preview_, {});
+    } else {
+        if (!state_wanted_ || !state_due()) return;
+        state_wanted_ = false;
+        state_ms_ = steady_ms();
+        state_under_way_ = core_.book().message(shelf_);
+    }
     writing_ = true;
     socket_.binary(true);
     socket_.async_write(asio::buffer(state_under_way_), done);

@@ -40,6 +40,8 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
     bool greet();
     /// A line of text. `may_miss`: it is dropped where others wait already.
     void send(std::string text, bool may_miss);
+    /// A State message of an earlier moment; it follows the lines that wait. The newest counts.
+    void show_preview(std::vector<std::uint8_t> state);
     /// The world has moved: a State is sent when it is due.
     void show_state();
     /// The scene is another one: the next State is whole.
@@ -68,7 +70,7 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
     std::uint64_t before_ = 0;  // the number of this page in its last connection; 0: none
     std::deque<std::string> lines_;
     std::string line_under_way_;
-    std::vector<std::uint8_t> state_under_way_;
+    std::vector<std::uint8_t> state_under_way_, preview_;
     ViewStateCache::Shelf shelf_;
     std::int64_t state_ms_ = 0, extras_ms_ = 0;
     std::uint64_t sent_bytes_ = 0;

@@ -13,6 +13,8 @@ struct Needed {
     PageRole operator()(const GetStatus&) const { return PageRole::kWatch; }
     PageRole operator()(const GetGroups&) const { return PageRole::kWatch; }
     PageRole operator()(const GetBounds&) const { return PageRole::kWatch; }
+    PageRole operator()(const GetTimeline&) const { return PageRole::kWatch; }
+    PageRole operator()(const PreviewRun&) const { return PageRole::kWatch; }
     PageRole operator()(const SetWindow&) const { return PageRole::kAdminister; }
     PageRole operator()(const AddSimulator&) const { return PageRole::kAdminister; }
     PageRole operator()(const RemoveSimulator&) const { return PageRole::kAdminister; }
@@ -25,6 +27,8 @@ struct Needed {
     PageRole operator()(const StepRun&) const { return PageRole::kSteer; }
     PageRole operator()(const SetSpeed&) const { return PageRole::kSteer; }
     PageRole operator()(const RewindRun&) const { return PageRole::kSteer; }
+    PageRole operator()(const AddBookmark&) const { return PageRole::kSteer; }
+    PageRole operator()(const RemoveBookmark&) const { return PageRole::kSteer; }
     PageRole operator()(const AddModels&) const { return PageRole::kSteer; }
     PageRole operator()(const RemoveRobots&) const { return PageRole::kSteer; }
     PageRole operator()(const ResetRun&) const { return PageRole::kSteer; }

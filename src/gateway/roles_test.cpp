@@ -24,6 +24,8 @@ TEST(Roles, HaveNamesAndEachRequestNeedsOne) {
     EXPECT_EQ(role_needed(GetStatus{}), kWatch);
     EXPECT_EQ(role_needed(PauseRun{}), kSteer);
     EXPECT_EQ(role_needed(RewindRun{}), kSteer);
+    EXPECT_EQ(role_needed(PreviewRun{}), kWatch) << "who watches may look back";
+    EXPECT_EQ(role_needed(AddBookmark{}), kSteer);
     for (const ControlAction& action :
          {ControlAction(SaveRun{"x"}), ControlAction(QuitRun{}), ControlAction(KillSimulator{1})})
         EXPECT_EQ(role_needed(action), kAdminister);

@@ -77,10 +77,37 @@ void append(Json& o, const RunStatus& s) {
               {"robot_count", s.robot_count}});
     if (s.branch > 0) {
         o["branch"] = s.branch;
-        o["journal"] = {{"first_s", s.first_s}, {"last_s", s.time_s}};
+        o["journal"] = {{"first_s", s.first_s},
+                        {"last_s", s.time_s},
+                        {"bytes", s.journal_bytes},
+                        {"mb_per_min", std::round(1e3 * s.journal_mb_per_min) / 1e3}};
+        o["timeline"] = s.timeline;
     }
+    if (s.replay) o["replay"] = true;
     o["members"] = Json::array();
     for (const MemberStatus& member : s.members) o["members"].push_back(json_of(member));
+}
+
+void append(Json& o, const RunTimeline& timeline) {
+    o["serial"] = timeline.serial;
+    o["branch"] = timeline.branch;
+    o["branches"] = Json::array();
+    for (const TimelineBranch& b : timeline.branches)
+        o["branches"].push_back({{"id", b.id},
+                                 {"parent", b.parent},
+                                 {"begin_s", b.begin_s},
+                                 {"first_s", b.first_s},
+                                 {"end_s", b.end_s},
+                                 {"reason", b.reason}});
+    o["bookmarks"] = Json::array();
+    for (const TimelineBookmark& mark : timeline.bookmarks)
+        o["bookmarks"].push_back(
+            {{"id", mark.id}, {"branch", mark.branch}, {"time_s", mark.time_s}, {"name", mark.name}});
+}
+
+Json json_of(const RunPreview& preview) {
+    return {{"branch", preview.branch}, {"tick", preview.tick}, {"time_s", preview.time_s},
+            {"exact", preview.exact},   {"gone", preview.gone}, {"absent", preview.absent}};
 }
 
 /// To a millionth: floats have many digits, and nobody sees them.
@@ -133,6 +160,27 @@ std::string groups_json(const RobotGroups& groups) {
                     {"simulator", groups.simulator},
                     {"island", groups.island}},
                    -1);
+}
+
+std::string timeline_json(const RunTimeline& timeline) {
+    Json o = Json::object();
+    append(o, timeline);
+    return text_of(o, 2);
+}
+
+std::string timeline_line(const RunTimeline& timeline) {
+    Json o{{"type", "timeline"}};
+    append(o, timeline);
+    return text_of(o, -1);
+}
+
+std::string preview_json(const RunPreview& preview) {
+    return text_of(json_of(preview), 2);
+}
+
+std::string preview_line(const RunPreview& preview, std::int64_t id) {
+    return text_of(
+        {{"type", "answer"}, {"id", id}, {"done", true}, {"text", ""}, {"preview", json_of(preview)}}, -1);
 }
 
 std::string bounds_json(const RobotBounds& bounds) {

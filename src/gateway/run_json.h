@@ -18,5 +18,11 @@ std::string status_line(const RunStatus& status, double real_time_factor);
 std::string extras_line(const ViewExtras& extras, Tick tick, std::uint32_t scene);
 std::string groups_json(const RobotGroups& groups);
 std::string bounds_json(const RobotBounds& bounds);
+std::string timeline_json(const RunTimeline& timeline);
+/// What is shown and what is not; the robots only as a number.
+std::string preview_json(const RunPreview& preview);
+/// The lines of both for pages (docs/viewer-protocol.md).
+std::string timeline_line(const RunTimeline& timeline);
+std::string preview_line(const RunPreview& preview, std::int64_t id);
 
 }  // namespace roboss

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "gateway/page_order.h"
 #include "gateway/run_json.h"
+#include "wire/viewer_protocol.h"
 
 namespace roboss {
 namespace {
@@ -16,9 +18,11 @@ using Json = nlohmann::ordered_json;
 constexpr std::int64_t kAgain_ms = 250;         // what is not answered is asked again
 constexpr std::int64_t kFetchAgain_ms = 1'000;  // the Model, after it could not be read or has changed
 constexpr std::int64_t kWatchAgain_ms = 1'000;
+constexpr std::int64_t kPreviewAgain_ms = 1'000;  // longer than a preview takes
 constexpr std::int64_t kStatusEvery_ms = 500, kGroupsEvery_ms = 500, kBoundsEvery_ms = 250;
 constexpr std::uint32_t kExactEvery_ms = 100;
 constexpr std::size_t kQuestionsMax = 200;
+constexpr std::size_t kPreviewsMax = 32;   // pages whose requests are remembered
 constexpr Tick kNoPeriod = Tick{1} << 49;  // the orders' Client observes nothing, and so holds up no window
 
 /// Contacts need everybody's state too.
@@ -41,6 +45,31 @@ std::string dumped(const Json& json) {
 std::string groups_line(const RobotGroups& groups, std::uint32_t scene) {
     return dumped(
         {{"type", "groups"}, {"scene", scene}, {"simulator", groups.simulator}, {"island", groups.island}});
+}
+
+/// A State message with the robots that existed then.
+std::vector<std::uint8_t> preview_message(const RunPreview& preview, const ShownScene& scene) {
+    namespace protocol = viewer_protocol;
+    std::uint32_t robots = 0;
+    std::size_t offset = 0;
+    while (const std::optional<RobotId> robot = scene.layout.entry_at(preview.entries, offset)) {
+        offset += scene.layout.bytes_of(*robot);
+        ++robots;
+    }
+    std::vector<std::uint8_t> bytes(protocol::kStateBytes + offset);
+    std::copy_n(preview.entries.begin(), offset, bytes.begin() + protocol::kStateBytes);
+    const auto put = [&](std::size_t at, const auto& value) {
+        std::memcpy(bytes.data() + at, &value, sizeof(value));
+    };
+    const bool whole = robots == scene.layout.robots();
+    put(protocol::kStateKindAt, protocol::kStateKind);
+    put(protocol::kStateFlagsAt,
+        static_cast<std::uint8_t>(protocol::kFlagPreview | (whole ? protocol::kFlagWhole : 0)));
+    put(protocol::kStateSceneAt, scene.number);
+    put(protocol::kStateTickAt, static_cast<double>(preview.tick));
+    put(protocol::kStateTimeAt, preview.time_s);
+    put(protocol::kStateRobotsAt, robots);
+    return bytes;
 }
 
 std::string bounds_line(const RobotBounds& bounds, Tick tick, std::uint32_t scene) {
@@ -90,6 +119,7 @@ void RunWatcher::advance(Bus& bus) {
     poll(bus.now_ms());
     polls_.advance(bus);
     control_.advance(bus);
+    serve_previews(bus);
     serve_orders(bus);
 }
 
@@ -140,6 +170,7 @@ void RunWatcher::finish_fetch(std::int64_t now_ms) {
     fetch_from_ms_ = now_ms;
     sent_ms_.reset();
     drop_client();
+    timeline_ = 0;  // it may be another run
     exchange_->show(scene_);
 }
 
@@ -196,10 +227,49 @@ void RunWatcher::poll(std::int64_t now_ms) {
 void RunWatcher::show_status(const RunStatus& status, std::int64_t asked_at_ms) {
     const double wall_s = 1e-3 * static_cast<double>(asked_at_ms - std::exchange(status_at_ms_, asked_at_ms));
     const double simulated_s = status.time_s - std::exchange(status_time_s_, status.time_s);
+    if (status.timeline != timeline_ && status.timeline != 0)
+        polls_.questions.push_back({GetTimeline{}, [this](const ControlOutcome& outcome) {
+                                        if (const auto* timeline = std::get_if<RunTimeline>(&outcome))
+                                            show_timeline(*timeline);
+                                    }});
     const bool known = wall_s > 0 && wall_s < 10 && simulated_s >= 0;
     exchange_->send({Line::To::kStatus, 0, true, [status, factor = known ? simulated_s / wall_s : 0.0]() {
                          return status_line(status, factor);
                      }});
+}
+
+void RunWatcher::show_timeline(const RunTimeline& timeline) {
+    timeline_ = timeline.serial;
+    exchange_->send({Line::To::kTimeline, 0, false, [timeline]() { return timeline_line(timeline); }});
+}
+
+/// A page has one request under way at most: a newer one replaces it.
+void RunWatcher::preview(std::uint64_t page, std::int64_t id, const PreviewRun& wanted) {
+    if (!previews_.contains(page)) {
+        if (previews_.size() >= kPreviewsMax) previews_.erase(previews_.begin());  // of the oldest page
+        previews_[page].self = new_address_();
+    }
+    PreviewAsk& ask = previews_[page];
+    if (ask.wanted) answer(page, ask.id, false, "a newer preview was requested", "superseded");
+    ++ask.number;
+    ask.id = id, ask.wanted = wanted, ask.asked_ms.reset();
+}
+
+void RunWatcher::serve_previews(Bus& bus) {
+    const std::int64_t now = bus.now_ms();
+    for (auto& [page, ask] : previews_) {
+        if (!ask.wanted) continue;
+        bus.drain(ask.self, inbox_);
+        for (const Envelope& envelope : inbox_) {
+            const auto* reply = std::get_if<ControlReply>(&envelope.message);
+            if (reply == nullptr || reply->number != ask.number || !ask.wanted) continue;
+            ask.wanted.reset();
+            answer(page, ask.id, reply->outcome);
+        }
+        if (!ask.wanted || (ask.asked_ms && now - *ask.asked_ms < kPreviewAgain_ms)) continue;
+        ask.asked_ms = now;
+        bus.send(ask.self, kControllerAddress, ControlRequest{ask.number, *ask.wanted});
+    }
 }
 
 void RunWatcher::show_groups(const RobotGroups& groups, const ShownScene& scene) {
@@ -223,7 +293,17 @@ void RunWatcher::answer(std::uint64_t page, std::int64_t id, const ControlOutcom
         return answer(page, id, true, status_json(*status));
     if (const auto* groups = std::get_if<RobotGroups>(&outcome))
         return answer(page, id, true, groups_json(*groups));
+    if (const auto* timeline = std::get_if<RunTimeline>(&outcome))
+        return answer(page, id, true, timeline_json(*timeline));
+    if (const auto* preview = std::get_if<RunPreview>(&outcome)) return answer(page, id, *preview);
     answer(page, id, true, bounds_json(std::get<RobotBounds>(outcome)));
+}
+
+void RunWatcher::answer(std::uint64_t page, std::int64_t id, const RunPreview& preview) {
+    if (!scene_ || outdated_ || preview.model_hash != scene_->model->hash)
+        return answer(page, id, false, "the scene has changed in the meantime: ask again", "scene-changed");
+    exchange_->send({Line::To::kPage, page, false, [id, preview]() { return preview_line(preview, id); },
+                     preview_message(preview, *scene_)});
 }
 
 void RunWatcher::answer(std::uint64_t page, std::int64_t id, bool done, std::string text, std::string code) {
@@ -237,6 +317,8 @@ void RunWatcher::answer(std::uint64_t page, std::int64_t id, bool done, std::str
 
 void RunWatcher::serve(Bus& bus, PageCall& call) {
     if (const auto* page_order = std::get_if<PageOrder>(&call.what)) return order(bus, call, *page_order);
+    if (const auto* wanted = std::get_if<PreviewRun>(&std::get<ControlAction>(call.what)))
+        return preview(call.page, call.id, *wanted);
     if (control_.questions.size() >= kQuestionsMax)
         return answer(call.page, call.id, false, "too many requests are waiting for replies", "busy");
     control_.questions.push_back({std::move(std::get<ControlAction>(call.what)),

@@ -6,6 +6,7 @@
 #include <deque>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,6 +44,14 @@ class RunWatcher {
         std::vector<Envelope> inbox;
         void advance(Bus& bus);
     };
+    /// The newest preview that a page has requested; each page asks from an address of its own.
+    struct PreviewAsk {
+        Address self;
+        std::uint64_t number = 0;  // of its requests
+        std::int64_t id = 0;       // of the page's message
+        std::optional<PreviewRun> wanted;
+        std::optional<std::int64_t> asked_ms;
+    };
     struct OpenOrder {
         std::uint64_t page = 0, sequence = 0, reply = 0;
         std::int64_t id = 0;
@@ -62,11 +71,15 @@ class RunWatcher {
     void show_status(const RunStatus& status, std::int64_t asked_at_ms);
     void show_groups(const RobotGroups& groups, const ShownScene& scene);
     void show_bounds(const RobotBounds& bounds, const ShownScene& scene);
+    void show_timeline(const RunTimeline& timeline);
+    void preview(std::uint64_t page, std::int64_t id, const PreviewRun& wanted);
+    void serve_previews(Bus& bus);
     void serve(Bus& bus, PageCall& call);
     void order(Bus& bus, const PageCall& call, const PageOrder& order);
     void serve_orders(Bus& bus);
     void drop_client();
     void answer(std::uint64_t page, std::int64_t id, const ControlOutcome& outcome);
+    void answer(std::uint64_t page, std::int64_t id, const RunPreview& preview);
     void answer(std::uint64_t page, std::int64_t id, bool done, std::string text, std::string code = {});
 
     std::shared_ptr<Exchange> exchange_;
@@ -83,6 +96,8 @@ class RunWatcher {
     std::optional<std::int64_t> sent_ms_;  // when the last ViewRequest was
     bool watch_request_changed_ = false;
     Requester polls_, control_;
+    std::map<std::uint64_t, PreviewAsk> previews_;  // by page
+    std::uint64_t timeline_ = 0;                    // RunTimeline::serial that was shown last
     std::optional<std::int64_t> status_ms_, groups_ms_, bounds_ms_;
     double status_time_s_ = 0;
     std::int64_t status_at_ms_ = 0;

@@ -356,8 +356,9 @@ void ServerCore::send_exact() {
 }
 
 void ServerCore::send_lines(std::vector<Line>& lines) {
-    for (const Line& line : lines) {
+    for (Line& line : lines) {
         std::string text;  // made for the first page that gets it
+        if (line.to == Line::To::kTimeline) text = timeline_ = line.make();
         for (const auto& [number, page] : std::map(pages_)) {
             const bool gets_it = line.to == Line::To::kPage     ? number == line.page
                                  : line.to == Line::To::kGroups ? page->watch().groups
@@ -373,6 +374,7 @@ void ServerCore::send_lines(std::vector<Line>& lines) {
                         ",\"sent_bytes\":" + std::to_string(page->sent_bytes()) + "}";
             }
             page->send(std::move(sent), line.may_miss);
+            if (!line.preview.empty()) page->show_preview(std::move(line.preview));
         }
     }
 }

@@ -52,6 +52,8 @@ class ServerCore {
     const ViewStateCache& book() const { return order_log_; }
     /// The first line; it says why this page was disconnected when it had the number `before`.
     std::string hello(std::uint64_t before) const;
+    /// The line with branches and bookmarks; empty: not known.
+    const std::string& timeline() const { return timeline_; }
     /// The line with surfaces in motion and bonds.
     std::string extras_line() const;
     std::uint64_t next_page() { return ++last_page_; }
@@ -105,6 +107,7 @@ class ServerCore {
     std::vector<std::shared_ptr<std::function<void()>>> scene_waiters_;
     std::shared_ptr<const ShownScene> scene_;
     ViewStateCache order_log_;
+    std::string timeline_;
     Inspector inspector_;
 
     mutable std::mutex mutex_;

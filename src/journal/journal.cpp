@@ -6,6 +6,7 @@
 #include <charconv>
 #include <filesystem>
 #include <limits>
+#include <utility>
 
 #include "core/hash.h"
 #include "journal/journal_format.h"
@@ -58,6 +59,15 @@ Error Journal::damaged(const std::string& what) const {
 
 Result<Journal> Journal::open(const std::string& path, bool thorough) {
     std::error_code error;
+    return open_as(path, thorough || std::filesystem::file_size(path, error) <= kLookedThrough_bytes);
+}
+
+Result<Journal> Journal::open_own(const std::string& path) {
+    return open_as(path, false);
+}
+
+Result<Journal> Journal::open_as(const std::string& path, bool look_through) {
+    std::error_code error;
     if (!std::filesystem::is_regular_file(path, error))
         return Error{path + ": there is no such file", "give a file that --journal or --save wrote",
                      "no-file"};
@@ -67,15 +77,43 @@ Result<Journal> Journal::open(const std::string& path, bool thorough) {
     journal.path_ = path;
     journal.db_ = std::move(opened).value();
     if (Result<> read = journal.read_meta(); !read) return read.error();
-    if (thorough || std::filesystem::file_size(path, error) <= kLookedThrough_bytes) {
+    if (look_through) {
         Result<std::vector<Row>> sound = journal.db_->select("PRAGMA integrity_check(1)");
         if (!sound || sound.value().size() != 1 || sound.value()[0][0] != Value(std::string("ok")))
             return journal.damaged("it is truncated or was changed");
     }
-    for (Result<> (Journal::*read)() :
-         {&Journal::read_branches, &Journal::read_checkpoint_entries, &Journal::read_log_heads})
-        if (Result<> done = (journal.*read)(); !done) return done.error();
+    if (Result<> read = journal.refresh(); !read) return read.error();
     return journal;
+}
+
+/// All tables as they are at one moment, although the file may be written meanwhile.
+Result<> Journal::refresh() {
+    (void)db_->run("BEGIN");
+    Result<> read = read_tables();
+    (void)db_->run("COMMIT");
+    return read;
+}
+
+Result<> Journal::read_tables() {
+    for (Result<> (Journal::*read)() :
+         {&Journal::read_meta, &Journal::read_branches, &Journal::read_checkpoint_entries,
+          &Journal::read_log_bases, &Journal::read_log_heads, &Journal::read_bookmarks})
+        if (Result<> done = (this->*read)(); !done) return done;
+    return Ok{};
+}
+
+bool Journal::has_bases() const {
+    return format_ >= kFirstPrunableFormat;
+}
+
+const Branch* Journal::find(BranchId id) const {
+    const auto found = std::lower_bound(branches_.begin(), branches_.end(), id,
+                                        [](const Branch& b, BranchId wanted) { return b.id < wanted; });
+    return found != branches_.end() && found->id == id ? &*found : nullptr;
+}
+
+Branch* Journal::find_own(BranchId id) {
+    return const_cast<Branch*>(std::as_const(*this).find(id));
 }
 
 Result<> Journal::read_meta() {
@@ -85,15 +123,23 @@ Result<> Journal::read_meta() {
             path_ + " is not a checkpoint or journal of RoBOSS, or is truncated: " + rows.error().message,
             kAnother, "not-a-journal"};
     std::int64_t format = 0;
+    pruned_world_.reset();
     for (const Row& row : rows.value()) {
         const auto* key = std::get_if<std::string>(&row[0]);
         if (key != nullptr && *key == "format" && std::holds_alternative<std::int64_t>(row[1]))
             format = std::get<std::int64_t>(row[1]);
         if (key != nullptr && *key == "version" && std::holds_alternative<std::string>(row[1]))
             version_ = std::get<std::string>(row[1]);
+        if (key != nullptr && *key == kMetaWorld) {
+            Columns c(row);
+            (void)c.get<std::string>();
+            pruned_world_ = c.hash();
+            if (!c.good()) return damaged("the hash of its world was changed");
+        }
     }
     if (format == 0) return damaged("its format is missing");
-    if (format != kJournalFormat)
+    format_ = format;
+    if (format < kOldestJournalFormat || format > kJournalFormat)
         return Error{path_ + " has journal format " + std::to_string(format) + " (written by RoBOSS " +
                          (version_.empty() ? "of long ago" : version_) + "), this program reads " +
                          std::to_string(kJournalFormat),
@@ -105,6 +151,7 @@ Result<> Journal::read_branches() {
     Result<std::vector<Row>> rows = db_->select(
         "SELECT id, parent, tick, model, seed, world_file, reason, row_hash FROM branches ORDER BY id");
     if (!rows) return damaged(rows.error().message);
+    branches_.clear();
     for (const Row& row : rows.value()) {
         Columns c(row);
         Branch b;
@@ -114,9 +161,9 @@ Result<> Journal::read_branches() {
         b.world_file = c.get<std::string>(), b.reason = c.get<std::string>();
         const std::uint64_t check = c.hash();
         if (!c.good() || check != check_of(b))
-            return damaged("the row of branch " + std::to_string(branches_.size() + 1) + " was changed");
-        if (b.id != static_cast<BranchId>(branches_.size() + 1) || b.parent < 0 || b.parent >= b.id ||
-            b.tick < 0)
+            return damaged("the row of branch " + std::to_string(b.id) + " was changed");
+        const bool in_order = branches_.empty() || b.id == branches_.back().id + 1 || has_bases();
+        if (b.id < 1 || !in_order || b.parent < 0 || b.parent >= b.id || b.tick < 0)
             return damaged("its branches do not make a tree");
         b.committed = b.end = b.tick;
         branches_.push_back(std::move(b));
@@ -130,17 +177,18 @@ Result<> Journal::read_checkpoint_entries() {
         "SELECT c.branch, c.tick, c.state_hash, coalesce(length(c.memory) + length(s.bytes), 'none') FROM "
         "checkpoints c LEFT JOIN states s ON s.hash = c.states ORDER BY c.branch, c.tick");
     if (!rows) return damaged(rows.error().message);
+    checkpoints_.clear();
     for (const Row& row : rows.value()) {
         Columns c(row);
         CheckpointEntry entry;
         entry.branch = c.number(), entry.tick = c.number();
         entry.hash = c.hash();
         const std::int64_t bytes = c.number();
-        if (!c.good() || entry.branch < 1 || entry.branch > static_cast<BranchId>(branches_.size()) ||
-            entry.tick < branches_[static_cast<std::size_t>(entry.branch - 1)].tick)
+        Branch* holder = find_own(entry.branch);
+        if (!c.good() || holder == nullptr || entry.tick < holder->tick)
             return damaged("a checkpoint belongs to no branch");
-        Branch& b = branches_[static_cast<std::size_t>(entry.branch - 1)];
-        ++b.checkpoints;
+        Branch& b = *holder;
+        if (b.checkpoints++ == 0) b.first = entry.tick;
         b.bytes += static_cast<std::uint64_t>(bytes);
         if (entry.tick >= b.committed) b.committed = entry.tick, b.hash = entry.hash;
         b.end = std::max(b.end, entry.tick);
@@ -151,10 +199,38 @@ Result<> Journal::read_checkpoint_entries() {
     return Ok{};
 }
 
+/// What stands for the rows that were pruned.
+Result<> Journal::read_log_bases() {
+    std::erase_if(heads_, [this](const auto& head) { return find(head.first) == nullptr; });
+    if (!has_bases()) return Ok{};
+    Result<std::vector<Row>> rows = db_->select(kSelectBases);
+    if (!rows) return damaged(rows.error().message);
+    for (const Row& values : rows.value()) {
+        Columns c(values);
+        LogBase base;
+        base.branch = c.number(), base.serial = c.number();
+        base.planned = c.number(), base.committed = c.number(), base.hash = c.hash(), base.chain = c.hash();
+        base.bytes = c.get<Blob>();
+        const std::uint64_t check = c.hash();
+        if (!c.good() || find(base.branch) == nullptr || check != check_of(base))
+            return damaged("the beginning of the log of branch " + std::to_string(base.branch) +
+                           " was changed");
+        LogHead& head = heads_[base.branch];
+        if (head.tail.serial >= base.serial) continue;
+        head.tail = {base.serial, base.chain};
+        if (base.committed >= head.committed && base.hash != 0)
+            head.committed = base.committed, head.hash = base.hash;
+        head.end = std::max({head.end, base.planned, base.committed});
+    }
+    return Ok{};
+}
+
+/// Only the youngest branch grows.
 Result<> Journal::read_log_heads() {
     Result<std::vector<Row>> rows = db_->select(
         "SELECT branch, serial, planned, committed, state_hash, orders, length(entries), chain FROM batches "
-        "ORDER BY branch, serial");
+        "WHERE branch > ? OR (branch = ? AND serial > ?) ORDER BY branch, serial",
+        {read_branch_, read_branch_, read_serial_});
     if (!rows) return damaged(rows.error().message);
     for (const Row& row : rows.value()) {
         Columns c(row);
@@ -163,34 +239,78 @@ Result<> Journal::read_log_heads() {
         const std::uint64_t hash = c.hash();
         const std::int64_t orders = c.number(), bytes = c.number();
         const std::uint64_t chain = c.hash();
-        if (!c.good() || id < 1 || id > static_cast<BranchId>(branches_.size()))
-            return damaged("a row of its log belongs to no branch");
-        Tail& tail = tails_[id];
-        if (serial != ++tail.serial)
-            return damaged("row " + std::to_string(tail.serial) + " of its log is missing");
-        tail.chain = chain;
-        Branch& b = branches_[static_cast<std::size_t>(id - 1)];
-        b.orders += static_cast<std::size_t>(orders);
-        b.bytes += static_cast<std::uint64_t>(bytes);
-        if (committed >= b.committed && hash != 0) b.committed = committed, b.hash = hash;
-        b.end = std::max({b.end, planned, committed});
+        if (!c.good() || find(id) == nullptr) return damaged("a row of its log belongs to no branch");
+        LogHead& head = heads_[id];
+        read_branch_ = id, read_serial_ = serial;
+        if (serial != ++head.tail.serial)
+            return damaged("row " + std::to_string(head.tail.serial) + " of its log is missing");
+        head.tail.chain = chain;
+        head.orders += static_cast<std::size_t>(orders);
+        head.bytes += static_cast<std::uint64_t>(bytes);
+        if (committed >= head.committed && hash != 0) head.committed = committed, head.hash = hash;
+        head.end = std::max({head.end, planned, committed});
+    }
+    for (const auto& [id, head] : heads_) {
+        Branch& b = *find_own(id);
+        b.orders = head.orders;
+        b.bytes += head.bytes;
+        if (head.committed >= b.committed && head.hash != 0) b.committed = head.committed, b.hash = head.hash;
+        b.end = std::max(b.end, head.end);
+    }
+    return Ok{};
+}
+
+Result<> Journal::read_bookmarks() {
+    bookmarks_.clear();
+    if (!has_bases()) return Ok{};
+    Result<std::vector<Row>> rows = db_->select(kSelectBookmarks);
+    if (!rows) return damaged(rows.error().message);
+    for (const Row& values : rows.value()) {
+        Columns c(values);
+        Bookmark mark;
+        mark.id = c.number(), mark.branch = c.number(), mark.tick = c.number();
+        mark.name = c.get<std::string>();
+        if (c.hash() != check_of(mark) || !c.good())
+            return damaged("bookmark " + std::to_string(mark.id) + " was changed");
+        if (find(mark.branch) != nullptr) bookmarks_.push_back(std::move(mark));
     }
     return Ok{};
 }
 
 Result<Branch> Journal::branch(std::optional<BranchId> id) const {
-    const BranchId wanted = id.value_or(static_cast<BranchId>(branches_.size()));
-    if (wanted < 1 || wanted > static_cast<BranchId>(branches_.size()))
-        return Error{path_ + " has no branch " + std::to_string(wanted) + ", it has " +
-                         std::to_string(branches_.size()),
-                     "`roboss journal info " + path_ + "` shows them", "no-branch"};
-    return branches_[static_cast<std::size_t>(wanted - 1)];
+    const BranchId wanted = id.value_or(branches_.back().id);
+    if (const Branch* found = find(wanted)) return *found;
+    if (wanted >= 1 && wanted < branches_.back().id)
+        return Error{path_ + " no longer has branch " + std::to_string(wanted) + ": it was pruned",
+                     "`roboss journal info " + path_ + "` shows those that it has; see --journal-keep",
+                     "no-branch"};
+    return Error{path_ + " has no branch " + std::to_string(wanted) + ", its newest is " +
+                     std::to_string(branches_.back().id),
+                 "`roboss journal info " + path_ + "` shows them", "no-branch"};
 }
 
 Branch Journal::holder_of(Branch branch, Tick tick) const {
-    while (tick < branch.tick && branch.parent != 0)
-        branch = branches_[static_cast<std::size_t>(branch.parent - 1)];
+    while (tick < branch.tick) {
+        const Branch* parent = find(branch.parent);
+        if (parent == nullptr) break;
+        branch = *parent;
+    }
     return branch;
+}
+
+Tick Journal::first_tick(const Branch& branch) const {
+    Tick first = branch.first;
+    for (const Branch* b = &branch; b->first <= b->tick;) {
+        b = find(b->parent);
+        if (b == nullptr || b->first > first) break;
+        first = b->first;
+    }
+    return first;
+}
+
+std::uint64_t Journal::world_hash(const Branch& branch) const {
+    const Branch root = holder_of(branch, -1);
+    return root.parent == 0 ? root.model_hash : pruned_world_.value_or(root.model_hash);
 }
 
 Result<std::shared_ptr<const Model>> Journal::model(const Branch& branch) const {
@@ -238,12 +358,17 @@ Result<StoredCheckpoint> Journal::checkpoint(const CheckpointEntry& entry, const
 
 Result<LogBatch> Journal::log(const Branch& branch, Tick from, Tick until) const {
     Result<std::vector<Row>> rows = db_->select(
-        "SELECT b.serial, b.planned, b.committed, b.state_hash, b.low, b.high, b.orders, b.entries, b.chain, "
-        "coalesce(a.chain, '0000000000000000') FROM batches b LEFT JOIN batches a ON a.branch = b.branch AND "
-        "a.serial = b.serial - 1 WHERE b.branch = ? AND b.high >= ? AND b.low < ? ORDER BY b.serial",
+        "SELECT b.serial, b.planned, b.committed, b.state_hash, b.low, b.high, b.orders, b.entries, "
+        "b.chain, " +
+            std::string(has_bases() ? "coalesce(a.chain, p.chain, '0000000000000000') "
+                                    : "coalesce(a.chain, '0000000000000000') ") +
+            "FROM batches b LEFT JOIN batches a ON a.branch = b.branch AND a.serial = b.serial - 1 " +
+            (has_bases() ? "LEFT JOIN bases p ON p.branch = b.branch AND p.serial = b.serial - 1 " : "") +
+            "WHERE b.branch = ? AND b.high >= ? AND b.low < ? ORDER BY b.serial",
         {branch.id, from, until});
     if (!rows) return damaged(rows.error().message);
     LogBatch log;
+    if (Result<> based = add_base(branch, log); !based) return based.error();
     for (const Row& values : rows.value()) {
         Columns c(values);
         BatchRow row;
@@ -271,6 +396,19 @@ Result<LogBatch> Journal::log(const Branch& branch, Tick from, Tick until) const
     return log;
 }
 
+/// Entries of pruned rows that are still needed.
+Result<> Journal::add_base(const Branch& branch, LogBatch& log) const {
+    if (!has_bases()) return Ok{};
+    Result<std::vector<Row>> rows = db_->select("SELECT entries FROM bases WHERE branch = ?", {branch.id});
+    if (!rows) return damaged(rows.error().message);
+    for (const Row& row : rows.value()) {
+        Result<LogBatch> entries = decode_batch(Columns(row).get<Blob>());
+        if (!entries) return damaged("the beginning of its log: " + entries.error().message);
+        log.append(std::move(entries).value());
+    }
+    return Ok{};
+}
+
 Result<SavedRun> Journal::run_at(const Branch& branch, const Model& model, Tick tick) const {
     const std::vector<CheckpointEntry> entries = checkpoints(branch);
     const auto above = std::upper_bound(entries.begin(), entries.end(), tick,
@@ -278,11 +416,14 @@ Result<SavedRun> Journal::run_at(const Branch& branch, const Model& model, Tick 
     const auto time = [&](Tick t) { return std::to_string(static_cast<double>(t) * model.dt_s) + " s"; };
     if (above == entries.begin() || tick > branch.end) {
         const Tick first = entries.empty() ? branch.tick : entries.front().tick;
+        const bool pruned = first > branch.tick || (branch.parent != 0 && find(branch.parent) == nullptr);
         return Error{path_ + " has nothing at " + time(tick) + " (tick " + std::to_string(tick) +
                          ") of branch " + std::to_string(branch.id) + ", it has " + time(first) + " to " +
                          time(branch.end) + " (ticks " + std::to_string(first) + " to " +
                          std::to_string(branch.end) + ")",
-                     "give a time that it has", "no-such-time"};
+                     pruned ? "give a time that it has; earlier ones were pruned (--journal-keep)"
+                            : "give a time that it has",
+                     "no-such-time"};
     }
     return run_from(branch, *std::prev(above), model, tick);
 }
@@ -333,8 +474,8 @@ Result<SavedRun> Journal::run_with(const Branch& branch, const CheckpointEntry& 
 }
 
 Journal::Tail Journal::tail(BranchId branch) const {
-    const auto found = tails_.find(branch);
-    return found == tails_.end() ? Tail{} : found->second;
+    const auto found = heads_.find(branch);
+    return found == heads_.end() ? Tail{} : found->second.tail;
 }
 
 Result<> Journal::inspect() const {
@@ -352,9 +493,10 @@ Result<> Journal::inspect() const {
 }
 
 Result<> check_world(const Journal& journal, const Branch& branch, const Model& model) {
-    if (branch.model_hash == model.hash) return Ok{};
+    const std::uint64_t hash = journal.world_hash(branch);
+    if (hash == model.hash) return Ok{};
     return Error{journal.path() + " was written for another world: " + branch.world_file + ", model hash " +
-                     to_hex(branch.model_hash) + "; this one has model hash " + to_hex(model.hash),
+                     to_hex(hash) + "; this one has model hash " + to_hex(model.hash),
                  "give the world file, the step, the accuracy and the version of RoBOSS (" +
                      journal.version() + ") that it was written with",
                  "another-world"};

@@ -6,6 +6,7 @@
 // Model than its parent (robots were added, the accuracy changed).
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +29,16 @@ struct Branch {
     Tick end = 0;            // the log is complete up to here
     std::size_t checkpoints = 0, orders = 0;
     std::uint64_t bytes = 0;  // of checkpoints and log
+    Tick first = 0;           // its first checkpoint: later than `tick` once the branch is pruned
+};
+
+/// A named moment.
+struct Bookmark {
+    std::int64_t id = 0;  // 1, 2, 3 ...
+    BranchId branch = 0;
+    Tick tick = 0;
+    std::string name;
+    friend bool operator==(const Bookmark&, const Bookmark&) = default;
 };
 
 struct CheckpointEntry {
@@ -45,14 +56,28 @@ class Journal {
   public:
     /// `thorough`: checks every page, however large the file is.
     static Result<Journal> open(const std::string& path, bool thorough = false);
+    /// Of a journal that this process writes: the pages of the file are not checked.
+    static Result<Journal> open_own(const std::string& path);
+    /// Reads what has been written since: new branches, checkpoints, log. After an Error the journal must not
+    /// be used.
+    Result<> refresh();
 
     const std::string& path() const { return path_; }
     const std::string& version() const { return version_; }
+    /// Ascending by id. Branches that were pruned are missing.
     const std::vector<Branch>& branches() const { return branches_; }
+    const std::vector<Bookmark>& bookmarks() const { return bookmarks_; }
     /// The branch of this number; the youngest if none is given.
     Result<Branch> branch(std::optional<BranchId> id = {}) const;
-    /// The branch, or an ancestor of it, that has this tick.
+    /// Null: the file does not have it.
+    const Branch* find(BranchId id) const;
+    /// The branch, or an ancestor of it, that has this tick. The oldest ancestor that is left if none has.
     Branch holder_of(Branch branch, Tick tick) const;
+    /// The first tick of this branch that can be restored: of the oldest ancestor to which nothing is
+    /// missing.
+    Tick first_tick(const Branch& branch) const;
+    /// Hash of the Model of the world file with which the history of the branch began, pruned or not.
+    std::uint64_t world_hash(const Branch& branch) const;
     Result<std::shared_ptr<const Model>> model(const Branch& branch) const;
 
     /// Those of the branch, ascending by tick.
@@ -87,17 +112,36 @@ class Journal {
   private:
     Result<SavedRun> run_with(const Branch& branch, const CheckpointEntry& entry, const Model& model,
                               Tick until, Tick said_until) const;
+    /// What the rows of a branch's log say together.
+    struct LogHead {
+        Tail tail;
+        Tick committed = -1, end = -1;
+        std::uint64_t hash = 0, bytes = 0;
+        std::size_t orders = 0;
+    };
+    static Result<Journal> open_as(const std::string& path, bool look_through);
     Error damaged(const std::string& what) const;
+    bool has_bases() const;
     Result<> read_meta();
+    Result<> read_tables();
     Result<> read_branches();
+    Result<> read_log_bases();
     Result<> read_log_heads();
     Result<> read_checkpoint_entries();
+    Result<> read_bookmarks();
+    Result<> add_base(const Branch& branch, LogBatch& log) const;
+    Branch* find_own(BranchId id);
 
     std::string path_, version_;
+    std::int64_t format_ = 0;
+    std::optional<std::uint64_t> pruned_world_;  // hash of the Model of a root branch that was pruned
     std::optional<Database> db_;
     std::vector<Branch> branches_;
     std::vector<CheckpointEntry> checkpoints_;  // of all branches, by (branch, tick)
-    std::map<BranchId, Tail> tails_;
+    std::map<BranchId, LogHead> heads_;
+    BranchId read_branch_ = 0;  // up to this row of this branch the log has been read
+    std::int64_t read_serial_ = 0;
+    std::vector<Bookmark> bookmarks_;
 };
 
 /// An Error unless the Model of this branch is the one given.

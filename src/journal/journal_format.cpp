@@ -23,6 +23,11 @@ const char* const kJournalTables =
     "TEXT, low INTEGER, high INTEGER, orders INTEGER, chain TEXT, entries BLOB, PRIMARY KEY(branch, "
     "serial));";
 
+const char* const kJournalTables5 =
+    "CREATE TABLE bases(branch INTEGER PRIMARY KEY, serial INTEGER, planned INTEGER, committed INTEGER, "
+    "state_hash TEXT, chain TEXT, entries BLOB, row_hash TEXT);"
+    "CREATE TABLE bookmarks(id INTEGER PRIMARY KEY, branch INTEGER, tick INTEGER, name TEXT, row_hash TEXT);";
+
 std::string program_version() {
     return ROBOSS_VERSION " (wire " + std::to_string(kWireVersion) + ")";
 }
@@ -81,6 +86,32 @@ std::uint64_t check_of(const CheckpointEntry& entry, const Blob& memory, const B
     hash.add(text(memory));
     hash.add(text(states));
     return hash.value();
+}
+
+std::uint64_t check_of(const LogBase& base) {
+    Hash hash;
+    for (const std::int64_t n : {base.branch, base.serial, base.planned, base.committed})
+        hash.add(static_cast<std::uint64_t>(n));
+    hash.add(base.hash);
+    hash.add(base.chain);
+    hash.add(text(base.bytes));
+    return hash.value();
+}
+
+std::uint64_t check_of(const Bookmark& mark) {
+    Hash hash;
+    for (const std::int64_t n : {mark.id, mark.branch, mark.tick}) hash.add(static_cast<std::uint64_t>(n));
+    hash.add(std::string_view(mark.name));
+    return hash.value();
+}
+
+Row to_row(const LogBase& base) {
+    return {base.branch,       base.serial,        base.planned, base.committed,
+            to_hex(base.hash), to_hex(base.chain), base.bytes,   to_hex(check_of(base))};
+}
+
+Row to_row(const Bookmark& mark) {
+    return {mark.id, mark.branch, mark.tick, mark.name, to_hex(check_of(mark))};
 }
 
 Row to_row(const BatchRow& row, std::uint64_t chain) {

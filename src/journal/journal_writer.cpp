@@ -48,9 +48,22 @@ std::int64_t count(const Database& db, const char* question) {
 Result<> make_tables(Database& db) {
     const std::vector<Row> meta{{std::string("format"), kJournalFormat},
                                 {std::string("version"), program_version()}};
-    if (Result<> r = db.run(std::string("BEGIN;") + kJournalTables); !r) return r;
+    if (Result<> r = db.run(std::string("BEGIN;") + kJournalTables + kJournalTables5); !r) return r;
     if (Result<> r = db.insert("INSERT INTO meta VALUES(?,?)", meta); !r) return r;
     return db.run("COMMIT;");
+}
+
+/// Of a file in an older format.
+Result<> bring_up_to_date(Database& db) {
+    if (count(db, "SELECT value FROM meta WHERE key = 'format'") == kJournalFormat) return Ok{};
+    if (Result<> r = db.run(std::string("BEGIN;") + kJournalTables5); !r) return r;
+    if (Result<> r = db.insert("UPDATE meta SET value = ? WHERE key = 'format'", {{kJournalFormat}}); !r)
+        return r;
+    return db.run("COMMIT;");
+}
+
+BranchSpan to_span(const Branch& b) {
+    return {b.id, b.parent, b.tick, b.first, b.end, b.model_hash, b.reason};
 }
 
 }  // namespace
@@ -71,7 +84,11 @@ Result<std::unique_ptr<JournalWriter>> JournalWriter::open(const std::string& pa
     if (tables < 0 || began) {  // it is not empty: check the contents
         Result<Journal> journal = Journal::open(path);
         if (!journal) return journal.error();
-        writer->branches_ = static_cast<BranchId>(journal.value().branches().size());
+        writer->branches_ = journal.value().branches().back().id;
+        for (const Branch& b : journal.value().branches()) writer->spans_.push_back(to_span(b));
+        writer->bookmarks_ = journal.value().bookmarks();
+        for (const Bookmark& mark : writer->bookmarks_) writer->last_bookmark_ = mark.id;
+        if (Result<> r = bring_up_to_date(*writer->db_); !r) return r.error();
     }
     if (Result<> r = writer->db_->run(kPragmas); !r) return r.error();
     if (tables == 0)
@@ -96,6 +113,9 @@ Result<BranchId> JournalWriter::start_branch(Branch branch, const Model& model) 
         models_.push_back(model.hash);
     }
     waiting_.branches.push_back(to_row(branch));
+    spans_.push_back(
+        {branch.id, branch.parent, branch.tick, branch.tick, branch.tick, model.hash, branch.reason});
+    ++timeline_serial_;
     beginning_ = true;
     branches_ = branch_ = branch.id;
     model_hash_ = model.hash;
@@ -127,11 +147,98 @@ void JournalWriter::serve() {
         const Result<> written = write(pending);
         guard.lock();
         writing_ = false;
+        const bool prunes = written.ok() && pending.checkpoint && options_.keep.limited();
         settle(written, pending);
+        if (prunes) {
+            done_.notify_all();
+            writing_ = true;
+            guard.unlock();
+            prune();
+            guard.lock();
+            writing_ = false;
+        }
         last = std::chrono::steady_clock::now();
         done_.notify_all();
         if (ending_ && failing_) return;
     }
+}
+
+/// Removes what lies beyond the limit. Where that fails, the next checkpoint tries again.
+void JournalWriter::prune() {
+    const std::vector<BranchSpan> all = spans();
+    JournalPruning plan = plan_pruning(*db_, all, options_.keep, used_bytes(*db_));
+    if (plan.empty()) return;
+    {  // a branch that begins from now on brings its Model along
+        const std::lock_guard guard(mutex_);
+        std::erase_if(plan.models, [&](std::uint64_t model) {
+            return std::any_of(spans_.begin() + static_cast<std::ptrdiff_t>(plan.dropped.size()),
+                               spans_.end(),
+                               [&](const BranchSpan& span) { return span.model_hash == model; });
+        });
+        for (const std::uint64_t model : plan.models) std::erase(models_, model);
+    }
+    if (prune_journal(*db_, plan)) forget(plan);
+}
+
+void JournalWriter::forget(const JournalPruning& done) {
+    const std::lock_guard guard(mutex_);
+    for (const BranchSpan& gone : done.dropped) {
+        std::erase_if(spans_, [&](const BranchSpan& span) { return span.id == gone.id; });
+        std::erase_if(bookmarks_, [&](const Bookmark& mark) { return mark.branch == gone.id; });
+    }
+    for (const JournalPruning::Cut& cut : done.cuts) {
+        if (BranchSpan* span = span_of(cut.branch)) span->first = cut.first;
+        const auto early = [&](const Bookmark& mark) {
+            return mark.branch == cut.branch && mark.tick < cut.first;
+        };
+        if (std::erase_if(bookmarks_, early) > 0) ++timeline_serial_;
+    }
+    if (!done.dropped.empty()) ++timeline_serial_;
+}
+
+BranchSpan* JournalWriter::span_of(BranchId id) {
+    const auto found =
+        std::find_if(spans_.begin(), spans_.end(), [id](const BranchSpan& span) { return span.id == id; });
+    return found == spans_.end() ? nullptr : &*found;
+}
+
+std::vector<BranchSpan> JournalWriter::spans() const {
+    const std::lock_guard guard(mutex_);
+    return spans_;
+}
+
+std::vector<Bookmark> JournalWriter::bookmarks() const {
+    const std::lock_guard guard(mutex_);
+    return bookmarks_;
+}
+
+Tick JournalWriter::first_tick() const {
+    const std::lock_guard guard(mutex_);
+    return roboss::first_tick(spans_, branch_);
+}
+
+Result<std::int64_t> JournalWriter::add_bookmark(Bookmark bookmark) {
+    const std::lock_guard guard(mutex_);
+    if (bookmarks_.size() >= kBookmarksMost)
+        return Error{path_ + " has " + std::to_string(kBookmarksMost) + " bookmarks already", "remove some",
+                     "too-many-bookmarks"};
+    bookmark.id = ++last_bookmark_;
+    waiting_.bookmarks.push_back(to_row(bookmark));
+    bookmarks_.push_back(std::move(bookmark));
+    ++timeline_serial_;
+    wake_.notify_one();
+    return last_bookmark_;
+}
+
+Result<> JournalWriter::remove_bookmark(std::int64_t id) {
+    const std::lock_guard guard(mutex_);
+    if (std::erase_if(bookmarks_, [id](const Bookmark& mark) { return mark.id == id; }) == 0)
+        return Error{"there is no bookmark " + std::to_string(id), "`roboss control timeline` lists them",
+                     "no-bookmark"};
+    waiting_.bookmarks_removed.push_back({id});
+    ++timeline_serial_;
+    wake_.notify_one();
+    return Ok{};
 }
 
 /// After a transaction: advances the safe count, or puts the entries back if it failed.
@@ -158,6 +265,8 @@ void JournalWriter::take_in(Pending& pending) {
     pending.entries.append(std::move(waiting_.entries));
     pending.planned = std::max(pending.planned, waiting_.planned);
     if (waiting_.committed >= 0) pending.committed = waiting_.committed, pending.hash = waiting_.hash;
+    for (auto rows : {&Pending::bookmarks, &Pending::bookmarks_removed})
+        (pending.*rows).insert((pending.*rows).end(), (waiting_.*rows).begin(), (waiting_.*rows).end());
     if (waiting_.checkpoint && pending.branches.empty()) pending.checkpoint = std::move(waiting_.checkpoint);
     pending.given = given_;
     waiting_ = std::move(pending);
@@ -193,6 +302,9 @@ Result<> JournalWriter::write_rows(const Pending& pending) {
         if (Result<> r = db_->insert(kInsertStates, {states_row(std::move(states))}); !r) return r;
         if (Result<> r = db_->insert(kInsertCheckpoint, {row}); !r) return r;
     }
+    if (Result<> r = db_->insert(kInsertBookmark, pending.bookmarks); !r) return r;
+    if (Result<> r = db_->insert("DELETE FROM bookmarks WHERE id = ?", pending.bookmarks_removed); !r)
+        return r;
     next_tail_ = tail_;
     BatchRow row = to_batch_row(pending.entries);
     row.branch = branch_;
@@ -275,6 +387,7 @@ void JournalWriter::committed(Tick tick, std::uint64_t world_hash) {
     const std::lock_guard guard(mutex_);
     waiting_.committed = tick;
     waiting_.hash = world_hash;
+    if (!spans_.empty()) spans_.back().end = std::max(spans_.back().end, tick);
     waiting_.given = given_;
     wake_.notify_one();
 }

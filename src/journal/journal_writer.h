@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "journal/journal.h"
+#include "journal/journal_pruning.h"
 #include "journal/run_log.h"
 
 namespace roboss {
@@ -20,6 +21,7 @@ struct JournalWriterOptions {
     std::int64_t gather_ms = 20;                // between two transactions for which nobody waits
     std::int64_t retry_ms = 500;                // after one that failed
     std::size_t waiting_bytes_max = 64u << 20;  // in memory while the file cannot be written
+    JournalKeep keep{};
 };
 
 class JournalWriter : public RunLog {
@@ -48,6 +50,19 @@ class JournalWriter : public RunLog {
     /// What happened since the last call (the disk is full, there is room again), one line each.
     std::vector<std::string> take_notices();
 
+    /// All branches that the file has, ascending by id.
+    std::vector<BranchSpan> spans() const;
+    std::vector<Bookmark> bookmarks() const;
+    /// Another number after each new branch, pruned branch and change of a bookmark.
+    std::uint64_t timeline_serial() const { return timeline_serial_; }
+    /// The first tick to which the current branch can be rewound.
+    Tick first_tick() const;
+    /// Its number is chosen here. An Error: the file has kBookmarksMost of them.
+    Result<std::int64_t> add_bookmark(Bookmark bookmark);
+    /// An Error: there is none with this number.
+    Result<> remove_bookmark(std::int64_t id);
+    static constexpr std::size_t kBookmarksMost = 1'000;
+
     void joined(ClientId client, const std::string& name) override;
     void order(const Order& order, Tick given_at) override;
     void reply(ClientId client, Tick observed) override;
@@ -69,8 +84,12 @@ class JournalWriter : public RunLog {
         std::uint64_t hash = 0;
         std::optional<RunCheckpoint> checkpoint;
         std::vector<Row> models, branches;  // that begin here
-        std::uint64_t given = 0;            // counted with the last of it
-        bool empty() const { return entries.empty() && planned < 0 && committed < 0 && !checkpoint; }
+        std::vector<Row> bookmarks, bookmarks_removed;
+        std::uint64_t given = 0;  // counted with the last of it
+        bool empty() const {
+            return entries.empty() && planned < 0 && committed < 0 && !checkpoint && bookmarks.empty() &&
+                   bookmarks_removed.empty();
+        }
     };
     JournalWriter() = default;
     void serve();
@@ -78,6 +97,9 @@ class JournalWriter : public RunLog {
     Result<> write_rows(const Pending& pending);
     void take_in(Pending& pending);
     void settle(const Result<>& written, Pending& pending);
+    void prune();
+    void forget(const JournalPruning& done);
+    BranchSpan* span_of(BranchId id);
 
     std::string path_;
     JournalWriterOptions options_;
@@ -89,6 +111,9 @@ class JournalWriter : public RunLog {
     Journal::Tail tail_, next_tail_;
 
     mutable std::mutex mutex_;
+    std::vector<BranchSpan> spans_;
+    std::vector<Bookmark> bookmarks_;
+    std::int64_t last_bookmark_ = 0;
     std::condition_variable wake_, done_;
     Pending waiting_;
     bool writing_ = false, hurry_ = false, ending_ = false;
@@ -98,6 +123,7 @@ class JournalWriter : public RunLog {
     std::optional<Error> trouble_;
     std::vector<std::string> notices_;
     std::atomic<std::uint64_t> given_{0}, safe_{0};
+    std::atomic<std::uint64_t> timeline_serial_{1};
     std::atomic<bool> failing_{false}, checkpoint_waits_{false};
     std::thread thread_;
 };

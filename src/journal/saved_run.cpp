@@ -38,7 +38,7 @@ Result<> write(const std::string& path, const Model& model, const SavedRun& run)
     batch.hash = entry.hash;
     const std::vector<Row> meta{{std::string("format"), kJournalFormat},
                                 {std::string("version"), program_version()}};
-    if (Result<> r = db.run(std::string("BEGIN;") + kJournalTables); !r) return r;
+    if (Result<> r = db.run(std::string("BEGIN;") + kJournalTables + kJournalTables5); !r) return r;
     if (Result<> r = db.insert("INSERT INTO meta VALUES(?,?)", meta); !r) return r;
     if (Result<> r = db.insert(kInsertModel, {model_row(model)}); !r) return r;
     if (Result<> r = db.insert(kInsertBranch, {to_row(branch)}); !r) return r;

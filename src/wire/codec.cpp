@@ -200,6 +200,17 @@ template <class A> void field(A& a, Of<A, ResetRun>& m) {
     field(a, to);
     if constexpr (A::kReading) if (to > ResetRun::To::kLastSave) a.fail("the place to reset to is unknown");
 }
+template <class A> void field(A&, Of<A, GetTimeline>&) { static_assert(std::is_empty_v<GetTimeline>); }
+template <class A> void field(A& a, Of<A, PreviewRun>& m) { auto& [branch, time_s, patience_ms] = m; fields(a, branch, time_s, patience_ms); }
+template <class A> void field(A& a, Of<A, AddBookmark>& m) { auto& [name, branch, time_s] = m; fields(a, name, branch, time_s); }
+template <class A> void field(A& a, Of<A, RemoveBookmark>& m) { auto& [id] = m; fields(a, id); }
+template <class A> void field(A& a, Of<A, TimelineBranch>& m) { auto& [id, parent, begin_s, first_s, end_s, reason] = m; fields(a, id, parent, begin_s, first_s, end_s, reason); }
+template <class A> void field(A& a, Of<A, TimelineBookmark>& m) { auto& [id, branch, time_s, name] = m; fields(a, id, branch, time_s, name); }
+template <class A> void field(A& a, Of<A, RunTimeline>& m) { auto& [serial, branch, branches, bookmarks] = m; fields(a, serial, branch, branches, bookmarks); }
+template <class A> void field(A& a, Of<A, RunPreview>& m) {
+    auto& [model_hash, branch, tick, time_s, exact, gone, absent, entries] = m;
+    fields(a, model_hash, branch, tick, time_s, exact, gone, absent, entries);
+}
 template <class A> void field(A& a, Of<A, GetStatus>& m) { auto& [robots] = m; fields(a, robots); }
 template <class A> void field(A& a, Of<A, StepRun>& m) { auto& [ticks] = m; fields(a, ticks); }
 template <class A> void field(A& a, Of<A, SetSpeed>& m) { auto& [kind, factor] = m; fields(a, kind, factor); }
@@ -220,9 +231,9 @@ template <class A> void field(A& a, Of<A, MemberStatus>& m) {
 }
 template <class A> void field(A& a, Of<A, RunStatus>& m) {
     auto& [world, tick, time_s, paused, over, speed, islands, window, windows, repeated, efficiency, step_cpu_s, losses, recoveries, migrations, cuts,
-           messages, model_hash, state_hash, branch, first_s, members, robots, robot_count] = m;
+           messages, model_hash, state_hash, branch, first_s, timeline, journal_bytes, journal_mb_per_min, replay, members, robots, robot_count] = m;
     fields(a, world, tick, time_s, paused, over, speed, islands, window, windows, repeated, efficiency, step_cpu_s, losses, recoveries, migrations, cuts,
-           messages, model_hash, state_hash, branch, first_s, members, robots, robot_count);
+           messages, model_hash, state_hash, branch, first_s, timeline, journal_bytes, journal_mb_per_min, replay, members, robots, robot_count);
 }
 template <class A> void field(A& a, Of<A, RobotGroups>& m) { auto& [model_hash, simulator, island] = m; fields(a, model_hash, simulator, island); }
 template <class A> void field(A& a, Of<A, RobotBounds>& m) { auto& [model_hash, boxes] = m; fields(a, model_hash, boxes); }

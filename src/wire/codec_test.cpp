@@ -95,25 +95,42 @@ std::vector<Message> one_of_each() {
 std::vector<Message> every_control_message() {
     std::vector<Message> all;
     for (const ControlAction& action :
-         {ControlAction(GetStatus{true}), ControlAction(GetGroups{}), ControlAction(GetBounds{}),
-          ControlAction(PauseRun{}), ControlAction(ResumeRun{}), ControlAction(StepRun{10}),
-          ControlAction(SetSpeed{SetSpeed::Kind::kFactor, 2.5}), ControlAction(SetWindow{8}),
-          ControlAction(AddSimulator{}), ControlAction(RemoveSimulator{}), ControlAction(KillSimulator{3}),
-          ControlAction(SaveRun{"a.roboss", true}), ControlAction(QuitRun{}),
-          ControlAction(RewindRun{2, 12.5}), ControlAction(ChangeAccuracy{"high", {{"tolerance", 1e-10}}}),
+         {ControlAction(GetStatus{true}),
+          ControlAction(GetGroups{}),
+          ControlAction(GetBounds{}),
+          ControlAction(PauseRun{}),
+          ControlAction(ResumeRun{}),
+          ControlAction(StepRun{10}),
+          ControlAction(SetSpeed{SetSpeed::Kind::kFactor, 2.5}),
+          ControlAction(SetWindow{8}),
+          ControlAction(AddSimulator{}),
+          ControlAction(RemoveSimulator{}),
+          ControlAction(KillSimulator{3}),
+          ControlAction(SaveRun{"a.roboss", true}),
+          ControlAction(QuitRun{}),
+          ControlAction(RewindRun{2, 12.5}),
+          ControlAction(ChangeAccuracy{"high", {{"tolerance", 1e-10}}}),
           ControlAction(AddModels{"ball.sdf", "<sdf/>", {{1, 2, 3}, {}}, "ball"}),
           ControlAction(AddModels{"ball.sdf", "<sdf/>", {}, "", {{"a", {{1, 2, 3}, {}}}, {"b", {}}}}),
-          ControlAction(RemoveRobots{{"a", "b"}}), ControlAction(ResetRun{ResetRun::To::kLastSave})})
+          ControlAction(RemoveRobots{{"a", "b"}}),
+          ControlAction(ResetRun{ResetRun::To::kLastSave}),
+          ControlAction(GetTimeline{}),
+          ControlAction(PreviewRun{2, 1.5, 50}),
+          ControlAction(AddBookmark{"jump", 1, 2.5}),
+          ControlAction(RemoveBookmark{3})})
         all.emplace_back(ControlRequest{all.size() + 1, action});
     const MemberStatus member{2, "host/7", MemberState::kLost, 4, 10, 5, 7.5, 0.9, {1, 2, 3, 4}};
-    const RunStatus status{"w.sdf", 500, 1.0, true, true,         2.0, 3,  16, 40,  2,        0.95,  3.5,
-                           1,       1,   7,   2,    {5, 6, 7, 8}, 11,  12, 3,  0.5, {member}, {"a"}, 1};
+    const RunStatus status{"w.sdf", 500,      1.0,   true, true,         2.0, 3,  16, 40,  2, 0.95, 3.5,
+                           1,       1,        7,     2,    {5, 6, 7, 8}, 11,  12, 3,  0.5, 4, 1000, 1.5,
+                           true,    {member}, {"a"}, 1};
     Box32 box;
     box.min = {0, 1, 2}, box.max = {3, 4, 5};
     for (const ControlOutcome& outcome :
          {ControlOutcome(ControlDone{10, "at tick 10"}),
           ControlOutcome(ControlRefused(Error{"no", "ask later", "busy"})), ControlOutcome(status),
-          ControlOutcome(RobotGroups{9, {0, -1}, {0, 1}}), ControlOutcome(RobotBounds{9, {box}})})
+          ControlOutcome(RobotGroups{9, {0, -1}, {0, 1}}), ControlOutcome(RobotBounds{9, {box}}),
+          ControlOutcome(RunTimeline{3, 2, {{2, 1, 0.5, 0.5, 2, "rewound"}}, {{1, 2, 1.5, "jump"}}}),
+          ControlOutcome(RunPreview{9, 2, 750, 1.5, true, 1, 2, {1, 2, 3}})})
         all.emplace_back(ControlReply{all.size(), outcome});
     return all;
 }

@@ -13,6 +13,8 @@ namespace {
 constexpr Tick kMostTicks = Tick{1} << 50;
 constexpr Tick kLongestWindow = 1'000'000;
 constexpr double kLatest_s = 1e12;
+constexpr std::uint32_t kLongestPatience_ms = 10'000;
+constexpr std::size_t kLongestName = 200;
 
 template <class T>
 const char* rule(const T&) {
@@ -36,6 +38,19 @@ const char* rule(const SaveRun& save) {
 const char* rule(const RewindRun& rewind) {
     if (rewind.branch < 0) return "a branch is at least 1";
     return rewind.time_s >= 0 && rewind.time_s < kLatest_s ? nullptr : "a time is at least 0 s";
+}
+const char* rule(const PreviewRun& preview) {
+    if (preview.patience_ms > kLongestPatience_ms) return "a preview waits for at most 10000 ms";
+    return rule(RewindRun{preview.branch, preview.time_s});
+}
+const char* rule(const AddBookmark& bookmark) {
+    if (bookmark.name.empty() || bookmark.name.size() > kLongestName)
+        return "a bookmark's name has 1 to 200 bytes";
+    if (bookmark.branch < 0) return "a branch is at least 1";
+    return bookmark.time_s < kLatest_s ? nullptr : "a time is at least 0 s";
+}
+const char* rule(const RemoveBookmark& bookmark) {
+    return bookmark.id >= 1 ? nullptr : "the number of a bookmark is at least 1";
 }
 const char* rule(const ChangeAccuracy& change) {
     if (change.setting.empty() && change.numbers.empty()) return "it names no setting and no number";
@@ -79,14 +94,19 @@ const char* control_verb(const ControlAction& action) {
                                        "accuracy",
                                        "add",
                                        "remove",
-                                       "reset"};
+                                       "reset",
+                                       "timeline",
+                                       "preview",
+                                       "bookmark",
+                                       "bookmark remove"};
     static_assert(kVerbs.size() == std::variant_size_v<ControlAction>);
     return kVerbs[action.index()];
 }
 
 bool only_asks(const ControlAction& action) {
     return std::holds_alternative<GetStatus>(action) || std::holds_alternative<GetGroups>(action) ||
-           std::holds_alternative<GetBounds>(action);
+           std::holds_alternative<GetBounds>(action) || std::holds_alternative<GetTimeline>(action) ||
+           std::holds_alternative<PreviewRun>(action);
 }
 
 const char* broken_rule(const ControlAction& action) {

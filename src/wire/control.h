@@ -33,7 +33,39 @@ struct GetBounds {
     friend bool operator==(const GetBounds&, const GetBounds&) = default;
 };
 
+/// Asks for RunTimeline: the branches and bookmarks of the journal.
+struct GetTimeline {
+    /// Compares all members.
+    friend bool operator==(const GetTimeline&, const GetTimeline&) = default;
+};
+/// Asks for RunPreview: what the world looked like at an earlier time of the journal. The run goes on
+/// meanwhile. Of one requester the newest request counts.
+struct PreviewRun {
+    std::int64_t branch = 0;  ///< of the journal; 0: the current one
+    double time_s = 0;        ///< at least 0
+    /// The reply comes after this time at the latest, with the nearest earlier moment that was reached
+    /// (RunPreview::exact is false then); the next request for the same time continues from there. 0 to
+    /// 10000 ms.
+    std::uint32_t patience_ms = 100;
+    /// Compares all members.
+    friend bool operator==(const PreviewRun&, const PreviewRun&) = default;
+};
+
 // --- requests that do not change the result:
+/// Names a moment of the journal.
+struct AddBookmark {
+    std::string name;         ///< for people, at most 200 bytes
+    std::int64_t branch = 0;  ///< of the journal; 0: the current one
+    double time_s = -1;       ///< negative: the present
+    /// Compares all members.
+    friend bool operator==(const AddBookmark&, const AddBookmark&) = default;
+};
+/// Removes a bookmark from the journal.
+struct RemoveBookmark {
+    std::int64_t id = 0;  ///< Bookmark::id
+    /// Compares all members.
+    friend bool operator==(const RemoveBookmark&, const RemoveBookmark&) = default;
+};
 /// Pauses at the end of the current window.
 struct PauseRun {
     /// Compares all members.
@@ -154,9 +186,10 @@ struct RemoveRobots {
 };
 
 /// A request to the run.
-using ControlAction = std::variant<GetStatus, GetGroups, GetBounds, PauseRun, ResumeRun, StepRun, SetSpeed,
-                                   SetWindow, AddSimulator, RemoveSimulator, KillSimulator, SaveRun, QuitRun,
-                                   RewindRun, ChangeAccuracy, AddModels, RemoveRobots, ResetRun>;
+using ControlAction =
+    std::variant<GetStatus, GetGroups, GetBounds, PauseRun, ResumeRun, StepRun, SetSpeed, SetWindow,
+                 AddSimulator, RemoveSimulator, KillSimulator, SaveRun, QuitRun, RewindRun, ChangeAccuracy,
+                 AddModels, RemoveRobots, ResetRun, GetTimeline, PreviewRun, AddBookmark, RemoveBookmark>;
 
 /// The request's name on the command line: "pause", "step" ...
 const char* control_verb(const ControlAction& action);
@@ -219,6 +252,10 @@ struct RunStatus {
     std::uint64_t state_hash = 0;       ///< of the world at `tick`
     std::int64_t branch = 0;            // of the journal; 0: there is none
     double first_s = 0;                 // the journal's first time
+    std::uint64_t timeline = 0;         ///< another number after each change of RunTimeline; 0: no journal
+    std::uint64_t journal_bytes = 0;    ///< size of the journal's file
+    double journal_mb_per_min = 0;      ///< how fast it grew lately, MB per minute of real time
+    bool replay = false;                ///< a recorded run is stepped again
     std::vector<MemberStatus> members;  // Simulators that hold or held a seat
     std::vector<std::string> robots;    // by RobotId, if they were requested
     std::uint64_t robot_count = 0;      ///< robots in the world
@@ -239,6 +276,48 @@ struct RobotBounds {
     std::vector<Box32> boxes;      ///< by RobotId
     /// Compares all members.
     friend bool operator==(const RobotBounds&, const RobotBounds&) = default;
+};
+/// A branch of the journal, as far as the file still has it.
+struct TimelineBranch {
+    std::int64_t id = 0;      ///< 1, 2, 3 ...
+    std::int64_t parent = 0;  ///< 0: none, or it is no longer in the file
+    double begin_s = 0;       ///< where it left its parent
+    double first_s = 0;       ///< its first time that can be restored; later than begin_s once it is pruned
+    double end_s = 0;         ///< its last time; of the current branch when the timeline last changed
+    std::string reason;       ///< for people
+    /// Compares all members.
+    friend bool operator==(const TimelineBranch&, const TimelineBranch&) = default;
+};
+/// A named moment of the journal.
+struct TimelineBookmark {
+    std::int64_t id = 0;      ///< unique in the file
+    std::int64_t branch = 0;  ///< of the journal
+    double time_s = 0;        ///< simulated time
+    std::string name;         ///< for people
+    /// Compares all members.
+    friend bool operator==(const TimelineBookmark&, const TimelineBookmark&) = default;
+};
+/// What can be looked at again.
+struct RunTimeline {
+    std::uint64_t serial = 0;                 ///< RunStatus::timeline
+    std::int64_t branch = 0;                  ///< the current one
+    std::vector<TimelineBranch> branches;     ///< ascending by id
+    std::vector<TimelineBookmark> bookmarks;  ///< ascending by id
+    /// Compares all members.
+    friend bool operator==(const RunTimeline&, const RunTimeline&) = default;
+};
+/// The world at an earlier time, for display: robots of the present Model by name, as they were then.
+struct RunPreview {
+    std::uint64_t model_hash = 0;       ///< of the present Model, whose robots these are
+    std::int64_t branch = 0;            ///< of the journal
+    Tick tick = 0;                      ///< the moment that is shown
+    double time_s = 0;                  ///< simulated time of that tick
+    bool exact = false;                 ///< it is the moment that was requested, not an earlier one
+    std::uint64_t gone = 0;             ///< robots of that moment that the present Model does not have
+    std::uint64_t absent = 0;           ///< robots of the present Model that did not exist then
+    std::vector<std::uint8_t> entries;  ///< view states by RobotId (wire/view_state.h), without absent robots
+    /// Compares all members.
+    friend bool operator==(const RunPreview&, const RunPreview&) = default;
 };
 /// The request was carried out.
 struct ControlDone {
@@ -261,7 +340,8 @@ struct ControlRefused {
     friend bool operator==(const ControlRefused&, const ControlRefused&) = default;
 };
 /// What became of a request.
-using ControlOutcome = std::variant<ControlDone, ControlRefused, RunStatus, RobotGroups, RobotBounds>;
+using ControlOutcome =
+    std::variant<ControlDone, ControlRefused, RunStatus, RobotGroups, RobotBounds, RunTimeline, RunPreview>;
 
 /// False if the request was refused.
 inline bool is_done(const ControlOutcome& outcome) {

@@ -16,6 +16,7 @@ inline constexpr std::size_t kWatchedRobotsMax = 8;
 inline constexpr std::size_t kRateMax = 60;
 inline constexpr std::uint8_t kFlagWhole = 1;
 inline constexpr std::uint8_t kFlagRest = 2;
+inline constexpr std::uint8_t kFlagPreview = 4;
 
 inline constexpr std::uint8_t kStateKind = 1;
 inline constexpr std::size_t kStateKindAt = 0;

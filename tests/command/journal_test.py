@@ -84,7 +84,7 @@ class Journal(RobossTest):
             done = roboss(*arguments)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertNotIn("http://", done.stderr + done.stdout)
-        self.assertIn("http://127.0.0.1:", roboss("replay", file, "--until", 0.1, "--view", 0).stderr)
+        self.assertIn("http://127.0.0.1:", roboss("replay", file, "--until", 0.1, "--view", 0, "--no-stay").stderr)
 
     def test_a_state_saved_out_of_a_journal_goes_on_to_the_same_end(self):
         saved = FOLDER / "out.roboss"

@@ -44,6 +44,10 @@ export interface RunOptions {
     port?: number;
     /** Of the program: a file beside the world that ROBOSS_WORLD names. */
     world?: string;
+    /** Arguments of the program for something else than a run; it may write files into the folder. */
+    program?: (folder: string, world: string) => string[];
+    /** All in one process. */
+    single?: boolean;
     /** A Controller and two Simulators in processes of their own, which others may join. */
     cluster?: boolean;
 }
@@ -65,10 +69,12 @@ function mockArguments(options: RunOptions): string[] {
 
 function programArguments(options: RunOptions, folder: string, network: string[]): string[] {
     const city = process.env.ROBOSS_WORLD ?? "worlds/city.sdf",
-        world = options.world === undefined ? city : join(dirname(city), options.world),
-        kind = options.cluster
+        world = options.world === undefined ? city : join(dirname(city), options.world);
+    if (options.program !== undefined)
+        return [...options.program(folder, world), "--view", `${options.port ?? 8190}`, "--web", WEB];
+    const kind = options.cluster
             ? ["controller", world, "--simulators", "2", ...network]
-            : ["run", world, "--processes", "3"],
+            : ["run", world, ...(options.single ? [] : ["--processes", "3"])],
         journal = join(folder, "run.journal");
     return [...kind, "--journal", journal, "--speed", "1", "--view", `${options.port ?? 8190}`, "--web", WEB];
 }

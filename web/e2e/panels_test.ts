@@ -35,14 +35,17 @@ bench.test("a refusal is shown in the program's words", async (page) => {
     );
 });
 
-bench.test("the timeline goes back to an earlier time", async (page) => {
+bench.test("the run continues from an earlier time", async (page) => {
     await until("some seconds to go back over", async () => (await time(page)) > 4, WAIT_MS);
-    const slider = page.getByLabel(/^Timeline/),
+    const slider = page.getByLabel("Timeline: look at an earlier time"),
         now = await time(page);
     await until("a journal", async () => slider.isEnabled());
     const box = await slider.boundingBox();
     assert.ok(box !== null);
     await page.mouse.click(box.x + box.width * 0.4, box.y + box.height / 2);
+    await until("it is seen", () => page.evaluate(() => window.roboss.state.shown.value !== null));
+    assert.ok((await time(page)) >= now, "the run goes on meanwhile");
+    await page.getByRole("button", { name: "Continue from here" }).click();
     await until("an earlier time", async () => (await time(page)) < now * 0.8);
     const after = await time(page);
     await until("and on from there", async () => (await time(page)) > after + 0.3);

@@ -1,6 +1,7 @@
 // The mock's run: time that is paused, stepped, hurried and rewound, members that are killed and come back, and the
 // answers to control words and orders. The server only carries what is said here.
 import type { MemberStatus, OrderAction, SceneInfo } from "../src/wire/messages";
+import type { BookmarkInfo, Timeline } from "../src/wire/timeline";
 import { makeCity } from "./city";
 import { advance, makeTraffic, obey, type Traffic } from "./traffic";
 
@@ -19,7 +20,9 @@ export class MockRun {
     private nextMember = 1;
     private kept: Traffic[] = [];
     private stepLeft = 0;
-    private branch = 1;
+    branch = 1;
+    serial = 1;
+    private bookmarks: BookmarkInfo[] = [];
 
     constructor(
         cars: number,
@@ -112,7 +115,9 @@ export class MockRun {
                 this.speed = first === "max" ? "max" : Number(first);
                 return said(`speed ${first} from ${now} s`);
             case "rewind":
-                return this.rewind(Number(first));
+                return this.rewind(Number(first.replace(/^.*@/, "")));
+            case "bookmark":
+                return this.bookmark(first, second);
             case "reset":
                 this.traffic = structuredClone(this.kept[0]);
                 this.kept = this.journal ? this.kept : [structuredClone(this.traffic)];
@@ -126,15 +131,42 @@ export class MockRun {
         }
     }
 
+    /** The traffic as it was; null: nothing of that time is kept. */
+    at(time: number): Traffic | null {
+        const before = this.kept.filter((one) => one.time <= time + 1e-9);
+        if (!this.journal || before.length === 0) return null;
+        const then = structuredClone(before[before.length - 1]);
+        while (then.time < time - 1e-9) advance(then, Math.min(STEP_S, time - then.time));
+        return then;
+    }
+
+    /** Branches are not remembered: the present one has all that is kept. */
+    timeline(): Timeline {
+        const { id, name } = { id: this.branch, name: "mock" },
+            first = this.kept[0].time;
+        const branches = [{ id, parent: 0, begin_s: first, first_s: first, end_s: this.traffic.time, reason: name }];
+        return { type: "timeline", serial: this.serial, branch: id, branches, bookmarks: this.bookmarks };
+    }
+
+    private bookmark(name: string, at: string): { done: boolean; text: string } {
+        ++this.serial;
+        if (name === "remove") this.bookmarks = this.bookmarks.filter((mark) => mark.id !== Number(at));
+        else {
+            const time_s = Number(at?.replace(/^.*@/, "") ?? this.traffic.time);
+            this.bookmarks = [...this.bookmarks, { id: this.serial, branch: this.branch, time_s, name }];
+        }
+        return { done: true, text: `bookmark ${name}` };
+    }
+
     private rewind(time: number): { done: boolean; text: string } {
         if (!this.journal) return { done: false, text: "no journal is kept: start the run with --journal" };
-        const before = this.kept.filter((one) => one.time <= time + 1e-9);
-        if (before.length === 0)
-            return { done: false, text: `the journal begins at ${this.kept[0].time.toFixed(3)} s` };
+        const before = this.kept.filter((one) => one.time <= time + 1e-9),
+            then = this.at(time);
+        if (then === null) return { done: false, text: `the journal begins at ${this.kept[0].time.toFixed(3)} s` };
         this.kept = before;
-        this.traffic = structuredClone(before[before.length - 1]);
-        while (this.traffic.time < time - 1e-9) advance(this.traffic, Math.min(STEP_S, time - this.traffic.time));
+        this.traffic = then;
         ++this.branch;
+        ++this.serial;
         return { done: true, text: `rewound to ${time.toFixed(6)} s, branch ${this.branch}` };
     }
 
@@ -180,6 +212,7 @@ export class MockRun {
             model_hash: "8f0c2a6d51e37b94",
             state_hash: "1b7e4490cd25aa03",
             branch: this.branch,
+            timeline: this.serial,
             journal: this.journal ? { first_s: this.kept[0].time, last_s: time } : null,
             members: this.members,
             messages: this.members.reduce(

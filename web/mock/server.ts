@@ -8,6 +8,7 @@ import { type WebSocket, WebSocketServer } from "ws";
 import { actingExtras } from "./acting";
 import { MockRun } from "./run";
 import { NO_TROUBLE, refusalText, troubleOf } from "./trouble";
+import { FLAG_PREVIEW } from "../src/protocol";
 import { encodeRobots, encodeState, groupsOf, overlayReport, robotReport } from "./reports";
 
 const { values: options } = parseArgs({
@@ -91,6 +92,7 @@ class Page {
             rate: 30,
             program: "mock gateway",
         });
+        if (run.journal) this.tell(run.timeline());
         const self = { page: this.number, address: "127.0.0.1", role: "administer" };
         this.tell({ type: "roles", page: this.number, role: "administer", holder: self, asking: [] });
         this.status();
@@ -121,7 +123,9 @@ class Page {
     private hear(message: Record<string, unknown>): void {
         const answer = (found: { done: boolean; text: string }) =>
             this.tell({ type: "answer", id: message.id, ...found });
-        if (message.type === "control") answer(run.control(message.words as string[]));
+        if (message.type === "control" && (message.words as string[])[0] === "preview")
+            this.preview(message.id as number, (message.words as string[])[1]);
+        else if (message.type === "control") answer(run.control(message.words as string[]));
         else if (message.type === "order") answer(run.order(message.robot as number, message as never));
         else if (message.type === "ask" || message.type === "yield" || message.type === "keep")
             answer({ done: true, text: "done" });
@@ -130,6 +134,18 @@ class Page {
             this.whole = true;
             this.extras = "";
         }
+    }
+
+    private preview(id: number, at: string): void {
+        const then = run.at(Number(at.replace(/^.*@/, "")));
+        if (then === null) return this.tell({ type: "answer", id, done: false, text: "no journal is kept" });
+        const { scene, branch } = run,
+            tick = Math.round(then.time / scene.dt);
+        const info = { branch, tick, time_s: then.time, exact: true, gone: 0, absent: 0 };
+        this.tell({ type: "answer", id, done: true, text: "", preview: info });
+        const bytes = encodeState(scene.scene, then.time, scene.dt, true, encodeRobots(then).values(), false);
+        bytes[1] |= FLAG_PREVIEW;
+        this.socket.send(bytes);
     }
 
     /** Only what changed since this page's last State, and nothing while it has not taken that one. */
@@ -192,7 +208,12 @@ setInterval(
     1000 / Number(options.rate),
 );
 setInterval(() => pages.forEach((page) => page.reports()), 100);
-setInterval(() => pages.forEach((page) => page.status()), 500);
+let serial = run.serial;
+setInterval(() => {
+    if (run.journal && serial !== run.serial) pages.forEach((page) => page.tell(run.timeline()));
+    serial = run.serial;
+    pages.forEach((page) => page.status());
+}, 500);
 http.listen(Number(options.port), "127.0.0.1", () => {
     const address = http.address();
     console.log(

@@ -5,6 +5,7 @@ import type { CameraPointer } from "./camera/pointer";
 import type { CameraRig } from "./camera/rig";
 import type { Views } from "./camera/views";
 import type { RunLink } from "./model/run_link";
+import type { Shown } from "./model/preview";
 import type { ViewerState, World } from "./model/viewer_state";
 import type { Effort } from "./view/effort";
 import type { FrameTimes } from "./view/frame_times";
@@ -43,6 +44,7 @@ export class FrameLoop {
     private lastEye = "";
     private drewLast = false;
     private shownWorld: World | null = null;
+    private held: Shown | null = null;
 
     constructor(private readonly parts: FrameParts) {}
 
@@ -67,9 +69,14 @@ export class FrameLoop {
             world = state.world.value;
         let moved = false;
         if (world !== null && world.history.latest !== null) {
-            const before = state.drawnTime.value;
-            state.drawnTime.set(run.clock.read(now));
-            world.history.sample(state.drawnTime.value);
+            const before = state.drawnTime.value,
+                shown = state.shown.value?.world === world ? state.shown.value : null,
+                present = run.clock.read(now);
+            state.drawnTime.set(shown?.time_s ?? present);
+            if (shown === null) world.history.sample(present);
+            else if (shown !== this.held) world.history.hold(shown.snapshot, shown.hidden);
+            else world.history.changed.fill(0);
+            this.held = shown;
             stage.place(world);
             moved = world.history.changed.includes(1);
             moved ||= this.parts.flowing() && state.drawnTime.value !== before;

@@ -146,6 +146,8 @@ const sensors = new RobotOverlays(stage, state),
     flows = new FlowMarks(stage, state),
     bonds = new BondMarks(stage, state);
 stage.overlays.add(mark.group);
+/** What is known of the present alone is not drawn into an earlier moment. */
+const present = (world: World | null) => (state.shown.value === null ? world : null);
 const loop = new FrameLoop({
     stage,
     state,
@@ -161,11 +163,11 @@ const loop = new FrameLoop({
     layers: [
         (world) => world !== null && colouring.update(world),
         (world) => selection.update(world),
-        (world) => flows.update(world),
-        (world) => bonds.update(world),
-        (world) => sensors.update(world),
-        (world, now) => told.update(world, now),
-        (world) => tracks.update(world),
+        (world) => flows.update(present(world)),
+        (world) => bonds.update(present(world)),
+        (world) => sensors.update(present(world)),
+        (world, now) => told.update(present(world), now),
+        (world) => state.shown.value === null && tracks.update(world),
         (world) => names.update(world),
         () => labels.update(),
     ],
@@ -279,6 +281,7 @@ for (const signal of [
     state.extras,
     views.count,
     views.active,
+    state.shown,
 ])
     (signal as Signal<unknown>).follow(() => loop.wake());
 state.attaching.follow((attaching) => document.body.classList.toggle("attaching", attaching !== null));

@@ -35,10 +35,20 @@ function timeActions({ time }: PageParts): Action[] {
         },
         { id: "time.faster", title: "Faster", group, keys: ["+", "="], run: () => time.faster(1) },
         { id: "time.slower", title: "Slower", group, keys: ["-"], run: () => time.faster(-1) },
+        { id: "time.bookmark", title: "Bookmark this moment", group, keys: ["B"], icon: "flag", run: time.bookmark },
+        {
+            id: "time.branches",
+            title: "Branches and bookmarks",
+            group,
+            keys: ["G"],
+            icon: "branches",
+            run: time.toggleBranches,
+        },
+        { id: "time.now", title: "Back to now", group, run: () => void time.backToNow() },
     ];
 }
 
-function toolActions({ state }: PageParts): Action[] {
+function toolActions({ state, time }: PageParts): Action[] {
     const group = "Tools",
         tool = (value: Tool, title: string, key: string, icon: IconName): Action => ({
             id: `tool.${value}`,
@@ -50,6 +60,7 @@ function toolActions({ state }: PageParts): Action[] {
             on: () => state.tool.value === value,
         });
     const letGo = () => {
+        if (time.backToNow()) return;
         if (state.attaching.value !== null) state.attaching.set(null);
         else if (state.tool.value !== "select") state.tool.set("select");
         else state.selected.set(null);
@@ -58,7 +69,7 @@ function toolActions({ state }: PageParts): Action[] {
         tool("select", "Select", "V", "cursor"),
         tool("move", "Move a robot", "M", "move"),
         tool("push", "Push a robot", "P", "push"),
-        { id: "tool.let_go", title: "Let go", group, keys: ["Escape"], run: letGo },
+        { id: "tool.let_go", title: "Back to now, let go", group, keys: ["Escape"], run: letGo },
     ];
 }
 

@@ -9,6 +9,7 @@ export const WATCHED_ROBOTS_MAX = 8;
 export const RATE_MAX = 60;
 export const FLAG_WHOLE = 1;
 export const FLAG_REST = 2;
+export const FLAG_PREVIEW = 4;
 
 export const STATE_KIND = 1;
 export const STATE_BYTES = 28;

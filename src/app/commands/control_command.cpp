@@ -75,6 +75,19 @@ void add_save(CLI::App& command, ControlCommandOptions& o, const Ask& ask) {
     save->callback([ask, &o] { ask(save_words(o.value, o.overwrite)); });
 }
 
+void add_bookmark(CLI::App& command, ControlCommandOptions& o, const Ask& ask) {
+    CLI::App* sub = command.add_subcommand(
+        "bookmark", "name the present moment, or TIME or #BRANCH@TIME; or remove a name");
+    sub->add_option("words", o.values, "NAME [TIME], or remove and a number from `timeline`")
+        ->required()
+        ->expected(1, 2);
+    sub->callback([ask, &o] {
+        std::vector<std::string> words{"bookmark"};
+        words.insert(words.end(), o.values.begin(), o.values.end());
+        ask(words);
+    });
+}
+
 void add_plain(CLI::App& command, ControlCommandOptions& o, const Ask& ask) {
     const auto none = [&](const char* verb, const char* what) {
         command.add_subcommand(verb, what)->callback([verb, ask] { ask({verb}); });
@@ -98,6 +111,12 @@ void add_plain(CLI::App& command, ControlCommandOptions& o, const Ask& ask) {
     add_save(command, o, ask);
     one("rewind", "return to this time (s) of the journal, or #BRANCH@TIME, and continue from there", "time",
         true);
+    none("timeline", "print the branches and bookmarks of the journal, as JSON");
+    one("preview",
+        "restore this time (s) of the journal, or #BRANCH@TIME, while the run goes on, and print its tick as "
+        "JSON",
+        "time", true);
+    add_bookmark(command, o, ask);
     one("reset",
         "return to the world's beginning (start, the default; added robots go, removed ones return) or to "
         "the "
@@ -207,6 +226,12 @@ std::optional<ControlOutcome> reply_of_run(const MemberOptions& options, const C
     }
 }
 
+/// A command has time: it waits for the exact moment.
+ControlAction patient(ControlAction action) {
+    if (auto* preview = std::get_if<PreviewRun>(&action)) preview->patience_ms = 10'000;
+    return action;
+}
+
 /// What a terminal is asked before this; empty: nothing.
 std::string question_before(const ControlAction& action) {
     if (std::holds_alternative<QuitRun>(action)) return "End the run?";
@@ -235,6 +260,8 @@ std::string text_of(const ControlOutcome& outcome) {
     if (const auto* status = std::get_if<RunStatus>(&outcome)) return status_json(*status);
     if (const auto* groups = std::get_if<RobotGroups>(&outcome)) return groups_json(*groups);
     if (const auto* bounds = std::get_if<RobotBounds>(&outcome)) return bounds_json(*bounds);
+    if (const auto* timeline = std::get_if<RunTimeline>(&outcome)) return timeline_json(*timeline);
+    if (const auto* preview = std::get_if<RunPreview>(&outcome)) return preview_json(*preview);
     return std::get<ControlDone>(outcome).text;
 }
 
@@ -283,7 +310,7 @@ int ask_controller(const MemberOptions& options, const std::vector<std::string>&
     const bool asks = !ask.yes && isatty(STDIN_FILENO) != 0 && isatty(STDERR_FILENO) != 0;
     if (const std::string question = question_before(action.value()); asks && !question.empty())
         if (!confirmed(question)) return kSuccess;
-    std::optional<ControlOutcome> outcome = reply_of_run(options, action.value());
+    std::optional<ControlOutcome> outcome = reply_of_run(options, patient(action.value()));
     if (const std::string file = file_that_exists(action.value(), outcome); asks && !file.empty()) {
         if (!confirmed(file + " exists. Overwrite it?")) return kSuccess;
         outcome = reply_of_run(options, SaveRun{file, true});

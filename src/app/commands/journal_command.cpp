@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -62,6 +63,8 @@ Json to_json(const Branch& b, double dt_s) {
             {"model_hash", to_hex(b.model_hash)},
             {"seed", b.seed},
             {"tick", b.tick},
+            {"first_tick", b.first},
+            {"first_s", static_cast<double>(b.first) * dt_s},
             {"time_s", static_cast<double>(b.tick) * dt_s},
             {"end_tick", b.end},
             {"end_s", static_cast<double>(b.end) * dt_s},
@@ -72,18 +75,35 @@ Json to_json(const Branch& b, double dt_s) {
             {"bytes", b.bytes}};
 }
 
-void print_tree(const Journal& journal, BranchId parent, int depth, const std::vector<double>& dt_s) {
+/// Branches whose parent was pruned stand at the root.
+void print_tree(const Journal& journal, BranchId parent, int depth, double dt) {
     for (const Branch& b : journal.branches()) {
-        if (b.parent != parent) continue;
-        const double dt = dt_s[static_cast<std::size_t>(b.id - 1)];
+        if ((journal.find(b.parent) != nullptr ? b.parent : 0) != parent) continue;
         fmt::print(
             "{:{}}branch {}  {:.3f} s to {:.3f} s  {} checkpoints, {} orders, {:.1f} MB  ({}, hash {} at "
             "tick {})\n",
-            "", 2 * depth, b.id, static_cast<double>(b.tick) * dt, static_cast<double>(b.end) * dt,
+            "", 2 * depth, b.id, static_cast<double>(b.first) * dt, static_cast<double>(b.end) * dt,
             b.checkpoints, b.orders, 1e-6 * static_cast<double>(b.bytes), b.reason, to_hex(b.hash),
             b.committed);
-        print_tree(journal, b.id, depth + 1, dt_s);
+        print_tree(journal, b.id, depth + 1, dt);
     }
+}
+
+Json bookmarks_json(const Journal& journal, double dt_s) {
+    Json list = Json::array();
+    for (const Bookmark& mark : journal.bookmarks())
+        list.push_back({{"id", mark.id},
+                        {"branch", mark.branch},
+                        {"tick", mark.tick},
+                        {"time_s", static_cast<double>(mark.tick) * dt_s},
+                        {"name", mark.name}});
+    return list;
+}
+
+void print_bookmarks(const Journal& journal, double dt_s) {
+    for (const Bookmark& mark : journal.bookmarks())
+        fmt::print("bookmark {}  {:.3f} s of branch {}  {}\n", mark.id, static_cast<double>(mark.tick) * dt_s,
+                   mark.branch, mark.name);
 }
 
 int info(const JournalOptions& o) {
@@ -91,26 +111,39 @@ int info(const JournalOptions& o) {
     if (!opened) return kBadInput;
     const Journal& journal = opened->journal;
     Json branches = Json::array();
-    std::vector<double> dt_s;
+    double dt_s = 0;  // the same for all branches
+    double recorded_s = 0;
     std::size_t robots = 0;
     for (const Branch& b : journal.branches()) {
         Result<std::shared_ptr<const Model>> model = journal.model(b);
         if (!model) return print(model.error()), kBadInput;
-        dt_s.push_back(model.value()->dt_s);
+        dt_s = model.value()->dt_s;
+        recorded_s += static_cast<double>(b.end - b.first) * dt_s;
         robots = model.value()->robots.size();
-        branches.push_back(to_json(b, dt_s.back()));
+        branches.push_back(to_json(b, dt_s));
         branches.back()["robots"] = robots;
-        branches.back()["dt_s"] = dt_s.back();
+        branches.back()["dt_s"] = dt_s;
     }
+    std::error_code none;
+    const std::uintmax_t bytes = std::filesystem::file_size(journal.path(), none);
+    const double mb_per_min = recorded_s > 0 ? 60e-6 * static_cast<double>(bytes) / recorded_s : 0.0;
     if (o.json) {
-        print_json({{"file", journal.path()}, {"version", journal.version()}, {"branches", branches}});
+        print_json({{"file", journal.path()},
+                    {"version", journal.version()},
+                    {"bytes", bytes},
+                    {"mb_per_recorded_min", mb_per_min},
+                    {"branches", branches},
+                    {"bookmarks", bookmarks_json(journal, dt_s)}});
         return kSuccess;
     }
     const Branch& youngest = journal.branches().back();
     fmt::print("journal           {}, written by RoBOSS {}\n", journal.path(), journal.version());
     fmt::print("world             {}, model hash {}\n", youngest.world_file, to_hex(youngest.model_hash));
-    fmt::print("robots            {}, step {:g} ms, seed {}\n", robots, dt_s.back() * 1e3, youngest.seed);
+    fmt::print("robots            {}, step {:g} ms, seed {}\n", robots, dt_s * 1e3, youngest.seed);
+    fmt::print("size              {:.1f} MB, {:.2f} MB per recorded minute\n",
+               1e-6 * static_cast<double>(bytes), mb_per_min);
     print_tree(journal, 0, 0, dt_s);
+    print_bookmarks(journal, dt_s);
     return kSuccess;
 }
 

@@ -217,7 +217,7 @@ SimulationOptions Run::simulation_options(const SavedRun* from) {
     return options;
 }
 
-Result<> Run::start_again(std::shared_ptr<const Model> model, const SavedRun& from, const Turn& turn) {
+Result<> Run::restart(std::shared_ptr<const Model> model, const SavedRun& from, bool back) {
     std::vector<NamedProgram> programs;
     if (!load_programs(model, programs))
         return Error{"a control program cannot be loaded again", "see the messages above"};
@@ -225,7 +225,7 @@ Result<> Run::start_again(std::shared_ptr<const Model> model, const SavedRun& fr
     members_->configure(options);
     options.simulators_awaited = options.simulators > 0 ? 0 : 1;
     options.controller.before = simulation_->hand_over();
-    options.controller.before.went_back = options.controller.before.went_back || turn.back;
+    options.controller.before.went_back = options.controller.before.went_back || back;
     options.clients_awaited = simulation_->clients_elsewhere();
     const bool reaches_others = members_->reaches_others();
     simulation_->start_log(nullptr, 0);
@@ -234,6 +234,11 @@ Result<> Run::start_again(std::shared_ptr<const Model> model, const SavedRun& fr
     if (!made) return made.error();
     simulation_ = std::move(made).value();
     model_ = std::move(model);
+    return Ok{};
+}
+
+Result<> Run::start_again(std::shared_ptr<const Model> model, const SavedRun& from, const Turn& turn) {
+    if (Result<> again = restart(std::move(model), from, turn.back); !again) return again;
     busy_until_ = from.logged_until;
     if (!advance_to(from.logged_until))
         return Error{"the run could not be restored at that time", "see the messages above"};

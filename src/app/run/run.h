@@ -15,6 +15,7 @@
 #include "app/output/progress.h"
 #include "app/output/summary.h"
 #include "app/output/trace_file.h"
+#include "app/run/journal_preview.h"
 #include "app/run/run_journal.h"
 #include "app/run/run_members.h"
 #include "app/run/run_options.h"
@@ -53,6 +54,7 @@ class Run {
         bool back = false;                           // in time
         const std::vector<Order>* orders = nullptr;  // besides those of `from`; null: none
     };
+    Result<> restart(std::shared_ptr<const Model> model, const SavedRun& from, bool back);
     Result<> start_again(std::shared_ptr<const Model> model, const SavedRun& from, const Turn& turn);
     SimulationOptions simulation_options(const SavedRun* from);
     bool open_gateway();
@@ -77,8 +79,11 @@ class Run {
 
     // run_control.cpp: requests to the run (wire/control.h). An Error refuses one; nothing has changed then.
     using Done = Result<std::string>;  // what was done, for people
+    /// Those that came; previews go to their own thread at once.
     void take_requests();
+    void take(Address asker, ControlAction action, std::function<void(ControlOutcome)> answer);
     void serve_requests();
+    void answer_previews();
     ControlOutcome execute(const ControlAction& action);
     Done act(const PauseRun&);
     Done act(const ResumeRun&);
@@ -96,6 +101,10 @@ class Run {
     Done act(const RemoveRobots& remove);
     Done act(const ResetRun& reset);
     Done reset_to_save();
+    Done act(const AddBookmark& add);
+    Done act(const RemoveBookmark& remove);
+    /// In a replay.
+    Done seek(const RewindRun& to);
     Done change_model(const ModelEdit& edit, const std::string& what);
     // run_status.cpp: what only asks
     RunStatus status(bool with_robots) const;
@@ -126,6 +135,7 @@ class Run {
     std::optional<Kept> last_save_;
     std::vector<Order> orders_;  // of the orders file
     std::unique_ptr<RunJournal> journal_;
+    std::unique_ptr<JournalPreview> preview_;  // made by the first request
     std::unique_ptr<RunMembers> members_;
     std::unique_ptr<Simulation> simulation_;
     std::optional<TraceFile> trace_;
@@ -158,7 +168,8 @@ class Run {
         ControlAction action;
         std::function<void(ControlOutcome)> answer;
     };
-    std::vector<Request> requests_;  // to be served
+    std::vector<Request> requests_;    // to be served
+    std::uint64_t socket_askers_ = 0;  // for names of those who ask over the socket
     std::vector<std::string> notices_;
     Tick busy_until_ = 0;  // to which requests wait: the run is being brought to its start
     bool abandoned_ =

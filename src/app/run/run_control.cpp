@@ -10,6 +10,7 @@
 #include "app/run/journal_location.h"
 #include "app/run/run.h"
 #include "app/run/save_place.h"
+#include "app/worlds/orders_file.h"
 #include "model/accuracy.h"
 #include "model/edit.h"
 #include "sdf/load_world.h"
@@ -23,22 +24,41 @@ std::string first_error(const Diagnostics& found) {
     return "no model";
 }
 
+Error no_journal() {
+    return {"the run has no journal, so earlier moments are not kept",
+            "start it with --journal FILE (run.sh --live does)", "no-journal"};
+}
+
 }  // namespace
 
 void Run::take_requests() {
+    answer_previews();
     for (ControlCall& call : simulation_->take_control_calls()) {
+        const Address asker = call.from;
         ControlAction action = call.request.action;
-        const auto answer = [this, call = std::move(call)](ControlOutcome outcome) {
+        take(asker, std::move(action), [this, call = std::move(call)](ControlOutcome outcome) {
             simulation_->answer(call, std::move(outcome));
-        };
-        requests_.push_back({std::move(action), answer});
+        });
     }
     if (!socket_) return;
     for (ControlSocket::Call& call : socket_->take_calls()) {
         const auto shared = std::make_shared<ControlSocket::Call>(std::move(call));
-        requests_.push_back(
-            {shared->action(), [shared](ControlOutcome outcome) { shared->answer(std::move(outcome)); }});
+        take({Role::kClient, ++socket_askers_}, shared->action(),
+             [shared](ControlOutcome outcome) { shared->answer(std::move(outcome)); });
     }
+}
+
+void Run::take(Address asker, ControlAction action, std::function<void(ControlOutcome)> answer) {
+    const auto* wanted = std::get_if<PreviewRun>(&action);
+    if (wanted == nullptr || journal_->file().empty())
+        return requests_.push_back({std::move(action), std::move(answer)});
+    if (!preview_) preview_ = std::make_unique<JournalPreview>(journal_->file());
+    preview_->ask({asker, *wanted, std::move(answer)}, model_, journal_->branch());
+}
+
+void Run::answer_previews() {
+    if (!preview_) return;
+    for (JournalPreview::Reply& reply : preview_->take_replies()) reply.answer(std::move(reply.outcome));
 }
 
 void Run::serve_requests() {
@@ -69,6 +89,10 @@ ControlOutcome Run::execute(const ControlAction& action) {
                 return groups();
             } else if constexpr (std::is_same_v<A, GetBounds>) {
                 return bounds();
+            } else if constexpr (std::is_same_v<A, GetTimeline>) {
+                return journal_->timeline(model_->dt_s);
+            } else if constexpr (std::is_same_v<A, PreviewRun>) {
+                return ControlRefused(no_journal());  // take() serves those of a run with a journal
             } else {
                 const Tick tick = simulation_->tick();
                 Done done = act(a);
@@ -147,11 +171,11 @@ Run::Done Run::act(const SaveRun& save) {
 }
 
 Run::Done Run::act(const RewindRun& rewind) {
-    if (!journal_->writes())
-        return Error{"the run has no journal", "start it with --journal FILE", "no-journal"};
+    if (journal_->replay()) return seek(rewind);
+    if (!journal_->writes()) return no_journal();
     if (Result<> flushed = journal_->writer().flush(); !flushed) return flushed.error();
     const BranchId branch = rewind.branch > 0 ? rewind.branch : journal_->writer().branch();
-    Result<Journal> journal = Journal::open(o_.journal);
+    Result<Journal> journal = Journal::open_own(o_.journal);
     if (!journal) return journal.error();
     Result<JournalTime> time = find_time(journal.value(), {o_.journal, branch, rewind.time_s});
     if (!time) return time.error();
@@ -165,6 +189,46 @@ Run::Done Run::act(const RewindRun& rewind) {
         !again)
         return again.error();
     return text + fmt::format(", branch {}", journal_->writer().branch());
+}
+
+/// A replay turns to another time: a new Simulation on the same Bus, which writes nothing.
+Run::Done Run::seek(const RewindRun& to) {
+    const Tick before = simulation_->tick();
+    if (Result<> turned = journal_->seek(to.branch, to.time_s); !turned) return turned.error();
+    if (Result<> again = restart(journal_->replay()->model, *journal_->from(), true); !again)
+        return again.error();
+    busy_until_ = journal_->start();
+    if (!advance_to(journal_->start()))
+        return Error{"the replay could not be turned to that time", "see the messages above"};
+    pace_.begin(simulation_->tick());
+    return fmt::format("turned from tick {} to tick {} of branch {}", before, simulation_->tick(),
+                       journal_->branch());
+}
+
+Run::Done Run::act(const AddBookmark& add) {
+    if (journal_->replay())
+        return Error{"a replay writes nothing into its file", "set bookmarks while the run is recorded",
+                     "read-only"};
+    if (!journal_->writes()) return no_journal();
+    const BranchId branch = add.branch > 0 ? add.branch : journal_->branch();
+    const Tick tick = add.time_s < 0 ? simulation_->tick() : tick_at(add.time_s, model_->dt_s);
+    const auto holds = [&](const BranchSpan& s) { return s.id == branch; };
+    const std::vector<BranchSpan> spans = journal_->writer().spans();
+    const auto span = std::ranges::find_if(spans, holds);
+    if (span == spans.end() || tick > std::max(span->end, simulation_->tick()) ||
+        tick < first_tick(spans, branch))
+        return Error{fmt::format("the journal has nothing at {:.6f} s of branch {}", add.time_s, branch),
+                     "`roboss control timeline` shows what it has", "no-such-time"};
+    Result<std::int64_t> added = journal_->writer().add_bookmark({0, branch, tick, add.name});
+    if (!added) return added.error();
+    return fmt::format("bookmark {} '{}' at {:.6f} s of branch {}", added.value(), add.name,
+                       static_cast<double>(tick) * model_->dt_s, branch);
+}
+
+Run::Done Run::act(const RemoveBookmark& remove) {
+    if (!journal_->writes()) return no_journal();
+    if (Result<> removed = journal_->writer().remove_bookmark(remove.id); !removed) return removed.error();
+    return fmt::format("bookmark {} removed", remove.id);
 }
 
 Run::Done Run::act(const ResetRun& reset) {

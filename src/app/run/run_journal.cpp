@@ -27,20 +27,90 @@ Result<std::unique_ptr<RunJournal>> RunJournal::open_replay(const RunOptions& op
     Result<OpenedJournalTime> opened = open_location(options.replay);
     if (!opened) return opened.error();
     const auto& [location, journal, time] = opened.value();
+    result->file_ = location.file;
+    for (const Branch& b : journal.branches())
+        result->replay_spans_.push_back({b.id, b.parent, b.tick, b.first, b.end, b.model_hash, b.reason});
+    result->replay_bookmarks_ = journal.bookmarks();
+    const std::optional<Tick> start = location.time_s ? std::optional<Tick>(time.tick) : std::nullopt;
+    if (Result<> loaded = result->load_replay(journal, time, start); !loaded) return loaded.error();
+    return result;
+}
+
+/// From `start` on, by default from the beginning of the branch as far as the file has it.
+Result<> RunJournal::load_replay(const Journal& journal, const JournalTime& time, std::optional<Tick> start) {
     const Branch& branch = time.branch;
     Replay replay{time.model, branch, journal.checkpoints(branch)};
     if (branch.hash != 0 && branch.committed > replay.checks.back().tick)
         replay.checks.push_back({branch.id, branch.committed, branch.hash});
-    result->start_ = location.time_s ? time.tick : branch.tick;
-    Result<SavedRun> to_start = journal.run_at(branch, *replay.model, result->start_);
+    const Tick first = start.value_or(branch.first);
+    Result<SavedRun> to_start = journal.run_at(branch, *replay.model, first);
     if (!to_start) return to_start.error();
     Result<SavedRun> run = journal.run_from(
         branch, {branch.id, to_start.value().tick, state_hash_of(*replay.model, to_start.value())},
         *replay.model, branch.end);
     if (!run) return run.error();
-    result->from_ = std::move(run).value();
-    result->replay_ = std::move(replay);
-    return result;
+    start_ = first;
+    replay_first_tick_ = journal.first_tick(branch);
+    from_ = std::move(run).value();
+    replay_ = std::move(replay);
+    return Ok{};
+}
+
+Result<> RunJournal::seek(BranchId branch, double time_s) {
+    Result<Journal> journal = Journal::open_own(file_);
+    if (!journal) return journal.error();
+    const BranchId wanted = branch > 0 ? branch : this->branch();
+    Result<JournalTime> time = find_time(journal.value(), {file_, wanted, time_s});
+    if (!time) return time.error();
+    return load_replay(journal.value(), time.value(), time.value().tick);
+}
+
+BranchId RunJournal::branch() const {
+    if (writer_) return writer_->branch();
+    return replay_ ? replay_->branch.id : 0;
+}
+
+std::uint64_t RunJournal::timeline_serial() const {
+    if (writer_) return writer_->timeline_serial();
+    return replay_ ? static_cast<std::uint64_t>(replay_->branch.id) : 0;
+}
+
+RunTimeline RunJournal::timeline(double dt_s) const {
+    const auto seconds = [dt_s](Tick tick) { return static_cast<double>(tick) * dt_s; };
+    RunTimeline timeline;
+    timeline.serial = timeline_serial();
+    timeline.branch = branch();
+    const std::vector<BranchSpan> spans = writer_ ? writer_->spans() : replay_spans_;
+    for (const BranchSpan& s : spans) {
+        const bool parent_left =
+            std::ranges::any_of(spans, [&](const BranchSpan& p) { return p.id == s.parent; });
+        timeline.branches.push_back(
+            {s.id, parent_left ? s.parent : 0, seconds(s.begin), seconds(s.first), seconds(s.end), s.reason});
+    }
+    for (const Bookmark& mark : writer_ ? writer_->bookmarks() : replay_bookmarks_)
+        timeline.bookmarks.push_back({mark.id, mark.branch, seconds(mark.tick), mark.name});
+    return timeline;
+}
+
+std::uint64_t RunJournal::bytes() const {
+    std::uint64_t all = 0;
+    for (const char* end : {"", "-wal"}) {
+        std::error_code none;
+        const std::uintmax_t size = std::filesystem::file_size(file_ + end, none);
+        if (!none) all += size;
+    }
+    return all;
+}
+
+double RunJournal::growth_mb_per_min(std::int64_t now_ms) {
+    constexpr std::int64_t kOver_ms = 60'000, kEvery_ms = 2'000;
+    const std::uint64_t size = bytes();
+    if (sizes_.empty() || now_ms - sizes_.back().first >= kEvery_ms) sizes_.emplace_back(now_ms, size);
+    while (sizes_.size() > 1 && now_ms - sizes_.front().first > kOver_ms) sizes_.pop_front();
+    const auto& [since_ms, before] = sizes_.front();
+    if (now_ms - since_ms < kEvery_ms) return 0;
+    return 60e-3 * (static_cast<double>(size) - static_cast<double>(before)) /
+           static_cast<double>(now_ms - since_ms);
 }
 
 Tick RunJournal::next_check(Tick now) const {
@@ -88,16 +158,19 @@ Result<> RunJournal::open_from(const Model& model) {
     std::error_code none;
     if (!o_.journal.empty() && std::filesystem::equivalent(location.file, o_.journal, none)) {
         parent_ = branch.id;
-        first_tick_ = journal.holder_of(branch, -1).tick;
     }
     reason_ = fmt::format("from {}", o_.from);
     return Ok{};
 }
 
 Result<> RunJournal::open_journal(const Model& model) {
-    Result<std::unique_ptr<JournalWriter>> writer = JournalWriter::open(o_.journal);
+    JournalWriterOptions options;
+    if (o_.journal_keep.seconds) options.keep.ticks = tick_at(*o_.journal_keep.seconds, model.dt_s);
+    options.keep.bytes = o_.journal_keep.bytes.value_or(0);
+    Result<std::unique_ptr<JournalWriter>> writer = JournalWriter::open(o_.journal, options);
     if (!writer) return writer.error();
     writer_ = std::move(writer).value();
+    file_ = o_.journal;
     if (writer_->is_new() || parent_ != 0) return Ok{};
     if (from_)
         return Error{o_.journal + " exists already, and --from names another file",
@@ -134,7 +207,6 @@ Result<> RunJournal::resume(const Model& model) {
     from_ = std::move(run).value();
     start_ = from_->logged_until;
     resumes_ = true;
-    first_tick_ = journal.value().holder_of(branch.value(), -1).tick;
     writer_->continue_branch(journal.value(), branch.value());
     notices_.push_back(fmt::format("resuming {} at {:.6f} s (tick {}) [resumed]", o_.journal,
                                    static_cast<double>(branch.value().end) * model.dt_s, branch.value().end));
@@ -168,7 +240,6 @@ Result<> RunJournal::begin(Simulation& simulation) {
 
 Result<> RunJournal::begin_branch(Simulation& simulation, BranchId parent, const std::string& reason) {
     if (!writer_) return Ok{};
-    if (parent == 0) first_tick_ = simulation.tick();
     Branch branch;
     branch.parent = parent;
     branch.tick = simulation.tick();

@@ -1,6 +1,7 @@
 // RunJournal: the start and the journal of a run, according to --from, --journal and --replay.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 
@@ -24,6 +25,21 @@ class RunJournal {
         std::vector<CheckpointEntry> checks;  // ascending
     };
     const std::optional<Replay>& replay() const { return replay_; }
+    /// Turns the replay to another time of the file; branch 0: the one that is replayed. It begins at from()
+    /// and is to be stepped to start().
+    Result<> seek(BranchId branch, double time_s);
+
+    /// The file that can be looked into: the journal, or the file that is replayed; empty: none.
+    const std::string& file() const { return file_; }
+    /// Of that file; 0: none.
+    BranchId branch() const;
+    /// RunStatus::timeline.
+    std::uint64_t timeline_serial() const;
+    RunTimeline timeline(double dt_s) const;
+    /// Bytes of the file.
+    std::uint64_t bytes() const;
+    /// MB per minute of real time by which the file grew in the last minute.
+    double growth_mb_per_min(std::int64_t now_ms);
     /// The next tick whose hash is known.
     Tick next_check(Tick now) const;
     /// Compares the hash with the one recorded for this tick, if any.
@@ -51,7 +67,7 @@ class RunJournal {
     JournalWriter& writer() { return *writer_; }
     Tick log_ticks() const { return log_ticks_; }
     /// The first tick that can be rewound to.
-    Tick first_tick() const { return first_tick_; }
+    Tick first_tick() const { return writer_ ? writer_->first_tick() : replay_first_tick_; }
     std::vector<std::string> take_notices();
     Result<> close();
 
@@ -62,6 +78,7 @@ class RunJournal {
     Result<> resume(const Model& model);
     Result<std::shared_ptr<const Model>> model_of(const Journal& journal, const Branch& branch,
                                                   const Model& world);
+    Result<> load_replay(const Journal& journal, const JournalTime& time, std::optional<Tick> start);
     static Result<SavedRun> last_run(const Journal& journal, const Branch& branch, const Model& model);
 
     const RunOptions& o_;
@@ -75,7 +92,11 @@ class RunJournal {
     std::string reason_ = "run";
     bool resumes_ = false;
     Tick log_ticks_ = 0;
-    Tick first_tick_ = 0;
+    Tick replay_first_tick_ = 0;
+    std::string file_;
+    std::vector<BranchSpan> replay_spans_;
+    std::vector<Bookmark> replay_bookmarks_;
+    std::deque<std::pair<std::int64_t, std::uint64_t>> sizes_;  // when (ms), and how large the file was
 };
 
 }  // namespace roboss

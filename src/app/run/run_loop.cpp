@@ -71,12 +71,15 @@ bool Run::stays() {
     if (pace_.quit || interrupted() || !o_.snapshot.file.empty()) return false;
     const bool seen = gateway_ && gateway_->load().pages > 0;
     if (seen || !over_) last_page_ = Clock::now();  // a run that was continued ends with its last page, too
-    const bool stays = o_.stay || (!o_.no_stay && (seen || (over_ && Clock::now() - last_page_ < kUnseen)));
+    const bool replays = journal_->replay() && gateway_ && !o_.no_stay;  // who scrubs is not sent away
+    const bool stays =
+        o_.stay || replays || (!o_.no_stay && (seen || (over_ && Clock::now() - last_page_ < kUnseen)));
     if (stays && !std::exchange(over_, true)) {
         pace_.paused = true;
         notices_.push_back(fmt::format("the duration is over; the run stays, paused, until {} [over]",
-                                       o_.stay ? "Ctrl-C or `roboss control quit`"
-                                               : "its last page closes, Ctrl-C or `roboss control quit`"));
+                                       o_.stay || replays
+                                           ? "Ctrl-C or `roboss control quit`"
+                                           : "its last page closes, Ctrl-C or `roboss control quit`"));
     }
     return stays;
 }
@@ -116,7 +119,6 @@ Tick Run::end_of_run() const {
 /// True at the end of the duration or on Ctrl-C, false if the run failed.
 bool Run::drive() {
     const double dt = model_->dt_s;
-    const Tick end = end_of_run();
     const auto every = [dt](double s) { return s > 0 ? s : dt; };
     const Schedule due{{trace_ ? every(o_.trace_every_s) : 0.0, dt, start_},
                        {contacts_ ? every(o_.contacts_every_s) : 0.0, dt, start_},
@@ -134,6 +136,7 @@ bool Run::drive() {
         if (now != seen && !look(due)) return false;
         seen = now;
         if (pace_.step_until && now >= *pace_.step_until) pace_.paused = true, pace_.step_until.reset();
+        const Tick end = end_of_run();  // a replay may have turned to another branch
         if (now < end) over_ = false;
         if ((now >= end && !stays()) || interrupted() || pace_.quit) return take_picture();
         if (now >= last_tick()) pace_.paused = true;

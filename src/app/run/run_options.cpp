@@ -7,6 +7,7 @@
 
 #include "app/commands/numbers.h"
 #include "app/processes/network_options.h"
+#include "app/run/journal_limit.h"
 #include "model/accuracy.h"
 #include "wire/control.h"
 
@@ -53,6 +54,7 @@ Examples:
   roboss replay run.journal
   roboss replay run.journal@12 --duration 3 --trace crash.csv --contacts crash-contacts.csv
   roboss replay run.journal#2 --speed 1
+  roboss replay run.journal --view 8090 --speed 1      in a browser: scrub, play, pause; stays open at the end
 
 Exit codes: 0 all states are equal, 1 the journal cannot be read, 2 wrong usage, 3 a state differs or a file could not
 be written, 130 interrupted by Ctrl-C.)";
@@ -188,6 +190,23 @@ void add_kept_options(CLI::App& command, RunOptions& o) {
             "simulated time between two checkpoints of the journal, s; rewinding repeats at most this much")
         ->check(positive_number())
         ->capture_default_str();
+    command
+        .add_option_function<std::string>(
+            "--journal-keep",
+            [&o](const std::string& text) {
+                const std::optional<JournalLimit> limit = parse_journal_limit(text);
+                o.journal_keep.seconds = limit->seconds, o.journal_keep.bytes = limit->bytes;
+            },
+            "how much of the run its journal keeps: a recorded, simulated time (90s, 10min, 2h), or a size "
+            "of "
+            "the file (500MB, 2GB); what is older is removed. all: everything (the default)")
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)
+        ->check(CLI::Validator(
+            [](const std::string& text) {
+                return parse_journal_limit(text) ? std::string()
+                                                 : "give a time (10min), a size (500MB) or all";
+            },
+            "AGE|SIZE"));
 }
 
 void add_common_options(CLI::App& command, RunOptions& o) {

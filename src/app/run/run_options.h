@@ -58,6 +58,11 @@ struct RunOptions {
     std::string from;         // FILE[#BRANCH][@TIME]
     std::string journal;      // the run is recorded here; resumed if it exists
     double journal_every_s = 1;
+    /// What of the run its journal keeps; neither: all.
+    struct {
+        std::optional<double> seconds;  // recorded, simulated time
+        std::optional<std::uint64_t> bytes;
+    } journal_keep;
     std::optional<double> until_s;
     std::string replay;         // FILE[#BRANCH][@TIME]: stepped again and checked, instead of a world
     std::string paths_picture;  // SVG of where the robots went

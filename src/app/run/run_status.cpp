@@ -23,9 +23,13 @@ RunStatus Run::status(bool with_robots) const {
     s.losses = c.losses, s.recoveries = c.recoveries, s.migrations = c.migrations, s.cuts = c.cuts;
     s.messages = traffic_.total();
     s.model_hash = model_->hash, s.state_hash = simulation_->hash();
-    if (journal_->writes()) {
-        s.branch = journal_->writer().branch();
+    if (const std::string& file = journal_->file(); !file.empty()) {
+        s.branch = journal_->branch();
         s.first_s = static_cast<double>(journal_->first_tick()) * model_->dt_s;
+        s.timeline = journal_->timeline_serial();
+        s.journal_bytes = journal_->bytes();
+        s.journal_mb_per_min = journal_->growth_mb_per_min(simulation_->bus().now_ms());
+        s.replay = journal_->replay().has_value();
     }
     for (const MemberReport& m : simulation_->members())
         s.members.push_back({m.number, m.name, state_of(m), m.threads, m.robots, m.islands, m.step_us, m.load,

@@ -63,6 +63,10 @@ export class RobotHand implements PointerHand {
         const world = this.state.world.value,
             tool = this.state.tool.value;
         if (world === null || tool === "select") return false;
+        if (this.state.shown.value !== null) {
+            this.run.notice.set({ text: "This is an earlier moment. Go back to now to move robots.", bad: false });
+            return true;
+        }
         const picked = pick(this.stage, world, x, y);
         if (picked === null) return false;
         this.state.selected.set(picked.robot);

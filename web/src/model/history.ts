@@ -6,6 +6,8 @@ import { Snapshot } from "./snapshot";
 import { POSE_WIDTH, slerp } from "../kinematics/pose";
 
 const KEPT = 6;
+/** Where nothing is seen, m. */
+const BELOW = -1e6;
 const TURN = 2 * Math.PI;
 
 /** From angle a towards b the short way round. */
@@ -66,6 +68,14 @@ export class History {
 
     private back(n: number): Snapshot {
         return this.ring[(this.newest - n + KEPT) % KEPT];
+    }
+
+    /** Poses of an earlier moment into `drawn`; robots that are hidden lie far below everything. */
+    hold(moment: Snapshot, hidden: Uint8Array): void {
+        this.drawn.copyFrom(moment);
+        for (let r = 0; r < this.fleet.count; ++r) if (hidden[r] !== 0) this.drawn.base[r * POSE_WIDTH + 2] = BELOW;
+        this.changed.fill(1);
+        this.unsettled.fill(1);
     }
 
     /** Poses at `time` into `drawn`, and which of them changed. */

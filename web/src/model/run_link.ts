@@ -8,6 +8,7 @@ import { loadScene } from "../wire/scene_source";
 import { readHeader, readState } from "../wire/state";
 import { PlayClock } from "./play_clock";
 import { droppedWords } from "./run_state";
+import { Preview } from "./preview";
 import { Signal } from "./signal";
 import { type ViewerState, World } from "./viewer_state";
 
@@ -15,6 +16,7 @@ export class RunLink {
     readonly clock = new PlayClock();
     readonly notice = new Signal<{ text: string; bad: boolean } | null>(null);
     readonly connection: Connection;
+    readonly preview: Preview;
     private loading = -1;
     private lastWatch = "";
 
@@ -24,6 +26,7 @@ export class RunLink {
             binary: (data) => this.onState(data),
             message: (message) => this.onMessage(message),
         });
+        this.preview = new Preview(state, this.connection, (text) => this.notice.set({ text, bad: true }));
         for (const signal of [state.selected, state.overlays, state.colourBy, state.pinned, state.world])
             (signal as Signal<unknown>).follow(() => this.sendWatch());
     }
@@ -54,6 +57,7 @@ export class RunLink {
         if (link !== "gone") return;
         this.state.status.set(null);
         this.state.roles.set(null);
+        this.state.timeline.set(null);
     }
 
     private onMessage(message: Incoming): void {
@@ -91,10 +95,14 @@ export class RunLink {
             case "roles":
                 this.state.roles.set(message);
                 break;
+            case "timeline":
+                this.state.timeline.set(message);
+                break;
             case "notice":
                 this.notice.set({ text: message.text, bad: false });
                 break;
             case "answer":
+                if (message.preview !== undefined) this.preview.heard(message.preview);
                 break;
         }
     }
@@ -136,6 +144,7 @@ export class RunLink {
         try {
             const header = readHeader(view);
             if (header.scene !== this.sceneNumber()) return;
+            if (header.preview) return this.preview.take(view, world);
             if (!header.whole && world.history.latest === null) return;
             readState(view, world.fleet, world.history.next());
             world.history.take();

@@ -8,8 +8,10 @@ import { Fleet } from "./fleet";
 import { History } from "./history";
 import type { Extras } from "../wire/onboard";
 import type { Attaching } from "./bonding";
+import type { Shown } from "./preview";
 import { Signal } from "./signal";
 import type { Roles } from "../wire/roles";
+import type { Timeline } from "../wire/timeline";
 
 export type ColourBy = "model" | "simulator" | "island" | "speed";
 export type Tool = "select" | "move" | "push";
@@ -50,6 +52,10 @@ export class ViewerState {
     readonly roles = new Signal<Roles | null>(null);
     readonly world = new Signal<World | null>(null);
     readonly status = new Signal<Status | null>(null);
+    /** Branches and bookmarks of the journal; null: there is none. */
+    readonly timeline = new Signal<Timeline | null>(null);
+    /** An earlier moment that is drawn instead of the present. */
+    readonly shown = new Signal<Shown | null>(null);
     readonly groups = new Signal<Groups | null>(null);
     readonly overlayReport = new Signal<OverlayReport | null>(null);
     /** Surfaces in motion and bonds; null: there have been none. */

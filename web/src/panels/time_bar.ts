@@ -1,13 +1,17 @@
-// Time: play, pause, step, speed, the clock, how fast it really goes, and the timeline that goes back where a journal is
-// kept.
+// Time: play, pause, step, speed, the clock, how fast it really goes, and the timeline. Where a journal is kept, earlier
+// moments can be looked at, named, and continued from.
 import type { RunLink } from "../model/run_link";
 import { throttled } from "../ui/throttle";
-import type { Status } from "../wire/messages";
 import type { ViewerState } from "../model/viewer_state";
 import { h, icon, iconButton, setText } from "../ui/dom";
 import { clockText, factorText } from "../ui/numbers";
+import type { Signal } from "../model/signal";
+import { bookmarksOnPath, timelineOf } from "../model/timeline";
+import { asked } from "../ui/confirm";
 import { moreMenu } from "../ui/overflow";
-import { sliderTime, timelineOf } from "../model/timeline";
+import { BranchPanel } from "./time_branches";
+import { momentStrip, momentWord } from "./time_moment";
+import { TimeTrack } from "./time_track";
 
 const SPEEDS = ["0.1", "0.25", "0.5", "1", "2", "5", "10", "max"];
 
@@ -16,6 +20,11 @@ export interface TimeBar {
     playOrPause(): void;
     step(ticks: number): void;
     faster(by: number): void;
+    /** Names the moment that is seen. */
+    bookmark(): void;
+    toggleBranches(): void;
+    /** False: the present is seen already. */
+    backToNow(): boolean;
 }
 
 export function timeBar(state: ViewerState, run: RunLink): TimeBar {
@@ -55,6 +64,13 @@ export function timeBar(state: ViewerState, run: RunLink): TimeBar {
     });
     const showClock = throttled(33, (time: number) => setText(clock, clockText(time)));
     state.drawnTime.follow(showClock);
+    const { panel, toggleBranches, branches } = branchPanel(state, run);
+    const bookmark = () => void nameMoment(state, run);
+    const flag = iconButton("flag", "Bookmark this moment", bookmark, "B");
+    state.status.follow((status) => {
+        flag.disabled = (status?.journal ?? null) === null || status?.replay === true;
+        branches.disabled = (status?.journal ?? null) === null;
+    });
     tick.dataset.yields = "4";
     const row = h(
         "div",
@@ -79,15 +95,48 @@ export function timeBar(state: ViewerState, run: RunLink): TimeBar {
     const element = h(
         "footer",
         { class: "time", role: "contentinfo", "aria-label": "Time" },
-        row,
-        more.menu,
-        timeline(state, run),
+        panel.element,
+        momentStrip(state, run),
+        h("div", { class: "time-main" }, row, more.menu, mainTrack(state, run, flag, branches)),
     );
     const faster = (by: number) => {
         const now = SPEEDS.indexOf(state.status.value?.speed ?? "1");
         void run.control("speed", SPEEDS[Math.max(0, Math.min(SPEEDS.length - 1, (now < 0 ? 3 : now) + by))]);
     };
-    return { element, playOrPause, step, faster };
+    const backToNow = () => {
+        const away = run.preview.wanted.value !== null;
+        run.preview.leave();
+        return away;
+    };
+    return { element, playOrPause, step, faster, bookmark, toggleBranches, backToNow };
+}
+
+function branchPanel(state: ViewerState, run: RunLink) {
+    const toggleBranches = () => {
+        panel.element.hidden = !panel.element.hidden;
+        branches.setAttribute("aria-expanded", String(!panel.element.hidden));
+        panel.update();
+    };
+    const panel = new BranchPanel(state, run, toggleBranches),
+        branches = iconButton("branches", "Branches and bookmarks", toggleBranches, "G");
+    branches.setAttribute("aria-expanded", "false");
+    for (const signal of [state.status, run.preview.wanted, run.preview.pinned])
+        (signal as Signal<unknown>).follow(() => panel.update());
+    return { panel, toggleBranches, branches };
+}
+
+async function nameMoment(state: ViewerState, run: RunLink): Promise<void> {
+    const shown = state.shown.value,
+        time = state.status.value?.time_s ?? 0,
+        moment = shown === null ? { branch: 0, time } : { branch: shown.branch, time: shown.time_s };
+    const name = await asked(
+        `Name the moment ${clockText(moment.time)}`,
+        `Moment ${moment.time.toFixed(2)} s`,
+        "Add bookmark",
+    );
+    if (name === null) return;
+    const answer = await run.control("bookmark", name, momentWord(moment));
+    if (answer.done) run.notice.set({ text: answer.text, bad: false });
 }
 
 function speedChoice(state: ViewerState, run: RunLink): HTMLElement {
@@ -105,48 +154,23 @@ function speedChoice(state: ViewerState, run: RunLink): HTMLElement {
     return h("div", { class: "speed" }, h("label", { for: "speed" }, "Speed"), select);
 }
 
-function timeline(state: ViewerState, run: RunLink): HTMLElement {
+/** The path of the present branch. */
+function mainTrack(state: ViewerState, run: RunLink, ...buttons: HTMLElement[]): HTMLElement {
     const first = h("span", { class: "end" }),
-        last = h("span", { class: "end" });
-    const bubble = h("output", { class: "bubble", "aria-hidden": "true" });
-    const slider = h("input", {
-        type: "range",
-        min: 0,
-        max: 1000,
-        step: "any",
-        "aria-label": "Timeline: go back to an earlier time",
-    });
-    const element = h("div", { class: "timeline" }, first, h("div", { class: "track" }, slider, bubble), last);
-    let held = false,
-        span = timelineOf(null);
-    const showBubble = () => {
-        const time = sliderTime(span, slider.valueAsNumber / 1000);
-        bubble.textContent = clockText(time);
-        bubble.style.left = `${slider.valueAsNumber / 10}%`;
-        slider.setAttribute("aria-valuetext", `${time.toFixed(1)} s`);
-    };
-    slider.addEventListener("input", () => {
-        held = true;
-        element.classList.add("held");
-        showBubble();
-    });
-    slider.addEventListener("change", () => {
-        void run.control("rewind", sliderTime(span, slider.valueAsNumber / 1000).toFixed(6)).finally(() => {
-            held = false;
-            element.classList.remove("held");
-        });
-    });
-    const show = (status: Status | null) => {
-        if (held) return;
-        span = timelineOf(status);
-        slider.disabled = !span.rewinds;
-        element.title = span.rewinds ? "" : "Start the run with --journal FILE to go back in time";
+        last = h("span", { class: "end" }),
+        track = new TimeTrack(state, run, 0, "Timeline: look at an earlier time"),
+        element = h("div", { class: "timeline" }, first, track.element, last, ...buttons);
+    const show = () => {
+        const status = state.status.value,
+            timeline = state.timeline.value,
+            span = timelineOf(status, timeline);
+        element.title = span.rewinds ? "" : "Start the run with --journal FILE to look at earlier times";
+        element.classList.toggle("none", !span.rewinds);
         setText(first, span.rewinds ? clockText(span.first) : "no journal");
         setText(last, span.rewinds ? clockText(span.last) : "");
-        slider.value = String(span.rewinds ? 1000 * span.now : 1000);
-        slider.style.setProperty("--done", `${slider.valueAsNumber / 10}%`);
-        slider.setAttribute("aria-valuetext", `${(status?.time_s ?? 0).toFixed(1)} s`);
+        track.show({ ...span, enabled: span.rewinds }, timeline === null ? [] : bookmarksOnPath(timeline));
     };
-    state.status.follow(show);
+    for (const signal of [state.status, state.timeline, run.preview.wanted, run.preview.pinned])
+        (signal as Signal<unknown>).follow(show);
     return element;
 }

@@ -10,6 +10,11 @@ export const ICONS = {
         ["M12 3.2v9.6L5.5 8z", true],
         ["M4 3v10", false],
     ],
+    flag: [["M4 14V2.5h7.5L9.8 5.6l1.7 3.1H4", false]],
+    branches: [
+        ["M4.5 2.5v11M4.5 10.5c0-3 7-1.5 7-5", false],
+        ["M11.5 5.2a1.5 1.5 0 1 0 0-3 1.5 1.5 0 0 0 0 3", true],
+    ],
     cursor: [["M4 2.5l8 6.2-3.7.5-1.9 3.4z", false]],
     move: [
         [

@@ -70,6 +70,11 @@ export class Connection {
         return this.ask({ type: "control", words });
     }
 
+    /** Asks for an earlier moment, TIME or #BRANCH@TIME. */
+    preview(moment: string): Promise<Answer> {
+        return this.control("preview", moment);
+    }
+
     order(robot: number, action: OrderAction): Promise<Answer> {
         return this.ask({ type: "order", robot, ...action });
     }

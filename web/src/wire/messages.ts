@@ -3,6 +3,7 @@
 import type { BondReport, ChannelInfo, ChannelReport, Extras, FlowInfo, OnboardAction, SurfaceReport } from "./onboard";
 import type { LightInfo, LookInfo } from "./look";
 import type { Roles } from "./roles";
+import type { PreviewInfo, Timeline } from "./timeline";
 
 export type PoseArray = [number, number, number, number, number, number, number];
 export type Triple = [number, number, number];
@@ -156,7 +157,11 @@ export interface Status {
     model_hash?: string;
     state_hash?: string;
     branch?: number | string;
-    journal?: { first_s: number; last_s: number } | null;
+    journal?: { first_s: number; last_s: number; bytes?: number; mb_per_min?: number } | null;
+    /** Serial of the timeline. */
+    timeline?: number;
+    /** A recorded run is stepped again. */
+    replay?: boolean;
     members?: MemberStatus[];
     losses?: number;
     migrations?: number;
@@ -260,6 +265,7 @@ export interface Answer {
     done: boolean;
     text: string;
     code?: string; // of a refusal
+    preview?: PreviewInfo; // the State of that moment follows
 }
 
 export type Incoming =
@@ -273,6 +279,7 @@ export type Incoming =
     | Answer
     | Roles
     | { type: "over"; reason: string }
+    | Timeline
     | { type: "notice"; text: string };
 
 /** A spring from a point of a link (in its frame) to a point of the world; max_force 0 lets go. */

@@ -1,6 +1,7 @@
 // Reads State, the one binary message: which robots moved, and where they are. Layout and scales: docs/viewer-protocol.md.
 import type { Fleet } from "../model/fleet";
 import {
+    FLAG_PREVIEW,
     FLAG_REST,
     FLAG_WHOLE,
     readStateHeader,
@@ -21,6 +22,8 @@ const COORDINATE_UNIT = 1 / STATE_COORDINATE_SCALE;
 export interface StateHeader {
     whole: boolean;
     resting: boolean;
+    /** Of an earlier moment that was asked for. */
+    preview: boolean;
     scene: number;
     tick: number;
     time: number;
@@ -32,7 +35,15 @@ export function readHeader(data: DataView): StateHeader {
     if (data.getUint8(0) !== STATE_KIND)
         throw new Error(`a binary message of kind ${data.getUint8(0)}, which this page does not know`);
     const { flags, scene, tick, time, robots } = readStateHeader(data);
-    return { whole: (flags & FLAG_WHOLE) !== 0, resting: (flags & FLAG_REST) !== 0, scene, tick, time, robots };
+    return {
+        whole: (flags & FLAG_WHOLE) !== 0,
+        resting: (flags & FLAG_REST) !== 0,
+        preview: (flags & FLAG_PREVIEW) !== 0,
+        scene,
+        tick,
+        time,
+        robots,
+    };
 }
 
 /** Writes what the message says into `snapshot`, which holds the State before it. */
