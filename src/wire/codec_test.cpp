@@ -95,15 +95,27 @@ std::vector<Message> one_of_each() {
 std::vector<Message> every_control_message() {
     std::vector<Message> all;
     for (const ControlAction& action :
-         {ControlAction(GetStatus{true}), ControlAction(GetGroups{}), ControlAction(GetBounds{}),
-          ControlAction(PauseRun{}), ControlAction(ResumeRun{}), ControlAction(StepRun{10}),
-          ControlAction(SetSpeed{SetSpeed::Kind::kFactor, 2.5}), ControlAction(SetWindow{8}),
-          ControlAction(AddSimulator{}), ControlAction(RemoveSimulator{}), ControlAction(KillSimulator{3}),
-          ControlAction(SaveRun{"a.roboss", true}), ControlAction(QuitRun{}),
-          ControlAction(RewindRun{2, 12.5}), ControlAction(ChangeAccuracy{"high", {{"tolerance", 1e-10}}}),
+         {ControlAction(GetStatus{true}),
+          ControlAction(GetGroups{}),
+          ControlAction(GetBounds{}),
+          ControlAction(PauseRun{}),
+          ControlAction(ResumeRun{}),
+          ControlAction(StepRun{10}),
+          ControlAction(SetSpeed{SetSpeed::Kind::kFactor, 2.5}),
+          ControlAction(SetWindow{8}),
+          ControlAction(AddSimulator{}),
+          ControlAction(RemoveSimulator{}),
+          ControlAction(KillSimulator{3}),
+          ControlAction(SaveRun{"a.roboss", true}),
+          ControlAction(QuitRun{}),
+          ControlAction(RewindRun{2, 12.5}),
+          ControlAction(ChangeAccuracy{"high", {{"tolerance", 1e-10}}}),
           ControlAction(AddModels{"ball.sdf", "<sdf/>", {{1, 2, 3}, {}}, "ball"}),
           ControlAction(AddModels{"ball.sdf", "<sdf/>", {}, "", {{"a", {{1, 2, 3}, {}}}, {"b", {}}}}),
-          ControlAction(RemoveRobots{{"a", "b"}}), ControlAction(ResetRun{ResetRun::To::kLastSave})})
+          ControlAction(RemoveRobots{{"a", "b"}}),
+          ControlAction(ResetRun{ResetRun::To::kLastSave}),
+          ControlAction(CopyRobots{{{"a", "b", {{1, 2, 3}, {}}}, {"a", "c", {}}}}),
+          ControlAction(RestoreRobots{{"a", "b"}})})
         all.emplace_back(ControlRequest{all.size() + 1, action});
     const MemberStatus member{2, "host/7", MemberState::kLost, 4, 10, 5, 7.5, 0.9, {1, 2, 3, 4}};
     const RunStatus status{"w.sdf", 500, 1.0, true, true,         2.0, 3,  16, 40,  2,        0.95,  3.5,

@@ -15,6 +15,7 @@
 #include "app/output/progress.h"
 #include "app/output/summary.h"
 #include "app/output/trace_file.h"
+#include "app/run/removed_robots.h"
 #include "app/run/run_journal.h"
 #include "app/run/run_members.h"
 #include "app/run/run_options.h"
@@ -96,7 +97,11 @@ class Run {
     Done act(const RemoveRobots& remove);
     Done act(const ResetRun& reset);
     Done reset_to_save();
-    Done change_model(const ModelEdit& edit, const std::string& what);
+    Done act(const CopyRobots& copy);
+    Done act(const RestoreRobots& restore);
+    /// `arrived`: the states of the last robots of the new Model, instead of their initial ones.
+    Done change_model(const ModelEdit& edit, const std::string& what,
+                      std::span<const RobotState> arrived = {});
     // run_status.cpp: what only asks
     RunStatus status(bool with_robots) const;
     RobotGroups groups() const;
@@ -115,6 +120,7 @@ class Run {
     std::shared_ptr<const Model>
         world_model_;                   // of the world file, to which a reset returns; null: of a replay
     ModelVisuals visuals_;              // for the viewer; none: of a replay
+    RemovedRobots removed_;             // that may be brought back
     std::unique_ptr<Gateway> gateway_;  // none: headless
     std::unique_ptr<ControlSocket> socket_;
     std::optional<RunListing> listing_;

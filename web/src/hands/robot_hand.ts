@@ -62,7 +62,7 @@ export class RobotHand implements PointerHand {
     press(x: number, y: number): boolean {
         const world = this.state.world.value,
             tool = this.state.tool.value;
-        if (world === null || tool === "select") return false;
+        if (world === null || (tool !== "move" && tool !== "push")) return false;
         const picked = pick(this.stage, world, x, y);
         if (picked === null) return false;
         this.state.selected.set(picked.robot);

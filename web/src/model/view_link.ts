@@ -37,3 +37,15 @@ export function viewLink(state: ViewerState, camera: CameraWords): string {
     url.hash = decodeURIComponent(words.toString());
     return url.toString();
 }
+
+/** Puts the link to this view into the address bar and, where the browser allows it, the clipboard; says which. */
+export async function copyViewLink(state: ViewerState, camera: CameraWords): Promise<string> {
+    const link = viewLink(state, camera);
+    history.replaceState(null, "", link);
+    try {
+        await navigator.clipboard.writeText(link);
+        return "The link to this view is copied.";
+    } catch {
+        return "The link to this view stands in the address bar.";
+    }
+}
