@@ -183,6 +183,16 @@ Parsed add(const Words& words) {
     return add;
 }
 
+Parsed copy(const Words& words) {
+    CopyRobots copies;
+    for (std::size_t i = 1; i + 2 < words.size(); i += 3) {
+        const std::optional<Pose> X_WR = pose_of(words[i + 2]);
+        if (!X_WR) return bad_pose(words[i + 2], "give \"x y z roll pitch yaw\", m and rad");
+        copies.copies.push_back({words[i], words[i + 1], *X_WR});
+    }
+    return copies;
+}
+
 Parsed parse(const Words& words) {
     if (words.empty()) return unknown(words);
     const std::string& verb = words[0];
@@ -207,6 +217,8 @@ Parsed parse(const Words& words) {
     if (verb == "accuracy" && n >= 2) return accuracy(words);
     if (verb == "add" && (n == 5 || n == 6)) return add(words);
     if (verb == "remove" && n >= 2) return RemoveRobots{{words.begin() + 1, words.end()}};
+    if (verb == "copy" && n >= 4 && n % 3 == 1) return copy(words);
+    if (verb == "restore" && n >= 2) return RestoreRobots{{words.begin() + 1, words.end()}};
     return unknown(words);
 }
 

@@ -47,7 +47,10 @@ TEST(ControlText, ReadsEachRequest) {
         {{"reset"}, ResetRun{}},
         {{"reset", "start"}, ResetRun{}},
         {{"reset", "save"}, ResetRun{ResetRun::To::kLastSave}},
-        {{"remove", "a", "b"}, RemoveRobots{{"a", "b"}}}};
+        {{"remove", "a", "b"}, RemoveRobots{{"a", "b"}}},
+        {{"copy", "a", "b", "1 2 3 0 0 0", "a", "c", "0 0 0 0 0 0"},
+         CopyRobots{{{"a", "b", {{1, 2, 3}, {}}}, {"a", "c", {}}}}},
+        {{"restore", "a", "b"}, RestoreRobots{{"a", "b"}}}};
     std::vector<bool> met(std::variant_size_v<ControlAction>, false);
     for (const auto& [words, action] : cases) {
         met[action.index()] = true;
@@ -68,6 +71,12 @@ TEST(ControlText, RefusesWhatIsNoRequestAndNamesTheKindOfMistake) {
         {{"add", "f", "", "0 0 0 0 0 0", "", "a 1 2 3"}, "bad-pose"},
         {{"add", "f", "", "0 0 0 0 0 0", "", "a 1e99 2 3 0 0 0"}, "bad-pose"},
         {{"reset", "now"}, "bad-value"},
+        {{"copy", "a", "b"}, "unknown-request"},
+        {{"copy", "a", "b", "1 2 3 0 0 0", "a"}, "unknown-request"},
+        {{"copy", "a", "b", "1 2 3"}, "bad-pose"},
+        {{"copy", "a", "b", "1e99 2 3 0 0 0"}, "bad-value"},
+        {{"copy", "a", "", "1 2 3 0 0 0"}, "bad-value"},
+        {{"restore"}, "unknown-request"},
         {{"simulators", "sing"}, "unknown-request"},
         {{"simulators", "kill"}, "unknown-request"},
         {{"simulators", "kill", "-1"}, "bad-value"},

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kWordsMax = 64;
+constexpr std::size_t kWordsMax = 1024;
 constexpr int kDepthMax = 8;
 
 /// Fields of one object; the first that is wrong is remembered.
@@ -81,7 +81,7 @@ ControlArguments control_of(Fields& fields) {
     ControlArguments control;
     const Json* words = fields.find("words");
     if (words == nullptr || !words->is_array() || words->empty() || words->size() > kWordsMax)
-        return fields.fail("words", "a list of 1 to 64 strings"), control;
+        return fields.fail("words", "a list of 1 to 1024 strings"), control;
     for (const Json& word : *words) {
         if (!word.is_string()) return fields.fail("words", "a list of strings"), control;
         control.words.push_back(word.get<std::string>());

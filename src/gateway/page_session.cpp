@@ -16,6 +16,17 @@ namespace websocket = beast::websocket;
 
 constexpr std::size_t kLinesMissAt = 8, kLinesMax = 4'000;
 constexpr std::int64_t kSilent_s = 30, kExtrasEvery_ms = 100;
+constexpr std::size_t kTypeWithin = 64;  // bytes of a large message
+
+const std::string kTooLarge =
+    "a message is larger than " + std::to_string(viewer_protocol::kMessageBytesMax) +
+    " bytes, or of a file to add " + std::to_string(viewer_protocol::kAdditionBytesMax) + "";
+
+/// A request that carries a file.
+bool adds(const PageRequest& request) {
+    const auto* control = std::get_if<ControlArguments>(&request.what);
+    return control != nullptr && !control->words.empty() && control->words.front() == "add";
+}
 
 /// The page's number in its last connection, as `was=N` of the request says; 0: none.
 std::uint64_t number_in(beast::string_view target) {
@@ -52,7 +63,8 @@ void PageSession::start(const Request& request) {
         response.set(beast::http::field::sec_websocket_protocol, viewer_protocol::kSubprotocol);
         response.set(beast::http::field::server, "roboss");
     }));
-    socket_.read_message_max(viewer_protocol::kMessageBytesMax);
+    socket_.read_message_max(role_ == PageRole::kWatch ? viewer_protocol::kMessageBytesMax
+                                                       : viewer_protocol::kAdditionBytesMax);
     socket_.write_buffer_bytes(1 << 16);
     socket_.auto_fragment(false);
     before_ = number_in(request.target());
@@ -93,10 +105,7 @@ void PageSession::read() {
     socket_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
         if (self->ended_) return;
         if (error == websocket::error::closed || error == asio::error::operation_aborted) return self->end();
-        if (error == websocket::error::message_too_big)
-            return self->end(
-                "a message is larger than " + std::to_string(viewer_protocol::kMessageBytesMax) + " bytes",
-                "too-large");
+        if (error == websocket::error::message_too_big) return self->end(kTooLarge, "too-large");
         if (error == beast::error::timeout) return self->end("it timed out", "timeout");
         if (error) return self->end("the connection broke: " + error.message(), "broken");
         if (!self->socket_.got_text()) return self->end("it sent a binary message", "binary-message");
@@ -111,8 +120,12 @@ void PageSession::read() {
 }
 
 void PageSession::take(const std::string& text) {
+    const bool large = text.size() > viewer_protocol::kMessageBytesMax;
+    if (large && text.substr(0, kTypeWithin).find(R"("type":"control")") == std::string::npos)
+        return end(kTooLarge, "too-large");
     Result<PageRequest> request = parse_page_request(text);
     if (!request) return end(request.error().message, request.error().code);
+    if (large && !adds(request.value())) return end(kTooLarge, "too-large");
     if (std::holds_alternative<PageWatch>(request.value().what)) {
         watch_ = std::get<PageWatch>(request.value().what);
         core_.watch_changed();

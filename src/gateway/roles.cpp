@@ -31,6 +31,8 @@ struct Needed {
     PageRole operator()(const RemoveBookmark&) const { return PageRole::kSteer; }
     PageRole operator()(const AddModels&) const { return PageRole::kSteer; }
     PageRole operator()(const RemoveRobots&) const { return PageRole::kSteer; }
+    PageRole operator()(const CopyRobots&) const { return PageRole::kSteer; }
+    PageRole operator()(const RestoreRobots&) const { return PageRole::kSteer; }
     PageRole operator()(const ResetRun&) const { return PageRole::kSteer; }
 };
 

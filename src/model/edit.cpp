@@ -2,6 +2,7 @@
 #include "model/edit.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <unordered_map>
 #include <unordered_set>
@@ -93,6 +94,12 @@ Error taken(const std::string& name, bool by_copy) {
             "give another name with --name, or each copy one of its own", "name-taken"};
 }
 
+void move(StaticShape& shape, const Transform& X) {
+    shape.X_WS = X * shape.X_WS;
+    for (Vec3* v : {&shape.flow.linear, &shape.flow.angular, &shape.flow.belt}) *v = X.R * *v;
+    shape.flow.at = X * shape.flow.at;
+}
+
 /// A Model that copies of another one are added to. Robots and scenery first, then seal().
 class Extension {
   public:
@@ -117,9 +124,7 @@ class Extension {
         family_ = next_family;
         const Transform X_W = to_transform(place.X_WA);
         for (StaticShape shape : addition_.statics) {
-            shape.X_WS = X_W * shape.X_WS;
-            for (Vec3* v : {&shape.flow.linear, &shape.flow.angular, &shape.flow.belt}) *v = X_W.R * *v;
-            shape.flow.at = X_W * shape.flow.at;
+            move(shape, X_W);
             shape.name = place.name.empty() ? shape.name : place.name + "::" + shape.name;
             if (shape.robot.valid()) shape.robot = RobotId(first + shape.robot.index());
             model_->statics.push_back(std::move(shape));
@@ -179,6 +184,99 @@ class Extension {
     std::unordered_set<std::string_view> names_;
 };
 
+/// A Model that single robots come to, from Models of the same run.
+class Arrival {
+  public:
+    explicit Arrival(const Model& model)
+        : model_(std::make_shared<Model>(model)), old_robots_(model.robots.size()) {
+        for (const Robot& robot : model.robots) {
+            names_.insert(robot.name);
+            next_family_ = std::max(next_family_, robot.family + 1);
+        }
+    }
+
+    /// An Error: the name is taken.
+    Result<> add(const RobotFrom& from) {
+        if (!names_.insert(from.name).second)
+            return taken(from.name, !model_->find_robot(from.name) ||
+                                        model_->find_robot(from.name)->index() >= old_robots_);
+        const Robot& old = from.model->robots[from.robot.index()];
+        Robot robot = old;
+        robot.name = from.name;
+        robot.type = place_of_type(*model_, from.model->types[old.type.index()]);
+        robot.X_WR = from.X_WR;
+        robot.X_WR.q = normalized(robot.X_WR.q);
+        robot.family = family_of(from, old.family);
+        robot.start_q = from.start_q;
+        robot.start_v.clear();
+        if (sources_.insert(from.model).second) take_shapes(*from.model);
+        const RobotId id(model_->robots.size());
+        model_->robots.push_back(std::move(robot));
+        add_scenery(from, old, id);
+        return Ok{};
+    }
+
+    ModelEdit finish() {
+        remove_unused_shapes(*model_);
+        std::vector<RobotId> now;
+        for (std::size_t i = 0; i < old_robots_; ++i) now.emplace_back(i);
+        return sealed(std::move(model_), std::move(now), scenery_changed_);
+    }
+
+  private:
+    void take_shapes(const Model& from) {
+        model_->hulls.insert(model_->hulls.end(), from.hulls.begin(), from.hulls.end());
+        model_->surfaces.insert(model_->surfaces.end(), from.surfaces.begin(), from.surfaces.end());
+    }
+
+    /// Of those that come together one family stays one; a robot that returns finds its companions.
+    std::uint32_t family_of(const RobotFrom& from, std::uint32_t old) {
+        std::uint32_t& family = families_.try_emplace({from.model.get(), old}, next_family_).first->second;
+        if (family < next_family_) return family;
+        ++next_family_;
+        if (!from.returns) return family;
+        for (const Robot& companion : from.model->robots) {
+            if (companion.family != old) continue;
+            const std::optional<RobotId> now = model_->find_robot(companion.name);
+            if (now && now->index() < old_robots_ && model_->robots[now->index()].family == old)
+                return family = old;
+        }
+        return family;
+    }
+
+    void add_scenery(const RobotFrom& from, const Robot& old, RobotId id) {
+        const Transform X = to_transform(model_->robots[id.index()].X_WR) * inverse(to_transform(old.X_WR));
+        for (StaticShape shape : from.model->statics) {
+            if (shape.robot != from.robot) continue;
+            shape.robot = id;
+            if (from.returns && take_back(shape)) continue;
+            move(shape, X);
+            const bool by_name = shape.name.starts_with(old.name + "::");
+            shape.name = from.name + "::" + (by_name ? shape.name.substr(old.name.size() + 2) : shape.name);
+            model_->statics.push_back(std::move(shape));
+            scenery_changed_ = true;
+        }
+    }
+
+    /// Scenery of a robot stays when the robot is removed.
+    bool take_back(const StaticShape& shape) {
+        for (StaticShape& left : model_->statics) {
+            if (left.robot.valid() || left.name != shape.name) continue;
+            left.robot = shape.robot, left.link = shape.link, left.driven = shape.driven;
+            return true;
+        }
+        return false;
+    }
+
+    std::shared_ptr<Model> model_;
+    std::size_t old_robots_ = 0;
+    std::uint32_t next_family_ = 0;
+    bool scenery_changed_ = false;
+    std::unordered_set<std::string> names_;
+    std::map<std::pair<const Model*, std::uint32_t>, std::uint32_t> families_;
+    std::unordered_set<std::shared_ptr<const Model>> sources_;  // whose shapes have been taken
+};
+
 }  // namespace
 
 std::string name_in_model(const Model& addition, const std::string& old, const std::string& name) {
@@ -211,6 +309,13 @@ Result<ModelEdit> with_models(const Model& model, const Model& addition, std::sp
     for (const CopyPlace& place : places)
         if (Result<> added = extension.add(place); !added) return added.error();
     return extension.finish();
+}
+
+Result<ModelEdit> with_robots(const Model& model, std::span<const RobotFrom> robots) {
+    Arrival arrival(model);
+    for (const RobotFrom& from : robots)
+        if (Result<> added = arrival.add(from); !added) return added.error();
+    return arrival.finish();
 }
 
 Result<ModelEdit> without_robots(const Model& model, const std::vector<std::string>& names) {

@@ -37,6 +37,22 @@ Result<ModelEdit> with_models(const Model& model, const Model& addition, const P
 /// copies have the same. Error codes: name-taken, other-step, no-model.
 Result<ModelEdit> with_models(const Model& model, const Model& addition, std::span<const CopyPlace> places);
 
+/// A robot of some Model that is to come to another one, or to its own once more.
+struct RobotFrom {
+    std::shared_ptr<const Model> model;  ///< that it is of; it may be the Model that it comes to
+    RobotId robot;                       ///< of that Model
+    std::string name;                    ///< that it gets
+    Pose X_WR;                           ///< m, of its robot (SDF model) frame in the world
+    std::vector<double> start_q{};       ///< its joint coordinates at the start; empty: those of its type
+    /// It was in this world before, with this name: it is of the family of its former companions, and its
+    /// scenery, which stayed, is its own again.
+    bool returns = false;
+};
+
+/// These robots added behind the others, all of them or none, at rest. Models of one run only: all have the
+/// same step and fluids. Error codes: name-taken.
+Result<ModelEdit> with_robots(const Model& model, std::span<const RobotFrom> robots);
+
 /// Without these robots; "x*" names all whose names begin with x. Types, hulls and surfaces that only they
 /// had go with them; their scenery, if any, stays.
 Result<ModelEdit> without_robots(const Model& model, const std::vector<std::string>& names);

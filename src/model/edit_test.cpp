@@ -180,6 +180,49 @@ TEST(ModelEdit, ManyRoundsOfComingAndGoingLeaveNothingBehind) {
     }
 }
 
+TEST(ModelEdit, ACopyIsARobotOfItsOwnWithTheJointPositionsThatItIsGiven) {
+    const auto model = made(base_world());
+    const RobotId arm = *model->find_robot("arm");
+    std::vector<double> q(initial_state(*model, arm).q.size() - 7, 0.25);
+    const Pose X{{7, 8, 0.5}, from_rpy(0, 0, 1)};
+    const std::vector<RobotFrom> copies{{model, arm, "arm_2", X, q}, {model, arm, "arm_3", {}, {}}};
+    const Result<ModelEdit> edit = with_robots(*model, copies);
+    ASSERT_TRUE(edit.ok()) << edit.error().text();
+    const Model& now = *edit.value().model;
+    ASSERT_EQ(now.robots.size(), model->robots.size() + 2);
+    EXPECT_EQ(now.types.size(), model->types.size());
+    const RobotState state = initial_state(now, *now.find_robot("arm_2"));
+    EXPECT_EQ(std::vector<double>(state.q.begin() + 7, state.q.end()), q);
+    EXPECT_EQ(base_pose(state).p, X.p);
+    EXPECT_EQ(base_pose(initial_state(now, *now.find_robot("arm_3"))).p, Vec3{});
+    EXPECT_NE(now.robots.back().family, model->robots[arm.index()].family) << "copies collide";
+    EXPECT_FALSE(edit.value().scenery_changed);
+    const Result<ModelEdit> gone = without_robots(now, {"arm_2", "arm_3"});
+    ASSERT_TRUE(gone.ok());
+    EXPECT_EQ(gone.value().model->hash, model->hash);
+}
+
+TEST(ModelEdit, ARobotThatReturnsIsTheOneThatLeft) {
+    World world = empty_world(1e-3);
+    place(world, car(), "car", {{0, 0, 0.1}, {}});
+    ModelSpec gem = solid_box(1, {0.2, 0.2, 0.2}, surface(0.5));
+    gem.links[0].collisions = {mesh_shape(ball_mesh(0.1, 0), surface(0.5))};
+    place(world, gem, "gem", {{3, 0, 1}, {}});  // the last one: it is back where it was
+    const auto model = made(world);
+    const Result<ModelEdit> gone = without_robots(*model, {"gem"});
+    ASSERT_TRUE(gone.ok());
+    const RobotId gem_id = *model->find_robot("gem");
+    const Robot& robot = model->robots[gem_id.index()];
+    const std::vector<RobotFrom> back{{model, gem_id, robot.name, robot.X_WR, robot.start_q, true}};
+    const Result<ModelEdit> again = with_robots(*gone.value().model, back);
+    ASSERT_TRUE(again.ok()) << again.error().text();
+    EXPECT_EQ(again.value().model->hash, model->hash);
+    EXPECT_EQ(again.value().model->hulls.size(), model->hulls.size());
+    const Result<ModelEdit> twice = with_robots(*again.value().model, back);
+    ASSERT_FALSE(twice.ok());
+    EXPECT_EQ(twice.error().code, "name-taken");
+}
+
 TEST(ModelEdit, AccuracyIsSetWithinItsBounds) {
     const auto model = made(base_world());
     AccuracySpec finer;

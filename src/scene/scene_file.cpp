@@ -190,6 +190,16 @@ Json json_of(const ChannelInfo& info) {
     return {{"name", info.channel.name}, {"list", info.channel.is_list}, {"values", std::move(values)}};
 }
 
+/// Mass, centre of mass and inertia of a link in its own frame.
+void add_inertia(Json& o, const Link& link) {
+    if (!(link.mass > 0)) return;
+    const Mat3 R_LB = transpose(link.X_BL.R);
+    const Mat3 I = R_LB * link.inertia_C * link.X_BL.R;
+    o["mass"] = tidy(link.mass);
+    o["centre"] = json_of(inverse(link.X_BL) * link.p_BC);
+    o["inertia"] = {tidy(I.r0.x), tidy(I.r1.y), tidy(I.r2.z), tidy(I.r0.y), tidy(I.r0.z), tidy(I.r1.z)};
+}
+
 Json json_of(const SceneType& scene_type, const Scene& scene, const Model& model) {
     const RobotType& type = model.types[scene_type.type.index()];
     Json bodies = Json::array(), links = Json::array(), joints = Json::array(), sensors = Json::array();
@@ -203,6 +213,7 @@ Json json_of(const SceneType& scene_type, const Scene& scene, const Model& model
                          {"collisions", json_of(scene_type.links[l].collisions, scene)}});
         if (Json lights = json_of(scene_type.links[l].lights); !lights.empty())
             links.back()["lights"] = std::move(lights);
+        add_inertia(links.back(), link);
     }
     for (const Joint& joint : type.joints) joints.push_back(json_of(type, joint));
     for (const SensorInfo& sensor : type.sensors) sensors.push_back(json_of(sensor));
@@ -216,6 +227,7 @@ Json json_of(const SceneType& scene_type, const Scene& scene, const Model& model
            {"links", std::move(links)},
            {"joints", std::move(joints)},
            {"sensors", std::move(sensors)}};
+    if (type.is_static) o["static"] = true;
     for (const ChannelInfo& info : type.channels) o["channels"].push_back(json_of(info));
     return o;
 }

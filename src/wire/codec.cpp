@@ -223,6 +223,9 @@ template <class A> void field(A& a, Of<A, ChangeAccuracy>& m) { auto& [setting, 
 template <class A> void field(A& a, Of<A, CopyPlace>& m) { auto& [name, X_WA] = m; auto& [p, q] = X_WA; fields(a, name, p, q); }
 template <class A> void field(A& a, Of<A, AddModels>& m) { auto& [file, content, X_WA, name, copies] = m; auto& [p, q] = X_WA; fields(a, file, content, p, q, name, copies); }
 template <class A> void field(A& a, Of<A, RemoveRobots>& m) { auto& [names] = m; fields(a, names); }
+template <class A> void field(A& a, Of<A, CopyRobots::Copy>& m) { auto& [robot, name, X_WR] = m; auto& [p, q] = X_WR; fields(a, robot, name, p, q); }
+template <class A> void field(A& a, Of<A, CopyRobots>& m) { auto& [copies] = m; fields(a, copies); }
+template <class A> void field(A& a, Of<A, RestoreRobots>& m) { auto& [names] = m; fields(a, names); }
 template <class A> void field(A& a, Of<A, MessageRate>& m) { auto& [messages_in, messages_out, bytes_in, bytes_out] = m; fields(a, messages_in, messages_out, bytes_in, bytes_out); }
 template <class A> void field(A& a, Of<A, MemberStatus>& m) {
     auto& [id, name, state, threads, robots, islands, step_us, load, messages] = m;

@@ -117,7 +117,9 @@ std::vector<Message> every_control_message() {
           ControlAction(GetTimeline{}),
           ControlAction(PreviewRun{2, 1.5, 50}),
           ControlAction(AddBookmark{"jump", 1, 2.5}),
-          ControlAction(RemoveBookmark{3})})
+          ControlAction(RemoveBookmark{3}),
+          ControlAction(CopyRobots{{{"a", "b", {{1, 2, 3}, {}}}, {"a", "c", {}}}}),
+          ControlAction(RestoreRobots{{"a", "b"}})})
         all.emplace_back(ControlRequest{all.size() + 1, action});
     const MemberStatus member{2, "host/7", MemberState::kLost, 4, 10, 5, 7.5, 0.9, {1, 2, 3, 4}};
     const RunStatus status{"w.sdf", 500,      1.0,   true, true,         2.0, 3,  16, 40,  2, 0.95, 3.5,

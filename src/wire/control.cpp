@@ -73,6 +73,17 @@ const char* rule(const AddModels& add) {
 const char* rule(const RemoveRobots& remove) {
     return remove.names.empty() ? "it names no robot" : nullptr;
 }
+const char* rule(const CopyRobots& copy) {
+    if (copy.copies.empty()) return "it names no robot";
+    for (const CopyRobots::Copy& one : copy.copies) {
+        if (one.name.empty()) return "a copy needs a name";
+        if (const char* broken = rule(one.X_WR)) return broken;
+    }
+    return nullptr;
+}
+const char* rule(const RestoreRobots& restore) {
+    return restore.names.empty() ? "it names no robot" : nullptr;
+}
 
 }  // namespace
 
@@ -98,7 +109,9 @@ const char* control_verb(const ControlAction& action) {
                                        "timeline",
                                        "preview",
                                        "bookmark",
-                                       "bookmark remove"};
+                                       "bookmark remove",
+                                       "copy",
+                                       "restore"};
     static_assert(kVerbs.size() == std::variant_size_v<ControlAction>);
     return kVerbs[action.index()];
 }

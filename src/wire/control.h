@@ -184,12 +184,34 @@ struct RemoveRobots {
     /// Compares all members.
     friend bool operator==(const RemoveRobots&, const RemoveRobots&) = default;
 };
+/// Adds copies of robots of the world: all of them or none. A copy has the joint positions that the original
+/// has at that tick; else it is as at the start, and at rest.
+struct CopyRobots {
+    /// One copy.
+    struct Copy {
+        std::string robot;  ///< the original, by its name in the world
+        std::string name;   ///< of the copy; not taken
+        Pose X_WR;          ///< m, of the copy's robot (SDF model) frame in the world
+        /// Compares all members.
+        friend bool operator==(const Copy&, const Copy&) = default;
+    };
+    std::vector<Copy> copies;  ///< at least one
+    /// Compares all members.
+    friend bool operator==(const CopyRobots&, const CopyRobots&) = default;
+};
+/// Brings back robots that were removed in this run, each in the state in which it was removed last. The run
+/// keeps the last 10'000 of them.
+struct RestoreRobots {
+    std::vector<std::string> names;  ///< that they had
+    /// Compares all members.
+    friend bool operator==(const RestoreRobots&, const RestoreRobots&) = default;
+};
 
 /// A request to the run.
-using ControlAction =
-    std::variant<GetStatus, GetGroups, GetBounds, PauseRun, ResumeRun, StepRun, SetSpeed, SetWindow,
-                 AddSimulator, RemoveSimulator, KillSimulator, SaveRun, QuitRun, RewindRun, ChangeAccuracy,
-                 AddModels, RemoveRobots, ResetRun, GetTimeline, PreviewRun, AddBookmark, RemoveBookmark>;
+using ControlAction = std::variant<GetStatus, GetGroups, GetBounds, PauseRun, ResumeRun, StepRun, SetSpeed,
+                                   SetWindow, AddSimulator, RemoveSimulator, KillSimulator, SaveRun, QuitRun,
+                                   RewindRun, ChangeAccuracy, AddModels, RemoveRobots, ResetRun, GetTimeline,
+                                   PreviewRun, AddBookmark, RemoveBookmark, CopyRobots, RestoreRobots>;
 
 /// The request's name on the command line: "pause", "step" ...
 const char* control_verb(const ControlAction& action);

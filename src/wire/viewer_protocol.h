@@ -11,6 +11,7 @@ namespace roboss::viewer_protocol {
 inline constexpr int kVersion = 1;
 inline constexpr char kSubprotocol[] = "roboss.1";
 inline constexpr std::size_t kMessageBytesMax = 65536;
+inline constexpr std::size_t kAdditionBytesMax = 4194304;
 inline constexpr std::size_t kMessagesASecondMax = 200;
 inline constexpr std::size_t kWatchedRobotsMax = 8;
 inline constexpr std::size_t kRateMax = 60;

@@ -96,6 +96,36 @@ TEST(Edits, ComingGoingAndResettingGiveTheSameBitsOnAnyNumberOfSimulators) {
                 << simulators << " Simulators, windows of " << window;
 }
 
+/// The hashes of a run in which robots are removed, copied and restored.
+std::vector<std::uint64_t> hashes_with_copies(const Stepper& stepped) {
+    const auto world = piles_world(2);
+    const auto hash = [](const Stand& s) { return state_hash_of(*s.model, s.tick, s.states); };
+    const Stand first = stepped(beginning(world), kFirst);
+    const RobotId left(1u);
+    const Robot& robot = world->robots[left.index()];
+    const Stand less = stepped(changed(first, without_robots(*world, {robot.name})), kSecond);
+    RobotState kept = first.states[left.index()];
+    kept.contacts.clear(), kept.bonds.clear(), kept.rest = {};
+    const std::vector<double>& q = less.states[0].q;
+    const std::vector<RobotFrom> copy{
+        {less.model, RobotId(0u), "copy", {{0.3, 0.2, 2.5}, {}}, {q.begin() + 7, q.end()}}};
+    const Stand more = stepped(changed(less, with_robots(*less.model, copy)), kSecond + 40);
+    const std::vector<RobotFrom> back{{world, left, robot.name, robot.X_WR, robot.start_q, true}};
+    Stand again = changed(more, with_robots(*more.model, back));
+    again.states.back() = kept;
+    EXPECT_EQ(again.states.back().q, first.states[left.index()].q);
+    const Stand last = stepped(again, kThird);
+    return {hash(first), hash(less), hash(more), hash(last)};
+}
+
+TEST(Edits, CopiesAndRobotsThatReturnGiveTheSameBitsOnAnyNumberOfSimulators) {
+    const std::vector<std::uint64_t> expected = hashes_with_copies(embedded(1, 1, 0));
+    for (const std::size_t simulators : {1u, 2u, 5u})
+        for (const Tick window : {Tick{0}, Tick{7}})
+            EXPECT_EQ(hashes_with_copies(embedded(simulators, kMostLanes, window)), expected)
+                << simulators << " Simulators, windows of " << window;
+}
+
 TEST(Edits, SimulatorsThatAreKilledMeanwhileChangeNothing) {
     const std::vector<std::uint64_t> expected = hashes_of(embedded(1, kMostLanes, 0));
     std::uint64_t seed = 0;

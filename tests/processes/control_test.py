@@ -146,6 +146,35 @@ class Control(unittest.TestCase):
                 hashes.append([crowded["state_hash"], removed["state_hash"]])
         self.assertEqual(hashes[0], hashes[1])
 
+    def test_copies_and_robots_that_return_give_the_same_bits_on_any_number_of_simulators(self):
+        hashes = []
+        for simulators in (1, 2):
+            with Cluster() as cluster:
+                file = FOLDER / f"copied-{simulators}.journal"
+                controller = cluster.controller(*PILE, "--local", 1, "--simulators", simulators - 1, "--paused", "--journal", file)
+                others = [cluster.simulator() for _ in range(simulators - 1)]
+                start = self.step(cluster, 50)
+                name = start["robots"][2]
+                self.ask(cluster, "remove", name)
+                removed = self.step(cluster, 20)
+                self.assertNotIn(name, removed["robots"])
+                self.assertIn("1 robots restored", self.ask(cluster, "restore", name))
+                restored = self.step(cluster, 20)
+                self.assertEqual(restored["robots"][-1], name)
+                self.ask(cluster, "restore", name, code=3)
+                self.ask(cluster, "copy", name, "twin", "--pose", "3 3 1 0 0 0.5")
+                self.ask(cluster, "copy", name, "twin", "--pose", "4 3 1 0 0 0.5", code=3)
+                self.ask(cluster, "copy", "nobody", "other", "--pose", "4 3 1 0 0 0.5", code=3)
+                copied = self.step(cluster, 20)
+                self.assertEqual(copied["robots"][-2:], [name, "twin"])
+                hashes.append([s["state_hash"] for s in (start, removed, restored, copied)])
+                self.ask(cluster, "quit", "--yes")
+                self.assertEqual(controller.end(30), 0, controller.said())
+                for other in others:
+                    self.assertEqual(other.end(10), 0, other.said())
+                self.assertTrue(journal("verify", file)["good"])
+        self.assertEqual(hashes[0], hashes[1])
+
     def test_robots_and_accuracy_change_at_a_tick_and_the_journal_keeps_it(self):
         ball = FOLDER / "ball.sdf"
         ball.write_text(BALL)

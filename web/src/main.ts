@@ -5,15 +5,15 @@ import { CameraPointer } from "./camera/pointer";
 import { ViewKeeper } from "./camera/view_keeper";
 import { Views } from "./camera/views";
 import { FrameLoop } from "./frame_loop";
+import { EditHand } from "./hands/edit_hand";
 import { HandMark } from "./hands/hand_mark";
-import { RobotHand } from "./hands/robot_hand";
 import { Actions } from "./model/actions";
 import { Address } from "./model/address";
 import { Bonding } from "./model/bonding";
 import { Plotted } from "./model/plotted";
 import { RunLink } from "./model/run_link";
 import type { Signal } from "./model/signal";
-import { applyAddress, keepTheme, startTheme, viewLink } from "./model/view_link";
+import { applyAddress, copyViewLink, keepTheme, startTheme } from "./model/view_link";
 import { ViewerState, type World } from "./model/viewer_state";
 import { LabelLayer } from "./overlays/labels";
 import { Names } from "./overlays/names";
@@ -32,7 +32,8 @@ import { Inspector } from "./panels/inspector";
 import { notices } from "./panels/notices";
 import { Palette } from "./panels/palette";
 import { plotsDock } from "./panels/plots_dock";
-import { RobotList } from "./panels/robot_list";
+import { ScenePanel } from "./panels/scene_panel";
+import { sceneryInfo } from "./panels/scenery_info";
 import { type Sheet, Sheets } from "./panels/sheets";
 import { runBanner } from "./panels/run_banner";
 import { sideTabs, type Tab } from "./panels/side_tabs";
@@ -41,11 +42,11 @@ import { topBar } from "./panels/top_bar";
 import { viewActions, viewBar } from "./panels/view_bar";
 import { viewFrames } from "./panels/view_frames";
 import { viewOptions } from "./panels/view_options";
+import { SceneEditing } from "./scene_editing";
 import { h } from "./ui/dom";
 import { Colouring } from "./view/colouring";
 import { Effort } from "./view/effort";
 import { FrameTimes } from "./view/frame_times";
-import { pick } from "./view/picking";
 import { Stage } from "./view/stage";
 
 const LOW_INTERVAL_MS = 45;
@@ -77,7 +78,10 @@ const capture = new Capture(
 );
 const mark = new HandMark(labels);
 const bonding = new Bonding(state, run);
-const hand = new RobotHand(
+const colouring = new Colouring(stage, state),
+    scene = new SceneEditing(stage, state, run, views, labels, colouring);
+const hand = new EditHand(
+    scene,
     stage,
     state,
     run,
@@ -104,10 +108,12 @@ const pointer = new CameraPointer(
 );
 
 const plotted = new Plotted(state);
-const list = new RobotList(
+const list = new ScenePanel(
     state,
+    scene.selection,
     (robot) => director.focus(robot),
     (robot) => bonding.take(robot),
+    scene.bar,
 );
 const time = timeBar(state, run);
 const desk = controlDesk(state, run);
@@ -116,10 +122,15 @@ const sideTabList: Tab[] = [
         id: "inspector",
         title: "Robot",
         icon: "robot",
-        content: new Inspector(state, run, plotted, (robot) => {
-            state.selected.set(robot);
-            state.cameraMode.set("follow");
-        }).element,
+        content: h(
+            "div",
+            {},
+            new Inspector(state, run, plotted, scene, (robot) => {
+                state.selected.set(robot);
+                state.cameraMode.set("follow");
+            }).element,
+            sceneryInfo(state),
+        ),
     },
     { id: "cluster", title: "Cluster", icon: "cluster", content: new ClusterPanel(state, run).element },
     { id: "view", title: "View", icon: "eye", content: viewOptions(state) },
@@ -137,9 +148,8 @@ const sheets = new Sheets([
     { id: "plots", title: "Plots", icon: "plot", place: "dock" },
 ]);
 
-const selection = new SelectionMark(stage, state, labels),
-    names = new Names(stage, state, labels),
-    colouring = new Colouring(stage, state);
+const ring = new SelectionMark(stage, state, labels),
+    names = new Names(stage, state, labels);
 const sensors = new RobotOverlays(stage, state),
     told = new RunOverlays(stage, state),
     tracks = new Tracks(stage, state, labels),
@@ -161,8 +171,10 @@ const loop = new FrameLoop({
     flowing: () => flows.any,
     effort: quality === "auto" ? new Effort((level) => stage.lower(level)) : null,
     layers: [
+        scene.sight,
         (world) => world !== null && colouring.update(world),
-        (world) => selection.update(world),
+        (world) => ring.update(world),
+        ...scene.marks,
         (world) => flows.update(present(world)),
         (world) => bonds.update(present(world)),
         (world) => sensors.update(present(world)),
@@ -183,14 +195,7 @@ function togglePanel(side: "left" | "right"): void {
 }
 
 async function copyLink(): Promise<void> {
-    const link = viewLink(state, views);
-    history.replaceState(null, "", link);
-    try {
-        await navigator.clipboard.writeText(link);
-        said.say("The link to this view is copied.");
-    } catch {
-        said.say("The link to this view stands in the address bar.");
-    }
+    said.say(await copyViewLink(state, views));
 }
 
 const actions = new Actions(),
@@ -213,6 +218,7 @@ actions.add(
         openSheet: (id) => sheets.show(id),
     }),
 );
+actions.add(...scene.actions());
 actions.addSource(() => robotActions({ state, director }));
 actions.add(...viewActions(views, director));
 actions.listen();
@@ -226,6 +232,7 @@ const top = topBar(state, capture, desk.element, {
     togglePanel,
 });
 document.body.prepend(top.element, top.menu);
+view.append(hand.frame, ...scene.over(view));
 view.append(
     viewBar(state, views, director),
     viewFrames(state, views),
@@ -267,6 +274,7 @@ state.overlays.follow(
 );
 // A robot that is chosen is shown; the one that the address names leaves the panel that it names, too.
 state.selected.follow((robot) => robot !== null && robot !== named && sheets.reveal("inspector"));
+state.scenery.follow((model) => model !== null && sheets.reveal("inspector"));
 if (address.get("panel") !== null) sheets.show(address.get("panel") as string);
 for (const signal of [
     state.selected,
@@ -282,6 +290,7 @@ for (const signal of [
     views.count,
     views.active,
     state.shown,
+    ...scene.shows,
 ])
     (signal as Signal<unknown>).follow(() => loop.wake());
 state.attaching.follow((attaching) => document.body.classList.toggle("attaching", attaching !== null));
@@ -297,12 +306,9 @@ const hooks = {
     times,
     stage,
     run,
+    scene,
     /** The robot that a click at this place of the window would meet; null: none. */
-    robotAt: (left: number, top: number): number | null => {
-        const box = canvas.getBoundingClientRect(),
-            world = state.world.value;
-        return world === null ? null : (pick(stage, world, left - box.left, top - box.top)?.robot ?? null);
-    },
+    robotAt: (left: number, top: number) => scene.robotAt(left, top),
 };
 /** What the console and the tests take hold of, as `window.roboss`. */
 export type Hooks = typeof hooks;

@@ -63,7 +63,11 @@ function toolActions({ state, time }: PageParts): Action[] {
         if (time.backToNow()) return;
         if (state.attaching.value !== null) state.attaching.set(null);
         else if (state.tool.value !== "select") state.tool.set("select");
-        else state.selected.set(null);
+        else if (state.adding.value !== null) state.adding.set(null);
+        else {
+            state.selected.set(null);
+            state.scenery.set(null);
+        }
     };
     return [
         tool("select", "Select", "V", "cursor"),

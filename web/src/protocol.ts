@@ -4,6 +4,7 @@
 export const VERSION = 1;
 export const SUBPROTOCOL = 'roboss.1';
 export const MESSAGE_BYTES_MAX = 65536;
+export const ADDITION_BYTES_MAX = 4194304;
 export const MESSAGES_A_SECOND_MAX = 200;
 export const WATCHED_ROBOTS_MAX = 8;
 export const RATE_MAX = 60;

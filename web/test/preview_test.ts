@@ -28,7 +28,7 @@ function bench() {
     const state = new ViewerState(),
         desk = new Desk(),
         refusals: string[] = [];
-    state.link.set({ state: "open", why: "" });
+    state.link.set({ state: "open", probe: null });
     const preview = new Preview(state, desk, (text) => refusals.push(text));
     const scene = sceneOf([typeOf([body("free", -1, 0)], [])], [0, 0]),
         world = new World({ scene, meshes: new Map(), unreadable: 0 } as never);

@@ -32,8 +32,9 @@ constexpr double kPatience_s = 10;
 const char* const kFooter =
     R"(It reaches every run of this computer, by its name (`roboss runs` lists them) or, if there is only one, without. With a
 network option (--interface, --domain, --peer ...) it reaches a `roboss controller` on another computer, as the other
-members of the run do. A request takes effect at the end of the current window. pause, step, speed, window and simulators do not change the result. rewind, reset, add, remove and
-accuracy change the world at a tick; with a journal, each starts a new branch there.
+members of the run do. A request takes effect at the end of the current window. pause, step, speed, window and
+simulators do not change the result. rewind, reset, add, remove, copy, restore and accuracy change the world at a tick;
+with a journal, each starts a new branch there.
 
 Examples:
   roboss run world.sdf --headless --journal run.journal      in another terminal
@@ -44,6 +45,8 @@ Examples:
   roboss control add robot.sdf --pose "1 0 0.5 0 0 0" --name visitor
   roboss control add robot.sdf --name crowd --count 1000 --grid "2 2 40" --pose "0 50 0.5 0 0 0"
   roboss control remove visitor 'crowd_*'
+  roboss control restore visitor
+  roboss control copy car_1 car_2 --pose "3 0 0.1 0 0 1.57"
   roboss control reset
   roboss control save noon.roboss --overwrite
   roboss control quit --yes
@@ -163,6 +166,15 @@ void add_changes(CLI::App& command, ControlCommandOptions& o, const Ask& ask, in
     sub = command.add_subcommand("remove", "remove robots from the world, by name");
     sub->add_option("robots", o.values)->required();
     sub->callback([all] { all("remove"); });
+    sub =
+        command.add_subcommand("restore", "bring back robots that were removed, as they were then, by name");
+    sub->add_option("robots", o.values)->required();
+    sub->callback([all] { all("restore"); });
+    sub = command.add_subcommand("copy", "add a copy of a robot with its present joint positions, at rest");
+    sub->add_option("robot", o.value, "name of the original")->required();
+    sub->add_option("name", o.name, "name of the copy")->required();
+    sub->add_option("--pose", o.pose, "\"x y z roll pitch yaw\" of the copy, m and rad")->required();
+    sub->callback([&o, ask] { ask({"copy", o.value, o.name, o.pose}); });
     sub = command.add_subcommand("add", "add the models of an SDF or URDF file to the world");
     sub->add_option("file", o.value,
                     "SDF or URDF file; its meshes are looked up on the Controller's computer")

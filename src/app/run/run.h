@@ -16,6 +16,7 @@
 #include "app/output/summary.h"
 #include "app/output/trace_file.h"
 #include "app/run/journal_preview.h"
+#include "app/run/removed_robots.h"
 #include "app/run/run_journal.h"
 #include "app/run/run_members.h"
 #include "app/run/run_options.h"
@@ -105,7 +106,11 @@ class Run {
     Done act(const RemoveBookmark& remove);
     /// In a replay.
     Done seek(const RewindRun& to);
-    Done change_model(const ModelEdit& edit, const std::string& what);
+    Done act(const CopyRobots& copy);
+    Done act(const RestoreRobots& restore);
+    /// `arrived`: the states of the last robots of the new Model, instead of their initial ones.
+    Done change_model(const ModelEdit& edit, const std::string& what,
+                      std::span<const RobotState> arrived = {});
     // run_status.cpp: what only asks
     RunStatus status(bool with_robots) const;
     RobotGroups groups() const;
@@ -124,6 +129,7 @@ class Run {
     std::shared_ptr<const Model>
         world_model_;                   // of the world file, to which a reset returns; null: of a replay
     ModelVisuals visuals_;              // for the viewer; none: of a replay
+    RemovedRobots removed_;             // that may be brought back
     std::unique_ptr<Gateway> gateway_;  // none: headless
     std::unique_ptr<ControlSocket> socket_;
     std::optional<RunListing> listing_;

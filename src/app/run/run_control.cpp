@@ -263,9 +263,11 @@ Run::Done Run::reset_to_save() {
 }
 
 /// The run continues with this Model, at the same tick.
-Run::Done Run::change_model(const ModelEdit& edit, const std::string& what) {
+Run::Done Run::change_model(const ModelEdit& edit, const std::string& what,
+                            std::span<const RobotState> arrived) {
     SavedRun run = simulation_->saved_run();
     run.states = carry_over(edit, run.states);
+    std::ranges::copy(arrived, run.states.end() - std::ssize(arrived));
     std::erase_if(run.orders, [&](LoggedOrder& o) { return !carry_over(edit, o.order); });
     visuals_.change(*model_, *edit.model);
     if (edit.model->robots.size() < model_->robots.size())  // sensor samples are stored by RobotId
@@ -327,7 +329,47 @@ Run::Done Run::act(const RemoveRobots& remove) {
     for (std::size_t i = 0; i < std::min(remove.names.size(), kNamedMost); ++i) text += " " + remove.names[i];
     if (remove.names.size() > kNamedMost)
         text += fmt::format(" and {} more names", remove.names.size() - kNamedMost);
-    return change_model(edit.value(), text);
+    const RemovedRobots::Removal removal{model_, edit.value().now, simulation_->saved_run().states,
+                                         visuals_.worlds_of(*model_)};
+    Done done = change_model(edit.value(), text);
+    if (done) removed_.keep(removal);
+    return done;
+}
+
+Run::Done Run::act(const CopyRobots& copy) {
+    const std::vector<RobotState> states = simulation_->saved_run().states;
+    std::vector<RobotFrom> robots;
+    for (const CopyRobots::Copy& one : copy.copies) {
+        const std::optional<RobotId> original = model_->find_robot(one.robot);
+        if (!original)
+            return Error{"there is no robot '" + one.robot + "' in the world",
+                         "see `roboss control status` for their names", "no-robot"};
+        const std::vector<double>& q = states[original->index()].q;
+        robots.push_back({model_, *original, one.name, one.X_WR, {q.begin() + 7, q.end()}});
+    }
+    Result<ModelEdit> edit = with_robots(*model_, robots);
+    if (!edit) return edit.error();
+    if (is_shown()) visuals_.copy(*model_, *edit.value().model, copy.copies);
+    return change_model(edit.value(), fmt::format("{} robots copied", robots.size()));
+}
+
+Run::Done Run::act(const RestoreRobots& restore) {
+    Result<std::vector<RemovedRobot>> found = removed_.find(restore.names);
+    if (!found) return found.error();
+    std::vector<RobotFrom> robots;
+    std::vector<RobotState> states;
+    for (const RemovedRobot& removed : found.value()) {
+        const Robot& robot = removed.model->robots[removed.robot.index()];
+        robots.push_back({removed.model, removed.robot, robot.name, robot.X_WR, robot.start_q, true});
+        states.push_back(removed.state);
+    }
+    Result<ModelEdit> edit = with_robots(*model_, robots);
+    if (!edit) return edit.error();
+    for (const RemovedRobot& removed : found.value())
+        if (is_shown()) visuals_.bring_back(*model_, *edit.value().model, removed.worlds);
+    Done done = change_model(edit.value(), fmt::format("{} robots restored", robots.size()), states);
+    if (done) removed_.forget(restore.names);
+    return done;
 }
 
 }  // namespace roboss

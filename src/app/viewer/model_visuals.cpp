@@ -28,6 +28,16 @@ bool is_seen(const World& world, const std::unordered_set<std::string_view>& nam
     });
 }
 
+/// What the last of these Worlds that knows it says of the robot; a robot of several is called MODEL::LINK.
+const ModelSpec* spec_of(std::span<const std::shared_ptr<const World>> worlds, const std::string& robot) {
+    for (std::size_t end = robot.size(); end != std::string::npos && end > 0;
+         end = robot.rfind("::", end - 1))
+        for (auto world = worlds.rbegin(); world != worlds.rend(); ++world)
+            for (const ModelInstance& instance : (*world)->instances)
+                if (instance.name == robot.substr(0, end)) return &(*world)->prototypes[instance.prototype];
+    return nullptr;
+}
+
 }  // namespace
 
 void ModelVisuals::begin(const Model& model, World world) {
@@ -60,6 +70,25 @@ void ModelVisuals::add(const Addition& addition, World world, std::span<const Co
     Worlds worlds = worlds_of(addition.from);
     worlds.push_back(std::make_shared<const World>(std::move(world)));
     learn(addition.to, std::move(worlds));
+}
+
+void ModelVisuals::copy(const Model& from, const Model& to, std::span<const CopyRobots::Copy> copies) {
+    Worlds worlds = worlds_of(from);
+    World added;
+    for (const CopyRobots::Copy& copy : copies)
+        if (const ModelSpec* spec = spec_of(worlds, copy.robot)) {
+            added.instances.push_back({copy.name, added.prototypes.size(), copy.X_WR, {}});
+            added.prototypes.push_back(*spec);
+        }
+    worlds.push_back(std::make_shared<const World>(std::move(added)));
+    learn(to, std::move(worlds));
+}
+
+void ModelVisuals::bring_back(const Model& from, const Model& to, const Worlds& worlds) {
+    Worlds all = by_model_.contains(to.hash) ? worlds_of(to) : worlds_of(from);
+    for (const auto& world : worlds)
+        if (std::ranges::find(all, world) == all.end()) all.push_back(world);
+    learn(to, std::move(all));
 }
 
 void ModelVisuals::keep_only(const Model& model) {

@@ -12,6 +12,7 @@
 
 #include "model/copy_place.h"
 #include "model/model.h"
+#include "wire/control.h"
 #include "world/world.h"
 
 namespace roboss {
@@ -26,6 +27,12 @@ class ModelVisuals {
     };
     /// `world`: that `added` was compiled from, once for each place.
     void add(const Addition& addition, World world, std::span<const CopyPlace> places);
+    /// `to` is `from` with copies of robots, which look as their originals.
+    void copy(const Model& from, const Model& to, std::span<const CopyRobots::Copy> copies);
+    using Worlds = std::vector<std::shared_ptr<const World>>;
+    /// `to` is `from` with robots of these Worlds. It may be called for one robot after the other.
+    void bring_back(const Model& from, const Model& to, const Worlds& worlds);
+    Worlds worlds_of(const Model& model) const;
     /// Forgets all Models but the first one and this one: the run does not return to the others.
     void keep_only(const Model& model);
     /// A later World hides an earlier one's names.
@@ -34,8 +41,6 @@ class ModelVisuals {
     std::size_t models() const { return by_model_.size(); }
 
   private:
-    using Worlds = std::vector<std::shared_ptr<const World>>;
-    Worlds worlds_of(const Model& model) const;
     void learn(const Model& model, Worlds worlds);
 
     static constexpr std::size_t kModelsMost = 100;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "app/run/removed_robots.h"
 #include "model/edit.h"
 #include "scene/scene.h"
 
@@ -95,6 +96,54 @@ TEST(ModelVisuals, OfAReplayOnlyWhatWasAddedIsKnown) {
     const Scene scene = make_scene(*after, visuals.of(*after));
     EXPECT_EQ(shown(scene, *after, "old").kind, SceneShapeKind::kBox);
     EXPECT_EQ(shown(scene, *after, "new").kind, SceneShapeKind::kSphere);
+}
+
+TEST(ModelVisuals, CopiesLookLikeTheirOriginalsAndRobotsThatReturnAsTheyDid) {
+    const World blue = world_of("old", {0, 0, 1}), red = world_of("box", {1, 0, 0});
+    const auto first = compiled(blue), addition = compiled(red);
+    const std::vector<CopyPlace> place{{"new", {}}};
+    const auto with = with_models(*first, *addition, place).value().model;
+    ModelVisuals visuals;
+    visuals.begin(*first, blue);
+    visuals.add({*first, *with, *addition}, red, place);
+    const std::vector<CopyRobots::Copy> copies{{"new", "new_2", {}}, {"old", "old_2", {}}};
+    const std::vector<RobotFrom> robots{{with, *with->find_robot("new"), "new_2", {}},
+                                        {with, *with->find_robot("old"), "old_2", {}}};
+    const auto more = with_robots(*with, robots).value().model;
+    visuals.copy(*with, *more, copies);
+    const Scene scene = make_scene(*more, visuals.of(*more));
+    EXPECT_EQ(shown(scene, *more, "new_2").rgb.x, 1);
+    EXPECT_EQ(shown(scene, *more, "old_2").rgb.z, 1);
+
+    RemovedRobots removed;
+    const ModelEdit less = without_robots(*more, {"new", "new_2"}).value();
+    std::vector<RobotState> states;
+    for (std::size_t i = 0; i < more->robots.size(); ++i) states.push_back(initial_state(*more, RobotId(i)));
+    removed.keep({more, less.now, states, visuals.worlds_of(*more)});
+    visuals.change(*more, *less.model);
+    const RemovedRobot kept = removed.find({"new"}).value().front();
+    const std::vector<RobotFrom> back{{kept.model, kept.robot, "new", {}, {}, true}};
+    const auto again = with_robots(*less.model, back).value().model;
+    visuals.bring_back(*less.model, *again, kept.worlds);
+    EXPECT_EQ(shown(make_scene(*again, visuals.of(*again)), *again, "new").rgb.x, 1);
+}
+
+TEST(RemovedRobots, TheLastOneOfANameReturnsAndOldOnesAreForgotten) {
+    const auto model = compiled(world_of("box", {1, 0, 0}));
+    RemovedRobots removed;
+    EXPECT_EQ(removed.find({"box"}).error().code, "no-robot");
+    RobotState state = initial_state(*model, RobotId(0u));
+    state.contacts.resize(2);
+    for (std::size_t k = 0; k < RemovedRobots::kRemovalsMost + 20; ++k) {
+        state.q[0] = static_cast<double>(k);
+        removed.keep({std::make_shared<const Model>(*model), {RobotId()}, {state}, {}});
+    }
+    EXPECT_EQ(removed.size(), RemovedRobots::kRemovalsMost);
+    const RemovedRobot last = removed.find({"box"}).value().front();
+    EXPECT_EQ(last.state.q[0], static_cast<double>(RemovedRobots::kRemovalsMost + 19));
+    EXPECT_TRUE(last.state.contacts.empty());
+    removed.forget({"box"});
+    EXPECT_EQ(removed.find({"box"}).value().front().state.q[0], last.state.q[0] - 1);
 }
 
 TEST(ModelVisuals, ManyAdditionsAndRemovalsLeaveNothingBehind) {

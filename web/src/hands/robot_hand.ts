@@ -62,7 +62,7 @@ export class RobotHand implements PointerHand {
     press(x: number, y: number): boolean {
         const world = this.state.world.value,
             tool = this.state.tool.value;
-        if (world === null || tool === "select") return false;
+        if (world === null || (tool !== "move" && tool !== "push")) return false;
         if (this.state.shown.value !== null) {
             this.run.notice.set({ text: "This is an earlier moment. Go back to now to move robots.", bad: false });
             return true;

@@ -138,3 +138,12 @@ export function slerp(out: Numbers, o: number, a: Numbers, i: number, b: Numbers
     out[o + 2] = y * scale;
     out[o + 3] = z * scale;
 }
+
+/** The quaternion w x y z of roll, pitch and yaw about fixed axes. */
+export function quaternionOf(roll: number, pitch: number, yaw: number): [number, number, number, number] {
+    const turned = composed(
+        fromAxisAngle([0, 0, 1], yaw),
+        composed(fromAxisAngle([0, 1, 0], pitch), fromAxisAngle([1, 0, 0], roll)),
+    );
+    return [turned[3], turned[4], turned[5], turned[6]];
+}

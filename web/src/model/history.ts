@@ -27,6 +27,7 @@ export class History {
     /** Robots whose drawn pose changed by the last sample(). */
     readonly changed: Uint8Array;
     private readonly unsettled: Uint8Array;
+    private readonly ahead = new Map<number, ArrayLike<number>>();
 
     constructor(private readonly fleet: Fleet) {
         this.ring = Array.from({ length: KEPT }, () => new Snapshot(fleet));
@@ -95,6 +96,24 @@ export class History {
             this.between(r, from, to, f);
             if (settled) this.unsettled[r] = 0;
         }
+        this.drawnAhead();
+    }
+
+    /** Draws the base of a robot here until `show` is called without a pose: where an order will put it. */
+    show(robot: number, base: ArrayLike<number> | null): void {
+        if (base === null) this.ahead.delete(robot);
+        else this.ahead.set(robot, base);
+        this.unsettled[robot] = 1;
+    }
+
+    /** Robots that are drawn elsewhere than they are. */
+    get shownAhead(): number[] {
+        return [...this.ahead.keys()];
+    }
+
+    private drawnAhead(): void {
+        for (const [robot, base] of this.ahead)
+            for (let k = 0; k < POSE_WIDTH; ++k) this.drawn.base[robot * POSE_WIDTH + k] = base[k];
     }
 
     private between(robot: number, from: Snapshot, to: Snapshot, f: number): void {

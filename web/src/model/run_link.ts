@@ -118,7 +118,8 @@ export class RunLink {
             const loaded = await loadScene();
             if (this.loading !== wanted) return;
             const before = this.state.world.value?.fleet,
-                selected = this.state.selected.value;
+                selected = this.state.selected.value,
+                others = this.state.others.value.map((robot) => before?.name(robot) ?? "");
             const world = new World(loaded);
             if (loaded.unreadable > 0)
                 this.notice.set({ text: `${loaded.unreadable} pictures cannot be shown: plain colours`, bad: true });
@@ -126,9 +127,14 @@ export class RunLink {
             this.state.extras.set(null);
             this.state.attaching.set(null);
             this.state.selected.set(null);
+            this.state.sight.begin(loaded.scene.world);
             this.state.world.set(world);
-            if (before !== undefined && selected !== null)
+            if (before !== undefined && selected !== null) {
                 this.state.selected.set(world.fleet.find(before.name(selected)) ?? null);
+                this.state.others.set(
+                    others.map((name) => world.fleet.find(name)).filter((robot) => robot !== undefined),
+                );
+            }
             this.connection.askWhole();
             this.lastWatch = "";
             this.sendWatch();

@@ -40,3 +40,15 @@ export function viewLink(state: ViewerState, views: Views): string {
     url.hash = decodeURIComponent(words.toString());
     return url.toString();
 }
+
+/** Puts the link to this view into the address bar and, where the browser allows it, the clipboard; says which. */
+export async function copyViewLink(state: ViewerState, views: Views): Promise<string> {
+    const link = viewLink(state, views);
+    history.replaceState(null, "", link);
+    try {
+        await navigator.clipboard.writeText(link);
+        return "The link to this view is copied.";
+    } catch {
+        return "The link to this view stands in the address bar.";
+    }
+}

@@ -10,11 +10,29 @@ import type { Extras } from "../wire/onboard";
 import type { Attaching } from "./bonding";
 import type { Shown } from "./preview";
 import { Signal } from "./signal";
+import { Sight, type Store } from "./sight";
 import type { Roles } from "../wire/roles";
 import type { Timeline } from "../wire/timeline";
 
+/** Something new that waits for its place. */
+export interface Adding {
+    /** "box": for the hint. */
+    words: string;
+    put(point: readonly [number, number, number]): void;
+}
+
+/** A browser may refuse it. */
+function storage(): Store | null {
+    try {
+        return window.localStorage;
+    } catch {
+        return null;
+    }
+}
+
 export type ColourBy = "model" | "simulator" | "island" | "speed";
-export type Tool = "select" | "move" | "push";
+/** place and turn: by the arrows and rings of the gizmo. */
+export type Tool = "select" | "move" | "push" | "place" | "turn";
 export type CameraMode = "orbit" | "fly" | "follow" | "chase";
 export type Theme = "light" | "dark";
 export const OVERLAYS = [
@@ -27,6 +45,13 @@ export const OVERLAYS = [
     "islands",
     "names",
     "collisions",
+    "frames",
+    "masses",
+    "inertia",
+    "axes",
+    "labels",
+    "wireframe",
+    "transparent",
 ] as const;
 export type Overlay = (typeof OVERLAYS)[number];
 
@@ -64,6 +89,14 @@ export class ViewerState {
     readonly attaching = new Signal<Attaching | null>(null);
     readonly report = new Signal<RobotReport | null>(null);
     readonly selected = new Signal<number | null>(null);
+    /** Robots that are selected besides it (model/selection.ts). */
+    readonly others = new Signal<readonly number[]>([]);
+    /** The model of the scenery that is selected; null: none. */
+    readonly scenery = new Signal<string | null>(null);
+    /** What the next click into the picture adds there; null: nothing. */
+    readonly adding = new Signal<Adding | null>(null);
+    /** What is hidden and what is locked. */
+    readonly sight = new Sight(storage());
     readonly colourBy = new Signal<ColourBy>("model");
     readonly tool = new Signal<Tool>("select");
     readonly cameraMode = new Signal<CameraMode>("orbit");

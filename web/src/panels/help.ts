@@ -4,9 +4,11 @@ import { h } from "../ui/dom";
 
 const MOUSE: [string, string][] = [
     ["Drag", "turn the camera"],
-    ["Right drag, Shift drag", "move the camera"],
+    ["Right drag", "move the camera"],
     ["Wheel", "nearer, farther"],
-    ["Click", "select a robot"],
+    ["Click", "select a robot or scenery"],
+    ["Ctrl click", "select one more robot, or one less"],
+    ["Shift drag", "select the robots in a box; with Ctrl: besides those selected"],
     ["Double click", "look at a robot"],
     ["W A S D, Q E", "move the camera (click the picture first)"],
     ["Move tool", "pull a robot where you took it; Alt lifts it, Shift places and turns it"],

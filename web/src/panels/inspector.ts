@@ -2,6 +2,8 @@
 // sensors, bonds and contacts. Rows are made once a robot; each report changes only their numbers.
 import type { Plotted } from "../model/plotted";
 import { readings } from "../model/readings";
+import type { Editing } from "../model/editing";
+import type { Placing } from "../model/placing";
 import type { RunLink } from "../model/run_link";
 import type { ViewerState, World } from "../model/viewer_state";
 import { h } from "../ui/dom";
@@ -11,6 +13,7 @@ import type { SurfaceMotion } from "../wire/onboard";
 import { BondControls } from "./bond_controls";
 import { ChannelControls } from "./channel_controls";
 import { JointControls } from "./joint_controls";
+import { PoseFields } from "./pose_fields";
 import { ReadingRows } from "./reading_rows";
 import { SensorViews } from "./sensor_views";
 import { velocityPad } from "./velocity_pad";
@@ -32,6 +35,7 @@ function motionText({ linear, angular, belt }: SurfaceMotion): string {
 export class Inspector {
     readonly element = h("div", { class: "inspector" });
     private rows: ReadingRows | null = null;
+    private pose: PoseFields | null = null;
     private joints: JointControls | null = null;
     private sensors: SensorViews | null = null;
     private channels: ChannelControls | null = null;
@@ -45,6 +49,7 @@ export class Inspector {
         private readonly state: ViewerState,
         private readonly run: RunLink,
         private readonly plotted: Plotted,
+        private readonly hands: { editing: Editing; placing: Placing },
         private readonly follow: (robot: number) => void,
     ) {
         state.selected.follow(() => this.reset());
@@ -59,6 +64,7 @@ export class Inspector {
         this.built = false;
         this.rows = this.joints = this.sensors = this.contacts = null;
         this.channels = this.bonds = this.surfaces = this.bondSection = null;
+        this.pose = null;
         if (world === null || robot === null) {
             this.element.replaceChildren(
                 h("p", { class: "empty" }, "Select a robot: click it in the picture, or in the list."),
@@ -96,6 +102,7 @@ export class Inspector {
             all = readings(type, report),
             rows = new ReadingRows(robot, this.plotted);
         this.rows = rows;
+        this.pose = new PoseFields(robot, this.hands.editing, this.hands.placing);
         this.joints = new JointControls(robot, type, this.run, rows, all.joints);
         this.sensors = new SensorViews(type, rows, all.sensors);
         this.channels = new ChannelControls(robot, type, world.fleet.scene.dt, this.run);
@@ -108,6 +115,7 @@ export class Inspector {
             this.head(world, robot),
             section(
                 "Pose and velocity",
+                this.pose.element,
                 h("div", { class: "readings two" }, ...all.base.map((reading) => rows.row(reading))),
             ),
             type.free_base
@@ -135,6 +143,7 @@ export class Inspector {
         if (!this.built) this.build(world, report.robot, report);
         const all = readings(world.fleet.type(report.robot), report);
         this.rows?.show([...all.base, ...all.joints, ...all.sensors.flat()]);
+        this.pose?.show(report);
         this.joints?.show(report);
         this.sensors?.show(report);
         this.channels?.show(report);

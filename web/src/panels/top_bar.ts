@@ -27,6 +27,8 @@ export function topBar(
             { value: "select", text: "Select", icon: "cursor", key: "V", words: "Select" },
             { value: "move", text: "Move a robot", icon: "move", key: "M", words: "Move" },
             { value: "push", text: "Push a robot", icon: "push", key: "P", words: "Push" },
+            { value: "place", text: "Move by arrows", icon: "place", key: "G", words: "Arrows" },
+            { value: "turn", text: "Turn by rings", icon: "turn", key: "O", words: "Rings" },
         ] as const,
         (tool) => state.tool.set(tool),
     );

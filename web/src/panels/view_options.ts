@@ -1,6 +1,7 @@
 // What the picture shows beside robots and scenery, and by what robots are coloured.
 import { type ColourBy, type Overlay, OVERLAYS, type ViewerState } from "../model/viewer_state";
 import { HITS_MAX, RAYS_MAX } from "../overlays/beams";
+import { LINKS_MAX } from "../overlays/link_marks";
 import { h } from "../ui/dom";
 
 export const COLOURS: [ColourBy, string, string][] = [
@@ -19,7 +20,25 @@ export const WORDS: Record<Overlay, [string, string]> = {
     islands: ["Islands", "hulls round robots that may touch"],
     names: ["Names", "of the robots nearest to the camera"],
     collisions: ["Collision shapes", "what physics sees"],
+    frames: ["Link frames", "x red, y green, z blue"],
+    masses: ["Centres of mass", "of links"],
+    inertia: ["Inertia", "boxes of equal mass and inertia"],
+    axes: ["Joint axes", "with limits"],
+    labels: ["Link names", "at most 60"],
+    wireframe: ["Wireframe", "triangles of robots"],
+    transparent: ["Transparent", "see into robots"],
 };
+
+/** They concern the robots that are selected, or all if none is. */
+const OF_ROBOTS: ReadonlySet<Overlay> = new Set<Overlay>([
+    "frames",
+    "masses",
+    "inertia",
+    "axes",
+    "labels",
+    "wireframe",
+    "transparent",
+]);
 
 export function viewOptions(state: ViewerState): HTMLElement {
     const radios = COLOURS.map(([value, name, why]) => {
@@ -27,7 +46,7 @@ export function viewOptions(state: ViewerState): HTMLElement {
         state.colourBy.follow((now) => (input.checked = now === value));
         return h("label", { class: "option" }, input, h("span", {}, name), h("small", {}, why));
     });
-    const boxes = OVERLAYS.map((overlay) => {
+    const box = (overlay: Overlay) => {
         const input = h("input", {
             type: "checkbox",
             name: overlay,
@@ -41,11 +60,19 @@ export function viewOptions(state: ViewerState): HTMLElement {
             h("span", {}, WORDS[overlay][0]),
             h("small", {}, WORDS[overlay][1]),
         );
-    });
+    };
+    const inside = OVERLAYS.filter((overlay) => OF_ROBOTS.has(overlay));
     return h(
         "div",
         { class: "view-options" },
         h("fieldset", {}, h("legend", {}, "Colour robots by"), ...radios),
-        h("fieldset", {}, h("legend", {}, "Show"), ...boxes),
+        h("fieldset", {}, h("legend", {}, "Show"), ...OVERLAYS.filter((one) => !OF_ROBOTS.has(one)).map(box)),
+        h(
+            "fieldset",
+            {},
+            h("legend", {}, "Show of the selected robots, or of all"),
+            ...inside.map(box),
+            h("small", {}, `Marks at the links of the nearest robots, at most ${LINKS_MAX} links.`),
+        ),
     );
 }

@@ -27,11 +27,18 @@ export class Colouring {
         });
     }
 
+    /** There are new layers. */
+    refresh(): void {
+        this.stale = true;
+    }
+
     update(world: World): void {
         if (this.state.colourBy.value === "speed") this.measure(world);
         if (!this.stale) return;
         this.stale = false;
-        this.stage.robots?.recolour(this.choose());
+        const colours = this.choose();
+        this.stage.robots?.recolour(colours);
+        for (const layer of this.stage.partly) layer.recolour(colours);
     }
 
     private choose(): ((robot: number, out: THREE.Color) => void) | null {

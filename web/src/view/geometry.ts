@@ -81,12 +81,26 @@ export function lightness(colour: THREE.Color): number {
     return 0.2126 * colour.r + 0.7152 * colour.g + 0.0722 * colour.b;
 }
 
+/** Which vertices of a merged geometry are of which visual: those before `end` and behind the piece before. */
+interface Piece {
+    visual: Visual;
+    end: number;
+}
+
+/** The visual that a triangle of a merged geometry is of. */
+export function visualAt(geometry: THREE.BufferGeometry, triangle: number): Visual | null {
+    const pieces = (geometry.userData.pieces ?? []) as Piece[];
+    return pieces.find(({ end }) => triangle * 3 < end)?.visual ?? null;
+}
+
 /** One geometry of several visuals; null where none has a triangle. */
 export function mergedGeometry(
     parts: readonly PlacedVisual[],
     meshes: ReadonlyMap<number, MeshData>,
 ): THREE.BufferGeometry | null {
-    const geometries: THREE.BufferGeometry[] = [];
+    const geometries: THREE.BufferGeometry[] = [],
+        pieces: Piece[] = [];
+    let vertices = 0;
     const pictured = parts.some((part) => part.visual.finish !== undefined);
     const lightest = Math.max(0.02, ...parts.map((part) => lightness(visualColour(part.visual))));
     for (const part of parts) {
@@ -105,10 +119,13 @@ export function mergedGeometry(
         paint(geometry, "own", colour);
         paint(geometry, "tint", new THREE.Color(tint, tint, tint));
         geometries.push(geometry);
+        vertices += geometry.getAttribute("position").count;
+        pieces.push({ visual: part.visual, end: vertices });
     }
     if (geometries.length === 0) return null;
     const merged = geometries.length === 1 ? geometries[0] : mergeGeometries(geometries);
     merged.setAttribute("color", merged.getAttribute("own"));
+    merged.userData.pieces = pieces;
     merged.computeBoundingSphere();
     return merged;
 }

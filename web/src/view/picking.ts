@@ -2,6 +2,8 @@
 // scenery in front hides them.
 import * as THREE from "three";
 import type { World } from "../model/viewer_state";
+import type { Visual } from "../wire/messages";
+import { visualAt } from "./geometry";
 import type { Stage } from "./stage";
 
 export interface Picked {
@@ -14,6 +16,26 @@ export interface Picked {
 
 const REACH_MIN_M = 0.05;
 
+/** What of the scenery is under the pointer, robots aside: its shape, and where. */
+export function pickScenery(
+    stage: Stage,
+    x: number,
+    y: number,
+): { visual: Visual | null; point: THREE.Vector3 } | null {
+    const hit = stage.ray(x, y).intersectObjects(stage.statics?.solids ?? [], false)[0];
+    if (hit === undefined) return null;
+    const geometry = (hit.object as THREE.Mesh).geometry;
+    return { visual: visualAt(geometry, hit.faceIndex ?? 0), point: hit.point };
+}
+
+/** The point under the pointer: of a robot, of the scenery, or of the plane z = 0; null: the sky. */
+export function pickPoint(stage: Stage, world: World, x: number, y: number): THREE.Vector3 | null {
+    const found = pick(stage, world, x, y)?.point ?? pickScenery(stage, x, y)?.point;
+    if (found !== undefined) return found;
+    const ground = new THREE.Plane(new THREE.Vector3(0, 0, 1), 0);
+    return stage.ray(x, y).ray.intersectPlane(ground, new THREE.Vector3());
+}
+
 export function pick(stage: Stage, world: World, x: number, y: number): Picked | null {
     if (stage.robots === null) return null;
     const caster = stage.ray(x, y),
@@ -25,8 +47,8 @@ export function pick(stage: Stage, world: World, x: number, y: number): Picked |
     for (let r = 0; r < world.fleet.count; ++r) {
         centre.set(base[r * 7], base[r * 7 + 1], base[r * 7 + 2]);
         const reach = Math.max(REACH_MIN_M, world.fleet.type(r).reach);
-        if (ray.distanceSqToPoint(centre) > reach * reach) continue;
-        const hit = stage.robots.hit(caster, r);
+        if (ray.distanceSqToPoint(centre) > reach * reach || !stage.pickable(r)) continue;
+        const hit = stage.hit(caster, r);
         if (hit === null || hit.distance > hidden + 1e-3 || (best !== null && hit.distance >= best.distance)) continue;
         const link = world.fleet.type(r).links.findIndex(({ body }) => body === hit.body);
         best = { robot: r, link: Math.max(0, link), point: hit.point.clone(), distance: hit.distance };

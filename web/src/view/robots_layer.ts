@@ -34,17 +34,33 @@ function rounded(values: ArrayLike<number>): string {
     return Array.from(values, (value) => value.toFixed(5)).join(" ");
 }
 
+/** Which robots a layer draws, which of their links, and how. */
+export interface Part {
+    robots: readonly number[];
+    shows(robot: number, link: number): boolean;
+    wireframe: boolean;
+    transparent: boolean;
+}
+
+const SEEN_THROUGH = 0.35;
+
 /** The visuals (or collision shapes) of a type, by body, what lies over them and whether one sees through them. */
-function looks(type: TypeInfo, kind: "visuals" | "collisions"): BodyLook[] {
+function looks(
+    type: TypeInfo,
+    kind: "visuals" | "collisions",
+    seeThrough: boolean,
+    shows: (link: number) => boolean,
+): BodyLook[] {
     const found = new Map<string, BodyLook>();
-    for (const link of type.links)
-        for (const visual of link[kind]) {
-            const alpha = kind === "collisions" ? 0.35 : (visual.alpha ?? 1),
+    type.links.forEach((link, number) => {
+        for (const visual of shows(number) ? link[kind] : []) {
+            const alpha = kind === "collisions" || seeThrough ? SEEN_THROUGH : (visual.alpha ?? 1),
                 name = `${link.body} ${alpha < 1 ? alpha.toFixed(2) : "solid"} ${finishKey(visual)}`;
             const look = found.get(name) ?? { body: link.body, parts: [], alpha, key: "", colour: null, shade: 1 };
             look.parts.push({ visual, pose: composed(link.frame, visual.frame) });
             found.set(name, look);
         }
+    });
     const lightest = Math.max(
         0.02,
         ...[...found.values()].flatMap((look) => look.parts.map((part) => lightness(visualColour(part.visual)))),
@@ -78,6 +94,8 @@ export class RobotsLayer {
     private readonly slotStart: Uint32Array;
     private readonly slots: Uint32Array;
     private readonly scratch = new Float64Array((BODIES_MAX + 1) * 7);
+    /** 1: drawn elsewhere, or hidden. */
+    private readonly away: Uint8Array;
     private colouring: ((robot: number, out: THREE.Color) => void) | null = null;
 
     constructor(
@@ -85,15 +103,25 @@ export class RobotsLayer {
         meshes: ReadonlyMap<number, MeshData>,
         private readonly finishes: Finishes,
         kind: "visuals" | "collisions" = "visuals",
+        private readonly part: Part | null = null,
     ) {
-        const ofType = fleet.scene.types.map((type) => looks(type, kind));
+        const known = new Map<string, BodyLook[]>(),
+            looksOf = (robot: number): BodyLook[] => {
+                const type = fleet.type(robot),
+                    shown = part === null ? [] : type.links.map((_, link) => part.shows(robot, link)),
+                    key = `${fleet.typeOf[robot]} ${shown.join()}`;
+                const found = known.get(key) ?? looks(type, kind, part?.transparent ?? false, (k) => shown[k] ?? true);
+                known.set(key, found);
+                return found;
+            };
         const batchOf = new Map<string, { look: BodyLook; members: { robot: number; look: BodyLook }[] }>();
-        for (let r = 0; r < fleet.count; ++r)
-            for (const look of ofType[fleet.typeOf[r]]) {
+        for (const r of part?.robots ?? Array.from({ length: fleet.count }, (_, robot) => robot))
+            for (const look of looksOf(r)) {
                 const batch = batchOf.get(look.key) ?? { look, members: [] };
                 batch.members.push({ robot: r, look });
                 batchOf.set(look.key, batch);
             }
+        this.away = new Uint8Array(fleet.count);
         const slotsOf: number[][] = Array.from({ length: fleet.count }, () => []);
         for (const { look, members } of batchOf.values()) this.addBatch(look, members, meshes, slotsOf);
         this.slotStart = new Uint32Array(fleet.count + 1);
@@ -118,6 +146,7 @@ export class RobotsLayer {
             transparent: look.alpha < 1,
             opacity: look.alpha,
             depthWrite: look.alpha >= 1,
+            wireframe: this.part?.wireframe === true,
             shadowSide: THREE.FrontSide,
         });
         const mesh = new THREE.InstancedMesh(geometry, material, members.length);
@@ -144,6 +173,11 @@ export class RobotsLayer {
         for (let r = 0; r < fleet.count; ++r) {
             if (changed[r] === 0) continue;
             any = true;
+            if (this.slotStart[r] === this.slotStart[r + 1]) continue;
+            if (this.away[r] === 1) {
+                this.putAway(r);
+                continue;
+            }
             placeBodies(fleet.type(r), drawn.base, r * 7, drawn.joints, fleet.firstCoordinate[r], this.scratch);
             for (let s = this.slotStart[r]; s < this.slotStart[r + 1]; s += 3)
                 writeMatrix(
@@ -154,6 +188,24 @@ export class RobotsLayer {
                 );
         }
         if (any) for (const batch of this.batches) batch.mesh.instanceMatrix.needsUpdate = true;
+    }
+
+    /** Draws these robots no more; the others as before. */
+    leaveOut(robots: Iterable<number>, history: History): void {
+        const before = this.away.slice();
+        this.away.fill(0);
+        for (const robot of robots) this.away[robot] = 1;
+        before.forEach((was, robot) => {
+            if (was !== this.away[robot]) history.changed[robot] = 1;
+        });
+    }
+
+    /** A matrix of zeros leaves no triangle, neither to draw nor to hit. */
+    private putAway(robot: number): void {
+        for (let s = this.slotStart[robot]; s < this.slotStart[robot + 1]; s += 3) {
+            const at = this.slots[s + 1] * 16;
+            (this.batches[this.slots[s]].mesh.instanceMatrix.array as Float32Array).fill(0, at, at + 16);
+        }
     }
 
     /** Colours every robot by `colouring`, or as its model says where it is null. */
@@ -185,7 +237,7 @@ export class RobotsLayer {
         const single = new THREE.Mesh(),
             matrix = new THREE.Matrix4(),
             found: THREE.Intersection[] = [];
-        for (let s = this.slotStart[robot]; s < this.slotStart[robot + 1]; s += 3) {
+        for (let s = this.slotStart[robot]; s < this.slotStart[robot + 1] && this.away[robot] === 0; s += 3) {
             const batch = this.batches[this.slots[s]];
             batch.mesh.getMatrixAt(this.slots[s + 1], matrix);
             single.geometry = batch.mesh.geometry;

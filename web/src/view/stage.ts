@@ -5,10 +5,11 @@ import type { Views } from "../camera/views";
 import type { CameraRig } from "../camera/rig";
 import type { Theme, World } from "../model/viewer_state";
 import { Atmosphere } from "./atmosphere";
+import type { Visual } from "../wire/messages";
 import { Finishes } from "./finishes";
 import { type Lens, Lenses } from "./lens";
 import { PALETTES, type ScenePalette } from "./palette";
-import { RobotsLayer } from "./robots_layer";
+import { type Part, RobotsLayer } from "./robots_layer";
 import { StaticsLayer } from "./statics_layer";
 import { viewAt, type Viewport, viewports } from "./viewports";
 
@@ -25,6 +26,12 @@ export class Stage {
     robots: RobotsLayer | null = null;
     collisions: RobotsLayer | null = null;
     statics: StaticsLayer | null = null;
+    /** Robots that are drawn otherwise than the layer `robots` does; it leaves them out. */
+    partly: RobotsLayer[] = [];
+    /** Whether a click may meet this robot. */
+    pickable: (robot: number) => boolean = () => true;
+    /** Whether this shape of the scenery is drawn. */
+    private sceneryShown: (visual: Visual) => boolean = () => true;
     private finishes = new Finishes(new Map());
     private theme: Theme = "dark";
     private readonly atmosphere: Atmosphere;
@@ -81,7 +88,7 @@ export class Stage {
     }
 
     show(world: World | null): void {
-        for (const layer of [this.robots, this.statics, this.collisions]) {
+        for (const layer of [this.robots, this.statics, this.collisions, ...this.partly]) {
             if (layer === null) continue;
             this.scene.remove(layer.group);
             layer.dispose();
@@ -89,12 +96,52 @@ export class Stage {
         this.finishes.dispose();
         this.robots = this.statics = this.collisions = null;
         this.atmosphere.show(world);
+        this.partly = [];
         if (world === null) return;
         const { scene, meshes, pictures } = world.loaded;
         this.finishes = new Finishes(pictures);
-        this.statics = new StaticsLayer(scene, meshes, this.finishes);
+        const statics = scene.statics.filter(this.sceneryShown);
+        this.statics = new StaticsLayer({ ...scene, statics }, meshes, this.finishes);
         this.robots = new RobotsLayer(world.fleet, meshes, this.finishes);
         this.scene.add(this.statics.group, this.robots.group);
+    }
+
+    /** Draws only these shapes of the scenery. */
+    showScenery(world: World | null, shown: (visual: Visual) => boolean): void {
+        this.sceneryShown = shown;
+        if (world === null || this.statics === null) return;
+        this.scene.remove(this.statics.group);
+        this.statics.dispose();
+        const { scene, meshes } = world.loaded,
+            statics = scene.statics.filter(shown);
+        this.statics = new StaticsLayer({ ...scene, statics }, meshes, this.finishes);
+        this.scene.add(this.statics.group);
+    }
+
+    /** Draws robots by parts; `away`: these and those that are hidden. */
+    showParts(world: World, parts: readonly Part[], away: Iterable<number>): void {
+        for (const layer of this.partly) {
+            this.scene.remove(layer.group);
+            layer.dispose();
+        }
+        this.partly = parts.map((part) => {
+            const layer = new RobotsLayer(world.fleet, world.loaded.meshes, this.finishes, "visuals", part);
+            this.scene.add(layer.group);
+            for (const robot of part.robots) world.history.changed[robot] = 1;
+            return layer;
+        });
+        this.robots?.leaveOut(away, world.history);
+        this.place(world);
+    }
+
+    /** What the ray meets of the robot first. */
+    hit(caster: THREE.Raycaster, robot: number): ReturnType<RobotsLayer["hit"]> {
+        let nearest: ReturnType<RobotsLayer["hit"]> = null;
+        for (const layer of [this.robots, ...this.partly]) {
+            const hit = layer?.hit(caster, robot) ?? null;
+            if (hit !== null && (nearest === null || hit.distance < nearest.distance)) nearest = hit;
+        }
+        return nearest;
     }
 
     /** Collision shapes instead of what robots look like, made when first asked for. */
@@ -111,6 +158,7 @@ export class Stage {
     place(world: World): void {
         this.robots?.update(world.history);
         this.atmosphere.place(world);
+        for (const layer of this.partly) layer.update(world.history);
         if (this.collisions?.group.visible === true) this.collisions.update(world.history);
     }
 

@@ -60,6 +60,11 @@ export interface LinkInfo {
     visuals: Visual[];
     collisions: Visual[];
     lights?: LightInfo[];
+    /** kg; missing: it has none of its own. */
+    mass?: number;
+    /** Centre of mass, in its frame; inertia about that, kg m^2: xx, yy, zz, xy, xz, yz. */
+    centre?: Triple;
+    inertia?: number[];
 }
 
 export interface JointInfo {
@@ -96,6 +101,8 @@ export interface SensorInfo {
 export interface TypeInfo {
     name: string;
     free_base: boolean;
+    /** Its links are scenery: it has only sensors and controllers. */
+    static?: boolean;
     mass: number;
     reach: number;
     origin: PoseArray;

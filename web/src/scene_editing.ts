@@ -1,0 +1,108 @@
+// Puts the parts together that handle the scene: selection, gizmo, adding, undo, and what shows them in the picture.
+import type { Views } from "./camera/views";
+import { Gizmo } from "./hands/gizmo";
+import type { Action } from "./model/actions";
+import { Editing } from "./model/editing";
+import { Placing } from "./model/placing";
+import type { RunLink } from "./model/run_link";
+import { modelOf } from "./model/scene_tree";
+import { Selection } from "./model/selection";
+import type { Signal } from "./model/signal";
+import type { ViewerState, World } from "./model/viewer_state";
+import { ChosenMarks } from "./overlays/chosen_marks";
+import type { LabelLayer } from "./overlays/labels";
+import { LinkMarks } from "./overlays/link_marks";
+import { acceptDrops, addDialog, type AddDialog } from "./panels/add_dialog";
+import { editBar } from "./panels/edit_bar";
+import { addingHint, gizmoBar } from "./panels/gizmo_bar";
+import { sceneActions } from "./scene_actions";
+import type { Colouring } from "./view/colouring";
+import { pick, pickPoint, pickScenery } from "./view/picking";
+import { SightLayer } from "./view/sight_layer";
+import type { Stage } from "./view/stage";
+import type { Triple } from "./wire/messages";
+
+type Update = (world: World | null) => void;
+
+export class SceneEditing {
+    readonly selection: Selection;
+    readonly placing: Placing;
+    readonly editing: Editing;
+    readonly gizmo: Gizmo;
+    /** The buttons over the tree. */
+    readonly bar: HTMLElement;
+    /** Before the colours of robots, since it makes layers that are coloured. */
+    readonly sight: Update;
+    readonly marks: Update[];
+    /** What the picture shows of it has changed. */
+    readonly shows: Signal<unknown>[];
+    private readonly dialog: AddDialog;
+    private pointer: { x: number; y: number } | null = null;
+
+    constructor(
+        readonly stage: Stage,
+        readonly state: ViewerState,
+        run: RunLink,
+        views: Views,
+        labels: LabelLayer,
+        colouring: Colouring,
+    ) {
+        const selection = (this.selection = new Selection(state));
+        this.placing = new Placing(state, run);
+        const editing = (this.editing = new Editing(state, run, selection, this.placing));
+        const gizmo = (this.gizmo = new Gizmo(stage, state, selection, this.placing, labels, (from, to) =>
+            editing.move(from, to),
+        ));
+        this.dialog = addDialog(state, editing, () => views.rig.now.target);
+        this.bar = editBar(state, selection, editing, () => this.dialog.open());
+        const sight = new SightLayer(stage, state, selection, colouring),
+            links = new LinkMarks(stage, state, selection, labels),
+            chosen = new ChosenMarks(stage, state);
+        this.sight = (world) => sight.update(world);
+        this.marks = [(world) => gizmo.update(world), (world) => links.update(world), (world) => chosen.update(world)];
+        this.shows = [
+            state.others,
+            state.scenery,
+            state.sight.hidden,
+            state.sight.locked,
+            gizmo.options,
+            state.status,
+        ] as Signal<unknown>[];
+        stage.canvas.addEventListener("pointermove", (event) => {
+            this.pointer = { x: event.offsetX, y: event.offsetY };
+        });
+    }
+
+    /** Its bars and dialogs over the picture; files may be dropped there. */
+    over(view: HTMLElement): HTMLElement[] {
+        acceptDrops(view, this.dialog, (event) => {
+            const box = this.stage.canvas.getBoundingClientRect();
+            return this.pointed({ x: event.clientX - box.left, y: event.clientY - box.top });
+        });
+        const { state, selection, placing, gizmo } = this;
+        return [gizmoBar(state, selection, placing, gizmo), addingHint(state), this.dialog.element];
+    }
+
+    actions(): Action[] {
+        return sceneActions({ ...this, add: () => this.dialog.open(), pointed: () => this.pointed(this.pointer) });
+    }
+
+    /** The model of the scenery at a place of the window. */
+    sceneryAt(left: number, top: number): string | null {
+        const box = this.stage.canvas.getBoundingClientRect(),
+            visual = pickScenery(this.stage, left - box.left, top - box.top)?.visual ?? null;
+        return visual === null ? null : modelOf(visual.name);
+    }
+
+    robotAt(left: number, top: number): number | null {
+        const box = this.stage.canvas.getBoundingClientRect(),
+            world = this.state.world.value;
+        return world === null ? null : (pick(this.stage, world, left - box.left, top - box.top)?.robot ?? null);
+    }
+
+    private pointed(at: { x: number; y: number } | null): Triple | null {
+        const world = this.state.world.value,
+            point = at === null || world === null ? null : pickPoint(this.stage, world, at.x, at.y);
+        return point === null ? null : [point.x, point.y, point.z];
+    }
+}
