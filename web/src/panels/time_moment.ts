@@ -54,7 +54,8 @@ export function momentStrip(state: ViewerState, run: RunLink): HTMLElement {
             shown = state.shown.value,
             status = state.status.value,
             timeline = state.timeline.value;
-        element.hidden = wanted === null || (!run.preview.pinned.value && shown === null);
+        document.body.classList.toggle("earlier", shown !== null);
+        element.hidden = wanted === null || !run.preview.pinned.value; // pointing changes no layout
         if (wanted === null || element.hidden) return;
         const branch = shown?.branch ?? (wanted.branch > 0 ? wanted.branch : branchAt(timeline, wanted.time)),
             time = shown?.time_s ?? wanted.time,
