@@ -28,12 +28,19 @@ class JournalPreview {
     JournalPreview(const JournalPreview&) = delete;
     JournalPreview& operator=(const JournalPreview&) = delete;
 
-    /// `call` has a PreviewRun; the reply shows robots of `shown`. Branch 0 is `present`. A request that
-    /// waits is refused [superseded] when the same requester makes another.
-    void ask(ControlCall call, std::shared_ptr<const Model> shown, BranchId present);
+    using Answer = std::function<void(ControlOutcome)>;
+    /// A request of `asker`, and who sends it the outcome: RunPreview or ControlRefused.
+    struct Request {
+        Address asker;
+        PreviewRun wanted;
+        Answer answer;
+    };
+    /// The reply shows robots of `shown`. Branch 0 is `present`. A request that waits is refused [superseded]
+    /// when the same requester makes another.
+    void ask(Request request, std::shared_ptr<const Model> shown, BranchId present);
     struct Reply {
-        ControlCall call;
-        ControlOutcome outcome;  // RunPreview or ControlRefused
+        Answer answer;
+        ControlOutcome outcome;
     };
     std::vector<Reply> take_replies();
 
