@@ -40,7 +40,7 @@ function timeActions({ time }: PageParts): Action[] {
             id: "time.branches",
             title: "Branches and bookmarks",
             group,
-            keys: ["G"],
+            keys: ["K"],
             icon: "branches",
             run: time.toggleBranches,
         },

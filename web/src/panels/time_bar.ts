@@ -118,7 +118,7 @@ function branchPanel(state: ViewerState, run: RunLink) {
         panel.update();
     };
     const panel = new BranchPanel(state, run, toggleBranches),
-        branches = iconButton("branches", "Branches and bookmarks", toggleBranches, "G");
+        branches = iconButton("branches", "Branches and bookmarks", toggleBranches, "K");
     branches.setAttribute("aria-expanded", "false");
     for (const signal of [state.status, run.preview.wanted, run.preview.pinned])
         (signal as Signal<unknown>).follow(() => panel.update());

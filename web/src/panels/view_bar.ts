@@ -37,7 +37,7 @@ export function viewActions(views: Views, director: Director): Action[] {
             title: "With or without perspective",
             group: "Camera",
             words: "orthographic",
-            keys: ["O"],
+            keys: ["0"],
             run: () => director.flatten(),
         },
         ...counts,
