@@ -70,7 +70,7 @@ export function viewBar(state: ViewerState, views: Views, director: Director): H
         button("Fit", "The whole world  (H)", () => director.home()),
         ...named,
         file,
-        button("Flat", "With or without perspective  (O)", () => director.flatten()),
+        button("Flat", "With or without perspective  (0)", () => director.flatten()),
         split.element,
     );
     const toggle = h(
