@@ -56,6 +56,7 @@ class Timeline(RobossTest):
         with LiveRun("run", WORLD, "--headless", "--speed", 1, "--until", 3, "--journal", FOLDER / "seen.journal",
                      "--journal-every", 0.5) as run:
             run.wait_for(0.8)
+            run.asked("speed", 0.02)  # it goes on, and does not end while it is asked
             for at in (0.1, 0.734, 0.3, 0.75):
                 seen = run.asked("preview", at)
                 self.assertTrue(seen["exact"], seen)
@@ -64,6 +65,8 @@ class Timeline(RobossTest):
             late = run.control("preview", 500)
             self.assertEqual((late.returncode, json.loads(late.stdout)["code"]), (3, "no-such-time"))
             self.assertEqual(json.loads(run.control("preview", "#7@0.1").stdout)["code"], "no-branch")
+            self.assertLess(run.asked("status")["time_s"], 3)
+            run.asked("speed", "max")
             self.assertEqual(run.end()["state_hash"], undisturbed)
 
     def test_a_robot_that_came_later_is_absent_from_an_earlier_moment(self):
