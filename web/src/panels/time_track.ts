@@ -41,6 +41,7 @@ export class TimeTrack {
     private held = false;
     private timer = 0;
     private marked = "";
+    private pointed = "";
 
     constructor(
         private readonly state: ViewerState,
@@ -67,7 +68,10 @@ export class TimeTrack {
 
     private listen(): void {
         const { slider } = this;
-        slider.addEventListener("pointerdown", () => (this.held = true));
+        slider.addEventListener("pointerdown", (event) => {
+            this.held = true;
+            this.pointed = `${event.clientX} ${event.clientY}`;
+        });
         for (const end of ["pointerup", "pointercancel", "change"])
             slider.addEventListener(end, () => (this.held = false));
         slider.addEventListener("input", () => this.choose(sliderTime(this.span, slider.valueAsNumber / STEPS)));
@@ -105,6 +109,10 @@ export class TimeTrack {
 
     private point(event: PointerEvent): void {
         if (event.pointerType !== "mouse" || this.held || !this.span.enabled) return;
+        // The browser repeats the last place when the layout moves under a pointer that rests.
+        const at = `${event.clientX} ${event.clientY}`;
+        if (at === this.pointed) return;
+        this.pointed = at;
         const box = this.slider.getBoundingClientRect(),
             time = sliderTime(this.span, (event.clientX - box.left - THUMB / 2) / Math.max(1, box.width - THUMB));
         this.element.classList.add("pointed");
