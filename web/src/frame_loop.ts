@@ -57,6 +57,11 @@ export class FrameLoop {
         this.awakeUntil = performance.now() / 1000 + AWAKE_S;
     }
 
+    /** A change of any of these shows. */
+    wakeAt(...signals: readonly { follow(act: () => void): unknown }[]): void {
+        for (const signal of signals) signal.follow(() => this.wake());
+    }
+
     private frame(stamp: number): void {
         requestAnimationFrame((next) => this.frame(next));
         if (stamp - this.last < this.parts.interval_ms) return;

@@ -12,7 +12,6 @@ import { Address } from "./model/address";
 import { Bonding } from "./model/bonding";
 import { Plotted } from "./model/plotted";
 import { RunLink } from "./model/run_link";
-import type { Signal } from "./model/signal";
 import { applyAddress, copyViewLink, keepTheme, startTheme } from "./model/view_link";
 import { ViewerState, type World } from "./model/viewer_state";
 import { LabelLayer } from "./overlays/labels";
@@ -251,8 +250,7 @@ document.body.append(
     help.element,
     palette.element,
 );
-const hints = firstHints(address);
-if (hints !== null) view.append(hints);
+view.append(...[firstHints(address)].filter((hints) => hints !== null));
 if (address.get("hide") === "panels") document.body.classList.add("bare");
 
 state.theme.follow((theme, before) => {
@@ -276,23 +274,7 @@ state.overlays.follow(
 state.selected.follow((robot) => robot !== null && robot !== named && sheets.reveal("inspector"));
 state.scenery.follow((model) => model !== null && sheets.reveal("inspector"));
 if (address.get("panel") !== null) sheets.show(address.get("panel") as string);
-for (const signal of [
-    state.selected,
-    state.overlays,
-    state.colourBy,
-    state.theme,
-    state.report,
-    state.overlayReport,
-    state.groups,
-    state.world,
-    state.tool,
-    state.extras,
-    views.count,
-    views.active,
-    state.shown,
-    ...scene.shows,
-])
-    (signal as Signal<unknown>).follow(() => loop.wake());
+loop.wakeAt(...state.shows, views.count, views.active, ...scene.shows);
 state.attaching.follow((attaching) => document.body.classList.toggle("attaching", attaching !== null));
 for (const name of ["pointerdown", "pointermove", "keydown", "resize"])
     window.addEventListener(name, () => loop.wake());
@@ -310,8 +292,7 @@ const hooks = {
     /** The robot that a click at this place of the window would meet; null: none. */
     robotAt: (left: number, top: number) => scene.robotAt(left, top),
 };
-/** What the console and the tests take hold of, as `window.roboss`. */
-export type Hooks = typeof hooks;
+export type Hooks = typeof hooks; // `window.roboss`
 Object.assign(window, { roboss: hooks });
 window.addEventListener("hashchange", () => location.reload());
 new ViewKeeper(views, state).start();

@@ -107,6 +107,12 @@ export class ViewerState {
     /** Simulated time that is drawn. */
     readonly drawnTime = new Signal(0);
 
+    /** What the picture shows of it beside the robots: a change is drawn. */
+    get shows(): readonly { follow(act: () => void): unknown }[] {
+        const { selected, overlays, colourBy, theme, report, overlayReport, groups, world, tool, extras, shown } = this;
+        return [selected, overlays, colourBy, theme, report, overlayReport, groups, world, tool, extras, shown];
+    }
+
     toggle(overlay: Overlay, on = !this.overlays.value.has(overlay)): void {
         const next = new Set(this.overlays.value);
         if (on) next.add(overlay);

@@ -129,7 +129,7 @@ export class Ground {
             for (const colour of [top, horizon])
                 colour.setRGB(...(scene.background ?? [0, 0, 0]), THREE.SRGBColorSpace);
         this.horizon.copy(horizon);
-        this.floors = !own;
+        this.floors = !own && scene?.sky !== true;
         this.grids = scene?.grid !== false;
         (this.grid.uniforms.colour.value as THREE.Color).setHex(palette.grid);
         this.grid.uniforms.strength.value = palette.gridStrength;

@@ -4,39 +4,11 @@ import type { BondReport, ChannelInfo, ChannelReport, Extras, FlowInfo, OnboardA
 import type { LightInfo, LookInfo } from "./look";
 import type { Roles } from "./roles";
 import type { PreviewInfo, Timeline } from "./timeline";
+import type { Visual } from "./visual";
 
+export type { Finish, Visual } from "./visual";
 export type PoseArray = [number, number, number, number, number, number, number];
 export type Triple = [number, number, number];
-
-/** What lies over a colour: pictures by their hash, and numbers from 0 to 1. */
-export interface Finish {
-    colour?: string;
-    normal?: string;
-    roughness_map?: string;
-    metalness_map?: string;
-    roughness?: number;
-    metalness?: number;
-    /** Light that it gives off. */
-    emissive?: Triple;
-}
-
-export interface Visual {
-    name: string;
-    shape: "box" | "sphere" | "cylinder" | "capsule" | "cone" | "ellipsoid" | "plane" | "mesh";
-    frame: PoseArray;
-    rgb?: Triple;
-    alpha?: number;
-    size?: number[];
-    radius?: number;
-    length?: number;
-    radii?: Triple;
-    mesh?: number;
-    /** Of a collision shape: it takes no part in the surface motion of its link. */
-    still?: boolean;
-    finish?: Finish;
-    /** false: it throws no shadow. */
-    casts?: boolean;
-}
 
 /** Which way a body's coordinates go from one value to another; "none": the base, which has no joint coordinates. */
 export type Course = "none" | "line" | "circle" | "quaternion";
