@@ -1,18 +1,10 @@
 // Pictures and videos of the canvas, as downloads. The picture is drawn anew at the moment it is taken.
 import { Signal } from "./model/signal";
+import { download } from "./ui/download";
 import type { Stage } from "./view/stage";
 
 const VIDEO_RATE = 30;
 const VIDEO_BITS = 12_000_000;
-
-function download(blob: Blob, name: string): void {
-    const url = URL.createObjectURL(blob),
-        anchor = document.createElement("a");
-    anchor.href = url;
-    anchor.download = name;
-    anchor.click();
-    setTimeout(() => URL.revokeObjectURL(url), 10_000);
-}
 
 export class Capture {
     readonly recording = new Signal(false);

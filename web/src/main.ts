@@ -17,6 +17,7 @@ import { ViewerState, type World } from "./model/viewer_state";
 import { LabelLayer } from "./overlays/labels";
 import { Names } from "./overlays/names";
 import { BondMarks } from "./overlays/bond_marks";
+import { FarMarks } from "./overlays/far_marks";
 import { FlowMarks } from "./overlays/flow_marks";
 import { RobotOverlays } from "./overlays/robot_overlays";
 import { RunOverlays } from "./overlays/run_overlays";
@@ -26,11 +27,12 @@ import { pageActions, robotActions } from "./page_actions";
 import { ClusterPanel } from "./panels/cluster_panel";
 import { controlDesk } from "./panels/control_desk";
 import { helpCard } from "./panels/help";
+import { legend } from "./panels/legend";
 import { firstHints } from "./panels/hints";
 import { Inspector } from "./panels/inspector";
 import { notices } from "./panels/notices";
 import { Palette } from "./panels/palette";
-import { plotsDock } from "./panels/plots_dock";
+import { PlotsDock } from "./panels/plots_dock";
 import { ScenePanel } from "./panels/scene_panel";
 import { sceneryInfo } from "./panels/scenery_info";
 import { type Sheet, Sheets } from "./panels/sheets";
@@ -106,7 +108,7 @@ const pointer = new CameraPointer(
     stage,
 );
 
-const plotted = new Plotted(state);
+const plotted = new Plotted(state, (text) => said.say(text, true), address.get("plots"));
 const list = new ScenePanel(
     state,
     scene.selection,
@@ -135,6 +137,7 @@ const sideTabList: Tab[] = [
     { id: "view", title: "View", icon: "eye", content: viewOptions(state) },
 ];
 const tabs = sideTabs(sideTabList);
+const dock = new PlotsDock(state, plotted);
 const sheets = new Sheets([
     { id: "robots", title: "Robots", icon: "list", place: "left" },
     ...sideTabList.map(({ id, title, icon }): Sheet => ({
@@ -144,7 +147,7 @@ const sheets = new Sheets([
         place: "right",
         show: () => tabs.open(id),
     })),
-    { id: "plots", title: "Plots", icon: "plot", place: "dock" },
+    { id: "plots", title: "Plots", icon: "plot", place: "dock", show: () => dock.open() },
 ]);
 
 const ring = new SelectionMark(stage, state, labels),
@@ -153,7 +156,8 @@ const sensors = new RobotOverlays(stage, state),
     told = new RunOverlays(stage, state),
     tracks = new Tracks(stage, state, labels),
     flows = new FlowMarks(stage, state),
-    bonds = new BondMarks(stage, state);
+    bonds = new BondMarks(stage, state),
+    far = new FarMarks(stage, state, (world, robot, out) => colouring.colourOf(world, robot, out));
 stage.overlays.add(mark.group);
 /** What is known of the present alone is not drawn into an earlier moment. */
 const present = (world: World | null) => (state.shown.value === null ? world : null);
@@ -180,6 +184,7 @@ const loop = new FrameLoop({
         (world, now) => told.update(present(world), now),
         (world) => state.shown.value === null && tracks.update(world),
         (world) => names.update(world),
+        (world) => far.update(world),
         () => labels.update(),
     ],
 });
@@ -194,7 +199,7 @@ function togglePanel(side: "left" | "right"): void {
 }
 
 async function copyLink(): Promise<void> {
-    said.say(await copyViewLink(state, views));
+    said.say(await copyViewLink(state, views, plotted.words()));
 }
 
 const actions = new Actions(),
@@ -236,6 +241,7 @@ view.append(
     viewBar(state, views, director),
     viewFrames(state, views),
     labels.element,
+    legend(state),
     runBanner(state, run),
     desk.question,
     said.element,
@@ -244,7 +250,7 @@ document.body.append(
     sheets.head,
     list.element,
     tabs.element,
-    plotsDock(state, plotted),
+    dock.element,
     time.element,
     sheets.bar,
     help.element,
@@ -289,12 +295,13 @@ const hooks = {
     stage,
     run,
     scene,
+    far,
     /** The robot that a click at this place of the window would meet; null: none. */
     robotAt: (left: number, top: number) => scene.robotAt(left, top),
 };
 export type Hooks = typeof hooks; // `window.roboss`
 Object.assign(window, { roboss: hooks });
 window.addEventListener("hashchange", () => location.reload());
-new ViewKeeper(views, state).start();
+new ViewKeeper(views, state, () => plotted.words()).start();
 run.open();
 loop.start();

@@ -11,6 +11,7 @@ export class ViewKeeper {
     constructor(
         private readonly views: Views,
         private readonly state: ViewerState,
+        private readonly plots: () => string,
     ) {}
 
     start(): void {
@@ -23,7 +24,7 @@ export class ViewKeeper {
         if (this.state.world.value === null || document.body.dataset.ready !== "true") return;
         if (this.views.count.value === 1 && !this.wrote) return;
         this.wrote = this.views.count.value > 1;
-        const link = viewLink(this.state, this.views);
+        const link = viewLink(this.state, this.views, this.plots());
         if (link !== location.href) history.replaceState(null, "", link);
     }
 }

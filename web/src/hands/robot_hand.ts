@@ -213,7 +213,7 @@ export class RobotHand implements PointerHand {
         const picked = pick(this.stage, world, x, y);
         if (picked !== null && this.bonding.take(picked.robot, picked.link)) return;
         if (picked !== null && event.shiftKey && this.bonding.takeBySelected(picked.robot, picked.link)) return;
-        this.state.selected.set(picked?.robot ?? null);
+        this.state.selected.set(picked?.robot ?? this.stage.markAt(x, y));
     }
 
     doubleClick(x: number, y: number): void {

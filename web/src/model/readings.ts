@@ -143,6 +143,26 @@ export function readings(
     };
 }
 
+/** Values of the last commands; lists have no fixed values. */
+export function channelReadings(type: TypeInfo, report: RobotReport): Reading[] {
+    return (type.channels ?? []).flatMap((channel, k) =>
+        channel.list
+            ? []
+            : channel.values.map((value, v) => ({
+                  key: `channel.${channel.name}.${value.name}`,
+                  label: `${channel.name} ${value.name}`,
+                  unit: value.unit,
+                  value: report.channels?.[k]?.values[v] ?? null,
+              })),
+    );
+}
+
+/** Everything that can be plotted. */
+export function allReadings(type: TypeInfo, report: RobotReport): Reading[] {
+    const { base, joints, sensors } = readings(type, report);
+    return [...base, ...joints, ...sensors.flat(), ...channelReadings(type, report)];
+}
+
 /** The value of one key; null where the report has it not. */
 export function readingOf(type: TypeInfo, report: RobotReport, key: string): number | null {
     const all = readings(type, report);

@@ -26,7 +26,7 @@ export function applyAddress(address: Address, state: ViewerState): void {
     if (mode !== null && ["orbit", "fly", "follow", "chase"].includes(mode)) state.cameraMode.set(mode as CameraMode);
 }
 
-export function viewLink(state: ViewerState, views: Views): string {
+export function viewLink(state: ViewerState, views: Views, plots: string): string {
     const words = new URLSearchParams(),
         url = new URL(location.href),
         selected = state.selected.value;
@@ -37,13 +37,14 @@ export function viewLink(state: ViewerState, views: Views): string {
     for (const [name, value] of views.words(state.world.value)) words.set(name, value);
     if (state.colourBy.value !== "model") words.set("colour", state.colourBy.value);
     if (state.overlays.value.size > 0) words.set("show", [...state.overlays.value].join(","));
+    if (plots !== "") words.set("plots", plots);
     url.hash = decodeURIComponent(words.toString());
     return url.toString();
 }
 
 /** Puts the link to this view into the address bar and, where the browser allows it, the clipboard; says which. */
-export async function copyViewLink(state: ViewerState, views: Views): Promise<string> {
-    const link = viewLink(state, views);
+export async function copyViewLink(state: ViewerState, views: Views, plots: string): Promise<string> {
+    const link = viewLink(state, views, plots);
     history.replaceState(null, "", link);
     try {
         await navigator.clipboard.writeText(link);

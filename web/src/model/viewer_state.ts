@@ -98,6 +98,8 @@ export class ViewerState {
     /** What is hidden and what is locked. */
     readonly sight = new Sight(storage());
     readonly colourBy = new Signal<ColourBy>("model");
+    /** The colour of each robot where the colour mode gives it one; null: its own. */
+    readonly dots = new Signal<((robot: number) => string) | null>(null);
     readonly tool = new Signal<Tool>("select");
     readonly cameraMode = new Signal<CameraMode>("orbit");
     readonly theme = new Signal<Theme>("dark");

@@ -8,7 +8,7 @@ import { h, setText } from "../ui/dom";
 import { byteRate, fixed, percent, short } from "../ui/numbers";
 import type { MemberStatus, MessageRate, Status } from "../wire/messages";
 import { groupCss } from "../view/palette";
-import { plotAxes } from "./plots_dock";
+import { plotAxes } from "./plot_chart";
 import { runButtons } from "./run_buttons";
 
 const KEPT = 240;

@@ -1,160 +1,153 @@
-// The dock below the picture: one uPlot for each unit, with the curves that were asked for in the inspector.
-import uPlot from "uplot";
+// The dock below the picture: any number of plots, each of any variables of any robots. Time is shared: cursor, zoom, pause.
+import { csvOf } from "../model/plot_data";
 import type { Curve, Plotted } from "../model/plotted";
 import type { ViewerState } from "../model/viewer_state";
 import { h, iconButton, setText } from "../ui/dom";
-import { fixed } from "../ui/numbers";
+import { download } from "../ui/download";
+import { moreMenu } from "../ui/overflow";
 import { throttled } from "../ui/throttle";
-import { groupCss } from "../view/palette";
+import { plotPicture } from "./plot_picture";
+import { plotPicker } from "./plot_picker";
+import { PlotChart, type TimeWindow } from "./plot_chart";
 
-const HEIGHT_PX = 168;
+const WINDOWS: [string, string][] = [
+    ["", "all of it"],
+    ["120", "last 2 min"],
+    ["30", "last 30 s"],
+    ["10", "last 10 s"],
+];
 
-/** Curves of one unit on one time axis: uPlot wants them joined. */
-function joined(curves: readonly Curve[]): uPlot.AlignedData {
-    return uPlot.join(curves.map((curve) => [curve.times, curve.values] as uPlot.AlignedData));
-}
-
-function cssColour(name: string): string {
-    return getComputedStyle(document.body).getPropertyValue(name).trim();
-}
-
-export function plotAxes(unit: string): uPlot.Axis[] {
-    const axis = {
-        stroke: () => cssColour("--dim"),
-        font: "11px system-ui, sans-serif",
-        ticks: { show: false },
-        grid: { stroke: () => cssColour("--line"), width: 1 },
-    };
-    return [
-        {
-            ...axis,
-            space: 60,
-            size: 26,
-            values: (_: uPlot, splits: number[]) => splits.map((value) => `${fixed(value, value % 1 === 0 ? 0 : 1)} s`),
-        },
-        {
-            ...axis,
-            size: 52,
-            space: 26,
-            label: unit === "" ? undefined : unit,
-            labelSize: 14,
-            labelFont: "11px system-ui, sans-serif",
-            labelGap: 0,
-        },
-    ];
-}
-
-/** A constant is a line in the middle, not noise blown up. */
-export function valueRange(_: uPlot, least: number | null, most: number | null): [number, number] {
-    if (least === null || most === null) return [0, 1];
-    const middle = (least + most) / 2,
-        half = Math.max((most - least) * 0.55, Math.abs(middle) * 0.02, 0.005);
-    return [middle - half, middle + half];
-}
-
-class Chart {
+export class PlotsDock {
     readonly element: HTMLElement;
-    private readonly plot: uPlot;
+    private readonly charts = h("div", { class: "charts" });
+    private readonly heading = h("h2", {}, "Plots");
+    private readonly hint = h(
+        "p",
+        { class: "empty" },
+        "Nothing is plotted. Choose the graph beside a number of a robot, or a robot and a variable above.",
+    );
+    private readonly pause: HTMLButtonElement;
+    private readonly back: HTMLButtonElement;
+    private readonly unwrap = h("input", { type: "checkbox", checked: true, onchange: () => this.refresh() });
+    private shown: PlotChart[] = [];
+    private paused = false;
+    private readonly time: TimeWindow = { last: null, fixed: null };
 
     constructor(
-        unit: string,
-        readonly curves: readonly Curve[],
-        offset: number,
-        plotted: Plotted,
+        private readonly state: ViewerState,
+        private readonly plotted: Plotted,
     ) {
-        const host = h("div", { class: "chart-canvas" }),
-            legend = h("div", { class: "chart-legend" });
-        const alone = plotted.curves.value.every((curve) => curve.robot === curves[0].robot);
-        curves.forEach((curve, k) => {
-            const words = `${curve.robotName} ${curve.label}`;
-            legend.append(
-                h(
-                    "span",
-                    { class: "chart-key", title: words },
-                    h("span", { class: "swatch", style: `background:${groupCss(offset + k)}` }),
-                    h("span", { class: "chart-words" }, alone ? curve.label : words),
-                    iconButton("close", `Remove ${words}`, () =>
-                        plotted.toggle(curve.robot, curve.key, curve.label, curve.unit),
-                    ),
-                ),
-            );
-        });
-        this.element = h("div", { class: "chart" }, legend, host);
-        this.plot = new uPlot(
-            {
-                width: 300,
-                height: HEIGHT_PX - 34,
-                legend: { show: false },
-                cursor: { y: false, points: { size: 6 } },
-                scales: { x: { time: false }, y: { range: valueRange } },
-                axes: plotAxes(unit),
-                series: [
-                    {},
-                    ...curves.map((curve, k) => ({
-                        label: curve.label,
-                        stroke: groupCss(offset + k),
-                        width: 1.5,
-                        spanGaps: true,
-                        points: { show: false },
-                    })),
-                ],
-            },
-            joined(curves),
-            host,
+        const windows = h(
+            "select",
+            { "aria-label": "Time shown", title: "Time shown", onchange: () => this.setWindow(windows.value) },
+            ...WINDOWS.map(([value, words]) => h("option", { value }, words)),
         );
-    }
-
-    refresh(): void {
-        const width = this.element.clientWidth;
-        if (width > 0 && width !== this.plot.width) this.plot.setSize({ width, height: HEIGHT_PX - 34 });
-        this.plot.setData(joined(this.curves));
-    }
-
-    dispose(): void {
-        this.plot.destroy();
-    }
-}
-
-export function plotsDock(state: ViewerState, plotted: Plotted): HTMLElement {
-    const charts = h("div", { class: "charts" }),
-        heading = h("h2", {}, "Plots"),
-        hint = h("p", { class: "empty" }, "Nothing is plotted. Select a robot, and choose the graph beside a number.");
-    const element = h(
-        "section",
-        { class: "dock empty", "aria-label": "Plots" },
-        h(
+        this.pause = iconButton("pause", "Hold the plots", () => this.hold(), "", "Hold");
+        this.pause.setAttribute("aria-pressed", "false");
+        this.back = h("button", { type: "button", class: "small", onclick: () => this.zoom(null) }, "Whole time");
+        this.back.hidden = true;
+        const head = h(
             "div",
-            { class: "panel-head" },
-            heading,
+            { class: "panel-head dock-head" },
+            this.heading,
+            plotPicker(state, plotted),
             h("div", { class: "grow" }),
+            this.back,
+            windows,
+            this.pause,
+            h("label", { class: "plot-switch", "data-yields": 3 }, this.unwrap, "Angles unwrapped"),
+            h(
+                "div",
+                { class: "cluster-of-buttons", role: "group", "aria-label": "Export", "data-yields": 2 },
+                h("button", { type: "button", class: "small", onclick: () => this.saveTable() }, "CSV"),
+                h("button", { type: "button", class: "small", onclick: () => this.savePicture() }, "PNG"),
+            ),
             iconButton("close", "Remove all plots", () => plotted.clear()),
-        ),
-        hint,
-        charts,
-    );
-    let shown: Chart[] = [];
-    const rebuild = () => {
-        shown.forEach((chart) => chart.dispose());
-        const curves = plotted.curves.value,
-            units = [...new Set(curves.map((curve) => curve.unit))];
-        let offset = 0;
-        element.classList.toggle("empty", curves.length === 0);
-        hint.hidden = curves.length > 0;
-        const robots = new Set(curves.map((curve) => curve.robotName));
-        setText(heading, robots.size === 1 ? `Plots of ${curves[0].robotName}` : "Plots");
-        shown = units.map((unit) => {
-            const mine = curves.filter((curve) => curve.unit === unit),
-                chart = new Chart(unit, mine, offset, plotted);
-            offset += mine.length;
-            return chart;
+        );
+        windows.dataset.yields = "1";
+        const more = moreMenu(head, "More of plots", true);
+        head.append(more.button);
+        this.element = h(
+            "section",
+            { class: "dock empty", "aria-label": "Plots" },
+            head,
+            more.menu,
+            this.hint,
+            this.charts,
+        );
+        plotted.curves.follow(() => this.rebuild());
+        state.theme.follow(() => setTimeout(() => this.rebuild()));
+        const grown = throttled(100, () => !this.paused && this.refresh());
+        plotted.grown.follow(grown);
+        const sized = throttled(100, () => {
+            more.fit();
+            this.refresh();
         });
-        charts.replaceChildren(...shown.map((chart) => chart.element));
-        shown.forEach((chart) => chart.refresh());
-    };
-    plotted.curves.follow(rebuild);
-    state.theme.follow(() => setTimeout(rebuild));
-    const refresh = throttled(100, () => shown.forEach((chart) => chart.refresh()));
-    plotted.grown.follow(refresh);
-    new ResizeObserver(() => refresh()).observe(charts);
-    return element;
+        new ResizeObserver(() => sized()).observe(this.charts);
+    }
+
+    /** Opens the dock although nothing is plotted yet. */
+    open(): void {
+        this.element.classList.remove("empty");
+    }
+
+    private rebuild(): void {
+        this.shown.forEach((chart) => chart.dispose());
+        const curves = this.plotted.curves.value,
+            plots = [...new Set(curves.map((curve) => curve.plot))],
+            robots = new Set(curves.map((curve) => curve.robotName));
+        this.element.classList.toggle("empty", curves.length === 0);
+        this.hint.hidden = curves.length > 0;
+        setText(this.heading, robots.size === 1 ? `Plots of ${curves[0].robotName}` : "Plots");
+        const colour = (curve: Curve) => curves.indexOf(curve);
+        this.shown = plots.map(
+            (plot) =>
+                new PlotChart(
+                    curves.filter((curve) => curve.plot === plot),
+                    colour,
+                    robots.size === 1,
+                    {
+                        unwrap: () => this.unwrap.checked,
+                        window: () => this.time,
+                        zoom: (range) => this.zoom(range),
+                        remove: (curve) => this.plotted.remove(curve),
+                    },
+                ),
+        );
+        this.charts.replaceChildren(...this.shown.map((chart) => chart.element));
+        this.refresh();
+    }
+
+    private refresh(): void {
+        this.shown.forEach((chart) => chart.refresh());
+    }
+
+    private zoom(range: [number, number] | null): void {
+        this.time.fixed = range;
+        this.back.hidden = range === null;
+        this.refresh();
+    }
+
+    private setWindow(value: string): void {
+        this.time.last = value === "" ? null : Number(value);
+        this.zoom(null);
+    }
+
+    private hold(): void {
+        this.paused = !this.paused;
+        this.pause.setAttribute("aria-pressed", String(this.paused));
+        if (!this.paused) this.refresh();
+    }
+
+    private fileName(): string {
+        return `${this.state.world.value?.fleet.scene.world ?? "roboss"}_plots`.replace(/\s+/g, "_");
+    }
+
+    private saveTable(): void {
+        download(new Blob([csvOf(this.plotted.curves.value)], { type: "text/csv" }), `${this.fileName()}.csv`);
+    }
+
+    private savePicture(): void {
+        plotPicture(this.shown).toBlob((blob) => blob !== null && download(blob, `${this.fileName()}.png`));
+    }
 }

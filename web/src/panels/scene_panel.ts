@@ -4,12 +4,14 @@ import type { Selection } from "../model/selection";
 import { allIn, treeRows, type TreeRow } from "../model/scene_tree";
 import type { ViewerState, World } from "../model/viewer_state";
 import { h, icon } from "../ui/dom";
+import { throttled } from "../ui/throttle";
 import { COARSE } from "../ui/touch";
 import { rowElement } from "./scene_row";
 
 /** A finger needs more room than a mouse. */
 const ROW_PX = COARSE ? 44 : 26;
 const SPARE_ROWS = 6;
+const DOTS_EVERY_MS = 500;
 
 export class ScenePanel {
     readonly element: HTMLElement;
@@ -64,6 +66,7 @@ export class ScenePanel {
         );
         this.follow();
         new ResizeObserver(() => this.draw()).observe(this.scroller);
+        state.dots.follow(throttled(DOTS_EVERY_MS, () => this.draw()));
     }
 
     private follow(): void {
@@ -116,6 +119,7 @@ export class ScenePanel {
             selected: this.isSelected(row),
             hidden: allIn(row, sight.hidden.value),
             locked: allIn(row, sight.locked.value),
+            dot: row.robot === undefined ? undefined : this.state.dots.value?.(row.robot),
             choose: (event) => this.choose(k, event),
             focus: () => row.robot !== undefined && this.onFocus(row.robot),
             fold: () => this.fold(row),

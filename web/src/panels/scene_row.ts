@@ -3,7 +3,7 @@ import type { RowKind, TreeRow } from "../model/scene_tree";
 import type { World } from "../model/viewer_state";
 import { h, icon } from "../ui/dom";
 import type { IconName } from "../ui/icons";
-import { meanColour } from "../view/finishes";
+import { ownCss } from "../view/own_colour";
 
 export interface RowLook {
     id: string;
@@ -13,6 +13,8 @@ export interface RowLook {
     selected: boolean;
     hidden: boolean;
     locked: boolean;
+    /** A robot's colour by the colour mode; undefined: its own. */
+    dot: string | undefined;
     choose(event: MouseEvent): void;
     focus(): void;
     fold(): void;
@@ -44,7 +46,7 @@ export function rowElement(world: World, row: TreeRow, look: RowLook): HTMLEleme
             ondblclick: look.focus,
         },
         row.open === null ? h("span", { class: "twist" }) : twist(row.open, look),
-        sign(world, row),
+        sign(world, row, look),
         h("span", { class: "row-name", title: row.text }, row.text),
         row.count === undefined ? null : h("span", { class: "count" }, String(row.count)),
         ...(row.sight.length > 0 ? switches(row, look) : []),
@@ -62,12 +64,12 @@ function twist(open: boolean, look: RowLook): HTMLElement {
     return h("span", { class: `twist ${open ? "open" : "folded"}`, "aria-hidden": "true", onclick: quiet(look.fold) });
 }
 
-function sign(world: World, row: TreeRow): Element | null {
+function sign(world: World, row: TreeRow, look: RowLook): Element | null {
     if (row.kind === "robot")
         return h("span", {
             class: "swatch",
             "aria-hidden": "true",
-            style: `background:${swatch(world, row.robot ?? 0)}`,
+            style: `background:${look.dot ?? ownCss(world, row.robot ?? 0)}`,
         });
     const name = SIGNS[row.kind];
     return name === undefined ? null : icon(name);
@@ -96,12 +98,4 @@ function switches(row: TreeRow, look: RowLook): HTMLElement[] {
     if (row.kind !== "link" && row.kind !== "light")
         buttons.unshift(one(lock, look.locked, look.locked ? "locked" : "unlocked", () => look.lock(!look.locked)));
     return buttons;
-}
-
-function swatch(world: World, robot: number): string {
-    const visual = world.fleet.type(robot).links.find((link) => link.visuals.length > 0)?.visuals[0],
-        rgb = visual?.rgb ?? [0.6, 0.6, 0.6],
-        picture = world.loaded.pictures.get(visual?.finish?.colour ?? ""),
-        over = picture === undefined ? [1, 1, 1] : meanColour(picture);
-    return `rgb(${rgb.map((part, k) => Math.round(part * over[k] * 255)).join(" ")})`;
 }

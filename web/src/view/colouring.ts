@@ -1,12 +1,14 @@
 // Colours robots by what was chosen: their model, Simulator, island or speed.
 import * as THREE from "three";
 import type { ViewerState, World } from "../model/viewer_state";
+import { ownColour } from "./own_colour";
 import { groupColour, rampColour } from "./palette";
 import type { Stage } from "./stage";
 
 /** Of no group yet. */
 const NOBODY = 0x8a929c;
-const SPEED_FULL = 3;
+/** m/s: the end of the ramp. */
+export const SPEED_FULL = 3;
 const SPEED_EVERY_S = 0.1;
 
 export class Colouring {
@@ -14,6 +16,7 @@ export class Colouring {
     private beforeTime = 0;
     private speeds = new Float32Array(0);
     private stale = true;
+    private chosen: ((robot: number, out: THREE.Color) => void) | null = null;
 
     constructor(
         private readonly stage: Stage,
@@ -36,9 +39,25 @@ export class Colouring {
         if (this.state.colourBy.value === "speed") this.measure(world);
         if (!this.stale) return;
         this.stale = false;
-        const colours = this.choose();
-        this.stage.robots?.recolour(colours);
-        for (const layer of this.stage.partly) layer.recolour(colours);
+        this.chosen = this.choose();
+        this.stage.robots?.recolour(this.chosen);
+        for (const layer of this.stage.partly) layer.recolour(this.chosen);
+        const chosen = this.chosen,
+            colour = new THREE.Color();
+        this.state.dots.set(
+            chosen === null
+                ? null
+                : (robot) => {
+                      chosen(robot, colour);
+                      return `#${colour.getHexString(THREE.SRGBColorSpace)}`;
+                  },
+        );
+    }
+
+    /** The colour of a robot as it is shown now. */
+    colourOf(world: World, robot: number, out: THREE.Color): void {
+        if (this.chosen !== null) this.chosen(robot, out);
+        else out.setRGB(...ownColour(world, robot), THREE.SRGBColorSpace);
     }
 
     private choose(): ((robot: number, out: THREE.Color) => void) | null {

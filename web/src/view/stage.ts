@@ -23,6 +23,8 @@ export class Stage {
     /** What overlays draw; they add to it and take away what they added. */
     readonly overlays = new THREE.Group();
     readonly renderer: THREE.WebGLRenderer;
+    /** The robot whose mark is near this place of the canvas (overlays/far_marks.ts); null: none. */
+    markAt: (x: number, y: number) => number | null = () => null;
     robots: RobotsLayer | null = null;
     collisions: RobotsLayer | null = null;
     statics: StaticsLayer | null = null;
