@@ -7,7 +7,7 @@ import { robotKey } from "./sight";
 import type { ViewerState } from "./viewer_state";
 
 const TURN_MS = 50;
-/** Each robot takes two orders; a page may send 200 messages a second, and others want some. */
+/** Each robot takes two orders; a page may send 200 messages per second, and others want some. */
 const ROBOTS_A_TURN = 3;
 
 export interface Placement {
