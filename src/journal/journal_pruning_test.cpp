@@ -157,7 +157,9 @@ TEST_F(PrunedJournals, StopGrowing) {
         record(*writer, before == 0 ? 0 : 400, until);
         ASSERT_TRUE(writer->close().ok());
         writer.reset();
-        if (before > 0) EXPECT_LE(fs::file_size(file()), before + before / 4);
+        if (before > 0) {
+            EXPECT_LE(fs::file_size(file()), before + before / 4);
+        }
         before = fs::file_size(file());
     }
 }
