@@ -109,7 +109,7 @@ export class Gizmo {
             on = snap !== stepped;
         this.controls.translationSnap = on ? step_m : null;
         this.controls.rotationSnap = on ? (step_deg * Math.PI) / 180 : null;
-        this.pointer.pointerMove(this.at(x, y));
+        this.pointer.pointerMove({ ...this.at(x, y), button: -1 }); // no button changes
         this.dragged = true;
         this.labels.put("gizmo", this.proxy.position, this.words());
         this.send();
