@@ -64,7 +64,7 @@ test("a search finds robots and scenery by a part of their names, in folded bran
 });
 
 test("lights are listed where the scene has some", () => {
-    const lit = { ...scene(0), lights: [{ name: "sun" }] };
+    const lit = { ...scene(0), look: { lights: [{ name: "sun" }] } } as unknown as SceneInfo;
     assert.deepEqual(keys(treeRows(lit, "", none, none)).slice(-2), ["lights", "light:sun"]);
 });
 

@@ -78,8 +78,8 @@ export class Gizmo {
     }
 
     private at(x: number, y: number): Pointer {
-        const { clientWidth, clientHeight } = this.stage.canvas;
-        return { x: (x / clientWidth) * 2 - 1, y: 1 - (y / clientHeight) * 2, button: 0 };
+        const { left, top, width, height } = this.stage.viewport;
+        return { x: ((x - left) / width) * 2 - 1, y: 1 - ((y - top) / height) * 2, button: 0 };
     }
 
     /** The arrow or ring there: "X", "XY" ...; null: none. */
@@ -109,7 +109,7 @@ export class Gizmo {
             on = snap !== stepped;
         this.controls.translationSnap = on ? step_m : null;
         this.controls.rotationSnap = on ? (step_deg * Math.PI) / 180 : null;
-        this.pointer.pointerMove(this.at(x, y));
+        this.pointer.pointerMove({ ...this.at(x, y), button: -1 }); // no button changes
         this.dragged = true;
         this.labels.put("gizmo", this.proxy.position, this.words());
         this.send();
@@ -153,6 +153,7 @@ export class Gizmo {
             leader = this.selection.robots.find((robot) => this.placing.refusal(robot) === ""),
             shown = world !== null && leader !== undefined && (tool === "place" || tool === "turn");
         this.controls.getHelper().visible = shown;
+        this.controls.camera = this.stage.camera; // of the active view
         if (!shown || this.dragging) return;
         this.controls.setMode(tool === "turn" ? "rotate" : "translate");
         this.controls.setSpace(this.options.value.space);

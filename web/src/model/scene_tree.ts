@@ -41,10 +41,9 @@ export function modelOf(name: string): string {
     return parts.length > 2 ? parts.slice(0, -2).join("::") : parts[0];
 }
 
-/** Lights as the scene lists them, in versions that do. */
+/** Lights of the world; those of links belong to their robots. */
 function lightsOf(scene: SceneInfo): string[] {
-    const { lights } = scene as SceneInfo & { lights?: { name?: string }[] };
-    return Array.isArray(lights) ? lights.map(({ name }, k) => name ?? `light ${k + 1}`) : [];
+    return (scene.look?.lights ?? []).map(({ name }) => name);
 }
 
 class Rows {

@@ -18,6 +18,8 @@ export class Atmosphere {
     private readonly ground = new Ground();
     private readonly sunlight: Sunlight;
     private readonly ambient = new THREE.AmbientLight(0xffffff, 0);
+    /** Whether this light of the world shines. */
+    shines: (light: string) => boolean = () => true;
     private lights: WorldLights | null = null;
     private look: LookInfo = {};
     private palette: ScenePalette = PALETTES.dark;
@@ -44,7 +46,11 @@ export class Atmosphere {
         this.lights = null;
         this.look = world?.loaded.scene.look ?? {};
         if (world !== null) {
-            this.lights = new WorldLights(world, this.look.scene?.shadows !== false && this.resolution > 0);
+            this.lights = new WorldLights(
+                world,
+                this.look.scene?.shadows !== false && this.resolution > 0,
+                this.shines,
+            );
             this.scene.add(this.lights.group);
         }
         this.apply();

@@ -3,7 +3,7 @@
 import { modelOf } from "../model/scene_tree";
 import type { Selection } from "../model/selection";
 import type { Signal } from "../model/signal";
-import { linkKey, robotKey, sceneryKey } from "../model/sight";
+import { lightKey, linkKey, robotKey, sceneryKey } from "../model/sight";
 import type { ViewerState, World } from "../model/viewer_state";
 import type { Colouring } from "./colouring";
 import type { Part } from "./robots_layer";
@@ -12,6 +12,7 @@ import type { Stage } from "./stage";
 export class SightLayer {
     private stale = true;
     private hiddenScenery = "";
+    private hiddenLights = "";
 
     constructor(
         private readonly stage: Stage,
@@ -28,7 +29,14 @@ export class SightLayer {
         };
         // Before the scene is shown for the first time, so that nothing hidden flashes up.
         stage.showScenery(null, (visual) => !sight.hidden.value.has(sceneryKey(modelOf(visual.name))));
-        sight.hidden.follow((hidden) => this.showScenery(hidden));
+        const shines = (light: string) => !sight.hidden.value.has(lightKey(light));
+        stage.showLights(null, shines);
+        sight.hidden.follow((hidden) => {
+            this.showScenery(hidden);
+            const lights = [...hidden].filter((key) => key.startsWith("light:")).join("\n");
+            if (lights !== this.hiddenLights) stage.showLights(state.world.value, shines);
+            this.hiddenLights = lights;
+        });
     }
 
     private showScenery(hidden: ReadonlySet<string>): void {

@@ -120,6 +120,12 @@ export class Stage {
         this.scene.add(this.statics.group);
     }
 
+    /** Lets only these lights of the world shine. */
+    showLights(world: World | null, shown: (light: string) => boolean): void {
+        this.atmosphere.shines = shown;
+        this.atmosphere.show(world);
+    }
+
     /** Draws robots by parts; `away`: these and those that are hidden. */
     showParts(world: World, parts: readonly Part[], away: Iterable<number>): void {
         for (const layer of this.partly) {

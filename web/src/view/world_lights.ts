@@ -56,8 +56,8 @@ export class WorldLights {
     private bodies = new Float64Array(0);
     private placed = false;
 
-    constructor(world: World, shadows: boolean) {
-        const still = world.loaded.scene.look?.lights ?? [];
+    constructor(world: World, shadows: boolean, shown: (name: string) => boolean) {
+        const still = (world.loaded.scene.look?.lights ?? []).filter(({ name }) => shown(name));
         this.sun = still.find(({ kind }) => kind === "directional") ?? null;
         for (const info of still) if (info !== this.sun) this.add(info, null, -1, [0, 0, 0, 1, 0, 0, 0]);
         for (let r = 0; r < world.fleet.count; ++r)
