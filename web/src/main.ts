@@ -102,9 +102,7 @@ const pointer = new CameraPointer(
     views,
     hand,
     () => state.cameraMode.value,
-    () => {
-        if (state.cameraMode.value === "follow" || state.cameraMode.value === "chase") state.cameraMode.set("orbit");
-    },
+    () => director.letGo(),
     stage,
 );
 
@@ -189,18 +187,12 @@ const loop = new FrameLoop({
     ],
 });
 
-function focusSelected(): void {
-    if (state.selected.value !== null) director.focus(state.selected.value);
-}
-
 function togglePanel(side: "left" | "right"): void {
     if (sheets.isNarrow()) return sheets.toggle(side === "left" ? "robots" : "inspector");
     document.body.classList.toggle(`no-${side}`);
 }
 
-async function copyLink(): Promise<void> {
-    said.say(await copyViewLink(state, views, plotted.words()));
-}
+const copyLink = () => void copyViewLink(state, views, plotted.words()).then((words) => said.say(words));
 
 const actions = new Actions(),
     help = helpCard(actions),
@@ -216,7 +208,7 @@ actions.add(
             list.search.focus();
         },
         togglePanel,
-        copyLink: () => void copyLink(),
+        copyLink,
         help: () => help.open(),
         palette: () => palette.open(),
         openSheet: (id) => sheets.show(id),
@@ -228,11 +220,11 @@ actions.add(...viewActions(views, director));
 actions.listen();
 
 const top = topBar(state, capture, desk.element, {
-    copyLink: () => void copyLink(),
+    copyLink,
     help: () => help.open(),
     palette: () => palette.open(),
     home: () => director.home(),
-    focus: focusSelected,
+    focus: () => director.focusSelected(),
     togglePanel,
 });
 document.body.prepend(top.element, top.menu);

@@ -32,6 +32,7 @@ export class Director {
             views.camera.robot = robot;
             this.approach();
         });
+        views.count.follow((count) => stage.layOut(count));
         views.active.follow(() => {
             this.activating = true;
             state.cameraMode.set(views.camera.mode);
@@ -125,6 +126,15 @@ export class Director {
         if (world === null) return;
         this.views.rig.goal.target = placeOf(world, robot);
         this.views.rig.goal.distance = closeness(world, robot);
+    }
+
+    focusSelected(): void {
+        if (this.state.selected.value !== null) this.focus(this.state.selected.value);
+    }
+
+    /** Follows no longer: the camera was moved away. */
+    letGo(): void {
+        if (this.views.camera.following()) this.state.cameraMode.set("orbit");
     }
 
     /** The camera stays on this robot from now on. */

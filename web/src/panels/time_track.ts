@@ -8,6 +8,7 @@ import { clockText } from "../ui/numbers";
 import type { BookmarkInfo } from "../wire/timeline";
 
 const REST_MS = 140;
+const STILL_PX = 2;
 const STEPS = 100_000;
 const PIXELS_A_MARK = 84;
 /** Width of the slider's thumb, px: half of it at each end is no time. */
@@ -41,7 +42,7 @@ export class TimeTrack {
     private held = false;
     private timer = 0;
     private marked = "";
-    private pointed = "";
+    private pointed = { x: -1, y: -1 };
 
     constructor(
         private readonly state: ViewerState,
@@ -70,7 +71,7 @@ export class TimeTrack {
         const { slider } = this;
         slider.addEventListener("pointerdown", (event) => {
             this.held = true;
-            this.pointed = `${event.clientX} ${event.clientY}`;
+            this.pointed = { x: event.clientX, y: event.clientY };
         });
         for (const end of ["pointerup", "pointercancel", "change"])
             slider.addEventListener(end, () => (this.held = false));
@@ -110,9 +111,9 @@ export class TimeTrack {
     private point(event: PointerEvent): void {
         if (event.pointerType !== "mouse" || this.held || !this.span.enabled) return;
         // The browser repeats the last place when the layout moves under a pointer that rests.
-        const at = `${event.clientX} ${event.clientY}`;
-        if (at === this.pointed) return;
-        this.pointed = at;
+        const { x, y } = this.pointed;
+        if (Math.hypot(event.clientX - x, event.clientY - y) < STILL_PX) return;
+        this.pointed = { x: event.clientX, y: event.clientY };
         const box = this.slider.getBoundingClientRect(),
             time = sliderTime(this.span, (event.clientX - box.left - THUMB / 2) / Math.max(1, box.width - THUMB));
         this.element.classList.add("pointed");

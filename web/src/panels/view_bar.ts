@@ -83,5 +83,5 @@ export function viewBar(state: ViewerState, views: Views, director: Director): H
         },
         "Views",
     );
-    return h("div", { class: "view-bar" }, toggle, buttons);
+    return h("div", { class: "view-bar", "data-covers": "" }, toggle, buttons);
 }

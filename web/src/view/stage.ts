@@ -11,7 +11,7 @@ import { type Lens, Lenses } from "./lens";
 import { PALETTES, type ScenePalette } from "./palette";
 import { type Part, RobotsLayer } from "./robots_layer";
 import { StaticsLayer } from "./statics_layer";
-import { viewAt, type Viewport, viewports } from "./viewports";
+import { viewAt, type ViewCount, type Viewport, viewports } from "./viewports";
 
 /** auto: as good as the machine draws smoothly. low: for machines that draw in software. */
 export type Quality = "low" | "high" | "auto";
@@ -170,10 +170,15 @@ export class Stage {
         if (this.collisions?.group.visible === true) this.collisions.update(world.history);
     }
 
+    /** Divides the canvas: clicks find their view before the next frame is drawn, too. */
+    layOut(count: ViewCount): void {
+        this.ports = viewports(count, this.size.width, this.size.height);
+    }
+
     aim(views: Views): void {
         this.rigs = views.shown.map(({ rig }) => rig);
         this.active = views.active.value;
-        this.ports = viewports(views.count.value, this.size.width, this.size.height);
+        this.layOut(views.count.value);
         this.rigs.forEach((rig, k) => this.lenses[k].aim(rig, this.ports[k].width / this.ports[k].height));
     }
 
