@@ -77,6 +77,7 @@ Result<Journal> Journal::open_as(const std::string& path, bool look_through) {
     journal.path_ = path;
     journal.db_ = std::move(opened).value();
     if (Result<> read = journal.read_meta(); !read) return read.error();
+    if (!journal.has_whole_pages()) return journal.damaged("it is truncated");
     if (look_through) {
         Result<std::vector<Row>> sound = journal.db_->select("PRAGMA integrity_check(1)");
         if (!sound || sound.value().size() != 1 || sound.value()[0][0] != Value(std::string("ok")))
@@ -84,6 +85,19 @@ Result<Journal> Journal::open_as(const std::string& path, bool look_through) {
     }
     if (Result<> read = journal.refresh(); !read) return read.error();
     return journal;
+}
+
+/// A file that no run is writing consists of whole pages.
+bool Journal::has_whole_pages() const {
+    std::error_code error;
+    const auto waiting = std::filesystem::file_size(path_ + "-wal", error);
+    if (!error && waiting > 0) return true;
+    const Result<std::vector<Row>> rows = db_->select("PRAGMA page_size");
+    const auto* page =
+        rows && rows.value().size() == 1 ? std::get_if<std::int64_t>(&rows.value()[0][0]) : nullptr;
+    if (page == nullptr || *page <= 0) return false;
+    const auto size = std::filesystem::file_size(path_, error);
+    return !error && size % static_cast<std::uintmax_t>(*page) == 0;
 }
 
 /// All tables as they are at one moment, although the file may be written meanwhile.

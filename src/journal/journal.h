@@ -121,6 +121,7 @@ class Journal {
     };
     static Result<Journal> open_as(const std::string& path, bool look_through);
     Error damaged(const std::string& what) const;
+    bool has_whole_pages() const;
     bool has_bases() const;
     Result<> read_meta();
     Result<> read_tables();

@@ -306,6 +306,7 @@ Result<> JournalWriter::write_rows(const Pending& pending) {
     if (Result<> r = db_->insert("DELETE FROM bookmarks WHERE id = ?", pending.bookmarks_removed); !r)
         return r;
     next_tail_ = tail_;
+    if (!pending.logs()) return Ok{};
     BatchRow row = to_batch_row(pending.entries);
     row.branch = branch_;
     row.serial = ++next_tail_.serial;

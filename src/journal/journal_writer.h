@@ -86,10 +86,9 @@ class JournalWriter : public RunLog {
         std::vector<Row> models, branches;  // that begin here
         std::vector<Row> bookmarks, bookmarks_removed;
         std::uint64_t given = 0;  // counted with the last of it
-        bool empty() const {
-            return entries.empty() && planned < 0 && committed < 0 && !checkpoint && bookmarks.empty() &&
-                   bookmarks_removed.empty();
-        }
+        bool empty() const { return !logs() && bookmarks.empty() && bookmarks_removed.empty(); }
+        /// Something that belongs to the log of the branch.
+        bool logs() const { return !entries.empty() || planned >= 0 || committed >= 0 || checkpoint; }
     };
     JournalWriter() = default;
     void serve();

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include <support/compiling.h>
+#include <support/robots.h>
 
 #include "journal/journal_writer.h"
 #include "model/edit.h"
@@ -26,8 +27,8 @@ class JournalPreviews : public ::testing::Test {
         fs::remove_all(folder_);
         fs::create_directories(folder_);
         World world = empty_world(1e-3);
-        place(world, row_of_three(), "one", {{0, 0, 5}, {}});
-        place(world, row_of_three(), "two", {{0, 9, 5}, {}});
+        place(world, ball_chain(), "one", {{0, 0, 5}, {}});
+        place(world, ball_chain(), "two", {{0, 9, 5}, {}});
         Diagnostics found;
         model_ = compile(world, {}, found);
         record();
@@ -49,6 +50,8 @@ class JournalPreviews : public ::testing::Test {
             std::vector<std::uint8_t>& view = views_.emplace_back();
             for (std::size_t r = 0; r < model_->robots.size(); ++r)
                 ViewLayout(*model_).append(*model_, RobotId(r), run.value()->states()[r], view);
+            if (tick % kEvery != 0) continue;
+            ASSERT_TRUE(writer.value()->flush().ok());  // no checkpoint is left out
         }
         ASSERT_TRUE(run.value()->run_until(kEnd + 50).ok());
         ASSERT_TRUE(writer.value()->close().ok());
