@@ -102,8 +102,13 @@ ControlOutcome JournalPreview::preview(const Question& question) {
     }
     if (!moment) return ControlRefused(moment.error());
     if (!warm) return ControlRefused(warm.error());
-    const auto patient = [&] { return now_ms() < until_ms && goes_on(question.request.asker); };
-    const Result<> stepped = warm.value()->simulation->run_until(moment.value().tick, patient);
+    Simulation& simulation = *warm.value()->simulation;
+    const Tick began = simulation.tick();
+    // A window at least, so that many impatient requests come nearer, too.
+    const auto patient = [&] {
+        return simulation.tick() == began || (now_ms() < until_ms && goes_on(question.request.asker));
+    };
+    const Result<> stepped = simulation.run_until(moment.value().tick, patient);
     if (!stepped) return warm_.pop_front(), ControlRefused(stepped.error());
     return shown(question, moment.value(), *warm.value());
 }
