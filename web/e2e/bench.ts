@@ -198,6 +198,13 @@ export async function openPage(browser: Browser, run: Run, query = ""): Promise<
     return { page, errors };
 }
 
+/** Presses a button of the top bar, which stands in its menu where the bar is too narrow. */
+export async function pressInBar(page: Page, label: string): Promise<void> {
+    const button = page.getByLabel(label, { exact: true });
+    if (!(await button.isVisible())) await page.getByRole("button", { name: "More", exact: true }).first().click();
+    await button.click();
+}
+
 /** Waits until `ask` says yes; fails with `what` otherwise. */
 export async function until(what: string, ask: () => Promise<boolean>, wait_ms = 20_000): Promise<void> {
     const end = Date.now() + wait_ms;

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { Bench, choose, openPage, PROGRAM, startRun, time, until, WAIT_MS } from "./bench";
+import { Bench, choose, openPage, pressInBar, PROGRAM, startRun, time, until, WAIT_MS } from "./bench";
 
 declare global {
     interface Window {
@@ -110,14 +110,14 @@ bench.test("robots are coloured by Simulator and by island", async (page) => {
 });
 
 bench.test("a picture is saved, and a link brings back camera and selection", async (page) => {
-    const [download] = await Promise.all([page.waitForEvent("download"), page.getByLabel("Save a picture").click()]);
+    const [download] = await Promise.all([page.waitForEvent("download"), pressInBar(page, "Save a picture")]);
     const picture = readFileSync(await download.path());
     assert.equal(picture.subarray(1, 4).toString(), "PNG");
     assert.ok(picture.length > 5000, `${picture.length} bytes`);
     await choose(page, "car_9");
-    await page.getByLabel("Look at the selected robot").click();
+    await pressInBar(page, "Look at the selected robot");
     await page.waitForTimeout(1000);
-    await page.getByLabel("Copy a link to this view").click();
+    await pressInBar(page, "Copy a link to this view");
     const link = page.url(),
         camera = await page.evaluate(() => window.roboss.views.rig.goal.distance);
     const other = await openPage(bench.browser, { ...bench.run, url: link });
@@ -129,9 +129,9 @@ bench.test("a picture is saved, and a link brings back camera and selection", as
 });
 
 bench.test("a video is recorded and saved", async (page) => {
-    await page.getByLabel("Record a video").click();
+    await pressInBar(page, "Record a video");
     await page.waitForTimeout(2500);
-    const [download] = await Promise.all([page.waitForEvent("download"), page.getByLabel("Record a video").click()]);
+    const [download] = await Promise.all([page.waitForEvent("download"), pressInBar(page, "Record a video")]);
     const video = readFileSync(await download.path());
     assert.match(download.suggestedFilename(), /\.(webm|mp4)$/);
     assert.ok(video.length > 2000, `${video.length} bytes`);

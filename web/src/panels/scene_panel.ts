@@ -105,7 +105,9 @@ export class ScenePanel {
         this.rowsHost.replaceChildren();
         if (world === null) return;
         for (let k = first; k < last; ++k) this.rowsHost.append(this.row(world, k));
-        if (this.rows.length > 0) this.scroller.setAttribute("aria-activedescendant", `row-${this.active}`);
+        // Only what is in the document can be named.
+        if (this.active >= first && this.active < last)
+            this.scroller.setAttribute("aria-activedescendant", `row-${this.active}`);
         else this.scroller.removeAttribute("aria-activedescendant");
     }
 

@@ -86,7 +86,7 @@ export function topBar(
         ),
     );
     bar.insertBefore(iconButton("command", "All commands", actions.palette, "Ctrl K"), tools.element);
-    desk.dataset.yields = "6";
+    desk.dataset.yields = "2";
     const more = moreMenu(bar, "More", false);
     bar.append(more.button);
     // What a bar holds changes its width, too: who has control, what the run does.
