@@ -107,6 +107,12 @@ async function throughAll(look: (where: string) => Promise<void>): Promise<void>
         await look("a menu");
         await more.tap();
     }
+    const views = page.locator(".view-toggle");
+    if (await views.isVisible()) {
+        await views.tap();
+        await look("the views");
+        await views.tap();
+    }
     const bar = page.locator(".sheet-bar button");
     if (await page.locator(".sheet-bar").isVisible())
         for (const button of await bar.all()) {

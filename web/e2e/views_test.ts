@@ -49,6 +49,27 @@ async function sees(page: Page, told: string): Promise<void> {
     assert.ok(Math.max(right - left, top - bottom) > 1.3, `small in the picture, ${words}`);
 }
 
+/** The camera is at the selected robot. */
+function atRobot(page: Page): Promise<void> {
+    return until(
+        "the camera is at the car",
+        () =>
+            page.evaluate(() => {
+                const {
+                        views: { rig },
+                        state,
+                    } = window.roboss,
+                    at = (state.selected.value ?? 0) * 7,
+                    base = state.world.value?.history.drawn.base;
+                return (
+                    base !== undefined &&
+                    Math.hypot(rig.now.target[0] - base[at], rig.now.target[1] - base[at + 1]) < 0.1
+                );
+            }),
+        WAIT_MS,
+    );
+}
+
 for (const size of SIZES)
     bench.test(
         `the whole world is in a window of ${size.width} x ${size.height}, at first sight and from all sides`,
@@ -78,23 +99,7 @@ bench.test("a followed car stays in the middle of the picture while it drives", 
     await choose(page, "car_3");
     await page.locator(".view canvas").focus(); // a key is typed where the search has the focus
     await page.keyboard.press("3");
-    await until(
-        "the camera is at the car",
-        () =>
-            page.evaluate(() => {
-                const {
-                        views: { rig },
-                        state,
-                    } = window.roboss,
-                    at = (state.selected.value ?? 0) * 7,
-                    base = state.world.value?.history.drawn.base;
-                return (
-                    base !== undefined &&
-                    Math.hypot(rig.now.target[0] - base[at], rig.now.target[1] - base[at + 1]) < 0.1
-                );
-            }),
-        WAIT_MS,
-    );
+    await atRobot(page);
     await until("the camera arrives", () => arrived(page), WAIT_MS);
     const box = await page.evaluate(() => {
         const { left, top, width, height } = window.roboss.stage.canvas.getBoundingClientRect();
@@ -116,11 +121,14 @@ bench.test("a followed car stays in the middle of the picture while it drives", 
 bench.test("a double click follows the robot", async (page) => {
     await page.keyboard.press("1");
     await page.keyboard.press("Escape");
-    await page.evaluate(() => window.roboss.state.selected.set(null));
+    // A car that stands is where it was seen.
+    await page.evaluate(() => window.roboss.run.control("pause"));
+    await until("it stands", () => page.evaluate(() => window.roboss.state.status.value?.paused === true));
     await page.evaluate(() => window.roboss.director.followRobot(4));
+    await atRobot(page);
     await until("the camera arrives", () => arrived(page), WAIT_MS);
-    await page.evaluate(() => window.roboss.state.selected.set(null));
     await page.keyboard.press("1");
+    await page.evaluate(() => window.roboss.state.selected.set(null));
     await until(
         "it is met by the double click",
         async () => {
@@ -132,6 +140,7 @@ bench.test("a double click follows the robot", async (page) => {
         },
         WAIT_MS,
     );
+    await page.evaluate(() => window.roboss.run.control("resume"));
 });
 
 bench.test("four views have cameras of their own, a click makes one active, and the address keeps them", async () => {

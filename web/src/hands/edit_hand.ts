@@ -59,12 +59,12 @@ export class EditHand extends RobotHand {
             world = state.world.value;
         if (world === null) return;
         if (state.adding.value !== null) return this.add(world, x, y);
-        const picked = pick(stage, world, x, y);
-        if (picked === null && !event.shiftKey && state.attaching.value === null) return this.clickScenery(x, y);
-        if (picked !== null && (event.ctrlKey || event.metaKey)) return selection.toggle(picked.robot);
-        const chooses = picked !== null && state.attaching.value === null && !event.shiftKey;
+        const robot = pick(stage, world, x, y)?.robot ?? stage.markAt(x, y);
+        if (robot === null && !event.shiftKey && state.attaching.value === null) return this.clickScenery(x, y);
+        if (robot !== null && (event.ctrlKey || event.metaKey)) return selection.toggle(robot);
+        const chooses = robot !== null && state.attaching.value === null && !event.shiftKey;
         super.click(x, y, event);
-        if (chooses) selection.only(picked.robot);
+        if (chooses) selection.only(robot);
     }
 
     private add(world: World, x: number, y: number): void {

@@ -217,14 +217,18 @@ export class RobotHand implements PointerHand {
     }
 
     doubleClick(x: number, y: number): void {
-        const world = this.state.world.value,
-            picked = world === null ? null : pick(this.stage, world, x, y);
-        if (picked !== null) this.onFollow(picked.robot);
+        const robot = this.robotAt(x, y);
+        if (robot !== null) this.onFollow(robot);
     }
 
     longPress(x: number, y: number): void {
-        const world = this.state.world.value,
-            picked = world === null ? null : pick(this.stage, world, x, y);
-        if (picked !== null) this.onOpen(picked.robot);
+        const robot = this.robotAt(x, y);
+        if (robot !== null) this.onOpen(robot);
+    }
+
+    /** The robot that is drawn there, or whose mark is. */
+    private robotAt(x: number, y: number): number | null {
+        const world = this.state.world.value;
+        return world === null ? null : (pick(this.stage, world, x, y)?.robot ?? this.stage.markAt(x, y));
     }
 }

@@ -42,6 +42,10 @@ export function moreMenu(bar: HTMLElement, label: string, up: boolean, name: Ico
         button.setAttribute("aria-expanded", String(open));
     };
     button.addEventListener("click", () => show(menu.hidden));
+    // As in other menus; the bar of time is pressed again and again.
+    menu.addEventListener("click", (event) => {
+        if (!up && (event.target as HTMLElement).closest("button") !== null) show(false);
+    });
     menu.addEventListener("keydown", (event) => {
         if (event.key !== "Escape") return;
         show(false);
