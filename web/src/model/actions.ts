@@ -81,9 +81,10 @@ export class Actions {
             const target = event.target as HTMLElement,
                 found = this.byKey(pressed(event));
             if (found === undefined || event.altKey || document.querySelector("dialog[open]") !== null) return;
-            const typing = target.matches(
-                "input:not([type=checkbox]):not([type=radio]):not([type=range]), select, textarea",
-            );
+            // A dialog that closes keeps the focus for a moment.
+            const typing =
+                target.matches("input:not([type=checkbox]):not([type=radio]):not([type=range]), select, textarea") &&
+                target.checkVisibility();
             if (typing && found.everywhere !== true) return;
             if (event.key === " " && target.matches("button, summary, input, [role=tab]")) return;
             if (event.repeat && found.repeats !== true) return;
