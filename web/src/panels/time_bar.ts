@@ -7,7 +7,7 @@ import { h, icon, iconButton, setText } from "../ui/dom";
 import { clockText, factorText } from "../ui/numbers";
 import type { Signal } from "../model/signal";
 import { bookmarksOnPath, timelineOf } from "../model/timeline";
-import { asked } from "../ui/confirm";
+import { asked, chosen } from "../ui/confirm";
 import { moreMenu } from "../ui/overflow";
 import { BranchPanel } from "./time_branches";
 import { momentStrip, momentWord } from "./time_moment";
@@ -25,6 +25,8 @@ export interface TimeBar {
     toggleBranches(): void;
     /** False: the present is seen already. */
     backToNow(): boolean;
+    /** Asks to where. */
+    reset(): void;
 }
 
 export function timeBar(state: ViewerState, run: RunLink): TimeBar {
@@ -36,11 +38,7 @@ export function timeBar(state: ViewerState, run: RunLink): TimeBar {
                 state.status.set({ ...state.status.value, paused: !paused() });
         });
     const step = (ticks: number) => void run.control("step", String(ticks));
-    const reset = () => {
-        const kept = state.status.value?.journal ?? null;
-        if (kept !== null || window.confirm("Start the run over? Without a journal there is no way back."))
-            void run.control("reset");
-    };
+    const reset = () => void resetRun(state, run);
     const play = h("button", { type: "button", class: "play", onclick: playOrPause });
     const ticks = h(
         "select",
@@ -78,7 +76,11 @@ export function timeBar(state: ViewerState, run: RunLink): TimeBar {
         h(
             "div",
             { class: "transport", role: "group", "aria-label": "Play and step" },
-            h("div", { "data-yields": 2 }, iconButton("reset", "Back to the beginning", reset, "", "Beginning")),
+            h(
+                "div",
+                { "data-yields": 2 },
+                iconButton("reset", "Reset: to the beginning or the last save", reset, "", "Reset"),
+            ),
             play,
             h(
                 "div",
@@ -108,7 +110,7 @@ export function timeBar(state: ViewerState, run: RunLink): TimeBar {
         run.preview.leave();
         return away;
     };
-    return { element, playOrPause, step, faster, bookmark, toggleBranches, backToNow };
+    return { element, playOrPause, step, faster, reset, bookmark, toggleBranches, backToNow };
 }
 
 function branchPanel(state: ViewerState, run: RunLink) {
@@ -123,6 +125,16 @@ function branchPanel(state: ViewerState, run: RunLink) {
     for (const signal of [state.status, run.preview.wanted, run.preview.pinned])
         (signal as Signal<unknown>).follow(() => panel.update());
     return { panel, toggleBranches, branches };
+}
+
+/** Without a journal there is no way back, so it asks. */
+async function resetRun(state: ViewerState, run: RunLink): Promise<void> {
+    const kept = (state.status.value?.journal ?? null) !== null;
+    const to = await chosen(
+        `Reset the run? ${kept ? "The journal keeps what was." : "Without a journal there is no way back."}`,
+        { start: "To the beginning", save: "To the last save" },
+    );
+    if (to !== null) await run.control("reset", to);
 }
 
 async function nameMoment(state: ViewerState, run: RunLink): Promise<void> {

@@ -60,3 +60,33 @@ export function asked(question: string, value: string, verb: string): Promise<st
         input.select();
     });
 }
+
+/** Asks in a dialog which of the choices; null: none. */
+export function chosen(question: string, choices: Readonly<Record<string, string>>): Promise<string | null> {
+    return new Promise((resolve) => {
+        const dialog = h(
+            "dialog",
+            {
+                class: "confirm",
+                "aria-label": question,
+                onclose: () => {
+                    dialog.remove();
+                    resolve(dialog.returnValue in choices ? dialog.returnValue : null);
+                },
+            },
+            h(
+                "form",
+                { method: "dialog" },
+                h("p", {}, question),
+                h(
+                    "div",
+                    { class: "buttons" },
+                    h("button", { type: "button", onclick: () => dialog.close() }, "Cancel"),
+                    ...Object.entries(choices).map(([value, text]) => h("button", { type: "submit", value }, text)),
+                ),
+            ),
+        );
+        document.body.append(dialog);
+        dialog.showModal();
+    });
+}
