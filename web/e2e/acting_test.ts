@@ -271,29 +271,4 @@ bench.test(
     },
 );
 
-bench.test("the run returns to its last save, and is started over", async (page) => {
-    const reset = async (to: string) => {
-        await page.getByLabel(/^Reset: /).click();
-        await page.getByRole("dialog").getByRole("button", { name: to }).click();
-    };
-    await reset("To the last save");
-    await until("a refusal", async () => (await notice(page)).includes("nothing has been saved"));
-    await page.evaluate(() => window.roboss.run.control("pause"));
-    await page.evaluate(() => window.roboss.run.control("save", `reset-${Date.now()}.roboss`));
-    const hash = () => page.evaluate(() => window.roboss.state.status.value?.state_hash);
-    await until("it stands", () => page.evaluate(() => window.roboss.state.status.value?.paused === true));
-    const saved = await hash();
-    await page.evaluate(() => window.roboss.run.control("step", "500"));
-    await until("later", async () => (await hash()) !== saved);
-    await until("it stands again", () => page.evaluate(() => window.roboss.state.status.value?.paused === true));
-    await reset("To the last save");
-    await until("the state that was saved", async () => (await hash()) === saved);
-    await page.evaluate(() => window.roboss.run.control("resume"));
-    await until("some time to go back over", async () => (await time(page)) > 4);
-    await reset("To the beginning");
-    await until("an early time", async () => (await time(page)) < 4);
-    const then = await time(page);
-    await until("time that passes", async () => (await time(page)) > then + 0.3);
-});
-
 bench.endsWithCleanConsole();

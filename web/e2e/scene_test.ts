@@ -1,58 +1,13 @@
 // Handling the scene, with the program: hidden and locked things, the gizmo, typed poses, several robots at once, copy,
-// remove, undo, files that are dropped and shapes that are added. In the world beside this file.
+// remove, undo. In the world beside this file.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
 import { Bench, choose, PROGRAM, until } from "./bench";
+import { names, near, pause, press, row, stand } from "./scene_steps";
 import { resting, visiblePoint } from "./sight";
 
 const skip = PROGRAM === "" ? "the mock changes no world" : false;
 const bench = new Bench({ world: "../web/e2e/scene.sdf", port: 8290 }, skip);
-
-const URDF = `<robot name="puck"><link name="body"><inertial><mass value="1"/>
-<inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial>
-<collision><geometry><cylinder radius="0.2" length="0.1"/></geometry></collision>
-<visual><geometry><cylinder radius="0.2" length="0.1"/></geometry></visual></link></robot>`;
-
-const names = (page: Page) =>
-    page.evaluate(() => window.roboss.state.world.value?.fleet.scene.robots.map(({ name }) => name) ?? []);
-const row = (page: Page, name: string) => page.locator(".row", { hasText: new RegExp(`^${name}$`) });
-const paused = (page: Page) => page.evaluate(() => window.roboss.state.status.value?.paused === true);
-
-/** A key of the page, not of the field that has the focus. */
-async function press(page: Page, key: string): Promise<void> {
-    await page.locator("canvas").focus();
-    await page.keyboard.press(key);
-}
-
-/** Where a robot is drawn: its own frame and its joint coordinates. */
-function stand(page: Page, name: string): Promise<{ pose: number[]; joints: number[] }> {
-    return page.evaluate((wanted) => {
-        const { state, scene } = window.roboss,
-            world = state.world.value,
-            robot = world?.fleet.find(wanted);
-        if (world === null || robot === undefined) return { pose: [], joints: [] };
-        const [from, to] = [world.fleet.firstCoordinate[robot], world.fleet.firstCoordinate[robot + 1]];
-        return { pose: scene.placing.frame(robot), joints: [...world.history.drawn.joints.slice(from, to)] };
-    }, name);
-}
-
-async function pause(page: Page, on: boolean): Promise<void> {
-    if ((await paused(page)) !== on) await page.getByLabel(on ? "Pause" : "Play", { exact: true }).click();
-    await until(on ? "paused" : "running", async () => (await paused(page)) === on);
-    if (!on) return;
-    // The last States of the time before have come when nothing moves any more.
-    let before = "";
-    await until("it rests", async () => {
-        const now = JSON.stringify(await Promise.all((await names(page)).map((name) => stand(page, name))));
-        return now === before || ((before = now), false);
-    });
-}
-
-const near = (a: readonly number[], b: readonly number[], within: number, what: string) =>
-    assert.ok(
-        a.length === b.length && a.every((value, k) => Math.abs(value - b[k]) <= within),
-        `${what}: ${a}, not ${b}`,
-    );
 
 bench.test("what is hidden leaves the picture, what is locked is not picked, and a reload keeps both", async (page) => {
     await choose(page, "crate_1");
@@ -224,82 +179,6 @@ bench.test("a copy has the joint positions of its original and stands beside it"
     near(copy.pose.slice(1), original.pose.slice(1), 1e-4, "the rest of its pose");
     await press(page, "Control+z");
     await until("gone", async () => !(await names(page)).includes("pendulum_1"));
-});
-
-bench.test("a file that is dropped on the picture is added there", async (page) => {
-    await page.evaluate((content) => {
-        const data = new DataTransfer(),
-            { canvas } = window.roboss.stage,
-            box = canvas.getBoundingClientRect(),
-            at = { clientX: box.left + box.width / 2, clientY: box.top + box.height / 2 };
-        data.items.add(new File([content], "puck.urdf"));
-        for (const kind of ["dragover", "drop"])
-            canvas.dispatchEvent(new DragEvent(kind, { dataTransfer: data, bubbles: true, cancelable: true, ...at }));
-    }, URDF);
-    await until("the puck", async () => (await names(page)).includes("puck"));
-    // Larger than other messages may be.
-    const large = URDF.replace("<link", `<!-- ${"x".repeat(200_000)} --><link`);
-    await page.getByLabel("Add a shape or a file").click();
-    await page
-        .getByLabel("SDF or URDF file")
-        .setInputFiles({ name: "large.urdf", mimeType: "text/xml", buffer: Buffer.from(large) });
-    await page.getByText("Click where large.urdf shall stand.").waitFor();
-    const box = (await page.locator("canvas").boundingBox()) ?? { x: 0, y: 0, width: 0, height: 0 };
-    await page.mouse.click(box.x + box.width * 0.3, box.y + box.height * 0.7);
-    await until("another puck", async () => (await names(page)).includes("puck_1"));
-});
-
-bench.test("a box with the sizes that are given is added, and scenery is chosen in the picture", async (page) => {
-    await page.getByLabel("Add a shape or a file").click();
-    await page.getByLabel("Length (x)").fill("0");
-    await page.getByRole("button", { name: "Add at the middle of the view" }).click();
-    await page.getByText("Sizes are numbers above 0").waitFor();
-    await page.getByLabel("Length (x)").fill("0.6");
-    await page.getByRole("spinbutton", { name: "Mass" }).fill("2.5");
-    await page.getByRole("button", { name: "Add at the middle of the view" }).click();
-    await until("the box", async () => (await names(page)).includes("box"));
-    const type = await page.evaluate(() => {
-        const fleet = window.roboss.state.world.value?.fleet;
-        return fleet?.type(fleet.find("box") ?? 0);
-    });
-    assert.deepEqual(type?.links[0].visuals[0].size, [0.6, 0.4, 0.4]);
-    assert.equal(type?.links[0].mass, 2.5);
-    near(type?.links[0].inertia?.slice(0, 1) ?? [], [(2.5 * 0.32) / 12], 1e-9, "its inertia");
-    await press(page, "h");
-    await until("the wall under some point", () =>
-        page.evaluate(() => {
-            const { canvas } = window.roboss.stage,
-                box = canvas.getBoundingClientRect();
-            for (let y = 8; y < box.height; y += 8)
-                for (let x = 8; x < box.width; x += 8) {
-                    if (window.roboss.scene.sceneryAt(box.left + x, box.top + y) !== "wall") continue;
-                    Object.assign(document.body.dataset, { wallx: box.left + x, wally: box.top + y });
-                    return true;
-                }
-            return false;
-        }),
-    );
-    const at = await page.evaluate(() => [Number(document.body.dataset.wallx), Number(document.body.dataset.wally)]);
-    await page.mouse.click(at[0], at[1]);
-    await until("the wall", () => page.evaluate(() => window.roboss.state.scenery.value === "wall"));
-});
-
-bench.test("a box drawn with Shift selects what is in it", async (page) => {
-    await page.keyboard.press("Escape");
-    const box = (await page.locator("canvas").boundingBox()) ?? { x: 0, y: 0, width: 0, height: 0 };
-    const count = (await names(page)).length;
-    await press(page, "h");
-    // Until the camera has arrived, some may be outside.
-    await until("all of them", async () => {
-        await page.keyboard.down("Shift");
-        await page.mouse.move(box.x + 4, box.y + 4);
-        await page.mouse.down();
-        await page.mouse.move(box.x + box.width - 4, box.y + box.height - 4, { steps: 4 });
-        await page.mouse.up();
-        await page.keyboard.up("Shift");
-        return page.evaluate((n) => window.roboss.scene.selection.robots.length === n, count);
-    });
-    await page.keyboard.press("Escape");
 });
 
 bench.endsWithCleanConsole();

@@ -13,9 +13,11 @@ function filesIn(folder) {
         .map((name) => join(tests, folder, name));
 }
 
+let failed = 0;
+
 function run(files) {
     const done = spawnSync(process.execPath, ["--test", ...files], { stdio: "inherit" });
-    if (done.status !== 0) process.exit(done.status ?? 1);
+    if (done.status !== 0) ++failed;
 }
 
 for (const word of process.argv.length > 2 ? process.argv.slice(2) : ["unit", "page"]) {
@@ -25,3 +27,4 @@ for (const word of process.argv.length > 2 ? process.argv.slice(2) : ["unit", "p
         for (const file of filesIn("e2e").filter((name) => word === "page" || name.endsWith(`/${word}.mjs`)))
             run([file]);
 }
+process.exit(failed === 0 ? 0 : 1);
