@@ -147,6 +147,9 @@ bench.test("four views have cameras of their own, a click makes one active, and 
     const { page, errors } = await openPage(bench.browser, bench.run);
     await page.getByRole("group", { name: "Views", exact: true }).getByRole("button", { name: "4" }).click();
     await until("four frames", async () => (await page.locator(".view-frame").count()) === 4);
+    const elevations = await page.evaluate(() => window.roboss.views.cameras.map(({ rig }) => rig.goal.elevation));
+    assert.ok(elevations[1] > 1.5, "the second view looks down");
+    assert.ok(Math.abs(elevations[2]) < 0.1 && Math.abs(elevations[3]) < 0.1, "two look from the side");
     const box = await page.evaluate(() => {
         const { left, top, width, height } = window.roboss.stage.canvas.getBoundingClientRect();
         return { left, top, width, height };

@@ -33,6 +33,10 @@ export class Director {
             this.approach();
         });
         views.count.follow((count) => stage.layOut(count));
+        views.wholeFrom = (side) => {
+            const world = state.world.value;
+            return world === null ? null : this.overview(world, DIRECTIONS[side]);
+        };
         views.active.follow(() => {
             this.activating = true;
             state.cameraMode.set(views.camera.mode);
