@@ -31,10 +31,13 @@ export async function pause(page: Page, on: boolean): Promise<void> {
     await until(on ? "paused" : "running", async () => (await paused(page)) === on);
     if (!on) return;
     // The last States of the time before have come when nothing moves any more.
-    let before = "";
+    let before = "",
+        since = Date.now();
     await until("it rests", async () => {
         const now = JSON.stringify(await Promise.all((await names(page)).map((name) => stand(page, name))));
-        return now === before || ((before = now), false);
+        if (now !== before) since = Date.now();
+        before = now;
+        return Date.now() - since > 1000;
     });
 }
 
