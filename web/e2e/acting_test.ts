@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
 import type { Mesh, Object3D, ShaderMaterial, Vector3 } from "three";
 import type { PoseArray } from "../src/wire/messages";
-import { Bench, choose, PROGRAM, time, until } from "./bench";
+import { Bench, choose, notice, PROGRAM, time, until } from "./bench";
 import { resting, seen, visiblePoint } from "./sight";
 
 const mockOnly = PROGRAM === "" ? false : "no plugin of that world takes a list";
@@ -14,7 +14,6 @@ const numberOf = (page: Page, name: string) =>
     page.evaluate((robot) => window.roboss.state.world.value?.fleet.find(robot) ?? -1, name);
 const place = async (page: Page, name: string) => seen(page, await numberOf(page, name));
 const command = (page: Page, name: string) => page.locator(".command", { has: page.getByText(name, { exact: true }) });
-const notice = async (page: Page) => (await page.locator(".notice.bad").allTextContents()).join(" | ");
 
 async function selected(page: Page, name: string): Promise<void> {
     await choose(page, name);

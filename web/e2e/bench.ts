@@ -218,6 +218,24 @@ export async function time(page: Page): Promise<number> {
     return page.evaluate(() => window.roboss.state.status.value?.time_s ?? -1);
 }
 
+export const paused = (page: Page) => page.evaluate(() => window.roboss.state.status.value?.paused === true);
+
+/** What the page says against something, as long as it stands there. */
+export const notice = async (page: Page) => (await page.locator(".notice.bad").allTextContents()).join(" | ");
+
+/** Waits until `ask` has given the same text for a second, and returns it; undefined: not yet. */
+export async function settled(what: string, ask: () => Promise<string | undefined>): Promise<string> {
+    let before: string | undefined,
+        since = Date.now();
+    await until(what, async () => {
+        const now = await ask();
+        if (now === undefined || now !== before) since = Date.now();
+        before = now;
+        return Date.now() - since > 1000;
+    });
+    return before ?? "";
+}
+
 /** Selects a robot by its name, through the list. */
 export async function choose(page: Page, name: string): Promise<void> {
     await page.getByLabel("Find a robot").fill(name);

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
 import type { OrderAction } from "../src/wire/messages";
-import { Bench, choose, openPage, PROGRAM, time, until, WAIT_MS } from "./bench";
+import { Bench, choose, openPage, paused, PROGRAM, time, until, WAIT_MS } from "./bench";
 import { resting, visiblePoint } from "./sight";
 
 declare global {
@@ -144,7 +144,7 @@ bench.test("another page sees who has control, asks for it, and gets it", async 
     await page.getByRole("button", { name: "Hand over" }).click();
     await until("the other page has it", () => other.page.getByText("You have control").isVisible());
     await other.page.getByLabel("Pause", { exact: true }).click();
-    await until("paused", () => page.evaluate(() => window.roboss.state.status.value?.paused === true));
+    await until("paused", () => paused(page));
     await other.page.getByLabel("Play", { exact: true }).click();
     await until("runs", () => page.evaluate(() => window.roboss.state.status.value?.paused === false));
     assert.deepEqual(other.errors, []);

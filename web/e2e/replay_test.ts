@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
-import { Bench, PROGRAM, time, until } from "./bench";
+import { Bench, paused, PROGRAM, time, until } from "./bench";
 
 const SPEED = 0.5;
 const skip = PROGRAM === "" ? "the mock records nothing" : false;
@@ -70,7 +70,7 @@ const MAIN = "Timeline: look at an earlier time";
 
 bench.test("the recording plays to its end and stays open there", async (page) => {
     await until("the end", async () => Math.abs((await time(page)) - 6) < 1e-6);
-    assert.ok(await page.evaluate(() => window.roboss.state.status.value?.paused === true));
+    assert.ok(await paused(page));
     assert.equal(await page.getByRole("button", { name: "Continue from here" }).count(), 0);
 });
 

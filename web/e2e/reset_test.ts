@@ -1,12 +1,9 @@
 // Reset, with the program: to the last save, and to the beginning.
 import assert from "node:assert/strict";
-import type { Page } from "playwright-core";
-import { Bench, PROGRAM, time, until } from "./bench";
+import { Bench, notice, paused, PROGRAM, settled, time, until } from "./bench";
 
 const skip = PROGRAM === "" ? "the mock has no beginning to return to" : false;
 const bench = new Bench({ world: "../web/e2e/acting.sdf", port: 8330, single: true }, skip);
-
-const notice = async (page: Page) => (await page.locator(".notice.bad").allTextContents()).join(" | ");
 
 bench.test("the run returns to its last save, and is started over", async (page) => {
     const reset = async (to: string) => {
@@ -16,19 +13,7 @@ bench.test("the run returns to its last save, and is started over", async (page)
     await reset("To the last save");
     await until("a refusal", async () => (await notice(page)).includes("nothing has been saved"));
     const hash = () => page.evaluate(() => window.roboss.state.status.value?.state_hash);
-    const standing = () => page.evaluate(() => window.roboss.state.status.value?.paused === true);
-    /** The hash at which the run stands: the same in Statuses that follow each other. */
-    const rests = async (): Promise<string | undefined> => {
-        let before: string | undefined;
-        await until("it stands", async () => {
-            const now = (await standing()) ? await hash() : undefined,
-                same = now !== undefined && now === before;
-            before = now;
-            if (!same) await page.waitForTimeout(300);
-            return same;
-        });
-        return before;
-    };
+    const rests = () => settled("it stands", async () => ((await paused(page)) ? hash() : undefined));
     await page.evaluate(() => window.roboss.run.control("pause"));
     const saved = await rests();
     const answer = await page.evaluate(() => window.roboss.run.control("save", `reset-${Date.now()}.roboss`));

@@ -1,12 +1,11 @@
 // What the tests of handling the scene do and ask again and again.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
-import { until } from "./bench";
+import { paused, settled, until } from "./bench";
 
 export const names = (page: Page) =>
     page.evaluate(() => window.roboss.state.world.value?.fleet.scene.robots.map(({ name }) => name) ?? []);
 export const row = (page: Page, name: string) => page.locator(".row", { hasText: new RegExp(`^${name}$`) });
-const paused = (page: Page) => page.evaluate(() => window.roboss.state.status.value?.paused === true);
 
 /** A key of the page, not of the field that has the focus. */
 export async function press(page: Page, key: string): Promise<void> {
@@ -31,14 +30,9 @@ export async function pause(page: Page, on: boolean): Promise<void> {
     await until(on ? "paused" : "running", async () => (await paused(page)) === on);
     if (!on) return;
     // The last States of the time before have come when nothing moves any more.
-    let before = "",
-        since = Date.now();
-    await until("it rests", async () => {
-        const now = JSON.stringify(await Promise.all((await names(page)).map((name) => stand(page, name))));
-        if (now !== before) since = Date.now();
-        before = now;
-        return Date.now() - since > 1000;
-    });
+    await settled("it rests", async () =>
+        JSON.stringify(await Promise.all((await names(page)).map((name) => stand(page, name)))),
+    );
 }
 
 export const near = (a: readonly number[], b: readonly number[], within: number, what: string) =>

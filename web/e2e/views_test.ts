@@ -2,7 +2,7 @@
 // several views at once.
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
-import { Bench, choose, openPage, until, WAIT_MS } from "./bench";
+import { Bench, choose, openPage, paused, until, WAIT_MS } from "./bench";
 import { seen } from "./sight";
 
 const bench = new Bench();
@@ -123,7 +123,7 @@ bench.test("a double click follows the robot", async (page) => {
     await page.keyboard.press("Escape");
     // A car that stands is where it was seen.
     await page.evaluate(() => window.roboss.run.control("pause"));
-    await until("it stands", () => page.evaluate(() => window.roboss.state.status.value?.paused === true));
+    await until("it stands", () => paused(page));
     await page.evaluate(() => window.roboss.director.followRobot(4));
     await atRobot(page);
     await until("the camera arrives", () => arrived(page), WAIT_MS);

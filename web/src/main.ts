@@ -216,7 +216,7 @@ actions.add(
 );
 actions.add(...scene.actions());
 actions.addSource(() => robotActions({ state, director }));
-actions.add(...viewActions(views, director));
+actions.add(...viewActions(director));
 actions.listen();
 
 const top = topBar(state, capture, desk.element, {

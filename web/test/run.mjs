@@ -13,11 +13,9 @@ function filesIn(folder) {
         .map((name) => join(tests, folder, name));
 }
 
-let failed = 0;
-
 function run(files) {
     const done = spawnSync(process.execPath, ["--test", ...files], { stdio: "inherit" });
-    if (done.status !== 0) ++failed;
+    if (done.status !== 0) process.exitCode = 1;
 }
 
 for (const word of process.argv.length > 2 ? process.argv.slice(2) : ["unit", "page"]) {
@@ -27,4 +25,3 @@ for (const word of process.argv.length > 2 ? process.argv.slice(2) : ["unit", "p
         for (const file of filesIn("e2e").filter((name) => word === "page" || name.endsWith(`/${word}.mjs`)))
             run([file]);
 }
-process.exit(failed === 0 ? 0 : 1);

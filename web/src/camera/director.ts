@@ -2,6 +2,7 @@
 // active view.
 import { type Address, type CameraWords, parseCamera } from "../model/address";
 import type { ViewerState, World } from "../model/viewer_state";
+import type { ViewCount } from "../view/viewports";
 import type { Stage } from "../view/stage";
 import { ballsOf } from "./extent";
 import { fitted, type FreePart } from "./fit";
@@ -10,6 +11,8 @@ import { DIRECTIONS, type NamedView, wordsOfCamera } from "./named_views";
 import { closeness, placeOf } from "./view_camera";
 import type { Views } from "./views";
 
+/** What the second, third and fourth of four views show. */
+const SIDES = ["top", "front", "side"] as const;
 const OVERVIEW = { azimuth: -2.05, elevation: 0.62 };
 
 export class Director {
@@ -33,10 +36,6 @@ export class Director {
             this.approach();
         });
         views.count.follow((count) => stage.layOut(count));
-        views.wholeFrom = (side) => {
-            const world = state.world.value;
-            return world === null ? null : this.overview(world, DIRECTIONS[side]);
-        };
         views.active.follow(() => {
             this.activating = true;
             state.cameraMode.set(views.camera.mode);
@@ -107,6 +106,16 @@ export class Director {
     view(name: NamedView): void {
         const world = this.state.world.value;
         if (world !== null) this.goTo(this.overview(world, DIRECTIONS[name]));
+    }
+
+    /** New views begin as the active one is; four show the whole world from three sides, too, as in CAD programs. */
+    split(count: ViewCount): void {
+        const world = this.state.world.value,
+            first = this.views.count.value,
+            turns = count === 4 && world !== null && !this.views.camera.following(),
+            words = turns ? SIDES.map((side) => this.overview(world, DIRECTIONS[side])) : [];
+        this.views.split(count);
+        words.slice(first - 1).forEach((side, k) => this.views.cameras[first + k].rig.jump(side));
     }
 
     /** Where the file puts the camera; nothing where it does not. */

@@ -1,25 +1,19 @@
 // One, two or four views of the picture, each with its own camera; one of them is active: gestures, keys and the buttons
 // of the bar act on it. The page's address keeps them.
-import { type Address, type CameraWords, formatCamera, parseCamera } from "../model/address";
+import { type Address, formatCamera, parseCamera } from "../model/address";
 import { Signal } from "../model/signal";
 import type { CameraMode, World } from "../model/viewer_state";
 import { VIEW_COUNTS, type ViewCount } from "../view/viewports";
-import type { NamedView } from "./named_views";
 import type { CameraRig } from "./rig";
 import { ViewCamera } from "./view_camera";
 
 const VIEWS_MAX = 4;
-/** From which side each of four views looks; null: as the one that was split. */
-const FOUR: readonly (NamedView | null)[] = [null, "top", "front", "side"];
 const MODES: readonly CameraMode[] = ["orbit", "fly", "follow", "chase"];
 
 export class Views {
     readonly count = new Signal<ViewCount>(1);
     readonly active = new Signal(0);
     readonly cameras = Array.from({ length: VIEWS_MAX }, () => new ViewCamera());
-
-    /** The whole world from one side; null: there is no world yet. */
-    wholeFrom: (side: NamedView) => CameraWords | null = () => null;
 
     get camera(): ViewCamera {
         return this.cameras[this.active.value];
@@ -37,24 +31,15 @@ export class Views {
         if (number < this.count.value && number !== this.active.value) this.active.set(number);
     }
 
-    /** New views begin as the active one is; four show the whole world from three sides, too, as in CAD programs. */
+    /** New views begin as the active one is. */
     split(count: ViewCount): void {
         const from = this.camera;
         if (this.active.value >= count) {
             this.copy(from, this.cameras[0]);
             this.active.set(0);
         }
-        for (let k = this.count.value; k < count; ++k) {
-            this.copy(from, this.cameras[k]);
-            if (count === VIEWS_MAX && !from.following()) this.turnToSide(k);
-        }
+        for (let k = this.count.value; k < count; ++k) this.copy(from, this.cameras[k]);
         this.count.set(count);
-    }
-
-    private turnToSide(number: number): void {
-        const side = FOUR[number],
-            words = side === null ? null : this.wholeFrom(side);
-        if (words !== null) this.cameras[number].rig.jump(words);
     }
 
     private copy(from: ViewCamera, to: ViewCamera): void {

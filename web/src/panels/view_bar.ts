@@ -15,13 +15,13 @@ const NAMES: Record<NamedView, [string, string]> = {
     isometric: ["Iso", "8"],
 };
 
-export function viewActions(views: Views, director: Director): Action[] {
+export function viewActions(director: Director): Action[] {
     const counts = VIEW_COUNTS.map((count) => ({
         id: `camera.views_${count}`,
         title: count === 1 ? "One view" : `${count} views`,
         group: "Camera",
         words: "split",
-        run: () => views.split(count),
+        run: () => director.split(count),
     }));
     return [
         ...NAMED_VIEWS.map((name) => ({
@@ -57,7 +57,7 @@ export function viewBar(state: ViewerState, views: Views, director: Director): H
                 { value: "2", text: "2" },
                 { value: "4", text: "4" },
             ] as const,
-            (count) => views.split(Number(count) as ViewCount),
+            (count) => director.split(Number(count) as ViewCount),
         );
     state.world.follow((world) => (file.hidden = world?.loaded.scene.look?.camera === undefined));
     views.count.follow((count) => split.show(String(count) as "1" | "2" | "4"));
