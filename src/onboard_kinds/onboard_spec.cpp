@@ -68,6 +68,19 @@ Channel channel_of(std::string_view written, std::string_view usual, std::vector
     return channel;
 }
 
+OnboardSpec::OnboardSpec() = default;
+OnboardSpec::OnboardSpec(std::string name_, OnboardParameters parameters_, SourceLocation where_)
+    : name(std::move(name_)), parameters(std::move(parameters_)), where(std::move(where_)) {}
+OnboardSpec::OnboardSpec(const OnboardSpec& other) = default;
+OnboardSpec::OnboardSpec(OnboardSpec&& other) noexcept = default;
+OnboardSpec& OnboardSpec::operator=(const OnboardSpec& other) = default;
+OnboardSpec& OnboardSpec::operator=(OnboardSpec&& other) noexcept = default;
+OnboardSpec::~OnboardSpec() = default;
+
+const OnboardKind& OnboardSpec::kind() const {
+    return std::visit([](const auto& p) -> const OnboardKind& { return p.kKind; }, parameters);
+}
+
 std::vector<std::string> joints_named(const OnboardParameters& parameters) {
     std::vector<std::string> names;
     visit_parameters(parameters, NameFinder<JointNames>{names});

@@ -71,10 +71,19 @@ struct OnboardSpec {
     OnboardParameters parameters;  ///< of its kind
     SourceLocation where;          ///< in the file
 
+    /// A controller of the first kind with its defaults.
+    OnboardSpec();
+    /// A controller of the kind of its parameters.
+    OnboardSpec(std::string name, OnboardParameters parameters, SourceLocation where);
+    // Copies are compiled in onboard_spec.cpp only: 41 kinds take seconds in each file that copies a World.
+    OnboardSpec(const OnboardSpec& other);
+    OnboardSpec(OnboardSpec&& other) noexcept;
+    OnboardSpec& operator=(const OnboardSpec& other);
+    OnboardSpec& operator=(OnboardSpec&& other) noexcept;
+    ~OnboardSpec();
+
     /// The kind that it is of.
-    const OnboardKind& kind() const {
-        return std::visit([](const auto& p) -> const OnboardKind& { return p.kKind; }, parameters);
-    }
+    const OnboardKind& kind() const;
 };
 
 /// A parameter that is a list of records: a struct with parameters of its own, for which the element of the

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::int64_t kGoodbye_ms = 5'000;
 
-const char* const kFooter =
+const char* const kClientFooter =
     R"(PROGRAM is a shared library as for `roboss run --client`; the source is the same. It may attach to a run at any time.
 `roboss controller WORLD --await-client NAME` starts a run that waits for it.
 
@@ -92,7 +92,7 @@ class ClientProcess {
 
 void add_client_command(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("client", "attach a control program to a running Controller");
-    command->footer(kFooter);
+    command->footer(kClientFooter);
     auto options = std::make_shared<ClientProcessOptions>();
     command->add_option("program", options->program, "the control program: a shared library")->required();
     command->add_option("--name", options->name, "name of the Client in the run (default: the file name)");

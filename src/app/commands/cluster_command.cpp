@@ -28,7 +28,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* const kFooter =
+const char* const kClusterFooter =
     R"(HOSTS.toml lists the processes and their hosts:
 
   simulation = "city"              # name of the run
@@ -290,7 +290,7 @@ int status(const StatusOptions& o) {
 
 void add_cluster_command(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("cluster", "start, watch and end a run on many hosts");
-    command->footer(kFooter);
+    command->footer(kClusterFooter);
     command->require_subcommand(1);
     auto o = std::make_shared<StatusOptions>();
     CLI::App* sub =

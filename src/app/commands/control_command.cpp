@@ -29,7 +29,7 @@ namespace {
 constexpr std::int64_t kAgain_ms = 250;
 constexpr double kPatience_s = 10;
 
-const char* const kFooter =
+const char* const kControlFooter =
     R"(It reaches every run of this computer, by its name (`roboss runs` lists them) or, if there is only one, without. With a
 network option (--interface, --domain, --peer ...) it reaches a `roboss controller` on another computer, as the other
 members of the run do. A request takes effect at the end of the current window. pause, step, speed, window and
@@ -339,7 +339,7 @@ int ask_controller(const MemberOptions& options, const std::vector<std::string>&
 
 void add_control_command(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("control", "pause, step, rewind or change a running simulation");
-    command->footer(kFooter);
+    command->footer(kControlFooter);
     command->require_subcommand(1);
     auto o = std::make_shared<ControlCommandOptions>();
     add_member_options(*command, o->member);

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* const kFooter =
+const char* const kDiffFooter =
     R"(A and B are journals (FILE or FILE#BRANCH). Their checkpoints are compared. Both runs are then stepped again, side
 by side, over the first stretch that ends differently, so the journals may have any --journal-every.
 
@@ -115,7 +115,7 @@ int diff(const DiffOptions& o) {
 void add_diff_command(CLI::App& app, int& exit_code) {
     CLI::App* command =
         app.add_subcommand("diff", "find the first tick, robot and field in which two journals differ");
-    command->footer(kFooter);
+    command->footer(kDiffFooter);
     auto o = std::make_shared<DiffOptions>();
     command->add_option("a", o->a, "a journal: FILE or FILE#BRANCH")->required();
     command->add_option("b", o->b, "another journal: FILE or FILE#BRANCH")->required();

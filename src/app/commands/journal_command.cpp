@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* const kFooter =
+const char* const kJournalFooter =
     R"(A journal is written by `roboss run|controller --journal FILE`; a file written by --save is a small journal.
 FILE#BRANCH names a branch (default: the newest), FILE@TIME a point in time, in s; FILE#2@1.5 names both.
 
@@ -219,12 +219,12 @@ int export_log(const JournalOptions& o) {
 
 void add_journal_command(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("journal", "inspect a journal: info, verify, export");
-    command->footer(kFooter);
+    command->footer(kJournalFooter);
     command->require_subcommand(1);
     auto o = std::make_shared<JournalOptions>();
     const auto add = [&](const char* name, const char* what, int (*act)(const JournalOptions&)) {
         CLI::App* sub = command->add_subcommand(name, what);
-        sub->footer(kFooter);
+        sub->footer(kJournalFooter);
         sub->add_option("file", o->location, "FILE, FILE#BRANCH or FILE@TIME")->required();
         sub->callback([o, act, &exit_code] { exit_code = act(*o); });
         return sub;

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const char* const kFooter =
+const char* const kNewClientFooter =
     R"(The folder gets a CMakeLists.txt that builds against an installed RoBOSS (`cmake --install BUILD --prefix PREFIX`), a
 control program in C++, a robot as URDF, a world that includes it, and a README with the commands to build and run it.
 
@@ -105,7 +105,7 @@ Result<> write_project(const NewClientOptions& o) {
 void add_new_client_command(CLI::App& app, int& exit_code) {
     CLI::App* command =
         app.add_subcommand("new-client", "write a small project for a control program in C++");
-    command->footer(kFooter);
+    command->footer(kNewClientFooter);
     auto o = std::make_shared<NewClientOptions>();
     command->add_option("name", o->name, "name of the project and of its folder")
         ->required()

@@ -14,7 +14,7 @@
 namespace roboss {
 namespace {
 
-const char* const kFooter =
+const char* const kRunsFooter =
     R"(`roboss control --simulation NAME REQUEST` reaches each of them; the process id does as well.
 
 Exit codes: 0 done (also if there is none), 1 the list cannot be read.)";
@@ -52,7 +52,7 @@ int list(bool json) {
 void add_runs_command(CLI::App& app, int& exit_code) {
     CLI::App* command =
         app.add_subcommand("runs", "list the runs of this computer, which `roboss control` reaches");
-    command->footer(kFooter);
+    command->footer(kRunsFooter);
     auto json = std::make_shared<bool>(false);
     command->add_flag("--json", *json, "print a JSON array");
     command->callback([json, &exit_code] { exit_code = list(*json); });

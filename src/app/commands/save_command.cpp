@@ -13,7 +13,7 @@
 namespace roboss {
 namespace {
 
-const char* const kFooter =
+const char* const kSaveFooter =
     R"(The file has the format of `roboss run --save`: `roboss run WORLD --from FILE` continues from it; `roboss replay` and
 `roboss journal` read it too.
 
@@ -52,7 +52,7 @@ int save_from_journal(const SaveOptions& o) {
 void add_save_command(CLI::App& app, int& exit_code) {
     CLI::App* command =
         app.add_subcommand("save", "save one point in time of a journal or of a running simulation");
-    command->footer(kFooter);
+    command->footer(kSaveFooter);
     auto o = std::make_shared<SaveOptions>();
     command->add_option("file", o->file, "the file to write")->required();
     command->add_option(

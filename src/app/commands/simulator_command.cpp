@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::int64_t kGoodbye_ms = 5'000;
 
-const char* const kFooter =
+const char* const kSimulatorFooter =
     R"(A Simulator needs no world file: it receives the compiled Model from the Controller. Ctrl-C (or SIGTERM) makes it
 leave: its robots move to other Simulators first. A second Ctrl-C ends it immediately; the run stalls briefly and its
 results do not change.
@@ -97,7 +97,7 @@ class SimulatorProcess {
 
 void add_simulator_command(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("simulator", "join a Controller's run and step robots for it");
-    command->footer(kFooter);
+    command->footer(kSimulatorFooter);
     auto options = std::make_shared<SimulatorProcessOptions>();
     command
         ->add_option(

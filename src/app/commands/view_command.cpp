@@ -9,7 +9,7 @@
 namespace roboss {
 namespace {
 
-const char* const kFooter =
+const char* const kViewFooter =
     R"(The viewer needs no world file: it gets the Model and its visuals from the Controller when the first browser opens the
 page. It keeps running when the Controller ends, and shows the next run of that name. Watching a run does not change its
 result; orders given in the viewer do.
@@ -45,7 +45,7 @@ int view(const ViewCommandOptions& o) {
 
 void add_view_command(CLI::App& app, int& exit_code) {
     CLI::App* command = app.add_subcommand("view", "serve the viewer of a running simulation to browsers");
-    command->footer(kFooter);
+    command->footer(kViewFooter);
     auto options = std::make_shared<ViewCommandOptions>();
     add_viewer_options(*command, options->viewer, ViewerDefault::kAlways);
     add_member_options(*command, options->member);

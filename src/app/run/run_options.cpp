@@ -14,7 +14,7 @@
 namespace roboss {
 namespace {
 
-const char* const kFooter = R"(Examples:
+const char* const kRunOptionsFooter = R"(Examples:
   roboss run worlds/city.sdf --client build/release/lib/roboss_city_driver.so --duration 60
   roboss run world.sdf --orders orders.jsonl --trace trace.csv --trace-every 0.1
   roboss run world.sdf --duration 30 --save half.roboss      and later
@@ -263,7 +263,7 @@ void add_name_option(CLI::App& command, RunOptions& o) {
 }  // namespace
 
 void add_run_options(CLI::App& command, RunOptions& o) {
-    command.footer(fmt::format("{}\n\n{}", kFooter, kExitCodes));
+    command.footer(fmt::format("{}\n\n{}", kRunOptionsFooter, kExitCodes));
     add_common_options(command, o);
     add_name_option(command, o);
     CLI::Option* simulators =

@@ -24,7 +24,7 @@ constexpr auto kPatience = std::chrono::seconds(90);
 constexpr auto kLook = std::chrono::milliseconds(100);
 constexpr auto kSettle = std::chrono::milliseconds(1500);
 
-const char* const kFooter =
+const char* const kSnapshotFooter =
     R"(Runs the world to the given time and draws the picture with headless Chromium.
 
 Examples:
@@ -191,7 +191,7 @@ void add_snapshot_command(CLI::App& app, int& exit_code) {
         ->check(non_negative_number())
         ->group("Picture");
     add_snapshot_options(*command, options->snapshot);
-    command->footer(kFooter);
+    command->footer(kSnapshotFooter);
     command->callback([options, &exit_code] {
         if (!options->until_s && !options->duration_s) options->until_s = 0.0;
         options->viewer.headless = false;
