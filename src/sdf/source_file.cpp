@@ -8,6 +8,10 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/similar.h"
 
 namespace roboss::sdf_import {
 
@@ -35,6 +39,22 @@ pugi::xml_node too_deep(pugi::xml_node root) {
     return {};
 }
 
+/// What to do about a file that cannot be read: the file of the folder that was probably meant.
+std::string remedy_for(const std::string& path) {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    const fs::path wanted(path), folder = wanted.has_parent_path() ? wanted.parent_path() : fs::path(".");
+    if (!fs::exists(folder, error)) return "There is no folder '" + folder.string() + "'; check the path.";
+    std::vector<std::string> names;
+    if (!fs::exists(wanted, error))
+        for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+            names.push_back(at->path().filename().string());
+    std::ranges::sort(names);
+    const std::string similar = similar_to(wanted.filename().string(), names);
+    if (similar.empty()) return "Check the path and the permissions.";
+    return "Did you mean '" + (wanted.parent_path() / similar).string() + "'?";
+}
+
 }  // namespace
 
 int parse_version(const std::string& text) {
@@ -52,7 +72,7 @@ std::unique_ptr<SourceFile> SourceFile::read(const std::string& path, Diagnostic
     std::ifstream stream(path, std::ios::binary);
     if (!stream || std::filesystem::is_directory(path, ignored)) {
         diagnostics.error({path, 0}, "cannot-read", "the file '" + path + "' cannot be read",
-                          "Check the path and the permissions.");
+                          remedy_for(path));
         return nullptr;
     }
     std::ostringstream text;

@@ -23,6 +23,8 @@ class BadInput(RobossTest):
         self.refused(["run", "no/such.sdf", "--duration", "1"], 1, "no/such.sdf")
         broken = written("broken.sdf", "<sdf version='1.9'>\n<world name='w'>\n<model name='m'>\n</wrong></world></sdf>")
         self.refused(["run", broken, "--duration", "1"], 1, "broken.sdf:4")
+        self.refused(["check", FOLDER / "brokn.sdf"], 1, "[cannot-read]", "broken.sdf'?")
+        self.refused(["check", "no/such.sdf"], 1, "[cannot-read]", "There is no folder 'no'")
 
     def test_all_errors_of_a_world_are_reported_at_once_with_their_lines(self):
         text = PILE.read_text().replace("<mass>2</mass>", "<mass>-1</mass>").replace("<child>upper</child>", "<child>uper</child>")
@@ -47,6 +49,7 @@ class BadInput(RobossTest):
         self.refused(["run", PILE, "--speed", "fast"], 2, "--speed")
         self.refused(["run", PILE, "--no-such-option"], 2, "--no-such-option")
         self.refused(["fly"], 2, "'fly'")
+        self.refused([], 2, "Simulate a world", "run")
         self.refused(["rn"], 2, "did you mean 'run'?")
         self.refused(["run", PILE, "--durration", "1"], 2, "'--durration'", "did you mean '--duration'?")
         self.refused(["control", "pasue"], 2, "did you mean 'pause'?")
@@ -77,6 +80,18 @@ class BadInput(RobossTest):
         self.refused([*picture, "--select", "amr"], 1, "[no-robot]", "did you mean 'arm'?")
         self.refused([*picture, "--camera", "follow:amr"], 1, "[no-robot]", "did you mean 'arm'?")
         self.assertFalse((FOLDER / "none.png").exists())
+        self.refused(["snapshot", PILE, "-o", FOLDER / "nowhere" / "none.png"], 1, "[not-writable]", "nowhere")
+
+    def test_help_and_several_files_to_check(self):
+        self.assertEqual(roboss("help", "journal", "info").stdout, roboss("journal", "info", "--help").stdout)
+        self.assertEqual(roboss("help").stdout, roboss("--help").stdout)
+        bad = written("worse.sdf", PILE.read_text().replace("<child>upper</child>", "<child>uper</child>"))
+        done = roboss("check", PILE, bad)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(f"== {PILE}", done.stdout)
+        self.assertIn("1 error, ", done.stdout)
+        reports = json.loads(roboss("check", PILE, bad, "--json").stdout)
+        self.assertEqual([report["errors"] for report in reports], [0, 1])
 
     def test_an_order_to_an_unknown_robot_stops_before_the_start(self):
         orders = written("orders.jsonl", '{"t":0,"robot":"arm","joint":{"name":"shoulder","effort":1}}\n{"t":0,"robot":"nobody","joint":{}}\n')

@@ -29,11 +29,12 @@ constexpr const char* kHelp =
     "Exit codes: 0 no errors (warnings and notes allowed), 1 errors: `roboss run` leaves out the models that "
     "have\n"
     "them, or refuses the world if no other model is left; also a file that cannot be read; 2 wrong usage.\n"
-    "Example: roboss check worlds/city.sdf --path ~/models";
+    "Of several files the worst counts.\n"
+    "Examples: roboss check worlds/city.sdf --path ~/models\n"
+    "          roboss check worlds/*.sdf --json";
 
 struct CheckOptions {
-    std::string world;
-    std::vector<std::string> paths;
+    std::vector<std::string> worlds, paths;
     bool json = false, all = false;
 };
 
@@ -119,6 +120,12 @@ void print_text(const std::vector<PluginReport>& plugins, const std::string& wor
 
 constexpr std::size_t kShownOfACode = 3;
 
+/// "1 error", "2 warnings"
+std::string counted(const Diagnostics& diagnostics, Severity severity) {
+    const std::size_t count = diagnostics.count(severity);
+    return fmt::format("{} {}{}", count, to_text(severity), count == 1 ? "" : "s");
+}
+
 /// Errors first. Of a kind of finding the first three, and none of what the list of plugins says; `all`:
 /// every one.
 void print_text(const Diagnostics& diagnostics, bool all) {
@@ -134,8 +141,8 @@ void print_text(const Diagnostics& diagnostics, bool all) {
                 fmt::print("... and {} more {}s of this kind [{}]; --all prints them\n",
                            times - kShownOfACode, to_text(severity), code);
     }
-    fmt::print("{} errors, {} warnings, {} notes\n", diagnostics.count(Severity::kError),
-               diagnostics.count(Severity::kWarning), diagnostics.count(Severity::kNote));
+    fmt::print("{}, {}, {}\n", counted(diagnostics, Severity::kError),
+               counted(diagnostics, Severity::kWarning), counted(diagnostics, Severity::kNote));
 }
 
 nlohmann::json to_json(const WorldCensus& census, const World& world) {
@@ -200,9 +207,10 @@ nlohmann::json to_json(const std::vector<PluginReport>& plugins) {
     return list;
 }
 
-int check(const CheckOptions& options) {
+/// Prints the report on one file, or adds it to `reports`. Returns its exit code.
+int check(const std::string& file, const CheckOptions& options, nlohmann::json& reports) {
     Diagnostics diagnostics;
-    const std::optional<World> world = load_world(options.world, {options.paths}, diagnostics);
+    const std::optional<World> world = load_world(file, {options.paths}, diagnostics);
     // Compiling finds errors of the joint graph: loops, unconnected parts.
     std::shared_ptr<const Model> model;
     if (world && !diagnostics.refuses()) model = compile(*world, {}, diagnostics);
@@ -211,14 +219,14 @@ int check(const CheckOptions& options) {
     const auto plugins = world ? list_plugins(*world, model.get(), diagnostics) : std::vector<PluginReport>{};
     if (options.json) {
         nlohmann::json report =
-            world ? to_json(take_census(*world, model.get()), *world) : nlohmann::json::object();
+            world ? to_json(take_census(*world, model.get()), *world) : nlohmann::json{{"file", file}};
         report["runs"] = runs;
         report["commands"] = to_json(commands);
         report["plugins"] = to_json(plugins);
         report["errors"] = diagnostics.count(Severity::kError);
         report["warnings"] = diagnostics.count(Severity::kWarning);
         report["diagnostics"] = to_json(diagnostics);
-        fmt::print("{}\n", report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+        reports.push_back(std::move(report));
     } else {
         if (world) print_text(*world, take_census(*world, model.get()));
         print_text(commands);
@@ -232,6 +240,21 @@ int check(const CheckOptions& options) {
     return !world || diagnostics.has_errors() ? kBadInput : kSuccess;
 }
 
+/// Checks all files. One prints its report, several print one after the other, as JSON a list.
+int check_all(const CheckOptions& options) {
+    int worst = kSuccess;
+    nlohmann::json reports = nlohmann::json::array();
+    for (const std::string& file : options.worlds) {
+        if (options.worlds.size() > 1 && !options.json)
+            fmt::print("{}== {}\n", file == options.worlds.front() ? "" : "\n", file);
+        worst = std::max(worst, check(file, options, reports));
+    }
+    const nlohmann::json& printed = reports.size() == 1 ? reports.front() : reports;
+    if (options.json)
+        fmt::print("{}\n", printed.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    return worst;
+}
+
 }  // namespace
 
 void add_check_command(CLI::App& app, int& exit_code) {
@@ -239,7 +262,7 @@ void add_check_command(CLI::App& app, int& exit_code) {
     CLI::App* command =
         app.add_subcommand("check", "report what a world file holds and what is wrong with it");
     command->footer(kHelp);
-    command->add_option("world", options->world, "world file: SDFormat or URDF")
+    command->add_option("world", options->worlds, "world files: SDFormat or URDF")
         ->required()
         ->type_name("WORLD");
     command
@@ -249,7 +272,7 @@ void add_check_command(CLI::App& app, int& exit_code) {
         ->take_all();
     command->add_flag("--all", options->all, "print every finding (default: three of each kind)");
     command->add_flag("--json", options->json, "print one JSON object instead of text");
-    command->callback([options, &exit_code] { exit_code = check(*options); });
+    command->callback([options, &exit_code] { exit_code = check_all(*options); });
 }
 
 }  // namespace roboss

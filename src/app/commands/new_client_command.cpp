@@ -63,6 +63,8 @@ std::string walls() {
     return text;
 }
 
+constexpr const char* kUnknownPrefix = "PREFIX";
+
 /// Of an installed program, where find_package() finds its library; else a word to be replaced.
 std::string prefix() {
     std::error_code error;
@@ -71,7 +73,7 @@ std::string prefix() {
     return fs::exists(prefix / "include" / "roboss", error) &&
                    !fs::is_symlink(prefix / "include" / "roboss", error)
                ? prefix.string()
-               : "PREFIX";
+               : kUnknownPrefix;
 }
 
 Result<> write_project(const NewClientOptions& o) {
@@ -97,6 +99,9 @@ Result<> write_project(const NewClientOptions& o) {
         "  roboss run world.sdf --client build/{}.so\n",
         "wrote " + folder.string() + ": a control program, a robot and a world", folder.string(), prefix(),
         o.name);
+    if (prefix() == kUnknownPrefix)
+        fmt::print(
+            "PREFIX is the folder in which RoBOSS is installed: cmake --install BUILD --prefix PREFIX\n");
     return Ok{};
 }
 

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
+#include <vector>
 
 #include "app/commands/exit_codes.h"
 #include "core/result.h"
@@ -64,8 +66,17 @@ Error usage_error(const CLI::App& app, const CLI::ParseError& error) {
 }  // namespace
 
 std::optional<int> read_command_line(CLI::App& app, int argc, const char* const* argv) {
+    std::vector<const char*> words(argv, argv + argc);
+    if (words.size() == 1) {  // what one types to see what there is
+        fmt::print(stderr, "{}", app.help());
+        return kWrongUsage;
+    }
+    if (words[1] == std::string_view("help")) {  // `roboss help run` is `roboss run --help`
+        words.erase(words.begin() + 1);
+        words.push_back("--help");
+    }
     try {
-        app.parse(argc, argv);
+        app.parse(static_cast<int>(words.size()), words.data());
     } catch (const CLI::Success& request) {  // --help, --version
         return app.exit(request);
     } catch (const CLI::ParseError& error) {

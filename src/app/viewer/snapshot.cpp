@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <optional>
@@ -137,6 +138,11 @@ void add_snapshot_options(CLI::App& command, SnapshotOptions& o) {
 }
 
 Result<> check_snapshot(const SnapshotOptions& options, const Model& model) {
+    const std::filesystem::path folder = std::filesystem::path(options.file).parent_path();
+    std::error_code error;
+    if (!folder.empty() && !std::filesystem::is_directory(folder, error))
+        return Error{"there is no folder " + folder.string() + " for the picture " + options.file,
+                     "create it, or give another file with -o", "not-writable"};
     for (const auto& [key, value] : options.parameters) {
         const std::size_t at = key == "camera" ? followed_at(value) : key == "select" ? 0 : std::string::npos;
         if (at == std::string::npos) continue;
@@ -179,7 +185,10 @@ Result<> take_snapshot(const SnapshotOptions& options, const std::string& url,
                          "no-picture"};
     Result<std::string> picture = browser.value()->picture();
     if (!picture) return picture.error();
-    return write_file(options.file, picture.value());
+    Result<> written = write_file(options.file, picture.value());
+    if (written)
+        fmt::print(stderr, "wrote {}, {} x {} pixels\n", options.file, options.width, options.height);
+    return written;
 }
 
 void add_snapshot_command(CLI::App& app, int& exit_code) {
