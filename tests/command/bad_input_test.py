@@ -89,9 +89,9 @@ class BadInput(RobossTest):
         done = roboss("check", PILE, bad)
         self.assertEqual(done.returncode, 1)
         self.assertIn(f"== {PILE}", done.stdout)
-        self.assertIn("1 error, ", done.stdout)
+        self.assertIn("2 errors, 0 warnings", done.stdout)
         reports = json.loads(roboss("check", PILE, bad, "--json").stdout)
-        self.assertEqual([report["errors"] for report in reports], [0, 1])
+        self.assertEqual([report["errors"] for report in reports], [0, 2])
 
     def test_an_order_to_an_unknown_robot_stops_before_the_start(self):
         orders = written("orders.jsonl", '{"t":0,"robot":"arm","joint":{"name":"shoulder","effort":1}}\n{"t":0,"robot":"nobody","joint":{}}\n')
