@@ -2,7 +2,7 @@
 # test program, roboss_name_test. A layer with external libraries adds them in src/name/layer.cmake (included after the target exists);
 # cmake/install.cmake must know each such library, so that an installed RoBOSS finds it again.
 # UNITY: no two files of the layer use the same private name, so CMAKE_UNITY_BUILD may compile many of them as one
-# (the presets release and check-... do: it halves the time of a first build). Leave it out for a layer where files share names.
+# (the presets release and check-... do, for shorter first builds). Leave it out for a layer where files share names.
 add_library(roboss_options INTERFACE)
 target_compile_options(roboss_options INTERFACE
   -Wall -Wextra -Wshadow -Wconversion -Werror -ffp-contract=off -fno-fast-math)

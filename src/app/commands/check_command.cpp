@@ -271,7 +271,8 @@ void add_check_command(CLI::App& app, int& exit_code) {
         ->type_name("DIR")
         ->take_all();
     command->add_flag("--all", options->all, "print every finding (default: three of each kind)");
-    command->add_flag("--json", options->json, "print one JSON object instead of text");
+    command->add_flag("--json", options->json,
+                      "print JSON instead of text: an object, or a list for several files");
     command->callback([options, &exit_code] { exit_code = check_all(*options); });
 }
 
