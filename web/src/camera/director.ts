@@ -17,6 +17,8 @@ const OVERVIEW = { azimuth: -2.05, elevation: 0.62 };
 /** Of a picture as high as wide, or higher: from farther above, so that a flat world fills it. */
 const TALL_ELEVATION = 1.15;
 const WIDE_ASPECT = 1.4;
+/** A page that begins with a robot shows where it is, too. */
+const START_FACTOR = 1.8;
 
 /** Where the whole world is seen from in a picture of this shape. */
 function overviewOf({ width, height, left, right, top, bottom }: FreePart): { azimuth: number; elevation: number } {
@@ -83,8 +85,11 @@ export class Director {
     private startWith(world: World, robot: number, mode: "follow" | "chase"): void {
         this.state.selected.set(robot);
         this.state.cameraMode.set(mode);
-        this.views.camera.follow(world, 0, []);
-        this.views.rig.jump(this.views.rig.goal);
+        const { camera, rig } = this.views;
+        camera.follow(world, 0, []);
+        rig.goal.distance *= START_FACTOR;
+        rig.jump(rig.goal);
+        if (mode === "follow") camera.findRoom(this.stage.statics?.solids ?? []);
     }
 
     private startAtFile(world: World): void {
