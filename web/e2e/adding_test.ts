@@ -51,6 +51,13 @@ bench.test("a box with the sizes that are given is added, and scenery is chosen 
     assert.deepEqual(type?.links[0].visuals[0].size, [0.6, 0.4, 0.4]);
     assert.equal(type?.links[0].mass, 2.5);
     near(type?.links[0].inertia?.slice(0, 1) ?? [], [(2.5 * 0.32) / 12], 1e-9, "its inertia");
+    await until("it stands on the ground", () =>
+        page.evaluate(() => {
+            const world = window.roboss.state.world.value,
+                z = world?.history.latest?.base[(world.fleet.find("box") ?? 0) * 7 + 2] ?? 0;
+            return z > 0.15 && z < 3;
+        }),
+    );
     await press(page, "h");
     await until("the wall under some point", () =>
         page.evaluate(() => {

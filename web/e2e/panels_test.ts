@@ -184,4 +184,21 @@ bench.test(
     PROGRAM === "" ? false : "the port of a run is its own choice",
 );
 
+bench.test("the palette finds rewind by its beginning, and Escape closes it", async (page) => {
+    await page.locator("body").press("Control+k");
+    await page.keyboard.type("rew");
+    const first = page.locator(".palette-list li").first();
+    assert.match((await first.textContent()) ?? "", /^Rewind/);
+    assert.equal(await first.getAttribute("aria-selected"), "true");
+    assert.equal(await page.locator(".palette-list li", { hasText: "Remove" }).count(), 0);
+    await page.keyboard.press("Escape");
+    await page.locator("dialog.palette").waitFor({ state: "hidden" });
+});
+
+bench.test("Escape lets go of the robot, and the camera follows none", async (page) => {
+    await page.evaluate(() => window.roboss.director.followRobot(1));
+    await page.locator("body").press("Escape");
+    await until("orbit", () => page.evaluate(() => window.roboss.state.cameraMode.value === "orbit"));
+});
+
 bench.endsWithCleanConsole();

@@ -85,7 +85,7 @@ bench.test("dragging shows each moment while the run goes on, and releasing chan
     await seen(page, await time(page), drawn + 0.3);
     await page.mouse.up();
     await until("the run goes on", async () => (await time(page)) > began + 0.5);
-    assert.match((await strip(page).textContent()) ?? "", /^You see [\d.]+ s of branch 1; the run is at [\d.]+ s/);
+    assert.match((await strip(page).textContent()) ?? "", /^You see [\d:.]+ of branch 1; the run is at [\d:.]+/);
     assert.ok((await sight(page)).shown, "the moment stays");
 });
 

@@ -35,7 +35,22 @@ function timeActions({ time }: PageParts): Action[] {
         },
         { id: "time.faster", title: "Faster", group, keys: ["+", "="], run: () => time.faster(1) },
         { id: "time.slower", title: "Slower", group, keys: ["-"], run: () => time.faster(-1) },
-        { id: "time.reset", title: "Reset to the beginning or the last save", group, icon: "reset", run: time.reset },
+        {
+            id: "time.rewind",
+            title: "Rewind: look at an earlier moment",
+            group,
+            icon: "branches",
+            words: "timeline back history",
+            run: time.rewind,
+        },
+        {
+            id: "time.reset",
+            title: "Reset to the beginning or the last save",
+            group,
+            icon: "reset",
+            destructive: true,
+            run: time.reset,
+        },
         { id: "time.bookmark", title: "Bookmark this moment", group, keys: ["B"], icon: "flag", run: time.bookmark },
         {
             id: "time.branches",

@@ -101,6 +101,7 @@ function editActions({ state, selection, editing, add, pointed }: SceneParts): A
             keys: ["Delete", "Backspace"],
             icon: "remove",
             words: "delete",
+            destructive: true,
             run: () => void editing.remove(),
         },
         {

@@ -1,4 +1,5 @@
 // Puts the parts together that handle the scene: selection, gizmo, adding, undo, and what shows them in the picture.
+import { freePart } from "./camera/free_part";
 import type { Views } from "./camera/views";
 import { Gizmo } from "./hands/gizmo";
 import type { Action } from "./model/actions";
@@ -17,12 +18,15 @@ import { editBar } from "./panels/edit_bar";
 import { addingHint, gizmoBar } from "./panels/gizmo_bar";
 import { sceneActions } from "./scene_actions";
 import type { Colouring } from "./view/colouring";
-import { pick, pickPoint, pickScenery } from "./view/picking";
+import { pick, pickPoint, pickScenery, surfaceBelow } from "./view/picking";
 import { SightLayer } from "./view/sight_layer";
 import type { Stage } from "./view/stage";
 import type { Triple } from "./wire/messages";
 
 type Update = (world: World | null) => void;
+
+/** What is seen farther from the middle than so many distances of the camera lies at the horizon. */
+const FAR_FACTOR = 2;
 
 export class SceneEditing {
     readonly selection: Selection;
@@ -53,7 +57,7 @@ export class SceneEditing {
         const gizmo = (this.gizmo = new Gizmo(stage, state, selection, this.placing, labels, (from, to) =>
             editing.move(from, to),
         ));
-        this.dialog = addDialog(state, editing, () => views.rig.now.target);
+        this.dialog = addDialog(state, editing, () => this.middle(views.rig.now.target));
         this.bar = editBar(state, selection, editing, () => this.dialog.open());
         const sight = new SightLayer(stage, state, selection, colouring),
             links = new LinkMarks(stage, state, selection, labels),
@@ -98,6 +102,22 @@ export class SceneEditing {
         const box = this.stage.canvas.getBoundingClientRect(),
             world = this.state.world.value;
         return world === null ? null : (pick(this.stage, world, left - box.left, top - box.top)?.robot ?? null);
+    }
+
+    /** Where something new stands in the middle of the view: on what is seen there, else on what lies below `target`. */
+    private middle(target: Triple): Triple {
+        const world = this.state.world.value,
+            { stage } = this,
+            free = freePart(stage.canvas, stage.viewport),
+            x = stage.viewport.left + (free.left + free.width - free.right) / 2,
+            y = stage.viewport.top + (free.top + free.height - free.bottom) / 2,
+            seen = world === null ? null : pickPoint(stage, world, x, y);
+        if (world !== null && seen !== null && stage.ray(x, y).ray.direction.z < 0) {
+            const away = Math.hypot(...seen.toArray().map((value, k) => value - target[k]));
+            if (away < FAR_FACTOR * stage.camera.position.distanceTo(seen.clone().set(...target)))
+                return seen.toArray() as Triple;
+        }
+        return [target[0], target[1], surfaceBelow(stage, target[0], target[1])];
     }
 
     private pointed(at: { x: number; y: number } | null): Triple | null {

@@ -147,3 +147,15 @@ test("steps are taken back and done again in order; a new step forgets what was 
     assert.equal(await stack.undo(), null);
     assert.deepEqual(log, ["undo b", "redo b", "undo b", "undo c", "undo a"]);
 });
+
+test("a type is called after its robots, and copies stand among them", () => {
+    const world = scene(4);
+    world.types.forEach((type, k) => (type.name = k === 0 ? "car_0" : "tree"));
+    world.types.push({ ...world.types[0], name: "car_4" });
+    world.robots.push({ name: "car_4", type: 2 });
+    const rows = treeRows(world, "", none, none);
+    assert.deepEqual(
+        rows.slice(1, 5).map(({ text }) => text),
+        ["car", "car_0", "car_2", "car_4"],
+    );
+});

@@ -19,7 +19,7 @@ function status(time_s: number, journal: Status["journal"]): Status {
 
 test("the timeline spans the journal, and the present stands on it", () => {
     const span = timelineOf(status(15, { first_s: 5, last_s: 25 }));
-    assert.deepEqual(span, { rewinds: true, first: 5, last: 25, now: 0.5 });
+    assert.deepEqual(span, { rewinds: true, kept: true, first: 5, last: 25, now: 0.5 });
     assert.equal(sliderTime(span, 0.25), 10);
     assert.equal(sliderTime(span, 2), 25);
 });
@@ -31,7 +31,8 @@ test("the present may have run past what the journal last said", () => {
 test("without a journal, or before anything is in it, one cannot go back", () => {
     assert.equal(timelineOf(status(3, null)).rewinds, false);
     assert.equal(timelineOf(null).rewinds, false);
-    assert.equal(timelineOf(status(0, { first_s: 0, last_s: 0 })).rewinds, false);
+    const begun = timelineOf(status(0, { first_s: 0, last_s: 0 }));
+    assert.deepEqual([begun.rewinds, begun.kept, begun.now], [false, true, 0], "after a reset");
 });
 
 test("times read as clocks", () => {
@@ -39,6 +40,8 @@ test("times read as clocks", () => {
     assert.equal(clockText(75.25), "1:15.250");
     assert.equal(clockText(59.9996), "1:00.000");
     assert.equal(clockText(3671.5), "1:01:11.500");
+    assert.equal(clockText(3671.2, 0), "1:01:11");
+    assert.equal(clockText(59.97, 1), "1:00.0");
 });
 
 const branches: Timeline = {
@@ -82,7 +85,7 @@ test("marks are round times, no more than asked for", () => {
     assert.deepEqual(marksOf({ first: 3, last: 23 }, 5), [5, 10, 15, 20]);
     assert.deepEqual(marksOf({ first: 0, last: 0 }, 5), []);
     assert.ok(marksOf({ first: 0, last: 1e6 }, 6).length <= 7);
-    assert.deepEqual([0.5, 40, 90, 3600].map(markText), ["0.5 s", "40 s", "1:30", "1:00:00"]);
+    assert.deepEqual([0.5, 40, 90, 3600].map(markText), ["0:00.5", "0:40", "1:30", "1:00:00"]);
 });
 
 test("a replay has times behind the present", () => {

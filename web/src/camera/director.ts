@@ -14,6 +14,18 @@ import type { Views } from "./views";
 /** What the second, third and fourth of four views show. */
 const SIDES = ["top", "front", "side"] as const;
 const OVERVIEW = { azimuth: -2.05, elevation: 0.62 };
+/** Of a picture as high as wide, or higher: from farther above, so that a flat world fills it. */
+const TALL_ELEVATION = 1.15;
+const WIDE_ASPECT = 1.4;
+/** A page that begins with a robot shows where it is, too. */
+const START_FACTOR = 1.8;
+
+/** Where the whole world is seen from in a picture of this shape. */
+function overviewOf({ width, height, left, right, top, bottom }: FreePart): { azimuth: number; elevation: number } {
+    const aspect = (width - left - right) / Math.max(1, height - top - bottom),
+        tall = Math.max(0, Math.min(1, (WIDE_ASPECT - aspect) / (WIDE_ASPECT - 0.7)));
+    return { ...OVERVIEW, elevation: OVERVIEW.elevation + tall * (TALL_ELEVATION - OVERVIEW.elevation) };
+}
 
 export class Director {
     private activating = false;
@@ -34,6 +46,8 @@ export class Director {
         state.selected.follow((robot) => {
             views.camera.robot = robot;
             this.approach();
+            // A new scene selects the same robot again at once, if it is still there.
+            if (robot === null) queueMicrotask(() => state.selected.value === null && this.letGo());
         });
         views.count.follow((count) => stage.layOut(count));
         views.active.follow(() => {
@@ -71,8 +85,11 @@ export class Director {
     private startWith(world: World, robot: number, mode: "follow" | "chase"): void {
         this.state.selected.set(robot);
         this.state.cameraMode.set(mode);
-        this.views.camera.follow(world, 0, []);
-        this.views.rig.jump(this.views.rig.goal);
+        const { camera, rig } = this.views;
+        camera.follow(world, 0, []);
+        rig.goal.distance *= START_FACTOR;
+        rig.jump(rig.goal);
+        if (mode === "follow") camera.findRoom(this.stage.statics?.solids ?? []);
     }
 
     private startAtFile(world: World): void {
@@ -85,9 +102,10 @@ export class Director {
         this.state.cameraMode.set("follow");
     }
 
-    overview(world: World, from: { azimuth: number; elevation: number } = OVERVIEW): CameraWords {
-        const sight = { ...from, orthographic: this.views.rig.orthographic };
-        return fitted(ballsOf(world), sight, this.free());
+    overview(world: World, from?: { azimuth: number; elevation: number }): CameraWords {
+        const free = this.free(),
+            orthographic = this.views.rig.orthographic;
+        return fitted(ballsOf(world), { ...(from ?? overviewOf(free)), orthographic }, free);
     }
 
     private goTo(words: CameraWords): void {

@@ -4,6 +4,7 @@ import type { CameraMode, World } from "../model/viewer_state";
 import { CameraRig } from "./rig";
 
 const CLEAR_MIN_M = 0.4;
+const DIRECTIONS_TRIED = 8;
 /** Larger scenery is not searched each frame. */
 const RAY_VERTICES_MAX = 200_000;
 
@@ -63,6 +64,19 @@ export class ViewCamera {
             way = new THREE.Vector3(...this.rig.eye({ ...this.rig.now, distance: 1 })).sub(target).normalize();
         const met = new THREE.Raycaster(target, way, 0, this.rig.now.distance).intersectObjects(searched, false)[0];
         return met === undefined ? this.rig.now.distance * 1.05 : Math.max(CLEAR_MIN_M, met.distance * 0.92);
+    }
+
+    /** Turns to where scenery leaves the most room; the direction that it has counts first. */
+    findRoom(solids: readonly THREE.Mesh[]): void {
+        const { now, goal } = this.rig,
+            from = now.azimuth;
+        let best = { azimuth: from, clear: 0 };
+        for (let k = 0; k < DIRECTIONS_TRIED; ++k) {
+            now.azimuth = from + (k * 2 * Math.PI) / DIRECTIONS_TRIED;
+            const clear = this.clearDistance(solids);
+            if (clear > best.clear * 1.05) best = { azimuth: now.azimuth, clear };
+        }
+        now.azimuth = goal.azimuth = best.azimuth;
     }
 
     /** Each frame: the target stays on the robot; chasing, the camera turns with it. */

@@ -19,6 +19,8 @@ const ORDER_INTERVAL_MS = 50;
 const LEASE_S = 2;
 /** Of a pull: so many N/kg at most. */
 const PULL_ACCELERATION = 200;
+/** For so long acts a push that was given while the run is paused. */
+const LATER_S = 0.2;
 const METRES_A_TURN_PX = 0.01;
 /** Newton a metre of arrow and kilogram: a metre of arrow accelerates by this. */
 const PUSH_ACCELERATION = 10;
@@ -177,6 +179,24 @@ export class RobotHand implements PointerHand {
         });
     }
 
+    /** In a paused run nothing would come of a push that ends when the hand lets go. */
+    private pushLater(hold: Hold): void {
+        const force = this.force(hold);
+        void this.run.order(hold.robot, {
+            action: "wrench",
+            link: hold.link,
+            force: force.toArray() as Triple,
+            torque: [0, 0, 0],
+            duration: LATER_S,
+            replaces: true,
+        });
+        this.say(`${force.length().toFixed(1)} N push it for ${LATER_S} s from the next tick on.`);
+    }
+
+    private say(text: string): void {
+        this.run.notice.set({ text: `The run is paused: ${text}`, bad: false });
+    }
+
     private target(hold: Hold): PoseArray {
         const turned = composed(fromAxisAngle([0, 0, 1], hold.turned), [0, 0, 0, ...hold.pose.slice(3)]);
         return [
@@ -202,9 +222,14 @@ export class RobotHand implements PointerHand {
         this.hold = null;
         this.mark.end();
         if (hold === null) return;
-        if (acts) this.give(hold, true);
-        else if (!cancelled && hold.dragged && hold.tool === "move" && hold.places)
+        const paused = this.state.status.value?.paused === true,
+            places = hold.dragged && hold.tool === "move" && hold.places;
+        if (acts && paused && !cancelled && hold.tool === "push") this.pushLater(hold);
+        else if (acts) this.give(hold, true);
+        else if (!cancelled && places) {
             this.sendPose(hold.robot, this.target(hold));
+            if (paused) this.say("it will be there with the next tick.");
+        }
     }
 
     click(x: number, y: number, event: PointerEvent): void {

@@ -16,6 +16,8 @@ export interface Action {
     words?: string;
     /** Its keys act while a text is typed, too. */
     everywhere?: boolean;
+    /** It takes something away: it is found only by the beginnings of its words. */
+    destructive?: boolean;
     /** A key that is held runs it again and again. */
     repeats?: boolean;
     run(): void;

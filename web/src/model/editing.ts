@@ -38,7 +38,12 @@ export class Editing {
         private readonly run: RunLink,
         private readonly selection: Selection,
         private readonly placing: Placing,
-    ) {}
+    ) {
+        // A reset or a rewind: what was done since then is not.
+        state.status.follow((now, before) => {
+            if (now !== null && before !== null && now.tick < before.tick) this.undo.clear();
+        });
+    }
 
     private get world(): World | null {
         return this.state.world.value;
@@ -64,6 +69,8 @@ export class Editing {
             return Promise.resolve(found.length > 0);
         };
         this.placing.place(after);
+        if (this.state.status.value?.paused === true)
+            this.say(`The run is paused: ${few(to.map(({ name }) => name))} will be there with the next tick.`);
         this.undo.push({ name: `move ${few(to.map(({ name }) => name))}`, undo: put(from), redo: put(to) });
     }
 

@@ -1,10 +1,10 @@
-// Finds by a few letters: all of them in order, better where they stand together or at the beginning of words.
+// Finds by a few letters: they stand together, best at the beginning of a word, or are beginnings of words one after
+// another ("lr" finds "Laser rays"). Letters that are scattered inside of words find nothing.
 
-/** The greater, the better; null: the letters are not in it. Words may come in any order. */
+/** The greater, the better; null: it is not found. Words may come in any order. */
 export function fuzzyScore(query: string, text: string): number | null {
     let sum = 0;
-    for (const word of query.toLowerCase().split(/\s+/)) {
-        if (word === "") continue;
+    for (const word of wordsOf(query)) {
         const score = wordScore(word, text.toLowerCase());
         if (score === null) return null;
         sum += score;
@@ -12,28 +12,39 @@ export function fuzzyScore(query: string, text: string): number | null {
     return sum - 0.01 * text.length;
 }
 
-function wordScore(word: string, text: string): number | null {
-    const whole = text.indexOf(word);
-    if (whole >= 0) return 4 * word.length + (whole === 0 ? 6 : isStart(text, whole) ? 4 : 0);
-    const byStarts = scattered(word, text, true),
-        plain = scattered(word, text, false);
-    return byStarts === null ? plain : Math.max(byStarts, plain ?? byStarts);
+/** Each word of the query begins a word of the text. */
+export function beginsWords(query: string, text: string): boolean {
+    return wordsOf(query).every((word) => startOf(word, text.toLowerCase()) >= 0);
 }
 
-/** Letters one by one; `starts`: the next beginning of a word, where there is one, before the next letter. */
-function scattered(word: string, text: string, starts: boolean): number | null {
-    let score = 0,
-        at = -1;
-    for (const letter of word) {
-        let next = text.indexOf(letter, at + 1),
-            start = next;
-        while (starts && start >= 0 && !isStart(text, start)) start = text.indexOf(letter, start + 1);
-        if (starts && start >= 0) next = start;
-        if (next < 0) return null;
-        score += (next === at + 1 ? 2 : 0) + (isStart(text, next) ? 2 : 0) - 0.05 * (next - at);
-        at = next;
-    }
-    return score;
+function wordsOf(query: string): string[] {
+    return query
+        .toLowerCase()
+        .split(/\s+/)
+        .filter((word) => word !== "");
+}
+
+/** Where a word of the text begins with it; -1: nowhere. */
+function startOf(word: string, text: string): number {
+    let at = text.indexOf(word);
+    while (at >= 0 && !isStart(text, at)) at = text.indexOf(word, at + 1);
+    return at;
+}
+
+function wordScore(word: string, text: string): number | null {
+    const start = startOf(word, text);
+    if (start >= 0) return 4 * word.length + (start === 0 ? 12 : 8);
+    if (text.includes(word)) return 4 * word.length;
+    return beginnings(word, text, 0, false) ? 2 * word.length : null;
+}
+
+/** The letters are beginnings of words in their order; `inside`: the letter before stands just before `at`. */
+function beginnings(word: string, text: string, at: number, inside: boolean): boolean {
+    if (word === "") return true;
+    if (inside && text[at] === word[0] && beginnings(word.slice(1), text, at + 1, true)) return true;
+    for (let next = text.indexOf(word[0], at); next >= 0; next = text.indexOf(word[0], next + 1))
+        if (isStart(text, next) && beginnings(word.slice(1), text, next + 1, true)) return true;
+    return false;
 }
 
 function isStart(text: string, at: number): boolean {

@@ -17,6 +17,8 @@ export class RunLink {
     readonly notice = new Signal<{ text: string; bad: boolean } | null>(null);
     readonly connection: Connection;
     readonly preview: Preview;
+    /** The run has a save to return to; null: not known. */
+    saved: boolean | null = null;
     private loading = -1;
     private lastWatch = "";
 
@@ -42,6 +44,8 @@ export class RunLink {
     /** Control words; a refusal is shown. */
     async control(...words: string[]): Promise<Answer> {
         const answer = await this.connection.control(...words);
+        if (words[0] === "save" && answer.done) this.saved = true;
+        if (answer.code === "no-save") this.saved = false;
         if (!answer.done) this.notice.set({ text: answer.text, bad: true });
         return answer;
     }

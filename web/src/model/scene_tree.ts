@@ -1,6 +1,6 @@
 // The scene as rows of a tree: robots by type with their links, joints and sensors, scenery, lights. Only rows of open
 // branches are made, so that a world of thousands of robots costs thousands of small objects and no more.
-import type { SceneInfo } from "../wire/messages";
+import type { SceneInfo, TypeInfo } from "../wire/messages";
 import { lightKey, linkKey, robotKey, sceneryKey } from "./sight";
 
 export type RowKind = "group" | "type" | "robot" | "link" | "joint" | "sensor" | "scenery" | "light";
@@ -46,6 +46,31 @@ function lightsOf(scene: SceneInfo): string[] {
     return (scene.look?.lights ?? []).map(({ name }) => name);
 }
 
+const signatures = new WeakMap<TypeInfo, string>();
+
+/** What a type is, but its name. */
+function signature(type: TypeInfo): string {
+    const known = signatures.get(type) ?? JSON.stringify({ ...type, name: "" });
+    signatures.set(type, known);
+    return known;
+}
+
+/** "car_12" and "car" are "car". */
+function stemOf(name: string): string {
+    return name.replace(/[_-]?\d+$/, "") || name;
+}
+
+/** For each type the first one that is the same and has the same stem: what is copied or added has a type of its own. */
+function alike(types: readonly TypeInfo[]): number[] {
+    const known = new Map<string, number>();
+    return types.map((type, k) => {
+        const key = `${stemOf(type.name)} ${signature(type)}`,
+            first = known.get(key) ?? k;
+        known.set(key, first);
+        return first;
+    });
+}
+
 class Rows {
     readonly rows: TreeRow[] = [];
 
@@ -66,8 +91,9 @@ class Rows {
     }
 
     robots(): void {
-        const ofType: number[][] = this.scene.types.map(() => []);
-        this.scene.robots.forEach(({ name, type }, robot) => this.fits(name) && ofType[type].push(robot));
+        const first = alike(this.scene.types),
+            ofType: number[][] = this.scene.types.map(() => []);
+        this.scene.robots.forEach(({ name, type }, robot) => this.fits(name) && ofType[first[type]].push(robot));
         const count = ofType.reduce((sum, robots) => sum + robots.length, 0);
         if (count === 0) return;
         const sight = ofType.flat().map((robot) => robotKey(this.scene.robots[robot].name));
@@ -91,7 +117,9 @@ class Rows {
             key = `type:${name}`,
             open = this.opened(key),
             sight = robots.map((robot) => robotKey(this.scene.robots[robot].name));
-        this.rows.push({ kind: "type", key, text: name, level: 2, open, count: robots.length, sight });
+        // A type is called after its first robot: without that one's number it names all of them.
+        const text = robots.some((robot) => this.scene.robots[robot].name === name) ? stemOf(name) : name;
+        this.rows.push({ kind: "type", key, text, level: 2, open, count: robots.length, sight });
         return open;
     }
 

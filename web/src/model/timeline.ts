@@ -1,10 +1,13 @@
 // What the timeline spans, and what of the run's past lies where on it.
+import { clockText } from "../ui/numbers";
 import type { Status } from "../wire/messages";
 import type { BookmarkInfo, BranchInfo, Timeline } from "../wire/timeline";
 
 export interface TimelineSpan {
     /** There are earlier moments. */
     rewinds: boolean;
+    /** There is a journal, though perhaps nothing in it yet. */
+    kept: boolean;
     first: number;
     last: number;
     /** Place of the present, 0..1. */
@@ -17,7 +20,7 @@ export interface Moment {
     time: number;
 }
 
-const NONE: TimelineSpan = { rewinds: false, first: 0, last: 0, now: 1 };
+const NONE: TimelineSpan = { rewinds: false, kept: false, first: 0, last: 0, now: 0 };
 
 /** The path of the present branch. A replay also has times behind the present. */
 export function timelineOf(status: Status | null, timeline: Timeline | null = null): TimelineSpan {
@@ -29,9 +32,10 @@ export function timelineOf(status: Status | null, timeline: Timeline | null = nu
         last = Math.max(first, recorded, journal.last_s, status.time_s);
     return {
         rewinds: last > first,
+        kept: true,
         first,
         last,
-        now: last > first ? Math.min(1, Math.max(0, (status.time_s - first) / (last - first))) : 1,
+        now: last > first ? Math.min(1, Math.max(0, (status.time_s - first) / (last - first))) : 0,
     };
 }
 
@@ -57,14 +61,10 @@ export function marksOf(span: { first: number; last: number }, most: number): nu
     return marks;
 }
 
-/** A time of a mark: "40 s", "2:30", "1:00:00". */
+/** A time of a mark: "0:40", "0:00.5", "1:00:00". */
 export function markText(time: number): string {
-    if (time < 60) return `${Number(time.toFixed(1))} s`;
-    const whole = Math.round(time),
-        pad = (n: number) => String(n).padStart(2, "0");
-    const minutes = Math.floor(whole / 60) % 60,
-        hours = Math.floor(whole / 3600);
-    return hours > 0 ? `${hours}:${pad(minutes)}:${pad(whole % 60)}` : `${minutes}:${pad(whole % 60)}`;
+    const parts = Math.abs(time - Math.round(time)) > 0.01;
+    return clockText(time, parts ? 1 : 0);
 }
 
 export interface BranchRow {

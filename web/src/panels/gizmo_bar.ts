@@ -39,9 +39,13 @@ export function gizmoBar(state: ViewerState, selection: Selection, placing: Plac
             robots = selection.robots,
             refusal = robots.map((robot) => placing.refusal(robot)).find((text) => text !== "") ?? "";
         element.hidden = tool !== "place" && tool !== "turn";
-        setText(why, robots.length > 0 ? refusal : "Select a robot: click it, or Shift and drag a box.");
+        const none =
+            state.scenery.value === null
+                ? "Select a robot: click it, or Shift and drag a box."
+                : "Scenery cannot be moved during a run.";
+        setText(why, robots.length > 0 ? refusal : none);
     };
-    for (const signal of [state.tool, state.selected, state.others, state.sight.locked])
+    for (const signal of [state.tool, state.selected, state.others, state.scenery, state.sight.locked])
         (signal as { follow(call: () => void): unknown }).follow(show);
     return element;
 }

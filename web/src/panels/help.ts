@@ -9,7 +9,7 @@ const MOUSE: [string, string][] = [
     ["Click", "select a robot or scenery"],
     ["Ctrl click", "select one more robot, or one less"],
     ["Shift drag", "select the robots in a box; with Ctrl: besides those selected"],
-    ["Double click", "look at a robot"],
+    ["Double click", "follow a robot"],
     ["W A S D, Q E", "move the camera (click the picture first)"],
     ["Move tool", "pull a robot where you took it; Alt lifts it, Shift places and turns it"],
     ["Push tool", "pull an arrow: the longer, the stronger"],
@@ -18,8 +18,23 @@ const TOUCH: [string, string][] = [
     ["One finger", "turn the camera; with the tools Move and Push: pull or push a robot"],
     ["Two fingers", "move the camera; pinch: nearer, farther"],
     ["Tap", "select a robot"],
-    ["Double tap", "look at a robot"],
+    ["Double tap", "follow a robot"],
     ["Long press", "open a robot's sheet"],
+];
+
+/** While the timeline has the focus. */
+const TIMELINE: [string, string][] = [
+    ["Left, Right", "a tick earlier, later"],
+    ["Up, Down, Shift", "a second"],
+    ["Home, End", "the beginning, now"],
+    ["Escape", "back to now"],
+];
+/** While the scene tree has the focus. */
+const TREE: [string, string][] = [
+    ["Arrows, Home, End", "walk, unfold and fold"],
+    ["Enter", "look at the robot"],
+    ["Shift, Ctrl", "select several"],
+    ["E, L", "hide or show, lock or unlock"],
 ];
 
 export interface HelpCard {
@@ -58,6 +73,8 @@ export function helpCard(actions: Actions): HelpCard {
         columns.replaceChildren(
             section("Mouse", MOUSE),
             section("Touch", TOUCH),
+            section("In the timeline", TIMELINE),
+            section("In the scene tree", TREE),
             ...groups.map((group) =>
                 section(
                     group,

@@ -6,7 +6,7 @@ import { COARSE } from "../ui/touch";
 const KEPT = "roboss.hints";
 const MOUSE = [
     "Drag turns the picture, right drag moves it, the wheel zooms.",
-    "Click a robot to inspect it; double click looks at it.",
+    "Click a robot to inspect it; double click follows it.",
     "Ctrl K finds every command and every robot. ? shows all keys.",
 ];
 const TOUCH = [

@@ -32,6 +32,9 @@ function motionText({ linear, angular, belt }: SurfaceMotion): string {
     return parts.join(", ");
 }
 
+/** Of the base's readings: the fields show them. */
+const POSE_NUMBERS = 6;
+
 export class Inspector {
     readonly element = h("div", { class: "inspector" });
     private rows: ReadingRows | null = null;
@@ -54,6 +57,8 @@ export class Inspector {
     ) {
         state.selected.follow(() => this.reset());
         state.world.follow(() => this.reset());
+        for (const signal of [state.selected, state.scenery] as { follow(call: () => void): unknown }[])
+            signal.follow(() => (this.element.hidden = state.selected.value === null && state.scenery.value !== null));
         state.report.follow((report) => report !== null && this.show(report));
         plotted.curves.follow(() => this.rows?.mark());
     }
@@ -86,7 +91,8 @@ export class Inspector {
                 "span",
                 { class: "facts" },
                 [
-                    type.name === world.fleet.name(robot) ? "" : type.name,
+                    // Often a type is called after its first robot.
+                    world.fleet.find(type.name) === undefined ? type.name : "",
                     `${fixed(type.mass, 2)} kg`,
                     type.free_base ? "free base" : "fixed base",
                 ]
@@ -102,7 +108,9 @@ export class Inspector {
             all = readings(type, report),
             rows = new ReadingRows(robot, this.plotted);
         this.rows = rows;
-        this.pose = new PoseFields(robot, this.hands.editing, this.hands.placing);
+        const [own, rest] = [all.base.slice(0, POSE_NUMBERS), all.base.slice(POSE_NUMBERS)],
+            plots = own.map((reading) => rows.button(reading));
+        this.pose = new PoseFields(robot, this.hands.editing, this.hands.placing, plots);
         this.joints = new JointControls(robot, type, this.run, rows, all.joints);
         this.sensors = new SensorViews(type, rows, all.sensors);
         this.channels = new ChannelControls(robot, type, world.fleet.scene.dt, this.run);
@@ -116,7 +124,7 @@ export class Inspector {
             section(
                 "Pose and velocity",
                 this.pose.element,
-                h("div", { class: "readings two" }, ...all.base.map((reading) => rows.row(reading))),
+                h("div", { class: "readings two" }, ...rest.map((reading) => rows.row(reading))),
             ),
             type.free_base
                 ? section("Drive by hand", velocityPad(this.run, this.state, robot))

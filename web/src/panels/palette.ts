@@ -1,7 +1,7 @@
 // The command palette: every action of the page, and every robot by name, found by a few letters. A combobox with a list
 // box, as WAI-ARIA has it; by touch it is a list.
 import { type Action, type Actions, keyText } from "../model/actions";
-import { fuzzyBest } from "../model/fuzzy";
+import { beginsWords, fuzzyBest } from "../model/fuzzy";
 import { h, icon } from "../ui/dom";
 
 const SHOWN_MAX = 60;
@@ -57,7 +57,9 @@ export class Palette {
 
     private search(): void {
         const words = (action: Action) => `${action.title} ${action.group} ${action.words ?? ""}`;
-        this.found = fuzzyBest(this.input.value, this.all, words, SHOWN_MAX);
+        const query = this.input.value,
+            meant = this.all.filter((action) => action.destructive !== true || beginsWords(query, words(action)));
+        this.found = fuzzyBest(query, meant, words, SHOWN_MAX);
         this.active = 0;
         this.list.replaceChildren(...this.found.map((action, k) => this.row(action, k)));
         this.nothing.hidden = this.found.length > 0;
@@ -98,8 +100,10 @@ export class Palette {
         const by = { ArrowDown: 1, ArrowUp: -1, PageDown: 8, PageUp: -8 }[event.key];
         if (by !== undefined) this.go(this.active + by);
         else if (event.key === "Enter") this.run(this.active);
+        else if (event.key === "Escape") this.element.close();
         else return;
         event.preventDefault();
+        event.stopPropagation();
     }
 
     private run(k: number): void {

@@ -3,6 +3,7 @@
 import uPlot from "uplot";
 import { turnOf, tableOf, unwrapped } from "../model/plot_data";
 import type { Curve } from "../model/plotted";
+import { markText } from "../model/timeline";
 import { h, iconButton, setText } from "../ui/dom";
 import { fixed } from "../ui/numbers";
 import { groupCss } from "../view/palette";
@@ -10,6 +11,7 @@ import { groupCss } from "../view/palette";
 const HEIGHT_PX = 150;
 const SYNC = "roboss-plots";
 const WHEEL_ZOOM = 0.0015;
+const SPAN_LEAST_S = 2;
 
 /** The time that all plots show. */
 export interface TimeWindow {
@@ -48,7 +50,7 @@ function timeAxis(): uPlot.Axis {
         ...axisLook(),
         space: 60,
         size: 26,
-        values: (_: uPlot, splits: number[]) => splits.map((value) => `${fixed(value, value % 1 === 0 ? 0 : 1)} s`),
+        values: (_: uPlot, splits: number[]) => splits.map(markText),
     };
 }
 
@@ -72,6 +74,15 @@ export function valueRange(_: uPlot, least: number | null, most: number | null):
     const middle = (least + most) / 2,
         half = Math.max((most - least) * 0.55, Math.abs(middle) * 0.02, 0.005);
     return [middle - half, middle + half];
+}
+
+/** The time shown: what there is, or its last seconds; at least a few, where there is hardly anything yet. */
+export function timeSpan(times: ArrayLike<number>, last: number | null): [number, number] {
+    if (times.length === 0) return [0, SPAN_LEAST_S];
+    const least = times[0],
+        most = times[times.length - 1];
+    if (last !== null) return [most - last, most];
+    return most - least < SPAN_LEAST_S ? [least, least + SPAN_LEAST_S] : [least, most];
 }
 
 export class PlotChart {
@@ -98,7 +109,7 @@ export class PlotChart {
                 legend: { show: false },
                 cursor: { y: false, points: { size: 6 }, sync: { key: SYNC }, drag: { x: true, y: false } },
                 scales: {
-                    x: { time: false, range: (_, least, most) => this.timeRange(least, most) },
+                    x: { time: false, range: (plot) => this.timeRange(plot.data[0]) },
                     ...Object.fromEntries(units.map((unit) => [scale(unit), { range: valueRange }])),
                 },
                 axes: [timeAxis(), ...units.map((unit, k) => valueAxis(unit, scale(unit), k === 0 ? 3 : 1))],
@@ -110,7 +121,8 @@ export class PlotChart {
                         stroke: groupCss(colour(curve)),
                         width: 1.5,
                         spanGaps: true,
-                        points: { show: false },
+                        // A line needs two.
+                        points: { show: (plot: uPlot) => plot.data[0].length === 1, size: 7 },
                     })),
                 ],
                 hooks: { setCursor: [(plot) => this.showValues(plot)], setSelect: [(plot) => this.chosen(plot)] },
@@ -145,11 +157,10 @@ export class PlotChart {
         ) as uPlot.AlignedData;
     }
 
-    private timeRange(least: number | null, most: number | null): [number, number] {
+    private timeRange(times: ArrayLike<number>): [number, number] {
         const { last, fixed: zoomed } = this.needs.window();
         if (zoomed !== null) return zoomed;
-        if (least === null || most === null) return [0, 1];
-        return [last === null ? least : most - last, Math.max(most, least + 0.1)];
+        return timeSpan(times, last);
     }
 
     /** Under the cursor; without one, the last values. */

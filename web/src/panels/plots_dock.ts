@@ -26,6 +26,11 @@ export class PlotsDock {
         { class: "empty" },
         "Nothing is plotted. Choose the graph beside a number of a robot, or a robot and a variable above.",
     );
+    private readonly waits = h(
+        "p",
+        { class: "empty plots-wait", role: "status", hidden: true },
+        "The run is paused: curves grow when it plays.",
+    );
     private readonly pause: HTMLButtonElement;
     private readonly back: HTMLButtonElement;
     private readonly unwrap = h("input", { type: "checkbox", checked: true, onchange: () => this.refresh() });
@@ -62,7 +67,7 @@ export class PlotsDock {
                 h("button", { type: "button", class: "small", onclick: () => this.saveTable() }, "CSV"),
                 h("button", { type: "button", class: "small", onclick: () => this.savePicture() }, "PNG"),
             ),
-            iconButton("close", "Remove all plots", () => plotted.clear()),
+            iconButton("remove", "Remove all plots", () => plotted.clear()),
         );
         windows.dataset.yields = "1";
         const more = moreMenu(head, "More of plots", true);
@@ -73,10 +78,12 @@ export class PlotsDock {
             head,
             more.menu,
             this.hint,
+            this.waits,
             this.charts,
         );
         plotted.curves.follow(() => this.rebuild());
         state.theme.follow(() => setTimeout(() => this.rebuild()));
+        state.status.follow(() => this.wait());
         const grown = throttled(100, () => !this.paused && this.refresh());
         plotted.grown.follow(grown);
         const sized = throttled(100, () => {
@@ -120,6 +127,14 @@ export class PlotsDock {
 
     private refresh(): void {
         this.shown.forEach((chart) => chart.refresh());
+        this.wait();
+    }
+
+    /** A plot of a paused run looks broken unless it says why it is empty. */
+    private wait(): void {
+        const curves = this.plotted.curves.value,
+            begun = curves.some(({ times }) => times.length > 1);
+        this.waits.hidden = curves.length === 0 || begun || this.state.status.value?.paused !== true;
     }
 
     private zoom(range: [number, number] | null): void {

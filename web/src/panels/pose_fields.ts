@@ -3,7 +3,7 @@
 import type { Editing } from "../model/editing";
 import { quaternionOf, toRollPitchYaw } from "../kinematics/pose";
 import type { Placing } from "../model/placing";
-import { h } from "../ui/dom";
+import { h, setText } from "../ui/dom";
 import type { PoseArray, RobotReport } from "../wire/messages";
 
 const NAMES = ["x", "y", "z", "roll", "pitch", "yaw"] as const;
@@ -12,12 +12,15 @@ const DEGREE = Math.PI / 180;
 export class PoseFields {
     readonly element: HTMLElement;
     private readonly inputs: HTMLInputElement[];
+    private readonly fault = h("p", { class: "fault", role: "alert" });
     private typed = false;
 
     constructor(
         private readonly robot: number,
         private readonly editing: Editing,
         private readonly placing: Placing,
+        /** What plots each number. */
+        plots: readonly HTMLElement[] = [],
     ) {
         this.inputs = NAMES.map((name, k) =>
             h("input", {
@@ -36,14 +39,27 @@ export class PoseFields {
             "div",
             { class: "pose-fields", title: why === "" ? "Enter puts the robot there" : why },
             ...NAMES.map((name, k) =>
-                h("label", {}, h("span", {}, name), this.inputs[k], h("span", { class: "unit" }, k < 3 ? "m" : "°")),
+                h(
+                    "label",
+                    {},
+                    h("span", { class: "pose-name" }, name, plots[k] ?? null),
+                    this.inputs[k],
+                    h("span", { class: "unit" }, k < 3 ? "m" : "°"),
+                ),
             ),
+            this.fault,
         );
     }
 
     private mark(typed: boolean): void {
         this.typed = typed;
+        if (!typed) this.valid();
         this.element.classList.toggle("typed", typed);
+    }
+
+    private valid(): void {
+        setText(this.fault, "");
+        for (const input of this.inputs) input.removeAttribute("aria-invalid");
     }
 
     private key(event: KeyboardEvent): void {
@@ -58,7 +74,9 @@ export class PoseFields {
     private send(): void {
         const numbers = this.inputs.map((input) => (input.value.trim() === "" ? NaN : Number(input.value)));
         this.inputs.forEach((input, k) => input.setAttribute("aria-invalid", String(!Number.isFinite(numbers[k]))));
-        if (!numbers.every(Number.isFinite)) return;
+        const wrong = NAMES.filter((_, k) => !Number.isFinite(numbers[k]));
+        setText(this.fault, wrong.length > 0 ? `Not a number: ${wrong.join(", ")}.` : "");
+        if (wrong.length > 0) return;
         const [x, y, z, roll, pitch, yaw] = numbers,
             q = quaternionOf(roll * DEGREE, pitch * DEGREE, yaw * DEGREE),
             pose: PoseArray = [x, y, z, ...q];

@@ -16,13 +16,8 @@ export class ReadingRows {
     /** `shown`: what the row says where its place already says the rest. */
     row(reading: Reading, shown = reading.label): HTMLElement {
         const value = h("span", { class: "value" }),
-            button = iconButton("plot", `Plot ${reading.label}`, () => {
-                this.plotted.toggle(this.robot, reading.key, reading.label, reading.unit);
-                this.mark();
-            });
+            button = this.button(reading);
         this.values.set(reading.key, value);
-        this.buttons.set(reading.key, button);
-        this.mark();
         return h(
             "div",
             { class: "reading" },
@@ -31,6 +26,17 @@ export class ReadingRows {
             h("span", { class: "unit" }, reading.unit),
             button,
         );
+    }
+
+    /** Plots it, or no longer. */
+    button(reading: Reading): HTMLButtonElement {
+        const button = iconButton("plot", `Plot ${reading.label}`, () => {
+            this.plotted.toggle(this.robot, reading.key, reading.label, reading.unit);
+            this.mark();
+        });
+        this.buttons.set(reading.key, button);
+        this.mark();
+        return button;
     }
 
     show(list: readonly Reading[]): void {

@@ -10,6 +10,7 @@ export function runButtons(state: ViewerState, run: RunLink): HTMLElement {
         const file = await asked("Save the run on its computer as", "saved.roboss", "Save");
         if (file === null) return;
         const first = await run.connection.control("save", file);
+        if (first.done) run.saved = true;
         if (first.code !== "file-exists") return run.notice.set({ text: first.text, bad: !first.done });
         if (!(await confirmed(`${file} exists. Overwrite it?`, "Overwrite"))) return;
         const again = await run.control("save", file, "overwrite");

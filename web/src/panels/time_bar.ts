@@ -10,9 +10,13 @@ import { bookmarksOnPath, timelineOf } from "../model/timeline";
 import { asked, chosen } from "../ui/confirm";
 import { moreMenu } from "../ui/overflow";
 import { BranchPanel } from "./time_branches";
+import { NARROW } from "./sheets";
 import { momentStrip, momentWord } from "./time_moment";
 import { TimeTrack } from "./time_track";
 
+const NO_JOURNAL = "Start the run with --journal FILE to look at earlier times";
+/** s of the first look back. */
+const REWIND_S = 5;
 const SPEEDS = ["0.1", "0.25", "0.5", "1", "2", "5", "10", "max"];
 
 export interface TimeBar {
@@ -27,6 +31,8 @@ export interface TimeBar {
     backToNow(): boolean;
     /** Asks to where. */
     reset(): void;
+    /** Shows what was a little earlier, and gives the timeline the keys. */
+    rewind(): void;
 }
 
 export function timeBar(state: ViewerState, run: RunLink): TimeBar {
@@ -58,9 +64,18 @@ export function timeBar(state: ViewerState, run: RunLink): TimeBar {
         play.setAttribute("aria-label", status?.paused === true ? "Play" : "Pause");
         play.title = status?.paused === true ? "Play  (Space)" : "Pause  (Space)";
         setText(rtf, status?.paused === true ? "paused" : factorText(status?.rtf));
-        setText(tick, status === null ? "" : `tick ${Math.round(status.tick)}`);
+        rtf.classList.toggle("paused", status?.paused === true);
     });
-    const showClock = throttled(33, (time: number) => setText(clock, clockText(time)));
+    const showTick = () => {
+        const at = (state.shown.value ?? state.status.value)?.tick; // of the moment that is seen
+        setText(tick, at === undefined ? "" : `tick ${Math.round(at)}`);
+    };
+    state.status.follow(showTick);
+    state.shown.follow(showTick);
+    const narrow = matchMedia(NARROW);
+    const showClock = throttled(33, (time: number) =>
+        setText(clock, clockText(time, narrow.matches && time >= 3600 ? 0 : 3)),
+    );
     state.drawnTime.follow(showClock);
     const { panel, toggleBranches, branches } = branchPanel(state, run);
     const bookmark = () => void nameMoment(state, run);
@@ -92,14 +107,15 @@ export function timeBar(state: ViewerState, run: RunLink): TimeBar {
         speed,
         h("div", { class: "clocks" }, clock, rtf, tick),
     );
-    const more = moreMenu(row, "More of time", true);
+    const more = moreMenu(row, "More of time", true),
+        main = mainTrack(state, run, flag, branches);
     row.append(more.button);
     const element = h(
         "footer",
         { class: "time", role: "contentinfo", "aria-label": "Time" },
         panel.element,
         momentStrip(state, run),
-        h("div", { class: "time-main" }, row, more.menu, mainTrack(state, run, flag, branches)),
+        h("div", { class: "time-main" }, row, more.menu, main.element),
     );
     const faster = (by: number) => {
         const now = SPEEDS.indexOf(state.status.value?.speed ?? "1");
@@ -110,7 +126,8 @@ export function timeBar(state: ViewerState, run: RunLink): TimeBar {
         run.preview.leave();
         return away;
     };
-    return { element, playOrPause, step, faster, reset, bookmark, toggleBranches, backToNow };
+    const rewind = () => rewound(state, run, main.track);
+    return { element, playOrPause, step, faster, reset, bookmark, toggleBranches, backToNow, rewind };
 }
 
 function branchPanel(state: ViewerState, run: RunLink) {
@@ -127,12 +144,21 @@ function branchPanel(state: ViewerState, run: RunLink) {
     return { panel, toggleBranches, branches };
 }
 
+function rewound(state: ViewerState, run: RunLink, track: TimeTrack): void {
+    const { rewinds, first, last } = timelineOf(state.status.value, state.timeline.value),
+        from = run.preview.wanted.value?.time ?? state.status.value?.time_s ?? last;
+    if (!rewinds) return run.notice.set({ text: NO_JOURNAL, bad: false });
+    track.focus();
+    run.preview.show({ branch: 0, time: Math.max(first, from - REWIND_S) }, true);
+}
+
 /** Without a journal there is no way back, so it asks. */
 async function resetRun(state: ViewerState, run: RunLink): Promise<void> {
     const kept = (state.status.value?.journal ?? null) !== null;
     const to = await chosen(
         `Reset the run? ${kept ? "The journal keeps what was." : "Without a journal there is no way back."}`,
-        { start: "To the beginning", save: "To the last save" },
+        { start: "To the beginning", save: run.saved === true ? "To the last save" : "To the last save, if any" },
+        run.saved === false ? ["save"] : [],
     );
     if (to !== null) await run.control("reset", to);
 }
@@ -143,7 +169,7 @@ async function nameMoment(state: ViewerState, run: RunLink): Promise<void> {
         moment = shown === null ? { branch: 0, time } : { branch: shown.branch, time: shown.time_s };
     const name = await asked(
         `Name the moment ${clockText(moment.time)}`,
-        `Moment ${moment.time.toFixed(2)} s`,
+        `Moment ${clockText(moment.time, 2)}`,
         "Add bookmark",
     );
     if (name === null) return;
@@ -167,7 +193,7 @@ function speedChoice(state: ViewerState, run: RunLink): HTMLElement {
 }
 
 /** The path of the present branch. */
-function mainTrack(state: ViewerState, run: RunLink, ...buttons: HTMLElement[]): HTMLElement {
+function mainTrack(state: ViewerState, run: RunLink, ...buttons: HTMLElement[]) {
     const first = h("span", { class: "end" }),
         last = h("span", { class: "end" }),
         track = new TimeTrack(state, run, 0, "Timeline: look at an earlier time"),
@@ -176,13 +202,13 @@ function mainTrack(state: ViewerState, run: RunLink, ...buttons: HTMLElement[]):
         const status = state.status.value,
             timeline = state.timeline.value,
             span = timelineOf(status, timeline);
-        element.title = span.rewinds ? "" : "Start the run with --journal FILE to look at earlier times";
+        element.title = span.rewinds ? "" : span.kept ? "The journal has nothing earlier yet" : NO_JOURNAL;
         element.classList.toggle("none", !span.rewinds);
-        setText(first, span.rewinds ? clockText(span.first) : "no journal");
-        setText(last, span.rewinds ? clockText(span.last) : "");
+        setText(first, span.kept ? clockText(span.first, 0) : "no journal");
+        setText(last, span.kept ? clockText(span.last, 0) : "");
         track.show({ ...span, enabled: span.rewinds }, timeline === null ? [] : bookmarksOnPath(timeline));
     };
     for (const signal of [state.status, state.timeline, run.preview.wanted, run.preview.pinned])
         (signal as Signal<unknown>).follow(show);
-    return element;
+    return { element, track };
 }

@@ -5,6 +5,7 @@ import type { Moment } from "../model/timeline";
 import { branchAt } from "../model/timeline";
 import type { ViewerState } from "../model/viewer_state";
 import { h, setText } from "../ui/dom";
+import { clockText } from "../ui/numbers";
 
 function plural(count: number, one: string, many: string): string {
     return count === 1 ? `1 ${one}` : `${count} ${many}`;
@@ -63,8 +64,8 @@ export function momentStrip(state: ViewerState, run: RunLink): HTMLElement {
         const coming = shown === null || !shown.exact || Math.abs(shown.time_s - wanted.time) > 1.5 ? " …" : "";
         setText(
             words,
-            `You see ${time.toFixed(3)} s of branch ${branch}${coming}; the ${replay ? "replay" : "run"} is at ` +
-                `${(status?.time_s ?? 0).toFixed(1)} s`,
+            `You see ${clockText(time)} of branch ${branch}${coming}; the ${replay ? "replay" : "run"} is at ` +
+                clockText(status?.time_s ?? 0, 1),
         );
         const missing: string[] = [];
         if ((shown?.gone ?? 0) > 0) missing.push(`${plural(shown?.gone ?? 0, "robot", "robots")} of then not shown`);

@@ -63,6 +63,11 @@ export class TimeTrack {
         this.listen();
     }
 
+    /** Its keys act from now on. */
+    focus(): void {
+        this.slider.focus();
+    }
+
     private get preview() {
         return this.run.preview;
     }

@@ -114,7 +114,7 @@ function worldFacts(state: ViewerState): HTMLElement {
         const parts = world === null ? [] : [`${short(world.fleet.count)} robots`];
         if (status !== null) {
             parts.push(`${status.simulators} ${status.simulators === 1 ? "Simulator" : "Simulators"}`);
-            if (status.islands !== undefined) parts.push(`${short(status.islands)} islands`);
+            if ((status.islands ?? 0) > 0) parts.push(`${short(status.islands)} islands`);
             if (typeof status.efficiency === "number" && status.simulators > 1)
                 parts.push(`efficiency ${percent(status.efficiency)}`);
         }

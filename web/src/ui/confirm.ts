@@ -61,8 +61,12 @@ export function asked(question: string, value: string, verb: string): Promise<st
     });
 }
 
-/** Asks in a dialog which of the choices; null: none. */
-export function chosen(question: string, choices: Readonly<Record<string, string>>): Promise<string | null> {
+/** Asks in a dialog which of the choices; null: none. `not`: those that cannot be chosen now. */
+export function chosen(
+    question: string,
+    choices: Readonly<Record<string, string>>,
+    not: readonly string[] = [],
+): Promise<string | null> {
     return new Promise((resolve) => {
         const dialog = h(
             "dialog",
@@ -82,7 +86,9 @@ export function chosen(question: string, choices: Readonly<Record<string, string
                     "div",
                     { class: "buttons" },
                     h("button", { type: "button", onclick: () => dialog.close() }, "Cancel"),
-                    ...Object.entries(choices).map(([value, text]) => h("button", { type: "submit", value }, text)),
+                    ...Object.entries(choices).map(([value, text]) =>
+                        h("button", { type: "submit", value, disabled: not.includes(value) }, text),
+                    ),
                 ),
             ),
         );

@@ -25,13 +25,15 @@ export function percent(value: number | null | undefined): string {
     return value === null || value === undefined || !Number.isFinite(value) ? "–" : `${(100 * value).toFixed(0)} %`;
 }
 
-/** Simulated seconds as minutes:seconds.milliseconds, hours where there are any. */
-export function clockText(seconds: number): string {
-    const ms = Math.max(0, Math.round(seconds * 1000)),
+/** Simulated seconds as minutes:seconds.milliseconds, hours where there are any. `digits`: of a second's parts. */
+export function clockText(seconds: number, digits: 0 | 1 | 2 | 3 = 3): string {
+    const unit = 10 ** digits,
+        parts = Math.max(0, Math.round(seconds * unit)),
+        whole = Math.floor(parts / unit),
         pad = (n: number, width: number) => String(n).padStart(width, "0");
-    const hours = Math.floor(ms / 3_600_000),
-        minutes = Math.floor(ms / 60_000) % 60;
-    const rest = `${pad(Math.floor(ms / 1000) % 60, 2)}.${pad(ms % 1000, 3)}`;
+    const hours = Math.floor(whole / 3600),
+        minutes = Math.floor(whole / 60) % 60;
+    const rest = `${pad(whole % 60, 2)}${digits > 0 ? `.${pad(parts % unit, digits)}` : ""}`;
     return hours > 0 ? `${hours}:${pad(minutes, 2)}:${rest}` : `${minutes}:${rest}`;
 }
 

@@ -15,6 +15,8 @@ export interface Picked {
 }
 
 const REACH_MIN_M = 0.05;
+/** Above everything. */
+const HIGH_M = 1e4;
 
 /** What of the scenery is under the pointer, robots aside: its shape, and where. */
 export function pickScenery(
@@ -34,6 +36,13 @@ export function pickPoint(stage: Stage, world: World, x: number, y: number): THR
     if (found !== undefined) return found;
     const ground = new THREE.Plane(new THREE.Vector3(0, 0, 1), 0);
     return stage.ray(x, y).ray.intersectPlane(ground, new THREE.Vector3());
+}
+
+/** Height of the highest scenery at a place; of the plane z = 0 where there is none. */
+export function surfaceBelow(stage: Stage, x: number, y: number): number {
+    const down = new THREE.Raycaster(new THREE.Vector3(x, y, HIGH_M), new THREE.Vector3(0, 0, -1)),
+        hit = down.intersectObjects(stage.statics?.solids ?? [], false)[0];
+    return hit?.point.z ?? 0;
 }
 
 export function pick(stage: Stage, world: World, x: number, y: number): Picked | null {
