@@ -2,6 +2,7 @@
 #include "gateway/page_session.h"
 
 #include <boost/asio/buffer.hpp>
+#include <boost/asio/error.hpp>
 #include <charconv>
 
 #include "gateway/server_core_session.h"
@@ -21,6 +22,13 @@ constexpr std::size_t kTypeWithin = 64;  // bytes of a large message
 const std::string kTooLarge =
     "a message is larger than " + std::to_string(viewer_protocol::kMessageBytesMax) +
     " bytes, or of a file to add " + std::to_string(viewer_protocol::kAdditionBytesMax) + "";
+
+/// The page was closed or reloaded: browsers do not always say so before the connection ends.
+bool has_left(const beast::error_code& error) {
+    return error == websocket::error::closed || error == asio::error::operation_aborted ||
+           error == asio::error::connection_reset || error == asio::error::broken_pipe ||
+           error == asio::error::eof;
+}
 
 /// A request that carries a file.
 bool adds(const PageRequest& request) {
@@ -104,7 +112,7 @@ void PageSession::read() {
     buffer_.clear();
     socket_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
         if (self->ended_) return;
-        if (error == websocket::error::closed || error == asio::error::operation_aborted) return self->end();
+        if (has_left(error)) return self->end();
         if (error == websocket::error::message_too_big) return self->end(kTooLarge, "too-large");
         if (error == beast::error::timeout) return self->end("it timed out", "timeout");
         if (error) return self->end("the connection broke: " + error.message(), "broken");
@@ -200,9 +208,7 @@ void PageSession::write_next() {
         self->writing_ = false;
         self->sent_bytes_ += bytes;
         self->core_.count_sent(bytes);
-        if (error)
-            return self->end(error == asio::error::operation_aborted ? ""
-                                                                     : "it disconnected: " + error.message());
+        if (error) return self->end(has_left(error) ? "" : "the connection broke: " + error.message());
         self->write_next();
     };
     if (lines_.empty() && extras_due()) lines_.push_back(core_.extras_line());

@@ -115,7 +115,8 @@ class SceneMaker {
         if (visual.emissive && norm(*visual.emissive) > 0) finish.emissive = visual.emissive;
         if (!visual.specular || finish.roughness || finish.roughness_map) return;
         const Vec3& s = *visual.specular;
-        const double bright = std::max({s.x, s.y, s.z});
+        // Roughness has no colour: a coloured highlight shines as its weakest part does.
+        const double bright = std::min({s.x, s.y, s.z});
         if (bright >= kDull) finish.roughness = kRough - kGloss * std::min(1.0, bright);
     }
 

@@ -152,6 +152,22 @@ TEST(Scene, PicturesAreListedOnceByTheirContentAndMeshesKeepTheirPlacesInThem) {
         EXPECT_FALSE(decode_scene_file(std::span(odd).first(n)).ok());
 }
 
+TEST(Scene, OnlyAWhiteHighlightShinesForRoughnessHasNoColour) {
+    World world = small_world();
+    VisualSpec& red = world.prototypes[1].links[0].visuals[0];
+    const auto roughness = [&](const Vec3& specular) {
+        red.specular = specular;
+        const auto model = test::compiled(world);
+        const Scene scene = make_scene(*model, &world);
+        const std::size_t type = scene.robots[model->find_robot("red")->index()];
+        return scene.types[type].links[0].visuals[0].finish.roughness;
+    };
+    ASSERT_TRUE(roughness({0.8, 0.8, 0.8}).has_value());
+    EXPECT_NEAR(*roughness({0.8, 0.8, 0.8}), 0.5, 1e-12);
+    EXPECT_FALSE(roughness({0.8, 0, 0}).has_value());
+    EXPECT_FALSE(roughness({0.1, 0.1, 0.1}).has_value());
+}
+
 /// The rotation or way of a body's joint, from the values of the State message.
 Pose motion_of(const Json& body, const std::vector<double>& q) {
     const Vec3 axis{body["axis"][0], body["axis"][1], body["axis"][2]};

@@ -41,6 +41,8 @@ def kept(name, every=0.25):
     if not file.exists():
         found = summary(*RUNS[name], "--until", UNTIL, "--journal", file, "--journal-every", every)
         assert found["state_hash"] == undisturbed(name), f"the journal changed {name}"
+        size = file.stat().st_size  # the summary may count what SQLite has not yet merged into it
+        assert found["journal"]["file"] == str(file) and size <= found["journal"]["bytes"] <= 3 * size, (found["journal"], size)
     return file
 
 

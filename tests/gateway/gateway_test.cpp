@@ -264,7 +264,6 @@ TEST_F(Viewed, CrowdsAreTurnedAway) {
     EXPECT_FALSE(Browser{ViewerUrl(run->url())}.connected());
     EXPECT_TRUE(run->says("[too-many-pages]"));
     pages.clear();
-    EXPECT_TRUE(run->says("page 1 of"));
     for (int i = 0; i < 100; ++i) {
         if (Browser{ViewerUrl(run->url())}.connected()) return;
         std::this_thread::sleep_for(std::chrono::milliseconds(50));

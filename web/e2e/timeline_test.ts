@@ -31,6 +31,7 @@ function sight(page: Page): Promise<Sight> {
             time: state.drawnTime.value,
             exact:
                 shown?.exact === true &&
+                shown.time_s === state.drawnTime.value && // the picture shows it already
                 Math.abs(shown.time_s - (window.roboss.run.preview.wanted.value?.time ?? -1)) < 0.0021, // a tick
             shown: shown !== null,
         };

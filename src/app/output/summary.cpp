@@ -53,6 +53,7 @@ std::string to_json(const Summary& s) {
     o["recoveries"] = s.recoveries;
     o["migrations"] = s.migrations;
     o["cuts"] = s.cuts;
+    if (!s.journal.empty()) o["journal"] = {{"file", s.journal}, {"bytes", s.journal_bytes}};
     o["model_hash"] = to_hex(s.model_hash);
     o["state_hash"] = to_hex(s.state_hash);
     if (s.stages)
@@ -70,7 +71,7 @@ std::string to_text(const Summary& s) {
         "wall time         {:.2f} s, {}{:.1f} x real time\n"
         "stepping          {:.2f} s of CPU, {:.2f} us per robot and step\n"
         "windows           {} ({} repeated), {:.1f} islands on average\n"
-        "contacts          {:.1f} points per step, {:.4f} of them with static models\n"
+        "contacts          {:.1f} points per step, {:.1f} with static models other than planes\n"
         "simulators        {} at the end, {} lost, {} robots migrated\n"
         "model hash        {}\n"
         "state hash        {}\n",
@@ -79,6 +80,9 @@ std::string to_text(const Summary& s) {
         s.real_time_factor, s.step_cpu_s, robot_ticks > 0 ? s.step_cpu_s * 1e6 / robot_ticks : 0.0, s.windows,
         s.windows_repeated, s.islands_mean, s.contacts_mean, s.building_contacts_mean, s.simulators, s.losses,
         s.migrations, to_hex(s.model_hash), to_hex(s.state_hash));
+    if (!s.journal.empty())
+        text += fmt::format("journal           {}, {:.1f} MB (--journal-keep limits it)\n", s.journal,
+                            1e-6 * static_cast<double>(s.journal_bytes));
     if (s.stages) text += stage_table(*s.stages, ticks, robot_ticks);
     return text;
 }

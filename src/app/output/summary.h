@@ -31,6 +31,8 @@ struct Summary {
     std::uint64_t cuts = 0;        // windows of a straggler that others took over in part (work stealing)
     std::size_t simulators = 0;    // at the end
     std::optional<StageTimes> stages;
+    std::string journal;  // the file that the run has written; empty: none
+    std::uint64_t journal_bytes = 0;
 };
 
 std::string to_json(const Summary& summary);

@@ -319,12 +319,12 @@ Summary Run::summary(double wall_s) const {
     s.cuts = c.cuts;
     s.simulators = c.simulators;
     if (o_.stage_times) s.stages = stage_times_;
+    if (journal_->writes()) s.journal = journal_->file(), s.journal_bytes = journal_->bytes();
     return s;
 }
 
 /// Writes files and summary, also of a failed run: nothing that was computed is lost.
 int Run::finish(bool fine, double wall_s) {
-    const Summary s = summary(wall_s);
     bool written = true;
     const auto check = [&](const Result<>& result) {
         if (!result) print(result.error()), written = false;
@@ -333,6 +333,7 @@ int Run::finish(bool fine, double wall_s) {
     if (contacts_) check(contacts_->close());
     if (!o_.save.empty() && !abandoned_) check(simulation_->save(o_.save));
     check(journal_->close());
+    const Summary s = summary(wall_s);  // the journal has its last size
     if (!o_.json.empty()) check(write_json(s, o_.json));
     if (!o_.paths_picture.empty()) {
         const std::string subtitle = fmt::format("{} robots, {:.1f} s simulated, state hash {}", s.robots,

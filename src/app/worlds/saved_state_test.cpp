@@ -68,8 +68,12 @@ Moving moving(const RobotType& type, const RobotState& state, const std::string&
     const Link& link = type.links[type.find_link(name)->index()];
     const Transform X_OL = placement.of(link.body) * link.X_BL;
     Spatial motion;
-    const Body& body = type.bodies[static_cast<std::size_t>(link.body)];
-    for (int k = body.v_index + body.nv - 1; k >= 0; k = type.dof_parent[static_cast<std::size_t>(k)])
+    int last = -1;  // of a fixed base
+    if (link.body >= 0) {
+        const Body& body = type.bodies[static_cast<std::size_t>(link.body)];
+        last = body.v_index + body.nv - 1;
+    }
+    for (int k = last; k >= 0; k = type.dof_parent[static_cast<std::size_t>(k)])
         motion += placement.axes[static_cast<std::size_t>(k)] * state.v[static_cast<std::size_t>(k)];
     return {to_pose(Transform{X_OL.R, X_OL.p + placement.origin}),
             motion.linear + cross(motion.angular, X_OL.p), motion.angular};

@@ -27,9 +27,11 @@ export class FrameTimes {
         return {
             frames: this.frames,
             update_ms: mean(this.update),
+            update_quick_ms: quantile(this.update, 0.1),
             update_median_ms: quantile(this.update, 0.5),
             update_p95_ms: quantile(this.update, 0.95),
             draw_ms: mean(this.draw),
+            draw_quick_ms: quantile(this.draw, 0.1),
             draw_median_ms: quantile(this.draw, 0.5),
             draw_p95_ms: quantile(this.draw, 0.95),
         };
