@@ -6,6 +6,7 @@ import signal
 import subprocess
 import time
 import unittest
+from pathlib import Path
 
 from running import DRIVER, FOLDER, ROBOSS, WORLDS, roboss, summary
 
@@ -54,6 +55,13 @@ class Outputs(unittest.TestCase):
         self.assertEqual({(r["robot_a"], r["link_a"], r["robot_b"], r["link_b"]) for r in rows},
                          {("box", "body", "", "ground::l::c")})
         self.assertAlmostEqual(sum(float(r["impulse"]) for r in rows), 2 * 3 * 10 * 0.002, delta=1e-7)
+
+    def test_new_client_lists_the_files_that_it_wrote(self):
+        done = roboss("new-client", "driver", "--folder", FOLDER, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        told = json.loads(done.stdout)
+        self.assertEqual(sorted(told["files"]), sorted(path.name for path in Path(told["folder"]).iterdir()))
+        self.assertIn("driver.cpp", told["files"])
 
     def test_the_summary_has_its_keys_and_the_terminal_the_same_hash(self):
         file = FOLDER / "s.json"

@@ -152,7 +152,7 @@ threads = 2
                 self.assertTrue(all(p["runs"] for p in told["processes"]))
                 self.cluster(["status"], file)
             finally:
-                self.cluster(["down"], file)
+                self.assertIn('"ended": 4', self.cluster(["down", "--json"], file))
             self.assertIn("[not-started]", self.cluster(["down"], file, 1))
 
 

@@ -65,11 +65,16 @@ std::string notes_of(const ClusterFile& file) {
     return file.path + ".running";
 }
 
-Result<> write_notes(const ClusterFile& file, const std::vector<Started>& all) {
-    Json o{{"simulation", file.simulation}, {"processes", Json::array()}};
+Json json_of(const std::vector<Started>& all) {
+    Json list = Json::array();
     for (const Started& s : all)
-        o["processes"].push_back(
+        list.push_back(
             {{"name", s.name}, {"role", s.role}, {"host", s.host}, {"pid", s.pid}, {"log", s.log}});
+    return list;
+}
+
+Result<> write_notes(const ClusterFile& file, const std::vector<Started>& all) {
+    const Json o{{"simulation", file.simulation}, {"processes", json_of(all)}};
     std::ofstream out(notes_of(file));
     if (out << o.dump(1) << '\n') return Ok{};
     return Error{notes_of(file) + " cannot be written",
@@ -110,12 +115,16 @@ bool is_up(const ClusterFile& file) {
     return !presence.silent.empty();
 }
 
-int up(const std::string& path) {
+int up(const std::string& path, bool json) {
     Result<ClusterFile> file = load_cluster_file(path);
     if (!file) return print(file.error()), kBadInput;
     if (is_up(file.value())) return kRunFailed;
     const StartOutcome outcome = start_processes(file.value());
-    for (const Started& s : outcome.started)
+    if (json)
+        fmt::print(
+            "{}\n",
+            Json{{"simulation", file.value().simulation}, {"started", json_of(outcome.started)}}.dump(2));
+    for (const Started& s : json ? std::vector<Started>() : outcome.started)
         fmt::print("{:<24} on {:<16} process {}, log {}\n", s.name, s.host, s.pid, s.log);
     for (const Error& error : outcome.errors) print(error);
     bool good = outcome.errors.empty() && outcome.started.size() == file.value().processes.size();
@@ -170,7 +179,7 @@ class Ending {
     std::map<std::string, std::string> silent_;
 };
 
-int down(const std::string& path) {
+int down(const std::string& path, bool json) {
     Result<ClusterFile> file = load_cluster_file(path);
     if (!file) return print(file.error()), kBadInput;
     Result<std::vector<Started>> all = read_notes(file.value());
@@ -190,15 +199,17 @@ int down(const std::string& path) {
     for (const Started& s : ending.unknown())
         fmt::print(stderr, "roboss: {} (process {} on {}) may still run [may-run]\n", s.name, s.pid, s.host);
     rest.insert(rest.end(), ending.unknown().begin(), ending.unknown().end());
+    const std::size_t ended = all.value().size() - rest.size();
+    if (json) fmt::print("{}\n", Json{{"ended", ended}, {"left", json_of(rest)}}.dump(2));
     if (!rest.empty()) {
         if (Result<> written = write_notes(file.value(), rest); !written) print(written.error());
         fmt::print(stderr,
                    "roboss: {} processes have ended; run `roboss cluster down {}` again for the others\n",
-                   all.value().size() - rest.size(), path);
+                   ended, path);
         return kRunFailed;
     }
     std::filesystem::remove(notes_of(file.value()));
-    fmt::print("all {} processes have ended\n", all.value().size());
+    if (!json) fmt::print("all {} processes have ended\n", ended);
     return kSuccess;
 }
 
@@ -296,11 +307,13 @@ void add_cluster_command(CLI::App& app, int& exit_code) {
     CLI::App* sub =
         command->add_subcommand("up", "start the Controller, Simulators and Clients that the file lists");
     sub->add_option("hosts", o->path, "TOML file")->required();
-    sub->callback([o, &exit_code] { exit_code = up(o->path); });
+    sub->add_flag("--json", o->json, "print the started processes as JSON");
+    sub->callback([o, &exit_code] { exit_code = up(o->path, o->json); });
     sub = command->add_subcommand(
         "down", "end all processes that `up` started: the run first, then the remaining ones");
     sub->add_option("hosts", o->path, "TOML file")->required();
-    sub->callback([o, &exit_code] { exit_code = down(o->path); });
+    sub->add_flag("--json", o->json, "print how many ended, and those that may still run, as JSON");
+    sub->callback([o, &exit_code] { exit_code = down(o->path, o->json); });
     sub = command->add_subcommand("status",
                                   "print the load of each Simulator and how evenly the work is spread");
     sub->add_option("hosts", o->path, "TOML file; without it, the run is found by the network options");

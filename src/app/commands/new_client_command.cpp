@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "app/commands/exit_codes.h"
@@ -32,6 +33,7 @@ Exit codes: 0 done, 1 the folder exists or cannot be written, 2 wrong usage.)";
 
 struct NewClientOptions {
     std::string name, folder = ".";
+    bool json = false;
 };
 
 /// CMake takes it as the name of a target, C++ as that of a file.
@@ -94,6 +96,13 @@ Result<> write_project(const NewClientOptions& o) {
         if (!(std::ofstream(folder / name) << filled(text, values)))
             return Error{(folder / name).string() + " cannot be written", "free some space there",
                          "not-writable"};
+    if (o.json) {
+        nlohmann::ordered_json written{{"folder", folder.string()},
+                                       {"files", nlohmann::ordered_json::array()}};
+        for (const auto& [name, text] : files) written["files"].push_back(name);
+        fmt::print("{}\n", written.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+        return Ok{};
+    }
     fmt::print(
         "{}\n\nNext:\n  cd {}\n  cmake -B build -DCMAKE_PREFIX_PATH={} && cmake --build build\n"
         "  roboss run world.sdf --client build/{}.so\n",
@@ -116,6 +125,7 @@ void add_new_client_command(CLI::App& app, int& exit_code) {
         ->required()
         ->check(name_fault, "NAME");
     command->add_option("--folder", o->folder, "folder in which it is created")->capture_default_str();
+    command->add_flag("--json", o->json, "print the written files as JSON");
     command->callback([o, &exit_code] {
         const Result<> written = write_project(*o);
         if (!written) print(written.error());
