@@ -1,0 +1,128 @@
+// See local_run.h.
+#include "local/local_run.h"
+
+#include <algorithm>
+
+#include "model/topics.h"
+
+namespace roboss {
+
+namespace {
+
+Error not_finite(const Model& model, const StepOutcome& outcome) {
+    const Robot& robot = model.robots[outcome.not_finite.index()];
+    std::string what = "the state of robot '" + robot.name + "'";
+    if (outcome.not_finite_joint.valid())
+        what += " (joint '" +
+                model.type_of(outcome.not_finite).joints[outcome.not_finite_joint.index()].name + "')";
+    what += outcome.beyond_numbers ? " is beyond what can be computed" : " would not be finite";
+    return {
+        what + " after " + std::to_string(static_cast<double>(outcome.tick) * model.dt_s) + " s",
+        "the world is intact at that time: look at it, at the last orders, or step with a smaller time step",
+        "not-finite"};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<LocalRun>> LocalRun::create(std::shared_ptr<const Model> model,
+                                                   const LocalRunOptions& options) {
+    if (std::ranges::any_of(model->types, [](const RobotType& type) { return board_of(type) != nullptr; }))
+        return Error{"the world has plugins that send or await messages (TriggeredPublisher and others)",
+                     "run it with `roboss run`, or remove them", "message-board"};
+    return std::unique_ptr<LocalRun>(new LocalRun(std::move(model), options));
+}
+
+LocalRun::LocalRun(std::shared_ptr<const Model> model, const LocalRunOptions& options)
+    : model_(std::move(model)), stepper_(model_, options.threads, options.lanes), seed_(options.seed) {
+    states_.resize(model_->robots.size());
+    for (const RobotState& state : states_) pointers_.push_back(&state);
+    reset();
+}
+
+void LocalRun::changed() {
+    rays_are_new_ = probe_is_new_ = false;
+}
+
+void LocalRun::reset(std::optional<std::uint64_t> seed) {
+    seed_ = seed.value_or(seed_);
+    tick_ = 0, given_ = 0;
+    orders_.clear();
+    for (std::size_t r = 0; r < states_.size(); ++r) states_[r] = initial_state(*model_, RobotId(r));
+    stepper_.forget();
+    changed();
+}
+
+Result<> LocalRun::step(Tick ticks) {
+    if (ticks < 0)
+        return Error{"a step of " + std::to_string(ticks) + " ticks", "give 0 or more", "bad-ticks"};
+    const Tick until = tick_ + ticks;
+    const auto due = std::ranges::lower_bound(orders_, until, {}, &Order::apply_at);
+    const StepOutcome outcome = stepper_.step(tick_, until, {orders_.begin(), due}, states_);
+    tick_ = outcome.tick;
+    orders_.erase(orders_.begin(), std::ranges::lower_bound(orders_, tick_, {}, &Order::apply_at));
+    changed();
+    if (outcome.not_finite.valid()) return not_finite(*model_, outcome);
+    return Ok{};
+}
+
+std::uint64_t LocalRun::hash() const {
+    std::vector<std::uint64_t> hashes;
+    for (std::size_t r = 0; r < states_.size(); ++r)
+        hashes.push_back(state_hash(RobotId(r), tick_, states_[r]));
+    return world_hash(model_->hash, hashes);
+}
+
+Result<> LocalRun::order(RobotId robot, const Action& action) {
+    Result<> done = submit({tick_, ClientId(0U), given_, robot, action});
+    if (done) ++given_;
+    return done;
+}
+
+Result<> LocalRun::submit(const Order& order) {
+    if (order.apply_at < tick_)
+        return Error{"an order for tick " + std::to_string(order.apply_at) + ", but the world is at tick " +
+                         std::to_string(tick_),
+                     "give it earlier", "late"};
+    if (Result<> checked = check_order(*model_, order); !checked) return checked;
+    orders_.insert(std::upper_bound(orders_.begin(), orders_.end(), order, comes_before), order);
+    return Ok{};
+}
+
+Result<Sample> LocalRun::read(RobotId robot, std::size_t sensor) {
+    if (robot.index() >= states_.size())
+        return Error{"there is no robot number " + std::to_string(robot.value),
+                     "the world has " + std::to_string(states_.size()), "no-robot"};
+    return measure({*model_, robot, sensor, state(robot), tick_, seed_, *this});
+}
+
+RayScene& LocalRun::ray_scene() {
+    if (!rays_) rays_ = std::make_unique<RayScene>(model_);
+    if (!rays_are_new_) rays_->update(pointers_);
+    rays_are_new_ = true;
+    return *rays_;
+}
+
+StepProbe& LocalRun::step_probe() {
+    if (!probe_) probe_ = std::make_unique<StepProbe>(*model_);
+    if (!probe_is_new_) probe_->step(tick_, pointers_);
+    probe_is_new_ = true;
+    return *probe_;
+}
+
+LocalSave LocalRun::save() const {
+    return {model_->hash, seed_, tick_, states_, orders_, given_};
+}
+
+Result<> LocalRun::restore(const LocalSave& save) {
+    if (save.model_hash != model_->hash || save.states.size() != states_.size())
+        return Error{"the state was saved with another world", "restore it in a run of the same world",
+                     "other-world"};
+    seed_ = save.seed, tick_ = save.tick, given_ = save.given;
+    states_ = save.states;
+    orders_ = save.orders;
+    stepper_.forget();
+    changed();
+    return Ok{};
+}
+
+}  // namespace roboss

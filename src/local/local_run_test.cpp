@@ -1,0 +1,187 @@
+// LocalRun and RobotSet: exact save and restore, resets, orders, errors that leave the world intact, arrays.
+#include <gtest/gtest.h>
+
+#include <support/bodies.h>
+#include <support/robots.h>
+#include <support/simulation.h>
+
+#include "local/robot_set.h"
+
+namespace roboss {
+namespace {
+
+/// `cars` in a row, so near that they touch when they turn.
+std::shared_ptr<const Model> crowd(int cars) {
+    World world;
+    world.name = "crowd";
+    world.dt_s = 0.002;
+    world.prototypes.push_back(test::scenery(test::collision(GeometryKind::kPlane, test::surface(0.9))));
+    world.prototypes.push_back(test::car());
+    world.instances.push_back({"ground", 0, {}, {}});
+    for (int i = 0; i < cars; ++i)
+        world.instances.push_back(
+            {"car_" + std::to_string(i), 1, {{0.6 * (i % 8), 0.6 * (i / 8), 0}, {}}, {}});
+    return test::compiled(world);
+}
+
+std::unique_ptr<LocalRun> run_of(const std::shared_ptr<const Model>& model, unsigned threads = 1) {
+    Result<std::unique_ptr<LocalRun>> made = LocalRun::create(model, {.threads = threads});
+    return std::move(made).value();
+}
+
+RobotSet all_of(const std::shared_ptr<const Model>& model) {
+    std::vector<RobotId> robots;
+    for (std::size_t r = 0; r < model->robots.size(); ++r) robots.emplace_back(r);
+    return {model, robots};
+}
+
+/// Drives each car in a direction of its own, so that they run into each other.
+void drive(LocalRun& run, const RobotSet& cars) {
+    std::vector<double> targets;
+    for (std::size_t i = 0; i < cars.size(); ++i)
+        for (std::size_t k = 0; k < 4; ++k)
+            targets.push_back(static_cast<double>((i * 7 + (k % 2) * 3) % 11) * 4 - 20);
+    const std::vector<std::size_t> columns{0, 1, 2, 3};
+    EXPECT_TRUE(cars.set_joints(run, columns, MotorMode::kVelocity, targets).ok());
+}
+
+TEST(LocalRun, gives_the_same_bits_on_threads_where_robots_collide) {
+    const auto model = crowd(40);
+    const RobotSet cars = all_of(model);
+    std::vector<std::uint64_t> hashes;
+    for (const unsigned threads : {1U, 2U, 5U}) {
+        const auto run = run_of(model, threads);
+        drive(*run, cars);
+        ASSERT_TRUE(run->step(600).ok());
+        hashes.push_back(run->hash());
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
+    EXPECT_EQ(hashes[0], hashes[2]);
+}
+
+TEST(LocalRun, steps_again_what_a_forecast_had_parted) {
+    const auto model = crowd(40);
+    WorldStepper one(model, 1, kMostLanes), three(model, 3, kMostLanes);
+    std::vector<RobotState> a, b;
+    for (std::size_t r = 0; r < model->robots.size(); ++r) a.push_back(initial_state(*model, RobotId(r)));
+    std::vector<Order> orders;  // cars that shoot through the crowd, which no forecast knows
+    for (std::uint32_t i = 0; i < 8; ++i)
+        orders.push_back(
+            {20, ClientId(0U), i, RobotId(i * 5), ApplyWrench{LinkId(0U), {2000, 1000, 0}, {}, 50}});
+    b = a;
+    one.step(0, 200, orders, a);
+    three.step(0, 200, orders, b);
+    EXPECT_EQ(a, b);
+    EXPECT_GT(three.repeats(), 0U);
+}
+
+TEST(LocalRun, continues_exactly_from_a_save_with_orders_that_wait) {
+    const auto model = crowd(8);
+    const RobotSet cars = all_of(model);
+    const auto run = run_of(model);
+    ASSERT_TRUE(run->step(50).ok());
+    drive(*run, cars);
+    const LocalSave save = run->save();
+    ASSERT_TRUE(run->step(100).ok());
+    const std::uint64_t first = run->hash();
+    ASSERT_TRUE(run->restore(save).ok());
+    EXPECT_EQ(run->tick(), 50);
+    ASSERT_TRUE(run->step(100).ok());
+    EXPECT_EQ(run->hash(), first);
+    const auto other = run_of(model, 2);
+    ASSERT_TRUE(other->restore(save).ok());
+    ASSERT_TRUE(other->step(100).ok());
+    EXPECT_EQ(other->hash(), first);
+}
+
+TEST(LocalRun, refuses_a_save_of_another_world) {
+    const auto run = run_of(crowd(2));
+    const Result<> restored = run->restore(run_of(crowd(3))->save());
+    ASSERT_FALSE(restored.ok());
+    EXPECT_EQ(restored.error().code, "other-world");
+}
+
+TEST(LocalRun, is_new_after_a_reset) {
+    const auto model = crowd(4);
+    const auto run = run_of(model);
+    const std::uint64_t start = run->hash();
+    drive(*run, all_of(model));
+    ASSERT_TRUE(run->step(70).ok());
+    drive(*run, all_of(model));
+    EXPECT_NE(run->hash(), start);
+    run->reset(5);
+    EXPECT_EQ(run->hash(), start);
+    EXPECT_EQ(run->seed(), 5U);
+    ASSERT_TRUE(run->step(70).ok());
+    const auto fresh = run_of(model);
+    ASSERT_TRUE(fresh->step(70).ok());
+    EXPECT_EQ(run->hash(), fresh->hash());  // no order is left
+}
+
+TEST(LocalRun, stays_at_the_tick_before_a_state_that_is_not_finite) {
+    const auto model = crowd(6);
+    std::vector<Tick> ticks;
+    for (const unsigned threads : {1U, 3U}) {
+        const auto run = run_of(model, threads);
+        ASSERT_TRUE(run->step(40).ok());
+        LocalSave save = run->save();
+        save.states[3].v[0] = 1e150;  // rad/s: its square is in the gyroscopic torque, and grows
+        ASSERT_TRUE(run->restore(save).ok());
+        const Result<> stepped = run->step(100);
+        ASSERT_FALSE(stepped.ok());
+        EXPECT_EQ(stepped.error().code, "not-finite");
+        for (const RobotState& state : run->states())
+            for (const double v : state.v) EXPECT_TRUE(std::isfinite(v));
+        const std::uint64_t hash = run->hash();
+        EXPECT_FALSE(run->step(1).ok());
+        EXPECT_EQ(run->hash(), hash);
+        ticks.push_back(run->tick());
+    }
+    EXPECT_EQ(ticks[0], ticks[1]);
+}
+
+TEST(LocalRun, refuses_orders_that_are_late_or_wrong) {
+    const auto run = run_of(crowd(2));
+    ASSERT_TRUE(run->step(10).ok());
+    EXPECT_EQ(run->submit({9, ClientId(0U), 0, RobotId(0U), SetVelocity{}}).error().code, "late");
+    EXPECT_EQ(run->order(RobotId(2U), SetVelocity{}).error().code, "no-robot");
+    EXPECT_FALSE(run->order(RobotId(0U), SetJoint{JointId(9U), 0, MotorMode::kVelocity, 1}).ok());
+    EXPECT_EQ(run->step(-1).error().code, "bad-ticks");
+}
+
+TEST(LocalRun, tells_of_contacts_at_its_tick) {
+    const auto run = run_of(crowd(1));
+    ASSERT_TRUE(run->step(200).ok());
+    double impulse = 0;
+    for (const ContactReport& contact : run->contacts()) impulse += contact.impulse;
+    EXPECT_NEAR(impulse, 6.2 * 9.8 * run->model().dt_s, 1e-3);  // the car's weight over a tick
+}
+
+TEST(RobotSet, gives_poses_twists_and_joints_and_takes_them) {
+    const auto model = crowd(3);
+    const auto run = run_of(model);
+    const RobotSet cars(model, {RobotId(2U), RobotId(0U)});
+    ASSERT_EQ(cars.axes().size(), 4U);
+    EXPECT_EQ(cars.axes()[1].name, "wheel_1");
+    const std::vector<double> poses{1, 2, 0.5, 0, 0, 1, 0,
+                                    4, 5, 0.5, 0, 0, 0, 2};  // x y z, x y z w; the last twice too long
+    const std::vector<double> twists{1, 0, 0, 0, 0, 3, 0, 2, 0, 0, 0, 0};
+    ASSERT_TRUE(cars.set_poses(*run, poses).ok());
+    ASSERT_TRUE(cars.set_twists(*run, twists).ok());
+    ASSERT_TRUE(run->step(1).ok());
+    std::vector<double> now(14), speed(12), joints(8);
+    cars.poses(*run, now);
+    cars.twists(*run, speed);
+    cars.joint_velocities(*run, joints);
+    EXPECT_NEAR(now[0], 1.002, 1e-6);
+    EXPECT_NEAR(now[5], 1, 1e-4);
+    EXPECT_NEAR(now[8], 5.004, 1e-6);
+    EXPECT_NEAR(now[13], 1, 1e-12);
+    EXPECT_NEAR(speed[0], 1, 1e-9);
+    EXPECT_NEAR(speed[5], 3, 1e-2);
+    EXPECT_NEAR(speed[2], -9.8 * model->dt_s, 1e-6);
+    EXPECT_NEAR(run->state(RobotId(0U)).q[0], 4, 1e-9);
+}
+
+}  // namespace
+}  // namespace roboss

@@ -1,0 +1,74 @@
+// RobotSet: some robots of a LocalRun as arrays, robots the first axis; what bindings to array languages
+// need. Arrays are rows of doubles, one row a robot, in the order of the set. SI units and radians, world
+// axes.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "local/local_run.h"
+
+namespace roboss {
+
+/// One axis of a joint: a column of the arrays of joints.
+struct JointAxis {
+    JointId joint;     ///< of the robots' type
+    int axis = 0;      ///< which of its axes, from 0
+    std::string name;  ///< the joint's; with several axes "NAME:0", "NAME:1" ...
+};
+
+/// See the top of the file. Orders of a call are given to all robots or, at the first that is refused, to
+/// none behind it.
+class RobotSet {
+  public:
+    static constexpr std::size_t kPoseColumns = 7,  ///< x y z, quaternion x y z w
+        kTwistColumns = 6;                          ///< linear x y z, angular x y z
+
+    /// `robots` must exist in the model.
+    RobotSet(std::shared_ptr<const Model> model, std::vector<RobotId> robots);
+
+    std::size_t size() const { return robots_.size(); }             ///< rows
+    const std::vector<RobotId>& robots() const { return robots_; }  ///< by row
+    const Model& model() const { return *model_; }                  ///< of the robots
+    /// The type that all robots are of; nullptr: they differ, or there are none. Joints, links, sensors and
+    /// commands need one.
+    const RobotType* type() const { return type_; }
+    /// Columns of the arrays of joints: each axis of each joint that moves, in the order of the file.
+    const std::vector<JointAxis>& axes() const { return axes_; }
+
+    /// Poses of the robot (SDF model) frames in the world, size() x kPoseColumns: m, unit quaternions.
+    void poses(const LocalRun& run, std::span<double> out) const;
+    /// Velocities of the bases, size() x kTwistColumns: m/s of the base's origin, rad/s. Zero where the base
+    /// is fixed.
+    void twists(const LocalRun& run, std::span<double> out) const;
+    /// Positions of the joints, size() x axes(): rad or m.
+    void joint_positions(const LocalRun& run, std::span<double> out) const;
+    /// Velocities of the joints, size() x axes(): rad/s or m/s.
+    void joint_velocities(const LocalRun& run, std::span<double> out) const;
+
+    /// Puts the robots at poses as poses() gives them; quaternions are normalised.
+    Result<> set_poses(LocalRun& run, std::span<const double> poses) const;
+    /// Sets velocities as twists() gives them.
+    Result<> set_twists(LocalRun& run, std::span<const double> twists) const;
+    /// Setpoints of some axes, size() x columns.size(). A negative max_effort: the joint's own bound.
+    Result<> set_joints(LocalRun& run, std::span<const std::size_t> columns, MotorMode mode,
+                        std::span<const double> targets, double max_effort = -1) const;
+    /// A force (N, at the centre of mass of the link) and torque (N m) on each robot, size() x 6, for so many
+    /// ticks.
+    Result<> apply_wrenches(LocalRun& run, LinkId link, std::span<const double> wrenches, Tick ticks) const;
+    /// A command of on-board controllers, size() x values.
+    Result<> command(LocalRun& run, std::size_t channel, std::size_t values,
+                     std::span<const double> rows) const;
+
+  private:
+    double* row(std::span<double> out, std::size_t robot, std::size_t columns) const;
+    Result<> give(LocalRun& run, const std::function<Action(std::size_t row)>& action) const;
+
+    std::shared_ptr<const Model> model_;
+    std::vector<RobotId> robots_;
+    const RobotType* type_ = nullptr;
+    std::vector<JointAxis> axes_;
+};
+
+}  // namespace roboss
