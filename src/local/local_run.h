@@ -44,8 +44,9 @@ class LocalRun : private SensorSources {
     static Result<std::unique_ptr<LocalRun>> create(std::shared_ptr<const Model> model,
                                                     const LocalRunOptions& options = {});
 
-    /// Steps the world by so many ticks. An Error, "not-finite": a state would not be finite; the world is
-    /// intact at the beginning of that tick, tick(), where the order that causes it may still be pending.
+    /// Advances the world by `ticks` time steps. Returns the Error "not-finite" if a state would become
+    /// infinite or no number. The world then stays at the beginning of that tick, tick(), and the order that
+    /// causes it may still be pending.
     Result<> step(Tick ticks = 1);
 
     Tick tick() const { return tick_; }  ///< the world is at its beginning
@@ -67,8 +68,8 @@ class LocalRun : private SensorSources {
     /// sequence); those of order() are Client 0.
     Result<> submit(const Order& order);
 
-    /// What sensor number `sensor` (RobotType::sensors) measures at tick(), with its noise. Whatever its
-    /// `<update_rate>`: it measures when it is asked. An Error: there is no such robot or sensor, or it
+    /// Reading of sensor number `sensor` (RobotType::sensors) at tick(), with noise. `<update_rate>` has no
+    /// effect: each call measures. Returns an Error if there is no such robot or sensor, or if the sensor
     /// cannot measure.
     Result<Sample> read(RobotId robot, std::size_t sensor);
     /// All contact points of the tick that begins at tick(), as long as no order takes effect at it

@@ -45,7 +45,7 @@ void drive(LocalRun& run, const RobotSet& cars) {
     EXPECT_TRUE(cars.set_joints(run, columns, MotorMode::kVelocity, targets).ok());
 }
 
-TEST(LocalRun, gives_the_same_bits_on_threads_where_robots_collide) {
+TEST(LocalRun, GivesTheSameBitsOnThreadsWhereRobotsCollide) {
     const auto model = crowd(40);
     const RobotSet cars = all_of(model);
     std::vector<std::uint64_t> hashes;
@@ -59,7 +59,7 @@ TEST(LocalRun, gives_the_same_bits_on_threads_where_robots_collide) {
     EXPECT_EQ(hashes[0], hashes[2]);
 }
 
-TEST(LocalRun, steps_again_what_a_forecast_had_parted) {
+TEST(LocalRun, StepsAgainWhatAForecastHadParted) {
     const auto model = crowd(40);
     WorldStepper one(model, 1, kMostLanes), three(model, 3, kMostLanes);
     std::vector<RobotState> a, b;
@@ -75,7 +75,7 @@ TEST(LocalRun, steps_again_what_a_forecast_had_parted) {
     EXPECT_GT(three.repeats(), 0U);
 }
 
-TEST(LocalRun, continues_exactly_from_a_save_with_orders_that_wait) {
+TEST(LocalRun, ContinuesExactlyFromASaveWithOrdersThatWait) {
     const auto model = crowd(8);
     const RobotSet cars = all_of(model);
     const auto run = run_of(model);
@@ -94,14 +94,14 @@ TEST(LocalRun, continues_exactly_from_a_save_with_orders_that_wait) {
     EXPECT_EQ(other->hash(), first);
 }
 
-TEST(LocalRun, refuses_a_save_of_another_world) {
+TEST(LocalRun, RefusesASaveOfAnotherWorld) {
     const auto run = run_of(crowd(2));
     const Result<> restored = run->restore(run_of(crowd(3))->save());
     ASSERT_FALSE(restored.ok());
     EXPECT_EQ(restored.error().code, "other-world");
 }
 
-TEST(LocalRun, is_new_after_a_reset) {
+TEST(LocalRun, IsNewAfterAReset) {
     const auto model = crowd(4);
     const auto run = run_of(model);
     const std::uint64_t start = run->hash();
@@ -118,7 +118,7 @@ TEST(LocalRun, is_new_after_a_reset) {
     EXPECT_EQ(run->hash(), fresh->hash());  // no order is left
 }
 
-TEST(LocalRun, stays_at_the_tick_before_a_state_that_is_not_finite) {
+TEST(LocalRun, StaysAtTheTickBeforeAStateThatIsNotFinite) {
     const auto model = crowd(6);
     std::vector<Tick> ticks;
     for (const unsigned threads : {1U, 3U}) {
@@ -140,7 +140,7 @@ TEST(LocalRun, stays_at_the_tick_before_a_state_that_is_not_finite) {
     EXPECT_EQ(ticks[0], ticks[1]);
 }
 
-TEST(LocalRun, refuses_orders_that_are_late_or_wrong) {
+TEST(LocalRun, RefusesOrdersThatAreLateOrWrong) {
     const auto run = run_of(crowd(2));
     ASSERT_TRUE(run->step(10).ok());
     EXPECT_EQ(run->submit({9, ClientId(0U), 0, RobotId(0U), SetVelocity{}}).error().code, "late");
@@ -149,7 +149,7 @@ TEST(LocalRun, refuses_orders_that_are_late_or_wrong) {
     EXPECT_EQ(run->step(-1).error().code, "bad-ticks");
 }
 
-TEST(LocalRun, tells_of_contacts_at_its_tick) {
+TEST(LocalRun, TellsOfContactsAtItsTick) {
     const auto run = run_of(crowd(1));
     ASSERT_TRUE(run->step(200).ok());
     double impulse = 0;
@@ -157,7 +157,7 @@ TEST(LocalRun, tells_of_contacts_at_its_tick) {
     EXPECT_NEAR(impulse, 6.2 * 9.8 * run->model().dt_s, 1e-3);  // the car's weight over a tick
 }
 
-TEST(RobotSet, gives_poses_twists_and_joints_and_takes_them) {
+TEST(RobotSet, GivesPosesTwistsAndJointsAndTakesThem) {
     const auto model = crowd(3);
     const auto run = run_of(model);
     const RobotSet cars(model, {RobotId(2U), RobotId(0U)});

@@ -28,6 +28,15 @@ std::vector<JointAxis> axes_of(const RobotType& type) {
     return axes;
 }
 
+/// One value of each axis of each robot, row by row.
+void read_joints(const RobotSet& set, const LocalRun& run, double JointState::*value, std::span<double> out) {
+    ROBOSS_CHECK(out.size() == set.size() * set.axes().size(), std::to_string(out.size()) + " numbers");
+    double* to = out.data();
+    for (const RobotId robot : set.robots())
+        for (const JointAxis& axis : set.axes())
+            *to++ = joint_state(*set.type(), run.state(robot), axis.joint, axis.axis).*value;
+}
+
 }  // namespace
 
 RobotSet::RobotSet(std::shared_ptr<const Model> model, std::vector<RobotId> robots)
@@ -68,17 +77,11 @@ void RobotSet::twists(const LocalRun& run, std::span<double> out) const {
 }
 
 void RobotSet::joint_positions(const LocalRun& run, std::span<double> out) const {
-    for (std::size_t i = 0; i < size(); ++i)
-        for (std::size_t k = 0; k < axes_.size(); ++k)
-            row(out, i, axes_.size())[k] =
-                joint_state(*type_, run.state(robots_[i]), axes_[k].joint, axes_[k].axis).position;
+    read_joints(*this, run, &JointState::position, out);
 }
 
 void RobotSet::joint_velocities(const LocalRun& run, std::span<double> out) const {
-    for (std::size_t i = 0; i < size(); ++i)
-        for (std::size_t k = 0; k < axes_.size(); ++k)
-            row(out, i, axes_.size())[k] =
-                joint_state(*type_, run.state(robots_[i]), axes_[k].joint, axes_[k].axis).velocity;
+    read_joints(*this, run, &JointState::velocity, out);
 }
 
 Result<> RobotSet::give(LocalRun& run, const std::function<Action(std::size_t row)>& action) const {

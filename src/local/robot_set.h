@@ -54,8 +54,8 @@ class RobotSet {
     /// Setpoints of some axes, size() x columns.size(). A negative max_effort: the joint's own bound.
     Result<> set_joints(LocalRun& run, std::span<const std::size_t> columns, MotorMode mode,
                         std::span<const double> targets, double max_effort = -1) const;
-    /// A force (N, at the centre of mass of the link) and torque (N m) on each robot, size() x 6, for so many
-    /// ticks.
+    /// Applies a wrench to this link of each robot for `ticks` ticks. A row is the force (N, at the link's
+    /// centre of mass) and the torque (N m), size() x 6.
     Result<> apply_wrenches(LocalRun& run, LinkId link, std::span<const double> wrenches, Tick ticks) const;
     /// A command of on-board controllers, size() x values.
     Result<> command(LocalRun& run, std::size_t channel, std::size_t values,

@@ -2,7 +2,6 @@
 #include "local/world_stepper.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace roboss {
 
@@ -11,11 +10,11 @@ namespace {
 // A single thread copies the states so rarely that it costs nothing beside the steps.
 constexpr Tick kBackupTicks = 64;
 
-/// Orders of one tick, of orders sorted by ticks.
-std::span<const Order> orders_at(std::span<const Order> orders, Tick tick) {
-    const auto before = [](const Order& order, Tick t) { return order.apply_at < t; };
-    const auto first = std::lower_bound(orders.begin(), orders.end(), tick, before);
-    const auto last = std::lower_bound(first, orders.end(), tick + 1, before);
+/// Those with a tick in [from, until), of orders sorted by ticks.
+std::span<const Order> orders_within(std::span<const Order> orders, Tick from, Tick until) {
+    const auto before = [](const Order& order, Tick tick) { return order.apply_at < tick; };
+    const auto first = std::lower_bound(orders.begin(), orders.end(), from, before);
+    const auto last = std::lower_bound(first, orders.end(), until, before);
     return {first, last};
 }
 
@@ -46,9 +45,7 @@ StepOutcome WorldStepper::step(Tick from, Tick until, std::span<const Order> ord
     const bool windows = pool_.threads() > 1 && states.size() > 1;
     while (outcome.tick < until && !outcome.not_finite.valid()) {
         const Tick start = outcome.tick, end = std::min(until, start + (windows ? window_ : kBackupTicks));
-        const auto first = std::ranges::lower_bound(orders, start, {}, &Order::apply_at);
-        const auto last = std::ranges::lower_bound(orders, end, {}, &Order::apply_at);
-        const std::span<const Order> due{first, last};
+        const std::span<const Order> due = orders_within(orders, start, end);
         const bool fresh = windows || backup_.tick < 0 || end - backup_.tick > kBackupTicks;
         if (fresh) back_up(start, states);
         backup_.orders.insert(backup_.orders.end(), due.begin(), due.end());
@@ -70,7 +67,7 @@ StepOutcome WorldStepper::step_all(Tick from, Tick until, std::span<const Order>
     step_batch(all_, from, until, orders, scratch_[0]);
     const StepOutcome outcome = all_.outcome;
     if (!outcome.not_finite.valid()) return outcome;
-    for (std::size_t r = 0; r < states.size(); ++r) states[r] = backup_.states[r];
+    states = backup_.states;
     fill_all(states);
     step_batch(all_, backup_.tick, outcome.tick, backup_.orders, scratch_[0]);
     forget();  // orders of the failed tick are given again
@@ -79,20 +76,15 @@ StepOutcome WorldStepper::step_all(Tick from, Tick until, std::span<const Order>
 
 void WorldStepper::step_batch(Batch& batch, Tick from, Tick until, std::span<const Order> orders,
                               StepScratch& scratch) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    const Aabb everywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
-    const auto sensible = [](const Aabb& b) {
-        return b.min.x <= b.max.x && b.min.y <= b.max.y && b.min.z <= b.max.z;
-    };
     for (const RobotId robot : batch.robots) swept_[robot.index()] = {}, efforts_[robot.index()] = 0;
     batch.outcome = {.tick = until, .not_finite = {}, .not_finite_joint = {}};
     for (Tick tick = from; tick < until; ++tick) {
         const StepReport report = step_island(*model_, tick, batch.robots, batch.states,
-                                              orders_at(orders, tick), batch.bounds, scratch);
+                                              orders_within(orders, tick, tick + 1), batch.bounds, scratch);
         const std::span<const float> efforts = read_efforts(scratch);
         for (std::size_t i = 0; i < batch.robots.size(); ++i) {
             const std::size_t r = batch.robots[i].index();
-            bounds_[r] = sensible(batch.bounds[i]) ? batch.bounds[i] : everywhere;
+            bounds_[r] = valid_or_everywhere(batch.bounds[i]);
             swept_[r].include(bounds_[r]);
             efforts_[r] += efforts[i];
         }

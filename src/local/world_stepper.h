@@ -85,7 +85,8 @@ class WorldStepper {
     std::vector<std::uint32_t> batch_of_;
     std::vector<Batch> batches_;
     std::size_t batch_count_ = 0;
-    std::vector<std::uint32_t> sequence_;
+    std::vector<double> island_efforts_;   // by island
+    std::vector<std::uint32_t> sequence_;  // islands by descending effort
     std::vector<OwnedBox> boxes_;
     UnionFind sets_;
     Sweep sweep_;

@@ -11,10 +11,6 @@ namespace {
 constexpr Tick kWindowLeast = 4, kWindowMost = 64;
 constexpr std::size_t kBatchesPerThread = 4, kRobotsPerBatch = 8;  // enough to balance, and to fill lanes
 
-std::array<float, 3> to_floats(const Vec3& v) {
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
 }  // namespace
 
 WorldStepper::Batch& WorldStepper::add_batch() {
@@ -48,14 +44,14 @@ void WorldStepper::plan(Tick ticks, std::span<const Order> orders, std::vector<R
                                                        kBatchesPerThread * pool_.threads());
     batch_count_ = 0;
     for (std::size_t b = 0; b < std::min(wanted, islands_.count()); ++b) add_batch();
-    const auto effort = [&](std::uint32_t island) {
-        double sum = 0;
-        for (const RobotId robot : islands_.of(island)) sum += static_cast<double>(efforts_[robot.index()]);
-        return sum;
-    };
+    island_efforts_.assign(islands_.count(), 0.0);
+    for (std::size_t i = 0; i < islands_.count(); ++i)
+        for (const RobotId robot : islands_.of(i))
+            island_efforts_[i] += static_cast<double>(efforts_[robot.index()]);
     sequence_.resize(islands_.count());
     std::iota(sequence_.begin(), sequence_.end(), 0U);
-    std::ranges::stable_sort(sequence_, std::greater<>(), effort);
+    std::ranges::stable_sort(sequence_, std::greater<>(),
+                             [&](std::uint32_t island) { return island_efforts_[island]; });
     for (const std::uint32_t island : sequence_) {
         const auto end = batches_.begin() + static_cast<std::ptrdiff_t>(batch_count_);
         enlist(*std::min_element(batches_.begin(), end,
@@ -110,10 +106,8 @@ bool WorldStepper::plan_repeats(std::vector<RobotState>& states) {
 void WorldStepper::note_motions(Tick ticks, const std::vector<RobotState>& states) {
     for (std::size_t r = 0; r < states.size(); ++r) {
         RobotMotion& motion = motions_[r];
+        motion = motion_of(*model_, RobotId(r), states[r], bounds_[r]);
         motion.swept = outward(swept_[r]);
-        motion.centre = to_floats(bounds_[r].centre());
-        if (model_->type_of(RobotId(r)).free_base)
-            motion.velocity = to_floats({states[r].v[3], states[r].v[4], states[r].v[5]});
         motion.span_s = static_cast<float>(static_cast<double>(ticks) * model_->dt_s);
     }
 }
@@ -126,7 +120,7 @@ StepOutcome WorldStepper::step_window(Tick from, Tick until, std::span<const Ord
     bool finite = run_batches(from, until, orders);
     while (finite && plan_repeats(states)) finite = run_batches(from, until, orders);
     if (!finite) {  // perhaps only because robots that meet were stepped apart
-        for (std::size_t r = 0; r < states.size(); ++r) states[r] = backup_.states[r];
+        states = backup_.states;
         return step_all(from, until, orders, states);
     }
     note_motions(until - from, states);

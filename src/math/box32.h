@@ -33,6 +33,14 @@ struct Box32 {
     friend bool operator==(const Box32&, const Box32&) = default;
 };
 
+/// The box, or all of space if it is invalid (empty, or a bound is no number): a robot with such a bound is
+/// stepped together with all others.
+inline Aabb valid_or_everywhere(const Aabb& box) {
+    constexpr double kInfinity = Aabb::kInfinity;
+    const bool valid = box.min.x <= box.max.x && box.min.y <= box.max.y && box.min.z <= box.max.z;
+    return valid ? box : Aabb{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
+}
+
 /// An empty box stays empty; a bound that is NaN becomes infinite (overlaps everything).
 inline Box32 outward(const Aabb& box) {
     return {{round_down(box.min.x), round_down(box.min.y), round_down(box.min.z)},

@@ -40,7 +40,10 @@ Box32 predicted(const RobotMotion& m, double span_s, double reach_scale) {
 }  // namespace
 
 RobotMotion motion_of(const Model& model, RobotId robot, const RobotState& state) {
-    const Aabb bound = interaction_bound(model, robot, state);
+    return motion_of(model, robot, state, interaction_bound(model, robot, state));
+}
+
+RobotMotion motion_of(const Model& model, RobotId robot, const RobotState& state, const Aabb& bound) {
     RobotMotion motion;
     motion.swept = outward(bound);
     motion.centre = to_floats(bound.centre());

@@ -24,6 +24,8 @@ struct RobotMotion {
 
 /// Motion as of a state, for the first window.
 RobotMotion motion_of(const Model& model, RobotId robot, const RobotState& state);
+/// The same, if the state's interaction bound is known.
+RobotMotion motion_of(const Model& model, RobotId robot, const RobotState& state, const Aabb& bound);
 
 /// Whether a forecast depends on this order, since it moves its robot at once, or makes it reach out.
 bool leaps(const Order& order);

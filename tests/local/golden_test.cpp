@@ -82,7 +82,7 @@ std::uint64_t hash_of(const Golden& golden, const std::shared_ptr<const Model>& 
     return run.hash();
 }
 
-TEST(LocalRun, has_the_hashes_of_roboss_run_for_any_threads_lanes_and_calls) {
+TEST(LocalRun, HasTheHashesOfRobossRunForAnyThreadsLanesAndCalls) {
     const std::vector<Golden> list = read_list();
     EXPECT_GE(list.size(), 14U);
     for (const Golden& golden : list) {

@@ -23,7 +23,7 @@ const CHROMIUM =
     process.env.CHROMIUM ??
     ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find((path) => existsSync(path));
 export const WAIT_MS = 60_000;
-const LIMIT = { timeout: 2 * WAIT_MS };
+const LIMIT = { timeout: 5 * WAIT_MS };
 
 export interface Run {
     url: string;
@@ -206,7 +206,7 @@ export async function pressInBar(page: Page, label: string): Promise<void> {
 }
 
 /** Waits until `ask` says yes; fails with `what` otherwise. */
-export async function until(what: string, ask: () => Promise<boolean>, wait_ms = 20_000): Promise<void> {
+export async function until(what: string, ask: () => Promise<boolean>, wait_ms = WAIT_MS): Promise<void> {
     const end = Date.now() + wait_ms;
     while (!(await ask())) {
         if (Date.now() > end) throw new Error(`in vain: ${what}`);

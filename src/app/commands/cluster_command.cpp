@@ -120,12 +120,13 @@ int up(const std::string& path, bool json) {
     if (!file) return print(file.error()), kBadInput;
     if (is_up(file.value())) return kRunFailed;
     const StartOutcome outcome = start_processes(file.value());
-    if (json)
-        fmt::print(
-            "{}\n",
-            Json{{"simulation", file.value().simulation}, {"started", json_of(outcome.started)}}.dump(2));
-    for (const Started& s : json ? std::vector<Started>() : outcome.started)
-        fmt::print("{:<24} on {:<16} process {}, log {}\n", s.name, s.host, s.pid, s.log);
+    if (json) {
+        const Json told{{"simulation", file.value().simulation}, {"started", json_of(outcome.started)}};
+        fmt::print("{}\n", told.dump(2));
+    } else {
+        for (const Started& s : outcome.started)
+            fmt::print("{:<24} on {:<16} process {}, log {}\n", s.name, s.host, s.pid, s.log);
+    }
     for (const Error& error : outcome.errors) print(error);
     bool good = outcome.errors.empty() && outcome.started.size() == file.value().processes.size();
     if (!good)

@@ -13,14 +13,6 @@ namespace {
 
 constexpr std::size_t kRobotsPerBatch = 8;  // reading the clock costs about a tenth of a robot's step
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-const Aabb kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
-
-/// An invalid bound counts as everywhere: such a robot is stepped together with all others.
-bool sensible(const Aabb& b) {
-    return b.min.x <= b.max.x && b.min.y <= b.max.y && b.min.z <= b.max.z;
-}
-
 bool teleports(const Order& order) {
     return std::holds_alternative<SetPose>(order.action);
 }
@@ -190,7 +182,7 @@ void WindowStepper::sweep(const Job& job, std::size_t island, std::span<const Or
         swept_[k] = Aabb{};
     }
     for (std::size_t k = first; k < first + robots.size(); ++k)
-        swept_[k].include(sensible(bounds_[k]) ? bounds_[k] : kEverywhere);
+        swept_[k].include(valid_or_everywhere(bounds_[k]));
 }
 
 /// The bounds so far must still be compared with others'.
