@@ -48,5 +48,7 @@ Scene spiders_scene(std::size_t spiders);
 Scene arms_scene(std::size_t arms);
 // Boxes, spheres and cylinders falling onto a plane and onto each other.
 Scene shapes_scene(std::size_t shapes);
+// The same in twenty layers: they land on each other and collapse.
+Scene deep_pile_scene(std::size_t shapes);
 
 }  // namespace roboss::bench

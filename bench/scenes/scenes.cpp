@@ -10,6 +10,7 @@ std::span<const SceneKind> scenes() {
         {"spiders", "six-legged walkers: standing, then a tripod gait", {20, 200}, spiders_scene},
         {"arms", "arms of four joints on fixed bases following a path", {100}, arms_scene},
         {"shapes", "boxes, spheres and cylinders falling on a plane and on each other", {3000}, shapes_scene},
+        {"deep_pile", "the same in twenty layers that collapse", {400, 4000}, deep_pile_scene},
     };
     return kinds;
 }

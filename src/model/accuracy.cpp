@@ -19,8 +19,12 @@ constexpr std::array kNumbers{
                    &Accuracy::friction_max},
     AccuracyNumber{"compliance", "softness of hard joint rows, relative to the mobility they act on", 1e-8,
                    1e-5, &Accuracy::compliance, nullptr},
+    AccuracyNumber{"impact_compliance", "softness of hard contacts that are new", 1e-8, 1e-3,
+                   &Accuracy::impact_compliance, nullptr},
     AccuracyNumber{"contact_compliance", "softness of hard contacts that bear a load already", 1e-8, 1e-2,
                    &Accuracy::contact_compliance, nullptr},
+    AccuracyNumber{"friction_compliance", "softness of the friction of hard contacts", 1e-8, 0.1,
+                   &Accuracy::friction_compliance, nullptr},
 };
 
 std::string text(double value) {
@@ -72,6 +76,8 @@ std::optional<Accuracy> accuracy_setting(const std::string& name) {
         a.friction_tolerance = 1e-2;
         a.newton_max = 30;
         a.friction_max = 6;
+        a.impact_compliance = 1e-3;
+        a.friction_compliance = 0.1;
         return a;
     }
     if (name == "high") {
@@ -79,8 +85,9 @@ std::optional<Accuracy> accuracy_setting(const std::string& name) {
         a.friction_tolerance = 1e-7;
         a.newton_max = 200;
         a.friction_max = 60;
-        a.compliance = 1e-8;
+        a.compliance = a.impact_compliance = 1e-8;
         a.contact_compliance = 1e-6;
+        a.friction_compliance = 1e-6;
         return a;
     }
     return std::nullopt;

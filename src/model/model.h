@@ -340,7 +340,9 @@ struct Accuracy {
     int newton_max = 60;               ///< Newton iterations of a contact island and tick
     int friction_max = 20;             ///< updates of its friction bounds
     double compliance = 1e-6;  ///< regularisation of hard joint rows, relative to the mobility they act on
-    double contact_compliance = 1e-3;  ///< of hard contacts; they start from the impulse of the last tick
+    double impact_compliance = 1e-6;    ///< of hard contacts that are new
+    double contact_compliance = 1e-3;   ///< of hard contacts; they start from the impulse of the last tick
+    double friction_compliance = 1e-2;  ///< of their friction; likewise
 };
 
 /// The compiled world. It is never changed: an edit makes a new one (model/edit.h).

@@ -149,7 +149,7 @@ TEST(AccuracySettings, MoreAccuracyIsMoreTruth) {
                  standard_left = standard.off(Trial(strictly(named("standard"))));
     tell("fast: error left by the tolerances", fast_left);
     tell("standard: error left by the tolerances", standard_left);
-    EXPECT_LT(30 * standard_left, fast_left);
+    EXPECT_LT(10 * standard_left, fast_left);
     tell("standard: error by softness", standard.off(hard));
     tell("high: error by softness", high.off(hard));
     EXPECT_LT(1.3 * high.off(hard), standard.off(hard));

@@ -9,13 +9,13 @@
 #include "physics/bonds/bond_projection.h"
 #include "physics/contact/contact_rows.h"
 #include "physics/contact/island_guard.h"
+#include "physics/contact/island_parts.h"
 #include "physics/contact/second_look.h"
 #include "physics/dynamics/integrate.h"
 #include "physics/dynamics/joint_rows.h"
 #include "physics/lanes/lane_stepper.h"
 #include "physics/sleep.h"
 #include "physics/solver/row_split.h"
-#include "physics/solver/solver.h"
 #include "physics/step.h"
 
 namespace roboss {
@@ -50,7 +50,7 @@ struct GroupScratch {
     IslandGuard guard;
     BondProjection bond_projection;
     SecondLook look;
-    IslandSolver solver;
+    IslandParts solver;
     RowBuffer buffer;
     FreeBuffer free_buffer;
     WakeBuffers wake;

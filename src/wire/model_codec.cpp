@@ -13,7 +13,7 @@ namespace roboss {
 namespace wire {
 namespace {
 
-constexpr std::uint32_t kModelVersion = 7;
+constexpr std::uint32_t kModelVersion = 8;
 
 /// A Writer and a Reader that know the shared hulls and surfaces, to which shapes point.
 struct ModelWriter : Writer {
@@ -159,7 +159,7 @@ template <class A> void field(A& a, Of<A, StaticShape>& m) {
     fields(a, m.shape, m.X_WS, m.material, m.name, m.robot, m.link, m.flow, m.driven);
 }
 template <class A> void field(A& a, Of<A, Accuracy>& m) {
-    fields(a, m.tolerance, m.friction_tolerance, m.newton_max, m.friction_max, m.compliance, m.contact_compliance);
+    fields(a, m.tolerance, m.friction_tolerance, m.newton_max, m.friction_max, m.compliance, m.impact_compliance, m.contact_compliance, m.friction_compliance);
 }
 template <class A> void field(A& a, Of<A, SphericalCoordinates>& m) {
     fields(a, m.latitude_rad, m.longitude_rad, m.elevation_m, m.heading_rad);
@@ -194,7 +194,7 @@ template <class A> void field(A& a, Of<A, Model>& m) {
 [[maybe_unused]] void know_fields(const RobotType& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17, f18, f19, f20, f21, f22, f23, f24, f25, f26, f27, f28, f29, f30, f31, f32, f33] = m; }
 [[maybe_unused]] void know_fields(const Robot& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
 [[maybe_unused]] void know_fields(const StaticShape& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7] = m; }
-[[maybe_unused]] void know_fields(const Accuracy& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5] = m; }
+[[maybe_unused]] void know_fields(const Accuracy& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7] = m; }
 [[maybe_unused]] void know_fields(const Model& m) { [[maybe_unused]] const auto& [f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13, f14, f15, f16, f17, f18] = m; }
 // clang-format on
 

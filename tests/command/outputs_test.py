@@ -97,7 +97,9 @@ class Outputs(unittest.TestCase):
 <physics name="fine" type="ode"><max_step_size>0.001</max_step_size></physics>
 <model name="box"><pose>0 0 1 0 0 0</pose><link name="body"><inertial><mass>3</mass></inertial></link></model></world></sdf>""")
         ways = [[], ["--accuracy", "fast"], ["--accuracy", "high"], ["--tolerance", "3e-11"], ["--friction-tolerance", "3e-5"],
-                ["--newton-max", "77"], ["--friction-max", "17"], ["--compliance", "1e-7"], ["--contact-compliance", "1e-4"]]
+                ["--newton-max", "77"], ["--friction-max", "17"], ["--compliance", "1e-7"], ["--contact-compliance", "1e-4"],
+                ["--impact-compliance", "1e-5"],
+                ["--friction-compliance", "1e-3"]]
         models = [summary(world, "--duration", 0.1, *way)["model_hash"] for way in ways]
         self.assertEqual(len(set(models)), len(ways), "each number tells")
         self.assertEqual(summary(world, "--duration", 0.1, "--accuracy", "standard")["model_hash"], models[0])

@@ -64,7 +64,7 @@ TEST(Property, WhoPassesClearIsNotPushed) {
 }
 
 TEST(Property, NothingPassesThroughAnything) {
-    expect_holds({"tunnel", 114, 0});
+    expect_holds({"tunnel", 114, 0, {}, {37}});
 }
 
 TEST(Property, AClusterWithFaultsEndsWithTheUndisturbedHash) {

@@ -181,10 +181,10 @@ bool set_softness(const ContactT<T>& c, const Softness& soft, double dt, double 
 
 /// Targets of the normal. The load of the last tick is where the row starts from (a proximal step): a contact
 /// at rest carries it without any velocity, however compliant the row. True if velocity and displacement
-/// differ.
+/// differ. `bounce_compliance`: of what hits and bounces.
 template <class T>
 MaskOf<T> set_normal(const ContactT<T>& c, const SurfacePair& surface, const T& approach, const T& gravity_n,
-                     double dt, const T& compliance, BoundedRowT<T>& row) {
+                     double dt, const T& compliance, double bounce_compliance, BoundedRowT<T>& row) {
     row.compliance = compliance;
     const T closing = select(c.gap > T(0), -c.gap / T(dt), T(0));
     const MaskOf<T> corrects = c.gap < T(-surface.slop);
@@ -194,6 +194,7 @@ MaskOf<T> set_normal(const ContactT<T>& c, const SurfacePair& surface, const T& 
     row.position_target = select(corrects, correction, closing) + compliance * c.load;
     if (surface.restitution <= 0) return corrects;
     const NormalTargets<T> hit = impact(c, surface, approach, gravity_n, dt);
+    row.compliance = select(hit.split, T(bounce_compliance), row.compliance);
     row.target = select(hit.split, hit.velocity, row.target);
     row.position_target = select(hit.split, hit.displacement, row.position_target);
     return hit.split | corrects;
@@ -254,6 +255,7 @@ MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const Surfac
         inverse_effective_mass += contact::mobility(*b);
         approach += contact::normal_velocity(*b, c.p_W + c.shift_b, c.normal);
         gravity_n -= contact::gravity_along(model, *b, c.normal);
+        row.joins = row.first != middle && middle != rows.columns.size();
         if (b->robot == a.robot) rows.columns.merge(row.first, middle);
     }
     row.last = rows.columns.size();
@@ -261,13 +263,18 @@ MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const Surfac
     const T compliance = inverse_effective_mass * select(loaded, T(loaded_compliance<T>(model.accuracy)),
                                                          T(new_compliance<T>(model.accuracy)));
     row.normal.high = std::numeric_limits<double>::infinity();
+    row.normal.impulse = c.impulse;
     row.soft = contact::set_softness(c, surface.softness, dt, inverse_effective_mass,
                                      inverse_effective_mass * new_compliance<T>(model.accuracy), row.normal);
     MaskOf<T> split = false;
-    if (!row.soft) split = contact::set_normal(c, surface, approach, gravity_n, dt, compliance, row.normal);
+    if (!row.soft)
+        split =
+            contact::set_normal(c, surface, approach, gravity_n, dt, compliance,
+                                inverse_effective_mass * bounce_compliance<T>(model.accuracy), row.normal);
     row.slip.coefficient = surface.friction.mu;
     row.slip.bound = surface.friction.mu * c.impulse;
-    row.slip.compliance = compliance;
+    const T slip_compliance = T(inverse_effective_mass * friction_compliance<T>(model.accuracy));
+    row.slip.compliance = slip_compliance;
     if constexpr (std::is_same_v<T, double>) {  // impulses of a tick, not forces
         row.slip.slip_11 = surface.slip_11 / dt, row.slip.slip_12 = surface.slip_12 / dt;
         row.slip.slip_22 = surface.slip_22 / dt;
@@ -275,7 +282,7 @@ MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const Surfac
     row.inverse_effective_mass = inverse_effective_mass;
     row.warm_start_max =
         larger(4.0 * c.load, T(contact::kWeights * norm(model.gravity) * dt / inverse_effective_mass));
-    contact::start_from_load(c, surface.friction, frame, loaded, compliance, row);
+    contact::start_from_load(c, surface.friction, frame, loaded, slip_compliance, row);
     contact::count_surface_motion(surface, frame, row);
     return split;
 }

@@ -21,7 +21,8 @@ void Hessian::start(std::span<const Mechanics<double>* const> robots, std::span<
     robots_ = robots;
     offsets_ = offsets;
     n_ = n;
-    is_tree_ = robots.size() == 1 && !robots[0]->touches_robot && rows.couplings.empty();
+    is_tree_ = robots.size() == 1 && rows.couplings.empty() &&
+               std::ranges::none_of(rows.contacts, &ContactRow::joins);
     if (is_tree_) return tree_.start(*robots[0], rows);
     start_fronts(rows);
     add_mass();

@@ -12,20 +12,29 @@
 
 namespace roboss {
 
-/// Compliances of hard joint rows, of contacts that are new and of those that bear a load, relative to the
-/// mobility they act on. Newton's matrix holds their reciprocals beside the masses: floats have no room for
-/// the hardest, least of all where rows share their columns, as contacts do.
+/// Compliances of hard joint rows, of contacts that are new, that bounce and that bear a load, and of their
+/// friction, relative to the mobility they act on. Newton's matrix holds their reciprocals beside the masses:
+/// floats have no room for the hardest, least of all where rows share their columns, as contacts do.
 template <class T>
 double hard_compliance(const Accuracy& accuracy) {
     return kIsFloat<T> ? std::max(accuracy.compliance, 1e-6) : accuracy.compliance;
 }
 template <class T>
 double new_compliance(const Accuracy& accuracy) {
+    return kIsFloat<T> ? std::max(accuracy.impact_compliance, 1e-4) : accuracy.impact_compliance;
+}
+template <class T>
+double bounce_compliance(const Accuracy& accuracy) {
     return kIsFloat<T> ? std::max(accuracy.compliance, 1e-4) : accuracy.compliance;
 }
 template <class T>
 double loaded_compliance(const Accuracy& accuracy) {
     return kIsFloat<T> ? std::max(accuracy.contact_compliance, 1e-3) : accuracy.contact_compliance;
+}
+
+template <class T>
+double friction_compliance(const Accuracy& accuracy) {
+    return kIsFloat<T> ? std::max(accuracy.friction_compliance, 1e-3) : accuracy.friction_compliance;
 }
 
 /// One direction with a bounded impulse: clamp((target - u) / compliance, low, high).
@@ -133,6 +142,7 @@ struct ContactRowT {
     FrictionDiscT<T> slip;
     T warm_start_max{};  // of its normal impulse, what may count as a load and not as a blow
     bool soft = false;   // a spring and damper
+    bool joins = false;  // two robots, or two branches of one: its columns are those of two paths
     // It carried a load in the last tick and did not slide: it probably will not now.
     MaskOf<T> sticks{false};
     double inverse_effective_mass = 1;  // 1/kg: mobility that its compliances are relative to

@@ -1,0 +1,101 @@
+// Free bodies that touch each other and scenery, as their solver keeps them (body_solver.h): six numbers a
+// body, blocks of six by six, so that a vector register takes a row. Plain numbers, filled and ordered by
+// code for every processor; body_kernel.h computes with them.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace roboss {
+
+/// Six numbers of a body (angular, linear), and two that stay zero.
+struct alignas(64) Six {
+    double x[8] = {};
+};
+
+struct SixBlock {
+    Six row[6];
+};
+
+struct FreeBody {
+    SixBlock mass;
+    Six impulse;        // M v + dt (applied - bias)
+    Six v, mv;          // velocity, M v
+    Six gradient;       // mv - impulse - applied
+    Six applied;        // impulses of all contacts
+    Six step, m_step;   // of the velocity, M step
+    Six lightness;      // 1 / M's diagonal
+    SixBlock mobility;  // M^-1, for sweeps
+    Six swept;          // velocity, while sweeping
+};
+
+/// A contact point. `n`, `t1`, `t2`: normal, tangents. Friction velocities are relative to their targets.
+struct BodyPoint {
+    Six n_a, t1_a, t2_a, n_b, t1_b, t2_b;  // Jacobian: of body a, of body b
+    int a = 0, b = -1;                     // b: -1 for scenery
+    int edge = -1;                         // of the two bodies, in the factor
+    bool b_first = false;                  // b is eliminated before a
+    bool sticks = false;                   // it probably will: ContactRow::sticks
+    double target_n = 0, target_1 = 0, target_2 = 0;
+    double stiffness_n = 0, stiffness_t = 0, coefficient = 0, bound = 0;
+    double u_n = 0, u_1 = 0, u_2 = 0, du_n = 0, du_1 = 0, du_2 = 0;
+    double f_n = 0, f_1 = 0, f_2 = 0;                          // impulses
+    double d_n = 0, d_11 = 0, d_12 = 0, d_22 = 0;              // minus their derivatives by the velocity
+    double d_1n = 0, d_2n = 0;                                 // of friction by the normal velocity
+    double held_n = 0, held_11 = 0, held_12 = 0, held_22 = 0;  // what the matrix holds
+    double bound_error = 0, relaxation = 1;                    // FrictionDisc::bound_error
+    Six by_n_a, by_t1_a, by_t2_a, by_n_b, by_t1_b, by_t2_b;    // M^-1 J^T, for sweeps
+    double mass_n = 0, mass_t = 0, swept_n = 0, swept_1 = 0, swept_2 = 0;
+};
+
+/// Order of elimination and places of all blocks of the factor. Edges join a body to those that are
+/// eliminated after it and are coupled to it by then; they are numbered body by body, as eliminated.
+class BodyOrder {
+  public:
+    /// Orders by minimum degree, and gives the points their edges.
+    void analyse(std::size_t bodies, std::vector<BodyPoint>& points);
+
+    struct Pivot {
+        int body = 0;
+        std::size_t first = 0, last = 0;  // edges
+        std::size_t updates = 0;          // where its updates begin
+    };
+    const std::vector<Pivot>& pivots() const { return pivots_; }
+    /// The other body of an edge.
+    const std::vector<int>& ends() const { return ends_; }
+    /// For each pivot, each pair of its edges (i < j): the edge that joins their ends, and whether the end of
+    /// j is eliminated before that of i.
+    struct Update {
+        int edge = 0;
+        bool j_first = false;
+    };
+    const std::vector<Update>& updates() const { return updates_; }
+    std::size_t edges() const { return ends_.size(); }
+
+  private:
+    void eliminate(std::size_t bodies);
+    int edge_of(int a, int b) const;
+
+    std::vector<Pivot> pivots_;
+    std::vector<int> ends_;
+    std::vector<Update> updates_;
+    std::vector<int> position_, degree_;  // by body: when it is eliminated; neighbours left
+    std::vector<std::vector<int>> near_;  // by body: neighbours left, ascending
+    std::vector<int> merged_;
+    std::vector<std::pair<int, int>> queue_;  // (degree, body), a heap; outdated entries are skipped
+};
+
+struct BodyIsland {
+    std::vector<FreeBody> bodies;
+    std::vector<BodyPoint> points;
+    BodyOrder order;
+    bool symmetric = true;                            // the matrix factored last
+    std::vector<SixBlock> kept_diagonal, kept_upper;  // the symmetric matrix, by body and by edge
+    std::vector<SixBlock> diagonal, upper, lower;     // its factor; `lower` transposed
+    struct Pivot {
+        double l[6][6] = {}, inverse[6] = {};
+    };
+    std::vector<Pivot> pivots;  // by body
+};
+
+}  // namespace roboss

@@ -1,0 +1,356 @@
+// See body_solver.h.
+#include "physics/bodies/body_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace roboss {
+namespace {
+
+/// From this balance on friction bounds follow the normal impulses. Nearer than Newton's method needs for
+/// robots with joints (newton::kRoughly): sweeps have told who sticks and who slides.
+constexpr double kRoughly = 1e-2;
+constexpr double kRounding = newton::kRounding<double>;
+
+/// Curvatures of the contacts at the present velocities.
+void set_curvatures(std::vector<BodyPoint>& points) {
+    for (BodyPoint& p : points) {
+        p.d_n = p.target_n > p.u_n ? p.stiffness_n : 0;
+        p.d_1n = p.d_2n = p.d_11 = p.d_12 = p.d_22 = 0;
+        if (!(p.bound > 0)) continue;
+        const double speed = std::sqrt(p.u_1 * p.u_1 + p.u_2 * p.u_2);
+        if (speed * p.stiffness_t > p.bound) {
+            const double e1 = p.u_1 / speed, e2 = p.u_2 / speed, share = p.bound / speed;
+            p.d_11 = share * (1 - e1 * e1), p.d_12 = -share * e1 * e2, p.d_22 = share * (1 - e2 * e2);
+        } else {
+            p.d_11 = p.d_22 = p.stiffness_t;
+        }
+    }
+}
+
+/// Derivatives of sliding friction by the normal velocity, its bound moving with the normal impulse; true
+/// where anything slides.
+bool couple_bounds(std::vector<BodyPoint>& points) {
+    bool slides = false;
+    for (BodyPoint& p : points) {
+        if (p.d_n == 0 || !(p.bound > 0)) continue;
+        const double speed = std::sqrt(p.u_1 * p.u_1 + p.u_2 * p.u_2);
+        if (!(speed * p.stiffness_t > p.bound)) continue;
+        const double share = -p.coefficient * p.d_n / speed;
+        p.d_1n = share * p.u_1, p.d_2n = share * p.u_2;
+        slides = true;
+    }
+    return slides;
+}
+
+/// The point as it would be if it pushed and stuck.
+void stick(BodyPoint& p) {
+    p.d_11 = p.d_22 = p.stiffness_t, p.d_12 = 0;
+    p.f_1 = -p.u_1 * p.stiffness_t, p.f_2 = -p.u_2 * p.stiffness_t;
+}
+void push(BodyPoint& p) {
+    p.d_n = p.stiffness_n;
+    p.f_n = (p.target_n - p.u_n) * p.stiffness_n;
+}
+
+/// Change of a point's friction if its bound became that of its normal impulse.
+double friction_change(const BodyPoint& p) {
+    const double f_1 = -p.u_1 * p.stiffness_t, f_2 = -p.u_2 * p.stiffness_t;
+    const double wanted = p.coefficient * p.f_n, size2 = f_1 * f_1 + f_2 * f_2;
+    const double share = size2 > wanted * wanted ? wanted / std::sqrt(size2) : 1;
+    return std::fabs(f_1 * share - p.f_1) + std::fabs(f_2 * share - p.f_2);
+}
+
+}  // namespace
+
+bool BodySolver::solve(const BodyPart& part, std::vector<double>& v, SolveReport& report) {
+    position_ = part.problem.position;
+    iterations_ = 0;
+    take(part, v);
+    if (!iterate(part.problem.accuracy)) return false;
+    give(part, v);
+    report = {iterations_, residual_};
+    return true;
+}
+
+void BodySolver::take_body(const Mechanics<double>& robot, const double* v, FreeBody& body) const {
+    const double* mass = robot.mass_matrix.data();  // packed, the lower triangle
+    body.mass = {}, body.impulse = body.v = body.lightness = {};
+    for (std::size_t i = 0; i < 6; ++i) {
+        for (std::size_t j = 0; j <= i; ++j)
+            body.mass.row[i].x[j] = body.mass.row[j].x[i] = mass[i * (i + 1) / 2 + j];
+        body.lightness.x[i] = 1.0 / body.mass.row[i].x[i];
+        body.impulse.x[i] = robot.impulse[i], body.v.x[i] = v[i];
+    }
+}
+
+void BodySolver::take_point(const BodyPart& part, const ContactRow& row, BodyPoint& p) const {
+    const ContactColumns& columns = part.problem.rows.columns;
+    p = {};
+    const auto side = [&](std::size_t first, Six& n, Six& t1, Six& t2) {
+        std::copy_n(columns.n.data() + first, 6, n.x);
+        std::copy_n(columns.t1.data() + first, 6, t1.x);
+        std::copy_n(columns.t2.data() + first, 6, t2.x);
+        const std::uint32_t robot = part.robot_of[static_cast<std::size_t>(columns.dof[first])];
+        return static_cast<int>(local_[robot]);
+    };
+    p.a = side(row.first, p.n_a, p.t1_a, p.t2_a);
+    if (row.last > row.first + 6) p.b = side(row.first + 6, p.n_b, p.t1_b, p.t2_b);
+    p.sticks = row.sticks;
+    p.target_n = position_ ? row.normal.position_target : row.normal.target;
+    p.target_1 = row.slip.target_1, p.target_2 = row.slip.target_2;
+    p.stiffness_n = 1.0 / row.normal.compliance, p.stiffness_t = 1.0 / row.slip.compliance;
+    p.coefficient = row.slip.coefficient, p.bound = row.slip.bound;
+}
+
+void BodySolver::take(const BodyPart& part, const std::vector<double>& v) {
+    const IslandSolver::Problem& problem = part.problem;
+    BodyIsland& s = island_;
+    s.bodies.resize(part.members.size()), s.points.resize(part.contacts.size());
+    local_.resize(problem.robots.size());
+    for (std::size_t b = 0; b < s.bodies.size(); ++b) {
+        const std::uint32_t robot = part.members[b];
+        local_[robot] = static_cast<std::uint32_t>(b);
+        take_body(*problem.robots[robot], v.data() + problem.offsets[robot], s.bodies[b]);
+    }
+    for (std::size_t c = 0; c < s.points.size(); ++c)
+        take_point(part, problem.rows.contacts[part.contacts[c]], s.points[c]);
+    s.order.analyse(s.bodies.size(), s.points);
+    s.kept_diagonal.resize(s.bodies.size()), s.diagonal.resize(s.bodies.size());
+    s.pivots.resize(s.bodies.size());
+    for (std::size_t b = 0; b < s.bodies.size(); ++b) s.kept_diagonal[b] = s.bodies[b].mass;
+    s.kept_upper.assign(s.order.edges(), SixBlock{});
+    s.upper.resize(s.order.edges()), s.lower.resize(s.order.edges());
+    kernel_.take_velocities(s);
+    // What they carried last, for the sweeps.
+    for (std::size_t c = 0; c < s.points.size(); ++c)
+        s.points[c].swept_n = problem.rows.contacts[part.contacts[c]].normal.impulse;
+}
+
+void BodySolver::keep_start() {
+    v_start_.clear(), mv_start_.clear();
+    for (const FreeBody& body : island_.bodies) v_start_.push_back(body.v), mv_start_.push_back(body.mv);
+}
+
+void BodySolver::return_to_start() {
+    for (std::size_t b = 0; b < island_.bodies.size(); ++b) island_.bodies[b].v = v_start_[b];
+    kernel_.take_velocities(island_);
+}
+
+/// A first step to where the bodies would be if every contact did what the sweeps say. False if that is no
+/// better than where we are, where we then still are.
+bool BodySolver::start_from_sweeps() {
+    constexpr std::size_t kMany = 64;  // bodies, through which impulses need more sweeps to spread
+    keep_start();
+    start_bounds_.clear();
+    for (BodyPoint& p : island_.points) {
+        start_bounds_.push_back(p.bound);
+        p.f_n = p.swept_n, p.f_1 = p.target_1 * p.stiffness_t, p.f_2 = p.target_2 * p.stiffness_t;
+        const double most = p.coefficient * p.f_n, size2 = p.f_1 * p.f_1 + p.f_2 * p.f_2;
+        if (size2 > most * most) p.f_1 *= most / std::sqrt(size2), p.f_2 *= most / std::sqrt(size2);
+    }
+    kernel_.sweep(island_, island_.bodies.size() < kMany ? 8 : 20);
+    kernel_.take_velocities(island_);
+    for (BodyPoint& p : island_.points) p.bound = p.coefficient * p.swept_n;
+    set_curvatures(island_.points);
+    for (BodyPoint& p : island_.points) {
+        p.d_n = p.f_n = 0;
+        if (p.swept_n > 0) push(p);
+        const double size2 = p.swept_1 * p.swept_1 + p.swept_2 * p.swept_2,
+                     speed2 = p.u_1 * p.u_1 + p.u_2 * p.u_2, bound2 = p.bound * p.bound;
+        if (!(p.bound > 0))
+            p.f_1 = p.f_2 = 0;
+        else if (size2 < 0.998 * bound2 || speed2 * p.stiffness_t * p.stiffness_t <= bound2)
+            stick(p);
+        else
+            p.f_1 = -p.bound * p.u_1 / std::sqrt(speed2), p.f_2 = -p.bound * p.u_2 / std::sqrt(speed2);
+    }
+    const double before = residual_;
+    kernel_.set_gradient(island_);
+    if (kernel_.find_step(island_, false, 0)) {
+        kernel_.move(island_, 1);
+        ++iterations_;
+        residual_ = kernel_.balance(island_);
+        if (residual_ <= before) return true;
+    }
+    for (std::size_t c = 0; c < island_.points.size(); ++c) island_.points[c].bound = start_bounds_[c];
+    return_to_start();
+    residual_ = kernel_.balance(island_);
+    return false;
+}
+
+/// Likewise if every contact that stuck in the last tick stuck again.
+void BodySolver::start_from_sticking() {
+    if (std::ranges::none_of(island_.points, &BodyPoint::sticks)) return;
+    keep_start();
+    set_curvatures(island_.points);
+    for (BodyPoint& p : island_.points)
+        if (p.sticks) push(p), stick(p);
+    const double before = residual_;
+    kernel_.set_gradient(island_);
+    if (kernel_.find_step(island_, false, 0)) {
+        kernel_.move(island_, 1);
+        ++iterations_;
+        residual_ = kernel_.balance(island_);
+        if (residual_ <= before) return;
+    }
+    return_to_start();
+    residual_ = kernel_.balance(island_);
+}
+
+void BodySolver::start() {
+    residual_ = kernel_.balance(island_);
+    if (residual_ <= newton::kRoughly) return;
+    if (!position_ && island_.bodies.size() > 1 && start_from_sweeps()) return;
+    start_from_sticking();
+}
+
+/// Balance with friction bounds that fit the normal impulses.
+double BodySolver::balance_tied() {
+    for (BodyPoint& p : island_.points)
+        p.bound = p.coefficient * std::max(0.0, (p.target_n - p.u_n) * p.stiffness_n);
+    return kernel_.balance(island_);
+}
+
+/// Newton::solve_coupled. Steps are shortened until the balance gets better.
+bool BodySolver::solve_coupled(const Accuracy& accuracy) {
+    constexpr int kStepsMax = 12, kHalvings = 3;
+    constexpr double kProgress = 0.3;  // of the residual, in a whole step, at least
+    keep_start();
+    residual_ = balance_tied();
+    for (int i = 0; i < kStepsMax && residual_ > accuracy.tolerance; ++i) {
+        set_curvatures(island_.points);
+        const bool slides = couple_bounds(island_.points);
+        if (!kernel_.find_step(island_, slides, newton::may_lack(residual_))) break;
+        ++iterations_;
+        const double before = residual_;
+        kernel_.move(island_, 1);
+        residual_ = balance_tied();
+        double alpha = 1;
+        const auto improves = [&] { return residual_ <= (1 - kProgress * alpha) * before; };
+        for (int h = 0; h < kHalvings && !improves(); ++h) {
+            alpha *= 0.5;
+            kernel_.move(island_, -alpha);
+            residual_ = balance_tied();
+        }
+        if (!improves()) break;
+    }
+    if (residual_ <= accuracy.tolerance) return true;
+    return_to_start();
+    residual_ = kernel_.balance(island_);
+    return false;
+}
+
+/// Newton::line_search.
+double BodySolver::line_search(double at_start, double at_end) {
+    double low = -1, high = 0, s_low = at_start, s_high = at_end;
+    for (int i = 0; i < 20 && s_high < 0; ++i) {
+        low = high, s_low = s_high, high = 2 * high + 1;
+        s_high = kernel_.slope_beyond(island_, high);
+    }
+    int side = 0;  // of the last point: -1 below the root
+    for (int i = 0; i < 60; ++i) {
+        const double share = i % 3 == 2 ? 0.5 : s_low / (s_low - s_high);
+        const double fraction = low + (high - low) * share;
+        const double s = kernel_.slope_beyond(island_, fraction);
+        if (std::fabs(s) <= -0.05 * at_start) return fraction;
+        if (s < 0) {
+            low = fraction, s_low = s;
+            if (side < 0) s_high *= 0.5;
+            side = -1;
+        } else {
+            high = fraction, s_high = s;
+            if (side > 0) s_low *= 0.5;
+            side = 1;
+        }
+    }
+    return low > -1 ? low : high;
+}
+
+/// Newton::take_step.
+void BodySolver::take_step() {
+    constexpr double kGoodEnough = 0.3;
+    const double at_start = kernel_.slope(island_);
+    kernel_.move(island_, 1);
+    residual_ = kernel_.balance(island_);
+    const double at_end = kernel_.slope(island_);
+    if (!(at_start < 0) || std::fabs(at_end) <= -kGoodEnough * at_start) return;
+    kernel_.move(island_, line_search(at_start, at_end));
+    residual_ = kernel_.balance(island_);
+}
+
+/// friction::update_bounds.
+double BodySolver::update_bounds() {
+    const double error = friction_error();
+    for (BodyPoint& p : island_.points)
+        if (p.coefficient != 0)
+            friction::update_bound(p.coefficient * p.f_n, p.bound, p.bound_error, p.relaxation);
+    return error;
+}
+
+/// What friction would change by if its bounds fitted the normal impulses, relative to the largest of these.
+double BodySolver::friction_error() const {
+    double largest = 0, change = 0;
+    for (const BodyPoint& p : island_.points) {
+        largest = std::max(largest, p.f_n);
+        if (p.coefficient != 0) change = std::max(change, friction_change(p));
+    }
+    return largest > 0 ? change / largest : 0;
+}
+
+/// Newton::iterate; beyond that, friction bounds are checked once more when momentum balances.
+bool BodySolver::iterate(const Accuracy& accuracy) {
+    constexpr int kCoupledTries = 3, kChecks = 10;
+    // Iterations cost little here, next to the interior point method that an island is left to in the end.
+    constexpr int kPatience = 3;
+    start();
+    int bound_updates = 0, coupled_tries = 0, stalls = 0, checks = 0;
+    bool settled = position_;
+    double best = 1;
+    for (int i = 0;; ++i) {
+        if (residual_ <= kRoughly) {
+            if (!settled && coupled_tries < kCoupledTries) {
+                ++coupled_tries;
+                if (solve_coupled(accuracy)) return true;
+            }
+            if (!settled) {
+                settled = update_bounds() <= accuracy.friction_tolerance ||
+                          ++bound_updates >= accuracy.friction_max;
+                residual_ = kernel_.balance(island_);
+            }
+            stalls = settled && residual_ <= kRounding && residual_ > 0.9 * best ? stalls + 1 : 0;
+            best = settled ? std::min(best, residual_) : 1;
+            if (settled && (residual_ <= accuracy.tolerance || stalls >= 3)) {
+                if (position_ || checks == kChecks || friction_error() <= accuracy.friction_tolerance)
+                    return true;
+                settled = false;
+                coupled_tries = ++checks % 2 == 0 ? kCoupledTries : kCoupledTries - 1;
+                continue;
+            }
+        }
+        if (i >= kPatience * accuracy.newton_max) return residual_ <= newton::kRoughly && settled;
+        set_curvatures(island_.points);
+        if (!kernel_.find_step(island_, false, newton::may_lack(residual_))) return false;
+        take_step();
+        ++iterations_;
+    }
+}
+
+/// Velocities and rows, as IslandSolver leaves them.
+void BodySolver::give(const BodyPart& part, std::vector<double>& v) const {
+    const IslandSolver::Problem& problem = part.problem;
+    for (std::size_t b = 0; b < part.members.size(); ++b)
+        std::copy_n(island_.bodies[b].v.x, 6, v.data() + problem.offsets[part.members[b]]);
+    for (std::size_t c = 0; c < part.contacts.size(); ++c) {
+        const BodyPoint& p = island_.points[c];
+        ContactRow& row = problem.rows.contacts[part.contacts[c]];
+        row.normal.target = p.target_n, row.normal.stiffness = p.stiffness_n;
+        row.normal.u = p.u_n, row.normal.impulse = p.f_n, row.normal.d = p.d_n;
+        row.slip.stiffness = p.stiffness_t, row.slip.bound = p.bound;
+        row.slip.u_1 = p.u_1, row.slip.u_2 = p.u_2;
+        row.slip.impulse_1 = p.f_1, row.slip.impulse_2 = p.f_2;
+    }
+}
+
+}  // namespace roboss

@@ -1,0 +1,60 @@
+// Newton's method (newton.h) for a part of a contact island in which all robots are single free bodies with
+// plain contacts: boxes, balls, debris. The same steps on blocks of six by six (body_island.h), which a
+// vector register takes row by row.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "physics/bodies/body_kernel.h"
+#include "physics/solver/solver.h"
+
+namespace roboss {
+
+/// Some robots of a contact island, and the contacts among them and with scenery.
+struct BodyPart {
+    const IslandSolver::Problem& problem;     // of the whole contact island
+    std::span<const std::uint32_t> members;   // robots, ascending
+    std::span<const std::uint32_t> contacts;  // contact rows
+    std::span<const std::uint32_t> robot_of;  // by degree of freedom
+};
+
+class BodySolver {
+  public:
+    /// Whether a robot is a single free body, and a contact one that the solver knows.
+    static bool knows(const Mechanics<double>& robot) { return robot.type->free_base && robot.type->nv == 6; }
+    static bool knows(const ContactRow& row) { return row.first != row.last && !slip_disc::slips(row.slip); }
+
+    /// As IslandSolver::solve, for the part. False if it does not come to a balance; then nothing is changed.
+    bool solve(const BodyPart& part, std::vector<double>& v, SolveReport& report);
+
+  private:
+    void take(const BodyPart& part, const std::vector<double>& v);
+    void take_body(const Mechanics<double>& robot, const double* v, FreeBody& body) const;
+    void take_point(const BodyPart& part, const ContactRow& row, BodyPoint& point) const;
+    bool iterate(const Accuracy& accuracy);
+    void start();
+    bool start_from_sweeps();
+    void start_from_sticking();
+    double balance_tied();
+    bool solve_coupled(const Accuracy& accuracy);
+    void take_step();
+    double line_search(double at_start, double at_end);
+    double update_bounds();
+    double friction_error() const;
+    void give(const BodyPart& part, std::vector<double>& v) const;
+    void keep_start();
+    void return_to_start();
+
+    const BodyKernel& kernel_ = body_kernel();
+    BodyIsland island_;
+    bool position_ = false;
+    double residual_ = 0;
+    int iterations_ = 0;
+    std::vector<std::uint32_t> local_;  // by robot of the problem: its body
+    std::vector<Six> v_start_, mv_start_;
+    std::vector<double> start_bounds_;
+};
+
+}  // namespace roboss

@@ -1,0 +1,290 @@
+// See island_parts.h.
+#include "physics/contact/island_parts.h"
+
+#include <algorithm>
+#include <string>
+
+#include "core/check.h"
+#include "physics/solver/row_math.h"
+
+namespace roboss {
+namespace {
+
+constexpr int kRoundsMax = 6;         // then the island is solved whole
+constexpr double kViolation = 1e-12;  // m/s, along a normal that was left out
+
+double target_of(const IslandSolver::Problem& p, const ContactRow& row) {
+    return p.position ? row.normal.position_target : row.normal.target;
+}
+
+double normal_velocity(const IslandRows& rows, const ContactRow& row, const std::vector<double>& v) {
+    double u = 0;
+    for (std::size_t c = row.first; c < row.last; ++c)
+        u += rows.columns.n[c] * v[static_cast<std::size_t>(rows.columns.dof[c])];
+    return u;
+}
+
+}  // namespace
+
+void IslandParts::ByPart::sort(std::size_t parts, std::span<const std::uint32_t> part_of_item) {
+    first.assign(parts + 1, 0);
+    std::uint32_t count = 0;
+    for (const std::uint32_t part : part_of_item)
+        if (part < parts) ++first[part + 1], ++count;
+    for (std::size_t k = 0; k < parts; ++k) first[k + 1] += first[k];
+    items.resize(count);
+    for (std::uint32_t i = 0; i < part_of_item.size(); ++i)
+        if (part_of_item[i] < parts) items[first[part_of_item[i]]++] = i;
+    for (std::size_t k = parts; k > 0; --k) first[k] = first[k - 1];
+    first[0] = 0;
+}
+
+SolveReport IslandParts::solve(const Problem& p, std::vector<double>& v) {
+    const std::size_t count = p.robots.size();
+    largest_part_ = static_cast<int>(count);
+    if (p.rows.contacts.empty()) return solver_.solve(p, v);
+    find_ends(p, v.size());
+    join_by_pushing(p, v);
+    SolveReport report;
+    changed_.assign(count, 1);
+    for (int round = 0;; ++round) {
+        sort_by_parts(p);
+        const std::size_t parts = robots_.first.size() - 1;
+        for (std::size_t part = 0; part < parts; ++part) {
+            const std::span<const std::uint32_t> members = robots_.of(part);
+            if (std::ranges::none_of(members, [&](std::uint32_t r) { return changed_[r] != 0; })) continue;
+            const SolveReport solved = solve_part(p, part, v);
+            report.iterations += solved.iterations;
+            report.residual = std::max(report.residual, solved.residual);
+            largest_part_ = std::max(largest_part_, static_cast<int>(members.size()));
+        }
+        std::ranges::fill(changed_, 0);
+        if (!join_violated(p, v)) break;
+        if (round + 1 == kRoundsMax) join_all();
+    }
+    finish_left_out(p, v);
+    return report;
+}
+
+SolveReport IslandParts::solve_part(const Problem& p, std::size_t part, std::vector<double>& v) {
+    if (is_of_bodies(p, part)) {
+        SolveReport report;
+        if (bodies_.solve({p, robots_.of(part), contacts_.of(part), robot_of_}, v, report)) return report;
+    }
+    if (robots_.of(part).size() == p.robots.size()) return solver_.solve(p, v);
+    take_part(p, part, v);
+    const SolveReport report =
+        solver_.solve({p.accuracy, part_robots_, part_offsets_, rows_, p.position}, v_);
+    give_back(p, part, v);
+    return report;
+}
+
+/// Whether the part is one for BodySolver.
+bool IslandParts::is_of_bodies(const Problem& p, std::size_t part) const {
+    return couplings_.of(part).empty() && angulars_.of(part).empty() &&
+           std::ranges::all_of(robots_.of(part),
+                               [&](std::uint32_t r) { return BodySolver::knows(*p.robots[r]); }) &&
+           std::ranges::all_of(contacts_.of(part),
+                               [&](std::uint32_t c) { return BodySolver::knows(p.rows.contacts[c]); });
+}
+
+void IslandParts::find_ends(const Problem& p, std::size_t n) {
+    const std::size_t count = p.robots.size();
+    largest_part_ = 0;
+    robot_of_.resize(n);
+    for (std::uint32_t r = 0; r < count; ++r) {
+        ROBOSS_CHECK(static_cast<std::size_t>(p.offsets[r] + p.robots[r]->type->nv) <= n, std::to_string(n));
+        std::fill_n(robot_of_.begin() + p.offsets[r], static_cast<std::size_t>(p.robots[r]->type->nv), r);
+    }
+    joint_first_.resize(count + 1);
+    std::uint32_t row = 0;
+    for (std::uint32_t r = 0; r < count; ++r) {
+        joint_first_[r] = row;
+        const int end = p.offsets[r] + p.robots[r]->type->nv;
+        while (row < p.rows.joints.size() && p.rows.joints[row].dof < end) ++row;
+    }
+    joint_first_[count] = row;
+    joined_.reset(count);
+    ends_.clear();
+    for (const ContactRow& contact : p.rows.contacts) {
+        if (contact.first == contact.last) {
+            ends_.push_back({});
+            continue;
+        }
+        ends_.push_back({robot_of_[static_cast<std::size_t>(p.rows.columns.dof[contact.first])],
+                         robot_of_[static_cast<std::size_t>(p.rows.columns.dof[contact.last - 1])]});
+    }
+    for (const CouplingRow& coupling : p.rows.couplings) {
+        if (coupling.first == coupling.last) continue;
+        const auto robot = [&](std::size_t c) {
+            return robot_of_[static_cast<std::size_t>(p.rows.coupling_columns[c].dof)];
+        };
+        joined_.unite(robot(coupling.first), robot(coupling.last - 1));
+    }
+}
+
+/// Joins the robots of the contacts that carried something last, or would push at these velocities.
+void IslandParts::join_by_pushing(const Problem& p, const std::vector<double>& v) {
+    for (std::size_t c = 0; c < ends_.size(); ++c) {
+        const Ends& ends = ends_[c];
+        if (ends.a == ends.b) continue;
+        const ContactRow& row = p.rows.contacts[c];
+        if (row.normal.impulse > 0 || target_of(p, row) > normal_velocity(p.rows, row, v))
+            joined_.unite(ends.a, ends.b);
+    }
+}
+
+/// Joins the parts between which a contact would push at these velocities; false if there is none.
+bool IslandParts::join_violated(const Problem& p, const std::vector<double>& v) {
+    bool some = false;
+    for (std::size_t c = 0; c < ends_.size(); ++c) {
+        if (!is_left_out(c)) continue;
+        const ContactRow& row = p.rows.contacts[c];
+        // Not a number: it is found out elsewhere.
+        if (!(target_of(p, row) - normal_velocity(p.rows, row, v) > kViolation)) continue;
+        joined_.unite(ends_[c].a, ends_[c].b);
+        changed_[ends_[c].a] = changed_[ends_[c].b] = 1;
+        some = true;
+    }
+    return some;
+}
+
+void IslandParts::join_all() {
+    for (std::uint32_t r = 1; r < changed_.size(); ++r) joined_.unite(0, r);
+    std::ranges::fill(changed_, 1);
+}
+
+/// Parts in the order of their first robots, and what belongs to each.
+void IslandParts::sort_by_parts(const Problem& p) {
+    constexpr std::uint32_t kNone = 0xffffffff;
+    const std::size_t count = p.robots.size();
+    keys_.assign(count, kNone);  // part of a root
+    part_of_.resize(count);
+    std::uint32_t parts = 0;
+    for (std::uint32_t r = 0; r < count; ++r) {
+        std::uint32_t& part = keys_[joined_.find(r)];
+        if (part == kNone) part = parts++;
+        part_of_[r] = part;
+    }
+    robots_.sort(parts, part_of_);
+    keys_.clear();
+    for (const CouplingRow& row : p.rows.couplings)
+        keys_.push_back(
+            row.first == row.last
+                ? kNone
+                : part_of_[robot_of_[static_cast<std::size_t>(p.rows.coupling_columns[row.first].dof)]]);
+    couplings_.sort(parts, keys_);
+    keys_.clear();
+    for (std::size_t c = 0; c < ends_.size(); ++c)
+        keys_.push_back(is_left_out(c) ? kNone : part_of_[ends_[c].a]);
+    contacts_.sort(parts, keys_);
+    std::size_t at = 0;
+    for (const AngularRow& row : p.rows.angulars) keys_[at++] = keys_[row.contact];
+    keys_.resize(at);
+    angulars_.sort(parts, keys_);
+}
+
+/// Columns of a row of the island into those of the part.
+void IslandParts::take_columns(const Problem& p, std::size_t& first, std::size_t& last) {
+    const ContactColumns& from = p.rows.columns;
+    ContactColumns& to = rows_.columns;
+    const std::size_t begin = to.size(), count = last - first;
+    to.extend(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        const int dof = from.dof[first + k];
+        to.dof[begin + k] = dof + shift_[robot_of_[static_cast<std::size_t>(dof)]];
+        to.base[begin + k] = from.base[first + k];
+        to.n[begin + k] = from.n[first + k];
+        to.t1[begin + k] = from.t1[first + k], to.t2[begin + k] = from.t2[first + k];
+    }
+    first = begin, last = begin + count;
+}
+
+void IslandParts::take_part(const Problem& p, std::size_t part, const std::vector<double>& v) {
+    rows_.clear(), part_robots_.clear(), part_offsets_.clear(), v_.clear();
+    shift_.resize(p.robots.size());
+    for (const std::uint32_t r : robots_.of(part)) {
+        const int offset = static_cast<int>(v_.size());
+        shift_[r] = offset - p.offsets[r];
+        part_robots_.push_back(p.robots[r]);
+        part_offsets_.push_back(offset);
+        const auto from = v.begin() + p.offsets[r];
+        v_.insert(v_.end(), from, from + p.robots[r]->type->nv);
+        for (std::uint32_t j = joint_first_[r]; j < joint_first_[r + 1]; ++j)
+            rows_.joints.emplace_back(p.rows.joints[j]).dof += shift_[r];
+    }
+    for (const std::uint32_t c : couplings_.of(part)) {
+        CouplingRow& row = rows_.couplings.emplace_back(p.rows.couplings[c]);
+        const std::size_t begin = rows_.coupling_columns.size();
+        for (std::size_t k = row.first; k < row.last; ++k) {
+            CouplingColumn column = p.rows.coupling_columns[k];
+            column.dof += shift_[robot_of_[static_cast<std::size_t>(column.dof)]];
+            rows_.coupling_columns.push_back(column);
+        }
+        row.first = begin, row.last = rows_.coupling_columns.size();
+    }
+    local_contact_.resize(p.rows.contacts.size());
+    for (const std::uint32_t c : contacts_.of(part)) {
+        local_contact_[c] = static_cast<std::uint32_t>(rows_.contacts.size());
+        ContactRow& row = rows_.contacts.emplace_back(p.rows.contacts[c]);
+        take_columns(p, row.first, row.last);
+    }
+    for (const std::uint32_t a : angulars_.of(part)) {
+        AngularRow& row = rows_.angulars.emplace_back(p.rows.angulars[a]);
+        take_columns(p, row.first, row.last);
+        row.contact = local_contact_[row.contact];
+    }
+}
+
+/// Velocities and rows as the solver left them.
+void IslandParts::give_back(const Problem& p, std::size_t part, std::vector<double>& v) const {
+    std::size_t at = 0, joint = 0;
+    for (const std::uint32_t r : robots_.of(part)) {
+        const auto nv = static_cast<std::size_t>(p.robots[r]->type->nv);
+        std::copy_n(v_.begin() + static_cast<std::ptrdiff_t>(at), nv, v.begin() + p.offsets[r]);
+        at += nv;
+        for (std::uint32_t j = joint_first_[r]; j < joint_first_[r + 1]; ++j, ++joint) {
+            const int dof = p.rows.joints[j].dof;
+            p.rows.joints[j] = rows_.joints[joint];
+            p.rows.joints[j].dof = dof;
+        }
+    }
+    const auto put = [](auto& to, const auto& from) {
+        const std::size_t first = to.first, last = to.last;
+        to = from;
+        to.first = first, to.last = last;
+    };
+    at = 0;
+    for (const std::uint32_t c : couplings_.of(part)) put(p.rows.couplings[c], rows_.couplings[at++]);
+    at = 0;
+    for (const std::uint32_t c : contacts_.of(part)) put(p.rows.contacts[c], rows_.contacts[at++]);
+    at = 0;
+    for (const std::uint32_t a : angulars_.of(part)) {
+        const std::size_t contact = p.rows.angulars[a].contact;
+        put(p.rows.angulars[a], rows_.angulars[at++]);
+        p.rows.angulars[a].contact = contact;
+    }
+}
+
+/// Rows of contacts between parts, as the solver leaves rows that do not push.
+void IslandParts::finish_left_out(const Problem& p, const std::vector<double>& v) const {
+    const auto finish = [&](std::size_t first, std::size_t last, BoundedRow& row, FrictionDisc& disc) {
+        if (p.position) row.target = row.position_target;
+        row.stiffness = 1 / row.compliance, disc.stiffness = 1 / disc.compliance;
+        const jacobian::Along<double> u = jacobian::along(p.rows.columns, first, last, v);
+        row.u = u.n, disc.u_1 = u.t1 - disc.target_1, disc.u_2 = u.t2 - disc.target_2;
+        row.impulse = row.d = 0;
+        disc.bound = disc.impulse_1 = disc.impulse_2 = disc.d_11 = disc.d_12 = disc.d_22 = 0;
+    };
+    for (std::size_t c = 0; c < ends_.size(); ++c) {
+        ContactRow& row = p.rows.contacts[c];
+        if (is_left_out(c)) finish(row.first, row.last, row.normal, row.slip);
+    }
+    for (AngularRow& row : p.rows.angulars) {
+        if (!is_left_out(row.contact)) continue;
+        finish(row.first, row.last, row.spin, row.roll);
+        row.spin.low = row.spin.high = 0;
+    }
+}
+
+}  // namespace roboss
