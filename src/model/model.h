@@ -342,7 +342,7 @@ struct Accuracy {
     double compliance = 1e-6;  ///< regularisation of hard joint rows, relative to the mobility they act on
     double impact_compliance = 1e-6;    ///< of hard contacts that are new
     double contact_compliance = 1e-3;   ///< of hard contacts; they start from the impulse of the last tick
-    double friction_compliance = 1e-2;  ///< of their friction; likewise
+    double friction_compliance = 1e-2;  ///< of the friction of hard contacts
 };
 
 /// The compiled world. It is never changed: an edit makes a new one (model/edit.h).

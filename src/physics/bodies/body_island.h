@@ -1,14 +1,15 @@
 // Free bodies that touch each other and scenery, as their solver keeps them (body_solver.h): six numbers a
-// body, blocks of six by six, so that a vector register takes a row. Plain numbers, filled and ordered by
-// code for every processor; body_kernel.h computes with them.
+// body, blocks of six by six, whose rows fit into one to three vector registers. Plain numbers, filled and
+// ordered by code for every processor; body_kernel.h computes with them.
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace roboss {
 
-/// Six numbers of a body (angular, linear), and two that stay zero.
+/// Six numbers of a body (angular, linear), and padding that no sum reads.
 struct alignas(64) Six {
     double x[8] = {};
 };
@@ -92,10 +93,10 @@ struct BodyIsland {
     bool symmetric = true;                            // the matrix factored last
     std::vector<SixBlock> kept_diagonal, kept_upper;  // the symmetric matrix, by body and by edge
     std::vector<SixBlock> diagonal, upper, lower;     // its factor; `lower` transposed
-    struct Pivot {
+    struct PivotFactor {
         double l[6][6] = {}, inverse[6] = {};
     };
-    std::vector<Pivot> pivots;  // by body
+    std::vector<PivotFactor> pivot_factors;  // by body
 };
 
 }  // namespace roboss

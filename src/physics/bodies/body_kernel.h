@@ -1,6 +1,5 @@
-// What the solver of free bodies computes with all of them (body_island.h), for one instruction set each.
-// Every processor gives the same bits: vectors hold separate sums, and what is summed across them is summed
-// in one order.
+// Linear algebra and Gauss-Seidel sweeps of BodySolver, one implementation for each instruction set. All give
+// the same bits: vectors hold separate sums, and what is summed across them is summed in one order.
 #pragma once
 
 #include <memory>
@@ -16,21 +15,21 @@ class BodyKernel {
     BodyKernel(const BodyKernel&) = delete;
     BodyKernel& operator=(const BodyKernel&) = delete;
 
-    /// What follows from the velocities: M v; velocities along the points.
+    /// Computes M v and the velocities along the points.
     virtual void take_velocities(BodyIsland& island) const = 0;
-    /// Impulses at the present velocities, then as set_gradient.
+    /// Sets the impulses from the velocities, then calls set_gradient.
     virtual double balance(BodyIsland& island) const = 0;
-    /// Applied impulses and gradient; returns the imbalance of momentum, relative.
+    /// Sums the impulses on each body; returns the relative error of the momentum balance.
     virtual double set_gradient(BodyIsland& island) const = 0;
     /// step = -H^-1 gradient, and what follows from it. `coupled`, `lack`: as Hessian::assemble. False if a
     /// pivot is zero.
     virtual bool find_step(BodyIsland& island, bool coupled, double lack) const = 0;
-    /// Goes `alpha` steps.
+    /// v += alpha * step.
     virtual void move(BodyIsland& island, double alpha) const = 0;
-    /// The potential's derivative along the step, here; and `fraction` steps from here.
+    /// The potential's derivative along the step at the present velocities, and `fraction` steps beyond.
     virtual double slope(const BodyIsland& island) const = 0;
     virtual double slope_beyond(const BodyIsland& island, double fraction) const = 0;
-    /// Gauss-Seidel sweeps, from what points carried last; velocities and impulses that they lead to.
+    /// Gauss-Seidel sweeps from the impulses f_n, f_1, f_2; v and swept_n, swept_1, swept_2 are the result.
     virtual void sweep(BodyIsland& island, int sweeps) const = 0;
 };
 

@@ -1,6 +1,7 @@
 // See body_island.h.
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 #include "physics/bodies/body_island.h"
@@ -68,7 +69,7 @@ void BodyOrder::eliminate(std::size_t bodies) {
             merged_.clear();
             std::ranges::set_union(near_[u], near_[k], std::back_inserter(merged_));
             std::erase_if(merged_, [&](int x) { return x == neighbour || x == body; });
-            near_[u].swap(merged_);
+            near_[u].assign(merged_.begin(), merged_.end());
             degree_[u] = static_cast<int>(near_[u].size());
             queue_.emplace_back(degree_[u], neighbour);
             std::ranges::push_heap(queue_, std::greater<>{});

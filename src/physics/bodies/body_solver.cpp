@@ -3,14 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "physics/contact/friction_bounds.h"
+#include "physics/solver/newton.h"
 
 namespace roboss {
 namespace {
 
-/// From this balance on friction bounds follow the normal impulses. Nearer than Newton's method needs for
-/// robots with joints (newton::kRoughly): sweeps have told who sticks and who slides.
-constexpr double kRoughly = 1e-2;
+/// Friction bounds are updated once the balance is this good. Coarser than newton::kRoughly: the sweeps
+/// already show which contacts stick and which slide.
+constexpr double kBoundsFrom = 1e-2;
+constexpr double kSticking = 0.998;  // of the squared friction bound: beyond, a sweep says that it slides
 constexpr double kRounding = newton::kRounding<double>;
 
 /// Curvatures of the contacts at the present velocities.
@@ -68,10 +71,10 @@ bool BodySolver::solve(const BodyPart& part, std::vector<double>& v, SolveReport
     position_ = part.problem.position;
     iterations_ = 0;
     take(part, v);
-    if (!iterate(part.problem.accuracy)) return false;
-    give(part, v);
+    const bool balances = iterate(part.problem.accuracy);
     report = {iterations_, residual_};
-    return true;
+    if (balances) give(part, v);
+    return balances;
 }
 
 void BodySolver::take_body(const Mechanics<double>& robot, const double* v, FreeBody& body) const {
@@ -102,6 +105,7 @@ void BodySolver::take_point(const BodyPart& part, const ContactRow& row, BodyPoi
     p.target_1 = row.slip.target_1, p.target_2 = row.slip.target_2;
     p.stiffness_n = 1.0 / row.normal.compliance, p.stiffness_t = 1.0 / row.slip.compliance;
     p.coefficient = row.slip.coefficient, p.bound = row.slip.bound;
+    p.swept_n = row.normal.impulse;
 }
 
 void BodySolver::take(const BodyPart& part, const std::vector<double>& v) {
@@ -118,24 +122,24 @@ void BodySolver::take(const BodyPart& part, const std::vector<double>& v) {
         take_point(part, problem.rows.contacts[part.contacts[c]], s.points[c]);
     s.order.analyse(s.bodies.size(), s.points);
     s.kept_diagonal.resize(s.bodies.size()), s.diagonal.resize(s.bodies.size());
-    s.pivots.resize(s.bodies.size());
+    s.pivot_factors.resize(s.bodies.size());
     for (std::size_t b = 0; b < s.bodies.size(); ++b) s.kept_diagonal[b] = s.bodies[b].mass;
     s.kept_upper.assign(s.order.edges(), SixBlock{});
     s.upper.resize(s.order.edges()), s.lower.resize(s.order.edges());
     kernel_.take_velocities(s);
-    // What they carried last, for the sweeps.
-    for (std::size_t c = 0; c < s.points.size(); ++c)
-        s.points[c].swept_n = problem.rows.contacts[part.contacts[c]].normal.impulse;
 }
 
 void BodySolver::keep_start() {
-    v_start_.clear(), mv_start_.clear();
-    for (const FreeBody& body : island_.bodies) v_start_.push_back(body.v), mv_start_.push_back(body.mv);
+    v_start_.clear(), start_bounds_.clear();
+    for (const FreeBody& body : island_.bodies) v_start_.push_back(body.v);
+    for (const BodyPoint& p : island_.points) start_bounds_.push_back(p.bound);
 }
 
 void BodySolver::return_to_start() {
     for (std::size_t b = 0; b < island_.bodies.size(); ++b) island_.bodies[b].v = v_start_[b];
+    for (std::size_t c = 0; c < island_.points.size(); ++c) island_.points[c].bound = start_bounds_[c];
     kernel_.take_velocities(island_);
+    residual_ = kernel_.balance(island_);
 }
 
 /// A first step to where the bodies would be if every contact did what the sweeps say. False if that is no
@@ -143,9 +147,7 @@ void BodySolver::return_to_start() {
 bool BodySolver::start_from_sweeps() {
     constexpr std::size_t kMany = 64;  // bodies, through which impulses need more sweeps to spread
     keep_start();
-    start_bounds_.clear();
     for (BodyPoint& p : island_.points) {
-        start_bounds_.push_back(p.bound);
         p.f_n = p.swept_n, p.f_1 = p.target_1 * p.stiffness_t, p.f_2 = p.target_2 * p.stiffness_t;
         const double most = p.coefficient * p.f_n, size2 = p.f_1 * p.f_1 + p.f_2 * p.f_2;
         if (size2 > most * most) p.f_1 *= most / std::sqrt(size2), p.f_2 *= most / std::sqrt(size2);
@@ -161,7 +163,7 @@ bool BodySolver::start_from_sweeps() {
                      speed2 = p.u_1 * p.u_1 + p.u_2 * p.u_2, bound2 = p.bound * p.bound;
         if (!(p.bound > 0))
             p.f_1 = p.f_2 = 0;
-        else if (size2 < 0.998 * bound2 || speed2 * p.stiffness_t * p.stiffness_t <= bound2)
+        else if (size2 < kSticking * bound2 || speed2 * p.stiffness_t * p.stiffness_t <= bound2)
             stick(p);
         else
             p.f_1 = -p.bound * p.u_1 / std::sqrt(speed2), p.f_2 = -p.bound * p.u_2 / std::sqrt(speed2);
@@ -174,9 +176,7 @@ bool BodySolver::start_from_sweeps() {
         residual_ = kernel_.balance(island_);
         if (residual_ <= before) return true;
     }
-    for (std::size_t c = 0; c < island_.points.size(); ++c) island_.points[c].bound = start_bounds_[c];
     return_to_start();
-    residual_ = kernel_.balance(island_);
     return false;
 }
 
@@ -196,7 +196,6 @@ void BodySolver::start_from_sticking() {
         if (residual_ <= before) return;
     }
     return_to_start();
-    residual_ = kernel_.balance(island_);
 }
 
 void BodySolver::start() {
@@ -238,7 +237,6 @@ bool BodySolver::solve_coupled(const Accuracy& accuracy) {
     }
     if (residual_ <= accuracy.tolerance) return true;
     return_to_start();
-    residual_ = kernel_.balance(island_);
     return false;
 }
 
@@ -309,7 +307,7 @@ bool BodySolver::iterate(const Accuracy& accuracy) {
     bool settled = position_;
     double best = 1;
     for (int i = 0;; ++i) {
-        if (residual_ <= kRoughly) {
+        if (residual_ <= kBoundsFrom) {
             if (!settled && coupled_tries < kCoupledTries) {
                 ++coupled_tries;
                 if (solve_coupled(accuracy)) return true;
@@ -324,12 +322,14 @@ bool BodySolver::iterate(const Accuracy& accuracy) {
             if (settled && (residual_ <= accuracy.tolerance || stalls >= 3)) {
                 if (position_ || checks == kChecks || friction_error() <= accuracy.friction_tolerance)
                     return true;
-                settled = false;
+                settled = false, stalls = 0, best = 1;
+                // Every other check gets one more series of coupled steps.
                 coupled_tries = ++checks % 2 == 0 ? kCoupledTries : kCoupledTries - 1;
                 continue;
             }
         }
         if (i >= kPatience * accuracy.newton_max) return residual_ <= newton::kRoughly && settled;
+        if (!std::isfinite(residual_)) return false;
         set_curvatures(island_.points);
         if (!kernel_.find_step(island_, false, newton::may_lack(residual_))) return false;
         take_step();

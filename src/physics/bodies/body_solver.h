@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "physics/bodies/body_kernel.h"
+#include "physics/solver/rows.h"
+#include "physics/solver/slip_disc.h"
 #include "physics/solver/solver.h"
 
 namespace roboss {
@@ -22,11 +24,17 @@ struct BodyPart {
 
 class BodySolver {
   public:
-    /// Whether a robot is a single free body, and a contact one that the solver knows.
-    static bool knows(const Mechanics<double>& robot) { return robot.type->free_base && robot.type->nv == 6; }
-    static bool knows(const ContactRow& row) { return row.first != row.last && !slip_disc::slips(row.slip); }
+    /// True for a single free body.
+    static bool can_solve(const Mechanics<double>& robot) {
+        return robot.type->free_base && robot.type->nv == 6;
+    }
+    /// False for friction with a slip compliance.
+    static bool can_solve(const ContactRow& row) {
+        return row.first != row.last && !slip_disc::slips(row.slip);
+    }
 
-    /// As IslandSolver::solve, for the part. False if it does not come to a balance; then nothing is changed.
+    /// As IslandSolver::solve, for the part. False if it does not come to a balance: then velocities and rows
+    /// are as before, and the report says how many iterations were tried.
     bool solve(const BodyPart& part, std::vector<double>& v, SolveReport& report);
 
   private:
@@ -53,7 +61,7 @@ class BodySolver {
     double residual_ = 0;
     int iterations_ = 0;
     std::vector<std::uint32_t> local_;  // by robot of the problem: its body
-    std::vector<Six> v_start_, mv_start_;
+    std::vector<Six> v_start_;
     std::vector<double> start_bounds_;
 };
 

@@ -264,8 +264,9 @@ MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const Surfac
                                                          T(new_compliance<T>(model.accuracy)));
     row.normal.high = std::numeric_limits<double>::infinity();
     row.normal.impulse = c.impulse;
-    row.soft = contact::set_softness(c, surface.softness, dt, inverse_effective_mass,
-                                     inverse_effective_mass * new_compliance<T>(model.accuracy), row.normal);
+    row.soft =
+        contact::set_softness(c, surface.softness, dt, inverse_effective_mass,
+                              inverse_effective_mass * bounce_compliance<T>(model.accuracy), row.normal);
     MaskOf<T> split = false;
     if (!row.soft)
         split =

@@ -13,15 +13,12 @@ namespace {
 constexpr int kRoundsMax = 6;         // then the island is solved whole
 constexpr double kViolation = 1e-12;  // m/s, along a normal that was left out
 
-double target_of(const IslandSolver::Problem& p, const ContactRow& row) {
-    return p.position ? row.normal.position_target : row.normal.target;
-}
-
-double normal_velocity(const IslandRows& rows, const ContactRow& row, const std::vector<double>& v) {
+/// At these velocities. False for those that are not numbers, which later checks report.
+bool would_push(const IslandSolver::Problem& p, const ContactRow& row, const std::vector<double>& v) {
     double u = 0;
     for (std::size_t c = row.first; c < row.last; ++c)
-        u += rows.columns.n[c] * v[static_cast<std::size_t>(rows.columns.dof[c])];
-    return u;
+        u += p.rows.columns.n[c] * v[static_cast<std::size_t>(p.rows.columns.dof[c])];
+    return (p.position ? row.normal.position_target : row.normal.target) - u > kViolation;
 }
 
 }  // namespace
@@ -42,11 +39,13 @@ void IslandParts::ByPart::sort(std::size_t parts, std::span<const std::uint32_t>
 SolveReport IslandParts::solve(const Problem& p, std::vector<double>& v) {
     const std::size_t count = p.robots.size();
     largest_part_ = static_cast<int>(count);
-    if (p.rows.contacts.empty()) return solver_.solve(p, v);
-    find_ends(p, v.size());
+    const bool is_alone = count == 1 && !BodySolver::can_solve(*p.robots[0]);
+    if (is_alone || p.rows.contacts.empty()) return solver_.solve(p, v);
+    prepare(p, v.size());
     join_by_pushing(p, v);
     SolveReport report;
     changed_.assign(count, 1);
+    largest_part_ = 0;
     for (int round = 0;; ++round) {
         sort_by_parts(p);
         const std::size_t parts = robots_.first.size() - 1;
@@ -79,18 +78,29 @@ SolveReport IslandParts::solve_part(const Problem& p, std::size_t part, std::vec
     return report;
 }
 
+/// How the friction bounds swung in an earlier round says nothing of the part as it is now.
+void IslandParts::forget_updates(const Problem& p, std::size_t part) const {
+    const auto forget = [](FrictionDisc& disc) { disc.bound_error = 0, disc.relaxation = 1; };
+    for (const std::uint32_t c : contacts_.of(part)) forget(p.rows.contacts[c].slip);
+    for (const std::uint32_t a : angulars_.of(part)) {
+        AngularRow& row = p.rows.angulars[a];
+        forget(row.roll);
+        row.spin_error = 0, row.spin_relaxation = 1;
+    }
+}
+
 /// Whether the part is one for BodySolver.
 bool IslandParts::is_of_bodies(const Problem& p, std::size_t part) const {
     return couplings_.of(part).empty() && angulars_.of(part).empty() &&
            std::ranges::all_of(robots_.of(part),
-                               [&](std::uint32_t r) { return BodySolver::knows(*p.robots[r]); }) &&
+                               [&](std::uint32_t r) { return BodySolver::can_solve(*p.robots[r]); }) &&
            std::ranges::all_of(contacts_.of(part),
-                               [&](std::uint32_t c) { return BodySolver::knows(p.rows.contacts[c]); });
+                               [&](std::uint32_t c) { return BodySolver::can_solve(p.rows.contacts[c]); });
 }
 
-void IslandParts::find_ends(const Problem& p, std::size_t n) {
+/// Finds which robots rows belong to. Joins those that couplings join.
+void IslandParts::prepare(const Problem& p, std::size_t n) {
     const std::size_t count = p.robots.size();
-    largest_part_ = 0;
     robot_of_.resize(n);
     for (std::uint32_t r = 0; r < count; ++r) {
         ROBOSS_CHECK(static_cast<std::size_t>(p.offsets[r] + p.robots[r]->type->nv) <= n, std::to_string(n));
@@ -129,8 +139,7 @@ void IslandParts::join_by_pushing(const Problem& p, const std::vector<double>& v
         const Ends& ends = ends_[c];
         if (ends.a == ends.b) continue;
         const ContactRow& row = p.rows.contacts[c];
-        if (row.normal.impulse > 0 || target_of(p, row) > normal_velocity(p.rows, row, v))
-            joined_.unite(ends.a, ends.b);
+        if (row.normal.impulse > 0 || would_push(p, row, v)) joined_.unite(ends.a, ends.b);
     }
 }
 
@@ -140,8 +149,7 @@ bool IslandParts::join_violated(const Problem& p, const std::vector<double>& v) 
     for (std::size_t c = 0; c < ends_.size(); ++c) {
         if (!is_left_out(c)) continue;
         const ContactRow& row = p.rows.contacts[c];
-        // Not a number: it is found out elsewhere.
-        if (!(target_of(p, row) - normal_velocity(p.rows, row, v) > kViolation)) continue;
+        if (!would_push(p, row, v)) continue;
         joined_.unite(ends_[c].a, ends_[c].b);
         changed_[ends_[c].a] = changed_[ends_[c].b] = 1;
         some = true;
@@ -171,7 +179,7 @@ void IslandParts::sort_by_parts(const Problem& p) {
     for (const CouplingRow& row : p.rows.couplings)
         keys_.push_back(
             row.first == row.last
-                ? kNone
+                ? part_of_[0]
                 : part_of_[robot_of_[static_cast<std::size_t>(p.rows.coupling_columns[row.first].dof)]]);
     couplings_.sort(parts, keys_);
     keys_.clear();
@@ -184,7 +192,7 @@ void IslandParts::sort_by_parts(const Problem& p) {
     angulars_.sort(parts, keys_);
 }
 
-/// Columns of a row of the island into those of the part.
+/// Copies the columns of a row into the part and renumbers their degrees of freedom.
 void IslandParts::take_columns(const Problem& p, std::size_t& first, std::size_t& last) {
     const ContactColumns& from = p.rows.columns;
     ContactColumns& to = rows_.columns;

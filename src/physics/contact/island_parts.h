@@ -29,7 +29,7 @@ class IslandParts {
     int largest_part() const { return largest_part_; }
 
   private:
-    /// Robots that a contact joins, numbers in the problem; equal: it joins none.
+    /// The two robots of a contact (numbers in the problem); a == b if it joins none.
     struct Ends {
         std::uint32_t a = 0, b = 0;
     };
@@ -42,12 +42,13 @@ class IslandParts {
         }
     };
 
-    void find_ends(const Problem& p, std::size_t n);
+    void prepare(const Problem& p, std::size_t n);
     void join_by_pushing(const Problem& p, const std::vector<double>& v);
     bool join_violated(const Problem& p, const std::vector<double>& v);
     void join_all();
     void sort_by_parts(const Problem& p);
     SolveReport solve_part(const Problem& p, std::size_t part, std::vector<double>& v);
+    void forget_updates(const Problem& p, std::size_t part) const;
     bool is_of_bodies(const Problem& p, std::size_t part) const;
     void take_part(const Problem& p, std::size_t part, const std::vector<double>& v);
     void take_columns(const Problem& p, std::size_t& first, std::size_t& last);

@@ -25,7 +25,7 @@ using Part [[gnu::vector_size(kWidth * sizeof(double))]] = double;
 
 /// Six numbers in one to three registers; members, not an array, so that they stay there.
 struct Row {
-    Part a, b, c;
+    Part a{}, b{}, c{};
 };
 
 ROBOSS_INLINE Part load_part(const double* x) {
@@ -315,9 +315,9 @@ class LaneBodies final : public BodyKernel {
     static bool factor(BodyIsland& s) {
         for (const BodyOrder::Pivot& pivot : s.order.pivots()) {
             const auto k = static_cast<std::size_t>(pivot.body);
-            if (!factor_block(s.diagonal[k], s.pivots[k])) return false;
+            if (!factor_block(s.diagonal[k], s.pivot_factors[k])) return false;
             for (std::size_t e = pivot.first; e < pivot.last; ++e)
-                divide(s.diagonal[k], s.pivots[k], s.symmetric, s.upper[e], s.lower[e]);
+                divide(s.diagonal[k], s.pivot_factors[k], s.symmetric, s.upper[e], s.lower[e]);
             const BodyOrder::Update* update = s.order.updates().data() + pivot.updates;
             for (std::size_t i = pivot.first; i < pivot.last; ++i) {
                 subtract_product(s.lower[i], s.upper[i],
@@ -333,7 +333,7 @@ class LaneBodies final : public BodyKernel {
         return true;
     }
 
-    static bool factor_block(SixBlock& block, BodyIsland::Pivot& pivot) {
+    static bool factor_block(SixBlock& block, BodyIsland::PivotFactor& pivot) {
         for (std::size_t c = 0; c < 6; ++c) {
             const double diagonal = block.row[c].x[c];
             if (diagonal == 0) return false;
@@ -350,7 +350,7 @@ class LaneBodies final : public BodyKernel {
     }
 
     /// upper := L^-1 upper, lower^T := lower^T U^-1
-    static void divide(const SixBlock& diagonal, const BodyIsland::Pivot& pivot, bool symmetric,
+    static void divide(const SixBlock& diagonal, const BodyIsland::PivotFactor& pivot, bool symmetric,
                        SixBlock& upper, SixBlock& lower) {
         Row u[6];
         for (std::size_t r = 0; r < 6; ++r) u[r] = load(upper.row[r]);
@@ -384,7 +384,7 @@ class LaneBodies final : public BodyKernel {
         FreeBody* bodies = s.bodies.data();
         const int* ends = s.order.ends().data();
         for (const BodyOrder::Pivot& pivot : s.order.pivots()) {
-            const BodyIsland::Pivot& p = s.pivots[static_cast<std::size_t>(pivot.body)];
+            const BodyIsland::PivotFactor& p = s.pivot_factors[static_cast<std::size_t>(pivot.body)];
             Six& y = bodies[pivot.body].step;
             for (std::size_t c = 0; c < 5; ++c)
                 for (std::size_t r = c + 1; r < 6; ++r) y.x[r] -= p.l[r][c] * y.x[c];
@@ -403,7 +403,7 @@ class LaneBodies final : public BodyKernel {
                 for (std::size_t c = 0; c < 6; ++c) x.x[c] -= total(load(s.upper[e].row[c]) * other);
             }
             for (std::size_t c = 6; c-- > 0;) {
-                x.x[c] *= s.pivots[body].inverse[c];
+                x.x[c] *= s.pivot_factors[body].inverse[c];
                 for (std::size_t r = 0; r < c; ++r) x.x[r] -= s.diagonal[body].row[r].x[c] * x.x[c];
             }
         }

@@ -43,9 +43,9 @@ struct BoundedRowT {
     T target{};           // for the velocity
     T position_target{};  // for the displacement of this tick, which corrects violations without adding speed
     T compliance{1}, low{}, high{};
-    T stiffness{1};  // 1 / compliance, set by the solver
-    T u{}, du{};     // velocity along it; per unit step of the line search
-    T impulse{};
+    T stiffness{1};               // 1 / compliance, set by the solver
+    T u{}, du{};                  // velocity along it; per unit step of the line search
+    T impulse{};                  // solved; before that, of the normals of contacts: what they carried last
     T d{};                        // minus the derivative of the impulse by the velocity
     T d_held{};                   // of it, what the Hessian holds
     T slack_low{}, slack_high{};  // multipliers of the bounds (interior point), and their steps
@@ -142,7 +142,7 @@ struct ContactRowT {
     FrictionDiscT<T> slip;
     T warm_start_max{};  // of its normal impulse, what may count as a load and not as a blow
     bool soft = false;   // a spring and damper
-    bool joins = false;  // two robots, or two branches of one: its columns are those of two paths
+    bool joins = false;  // both sides have columns: two robots, or a robot that touches itself
     // It carried a load in the last tick and did not slide: it probably will not now.
     MaskOf<T> sticks{false};
     double inverse_effective_mass = 1;  // 1/kg: mobility that its compliances are relative to
