@@ -56,7 +56,7 @@ void BodyOrder::eliminate(std::size_t bodies) {
     std::ranges::make_heap(queue_, std::greater<>{});
     while (pivots_.size() < bodies) {
         std::ranges::pop_heap(queue_, std::greater<>{});
-        const auto [degree, body] = queue_.back();
+        const int degree = queue_.back().first, body = queue_.back().second;
         queue_.pop_back();
         const auto k = static_cast<std::size_t>(body);
         if (position_[k] < static_cast<int>(bodies) || degree != degree_[k]) continue;
