@@ -6,52 +6,46 @@
 #include <algorithm>
 #include <cstring>
 #include <memory>
-#include <random>
 #include <vector>
+
+#include <support/random.h>
 
 namespace roboss {
 namespace {
 
-class Numbers {
-  public:
-    double operator()(double low, double high) {
-        return low + (high - low) * static_cast<double>(random_() % 100001) / 100000.0;
-    }
-    int below(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
+using test::Random;
 
-  private:
-    std::mt19937 random_{2026};
-};
+constexpr std::uint64_t kSeed = 2026;
 
-Six six(Numbers& numbers) {
+Six six(Random& random) {
     Six six;
-    for (int i = 0; i < 6; ++i) six.x[i] = numbers(-1, 1);
+    for (int i = 0; i < 6; ++i) six.x[i] = random.uniform(-1, 1);
     return six;
 }
 
 /// Some bodies that touch each other and scenery at random.
-BodyIsland random_island(int bodies, int points, Numbers& numbers) {
+BodyIsland random_island(int bodies, int points, Random& random) {
     BodyIsland s;
     for (int b = 0; b < bodies; ++b) {
         FreeBody& body = s.bodies.emplace_back();
-        const Six spread = six(numbers);
+        const Six spread = six(random);
         for (int i = 0; i < 6; ++i) {
             for (int j = 0; j < 6; ++j) body.mass.row[i].x[j] = 0.1 * spread.x[i] * spread.x[j];
             body.mass.row[i].x[i] += 1 + i;
             body.lightness.x[i] = 1 / body.mass.row[i].x[i];
         }
-        body.impulse = six(numbers), body.v = six(numbers);
+        body.impulse = six(random), body.v = six(random);
     }
     for (int k = 0; k < points; ++k) {
         BodyPoint& p = s.points.emplace_back();
-        p.a = numbers.below(bodies), p.b = numbers.below(bodies);
+        p.a = random.integer(0, bodies - 1), p.b = random.integer(0, bodies - 1);
         if (p.b == p.a) p.b = -1;
-        p.n_a = six(numbers), p.t1_a = six(numbers), p.t2_a = six(numbers);
-        p.n_b = six(numbers), p.t1_b = six(numbers), p.t2_b = six(numbers);
-        p.target_n = numbers(-0.5, 0.5), p.target_1 = numbers(-0.1, 0.1);
+        p.n_a = six(random), p.t1_a = six(random), p.t2_a = six(random);
+        p.n_b = six(random), p.t1_b = six(random), p.t2_b = six(random);
+        p.target_n = random.uniform(-0.5, 0.5), p.target_1 = random.uniform(-0.1, 0.1);
         p.stiffness_n = p.stiffness_t = 100;
-        p.coefficient = 0.5, p.bound = numbers(0, 1), p.f_n = numbers(0, 1);
-        p.d_n = p.d_11 = p.d_22 = 100, p.d_1n = numbers(-1, 1);
+        p.coefficient = 0.5, p.bound = random.uniform(0, 1), p.f_n = random.uniform(0, 1);
+        p.d_n = p.d_11 = p.d_22 = 100, p.d_1n = random.uniform(-1, 1);
     }
     s.order.analyse(s.bodies.size(), s.points);
     s.kept_diagonal.resize(s.bodies.size()), s.diagonal.resize(s.bodies.size());
@@ -105,11 +99,11 @@ void expect_same(const BodyIsland& expected, const BodyIsland& found) {
 TEST(BodyKernel, EveryInstructionSetGivesTheSameBits) {
     const auto any = make_any_body_kernel();
     for (const bool coupled : {false, true}) {
-        Numbers numbers;
-        BodyIsland expected = random_island(30, 70, numbers);
+        Random random(kSeed);
+        BodyIsland expected = random_island(30, 70, random);
         compute(*any, coupled, expected);
         for (const auto& kernel : other_kernels()) {
-            Numbers again;
+            Random again(kSeed);
             BodyIsland found = random_island(30, 70, again);
             compute(*kernel, coupled, found);
             expect_same(expected, found);
@@ -147,8 +141,8 @@ std::vector<Six> times_matrix(const BodyIsland& s, bool coupled) {
 
 TEST(BodyKernel, StepsSolveTheLinearSystem) {
     for (const bool coupled : {false, true}) {
-        Numbers numbers;
-        BodyIsland s = random_island(40, 90, numbers);
+        Random random(kSeed);
+        BodyIsland s = random_island(40, 90, random);
         body_kernel().take_velocities(s);
         body_kernel().balance(s);
         ASSERT_TRUE(body_kernel().find_step(s, coupled, 0));
@@ -171,8 +165,8 @@ TEST(BodyOrder, AChainHasNoFill) {
 }
 
 TEST(BodyOrder, EveryPointHasTheEdgeOfItsBodies) {
-    Numbers numbers;
-    BodyIsland s = random_island(50, 140, numbers);
+    Random random(kSeed);
+    BodyIsland s = random_island(50, 140, random);
     for (const BodyPoint& p : s.points) {
         if (p.b < 0) continue;
         const int first = p.b_first ? p.b : p.a, second = p.b_first ? p.a : p.b;

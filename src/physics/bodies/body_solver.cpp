@@ -142,6 +142,21 @@ void BodySolver::return_to_start() {
     residual_ = kernel_.balance(island_);
 }
 
+/// One Newton step with the curvatures and impulses as they are. False, and back to the start, if the balance
+/// there is no better.
+bool BodySolver::take_first_step() {
+    const double before = residual_;
+    kernel_.set_gradient(island_);
+    if (kernel_.find_step(island_, false, 0)) {
+        kernel_.move(island_, 1);
+        ++iterations_;
+        residual_ = kernel_.balance(island_);
+        if (residual_ <= before) return true;
+    }
+    return_to_start();
+    return false;
+}
+
 /// A first step to where the bodies would be if every contact did what the sweeps say. False if that is no
 /// better than where we are, where we then still are.
 bool BodySolver::start_from_sweeps() {
@@ -168,16 +183,7 @@ bool BodySolver::start_from_sweeps() {
         else
             p.f_1 = -p.bound * p.u_1 / std::sqrt(speed2), p.f_2 = -p.bound * p.u_2 / std::sqrt(speed2);
     }
-    const double before = residual_;
-    kernel_.set_gradient(island_);
-    if (kernel_.find_step(island_, false, 0)) {
-        kernel_.move(island_, 1);
-        ++iterations_;
-        residual_ = kernel_.balance(island_);
-        if (residual_ <= before) return true;
-    }
-    return_to_start();
-    return false;
+    return take_first_step();
 }
 
 /// Likewise if every contact that stuck in the last tick stuck again.
@@ -187,15 +193,7 @@ void BodySolver::start_from_sticking() {
     set_curvatures(island_.points);
     for (BodyPoint& p : island_.points)
         if (p.sticks) push(p), stick(p);
-    const double before = residual_;
-    kernel_.set_gradient(island_);
-    if (kernel_.find_step(island_, false, 0)) {
-        kernel_.move(island_, 1);
-        ++iterations_;
-        residual_ = kernel_.balance(island_);
-        if (residual_ <= before) return;
-    }
-    return_to_start();
+    take_first_step();
 }
 
 void BodySolver::start() {

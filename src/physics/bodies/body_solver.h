@@ -43,6 +43,7 @@ class BodySolver {
     void take_point(const BodyPart& part, const ContactRow& row, BodyPoint& point) const;
     bool iterate(const Accuracy& accuracy);
     void start();
+    bool take_first_step();
     bool start_from_sweeps();
     void start_from_sticking();
     double balance_tied();

@@ -66,27 +66,20 @@ SolveReport IslandParts::solve(const Problem& p, std::vector<double>& v) {
 }
 
 SolveReport IslandParts::solve_part(const Problem& p, std::size_t part, std::vector<double>& v) {
-    if (is_of_bodies(p, part)) {
-        SolveReport report;
-        if (bodies_.solve({p, robots_.of(part), contacts_.of(part), robot_of_}, v, report)) return report;
+    SolveReport tried;
+    if (is_of_bodies(p, part) &&
+        bodies_.solve({p, robots_.of(part), contacts_.of(part), robot_of_}, v, tried))
+        return tried;
+    SolveReport report;
+    if (robots_.of(part).size() == p.robots.size()) {
+        report = solver_.solve(p, v);
+    } else {
+        take_part(p, part, v);
+        report = solver_.solve({p.accuracy, part_robots_, part_offsets_, rows_, p.position}, v_);
+        give_back(p, part, v);
     }
-    if (robots_.of(part).size() == p.robots.size()) return solver_.solve(p, v);
-    take_part(p, part, v);
-    const SolveReport report =
-        solver_.solve({p.accuracy, part_robots_, part_offsets_, rows_, p.position}, v_);
-    give_back(p, part, v);
+    report.iterations += tried.iterations;
     return report;
-}
-
-/// How the friction bounds swung in an earlier round says nothing of the part as it is now.
-void IslandParts::forget_updates(const Problem& p, std::size_t part) const {
-    const auto forget = [](FrictionDisc& disc) { disc.bound_error = 0, disc.relaxation = 1; };
-    for (const std::uint32_t c : contacts_.of(part)) forget(p.rows.contacts[c].slip);
-    for (const std::uint32_t a : angulars_.of(part)) {
-        AngularRow& row = p.rows.angulars[a];
-        forget(row.roll);
-        row.spin_error = 0, row.spin_relaxation = 1;
-    }
 }
 
 /// Whether the part is one for BodySolver.

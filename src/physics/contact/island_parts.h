@@ -48,7 +48,6 @@ class IslandParts {
     void join_all();
     void sort_by_parts(const Problem& p);
     SolveReport solve_part(const Problem& p, std::size_t part, std::vector<double>& v);
-    void forget_updates(const Problem& p, std::size_t part) const;
     bool is_of_bodies(const Problem& p, std::size_t part) const;
     void take_part(const Problem& p, std::size_t part, const std::vector<double>& v);
     void take_columns(const Problem& p, std::size_t& first, std::size_t& last);

@@ -5,9 +5,9 @@
 
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include <support/bodies.h>
+#include <support/random.h>
 #include <support/robots.h>
 #include <support/simulation.h>
 
@@ -28,7 +28,7 @@ class Heap {
             add_contact(static_cast<int>(6 * r), -1, {0, 0, 1}, -0.002);
             if (r > 0)
                 add_contact(static_cast<int>(6 * r), static_cast<int>(6 * (r - 1)), {1, 0, 0},
-                            number(-0.1, 0.02));
+                            random_.uniform(-0.1, 0.02));
         }
     }
 
@@ -38,14 +38,12 @@ class Heap {
     std::vector<double> v;
 
   private:
-    double number(double low, double high) {
-        return low + (high - low) * static_cast<double>(random_() % 10001) / 10000.0;
-    }
     void add_body(Mechanics<double>& robot, int offset) {
         robot.type = &model_.types[0];
         robot.mass_matrix.assign(21, 0.0);
         for (std::size_t i = 0; i < 6; ++i) robot.mass_matrix[i * (i + 1) / 2 + i] = i < 3 ? 0.002 : 1.0;
-        for (std::size_t i = 0; i < 6; ++i) v.push_back(i < 3 ? number(-1, 1) : number(-0.2, 0.2));
+        for (std::size_t i = 0; i < 6; ++i)
+            v.push_back(i < 3 ? random_.uniform(-1, 1) : random_.uniform(-0.2, 0.2));
         for (std::size_t i = 0; i < 6; ++i)
             robot.impulse.push_back(v[static_cast<std::size_t>(offset) + i] * (i < 3 ? 0.002 : 1.0));
         robot.impulse[5] -= 0.02;  // gravity
@@ -79,7 +77,7 @@ class Heap {
             columns.dof[begin + k] = dof + static_cast<int>(k), columns.base[begin + k] = k == 0;
     }
 
-    std::mt19937 random_;
+    test::Random random_;
     Model model_;
     std::vector<Mechanics<double>> robots_;
     std::vector<const Mechanics<double>*> pointers_;
