@@ -64,7 +64,9 @@ void WorldStepper::fill_all(std::vector<RobotState>& states) {
 StepOutcome WorldStepper::step_all(Tick from, Tick until, std::span<const Order> orders,
                                    std::vector<RobotState>& states) {
     fill_all(states);
+    scratch_[0].use_team(Team(pool_));
     step_batch(all_, from, until, orders, scratch_[0]);
+    scratch_[0].use_team({});
     const StepOutcome outcome = all_.outcome;
     if (!outcome.not_finite.valid()) return outcome;
     states = backup_.states;
@@ -78,9 +80,11 @@ void WorldStepper::step_batch(Batch& batch, Tick from, Tick until, std::span<con
                               StepScratch& scratch) {
     for (const RobotId robot : batch.robots) swept_[robot.index()] = {}, efforts_[robot.index()] = 0;
     batch.outcome = {.tick = until, .not_finite = {}, .not_finite_joint = {}};
+    batch.largest_group = 0;
     for (Tick tick = from; tick < until; ++tick) {
         const StepReport report = step_island(*model_, tick, batch.robots, batch.states,
                                               orders_within(orders, tick, tick + 1), batch.bounds, scratch);
+        batch.largest_group = std::max(batch.largest_group, static_cast<std::size_t>(report.largest_group));
         const std::span<const float> efforts = read_efforts(scratch);
         for (std::size_t i = 0; i < batch.robots.size(); ++i) {
             const std::size_t r = batch.robots[i].index();

@@ -46,7 +46,8 @@ class WorldStepper {
         std::vector<RobotId> robots;  // ascending
         std::vector<RobotState*> states;
         std::vector<Aabb> bounds;
-        double effort = 0;
+        double effort = 0, heaviest = 0;  // of all robots; of its heaviest island
+        std::size_t largest_group = 0;    // StepReport::largest_group, of all ticks
         StepOutcome outcome;
     };
     /// What a step can be undone with: the states at a tick, and the orders since then.
@@ -66,6 +67,7 @@ class WorldStepper {
     void plan(Tick ticks, std::span<const Order> orders, std::vector<RobotState>& states);
     bool plan_repeats(std::vector<RobotState>& states);
     bool run_batches(Tick from, Tick until, std::span<const Order> orders);
+    std::size_t step_large_batches(Tick from, Tick until, std::span<const Order> orders);
     Batch& add_batch();
     void enlist(Batch& batch, std::span<const RobotId> robots);
     void finish(Batch& batch, std::vector<RobotState>& states);
@@ -92,6 +94,7 @@ class WorldStepper {
     Sweep sweep_;
     Tick window_ = 16;
     std::size_t repeats_ = 0;
+    std::size_t largest_group_ = 0;  // of the last window
 };
 
 }  // namespace roboss

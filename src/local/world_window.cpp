@@ -1,6 +1,7 @@
 // WorldStepper: windows of several ticks on several threads.
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "local/world_stepper.h"
 
@@ -17,13 +18,16 @@ WorldStepper::Batch& WorldStepper::add_batch() {
     if (batch_count_ == batches_.size()) batches_.emplace_back();
     Batch& batch = batches_[batch_count_++];
     batch.robots.clear();
-    batch.effort = 0;
+    batch.effort = batch.heaviest = 0;
     return batch;
 }
 
 void WorldStepper::enlist(Batch& batch, std::span<const RobotId> robots) {
     batch.robots.insert(batch.robots.end(), robots.begin(), robots.end());
-    for (const RobotId robot : robots) batch.effort += static_cast<double>(efforts_[robot.index()]);
+    double effort = 0;
+    for (const RobotId robot : robots) effort += static_cast<double>(efforts_[robot.index()]);
+    batch.effort += effort;
+    batch.heaviest = std::max(batch.heaviest, effort);
 }
 
 /// Prepares what step_island() takes of a batch whose robots are known.
@@ -64,11 +68,34 @@ void WorldStepper::plan(Tick ticks, std::span<const Order> orders, std::vector<R
     }
 }
 
+/// Batches with an island that one thread would be busy with after the others are done, if its robots mostly
+/// may meet: all threads step such a batch together, one after the other. They are the first; returns how
+/// many.
+std::size_t WorldStepper::step_large_batches(Tick from, Tick until, std::span<const Order> orders) {
+    const std::span<Batch> batches = std::span(batches_).first(batch_count_);
+    double all = 0;
+    for (const Batch& batch : batches) all += batch.effort;
+    const std::size_t groups = std::exchange(largest_group_, 0);
+    const auto is_large = [&](const Batch& batch) {
+        return batch.heaviest * static_cast<double>(pool_.threads()) > all &&
+               groups * 2 > batch.robots.size();
+    };
+    std::size_t large = 0;
+    scratch_[0].use_team(Team(pool_));
+    while (large < batches.size() && is_large(batches[large]))
+        step_batch(batches[large++], from, until, orders, scratch_[0]);
+    scratch_[0].use_team({});
+    return large;
+}
+
 /// False: a state of some batch is not finite.
 bool WorldStepper::run_batches(Tick from, Tick until, std::span<const Order> orders) {
-    pool_.run(batch_count_, [&](std::size_t b, std::size_t worker) {
-        step_batch(batches_[b], from, until, orders, scratch_[worker]);
+    const std::size_t large = step_large_batches(from, until, orders);
+    pool_.run(batch_count_ - large, [&](std::size_t b, std::size_t worker) {
+        step_batch(batches_[large + b], from, until, orders, scratch_[worker]);
     });
+    for (std::size_t b = 0; b < batch_count_; ++b)
+        largest_group_ = std::max(largest_group_, batches_[b].largest_group);
     return std::none_of(batches_.begin(), batches_.begin() + static_cast<std::ptrdiff_t>(batch_count_),
                         [](const Batch& batch) { return batch.outcome.not_finite.valid(); });
 }

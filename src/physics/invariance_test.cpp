@@ -214,6 +214,46 @@ TEST(Invariance, StateThroughBytesContinuesWithTheSameBits) {
 }
 
 #if defined(__x86_64__)
+/// So many robots that all may meet that a team steps them: a large heap, pairs of boxes, and cars that
+/// drive.
+World large_heap() {
+    World world = empty_world(2e-3);
+    place(world, ground(surface(0.7)), "ground");
+    const std::size_t box = world.prototypes.size();
+    world.prototypes.push_back(solid_box(1.0, {0.2, 0.2, 0.2}, surface(0.6, 0.2)));
+    world.prototypes.push_back(car());
+    for (int i = 0; i < 120; ++i) {
+        const int column = i % 30, layer = i / 30;
+        const double x = 0.21 * (column % 6) + 0.03 * layer, y = 0.21 * (column / 6) - 0.02 * layer;
+        world.instances.push_back({"box_" + std::to_string(i), box, {{x, y, 0.15 + 0.25 * layer}, {}}, {}});
+    }
+    for (int i = 0; i < 12; ++i) {
+        const double x = 0.23 * (i / 2) - 0.4;
+        world.instances.push_back(
+            {"pair_" + std::to_string(i), box, {{x, -0.5, 0.12 + 0.23 * (i % 2)}, {}}, {}});
+    }
+    for (int i = 0; i < 4; ++i)
+        world.instances.push_back({"car_" + std::to_string(i), box + 1, {{0.9 * i - 1, -1.1, 0}, {}}, {}});
+    return world;
+}
+
+TEST(Invariance, ATeamOfThreadsGivesTheSameBits) {
+    const World world = large_heap();
+    Simulation alone(world), shared(world);
+    ThreadPool two(2), three(3);
+    int contacts = 0, largest = 0;
+    for (int i = 0; i < 300; ++i) {
+        shared.scratch.use_team(i % 3 == 0 ? Team() : Team(i % 3 == 1 ? two : three));
+        contacts += alone.step().contacts;
+        largest = std::max(largest, shared.step().largest_group);
+        ASSERT_EQ(alone.report.contacts, shared.report.contacts) << "tick " << i;
+        ASSERT_EQ(alone.report.iterations, shared.report.iterations) << "tick " << i;
+        ASSERT_EQ(alone.hash(), shared.hash()) << "tick " << i;
+    }
+    EXPECT_GT(largest, 100);
+    EXPECT_GT(contacts, 30000);
+}
+
 TEST(Invariance, FlushToZeroAndRoundingOfTheCallerChangeNoBit) {
     const World world = random_crowd(13, 10);
     Simulation plain(world), flushed(world);

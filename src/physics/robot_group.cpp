@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "core/check.h"
 #include "physics/step_failure.h"
@@ -72,7 +73,7 @@ bool RobotGroup::forward_kinematics() {
 }
 
 bool RobotGroup::find_contacts() {
-    s_.finder.find(call_.model, robots_, &s_.bonds, s_.keep_reactions, s_.contacts);
+    s_.finder.find(call_.model, robots_, &s_.bonds, s_.keep_reactions, s_.contacts, team());
     ROBOSS_CHECK(std::ranges::is_sorted(s_.contacts, {}, &Contact::robot_a), "contacts");
     recall_impulses(robots_, s_.contacts);
     return true;
@@ -93,6 +94,40 @@ void RobotGroup::build_contact_islands() {
     for (std::uint32_t i = 0; i < robots_.size(); ++i)
         if (!robots_[i].asleep) s_.members.push_back(i);
     s_.islands.sort_by_set(s_.members);
+}
+
+/// Small groups are not worth waking other threads for. Reactions are kept in the order of the islands.
+const Team& RobotGroup::team() const {
+    static const Team alone;
+    constexpr std::size_t kWorthIt = 96;  // robots
+    return robots_.size() < kWorthIt || s_.keep_reactions ? alone : s_.team;
+}
+
+/// Tells each thread's islands about the group.
+void RobotGroup::start_islands() {
+    s_.waiting.clear();
+    if (s_.island.size() < team().size()) s_.island.resize(team().size());
+    for (std::size_t worker = 0; worker < team().size(); ++worker) {
+        IslandScratch& island = s_.island[worker];
+        island.group = {s_.contacts, s_.finder.near_misses(), s_.bonds.held(), &s_.finder.free_courses(),
+                        s_.keep_reactions};
+        if (worker == 0) continue;
+        island.free_courses.start(robots_.size(), s_.keep_reactions);
+        island.group.free_courses = &island.free_courses;
+    }
+}
+
+/// Sorts the waiting islands by descending size; how many of them are so large that the team shares their
+/// work.
+std::size_t RobotGroup::count_large() {
+    using Members = std::span<const std::uint32_t>;
+    std::ranges::sort(s_.waiting, [](const Members& a, const Members& b) {
+        return std::pair(b.size(), a.front()) < std::pair(a.size(), b.front());
+    });
+    std::size_t all = 0, large = 0;
+    for (const Members& members : s_.waiting) all += members.size();
+    while (large < s_.waiting.size() && s_.waiting[large].size() * 2 * team().size() > all) ++large;
+    return large;
 }
 
 /// A robot that touches nobody may wait until there are enough of its type. In floats it must: whether it is

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "physics/contact/contact_island.h"
+#include "physics/group_scratch.h"
 
 namespace roboss {
 
@@ -35,13 +36,17 @@ class RobotGroup {
     void hold_bonds() { s_.bonds.hold(robots_); }
     bool find_contacts();
     void build_contact_islands();
-    /// step(ContactIsland&) for each; those of one robot go in lanes where they can, a few at a time.
+    /// step(ContactIsland&, StageClock&) for each; those of one robot go in lanes where they can, a few at a
+    /// time. A team steps small islands side by side, and shares the work of large ones.
     template <class StepIsland>
-    void for_each_contact_island(StepIsland&& step);
+    void for_each_contact_island(StepIsland&& step, StageClock& clock);
     void report();
 
   private:
     bool goes_in_lanes(std::span<const std::uint32_t> members) const;
+    const Team& team() const;
+    void start_islands();
+    std::size_t count_large();
     void keep_contact_reports();
 
     const StepCall& call_;
@@ -51,11 +56,11 @@ class RobotGroup {
 };
 
 template <class StepIsland>
-void RobotGroup::for_each_contact_island(StepIsland&& step) {
+void RobotGroup::for_each_contact_island(StepIsland&& step, StageClock& clock) {
     const Model& model = call_.model;
     const auto step_one = [&](std::span<const std::uint32_t> members) {
-        ContactIsland island(model, robots_, members, s_, call_.report);
-        step(island);
+        ContactIsland island(model, robots_, members, s_.island[0], call_.report);
+        step(island, clock);
     };
     const auto lane_of = [&](std::uint32_t i) {
         return LaneRobot{robots_[i].id, robots_[i].state, nullptr, true, contacts_of(i, s_.contacts)};
@@ -67,13 +72,30 @@ void RobotGroup::for_each_contact_island(StepIsland&& step) {
                        robots_[i].held = true;
                    });
     };
+    start_islands();
     s_.queue.start(model.types.size());
     s_.islands.for_each_set(s_.members, [&](std::span<const std::uint32_t> members) {
-        if (!goes_in_lanes(members)) return step_one(members);
+        if (!goes_in_lanes(members)) {
+            if (team().size() == 1) return step_one(members);
+            return s_.waiting.push_back(members);
+        }
         const std::size_t type = model.robots[robots_[members[0]].id.index()].type.index();
         s_.queue.add(type, members[0], s_.lanes.width(), step_lanes);
     });
     s_.queue.finish(step_lanes);
+    if (s_.waiting.empty()) return;
+    const std::size_t large = count_large();
+    s_.island[0].team = team();
+    for (std::size_t i = 0; i < large; ++i) step_one(s_.waiting[i]);
+    s_.island[0].team = {};
+    clock.enter(Stage::kVelocities);  // of all that follows; it is most of it
+    s_.reports.assign(team().size(), {});
+    team().run(s_.waiting.size() - large, [&](std::size_t i, std::size_t worker) {
+        ContactIsland island(model, robots_, s_.waiting[large + i], s_.island[worker], s_.reports[worker]);
+        StageClock no_clock;
+        step(island, no_clock);
+    });
+    for (const StepReport& report : s_.reports) call_.report.add_solves(report);
 }
 
 }  // namespace roboss

@@ -43,7 +43,7 @@ struct StepScratch::Impl {
 
     /// Forgets the last call.
     void start(const Model& model, std::size_t robots) {
-        group.contact_reports.clear(), group.reactions.clear();
+        group.contact_reports.clear(), group.island[0].reactions.clear();
         group.lanes = steppers(model);
         moved_freely.assign(robots, 0);
         efforts.assign(robots, 0);
@@ -214,6 +214,7 @@ void step_groups(const StepCall& call, Impl& s) {
         if (!some.empty()) step_group(call, some, std::span(s.works).first(some.size()), s);
     };
     s.joined.for_each_set(s.near, [&](std::span<const std::uint32_t> set) {
+        call.report.largest_group = std::max(call.report.largest_group, static_cast<int>(set.size()));
         last += set.size();
         if (last - first >= kTogether) step_some();
     });
@@ -307,6 +308,10 @@ std::size_t StepScratch::lanes(Precision precision) const {
     return impl_->lanes ? impl_->lanes->width() : 1;
 }
 
+void StepScratch::use_team(const Team& team) {
+    impl_->group.team = team;
+}
+
 void StepScratch::keep_reactions(bool keep) {
     impl_->group.keep_reactions = keep;
 }
@@ -316,7 +321,7 @@ std::span<const ContactReport> read_contacts(StepScratch& scratch) {
 }
 
 std::span<const LoopReaction> read_loop_reactions(StepScratch& scratch) {
-    return scratch.impl().group.reactions;
+    return scratch.impl().group.island[0].reactions;
 }
 
 std::span<const float> read_efforts(StepScratch& scratch) {

@@ -3,10 +3,12 @@
 // each other only if their interaction bounds meet.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "core/team.h"
 #include "math/aabb.h"
 #include "math/spatial.h"
 #include "model/model.h"
@@ -27,6 +29,7 @@ struct StepReport {
     int static_contacts = 0;  // of these, with static scenery other than planes (buildings, walls)
     int asleep = 0;           // robots that slept through the tick
     int placed = 0;           // robots of which any work was done: all but sleepers that nothing comes near
+    int largest_group = 0;    // robots of the largest set that may meet, directly or by way of others
     int iterations = 0;       // Newton iterations, summed over contact islands
     double residual = 0;      // worst relative residual of the contact islands
     /// A robot whose state is not finite after the step, or so far that nothing can be computed of it before
@@ -36,6 +39,12 @@ struct StepReport {
     JointId not_finite_joint;     // whose coordinate or velocity it is; not valid: the base's
     bool beyond_numbers = false;  // found before the step, so it was not made
     StageTimes stages;            // zero unless they are measured (StepScratch::measure_stages)
+
+    /// What another thread did for the same step.
+    void add_solves(const StepReport& other) {
+        iterations += other.iterations;
+        residual = std::max(residual, other.residual);
+    }
 };
 
 inline constexpr std::size_t kMostLanes = 16;  // robots that any processor steps at once
@@ -58,6 +67,9 @@ class StepScratch {
     /// From now on each step reports how long its stages take by this clock; nullptr: not. No bit depends on
     /// it.
     void measure_stages(StageNow now);
+    /// From now on the team's threads share the work of a large group of robots that may meet. No bit depends
+    /// on it. The team must not be running during a step.
+    void use_team(const Team& team);
     /// Most robots of a type that are stepped at once in numbers of this precision.
     std::size_t lanes(Precision precision = Precision::kDouble) const;
     struct Impl;

@@ -29,22 +29,24 @@ bool step_robots(Robots& robots, StageClock& clock) {
     if (!robots.find_contacts()) return false;
     clock.enter(Stage::kIslands);
     robots.build_contact_islands();
-    robots.for_each_contact_island([&clock](auto& island) {
-        if (island.has_rows()) {
-            clock.enter(Stage::kRows);
-            island.build_rows();
-            clock.enter(Stage::kVelocities);
-            island.solve_velocities();
-            clock.enter(Stage::kDisplacements);
-            island.solve_displacements();
-        }
-        clock.enter(Stage::kIntegration);
-        island.integrate();
-        clock.enter(Stage::kGuards);
-        island.guard();
-        clock.enter(Stage::kSleep);
-        island.put_to_sleep();
-    });
+    robots.for_each_contact_island(
+        [](auto& island, StageClock& island_clock) {
+            if (island.has_rows()) {
+                island_clock.enter(Stage::kRows);
+                island.build_rows();
+                island_clock.enter(Stage::kVelocities);
+                island.solve_velocities();
+                island_clock.enter(Stage::kDisplacements);
+                island.solve_displacements();
+            }
+            island_clock.enter(Stage::kIntegration);
+            island.integrate();
+            island_clock.enter(Stage::kGuards);
+            island.guard();
+            island_clock.enter(Stage::kSleep);
+            island.put_to_sleep();
+        },
+        clock);
     clock.enter(Stage::kReport);
     robots.report();
     return true;

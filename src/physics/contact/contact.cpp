@@ -127,22 +127,59 @@ SurfacePair surface_of(const Model& model, std::span<const RobotWork> robots, co
     return pair;
 }
 
-void ContactFinder::find(const Model& model, std::span<RobotWork> robots, const BondKeeper* bonds,
-                         bool keep_reactions, std::vector<Contact>& contacts) {
-    contacts.clear(), near_misses_.clear();
+void ContactFinder::start(std::size_t robots, const BondKeeper* bonds, bool keep_reactions) {
+    near_misses_.clear();
     bonds_ = bonds;
-    free_courses_->start(robots.size(), keep_reactions);
-    std::size_t pair = 0;
-    for (std::size_t a = 0; a < robots.size(); ++a) {
+    free_courses_->start(robots, keep_reactions);
+}
+
+/// Contacts of the robots begin .. end-1 with those behind them; `pairs`: those whose first robot is not
+/// before `begin`.
+void ContactFinder::find_of(const Model& model, std::span<RobotWork> robots, std::span<const RobotPair> pairs,
+                            std::size_t begin, std::size_t end, std::vector<Contact>& contacts) {
+    auto pair = pairs.begin();
+    for (std::size_t a = begin; a < end; ++a) {
         const std::size_t first = contacts.size();
         const bool awake = !robots[a].asleep;
         if (awake && !robots[a].type->self_pairs.empty()) with_itself(model, robots, a, contacts);
-        for (; pair < pairs_.size() && pairs_[pair].first == a; ++pair)
-            if (awake && !robots[pairs_[pair].second].asleep)
-                meet_robot(model, robots, a, pairs_[pair].second, true, contacts);
+        for (; pair != pairs.end() && pair->first == a; ++pair)
+            if (awake && !robots[pair->second].asleep)
+                meet_robot(model, robots, a, pair->second, true, contacts);
         if (awake) with_statics(model, robots, a, contacts);
         sort_contacts(robots, std::span(contacts).subspan(first));
     }
+}
+
+/// Block by block; what each block has is put together in their order.
+void ContactFinder::find_together(const Model& model, std::span<RobotWork> robots, bool keep_reactions,
+                                  std::vector<Contact>& contacts, const Team& team) {
+    constexpr std::size_t kBlock = 32;  // robots
+    const std::size_t blocks = (robots.size() + kBlock - 1) / kBlock;
+    while (helpers_.size() < team.size()) helpers_.emplace_back();
+    if (blocks_.size() < blocks) blocks_.resize(blocks);
+    for (ContactFinder& helper : helpers_) helper.start(robots.size(), bonds_, keep_reactions);
+    team.run(blocks, [&](std::size_t block, std::size_t worker) {
+        const std::size_t begin = block * kBlock, end = std::min(begin + kBlock, robots.size());
+        const auto first = std::ranges::lower_bound(pairs_, begin, {}, &RobotPair::first);
+        blocks_[block].clear();
+        helpers_[worker].find_of(model, robots, {first, pairs_.end()}, begin, end, blocks_[block]);
+    });
+    for (std::size_t block = 0; block < blocks; ++block) {
+        make_room(contacts, contacts.size() + blocks_[block].size());
+        contacts.insert(contacts.end(), blocks_[block].begin(), blocks_[block].end());
+    }
+    for (const ContactFinder& helper : helpers_)
+        near_misses_.insert(near_misses_.end(), helper.near_misses_.begin(), helper.near_misses_.end());
+}
+
+void ContactFinder::find(const Model& model, std::span<RobotWork> robots, const BondKeeper* bonds,
+                         bool keep_reactions, std::vector<Contact>& contacts, const Team& team) {
+    contacts.clear();
+    start(robots.size(), bonds, keep_reactions);
+    if (team.size() > 1)
+        find_together(model, robots, keep_reactions, contacts, team);
+    else
+        find_of(model, robots, pairs_, 0, robots.size(), contacts);
     bonds_ = nullptr;
     defer_later(model, robots, contacts);
     std::ranges::sort(near_misses_);

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/team.h"
 #include "physics/contact/surface_pair.h"
 #include "physics/dynamics/robot_work.h"
 
@@ -84,9 +85,10 @@ class ContactFinder {
     std::span<const std::pair<std::uint32_t, std::uint32_t>> pairs() const { return pairs_; }
 
     /// Contacts of these pairs, of robots with themselves and with the scenery. Sleepers are left out, and
-    /// bodies that `bonds` (may be none) join. `keep_reactions`: see FreeCourses.
+    /// bodies that `bonds` (may be none) join. `keep_reactions`: see FreeCourses. The robots are shared by
+    /// the threads of the team.
     void find(const Model& model, std::span<RobotWork> robots, const BondKeeper* bonds, bool keep_reactions,
-              std::vector<Contact>& contacts);
+              std::vector<Contact>& contacts, const Team& team = {});
     /// What find() left out of the contacts, sorted.
     std::span<const NearMiss> near_misses() const { return near_misses_; }
     /// Of the robots of find().
@@ -97,7 +99,13 @@ class ContactFinder {
                     std::vector<Contact>& contacts);
 
   private:
+    using RobotPair = std::pair<std::uint32_t, std::uint32_t>;
     struct Pair;
+    void start(std::size_t robots, const BondKeeper* bonds, bool keep_reactions);
+    void find_of(const Model& model, std::span<RobotWork> robots, std::span<const RobotPair> pairs,
+                 std::size_t begin, std::size_t end, std::vector<Contact>& contacts);
+    void find_together(const Model& model, std::span<RobotWork> robots, bool keep_reactions,
+                       std::vector<Contact>& contacts, const Team& team);
     void sweep_along_x(std::span<const RobotWork> robots);
     Course course(const Model& model, std::span<const RobotWork> robots, int robot, std::size_t shape);
     void meet_robot(const Model& model, std::span<const RobotWork> robots, std::size_t a, std::size_t b,
@@ -126,7 +134,10 @@ class ContactFinder {
     std::vector<std::uint32_t> candidates_;  // scenery near a robot, and its boxes
     std::vector<Aabb> candidate_boxes_;
     std::vector<std::uint32_t> by_x_, awake_;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;  // sorted
+    std::vector<RobotPair> pairs_;  // sorted
+    // with a team: what each thread finds with, and what was found of each block of robots
+    std::vector<ContactFinder> helpers_;
+    std::vector<std::vector<Contact>> blocks_;
 };
 
 /// Takes the remembered impulses of the last tick from the owners' states into the contacts, and writes the

@@ -19,27 +19,27 @@ namespace roboss {
 namespace {
 
 /// Marks the robots that a contact pushes, in their velocity or displacement.
-void mark_pushed(std::span<RobotWork> robots, GroupScratch& s) {
+void mark_pushed(std::span<RobotWork> robots, IslandScratch& s) {
     for (std::size_t c = 0; c < s.rows.contacts.size(); ++c) {
-        const Contact& contact = *s.island_contacts[c];
+        const Contact& contact = *s.contacts[c];
         if (contact.impulse <= 0 && s.rows.contacts[c].normal.impulse <= 0) continue;
         robots[static_cast<std::size_t>(contact.robot_a)].pushed = true;
         if (contact.robot_b >= 0) robots[static_cast<std::size_t>(contact.robot_b)].pushed = true;
     }
 }
 
-bool flies(const Model& model, const RobotWork& work, const GroupScratch& s) {
-    return moves_freely(model, work) && !(s.keep_reactions && !work.type->loops.empty());
+bool flies(const Model& model, const RobotWork& work, const IslandScratch& s) {
+    return moves_freely(model, work) && !(s.group.keep_reactions && !work.type->loops.empty());
 }
 
 /// Marks the robots that another robot or scenery pushes, by the impulses of the last solution, and notes
 /// whether the island is anchored: pushed by something that does not move freely.
-void mark_touched(std::span<const RobotWork> robots, GroupScratch& s) {
+void mark_touched(std::span<const RobotWork> robots, IslandScratch& s) {
     const auto is_fixed = [&](int robot) {
         return robot < 0 || !robots[static_cast<std::size_t>(robot)].type->free_base;
     };
     for (std::size_t c = 0; c < s.rows.contacts.size(); ++c) {
-        const Contact& contact = *s.island_contacts[c];
+        const Contact& contact = *s.contacts[c];
         if (s.rows.contacts[c].normal.impulse <= 0 || contact.robot_a == contact.robot_b) continue;
         s.anchored |= is_fixed(contact.robot_a) || is_fixed(contact.robot_b);
         s.touched[static_cast<std::size_t>(contact.robot_a)] = 1;
@@ -50,7 +50,7 @@ void mark_touched(std::span<const RobotWork> robots, GroupScratch& s) {
 /// Which members drift, and, if any does (then true), the split of the solved impulses. Where nothing pushes
 /// an island from outside its momentum is to stay, and that of its energy that no motor gives: then all
 /// drift. Others do where they turn fast.
-bool choose_drifting(const Model& model, std::span<const RobotWork> robots, GroupScratch& s,
+bool choose_drifting(const Model& model, std::span<const RobotWork> robots, IslandScratch& s,
                      std::span<const std::uint32_t> members) {
     s.touched.resize(robots.size());
     for (const std::uint32_t m : members) s.touched[m] = 0;
@@ -69,24 +69,22 @@ bool choose_drifting(const Model& model, std::span<const RobotWork> robots, Grou
         s.drifts[m] = 1;
         any = true;
     }
-    if (any)
-        split_rows({model.accuracy, s.island_robots, s.island_offsets, s.rows}, s.v_before, s.v, model.dt_s,
-                   s.split);
+    if (any) split_rows({model.accuracy, s.robots, s.offsets, s.rows}, s.v_before, s.v, model.dt_s, s.split);
     return any;
 }
 
 /// Solves for the displacement of the tick, from what stands there.
-void solve_displacement(const Model& model, GroupScratch& s, StepReport& report) {
-    const IslandSolver::Problem problem{model.accuracy, s.island_robots, s.island_offsets, s.rows, true};
-    report.iterations += s.solver.solve(problem, s.displacement).iterations;
+void solve_displacement(const Model& model, IslandScratch& s, StepReport& report) {
+    const IslandSolver::Problem problem{model.accuracy, s.robots, s.offsets, s.rows, true};
+    report.iterations += s.solver.solve(problem, s.displacement, s.team).iterations;
 }
 
 /// N m s: what the rows of swept contacts between robots lack of conserving angular momentum. They push both
 /// robots at the place of the impact, but with the arms that it has from where the bodies are at the
 /// beginning.
-Vec3 late_moment(const GroupScratch& s) {
+Vec3 late_moment(const IslandScratch& s) {
     Vec3 moment;
-    for (const Contact* c : s.island_contacts) {
+    for (const Contact* c : s.contacts) {
         if (c->time == 0 || c->robot_a == c->robot_b || c->robot_b < 0) continue;
         const Vec3 push = c->normal * c->impulse + c->friction;
         moment += cross(c->shift_b, push);
@@ -96,8 +94,8 @@ Vec3 late_moment(const GroupScratch& s) {
 
 /// Moves one member by the kick-drift step.
 void drift(const Model& model, RobotWork& work, std::size_t member, bool touched,
-           std::span<const double> displacement, GroupScratch& s) {
-    const auto offset = static_cast<std::size_t>(s.island_offsets[member]);
+           std::span<const double> displacement, IslandScratch& s) {
+    const auto offset = static_cast<std::size_t>(s.offsets[member]);
     const auto nv = static_cast<std::size_t>(work.type->nv);
     const auto own = [&](const auto& array) { return std::span(array).subspan(offset, nv); };
     SolvedTick solved;
@@ -111,11 +109,11 @@ void drift(const Model& model, RobotWork& work, std::size_t member, bool touched
 
 /// Writes the solved velocities into the states and moves the coordinates. A robot that is near something but
 /// not pushed moves freely, else a ball would lose height in every tick that it spends close to the ground.
-void finish_island(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
+void finish_island(const Model& model, std::span<RobotWork> robots, IslandScratch& s,
                    std::span<const std::uint32_t> members, std::span<const double> displacement) {
     for (std::size_t m = 0; m < members.size(); ++m) {
         RobotWork& work = robots[members[m]];
-        const auto offset = static_cast<std::size_t>(s.island_offsets[m]);
+        const auto offset = static_cast<std::size_t>(s.offsets[m]);
         const auto nv = static_cast<std::size_t>(work.type->nv);
         if (!work.pushed && flies(model, work, s)) {
             advance_freely(model, work, s.free_buffer);
@@ -135,18 +133,18 @@ void finish_island(const Model& model, std::span<RobotWork> robots, GroupScratch
 
 /// Gathers rows and first guess of one contact island; true if the displacement of the tick needs a solution
 /// of its own.
-bool gather_island(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
+bool gather_island(const Model& model, std::span<RobotWork> robots, IslandScratch& s,
                    std::span<const std::uint32_t> members, std::span<Contact> contacts) {
-    s.island_robots.clear(), s.island_offsets.clear();
-    s.island_surfaces.clear(), s.rows.clear(), s.v.clear();
-    s.offsets.resize(robots.size());
+    s.robots.clear(), s.offsets.clear();
+    s.surfaces.clear(), s.rows.clear(), s.v.clear();
+    s.offsets_of_group.resize(robots.size());
     bool split = false;
     for (std::uint32_t m : members) {
         RobotWork& work = robots[m];
         const int offset = static_cast<int>(s.v.size());
-        s.offsets[m] = offset;
-        s.island_robots.push_back(&work);
-        s.island_offsets.push_back(offset);
+        s.offsets_of_group[m] = offset;
+        s.robots.push_back(&work);
+        s.offsets.push_back(offset);
         compute_impulse(model, model.dt_s, 1.0, work.state->q, work.state->v, work);
         compute_mass_matrix<double>(*work.type, model.dt_s, work);
         limit_velocity_forces(model, work, s.free_buffer);
@@ -156,33 +154,33 @@ bool gather_island(const Model& model, std::span<RobotWork> robots, GroupScratch
     for (std::uint32_t m : members) {
         const std::span<Contact> own = contacts_of(m, contacts);
         make_room(s.rows.contacts, s.rows.contacts.size() + own.size());
-        make_room(s.island_surfaces, s.island_surfaces.size() + own.size());
+        make_room(s.surfaces, s.surfaces.size() + own.size());
         for (Contact& c : own) {
-            const SurfacePair& surface = s.island_surfaces.emplace_back(surface_of(model, robots, c));
-            split |= add_contact_row(model, c, surface, robots, s.offsets, s.rows);
-            add_angular_row(model, c, surface, robots, s.offsets, s.rows);
-            s.island_contacts.push_back(&c);
+            const SurfacePair& surface = s.surfaces.emplace_back(surface_of(model, robots, c));
+            split |= add_contact_row(model, c, surface, robots, s.offsets_of_group, s.rows);
+            add_angular_row(model, c, surface, robots, s.offsets_of_group, s.rows);
+            s.contacts.push_back(&c);
         }
     }
-    for (std::size_t b = 0; b < s.island_bonds.size(); ++b)
-        add_bond_rows(model, robots, s.offsets, s.island_bonds[b], static_cast<int>(b), s.rows);
+    for (std::size_t b = 0; b < s.bonds.size(); ++b)
+        add_bond_rows(model, robots, s.offsets_of_group, s.bonds[b], static_cast<int>(b), s.rows);
     return split;
 }
 
 /// The solved impulses, into motors and contacts: what the next tick starts from.
-void take_impulses(GroupScratch& s) {
+void take_impulses(IslandScratch& s) {
     for (const JointRow& row : s.rows.joints)
         if (row.motor != nullptr) store_warm_start(row.impulse, *row.motor);
     for (const CouplingRow& row : s.rows.couplings)
         if (row.motor != nullptr) store_warm_start(row.impulse, *row.motor);
-    take_bond_impulses(s.rows, s.island_bonds);
-    if (s.keep_reactions)
+    take_bond_impulses(s.rows, s.bonds);
+    if (s.group.keep_reactions)
         for (const CouplingRow& row : s.rows.couplings)
             if (row.loop >= 0) s.reactions.push_back({row.robot, row.loop, row.wrench * row.impulse});
     for (std::size_t c = 0; c < s.rows.contacts.size(); ++c)
-        take_impulse(s.rows.contacts[c], s.island_surfaces[c].friction, *s.island_contacts[c]);
+        take_impulse(s.rows.contacts[c], s.surfaces[c].friction, *s.contacts[c]);
     for (const AngularRow& row : s.rows.angulars) {
-        Contact& contact = *s.island_contacts[row.contact];
+        Contact& contact = *s.contacts[row.contact];
         Vec3 t1, t2;
         tangents(contact.normal, t1, t2);
         contact.moment =
@@ -192,13 +190,13 @@ void take_impulses(GroupScratch& s) {
 
 /// The displacement of the whole island goes back towards its velocity, by one share, so that it still fits
 /// at every contact.
-void limit_correction(std::span<const RobotWork> robots, GroupScratch& s,
+void limit_correction(std::span<const RobotWork> robots, IslandScratch& s,
                       std::span<const std::uint32_t> members) {
     double share = 1;
     for (std::size_t m = 0; m < members.size(); ++m) {
         const std::vector<double>& before = robots[members[m]].state->v;
         const auto part = [&](const std::vector<double>& v) {
-            return std::span(v).subspan(static_cast<std::size_t>(s.island_offsets[m]), before.size());
+            return std::span(v).subspan(static_cast<std::size_t>(s.offsets[m]), before.size());
         };
         share = std::min(share, share_of_correction<double>(before, part(s.v), part(s.displacement)));
     }
@@ -208,14 +206,14 @@ void limit_correction(std::span<const RobotWork> robots, GroupScratch& s,
 }
 
 /// Lone bodies that hardly turn, before and after the tick.
-bool slides_only(std::span<const RobotWork> robots, const GroupScratch& s,
+bool slides_only(std::span<const RobotWork> robots, const IslandScratch& s,
                  std::span<const std::uint32_t> members) {
     constexpr double kTurning = 1e-3;  // rad/s
     for (std::size_t m = 0; m < members.size(); ++m) {
         const RobotType& type = *robots[members[m]].type;
         if (type.nv == 0) continue;
         if (!type.free_base || type.nv != 6) return false;
-        const auto offset = static_cast<std::size_t>(s.island_offsets[m]);
+        const auto offset = static_cast<std::size_t>(s.offsets[m]);
         for (std::size_t i = offset; i < offset + 3; ++i)
             if (std::fabs(s.v_before[i]) > kTurning || std::fabs(s.v[i]) > kTurning) return false;
     }
@@ -223,7 +221,7 @@ bool slides_only(std::span<const RobotWork> robots, const GroupScratch& s,
 }
 
 /// True if every contact is hard and no normal velocity changes: nothing new touches, nothing lifts off.
-bool contacts_are_steady(const GroupScratch& s, double dt) {
+bool contacts_are_steady(const IslandScratch& s, double dt) {
     constexpr double kNothing = 1e-10;  // m, in the displacement of a tick
     const ContactColumns& columns = s.rows.columns;
     for (const ContactRow& row : s.rows.contacts) {
@@ -241,7 +239,7 @@ bool contacts_are_steady(const GroupScratch& s, double dt) {
 /// What slides without turning moves by the mean of its velocities before and after the tick, which is exact
 /// while it speeds up or slows down evenly. Only there, for no force on it depends on its place; where one
 /// does (whatever rocks, swings or hangs on a spring) this would add energy to the motion in each tick.
-void take_mean_displacement(std::span<const RobotWork> robots, GroupScratch& s,
+void take_mean_displacement(std::span<const RobotWork> robots, IslandScratch& s,
                             std::span<const std::uint32_t> members, bool drifts, double dt) {
     const bool even = !drifts && slides_only(robots, s, members) && contacts_are_steady(s, dt);
     s.displacement.resize(s.v.size());
@@ -256,7 +254,7 @@ bool is_plausible(std::span<const double> x) {
 }
 
 /// From now on no contact asks for more than the displacement gives, and friction is that of the velocities.
-void hold_displacement(GroupScratch& s, bool split) {
+void hold_displacement(IslandScratch& s, bool split) {
     for (ContactRow& row : s.rows.contacts) {
         const jacobian::Along<double> u =
             jacobian::along(s.rows.columns, row.first, row.last, s.displacement);
@@ -267,7 +265,7 @@ void hold_displacement(GroupScratch& s, bool split) {
 
 /// Stops the displacement at the first hit. Where robots hit only each other, their centre of mass goes on:
 /// it is their motion relative to it that stops.
-void stop_at_first_hit(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
+void stop_at_first_hit(const Model& model, std::span<RobotWork> robots, IslandScratch& s,
                        std::span<const std::uint32_t> members) {
     const double share = s.look.first_time() / model.dt_s;
     const auto flies = [&](int robot) {
@@ -280,9 +278,9 @@ void stop_at_first_hit(const Model& model, std::span<RobotWork> robots, GroupScr
     for (std::size_t m = 0; free && m < members.size(); ++m) {
         const RobotWork& robot = robots[members[m]];
         if (!robot.type->free_base) continue;
-        const auto own = std::span(s.displacement)
-                             .subspan(static_cast<std::size_t>(s.island_offsets[m]),
-                                      static_cast<std::size_t>(robot.type->nv));
+        const auto own =
+            std::span(s.displacement)
+                .subspan(static_cast<std::size_t>(s.offsets[m]), static_cast<std::size_t>(robot.type->nv));
         s.free_buffer.work.type = robot.type, s.free_buffer.work.state = robot.state;
         all += sum_bodies(model, robot.state->q, own, robot.origin, s.free_buffer.work);
     }
@@ -290,28 +288,28 @@ void stop_at_first_hit(const Model& model, std::span<RobotWork> robots, GroupScr
     for (double& x : s.displacement) x *= share;
     for (std::size_t m = 0; free && m < members.size(); ++m) {
         if (!robots[members[m]].type->free_base) continue;
-        const auto linear = static_cast<std::size_t>(s.island_offsets[m]) + 3;
+        const auto linear = static_cast<std::size_t>(s.offsets[m]) + 3;
         for (std::size_t i = 0; i < 3; ++i) s.displacement[linear + i] += (1 - share) * common[i];
     }
 }
 
 /// Keeps the displacement from what it would hit beyond the contacts that it was solved for. What a few
 /// rounds do not settle stops at the first hit.
-void stop_late_hits(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
+void stop_late_hits(const Model& model, std::span<RobotWork> robots, IslandScratch& s,
                     std::span<const std::uint32_t> members, bool split, StepReport& report) {
     constexpr int kRounds = 4;
     s.look.clear();
     if (!is_plausible(s.displacement)) return;
-    const std::size_t found = s.island_contacts.size();
+    const std::size_t found = s.contacts.size();
     for (int round = 0; round <= kRounds; ++round) {
         const SolvedIsland island{model,
                                   robots,
                                   members,
-                                  s.offsets,
-                                  s.finder.near_misses(),
-                                  {s.island_contacts.data(), found},
+                                  s.offsets_of_group,
+                                  s.group.near_misses,
+                                  {s.contacts.data(), found},
                                   s.displacement,
-                                  s.finder.free_courses()};
+                                  *s.group.free_courses};
         if (!s.look.find(island, round == 0)) break;
         if (round == kRounds) {
             stop_at_first_hit(model, robots, s, members);
@@ -323,67 +321,66 @@ void stop_late_hits(const Model& model, std::span<RobotWork> robots, GroupScratc
             robots[static_cast<std::size_t>(hit.robot_a)].touches_robot = true;
             robots[static_cast<std::size_t>(hit.robot_b)].touches_robot = true;
         }
-        s.look.add_rows(island, s.rows, s.island_surfaces);
+        s.look.add_rows(island, s.rows, s.surfaces);
         solve_displacement(model, s, report);
     }
-    s.island_contacts.resize(found);
-    for (Contact& hit : s.look.hits()) s.island_contacts.push_back(&hit);
-    if (s.island_contacts.size() > found) mark_pushed(robots, s);
+    s.contacts.resize(found);
+    for (Contact& hit : s.look.hits()) s.contacts.push_back(&hit);
+    if (s.contacts.size() > found) mark_pushed(robots, s);
 }
 
 /// True if the island's energy is to be guarded.
-bool start_guard(const Model& model, std::span<RobotWork> robots, GroupScratch& s,
+bool start_guard(const Model& model, std::span<RobotWork> robots, IslandScratch& s,
                  std::span<const std::uint32_t> members, bool bounces, bool drifts) {
-    IslandGuard::Island island{members,           s.island_offsets,  s.v_before,
-                               s.island_surfaces, s.island_contacts, s.rows};
+    IslandGuard::Island island{members, s.offsets, s.v_before, s.surfaces, s.contacts, s.rows};
     island.touched = std::ranges::any_of(members, [&](std::uint32_t m) { return s.touched[m] != 0; });
-    island.bonded = !s.island_bonds.empty();
+    island.bonded = !s.bonds.empty();
     island.anchored = s.anchored, island.bounces = bounces, island.drifts = drifts;
     return s.guard.start(model, robots, island, s.free_buffer.work);
 }
 
 /// The bonds that join the members.
-void gather_bonds(std::span<const std::uint32_t> members, GroupScratch& s) {
-    s.island_bonds.clear();
-    const std::span<const HeldBond> held = s.bonds.held();
+void gather_bonds(std::span<const std::uint32_t> members, IslandScratch& s) {
+    s.bonds.clear();
+    const std::span<const HeldBond> held = s.group.bonds;
     if (held.empty()) return;
     for (const std::uint32_t m : members)
         for (auto at = std::ranges::lower_bound(held, m, {}, &HeldBond::holder);
              at != held.end() && at->holder == m; ++at)
-            s.island_bonds.push_back(*at);
+            s.bonds.push_back(*at);
 }
 
 }  // namespace
 
 ContactIsland::ContactIsland(const Model& model, std::span<RobotWork> robots,
-                             std::span<const std::uint32_t> members, GroupScratch& scratch,
+                             std::span<const std::uint32_t> members, IslandScratch& scratch,
                              StepReport& report)
     : model_(model), robots_(robots), members_(members), s_(scratch), report_(report) {
     ROBOSS_CHECK(!members.empty(), "a contact island without robots");
-    s_.island_contacts.clear();
+    s_.contacts.clear();
     gather_bonds(members, s_);
     const auto is_tied = [&](const HeldBond& b) {
         return b.other == HeldBond::kScenery || !robots[b.holder].type->free_base ||
                !robots[b.other].type->free_base;
     };
-    is_tied_ = std::ranges::any_of(s_.island_bonds, is_tied);
+    is_tied_ = std::ranges::any_of(s_.bonds, is_tied);
     if (members.size() > 1) return;
     const RobotWork& work = robots[members[0]];
     has_rows_ = work.type->nv > 0 && (work.contacts > 0 || !flies(model, work, s_));
 }
 
 void ContactIsland::build_rows() {
-    needs_displacement_ = gather_island(model_, robots_, s_, members_, s_.contacts);
+    needs_displacement_ = gather_island(model_, robots_, s_, members_, s_.group.contacts);
     s_.v_before = s_.v;
-    ROBOSS_CHECK(s_.rows.contacts.size() == s_.island_contacts.size() &&
-                     s_.rows.contacts.size() == s_.island_surfaces.size(),
-                 std::to_string(s_.rows.contacts.size()) + " contact rows, " +
-                     std::to_string(s_.island_contacts.size()) + " contacts");
+    ROBOSS_CHECK(
+        s_.rows.contacts.size() == s_.contacts.size() && s_.rows.contacts.size() == s_.surfaces.size(),
+        std::to_string(s_.rows.contacts.size()) + " contact rows, " + std::to_string(s_.contacts.size()) +
+            " contacts");
 }
 
 void ContactIsland::solve_velocities() {
     const SolveReport solved =
-        s_.solver.solve({model_.accuracy, s_.island_robots, s_.island_offsets, s_.rows}, s_.v);
+        s_.solver.solve({model_.accuracy, s_.robots, s_.offsets, s_.rows}, s_.v, s_.team);
     report_.iterations += solved.iterations;
     report_.residual = std::max(report_.residual, solved.residual);
     ROBOSS_CHECK(s_.v.size() == s_.v_before.size(), std::to_string(s_.v.size()));
@@ -426,7 +423,7 @@ void ContactIsland::guard() {
     };
     if (s_.look.may_push_out() && std::ranges::all_of(members_, moved_well))
         s_.look.push_out(robots_, model_);
-    if (!s_.island_bonds.empty() && std::ranges::all_of(members_, moved_well)) close_bonds();
+    if (!s_.bonds.empty() && std::ranges::all_of(members_, moved_well)) close_bonds();
     if (!s_.anchored)
         if (const Vec3 moment = late_moment(s_) - s_.gained_moment; moment != Vec3{})
             turn_island(model_, robots_, members_, moment, s_.free_buffer.work);
@@ -439,14 +436,14 @@ void ContactIsland::close_bonds() {
     const Vec3 origin = robots_[members_[0]].origin;
     const auto sums = [&] { return sum_robots(model_, robots_, members_, origin, buffer); };
     const Spatial before = s_.anchored ? Spatial{} : sums().momentum;
-    s_.bond_projection.close(robots_, s_.island_bonds);
+    s_.bond_projection.close(robots_, s_.bonds);
     if (s_.anchored) return;
     const BodySums after = sums();
     add_momentum(robots_, members_, after, before - after.momentum, origin);
 }
 
 void ContactIsland::put_to_sleep() {
-    settle_island(model_, robots_, members_, s_.island_contacts, s_.island_bonds);
+    settle_island(model_, robots_, members_, s_.contacts, s_.bonds);
 }
 
 }  // namespace roboss

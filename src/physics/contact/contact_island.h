@@ -2,17 +2,17 @@
 // is solved by itself, so nothing depends on the other robots of the group.
 #pragma once
 
-#include "physics/group_scratch.h"
+#include "physics/island_scratch.h"
 
 namespace roboss {
 
 /// The stages of an island, called by step_robots (tick.h) in the order in which they are declared. Rows,
-/// velocities and displacements pass from stage to stage in the group's scratch.
+/// velocities and displacements pass from stage to stage in the scratch.
 class ContactIsland {
   public:
     /// `members`, awake, index `robots`, the group's.
     ContactIsland(const Model& model, std::span<RobotWork> robots, std::span<const std::uint32_t> members,
-                  GroupScratch& scratch, StepReport& report);
+                  IslandScratch& scratch, StepReport& report);
 
     /// False: one robot that nothing touches and no row drives, or that cannot move.
     bool has_rows() const { return has_rows_; }
@@ -33,7 +33,7 @@ class ContactIsland {
     const Model& model_;
     std::span<RobotWork> robots_;
     std::span<const std::uint32_t> members_;
-    GroupScratch& s_;
+    IslandScratch& s_;
     StepReport& report_;
     bool has_rows_ = true;
     bool needs_displacement_ = false;  // it is solved for by itself

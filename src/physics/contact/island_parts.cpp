@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "core/check.h"
 #include "physics/solver/row_math.h"
@@ -36,11 +37,11 @@ void IslandParts::ByPart::sort(std::size_t parts, std::span<const std::uint32_t>
     first[0] = 0;
 }
 
-SolveReport IslandParts::solve(const Problem& p, std::vector<double>& v) {
+SolveReport IslandParts::solve(const Problem& p, std::vector<double>& v, const Team& team) {
     const std::size_t count = p.robots.size();
     largest_part_ = static_cast<int>(count);
     const bool is_alone = count == 1 && !BodySolver::can_solve(*p.robots[0]);
-    if (is_alone || p.rows.contacts.empty()) return solver_.solve(p, v);
+    if (is_alone || p.rows.contacts.empty()) return solvers_[0].islands.solve(p, v);
     prepare(p, v.size());
     join_by_pushing(p, v);
     SolveReport report;
@@ -48,15 +49,8 @@ SolveReport IslandParts::solve(const Problem& p, std::vector<double>& v) {
     largest_part_ = 0;
     for (int round = 0;; ++round) {
         sort_by_parts(p);
-        const std::size_t parts = robots_.first.size() - 1;
-        for (std::size_t part = 0; part < parts; ++part) {
-            const std::span<const std::uint32_t> members = robots_.of(part);
-            if (std::ranges::none_of(members, [&](std::uint32_t r) { return changed_[r] != 0; })) continue;
-            const SolveReport solved = solve_part(p, part, v);
-            report.iterations += solved.iterations;
-            report.residual = std::max(report.residual, solved.residual);
-            largest_part_ = std::max(largest_part_, static_cast<int>(members.size()));
-        }
+        list_changed();
+        solve_changed(p, team, v, report);
         std::ranges::fill(changed_, 0);
         if (!join_violated(p, v)) break;
         if (round + 1 == kRoundsMax) join_all();
@@ -65,18 +59,44 @@ SolveReport IslandParts::solve(const Problem& p, std::vector<double>& v) {
     return report;
 }
 
-SolveReport IslandParts::solve_part(const Problem& p, std::size_t part, std::vector<double>& v) {
+void IslandParts::list_changed() {
+    to_solve_.clear();
+    for (std::uint32_t part = 0; part + 1 < robots_.first.size(); ++part)
+        if (std::ranges::any_of(robots_.of(part), [&](std::uint32_t r) { return changed_[r] != 0; }))
+            to_solve_.push_back(part);
+    std::ranges::sort(to_solve_, [&](std::uint32_t a, std::uint32_t b) {
+        return std::pair(robots_.of(b).size(), a) < std::pair(robots_.of(a).size(), b);
+    });
+}
+
+/// Each part has rows and velocities of its own, so they may be solved side by side.
+void IslandParts::solve_changed(const Problem& p, const Team& team, std::vector<double>& v,
+                                SolveReport& report) {
+    if (solvers_.size() < team.size()) solvers_.resize(team.size());
+    reports_.resize(to_solve_.size());
+    team.run(to_solve_.size(), [&](std::size_t k, std::size_t worker) {
+        reports_[k] = solve_part(p, to_solve_[k], solvers_[worker], v);
+    });
+    for (std::size_t k = 0; k < to_solve_.size(); ++k) {
+        report.iterations += reports_[k].iterations;
+        report.residual = std::max(report.residual, reports_[k].residual);
+        largest_part_ = std::max(largest_part_, static_cast<int>(robots_.of(to_solve_[k]).size()));
+    }
+}
+
+SolveReport IslandParts::solve_part(const Problem& p, std::size_t part, PartSolver& s,
+                                    std::vector<double>& v) const {
     SolveReport tried;
     if (is_of_bodies(p, part) &&
-        bodies_.solve({p, robots_.of(part), contacts_.of(part), robot_of_}, v, tried))
+        s.bodies.solve({p, robots_.of(part), contacts_.of(part), robot_of_}, v, tried))
         return tried;
     SolveReport report;
     if (robots_.of(part).size() == p.robots.size()) {
-        report = solver_.solve(p, v);
+        report = s.islands.solve(p, v);
     } else {
-        take_part(p, part, v);
-        report = solver_.solve({p.accuracy, part_robots_, part_offsets_, rows_, p.position}, v_);
-        give_back(p, part, v);
+        take_part(p, part, v, s);
+        report = s.islands.solve({p.accuracy, s.robots, s.offsets, s.rows, p.position}, s.v);
+        give_back(p, part, s, v);
     }
     report.iterations += tried.iterations;
     return report;
@@ -186,14 +206,14 @@ void IslandParts::sort_by_parts(const Problem& p) {
 }
 
 /// Copies the columns of a row into the part and renumbers their degrees of freedom.
-void IslandParts::take_columns(const Problem& p, std::size_t& first, std::size_t& last) {
+void IslandParts::take_columns(const Problem& p, PartSolver& s, std::size_t& first, std::size_t& last) const {
     const ContactColumns& from = p.rows.columns;
-    ContactColumns& to = rows_.columns;
+    ContactColumns& to = s.rows.columns;
     const std::size_t begin = to.size(), count = last - first;
     to.extend(count);
     for (std::size_t k = 0; k < count; ++k) {
         const int dof = from.dof[first + k];
-        to.dof[begin + k] = dof + shift_[robot_of_[static_cast<std::size_t>(dof)]];
+        to.dof[begin + k] = dof + s.shift[robot_of_[static_cast<std::size_t>(dof)]];
         to.base[begin + k] = from.base[first + k];
         to.n[begin + k] = from.n[first + k];
         to.t1[begin + k] = from.t1[first + k], to.t2[begin + k] = from.t2[first + k];
@@ -201,52 +221,54 @@ void IslandParts::take_columns(const Problem& p, std::size_t& first, std::size_t
     first = begin, last = begin + count;
 }
 
-void IslandParts::take_part(const Problem& p, std::size_t part, const std::vector<double>& v) {
-    rows_.clear(), part_robots_.clear(), part_offsets_.clear(), v_.clear();
-    shift_.resize(p.robots.size());
+void IslandParts::take_part(const Problem& p, std::size_t part, const std::vector<double>& v,
+                            PartSolver& s) const {
+    s.rows.clear(), s.robots.clear(), s.offsets.clear(), s.v.clear();
+    s.shift.resize(p.robots.size());
     for (const std::uint32_t r : robots_.of(part)) {
-        const int offset = static_cast<int>(v_.size());
-        shift_[r] = offset - p.offsets[r];
-        part_robots_.push_back(p.robots[r]);
-        part_offsets_.push_back(offset);
+        const int offset = static_cast<int>(s.v.size());
+        s.shift[r] = offset - p.offsets[r];
+        s.robots.push_back(p.robots[r]);
+        s.offsets.push_back(offset);
         const auto from = v.begin() + p.offsets[r];
-        v_.insert(v_.end(), from, from + p.robots[r]->type->nv);
+        s.v.insert(s.v.end(), from, from + p.robots[r]->type->nv);
         for (std::uint32_t j = joint_first_[r]; j < joint_first_[r + 1]; ++j)
-            rows_.joints.emplace_back(p.rows.joints[j]).dof += shift_[r];
+            s.rows.joints.emplace_back(p.rows.joints[j]).dof += s.shift[r];
     }
     for (const std::uint32_t c : couplings_.of(part)) {
-        CouplingRow& row = rows_.couplings.emplace_back(p.rows.couplings[c]);
-        const std::size_t begin = rows_.coupling_columns.size();
+        CouplingRow& row = s.rows.couplings.emplace_back(p.rows.couplings[c]);
+        const std::size_t begin = s.rows.coupling_columns.size();
         for (std::size_t k = row.first; k < row.last; ++k) {
             CouplingColumn column = p.rows.coupling_columns[k];
-            column.dof += shift_[robot_of_[static_cast<std::size_t>(column.dof)]];
-            rows_.coupling_columns.push_back(column);
+            column.dof += s.shift[robot_of_[static_cast<std::size_t>(column.dof)]];
+            s.rows.coupling_columns.push_back(column);
         }
-        row.first = begin, row.last = rows_.coupling_columns.size();
+        row.first = begin, row.last = s.rows.coupling_columns.size();
     }
-    local_contact_.resize(p.rows.contacts.size());
+    s.local_contact.resize(p.rows.contacts.size());
     for (const std::uint32_t c : contacts_.of(part)) {
-        local_contact_[c] = static_cast<std::uint32_t>(rows_.contacts.size());
-        ContactRow& row = rows_.contacts.emplace_back(p.rows.contacts[c]);
-        take_columns(p, row.first, row.last);
+        s.local_contact[c] = static_cast<std::uint32_t>(s.rows.contacts.size());
+        ContactRow& row = s.rows.contacts.emplace_back(p.rows.contacts[c]);
+        take_columns(p, s, row.first, row.last);
     }
     for (const std::uint32_t a : angulars_.of(part)) {
-        AngularRow& row = rows_.angulars.emplace_back(p.rows.angulars[a]);
-        take_columns(p, row.first, row.last);
-        row.contact = local_contact_[row.contact];
+        AngularRow& row = s.rows.angulars.emplace_back(p.rows.angulars[a]);
+        take_columns(p, s, row.first, row.last);
+        row.contact = s.local_contact[row.contact];
     }
 }
 
 /// Velocities and rows as the solver left them.
-void IslandParts::give_back(const Problem& p, std::size_t part, std::vector<double>& v) const {
+void IslandParts::give_back(const Problem& p, std::size_t part, const PartSolver& s,
+                            std::vector<double>& v) const {
     std::size_t at = 0, joint = 0;
     for (const std::uint32_t r : robots_.of(part)) {
         const auto nv = static_cast<std::size_t>(p.robots[r]->type->nv);
-        std::copy_n(v_.begin() + static_cast<std::ptrdiff_t>(at), nv, v.begin() + p.offsets[r]);
+        std::copy_n(s.v.begin() + static_cast<std::ptrdiff_t>(at), nv, v.begin() + p.offsets[r]);
         at += nv;
         for (std::uint32_t j = joint_first_[r]; j < joint_first_[r + 1]; ++j, ++joint) {
             const int dof = p.rows.joints[j].dof;
-            p.rows.joints[j] = rows_.joints[joint];
+            p.rows.joints[j] = s.rows.joints[joint];
             p.rows.joints[j].dof = dof;
         }
     }
@@ -256,13 +278,13 @@ void IslandParts::give_back(const Problem& p, std::size_t part, std::vector<doub
         to.first = first, to.last = last;
     };
     at = 0;
-    for (const std::uint32_t c : couplings_.of(part)) put(p.rows.couplings[c], rows_.couplings[at++]);
+    for (const std::uint32_t c : couplings_.of(part)) put(p.rows.couplings[c], s.rows.couplings[at++]);
     at = 0;
-    for (const std::uint32_t c : contacts_.of(part)) put(p.rows.contacts[c], rows_.contacts[at++]);
+    for (const std::uint32_t c : contacts_.of(part)) put(p.rows.contacts[c], s.rows.contacts[at++]);
     at = 0;
     for (const std::uint32_t a : angulars_.of(part)) {
         const std::size_t contact = p.rows.angulars[a].contact;
-        put(p.rows.angulars[a], rows_.angulars[at++]);
+        put(p.rows.angulars[a], s.rows.angulars[at++]);
         p.rows.angulars[a].contact = contact;
     }
 }

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "core/team.h"
 #include "core/union_find.h"
 #include "physics/bodies/body_solver.h"
 #include "physics/solver/solver.h"
@@ -23,8 +24,8 @@ class IslandParts {
     using Problem = IslandSolver::Problem;
 
     /// As IslandSolver::solve, for the whole contact island. `impulse` of the normals of contacts: what they
-    /// carried last.
-    SolveReport solve(const Problem& problem, std::vector<double>& v);
+    /// carried last. Parts are shared by the threads of the team.
+    SolveReport solve(const Problem& problem, std::vector<double>& v, const Team& team = {});
     /// Robots of the largest part of the last call.
     int largest_part() const { return largest_part_; }
 
@@ -42,23 +43,36 @@ class IslandParts {
         }
     };
 
+    /// Solves parts, one at a time; each thread has one.
+    struct PartSolver {
+        IslandSolver islands;
+        BodySolver bodies;
+        // The part as a problem of its own
+        std::vector<int> shift;  // by robot: of its degrees of freedom
+        std::vector<const Mechanics<double>*> robots;
+        std::vector<int> offsets;
+        std::vector<std::uint32_t> local_contact;
+        IslandRows rows;
+        std::vector<double> v;
+    };
+
     void prepare(const Problem& p, std::size_t n);
     void join_by_pushing(const Problem& p, const std::vector<double>& v);
     bool join_violated(const Problem& p, const std::vector<double>& v);
     void join_all();
     void sort_by_parts(const Problem& p);
-    SolveReport solve_part(const Problem& p, std::size_t part, std::vector<double>& v);
+    void list_changed();
+    void solve_changed(const Problem& p, const Team& team, std::vector<double>& v, SolveReport& report);
+    SolveReport solve_part(const Problem& p, std::size_t part, PartSolver& s, std::vector<double>& v) const;
     bool is_of_bodies(const Problem& p, std::size_t part) const;
-    void take_part(const Problem& p, std::size_t part, const std::vector<double>& v);
-    void take_columns(const Problem& p, std::size_t& first, std::size_t& last);
-    void give_back(const Problem& p, std::size_t part, std::vector<double>& v) const;
+    void take_part(const Problem& p, std::size_t part, const std::vector<double>& v, PartSolver& s) const;
+    void take_columns(const Problem& p, PartSolver& s, std::size_t& first, std::size_t& last) const;
+    void give_back(const Problem& p, std::size_t part, const PartSolver& s, std::vector<double>& v) const;
     void finish_left_out(const Problem& p, const std::vector<double>& v) const;
     bool is_left_out(std::size_t contact) const {
         return part_of_[ends_[contact].a] != part_of_[ends_[contact].b];
     }
 
-    IslandSolver solver_;
-    BodySolver bodies_;
     UnionFind joined_;
     int largest_part_ = 0;
     std::vector<std::uint32_t> robot_of_;     // by degree of freedom
@@ -67,13 +81,10 @@ class IslandParts {
     std::vector<std::uint32_t> joint_first_;  // by robot, and the end: of its joint rows
     std::vector<char> changed_;               // by robot: a contact joined it since it was solved
     ByPart robots_, couplings_, contacts_, angulars_;
-    std::vector<std::uint32_t> keys_, local_contact_;
-    // The part that is solved
-    std::vector<int> shift_;  // by robot: of its degrees of freedom
-    std::vector<const Mechanics<double>*> part_robots_;
-    std::vector<int> part_offsets_;
-    IslandRows rows_;
-    std::vector<double> v_;
+    std::vector<std::uint32_t> keys_;
+    std::vector<std::uint32_t> to_solve_;  // parts, the largest first
+    std::vector<SolveReport> reports_;     // of these
+    std::vector<PartSolver> solvers_ = std::vector<PartSolver>(1);
 };
 
 }  // namespace roboss

@@ -55,8 +55,8 @@ class LaneStep final : public LaneStepper {
         bool find_contacts() { return kernel.find_contacts(model, robots, together); }
         void build_contact_islands() {}
         template <class StepIsland>
-        void for_each_contact_island(StepIsland&& step) {
-            step(*this);
+        void for_each_contact_island(StepIsland&& step, StageClock& clock) {
+            step(*this, clock);
         }
         bool has_rows() const { return true; }
         void build_rows() { kernel.add_rows(model, together); }

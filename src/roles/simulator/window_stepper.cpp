@@ -25,6 +25,7 @@ WindowStepper::WindowStepper(std::shared_ptr<const Model> model, ThreadPool& poo
       options_(std::move(options)),
       scratch_(pool.threads()),
       stage_times_(pool.threads()),
+      largest_groups_(pool.threads()),
       lane_groups_(pool.threads()) {
     for (StepScratch& scratch : scratch_) {
         scratch.use_lanes(options_.lanes);
@@ -89,9 +90,10 @@ WindowResult WindowStepper::step(const Assignment& assignment, StateStore& store
     swept_ = swept_before_;
     job.result.robots.resize(n);
     job.result.islands.resize(assignment.island_offsets.size() - 1);
+    const std::size_t large = step_large_batches(job);
     pool_.run(
-        batch_offsets_.size() - 1, [&](std::size_t b, std::size_t worker) { step_batch(job, b, worker); },
-        [&] { between({}); });
+        batch_offsets_.size() - 1 - large,
+        [&](std::size_t b, std::size_t worker) { step_batch(job, large + b, worker); }, [&] { between({}); });
     report_stages();
     if (job.result.left > 0) return std::move(job.result);
     for (auto& boxes : earlier_) {
@@ -99,6 +101,23 @@ WindowResult WindowStepper::step(const Assignment& assignment, StateStore& store
         boxes.clear();
     }
     return std::move(job.result);
+}
+
+/// An island with so many of the robots that one thread would be busy with it after the others are done, if
+/// they mostly may meet: all threads step it together. Such islands are the first; returns how many.
+std::size_t WindowStepper::step_large_batches(Job& job) {
+    const std::size_t groups = std::ranges::max(largest_groups_), robots = job.assignment.robots.size();
+    std::ranges::fill(largest_groups_, 0);
+    if (in_lockstep(job.assignment)) return 0;
+    scratch_[0].use_team(Team(pool_));
+    std::size_t large = 0;
+    for (; large + 1 < batch_offsets_.size(); ++large) {
+        const std::size_t own = job.robots(sequence_[batch_offsets_[large]]).size();
+        if (own * threads() <= robots || groups * 2 <= own) break;
+        step_batch(job, large, 0);
+    }
+    scratch_[0].use_team({});
+    return large;
 }
 
 void WindowStepper::report_stages() {
@@ -155,6 +174,8 @@ bool WindowStepper::step_tick(Job& job, std::size_t island, Tick tick, std::span
         step_island(*model_, tick, robots, std::span(states_).subspan(first, robots.size()), orders,
                     std::span(bounds_).subspan(first, robots.size()), scratch_[worker]);
     stage_times_[worker] += report.stages;
+    largest_groups_[worker] =
+        std::max(largest_groups_[worker], static_cast<std::size_t>(report.largest_group));
     sweep(job, island, orders);
     for (const float effort : read_efforts(scratch_[worker])) count(island, effort);
     IslandResult& outcome = job.result.islands[island];

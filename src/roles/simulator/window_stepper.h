@@ -65,6 +65,7 @@ class WindowStepper {
     void report_stages();
     void sort_orders(const Assignment& assignment);
     void cut_batches(const Assignment& assignment);
+    std::size_t step_large_batches(Job& job);
     void step_batch(Job& job, std::size_t batch, std::size_t worker);
     /// An island's orders of this tick; `next`: its first order that was not taken yet.
     std::span<const Order> take_orders(std::size_t island, Tick tick, std::size_t& next) const;
@@ -91,8 +92,9 @@ class WindowStepper {
     std::shared_ptr<const Model> model_;
     ThreadPool& pool_;
     SteppingOptions options_;
-    std::vector<StepScratch> scratch_;     // one a thread
-    std::vector<StageTimes> stage_times_;  // likewise, of this window
+    std::vector<StepScratch> scratch_;         // one a thread
+    std::vector<StageTimes> stage_times_;      // likewise, of this window
+    std::vector<std::size_t> largest_groups_;  // likewise, of the last window: most robots that may meet
 
     // flat over the assignment's robots
     std::vector<RobotState*> states_;
