@@ -20,14 +20,14 @@ struct SixBlock {
 
 struct FreeBody {
     SixBlock mass;
-    Six impulse;        // M v + dt (applied - bias)
-    Six v, mv;          // velocity, M v
-    Six gradient;       // mv - impulse - applied
-    Six applied;        // impulses of all contacts
-    Six step, m_step;   // of the velocity, M step
-    Six lightness;      // 1 / M's diagonal
-    SixBlock mobility;  // M^-1, for sweeps
-    Six swept;          // velocity, while sweeping
+    Six impulse;                            // M v + dt (applied - bias)
+    Six v, mv;                              // velocity, M v
+    Six gradient;                           // mv - impulse - applied
+    Six applied;                            // impulses of all contacts
+    Six step, m_step;                       // of the velocity, M step
+    Six lightness;                          // 1 / M's diagonal
+    SixBlock mobility;                      // M^-1, for sweeps
+    Six swept, swept_before, swept_course;  // sweeps: velocity, before the last one, and its course
 };
 
 /// A contact point. `n`, `t1`, `t2`: normal, tangents. Friction velocities are relative to their targets.
@@ -46,7 +46,10 @@ struct BodyPoint {
     double held_n = 0, held_11 = 0, held_12 = 0, held_22 = 0;  // what the matrix holds
     double bound_error = 0, relaxation = 1;                    // FrictionDisc::bound_error
     Six by_n_a, by_t1_a, by_t2_a, by_n_b, by_t1_b, by_t2_b;    // M^-1 J^T, for sweeps
-    double mass_n = 0, mass_t = 0, swept_n = 0, swept_1 = 0, swept_2 = 0;
+    double mass_n = 0, mass_t = 0;                             // effective, while sweeping
+    double swept_n = 0, swept_1 = 0, swept_2 = 0;              // impulses
+    double before_n = 0, before_1 = 0, before_2 = 0;           // before the last sweep
+    double course_n = 0, course_1 = 0, course_2 = 0;
 };
 
 /// Order of elimination and places of all blocks of the factor. Edges join a body to those that are

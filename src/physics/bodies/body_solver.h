@@ -42,6 +42,8 @@ class BodySolver {
     void take_body(const Mechanics<double>& robot, const double* v, FreeBody& body) const;
     void take_point(const BodyPart& part, const ContactRow& row, BodyPoint& point) const;
     bool iterate(const Accuracy& accuracy);
+    bool displace();
+    bool change_pushing();
     void start();
     bool take_first_step();
     bool start_from_sweeps();

@@ -1,5 +1,4 @@
-// BodyKernel in the registers of one instruction set: kWidth doubles each. Every name is local to the
-// translation unit that includes this, so code for one processor is never linked in place of another's.
+// BodyKernel in the registers of one instruction set (lane_six.h).
 #pragma once
 
 #include <algorithm>
@@ -7,106 +6,16 @@
 #include <memory>
 
 #include "physics/bodies/body_kernel.h"
+#include "physics/lanes/lane_body_sweeps.h"
 
 namespace roboss {
 namespace {
-
-#if defined(__AVX512F__)
-constexpr std::size_t kWidth = 8;
-#elif defined(__AVX2__)
-constexpr std::size_t kWidth = 4;
-#else
-constexpr std::size_t kWidth = 2;
-#endif
-constexpr std::size_t kParts = (6 + kWidth - 1) / kWidth;
-using Part [[gnu::vector_size(kWidth * sizeof(double))]] = double;
-
-#define ROBOSS_INLINE [[gnu::always_inline]] inline
-
-/// Six numbers in one to three registers; members, not an array, so that they stay there.
-struct Row {
-    Part a{}, b{}, c{};
-};
-
-ROBOSS_INLINE Part load_part(const double* x) {
-    using Place [[gnu::may_alias]] = Part;
-    return *reinterpret_cast<const Place*>(x);
-}
-ROBOSS_INLINE void store_part(const Part& part, double* x) {
-    using Place [[gnu::may_alias]] = Part;
-    *reinterpret_cast<Place*>(x) = part;
-}
-ROBOSS_INLINE Row load(const Six& six) {
-    Row row;
-    row.a = load_part(six.x);
-    if constexpr (kParts > 1) row.b = load_part(six.x + kWidth);
-    if constexpr (kParts > 2) row.c = load_part(six.x + 2 * kWidth);
-    return row;
-}
-ROBOSS_INLINE void store(const Row& row, Six& six) {
-    store_part(row.a, six.x);
-    if constexpr (kParts > 1) store_part(row.b, six.x + kWidth);
-    if constexpr (kParts > 2) store_part(row.c, six.x + 2 * kWidth);
-}
-ROBOSS_INLINE Part all(double x) {
-    return x - Part{};
-}
-ROBOSS_INLINE Row zero() {
-    return {Part{}, Part{}, Part{}};
-}
-ROBOSS_INLINE Row operator+(const Row& x, const Row& y) {
-    Row sum;
-    sum.a = x.a + y.a;
-    if constexpr (kParts > 1) sum.b = x.b + y.b;
-    if constexpr (kParts > 2) sum.c = x.c + y.c;
-    return sum;
-}
-ROBOSS_INLINE Row operator-(const Row& x, const Row& y) {
-    Row difference;
-    difference.a = x.a - y.a;
-    if constexpr (kParts > 1) difference.b = x.b - y.b;
-    if constexpr (kParts > 2) difference.c = x.c - y.c;
-    return difference;
-}
-ROBOSS_INLINE Row operator*(const Row& x, const Row& y) {
-    Row product;
-    product.a = x.a * y.a;
-    if constexpr (kParts > 1) product.b = x.b * y.b;
-    if constexpr (kParts > 2) product.c = x.c * y.c;
-    return product;
-}
-ROBOSS_INLINE Row operator*(double factor, const Row& x) {
-    const Part f = all(factor);
-    Row product;
-    product.a = f * x.a;
-    if constexpr (kParts > 1) product.b = f * x.b;
-    if constexpr (kParts > 2) product.c = f * x.c;
-    return product;
-}
-ROBOSS_INLINE void add(Row& sum, double factor, const Row& x) {
-    sum = sum + factor * x;
-}
-ROBOSS_INLINE void subtract(Row& sum, double factor, const Row& x) {
-    sum = sum - factor * x;
-}
-/// A template only so that the forms for other registers are not looked at.
-template <class AnyRow>
-[[gnu::always_inline]] inline double total(const AnyRow& x) {
-    if constexpr (kParts == 1) return ((x.a[0] + x.a[1]) + (x.a[2] + x.a[3])) + (x.a[4] + x.a[5]);
-    if constexpr (kParts == 2) return ((x.a[0] + x.a[1]) + (x.a[2] + x.a[3])) + (x.b[0] + x.b[1]);
-    return ((x.a[0] + x.a[1]) + (x.b[0] + x.b[1])) + (x.c[0] + x.c[1]);
-}
-ROBOSS_INLINE Row times(const SixBlock& block, const Six& x) {
-    Row y = x.x[0] * load(block.row[0]);
-    for (std::size_t i = 1; i < 6; ++i) add(y, x.x[i], load(block.row[i]));
-    return y;
-}
 
 /// Impulses at velocities along a point; those of friction relative to their targets.
 struct Impulses {
     double n, t1, t2;
 };
-ROBOSS_INLINE Impulses impulses_at(const BodyPoint& p, double u_n, double u_1, double u_2) {
+[[gnu::always_inline]] inline Impulses impulses_at(const BodyPoint& p, double u_n, double u_1, double u_2) {
     const double raw = (p.target_n - u_n) * p.stiffness_n;
     Impulses f{raw > 0 ? raw : 0, -u_1 * p.stiffness_t, -u_2 * p.stiffness_t};
     const double size2 = f.t1 * f.t1 + f.t2 * f.t2;
@@ -121,8 +30,8 @@ ROBOSS_INLINE Impulses impulses_at(const BodyPoint& p, double u_n, double u_1, d
 struct Directions {
     Row n, t1, t2;
 };
-ROBOSS_INLINE void add_product(SixBlock& block, const Six& n, const Six& t1, const Six& t2,
-                               const Directions& g) {
+[[gnu::always_inline]] inline void add_product(SixBlock& block, const Six& n, const Six& t1, const Six& t2,
+                                               const Directions& g) {
     for (std::size_t i = 0; i < 6; ++i) {
         Row row = load(block.row[i]);
         add(row, n.x[i], g.n), add(row, t1.x[i], g.t1), add(row, t2.x[i], g.t2);
@@ -211,19 +120,7 @@ class LaneBodies final : public BodyKernel {
         return slope;
     }
 
-    void sweep(BodyIsland& s, int sweeps) const override {
-        start_sweeps(s);
-        for (int i = 0; i < sweeps; ++i)
-            for (BodyPoint& p : s.points) {
-                if (p.b >= 0)
-                    sweep_point<true>(p, s.bodies[static_cast<std::size_t>(p.a)].swept,
-                                      s.bodies[static_cast<std::size_t>(p.b)].swept);
-                else
-                    sweep_point<false>(p, s.bodies[static_cast<std::size_t>(p.a)].swept,
-                                       s.bodies[static_cast<std::size_t>(p.a)].swept);
-            }
-        for (FreeBody& body : s.bodies) body.v = body.swept;
-    }
+    void sweep(BodyIsland& s, int sweeps) const override { LaneSweeps::run(s, sweeps); }
 
   private:
     static void apply(const Six& n, const Six& t1, const Six& t2, const BodyPoint& p, Six& applied) {
@@ -408,91 +305,7 @@ class LaneBodies final : public BodyKernel {
             }
         }
     }
-
-    static void start_sweeps(BodyIsland& s) {
-        for (FreeBody& body : s.bodies) {
-            invert(body.mass, body.mobility);
-            store(times(body.mobility, body.impulse), body.swept);
-        }
-        FreeBody* bodies = s.bodies.data();
-        for (BodyPoint& p : s.points) {
-            FreeBody& a = bodies[p.a];
-            const auto respond = [](const FreeBody& body, const Six& j, Six& by) {
-                const Row row = times(body.mobility, j);
-                store(row, by);
-                return row * load(j);
-            };
-            Row n = respond(a, p.n_a, p.by_n_a), t1 = respond(a, p.t1_a, p.by_t1_a),
-                t2 = respond(a, p.t2_a, p.by_t2_a);
-            if (p.b >= 0) {
-                const FreeBody& b = bodies[p.b];
-                n = n + respond(b, p.n_b, p.by_n_b), t1 = t1 + respond(b, p.t1_b, p.by_t1_b),
-                t2 = t2 + respond(b, p.t2_b, p.by_t2_b);
-            }
-            p.mass_n = 1.0 / (total(n) + 1.0 / p.stiffness_n);
-            p.mass_t = 1.0 / (std::max(total(t1), total(t2)) + 1.0 / p.stiffness_t);
-            p.swept_n = p.f_n, p.swept_1 = p.f_1, p.swept_2 = p.f_2;
-            Row va = load(a.swept);
-            push(va, p.by_n_a, p.swept_n), push(va, p.by_t1_a, p.swept_1), push(va, p.by_t2_a, p.swept_2);
-            store(va, a.swept);
-            if (p.b < 0) continue;
-            Row vb = load(bodies[p.b].swept);
-            push(vb, p.by_n_b, p.swept_n), push(vb, p.by_t1_b, p.swept_1), push(vb, p.by_t2_b, p.swept_2);
-            store(vb, bodies[p.b].swept);
-        }
-    }
-
-    ROBOSS_INLINE static void push(Row& v, const Six& by, double impulse) { add(v, impulse, load(by)); }
-
-    /// M^-1 by Gauss and Jordan.
-    static void invert(const SixBlock& mass, SixBlock& inverse) {
-        SixBlock a = mass;
-        inverse = {};
-        for (std::size_t r = 0; r < 6; ++r) inverse.row[r].x[r] = 1;
-        for (std::size_t c = 0; c < 6; ++c) {
-            const double scale = 1.0 / a.row[c].x[c];
-            const Row own = scale * load(a.row[c]), found = scale * load(inverse.row[c]);
-            store(own, a.row[c]), store(found, inverse.row[c]);
-            for (std::size_t r = 0; r < 6; ++r) {
-                if (r == c) continue;
-                const double f = a.row[r].x[c];
-                Row row = load(a.row[r]), x = load(inverse.row[r]);
-                subtract(row, f, own), subtract(x, f, found);
-                store(row, a.row[r]), store(x, inverse.row[r]);
-            }
-        }
-    }
-
-    template <bool kPair>
-    ROBOSS_INLINE static void sweep_point(BodyPoint& p, Six& swept_a, Six& swept_b) {
-        Row va = load(swept_a), vb = kPair ? load(swept_b) : zero();
-        const auto along = [&](const Six& ja, const Six& jb) {
-            Row u = load(ja) * va;
-            if constexpr (kPair) u = u + load(jb) * vb;
-            return total(u);
-        };
-        const double compliance = 1.0 / p.stiffness_n, slip = 1.0 / p.stiffness_t;
-        double n = p.swept_n + (p.target_n - along(p.n_a, p.n_b) - compliance * p.swept_n) * p.mass_n;
-        n = n > 0 ? n : 0;
-        push(va, p.by_n_a, n - p.swept_n);
-        if constexpr (kPair) push(vb, p.by_n_b, n - p.swept_n);
-        p.swept_n = n;
-        double t1 = p.swept_1 - (along(p.t1_a, p.t1_b) - p.target_1 + slip * p.swept_1) * p.mass_t,
-               t2 = p.swept_2 - (along(p.t2_a, p.t2_b) - p.target_2 + slip * p.swept_2) * p.mass_t;
-        const double bound = p.coefficient * n, size2 = t1 * t1 + t2 * t2;
-        if (size2 > bound * bound) {
-            const double cut = bound / std::sqrt(size2);
-            t1 *= cut, t2 *= cut;
-        }
-        push(va, p.by_t1_a, t1 - p.swept_1), push(va, p.by_t2_a, t2 - p.swept_2);
-        if constexpr (kPair) push(vb, p.by_t1_b, t1 - p.swept_1), push(vb, p.by_t2_b, t2 - p.swept_2);
-        p.swept_1 = t1, p.swept_2 = t2;
-        store(va, swept_a);
-        if constexpr (kPair) store(vb, swept_b);
-    }
 };
-
-#undef ROBOSS_INLINE
 
 }  // namespace
 }  // namespace roboss
