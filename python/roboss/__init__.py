@@ -15,6 +15,7 @@ SI units and radians everywhere; positions and velocities in the world frame and
 all arrays. The result is the same to the last bit for any number of threads, and the same as that of `roboss run`.
 """
 from ._core import Diagnostic, Save
+from .batch import Batch
 from .errors import (ArgumentError, OrderError, RobossError, SaveError, SensorError, StateError, UnknownNameError,
                      WorldError, WorldWarning)
 from .robots import Robots
@@ -24,7 +25,7 @@ from .world import World, example, load
 
 __version__ = "0.1.0"
 __all__ = [
-    "ArgumentError", "CONTACT", "Diagnostic", "OrderError", "RobossError", "Robots", "Save", "SaveError", "Sensor",
+    "ArgumentError", "Batch", "CONTACT", "Diagnostic", "OrderError", "RobossError", "Robots", "Save", "SaveError", "Sensor",
     "SensorError", "Simulation", "StateError", "UnknownNameError", "World", "WorldError", "WorldWarning", "example",
     "load",
 ]

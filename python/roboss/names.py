@@ -37,13 +37,13 @@ def numbers(what: str, values: ArrayLike) -> NDArray[np.float64]:
         raise ArgumentError(f"{what}: no array of numbers ({error})", code="bad-shape") from None
 
 
-def rows(what: str, values: ArrayLike, count: int, columns: int) -> NDArray[np.float64]:
-    """The values as count x columns doubles: a full array, one row for all, or one number for all."""
+def filled(what: str, values: ArrayLike, shape: tuple[int, ...]) -> NDArray[np.float64]:
+    """The values as doubles of this shape: a full array, or one whose missing first axes are the same for all."""
     array = numbers(what, values)
-    if array.shape != (count, columns):
-        fits = array.shape in ((), (columns,), (1, columns), (count, 1))
-        if not fits:
-            raise ArgumentError(f"{what}: an array of shape {array.shape}; it takes {(count, columns)}, one row of "
-                                f"{columns} for all robots, or one number", code="bad-shape")
-        array = np.broadcast_to(array, (count, columns))
+    if array.shape != shape:
+        wanted = shape[len(shape) - array.ndim:]
+        if array.ndim > len(shape) or any(have not in (1, want) for have, want in zip(array.shape, wanted)):
+            raise ArgumentError(f"{what}: an array of shape {array.shape}; it takes {shape}, one row of {shape[-1]} for "
+                                "all robots, or one number", code="bad-shape")
+        array = np.broadcast_to(array, shape)
     return np.ascontiguousarray(array)

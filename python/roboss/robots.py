@@ -8,10 +8,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from .errors import ArgumentError
-from .names import index_of, numbers, rows, unknown
+from .names import filled, index_of, numbers, unknown
 from .sensors import Sensor
 
 if TYPE_CHECKING:
+    from .batch import Batch
     from .simulation import Simulation
     from .world import TypeFacts
 
@@ -21,6 +22,8 @@ _MODES = ["passive", "velocity", "position", "effort"]  # in the order of MotorM
 
 class Robots:
     """Robots of a simulation. Simulation.robots makes it; N is their number, `len(robots)`.
+
+    Robots of a Batch have one more axis in front: their poses are (simulations, N, 7).
 
     What is read is a new array: the state of this moment. What is assigned is in effect at once, and takes a full
     array, one row for all robots, or one number for everything; if one robot refuses it, nothing is changed
@@ -37,10 +40,10 @@ class Robots:
            [1., 2., 1., 2.]])
     """
 
-    def __init__(self, simulation: Simulation, ids: Sequence[int]):
-        self.simulation: Simulation = simulation  #: that they are in
+    def __init__(self, simulation: Union[Simulation, Batch], ids: Sequence[int]):
+        self.simulation: Union[Simulation, Batch] = simulation  #: that they are in
         self.ids: tuple[int, ...] = tuple(ids)  #: their places in World.robots
-        self._core = _core.robots(simulation._core, list(ids))
+        self._core = _core.robots(simulation._simulations, list(ids))
 
     def __len__(self) -> int:
         return len(self.ids)
@@ -111,7 +114,7 @@ class Robots:
 
     @pose.setter
     def pose(self, values: ArrayLike) -> None:
-        self._core.set_poses(rows("pose", values, len(self), 7))
+        self._core.set_poses(self._fill("pose", values, 7))
 
     @property
     def twist(self) -> Floats:
@@ -123,7 +126,7 @@ class Robots:
 
     @twist.setter
     def twist(self, values: ArrayLike) -> None:
-        self._core.set_twists(rows("twist", values, len(self), 6))
+        self._core.set_twists(self._fill("twist", values, 6))
 
     @property
     def joint_position(self) -> Floats:
@@ -136,7 +139,7 @@ class Robots:
 
     @joint_position.setter
     def joint_position(self, values: ArrayLike) -> None:
-        self._core.set_joint_positions(rows("joint_position", values, len(self), len(self._facts.axes)))
+        self._core.set_joint_positions(self._fill("joint_position", values, len(self._facts.axes)))
 
     @property
     def joint_velocity(self) -> Floats:
@@ -145,7 +148,7 @@ class Robots:
 
     @joint_velocity.setter
     def joint_velocity(self, values: ArrayLike) -> None:
-        self._core.set_joint_velocities(rows("joint_velocity", values, len(self), len(self._facts.axes)))
+        self._core.set_joint_velocities(self._fill("joint_velocity", values, len(self._facts.axes)))
 
     def link_pose(self, link: str) -> Floats:
         """Poses of a link's frame in the world, (N, 7), as `pose`."""
@@ -179,7 +182,7 @@ class Robots:
             raise unknown("motor mode", mode, _MODES)
         if max_effort is not None and not max_effort >= 0:
             raise ArgumentError(f"a max_effort of {max_effort}", "give 0 or more, or None for the joint's own")
-        self._core.set_joints(columns, _MODES.index(mode), rows("targets", targets, len(self), len(columns)),
+        self._core.set_joints(columns, _MODES.index(mode), self._fill("targets", targets, len(columns)),
                               -1.0 if max_effort is None else max_effort)
 
     def apply_wrench(self, wrench: ArrayLike, link: Optional[str] = None, *, ticks: int = 1) -> None:
@@ -195,7 +198,7 @@ class Robots:
         >>> bool(sim.robots("car_2").twist[0, 2] > 1)
         True
         """
-        self._core.apply_wrenches(0 if link is None else self._link(link), rows("wrench", wrench, len(self), 6), ticks)
+        self._core.apply_wrenches(0 if link is None else self._link(link), self._fill("wrench", wrench, 6), ticks)
 
     def command(self, name: str, values: Optional[ArrayLike] = None, **named: ArrayLike) -> None:
         """Gives a command to on-board controllers, from the next tick on; it holds until the next one.
@@ -218,15 +221,15 @@ class Robots:
         fields, is_list = [field for field, _ in commands[number][1]], commands[number][2]
         if is_list:
             table = numbers(f"command '{name}'", values).ravel()
-            array = np.ascontiguousarray(np.broadcast_to(table, (len(self), table.size)))
+            array = self._fill(f"command '{name}'", table, table.size)
         elif values is None:
-            array = np.zeros((len(self), len(fields)))
+            array = np.zeros((*self._rows, len(fields)))
             for field, value in named.items():
                 column = index_of("value", field, fields, f" of command '{name}'")
-                array[:, column:column + 1] = rows(field, np.reshape(value, (-1, 1)), len(self), 1)
+                array[..., column] = filled(field, value, self._rows)
         else:
-            array = rows(f"command '{name}'", values, len(self), len(fields))
-        self._core.command(number, array.shape[1], array)
+            array = self._fill(f"command '{name}'", values, len(fields))
+        self._core.command(number, array.shape[-1], array)
 
     def __getitem__(self, key: Union[str, int, slice, NDArray]) -> Union[Sensor, Robots]:
         if isinstance(key, str):
@@ -239,7 +242,15 @@ class Robots:
     def _link(self, name: str) -> int:
         return index_of("link", name, self._facts.links, f" of '{self._facts.name}'")
 
+    @property
+    def _rows(self) -> tuple[int, ...]:
+        """Shape of an array without its columns."""
+        return (*self.simulation._shape, len(self))
+
+    def _fill(self, what: str, values: ArrayLike, columns: int) -> Floats:
+        return filled(what, values, (*self._rows, columns))
+
     def _read(self, fill, columns: int, *more: int) -> Floats:
-        out = np.empty((len(self), columns))
+        out = np.empty((*self._rows, columns))
         fill(*more, out)
         return out

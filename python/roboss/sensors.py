@@ -51,7 +51,8 @@ class Sensor:
         """All values by name, with noise, at this tick. Units: docs/sensors.md.
 
         Numbers and vectors have robots as the first axis; quaternions are named "..._quat_xyzw". Where robots have
-        different numbers of values (contact points), it is a list with an array for each robot.
+        different numbers of values (contact points), it is a list with an array for each robot (of a Batch: of the first
+        simulation, then of the second ...).
 
         >>> cars = roboss.Simulation(roboss.example("city.sdf")).robots("car_*")
         >>> reading = cars["compass"].read_all()
@@ -60,13 +61,13 @@ class Sensor:
         >>> reading["orientation_quat_xyzw"].shape, reading["heading"].shape
         ((50, 4), (50,))
         """
-        columns = _core.read(self.robots.simulation._core, list(self.robots.ids), self._number)
+        columns = _core.read(self.robots.simulation._simulations, list(self.robots.ids), self._number)
         return dict(self._shaped(*column) for column in columns)
 
     @property
     def units(self) -> dict[str, str]:
         """Units of the values of read_all(), by name; "" for counts, ratios, rotations."""
-        columns = _core.read(self.robots.simulation._core, list(self.robots.ids[:1]), self._number)
+        columns = _core.read(self.robots.simulation._simulations, list(self.robots.ids[:1]), self._number)
         return {self._shaped(name, *rest)[0]: rest[0] for name, *rest in columns}
 
     def _shaped(self, name: str, unit: str, kind: str, values, counts: list[int]) -> tuple[str, Reading]:
@@ -76,14 +77,15 @@ class Sensor:
         elif width == 4:  # w x y z, one behind the other
             name += "_quat_xyzw"
             values = np.roll(np.reshape(values, (-1, 4)), -1, axis=1).ravel()
+        lead = (*self.robots.simulation._shape, len(counts) // len(self.robots.simulation._simulations))
         if kind == "text":
             ends = np.cumsum([0] + counts)
             return name, [values[first:last] for first, last in zip(ends[:-1], ends[1:])]
         if kind in ("bool", "int"):
             values = values.astype(kind)
-        ragged = len(set(counts)) > 1 or width > 1
-        if not ragged:
-            is_scalar = kind in ("float", "int", "bool")
-            return name, values.reshape(len(counts), *(() if is_scalar else (counts[0],)))
-        parts = [part.reshape(-1, width) if width > 1 else part for part in np.split(values, np.cumsum(counts)[:-1])]
-        return name, np.stack(parts) if len(set(counts)) == 1 else parts
+        if len(set(counts)) > 1:
+            parts = np.split(values, np.cumsum(counts)[:-1])
+            return name, [part.reshape(-1, width) if width > 1 else part for part in parts]
+        if kind in ("float", "int", "bool"):
+            return name, values.reshape(lead)
+        return name, values.reshape(*lead, counts[0]) if width == 1 else values.reshape(*lead, counts[0] // width, width)

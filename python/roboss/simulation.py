@@ -2,14 +2,13 @@
 from __future__ import annotations
 
 import os
-from fnmatch import fnmatchcase
 from typing import Iterable, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from .names import index_of, unknown
+from .names import index_of
 from .robots import Robots
 from .world import World, load
 
@@ -25,6 +24,11 @@ CONTACT = np.dtype([
     ("force", np.float64, 3),      # N on A, world axes: normal force and friction, mean over the tick
     ("torque", np.float64, 3),     # N m on A, world axes: torsional and rolling friction, mean over the tick
 ])
+
+
+def threads_or_all(threads: Optional[int]) -> int:
+    """The number given, at least 1; of None one for each core that this process may use."""
+    return len(os.sched_getaffinity(0)) if threads is None else max(1, threads)
 
 
 class Simulation:
@@ -46,9 +50,10 @@ class Simulation:
 
     def __init__(self, world: Union[World, str, os.PathLike], *, threads: Optional[int] = None, seed: int = 0):
         self.world: World = world if isinstance(world, World) else load(world)  #: that it simulates
-        if threads is None:
-            threads = len(os.sched_getaffinity(0))
-        self._core = _core.Simulation(self.world._model, max(1, threads), seed)
+        self._take(_core.Simulation(self.world._model, threads_or_all(threads), seed))
+
+    def _take(self, core: _core.Simulation) -> None:
+        self._core, self._simulations, self._shape = core, [core], ()
 
     def step(self, ticks: int = 1) -> None:
         """Advances the world by `ticks` time steps of `dt`. Other threads of Python run meanwhile; Ctrl-C ends it early.
@@ -109,19 +114,7 @@ class Simulation:
         >>> sim.robots(["car_3", "car_1"]).names
         ('car_3', 'car_1')
         """
-        names = self.world.robots
-        if isinstance(wanted, str):
-            ids = [number for number, name in enumerate(names) if fnmatchcase(name, wanted)]
-            if not ids:
-                raise unknown("robot", wanted, names)
-        else:
-            known = {name: number for number, name in enumerate(names)}
-            ids = []
-            for name in wanted:
-                if name not in known:
-                    raise unknown("robot", name, names)
-                ids.append(known[name])
-        return Robots(self, ids)
+        return Robots(self, self.world._find(wanted))
 
     @property
     def contacts(self) -> NDArray[np.void]:

@@ -4,11 +4,12 @@ from __future__ import annotations
 import os
 import warnings
 from dataclasses import dataclass
+from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Iterable, Optional, Union
 
 from . import _core
-from .errors import UnknownNameError, WorldError, WorldWarning, ArgumentError
+from .errors import ArgumentError, WorldError, WorldWarning
 from .names import unknown
 
 _EXAMPLES = Path(__file__).parent / "worlds"
@@ -52,6 +53,22 @@ class World:
 
     def __repr__(self) -> str:
         return f"<roboss.World '{self.name}' from {self.file}: {len(self.robots)} robots, dt={self.dt} s>"
+
+    def _find(self, wanted: Union[str, Iterable[str]]) -> list[int]:
+        """Numbers of the robots that match a pattern or are named."""
+        names = self.robots
+        if isinstance(wanted, str):
+            ids = [number for number, name in enumerate(names) if fnmatchcase(name, wanted)]
+            if not ids:
+                raise unknown("robot", wanted, names)
+        else:
+            known = {name: number for number, name in enumerate(names)}
+            ids = []
+            for name in wanted:
+                if name not in known:
+                    raise unknown("robot", name, names)
+                ids.append(known[name])
+        return ids
 
     def _facts_of(self, robot: int) -> TypeFacts:
         """What the type of this robot consists of."""

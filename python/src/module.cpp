@@ -6,6 +6,7 @@ NB_MODULE(_core, module) {
     module.doc() = "The C++ side of the package roboss; programs use roboss itself.";
     roboss_python::bind_world(module);
     roboss_python::bind_simulation(module);
+    roboss_python::bind_batch(module);
     roboss_python::bind_robots(module);
     roboss_python::bind_readings(module);
 }

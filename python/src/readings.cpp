@@ -62,9 +62,9 @@ void add(Column& column, T value) {
     add(column, {static_cast<double>(value)});
 }
 
-Result<std::vector<Column>> read_all(LocalRun& run, const std::vector<std::uint32_t>& robots,
-                                     std::size_t sensor) {
-    std::vector<Column> columns;
+/// Adds the readings of the robots of one run.
+Result<> read_all(LocalRun& run, const std::vector<std::uint32_t>& robots, std::size_t sensor,
+                  std::vector<Column>& columns) {
     for (const std::uint32_t robot : robots) {
         const Result<Sample> sample = run.read(RobotId(robot), sensor);
         if (!sample) return sample.error();
@@ -74,7 +74,7 @@ Result<std::vector<Column>> read_all(LocalRun& run, const std::vector<std::uint3
             add(columns[at++], value);
         });
     }
-    return columns;
+    return Ok{};
 }
 
 nb::object to_array(std::vector<double>&& numbers) {
@@ -83,13 +83,19 @@ nb::object to_array(std::vector<double>&& numbers) {
     return nb::cast(nb::ndarray<nb::numpy, double>(kept->data(), {kept->size()}, owner));
 }
 
-/// A list of (name, unit, type, numbers or texts, how many of them each robot has).
-nb::list read(Simulation& simulation, const std::vector<std::uint32_t>& robots, std::size_t sensor) {
-    Result<std::vector<Column>> columns =
-        simulation.without_gil([&](LocalRun& run) { return read_all(run, robots, sensor); });
-    if (!columns) raise("SensorError", columns.error());
+/// A list of (name, unit, type, numbers or texts, how many of them each robot has), simulation by simulation.
+nb::list read(const Simulations& simulations, const std::vector<std::uint32_t>& robots, std::size_t sensor) {
+    std::vector<LocalRun*> runs;
+    for (const auto& simulation : simulations) runs.push_back(&simulation->run());
+    std::vector<Column> columns;
+    const Result<> done = without_gil(simulations, [&]() -> Result<> {
+        for (LocalRun* run : runs)
+            if (Result<> one = read_all(*run, robots, sensor, columns); !one) return one;
+        return Ok{};
+    });
+    if (!done) raise("SensorError", done.error());
     nb::list result;
-    for (Column& column : columns.value()) {
+    for (Column& column : columns) {
         const bool is_text = std::string(column.type) == "text";
         const nb::object values = is_text ? nb::cast(column.texts) : to_array(std::move(column.numbers));
         result.append(nb::make_tuple(column.name, column.unit, column.type, values, column.counts));
@@ -100,7 +106,7 @@ nb::list read(Simulation& simulation, const std::vector<std::uint32_t>& robots, 
 }  // namespace
 
 void bind_readings(nb::module_& module) {
-    module.def("read", &read, nb::arg("simulation"), nb::arg("robots"), nb::arg("sensor"));
+    module.def("read", &read, nb::arg("simulations"), nb::arg("robots"), nb::arg("sensor"));
 }
 
 }  // namespace roboss_python

@@ -26,10 +26,18 @@ std::span<const double> numbers(const In& array) {
     return {array.data(), array.size()};
 }
 
-/// Some robots, and the Simulation that they are in.
+/// Some robots, and the simulations of one world that they are in.
 struct Robots {
-    std::shared_ptr<Simulation> simulation;
+    Simulations simulations;
     RobotSet set;
+
+    /// Calls visit(run, part) with each run and its part of the array.
+    template <class T, class Visit>
+    void for_each(std::span<T> array, Visit visit) const {
+        const std::size_t part = array.size() / std::max<std::size_t>(1, simulations.size());
+        for (std::size_t i = 0; i < simulations.size(); ++i)
+            visit(simulations[i]->run(), array.subspan(i * part, part));
+    }
 };
 
 void raise_if_refused(const Result<>& result) {
@@ -39,25 +47,30 @@ void raise_if_refused(const Result<>& result) {
 /// A method that fills an array: the method of RobotSet, called with the run.
 template <void (RobotSet::*Read)(const LocalRun&, std::span<double>) const>
 void fill(Robots& robots, const Out& out) {
-    (robots.set.*Read)(robots.simulation->run(), numbers(out));
+    robots.for_each(numbers(out),
+                    [&](LocalRun& run, std::span<double> part) { (robots.set.*Read)(run, part); });
 }
 
 template <void (RobotSet::*Read)(const LocalRun&, LinkId, std::span<double>) const>
 void fill_link(Robots& robots, std::uint32_t link, const Out& out) {
-    (robots.set.*Read)(robots.simulation->run(), LinkId(link), numbers(out));
+    robots.for_each(numbers(out), [&](LocalRun& run, std::span<double> part) {
+        (robots.set.*Read)(run, LinkId(link), part);
+    });
 }
 
 /// A method that sets something from an array.
 template <Result<> (RobotSet::*Set)(LocalRun&, std::span<const double>) const>
 void set(Robots& robots, const In& values) {
-    raise_if_refused((robots.set.*Set)(robots.simulation->run(), numbers(values)));
+    robots.for_each(numbers(values), [&](LocalRun& run, std::span<const double> part) {
+        raise_if_refused((robots.set.*Set)(run, part));
+    });
 }
 
-Robots make(std::shared_ptr<Simulation> simulation, const std::vector<std::uint32_t>& ids) {
+Robots make(Simulations simulations, const std::vector<std::uint32_t>& ids) {
     std::vector<RobotId> robots;
     for (const std::uint32_t id : ids) robots.emplace_back(id);
-    RobotSet set(simulation->model(), std::move(robots));
-    return {std::move(simulation), std::move(set)};
+    RobotSet set(simulations.front()->model(), std::move(robots));
+    return {std::move(simulations), std::move(set)};
 }
 
 }  // namespace
@@ -78,24 +91,29 @@ void bind_robots(nb::module_& module) {
             "set_joints",
             [](Robots& r, const std::vector<std::size_t>& columns, std::uint32_t mode, const In& targets,
                double max_effort) {
-                raise_if_refused(r.set.set_joints(r.simulation->run(), columns, static_cast<MotorMode>(mode),
-                                                  numbers(targets), max_effort));
+                r.for_each(numbers(targets), [&](LocalRun& run, std::span<const double> part) {
+                    raise_if_refused(
+                        r.set.set_joints(run, columns, static_cast<MotorMode>(mode), part, max_effort));
+                });
             },
             nb::arg("columns"), nb::arg("mode"), nb::arg("targets"), nb::arg("max_effort"))
         .def(
             "apply_wrenches",
             [](Robots& r, std::uint32_t link, const In& wrenches, Tick ticks) {
-                raise_if_refused(
-                    r.set.apply_wrenches(r.simulation->run(), LinkId(link), numbers(wrenches), ticks));
+                r.for_each(numbers(wrenches), [&](LocalRun& run, std::span<const double> part) {
+                    raise_if_refused(r.set.apply_wrenches(run, LinkId(link), part, ticks));
+                });
             },
             nb::arg("link"), nb::arg("wrenches"), nb::arg("ticks"))
         .def(
             "command",
             [](Robots& r, std::size_t channel, std::size_t values, const In& rows) {
-                raise_if_refused(r.set.command(r.simulation->run(), channel, values, numbers(rows)));
+                r.for_each(numbers(rows), [&](LocalRun& run, std::span<const double> part) {
+                    raise_if_refused(r.set.command(run, channel, values, part));
+                });
             },
             nb::arg("channel"), nb::arg("values"), nb::arg("rows"));
-    module.def("robots", &make, nb::arg("simulation"), nb::arg("ids"));
+    module.def("robots", &make, nb::arg("simulations"), nb::arg("ids"));
 }
 
 }  // namespace roboss_python

@@ -6,7 +6,6 @@
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 
-#include <chrono>
 #include <cinttypes>
 #include <cstdio>
 
@@ -48,11 +47,11 @@ ContactRow row_of(const ContactReport& contact, double dt_s) {
     return row;
 }
 
-nb::ndarray<nb::numpy, std::uint8_t> contacts(Simulation& simulation) {
-    const std::span<const ContactReport> all =
-        simulation.without_gil([](LocalRun& run) { return run.contacts(); });
+nb::ndarray<nb::numpy, std::uint8_t> contacts(const std::shared_ptr<Simulation>& simulation) {
+    LocalRun& run = simulation->run();
+    const std::span<const ContactReport> all = without_gil({simulation}, [&] { return run.contacts(); });
     auto rows = std::make_unique<std::vector<ContactRow>>();
-    for (const ContactReport& contact : all) rows->push_back(row_of(contact, simulation.model()->dt_s));
+    for (const ContactReport& contact : all) rows->push_back(row_of(contact, simulation->model()->dt_s));
     const std::size_t bytes = rows->size() * sizeof(ContactRow);
     auto* const data = reinterpret_cast<std::uint8_t*>(rows->data());
     const nb::capsule owner(rows.release(),
@@ -60,23 +59,12 @@ nb::ndarray<nb::numpy, std::uint8_t> contacts(Simulation& simulation) {
     return {data, {bytes}, owner};
 }
 
-/// Steps in parts that take about a tenth of a second, so that Ctrl-C is obeyed between them. No bit depends
-/// on the parts.
-void step(Simulation& simulation, Tick ticks) {
-    if (ticks < 0)
-        raise("ArgumentError",
-              {"a step of " + std::to_string(ticks) + " ticks", "give 0 or more", "bad-ticks"});
-    Tick part = 16;
-    while (ticks > 0) {
-        const Tick now = std::min(part, ticks);
-        const auto start = std::chrono::steady_clock::now();
-        const Result<> stepped = simulation.without_gil([&](LocalRun& run) { return run.step(now); });
+void step(const std::shared_ptr<Simulation>& simulation, Tick ticks) {
+    LocalRun& run = simulation->run();
+    step_in_parts(ticks, [&](Tick part) {
+        const Result<> stepped = without_gil({simulation}, [&] { return run.step(part); });
         if (!stepped) raise("StateError", stepped.error());
-        if (PyErr_CheckSignals() != 0) throw nb::python_error();
-        ticks -= now;
-        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-        if (took.count() < 0.05) part *= 2;
-    }
+    });
 }
 
 std::string hash_of(Simulation& simulation) {
@@ -104,7 +92,9 @@ void bind_simulation(nb::module_& module) {
         .def(
             "__init__",
             [](Simulation* self, std::shared_ptr<const Model> model, unsigned threads, std::uint64_t seed) {
-                new (self) Simulation(std::move(model), {.threads = threads, .seed = seed});
+                std::shared_ptr<LocalRun> run =
+                    value_or_raise(LocalRun::create(model, {.threads = threads, .seed = seed}), "WorldError");
+                new (self) Simulation(std::move(model), std::move(run));
             },
             nb::arg("model"), nb::arg("threads"), nb::arg("seed"))
         .def("step", &step, nb::arg("ticks"))

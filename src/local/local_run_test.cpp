@@ -7,6 +7,7 @@
 #include <support/robots.h>
 #include <support/simulation.h>
 
+#include "local/local_batch.h"
 #include "local/robot_set.h"
 
 namespace roboss {
@@ -188,6 +189,31 @@ TEST(LocalRun, RefusesJointsThatCannotBeSet) {
     EXPECT_EQ(run->change_joint(car, wheel, 1, 1.0, {}).error().code, "no-axis");
     EXPECT_EQ(run->change_joint(car, wheel, 0, 1e10, {}).error().code, "beyond-limit");
     EXPECT_EQ(run->change_joint(car, wheel, 0, {}, NAN).error().code, "not-finite");
+}
+
+TEST(LocalBatch, EachRunGoesItsOwnWayWithTheBitsOfARunAlone) {
+    const auto model = crowd(6);
+    const RobotSet cars = all_of(model);
+    const std::unique_ptr<LocalBatch> batch =
+        LocalBatch::create(model, 5, {.threads = 3, .seed = 10}).value();
+    const auto push = [&](LocalRun& run, std::size_t i) {
+        EXPECT_TRUE(run.order(RobotId(i), ApplyWrench{LinkId(0U), {100, 0, 50}, {}, 20}).ok());
+    };
+    for (std::size_t i = 0; i < 5; ++i) push(batch->run(i), i);
+    LocalSave save = batch->run(2).save();
+    save.states[0].v[0] = 1e150;  // this run ends at once
+    ASSERT_TRUE(batch->run(2).restore(save).ok());
+    const std::vector<Result<>> results = batch->step(150);
+    for (std::size_t i = 0; i < 5; ++i) {
+        EXPECT_EQ(batch->run(i).seed(), 10 + i);
+        EXPECT_EQ(results[i].ok(), i != 2);
+        if (i == 2) continue;
+        const auto alone = run_of(model);
+        push(*alone, i);
+        ASSERT_TRUE(alone->step(150).ok());
+        EXPECT_EQ(batch->run(i).hash(), alone->hash());
+    }
+    EXPECT_LT(batch->run(2).tick(), 150);
 }
 
 TEST(RobotSet, SetsJointsAtOnceAndForAllRobotsOrNone) {
