@@ -16,8 +16,9 @@ all arrays. The result is the same to the last bit for any number of threads, an
 """
 from ._core import Diagnostic, Save
 from .batch import Batch
-from .errors import (ArgumentError, OrderError, RobossError, SaveError, SensorError, StateError, UnknownNameError,
-                     WorldError, WorldWarning)
+from .errors import (ArgumentError, JournalError, OrderError, RobossError, SaveError, SensorError, StateError,
+                     UnknownNameError, WorldError, WorldWarning)
+from .journal import Journal
 from .robots import Robots
 from .sensors import Sensor
 from .simulation import CONTACT, Simulation
@@ -25,7 +26,7 @@ from .world import World, example, load
 
 __version__ = "0.1.0"
 __all__ = [
-    "ArgumentError", "Batch", "CONTACT", "Diagnostic", "OrderError", "RobossError", "Robots", "Save", "SaveError", "Sensor",
-    "SensorError", "Simulation", "StateError", "UnknownNameError", "World", "WorldError", "WorldWarning", "example",
-    "load",
+    "ArgumentError", "Batch", "CONTACT", "Diagnostic", "Journal", "JournalError", "OrderError", "RobossError", "Robots",
+    "Save", "SaveError", "Sensor", "SensorError", "Simulation", "StateError", "UnknownNameError", "World", "WorldError",
+    "WorldWarning", "example", "load",
 ]

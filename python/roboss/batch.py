@@ -81,10 +81,7 @@ class Batch:
         return self._shape[0]
 
     def __getitem__(self, number: int) -> Simulation:
-        simulation = Simulation.__new__(Simulation)
-        simulation.world = self.world
-        simulation._take(self._simulations[number])
-        return simulation
+        return Simulation._of(self.world, self._simulations[number])
 
     def __repr__(self) -> str:
         return f"<roboss.Batch of {len(self)} simulations of '{self.world.name}'>"

@@ -52,6 +52,10 @@ class SaveError(RobossError, ValueError):
     """A saved state that belongs to another world."""
 
 
+class JournalError(RobossError, ValueError):
+    """A journal that cannot be read, or does not have a time."""
+
+
 class StateError(RobossError, RuntimeError):
     """The world cannot be stepped further, or another thread is using it."""
 

@@ -52,6 +52,14 @@ class Simulation:
         self.world: World = world if isinstance(world, World) else load(world)  #: that it simulates
         self._take(_core.Simulation(self.world._model, threads_or_all(threads), seed))
 
+    @classmethod
+    def _of(cls, world: World, core: _core.Simulation) -> Simulation:
+        """The simulation of a world that is there already."""
+        simulation = cls.__new__(cls)
+        simulation.world = world
+        simulation._take(core)
+        return simulation
+
     def _take(self, core: _core.Simulation) -> None:
         self._core, self._simulations, self._shape = core, [core], ()
 

@@ -7,6 +7,7 @@ namespace roboss_python {
 
 void bind_world(nanobind::module_& module);
 void bind_simulation(nanobind::module_& module);
+void bind_journal(nanobind::module_& module);
 void bind_batch(nanobind::module_& module);
 void bind_robots(nanobind::module_& module);
 void bind_readings(nanobind::module_& module);
