@@ -17,7 +17,7 @@ from .world import World, load
 class Batch:
     """`count` simulations of one world, each stepped by one thread at a time: for learning and sampling.
 
-    `batch[i]` is a Simulation like any other: it can be stepped, saved, reset by itself. `len(batch)` is their number B.
+    `batch[i]` is a Simulation like any other: it can be stepped, saved, reset by itself. Their number is B, `len(batch)`.
 
     Args:
         world: a World, or what `load` takes.
@@ -36,7 +36,8 @@ class Batch:
     array([0., 1., 2., 3.])
     """
 
-    def __init__(self, world: Union[World, str, os.PathLike], count: int, *, threads: Optional[int] = None, seed: int = 0):
+    def __init__(self, world: Union[World, str, os.PathLike], count: int, *, threads: Optional[int] = None,
+                 seed: int = 0):
         if count < 1:
             raise ArgumentError(f"a batch of {count} simulations", "give 1 or more")
         self.world: World = world if isinstance(world, World) else load(world)  #: that they simulate

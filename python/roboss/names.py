@@ -43,7 +43,7 @@ def filled(what: str, values: ArrayLike, shape: tuple[int, ...]) -> NDArray[np.f
     if array.shape != shape:
         wanted = shape[len(shape) - array.ndim:]
         if array.ndim > len(shape) or any(have not in (1, want) for have, want in zip(array.shape, wanted)):
-            raise ArgumentError(f"{what}: an array of shape {array.shape}; it takes {shape}, one row of {shape[-1]} for "
-                                "all robots, or one number", code="bad-shape")
+            raise ArgumentError(f"{what}: an array of shape {array.shape}; it takes {shape}, one row of {shape[-1]} "
+                                "for all robots, or one number", code="bad-shape")
         array = np.broadcast_to(array, shape)
     return np.ascontiguousarray(array)

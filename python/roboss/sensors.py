@@ -51,8 +51,8 @@ class Sensor:
         """All values by name, with noise, at this tick. Units: docs/sensors.md.
 
         Numbers and vectors have robots as the first axis; quaternions are named "..._quat_xyzw". Where robots have
-        different numbers of values (contact points), it is a list with an array for each robot (of a Batch: of the first
-        simulation, then of the second ...).
+        different numbers of values (contact points), it is a list with an array for each robot (of a Batch: of the
+        first simulation, then of the second ...).
 
         >>> cars = roboss.Simulation(roboss.example("city.sdf")).robots("car_*")
         >>> reading = cars["compass"].read_all()
@@ -88,4 +88,4 @@ class Sensor:
             return name, [part.reshape(-1, width) if width > 1 else part for part in parts]
         if kind in ("float", "int", "bool"):
             return name, values.reshape(lead)
-        return name, values.reshape(*lead, counts[0]) if width == 1 else values.reshape(*lead, counts[0] // width, width)
+        return name, values.reshape(*lead, *((counts[0],) if width == 1 else (counts[0] // width, width)))

@@ -64,7 +64,7 @@ class Simulation:
         self._core, self._simulations, self._shape = core, [core], ()
 
     def step(self, ticks: int = 1) -> None:
-        """Advances the world by `ticks` time steps of `dt`. Other threads of Python run meanwhile; Ctrl-C ends it early.
+        """Advances the world by `ticks` time steps of `dt`. Other threads of Python run meanwhile; Ctrl-C ends it.
 
         Raises:
             StateError: a state would become infinite (code "not-finite"). The text names robot and joint; the world
