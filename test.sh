@@ -9,7 +9,7 @@ if [[ ${1:-} == --browser ]]; then
     labels=(-L browser)
     shift
 fi
-tools/setup.sh build test
+tools/setup.sh build test python
 tools/build.sh release -DROBOSS_TESTS=ON
 results=$PWD/build/release/test_results.xml
 rm -f "$results"

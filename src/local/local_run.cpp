@@ -2,8 +2,11 @@
 #include "local/local_run.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include "model/topics.h"
+#include "world/joint_type.h"
 
 namespace roboss {
 
@@ -76,6 +79,64 @@ Result<> LocalRun::order(RobotId robot, const Action& action) {
     Result<> done = submit({tick_, ClientId(0U), given_, robot, action});
     if (done) ++given_;
     return done;
+}
+
+Result<> LocalRun::order(std::vector<Order> orders) {
+    std::uint64_t sequence = given_;
+    for (Order& order : orders) {
+        order.apply_at = tick_, order.client = ClientId(0U), order.sequence = sequence++;
+        if (Result<> checked = check_order(*model_, order); !checked) return checked;
+    }
+    given_ = sequence;
+    const auto at =
+        orders.empty() ? orders_.end() : std::ranges::upper_bound(orders_, orders.front(), comes_before);
+    orders_.insert(at, std::make_move_iterator(orders.begin()), std::make_move_iterator(orders.end()));
+    return Ok{};
+}
+
+Result<> LocalRun::change(RobotId robot, const Action& action) {
+    const Order now{tick_, ClientId(0U), given_, robot, action};
+    if (Result<> checked = check_order(*model_, now); !checked) return checked;
+    apply_order(*model_, now, states_[robot.index()]);
+    stepper_.forget();
+    changed();
+    return Ok{};
+}
+
+Result<> LocalRun::check_joint_change(RobotId robot, JointId id, int axis, std::optional<double> position,
+                                      std::optional<double> velocity) const {
+    // What an order of a velocity may be, a velocity may be.
+    const SetJoint like{id, axis, MotorMode::kVelocity, velocity.value_or(0)};
+    if (Result<> checked = check_order(*model_, {tick_, ClientId(0U), 0, robot, like}); !checked)
+        return checked;
+    const Joint& joint = model_->type_of(robot).joints[id.index()];
+    const std::string what =
+        "joint '" + joint.name + "' of robot '" + model_->robots[robot.index()].name + "'";
+    if (joint.loop >= 0)
+        return Error{what + " closes a loop: its state follows from the other joints", "set those",
+                     "loop-joint"};
+    if (!position) return Ok{};
+    if (joint_type(joint.kind).is_isotropic())
+        return Error{what + " is a ball joint, whose axes cannot be set one by one", "set its velocity",
+                     "no-position"};
+    if (!std::isfinite(*position) || std::fabs(*position) > kOrderLimits.position)
+        return Error{"the position of " + what + " is not finite, or beyond 1e9 rad or m",
+                     "give a finite number", "beyond-limit"};
+    return Ok{};
+}
+
+Result<> LocalRun::change_joint(RobotId robot, JointId id, int axis, std::optional<double> position,
+                                std::optional<double> velocity) {
+    if (Result<> checked = check_joint_change(robot, id, axis, position, velocity); !checked) return checked;
+    const Joint& joint = model_->type_of(robot).joints[id.index()];
+    const int offset = joint.axis_offset(axis);
+    RobotState& state = states_[robot.index()];
+    state.rest = {};
+    if (position) state.q[static_cast<std::size_t>(joint.q_index + offset)] = *position;
+    if (velocity) state.v[static_cast<std::size_t>(joint.v_index + offset)] = *velocity;
+    stepper_.forget();
+    changed();
+    return Ok{};
 }
 
 Result<> LocalRun::submit(const Order& order) {

@@ -64,6 +64,20 @@ class LocalRun : private SensorSources {
     /// Takes effect at the beginning of the next tick that is stepped, in the order in which they were given.
     /// An Error says why check_order() refuses it.
     Result<> order(RobotId robot, const Action& action);
+    /// Orders for several robots, as order(), or, if one is refused, none; their ticks, Clients and sequences
+    /// do not count.
+    Result<> order(std::vector<Order> orders);
+    /// As order(), but at once: state() shows what it did. Orders that wait for the next tick follow it, also
+    /// those given before.
+    Result<> change(RobotId robot, const Action& action);
+    /// Puts one axis of a joint at a position (rad or m), or gives it a velocity (rad/s or m/s), at once. An
+    /// Error: there is no such robot, joint or axis; it closes a loop ("loop-joint"), or is a ball joint with
+    /// a position ("no-position"); the number is not finite or too large.
+    Result<> change_joint(RobotId robot, JointId joint, int axis, std::optional<double> position,
+                          std::optional<double> velocity);
+    /// Why change_joint() would refuse.
+    Result<> check_joint_change(RobotId robot, JointId joint, int axis, std::optional<double> position,
+                                std::optional<double> velocity) const;
     /// An order with a tick, tick() or later, as from a file. Those of a tick are sorted by (Client,
     /// sequence); those of order() are Client 0.
     Result<> submit(const Order& order);

@@ -1,10 +1,13 @@
 // LocalRun and RobotSet: exact save and restore, resets, orders, errors that leave the world intact, arrays.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <support/bodies.h>
 #include <support/robots.h>
 #include <support/simulation.h>
 
+#include "local/local_batch.h"
 #include "local/robot_set.h"
 
 namespace roboss {
@@ -155,6 +158,101 @@ TEST(LocalRun, TellsOfContactsAtItsTick) {
     double impulse = 0;
     for (const ContactReport& contact : run->contacts()) impulse += contact.impulse;
     EXPECT_NEAR(impulse, 6.2 * 9.8 * run->model().dt_s, 1e-3);  // the car's weight over a tick
+}
+
+TEST(LocalRun, ChangesAtOnceWhatAnOrderChangesAtTheNextTick) {
+    const auto model = crowd(12);
+    const Pose over{{0.6, 0, 0.4}, normalized(Quat{1, 0, 0.2, 0.1})};  // above another car
+    for (const unsigned threads : {1U, 3U}) {
+        const auto now = run_of(model, threads), later = run_of(model, threads);
+        for (LocalRun* run : {now.get(), later.get()}) {
+            drive(*run, all_of(model));
+            ASSERT_TRUE(run->step(30).ok());
+        }
+        for (const Action& action : {Action{SetPose{over}}, Action{SetVelocity{{0, 1, -2}, {3, 0, 0}}}}) {
+            ASSERT_TRUE(now->change(RobotId(5U), action).ok());
+            ASSERT_TRUE(later->order(RobotId(5U), action).ok());
+        }
+        EXPECT_NE(now->hash(), later->hash());
+        ASSERT_TRUE(now->step(40).ok());
+        ASSERT_TRUE(later->step(40).ok());
+        EXPECT_EQ(now->hash(), later->hash()) << threads;
+    }
+}
+
+TEST(LocalRun, RefusesJointsThatCannotBeSet) {
+    const auto run = run_of(crowd(1));
+    const RobotId car(0U);
+    const JointId wheel(0U);
+    EXPECT_EQ(run->change_joint(RobotId(1U), wheel, 0, 1.0, {}).error().code, "no-robot");
+    EXPECT_EQ(run->change_joint(car, JointId(9U), 0, 1.0, {}).error().code, "no-joint");
+    EXPECT_EQ(run->change_joint(car, wheel, 1, 1.0, {}).error().code, "no-axis");
+    EXPECT_EQ(run->change_joint(car, wheel, 0, 1e10, {}).error().code, "beyond-limit");
+    EXPECT_EQ(run->change_joint(car, wheel, 0, {}, NAN).error().code, "not-finite");
+}
+
+TEST(LocalBatch, EachRunGoesItsOwnWayWithTheBitsOfARunAlone) {
+    const auto model = crowd(6);
+    const RobotSet cars = all_of(model);
+    const std::unique_ptr<LocalBatch> batch =
+        LocalBatch::create(model, 5, {.threads = 3, .seed = 10}).value();
+    const auto push = [&](LocalRun& run, std::size_t i) {
+        EXPECT_TRUE(run.order(RobotId(i), ApplyWrench{LinkId(0U), {100, 0, 50}, {}, 20}).ok());
+    };
+    for (std::size_t i = 0; i < 5; ++i) push(batch->run(i), i);
+    LocalSave save = batch->run(2).save();
+    save.states[0].v[0] = 1e150;  // this run ends at once
+    ASSERT_TRUE(batch->run(2).restore(save).ok());
+    const std::vector<Result<>> results = batch->step(150);
+    for (std::size_t i = 0; i < 5; ++i) {
+        EXPECT_EQ(batch->run(i).seed(), 10 + i);
+        EXPECT_EQ(results[i].ok(), i != 2);
+        if (i == 2) continue;
+        const auto alone = run_of(model);
+        push(*alone, i);
+        ASSERT_TRUE(alone->step(150).ok());
+        EXPECT_EQ(batch->run(i).hash(), alone->hash());
+    }
+    EXPECT_LT(batch->run(2).tick(), 150);
+}
+
+TEST(RobotSet, SetsJointsAtOnceAndForAllRobotsOrNone) {
+    const auto model = crowd(2);
+    const auto run = run_of(model);
+    const RobotSet cars = all_of(model);
+    const std::vector<double> angles{1, 2, 3, 4, 5, 6, 7, 8};
+    std::vector<double> now(8);
+    ASSERT_TRUE(cars.set_joint_positions(*run, angles).ok());
+    cars.joint_positions(*run, now);
+    EXPECT_EQ(now, angles);
+    ASSERT_TRUE(cars.set_joint_velocities(*run, angles).ok());
+    cars.joint_velocities(*run, now);
+    EXPECT_EQ(now, angles);
+    std::vector<double> bad(8, 0.5);
+    bad[7] = NAN;
+    EXPECT_EQ(cars.set_joint_positions(*run, bad).error().code, "beyond-limit");
+    cars.joint_positions(*run, now);
+    EXPECT_EQ(now, angles);
+    bad.assign(14, 0.25);
+    bad[13] = 0, bad[12] = bad[11] = bad[10] = 0;  // no rotation
+    const std::uint64_t hash = run->hash();
+    EXPECT_EQ(cars.set_poses(*run, bad).error().code, "not-finite");
+    EXPECT_EQ(run->hash(), hash);
+}
+
+TEST(RobotSet, GivesPosesAndTwistsOfLinks) {
+    const auto model = crowd(2);
+    const auto run = run_of(model);
+    const RobotSet cars = all_of(model);
+    const LinkId wheel = *cars.type()->find_link(cars.type()->links[1].name);
+    std::vector<double> poses(14), link(14), twists(12);
+    cars.poses(*run, poses);
+    cars.link_poses(*run, wheel, link);
+    EXPECT_NEAR(link[7] - link[0], 0.6, 1e-12);  // the cars' distance
+    EXPECT_NE(link[1], poses[1]);
+    ASSERT_TRUE(cars.set_twists(*run, std::vector<double>{1, 2, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0}).ok());
+    cars.link_twists(*run, wheel, twists);
+    EXPECT_NEAR(twists[2], 3, 1e-12);
 }
 
 TEST(RobotSet, GivesPosesTwistsAndJointsAndTakesThem) {

@@ -28,6 +28,25 @@ std::vector<JointAxis> axes_of(const RobotType& type) {
     return axes;
 }
 
+void put(double* out, const Vec3& p, const Quat& q) {
+    put(out, p);
+    out[3] = q.x, out[4] = q.y, out[5] = q.z, out[6] = q.w;
+}
+
+/// Calls change(run, robot, axis, value, check) for each axis of each robot: first, with `check`, to learn
+/// whether it would be refused.
+template <class Change>
+Result<> change_joints(const RobotSet& set, LocalRun& run, std::span<const double> values, Change change) {
+    ROBOSS_CHECK(values.size() == set.size() * set.axes().size(), std::to_string(values.size()) + " numbers");
+    for (const bool check : {true, false}) {
+        const double* from = values.data();
+        for (const RobotId robot : set.robots())
+            for (const JointAxis& axis : set.axes())
+                if (Result<> done = change(run, robot, axis, *from++, check); !done) return done;
+    }
+    return Ok{};
+}
+
 /// One value of each axis of each robot, row by row.
 void read_joints(const RobotSet& set, const LocalRun& run, double JointState::*value, std::span<double> out) {
     ROBOSS_CHECK(out.size() == set.size() * set.axes().size(), std::to_string(out.size()) + " numbers");
@@ -60,9 +79,7 @@ void RobotSet::poses(const LocalRun& run, std::span<double> out) const {
     for (std::size_t i = 0; i < size(); ++i) {
         const RobotType& type = model_->type_of(robots_[i]);
         const Pose X_WR = base_pose(run.state(robots_[i])) * inverse(to_pose(type.X_RB));
-        double* to = row(out, i, kPoseColumns);
-        put(to, X_WR.p);
-        to[3] = X_WR.q.x, to[4] = X_WR.q.y, to[5] = X_WR.q.z, to[6] = X_WR.q.w;
+        put(row(out, i, kPoseColumns), X_WR.p, X_WR.q);
     }
 }
 
@@ -76,6 +93,22 @@ void RobotSet::twists(const LocalRun& run, std::span<double> out) const {
     }
 }
 
+void RobotSet::link_poses(const LocalRun& run, LinkId link, std::span<double> out) const {
+    for (std::size_t i = 0; i < size(); ++i) {
+        const Transform X_WL = link_pose(*type_, run.state(robots_[i]), link);
+        put(row(out, i, kPoseColumns), X_WL.p, to_quat(X_WL.R));
+    }
+}
+
+void RobotSet::link_twists(const LocalRun& run, LinkId link, std::span<double> out) const {
+    for (std::size_t i = 0; i < size(); ++i) {
+        const Twist twist = link_twist(*type_, run.state(robots_[i]), link);
+        double* to = row(out, i, kTwistColumns);
+        put(to, twist.linear);
+        put(to + 3, twist.angular);
+    }
+}
+
 void RobotSet::joint_positions(const LocalRun& run, std::span<double> out) const {
     read_joints(*this, run, &JointState::position, out);
 }
@@ -84,17 +117,28 @@ void RobotSet::joint_velocities(const LocalRun& run, std::span<double> out) cons
     read_joints(*this, run, &JointState::velocity, out);
 }
 
-Result<> RobotSet::give(LocalRun& run, const std::function<Action(std::size_t row)>& action) const {
+Result<> RobotSet::give(LocalRun& run, std::size_t orders_per_row, const ActionOfRow& action) const {
+    std::vector<Order> orders;
+    orders.reserve(size() * orders_per_row);
     for (std::size_t i = 0; i < size(); ++i)
-        if (Result<> given = run.order(robots_[i], action(i)); !given)
-            return Error{"robot '" + model_->robots[robots_[i].index()].name + "': " + given.error().message,
-                         given.error().remedy, given.error().code};
+        for (std::size_t k = 0; k < orders_per_row; ++k)
+            orders.push_back({0, ClientId(0U), 0, robots_[i], action(i, k)});
+    return run.order(std::move(orders));
+}
+
+Result<> RobotSet::change(LocalRun& run, const ActionOfRow& action) const {
+    for (std::size_t i = 0; i < size(); ++i)
+        if (Result<> fine = check_order(*model_, {run.tick(), ClientId(0U), 0, robots_[i], action(i, 0)});
+            !fine)
+            return fine;
+    for (std::size_t i = 0; i < size(); ++i)
+        if (Result<> done = run.change(robots_[i], action(i, 0)); !done) return done;
     return Ok{};
 }
 
 Result<> RobotSet::set_poses(LocalRun& run, std::span<const double> poses) const {
     ROBOSS_CHECK(poses.size() == size() * kPoseColumns, std::to_string(poses.size()) + " numbers");
-    return give(run, [&](std::size_t i) {
+    return change(run, [&](std::size_t i, std::size_t) {
         const double* at = &poses[i * kPoseColumns];
         return SetPose{{vec3(at), normalized(Quat{at[6], at[3], at[4], at[5]})}};
     });
@@ -102,29 +146,41 @@ Result<> RobotSet::set_poses(LocalRun& run, std::span<const double> poses) const
 
 Result<> RobotSet::set_twists(LocalRun& run, std::span<const double> twists) const {
     ROBOSS_CHECK(twists.size() == size() * kTwistColumns, std::to_string(twists.size()) + " numbers");
-    return give(run, [&](std::size_t i) {
+    return change(run, [&](std::size_t i, std::size_t) {
         const double* at = &twists[i * kTwistColumns];
         return SetVelocity{vec3(at), vec3(at + 3)};
     });
 }
 
+Result<> RobotSet::set_joint_positions(LocalRun& run, std::span<const double> positions) const {
+    return change_joints(*this, run, positions,
+                         [](LocalRun& r, RobotId robot, const JointAxis& a, double x, bool check) {
+                             return check ? r.check_joint_change(robot, a.joint, a.axis, x, {})
+                                          : r.change_joint(robot, a.joint, a.axis, x, {});
+                         });
+}
+
+Result<> RobotSet::set_joint_velocities(LocalRun& run, std::span<const double> velocities) const {
+    return change_joints(*this, run, velocities,
+                         [](LocalRun& r, RobotId robot, const JointAxis& a, double x, bool check) {
+                             return check ? r.check_joint_change(robot, a.joint, a.axis, {}, x)
+                                          : r.change_joint(robot, a.joint, a.axis, {}, x);
+                         });
+}
+
 Result<> RobotSet::set_joints(LocalRun& run, std::span<const std::size_t> columns, MotorMode mode,
                               std::span<const double> targets, double max_effort) const {
     ROBOSS_CHECK(targets.size() == size() * columns.size(), std::to_string(targets.size()) + " numbers");
-    for (std::size_t k = 0; k < columns.size(); ++k) {
+    return give(run, columns.size(), [&](std::size_t i, std::size_t k) {
         const JointAxis& axis = axes_[columns[k]];
-        Result<> given = give(run, [&](std::size_t i) {
-            return SetJoint{axis.joint, axis.axis, mode, targets[i * columns.size() + k], max_effort};
-        });
-        if (!given) return given;
-    }
-    return Ok{};
+        return SetJoint{axis.joint, axis.axis, mode, targets[i * columns.size() + k], max_effort};
+    });
 }
 
 Result<> RobotSet::apply_wrenches(LocalRun& run, LinkId link, std::span<const double> wrenches,
                                   Tick ticks) const {
     ROBOSS_CHECK(wrenches.size() == size() * 6, std::to_string(wrenches.size()) + " numbers");
-    return give(run, [&](std::size_t i) {
+    return give(run, 1, [&](std::size_t i, std::size_t) {
         return ApplyWrench{link, vec3(&wrenches[i * 6]), vec3(&wrenches[i * 6 + 3]), ticks};
     });
 }
@@ -132,7 +188,7 @@ Result<> RobotSet::apply_wrenches(LocalRun& run, LinkId link, std::span<const do
 Result<> RobotSet::command(LocalRun& run, std::size_t channel, std::size_t values,
                            std::span<const double> rows) const {
     ROBOSS_CHECK(rows.size() == size() * values, std::to_string(rows.size()) + " numbers");
-    return give(run, [&](std::size_t i) {
+    return give(run, 1, [&](std::size_t i, std::size_t) {
         const std::span<const double> row = rows.subspan(i * values, values);
         return Command{static_cast<std::uint32_t>(channel), {row.begin(), row.end()}};
     });

@@ -18,8 +18,8 @@ struct JointAxis {
     std::string name;  ///< the joint's; with several axes "NAME:0", "NAME:1" ...
 };
 
-/// See the top of the file. Orders of a call are given to all robots or, at the first that is refused, to
-/// none behind it.
+/// See the top of the file. A call that sets or orders something does it for all robots, or, if one of them
+/// refuses, for none.
 class RobotSet {
   public:
     static constexpr std::size_t kPoseColumns = 7,  ///< x y z, quaternion x y z w
@@ -42,15 +42,28 @@ class RobotSet {
     /// Velocities of the bases, size() x kTwistColumns: m/s of the base's origin, rad/s. Zero where the base
     /// is fixed.
     void twists(const LocalRun& run, std::span<double> out) const;
+    /// Poses of a link's frame of each robot in the world, as poses().
+    void link_poses(const LocalRun& run, LinkId link, std::span<double> out) const;
+    /// Velocities of a link's frame at its origin, as twists().
+    void link_twists(const LocalRun& run, LinkId link, std::span<double> out) const;
     /// Positions of the joints, size() x axes(): rad or m.
     void joint_positions(const LocalRun& run, std::span<double> out) const;
     /// Velocities of the joints, size() x axes(): rad/s or m/s.
     void joint_velocities(const LocalRun& run, std::span<double> out) const;
 
+    // What sets a state does so at once (LocalRun::change()).
+
     /// Puts the robots at poses as poses() gives them; quaternions are normalised.
     Result<> set_poses(LocalRun& run, std::span<const double> poses) const;
+    /// Positions of the joints, as joint_positions() gives them.
+    Result<> set_joint_positions(LocalRun& run, std::span<const double> positions) const;
+    /// Velocities of the joints, as joint_velocities() gives them.
+    Result<> set_joint_velocities(LocalRun& run, std::span<const double> velocities) const;
     /// Sets velocities as twists() gives them.
     Result<> set_twists(LocalRun& run, std::span<const double> twists) const;
+
+    // What follows are orders: they take effect at the beginning of the next tick.
+
     /// Setpoints of some axes, size() x columns.size(). A negative max_effort: the joint's own bound.
     Result<> set_joints(LocalRun& run, std::span<const std::size_t> columns, MotorMode mode,
                         std::span<const double> targets, double max_effort = -1) const;
@@ -63,7 +76,10 @@ class RobotSet {
 
   private:
     double* row(std::span<double> out, std::size_t robot, std::size_t columns) const;
-    Result<> give(LocalRun& run, const std::function<Action(std::size_t row)>& action) const;
+    /// The action number `k` of a row.
+    using ActionOfRow = std::function<Action(std::size_t row, std::size_t k)>;
+    Result<> give(LocalRun& run, std::size_t orders_per_row, const ActionOfRow& action) const;
+    Result<> change(LocalRun& run, const ActionOfRow& action) const;
 
     std::shared_ptr<const Model> model_;
     std::vector<RobotId> robots_;

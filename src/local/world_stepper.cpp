@@ -24,6 +24,7 @@ WorldStepper::WorldStepper(std::shared_ptr<const Model> model, unsigned threads,
     : model_(std::move(model)), pool_(threads), scratch_(pool_.threads()), forecast_(model_) {
     for (StepScratch& scratch : scratch_) scratch.use_lanes(lanes);
     const std::size_t n = model_->robots.size();
+    in_windows_ = pool_.threads() > 1 && n > 1;
     swept_.resize(n), bounds_.resize(n), efforts_.assign(n, 1.0F), batch_of_.resize(n);
 }
 
@@ -42,14 +43,14 @@ StepOutcome WorldStepper::step(Tick from, Tick until, std::span<const Order> ord
                                std::vector<RobotState>& states) {
     ROBOSS_CHECK(states.size() == model_->robots.size(), std::to_string(states.size()) + " states");
     StepOutcome outcome{.tick = from, .not_finite = {}, .not_finite_joint = {}};
-    const bool windows = pool_.threads() > 1 && states.size() > 1;
     while (outcome.tick < until && !outcome.not_finite.valid()) {
-        const Tick start = outcome.tick, end = std::min(until, start + (windows ? window_ : kBackupTicks));
+        const Tick start = outcome.tick,
+                   end = std::min(until, start + (in_windows_ ? window_ : kBackupTicks));
         const std::span<const Order> due = orders_within(orders, start, end);
-        const bool fresh = windows || backup_.tick < 0 || end - backup_.tick > kBackupTicks;
+        const bool fresh = in_windows_ || backup_.tick < 0 || end - backup_.tick > kBackupTicks;
         if (fresh) back_up(start, states);
         backup_.orders.insert(backup_.orders.end(), due.begin(), due.end());
-        outcome = windows ? step_window(start, end, due, states) : step_all(start, end, due, states);
+        outcome = in_windows_ ? step_window(start, end, due, states) : step_all(start, end, due, states);
     }
     return outcome;
 }
@@ -76,22 +77,28 @@ StepOutcome WorldStepper::step_all(Tick from, Tick until, std::span<const Order>
     return outcome;
 }
 
+/// Bounds and efforts of the tick that was stepped last.
+void WorldStepper::note_tick(const Batch& batch, StepScratch& scratch) {
+    const std::span<const float> efforts = read_efforts(scratch);
+    for (std::size_t i = 0; i < batch.robots.size(); ++i) {
+        const std::size_t r = batch.robots[i].index();
+        bounds_[r] = valid_or_everywhere(batch.bounds[i]);
+        swept_[r].include(bounds_[r]);
+        efforts_[r] += efforts[i];
+    }
+}
+
 void WorldStepper::step_batch(Batch& batch, Tick from, Tick until, std::span<const Order> orders,
                               StepScratch& scratch) {
-    for (const RobotId robot : batch.robots) swept_[robot.index()] = {}, efforts_[robot.index()] = 0;
+    if (in_windows_)
+        for (const RobotId robot : batch.robots) swept_[robot.index()] = {}, efforts_[robot.index()] = 0;
     batch.outcome = {.tick = until, .not_finite = {}, .not_finite_joint = {}};
     batch.largest_group = 0;
     for (Tick tick = from; tick < until; ++tick) {
         const StepReport report = step_island(*model_, tick, batch.robots, batch.states,
                                               orders_within(orders, tick, tick + 1), batch.bounds, scratch);
         batch.largest_group = std::max(batch.largest_group, static_cast<std::size_t>(report.largest_group));
-        const std::span<const float> efforts = read_efforts(scratch);
-        for (std::size_t i = 0; i < batch.robots.size(); ++i) {
-            const std::size_t r = batch.robots[i].index();
-            bounds_[r] = valid_or_everywhere(batch.bounds[i]);
-            swept_[r].include(bounds_[r]);
-            efforts_[r] += efforts[i];
-        }
+        if (in_windows_) note_tick(batch, scratch);
         if (!report.not_finite.valid()) continue;
         batch.outcome = {tick, report.not_finite, report.not_finite_joint, report.beyond_numbers};
         return;

@@ -63,6 +63,7 @@ class WorldStepper {
     StepOutcome step_window(Tick from, Tick until, std::span<const Order> orders,
                             std::vector<RobotState>& states);
     void step_batch(Batch& batch, Tick from, Tick until, std::span<const Order> orders, StepScratch& scratch);
+    void note_tick(const Batch& batch, StepScratch& scratch);
     void fill_all(std::vector<RobotState>& states);
     void plan(Tick ticks, std::span<const Order> orders, std::vector<RobotState>& states);
     bool plan_repeats(std::vector<RobotState>& states);
@@ -75,6 +76,7 @@ class WorldStepper {
 
     std::shared_ptr<const Model> model_;
     ThreadPool pool_;
+    bool in_windows_ = false;           // more than one thread, and more than one robot
     std::vector<StepScratch> scratch_;  // one a thread
     Backup backup_;
     Batch all_;

@@ -48,14 +48,15 @@ class WorldLoader {
           diagnostics_(diagnostics),
           profile_(options.profile) {}
 
-    std::optional<World> load(const std::string& path) {
-        file_ = SourceFile::read(path, diagnostics_);
+    /// `file`: nullptr if it could not be read.
+    std::optional<World> load(std::unique_ptr<SourceFile> file) {
+        file_ = std::move(file);
         if (file_ && std::string(file_->root().name()) == "robot") file_ = urdf_to_sdf(*file_, diagnostics_);
         if (!file_) return std::nullopt;
         const auto world = find_world();
         if (!world) return std::nullopt;
         World result;
-        result.file = path;
+        result.file = file_->path();
         std::vector<OnboardSpec> plugins;
         read_world_settings(*world, profile_, import_, result, plugins);
         if (result.name.empty()) result.name = name_of_file();
@@ -223,7 +224,15 @@ void add_grouped(const Diagnostics& found, Diagnostics& out) {
 std::optional<World> load_world(const std::string& file, const LoadOptions& options,
                                 Diagnostics& diagnostics) {
     Diagnostics found;
-    auto world = WorldLoader(options, found).load(file);
+    auto world = WorldLoader(options, found).load(SourceFile::read(file, found));
+    add_grouped(found, diagnostics);
+    return world;
+}
+
+std::optional<World> load_world_text(const std::string& text, const std::string& name,
+                                     const LoadOptions& options, Diagnostics& diagnostics) {
+    Diagnostics found;
+    auto world = WorldLoader(options, found).load(SourceFile::from_text(name, text, {}, found));
     add_grouped(found, diagnostics);
     return world;
 }

@@ -31,4 +31,8 @@ struct LoadOptions {
 std::optional<World> load_world(const std::string& file, const LoadOptions& options,
                                 Diagnostics& diagnostics);
 
+/// The same of a file's text. Diagnostics call it `name`; relative URIs start at the folder of `name`.
+std::optional<World> load_world_text(const std::string& text, const std::string& name,
+                                     const LoadOptions& options, Diagnostics& diagnostics);
+
 }  // namespace roboss

@@ -31,6 +31,19 @@ TEST(LoadWorld, ReadsAModelWithItsPlaceInTheWorld) {
     EXPECT_EQ(loaded.world->prototypes[0].links[0].mass, 2.0);
 }
 
+TEST(LoadWorld, ReadsTextAsAFileOfThatName) {
+    Diagnostics diagnostics;
+    const std::string text = "<sdf version='1.9'><model name='m'>\n<oops/>" + link("a") + "</model></sdf>";
+    const std::optional<World> world = load_world_text(text, "given.sdf", {}, diagnostics);
+    ASSERT_TRUE(world);
+    EXPECT_EQ(world->file, "given.sdf");
+    EXPECT_EQ(world->instances[0].name, "m");
+    ASSERT_FALSE(diagnostics.items().empty());
+    EXPECT_EQ(diagnostics.items()[0].where.file, "given.sdf");
+    EXPECT_EQ(diagnostics.items()[0].where.line, 2);
+    EXPECT_FALSE(load_world_text("no XML", "given.sdf", {}, diagnostics));
+}
+
 TEST(LoadWorld, ModelsEqualButForNameAndPoseShareOnePrototype) {
     std::string models;
     for (int i = 0; i < 5; ++i) {

@@ -9,9 +9,9 @@
 
 #include "app/viewer/snapshot.h"
 #include "app/viewer/viewer.h"
-#include "app/worlds/bare_model.h"
 #include "dds/dds_options.h"
 #include "physics/step.h"
+#include "world/bare_model.h"
 #include "world/world.h"
 
 namespace roboss {

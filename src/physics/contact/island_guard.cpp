@@ -28,9 +28,13 @@ double most_work_of_motors(const Model& model, std::span<RobotWork> robots,
     for (std::size_t m = 0; m < island.members.size(); ++m) {
         const RobotType& type = *robots[island.members[m]].type;
         const int first = island.offsets[m] + type.base_nv(), last = island.offsets[m] + type.nv;
+        const std::vector<MotorSetpoint>& motors = robots[island.members[m]].state->motors;
         for (; row < rows.joints.size() && rows.joints[row].dof < last; ++row) {
             const JointRow& joint = rows.joints[row];
-            if (joint.motor == nullptr) continue;
+            // The row of a motor, hard or not, is the first of its axis.
+            const bool is_first = row == 0 || rows.joints[row - 1].dof != joint.dof;
+            if (!is_first || motors[static_cast<std::size_t>(joint.dof - first)].mode == MotorMode::kPassive)
+                continue;
             const double mobility = type.dofs[static_cast<std::size_t>(joint.dof - first)].inverse_inertia;
             work += most_work(joint.impulse, island.v_before[static_cast<std::size_t>(joint.dof)], mobility);
         }
@@ -108,6 +112,18 @@ bool throws_back(const IslandRows& rows) {
     });
 }
 
+/// True if a motor drives a joint that closes a loop by an effort or a servo: its work is not counted.
+bool has_soft_loop_motor(const RobotWork& robot) {
+    for (const LoopJoint& loop : robot.type->loops)
+        for (std::size_t k = 0; k < loop.dofs.size(); ++k) {
+            const Dof& dof = loop.dofs[k];
+            const MotorMode mode = robot.state->motors[static_cast<std::size_t>(loop.motor_index) + k].mode;
+            const bool has_gains = dof.velocity_gain > 0 || dof.position_gain > 0;
+            if (mode == MotorMode::kEffort || (mode != MotorMode::kPassive && has_gains)) return true;
+        }
+    return false;
+}
+
 bool IslandGuard::start(const Model& model, std::span<RobotWork> robots, const Island& island,
                         RobotWork& buffer) {
     const auto any = [&](auto&& is) {
@@ -116,7 +132,9 @@ bool IslandGuard::start(const Model& model, std::span<RobotWork> robots, const I
     const bool driven = any([](const RobotWork& robot) { return !is_passive(robot); });
     const bool soft = std::ranges::any_of(island.rows.contacts, &ContactRow::soft);
     if (driven || soft) {
-        if (!island.drifts || any([](const RobotWork& robot) { return !only_motors_drive(robot); }))
+        if (!island.drifts || any([](const RobotWork& robot) {
+                return !only_motors_drive(robot) || has_soft_loop_motor(robot);
+            }))
             return false;
     } else {
         const auto bends = [&](const RobotWork& robot) {

@@ -223,6 +223,23 @@ TEST(Motor, EffortMotorGivesItsForceUpToItsBound) {
     }
 }
 
+TEST(Motor, EffortMotorsAndServosTurnTheWheelsOfARobotInTheAir) {
+    for (const bool servo : {false, true}) {
+        World world = empty_world(2e-3, {0, 0, -9.81});
+        ModelSpec model = car();
+        AxisSpec& axis = model.joints[0].axes[0];
+        if (servo) axis.position_gain = 0.02, axis.velocity_gain = 1e-6;
+        place(world, model, "car", {{0, 0, 100}, {}});
+        Simulation sim(world);
+        const Dof& wheel = sim.type(0).dofs[0];
+        sim.set_motor(0, 0, servo ? MotorMode::kPosition : MotorMode::kEffort,
+                      servo ? 5 : 0.1);  // rad or N m
+        sim.run(0.05);
+        EXPECT_NEAR(sim.states[0].v[6] / (0.1 * wheel.inverse_inertia * 0.05), 1, servo ? 0.3 : 0.02)
+            << servo;
+    }
+}
+
 TEST(Motor, EffortMotorStopsPushingAtTheAxisMaximumVelocity) {
     Hinge hinge(1.5, false, [](AxisSpec& axis) { axis.max_velocity = 0.6; });
     hinge.set(MotorMode::kEffort, 1.0);

@@ -1,5 +1,5 @@
 // See bare_model.h.
-#include "app/worlds/bare_model.h"
+#include "world/bare_model.h"
 
 #include <algorithm>
 
@@ -52,7 +52,7 @@ Result<> complete(World& world, const BareModelOptions& options) {
         if (found == nullptr) {
             std::vector<std::string> names;
             for (const ModelInstance& instance : world.instances) names.push_back(instance.name);
-            return Error{"--fixed-base: the world has no model '" + name + "'",
+            return Error{"the base to be fixed: the world has no model '" + name + "'",
                          did_you_mean(name, names, "see `roboss check` for their names"), "no-model"};
         }
         if (!world.prototypes[found->prototype].is_static) weld(world, *found);

@@ -9,9 +9,10 @@
 
 namespace roboss {
 
+/// What to add; `roboss run` has it as --ground and --fixed-base.
 struct BareModelOptions {
-    bool ground = false;                  // --ground
-    std::vector<std::string> fixed_base;  // --fixed-base: names of models
+    bool ground = false;                  ///< a plane at z = 0
+    std::vector<std::string> fixed_base;  ///< names of models that are welded to the world
 };
 
 /// Adds a plane at z = 0 and welds the models to the world. An Error names a model that is not there.

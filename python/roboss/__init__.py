@@ -1,0 +1,32 @@
+"""RoBOSS: deterministic physics of many robots in one world, as numpy arrays.
+
+    >>> import roboss
+    >>> world = roboss.load(roboss.example("crossroads.sdf"))
+    >>> sim = roboss.Simulation(world, threads=2)
+    >>> cars = sim.robots("car_*")
+    >>> cars.set_joint_targets(10.0)        # rad/s, all joints of all cars
+    >>> sim.step(500)
+    >>> cars.pose.shape                     # x y z, quaternion x y z w
+    (16, 7)
+    >>> sim.time
+    1.0
+
+SI units and radians everywhere; positions and velocities in the world frame and its axes. Robots are the first axis of
+all arrays. The result is the same to the last bit for any number of threads, and the same as that of `roboss run`.
+"""
+from ._core import Diagnostic, Save
+from .batch import Batch
+from .errors import (ArgumentError, JournalError, OrderError, RobossError, SaveError, SensorError, StateError,
+                     UnknownNameError, WorldError, WorldWarning)
+from .journal import Journal
+from .robots import Robots
+from .sensors import Sensor
+from .simulation import CONTACT, Simulation
+from .world import World, example, load
+
+__version__ = "0.1.0"
+__all__ = [
+    "ArgumentError", "Batch", "CONTACT", "Diagnostic", "Journal", "JournalError", "OrderError", "RobossError", "Robots",
+    "Save", "SaveError", "Sensor", "SensorError", "Simulation", "StateError", "UnknownNameError", "World", "WorldError",
+    "WorldWarning", "example", "load",
+]

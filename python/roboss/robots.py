@@ -1,0 +1,256 @@
+"""Robots: some robots of a simulation as arrays, robots the first axis."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Iterable, Optional, Sequence, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core
+from .errors import ArgumentError
+from .names import filled, index_of, numbers, unknown
+from .sensors import Sensor
+
+if TYPE_CHECKING:
+    from .batch import Batch
+    from .simulation import Simulation
+    from .world import TypeFacts
+
+Floats = NDArray[np.float64]
+_MODES = ["passive", "velocity", "position", "effort"]  # in the order of MotorMode
+
+
+class Robots:
+    """Robots of a simulation. Simulation.robots makes it; N is their number, `len(robots)`.
+
+    Robots of a Batch have one more axis in front: their poses are (simulations, N, 7).
+
+    What is read is a new array: the state of this moment. What is assigned is in effect at once, and takes a full
+    array, one row for all robots, or one number for everything; if one robot refuses it, nothing is changed
+    (OrderError). Joints, links, sensors and commands need robots of one type.
+
+    `robots["scan"]` is a Sensor, `robots[3]`, `robots[2:5]`, `robots[mask]` are some of the robots.
+
+    >>> cars = roboss.Simulation(roboss.example("crossroads.sdf")).robots("car_*")
+    >>> cars.joints
+    ('front_left', 'front_right', 'rear_left', 'rear_right')
+    >>> cars.joint_velocity = [1, 2, 1, 2]     # rad/s, each car the same
+    >>> cars[3:5].joint_velocity
+    array([[1., 2., 1., 2.],
+           [1., 2., 1., 2.]])
+    """
+
+    def __init__(self, simulation: Union[Simulation, Batch], ids: Sequence[int]):
+        self.simulation: Union[Simulation, Batch] = simulation  #: that they are in
+        self.ids: tuple[int, ...] = tuple(ids)  #: their places in World.robots
+        self._core = _core.robots(simulation._simulations, list(ids))
+
+    def __len__(self) -> int:
+        return len(self.ids)
+
+    def __repr__(self) -> str:
+        names = ", ".join(self.names[:3]) + (" ..." if len(self) > 3 else "")
+        return f"<roboss.Robots: {len(self)} ({names})>"
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the robots, by row."""
+        return tuple(self.simulation.world.robots[number] for number in self.ids)
+
+    @property
+    def _facts(self) -> TypeFacts:
+        types = self.simulation.world._types
+        if len({types[number] for number in self.ids}) != 1:
+            kinds = sorted({self.simulation.world._facts_of(number).name for number in self.ids})
+            raise ArgumentError(f"these {len(self)} robots are of {len(kinds)} types ({', '.join(kinds[:8])})",
+                                "select robots of one type for joints, links, sensors and commands", "mixed-types")
+        return self.simulation.world._facts_of(self.ids[0])
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Columns of the arrays of joints: each axis of each joint that moves; "NAME:0", "NAME:1" of several axes."""
+        return tuple(self._facts.axes)
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """Names of the links."""
+        return tuple(self._facts.links)
+
+    @property
+    def sensors(self) -> tuple[str, ...]:
+        """Names of the sensors; `robots[name]` reads one."""
+        return tuple(name for name, _, _ in self._facts.sensors)
+
+    @property
+    def commands(self) -> dict[str, tuple[tuple[str, str], ...]]:
+        """Commands of on-board controllers: (name, unit) of each value, by the command's name."""
+        return {name: values for name, values, _ in self._facts.commands}
+
+    @property
+    def joint_limits(self) -> Floats:
+        """Lowest and highest position of each joint, (joints, 2): rad or m; infinite where there is none."""
+        return np.array(self._facts.limits).reshape(-1, 4)[:, :2]
+
+    @property
+    def joint_effort_limits(self) -> Floats:
+        """Largest effort of each joint's motor, (joints,): N m or N."""
+        return np.array(self._facts.limits).reshape(-1, 4)[:, 2]
+
+    @property
+    def joint_velocity_limits(self) -> Floats:
+        """Largest velocity of each joint's motor, (joints,): rad/s or m/s."""
+        return np.array(self._facts.limits).reshape(-1, 4)[:, 3]
+
+    @property
+    def pose(self) -> Floats:
+        """Poses of the robot (SDF model) frames in the world, (N, 7): x y z in m, unit quaternion x y z w.
+
+        >>> cars = roboss.Simulation(roboss.example("crossroads.sdf")).robots("car_*")
+        >>> cars[0].pose = [5, 1, 0.1, 0, 0, 0, 1]
+        >>> cars[0].pose
+        array([[5. , 1. , 0.1, 0. , 0. , 0. , 1. ]])
+        """
+        return self._read(self._core.poses, 7)
+
+    @pose.setter
+    def pose(self, values: ArrayLike) -> None:
+        self._core.set_poses(self._fill("pose", values, 7))
+
+    @property
+    def twist(self) -> Floats:
+        """Velocities of the bases, (N, 6): linear in m/s, of the origin of the base link; angular in rad/s; world axes.
+
+        Zero where the base is fixed; setting it there raises OrderError.
+        """
+        return self._read(self._core.twists, 6)
+
+    @twist.setter
+    def twist(self, values: ArrayLike) -> None:
+        self._core.set_twists(self._fill("twist", values, 6))
+
+    @property
+    def joint_position(self) -> Floats:
+        """Positions of the joints, (N, joints): rad or m, zero as in the file.
+
+        Set positions beyond the limits are pushed back within some ticks. Joints that close loops follow from the
+        others and cannot be set (OrderError, code "loop-joint").
+        """
+        return self._read(self._core.joint_positions, len(self._facts.axes))
+
+    @joint_position.setter
+    def joint_position(self, values: ArrayLike) -> None:
+        self._core.set_joint_positions(self._fill("joint_position", values, len(self._facts.axes)))
+
+    @property
+    def joint_velocity(self) -> Floats:
+        """Velocities of the joints, (N, joints): rad/s or m/s."""
+        return self._read(self._core.joint_velocities, len(self._facts.axes))
+
+    @joint_velocity.setter
+    def joint_velocity(self, values: ArrayLike) -> None:
+        self._core.set_joint_velocities(self._fill("joint_velocity", values, len(self._facts.axes)))
+
+    def link_pose(self, link: str) -> Floats:
+        """Poses of a link's frame in the world, (N, 7), as `pose`."""
+        return self._read(self._core.link_poses, 7, self._link(link))
+
+    def link_twist(self, link: str) -> Floats:
+        """Velocities of a link's frame, (N, 6), as `twist`: linear velocity of the frame's origin."""
+        return self._read(self._core.link_twists, 6, self._link(link))
+
+    def set_joint_targets(self, targets: ArrayLike, joints: Union[str, Iterable[str], None] = None, *,
+                          mode: str = "velocity", max_effort: Optional[float] = None) -> None:
+        """Orders setpoints of motors, from the next tick on; they hold until the next ones.
+
+        Args:
+            targets: (N, joints): rad/s, rad or N m (m/s, m or N) by `mode`; one row for all robots; one number.
+            joints: names of the columns of `targets`; None: all joints.
+            mode: "velocity", "position", "effort", or "passive" (motor off).
+            max_effort: bound in N m or N; None: the joint's own.
+
+        >>> sim = roboss.Simulation(roboss.example("crossroads.sdf"))
+        >>> cars = sim.robots("car_*")
+        >>> cars.set_joint_targets([8, 10], ["front_left", "front_right"])
+        >>> sim.step(200)
+        >>> cars.joint_velocity[0].round(2)[:2]
+        array([ 8., 10.])
+        """
+        facts = self._facts
+        names = facts.axes if joints is None else [joints] if isinstance(joints, str) else list(joints)
+        columns = [index_of("joint", name, facts.axes, f" of '{facts.name}'") for name in names]
+        if mode not in _MODES:
+            raise unknown("motor mode", mode, _MODES)
+        if max_effort is not None and not max_effort >= 0:
+            raise ArgumentError(f"a max_effort of {max_effort}", "give 0 or more, or None for the joint's own")
+        self._core.set_joints(columns, _MODES.index(mode), self._fill("targets", targets, len(columns)),
+                              -1.0 if max_effort is None else max_effort)
+
+    def apply_wrench(self, wrench: ArrayLike, link: Optional[str] = None, *, ticks: int = 1) -> None:
+        """Pushes a link of each robot for `ticks` ticks from the next one on; wrenches add up.
+
+        Args:
+            wrench: (N, 6): force in N at the link's centre of mass, torque in N m; world axes.
+            link: name; None: the first link.
+
+        >>> sim = roboss.Simulation(roboss.example("crossroads.sdf"))
+        >>> sim.robots("car_2").apply_wrench([0, 0, 200, 0, 0, 0], ticks=50)
+        >>> sim.step(50)
+        >>> bool(sim.robots("car_2").twist[0, 2] > 1)
+        True
+        """
+        self._core.apply_wrenches(0 if link is None else self._link(link), self._fill("wrench", wrench, 6), ticks)
+
+    def command(self, name: str, values: Optional[ArrayLike] = None, **named: ArrayLike) -> None:
+        """Gives a command to on-board controllers, from the next tick on; it holds until the next one.
+
+        Args:
+            name: one of `commands`.
+            values: (N, values of the command); one row for all robots. Of a command that is a list (a trajectory):
+                its rows, for all robots.
+            named: values by name, (N,) or one number each; those that are missing are 0.
+
+        >>> sim = roboss.Simulation(roboss.example("drives.sdf"))
+        >>> rover = sim.robots("rover")
+        >>> rover.command("cmd_vel", linear_x=0.8, angular_z=0.5)
+        >>> sim.step(500)
+        >>> rover.joint_velocity.round(1)
+        array([[5.6, 7.7]])
+        """
+        commands = self._facts.commands
+        number = index_of("command", name, [command[0] for command in commands], f" of '{self._facts.name}'")
+        fields, is_list = [field for field, _ in commands[number][1]], commands[number][2]
+        if is_list:
+            table = numbers(f"command '{name}'", values).ravel()
+            array = self._fill(f"command '{name}'", table, table.size)
+        elif values is None:
+            array = np.zeros((*self._rows, len(fields)))
+            for field, value in named.items():
+                column = index_of("value", field, fields, f" of command '{name}'")
+                array[..., column] = filled(field, value, self._rows)
+        else:
+            array = self._fill(f"command '{name}'", values, len(fields))
+        self._core.command(number, array.shape[-1], array)
+
+    def __getitem__(self, key: Union[str, int, slice, NDArray]) -> Union[Sensor, Robots]:
+        if isinstance(key, str):
+            facts = self._facts
+            names = [name for name, _, _ in facts.sensors]
+            return Sensor(self, index_of("sensor", key, names, f" of '{facts.name}'"), *facts.sensors[names.index(key)])
+        chosen = np.atleast_1d(np.asarray(self.ids)[key])
+        return Robots(self.simulation, [int(number) for number in chosen])
+
+    def _link(self, name: str) -> int:
+        return index_of("link", name, self._facts.links, f" of '{self._facts.name}'")
+
+    @property
+    def _rows(self) -> tuple[int, ...]:
+        """Shape of an array without its columns."""
+        return (*self.simulation._shape, len(self))
+
+    def _fill(self, what: str, values: ArrayLike, columns: int) -> Floats:
+        return filled(what, values, (*self._rows, columns))
+
+    def _read(self, fill, columns: int, *more: int) -> Floats:
+        out = np.empty((*self._rows, columns))
+        fill(*more, out)
+        return out

@@ -1,0 +1,91 @@
+"""Sensors: the readings of one sensor of many robots, in one call."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _core
+
+if TYPE_CHECKING:
+    from .robots import Robots
+
+#: Values that are points, vectors or quaternions one behind the other, by kind and name.
+_ROWS = {("contact", "positions"): 3, ("contact", "normals"): 3, ("contact", "forces"): 3,
+         ("link poses", "positions"): 3, ("link poses", "orientations"): 4,
+         ("logical camera", "positions"): 3, ("logical camera", "orientations"): 4}
+
+Reading = Union[NDArray, list]
+
+
+class Sensor:
+    """A sensor that all robots of a set have. `robots["scan"]` makes it.
+
+    Attributes:
+        name: as in the world file.
+        kind: "laser", "gps", "imu", ...
+        update_rate: of the world file, Hz. It has no effect here: each `read` measures.
+    """
+
+    def __init__(self, robots: Robots, number: int, name: str, kind: str, update_rate: float):
+        self.robots, self.name, self.kind, self.update_rate = robots, name, kind, update_rate
+        self._number = number
+
+    def read(self) -> NDArray[np.float64]:
+        """The main value of the kind, (N, values): of a laser its ranges, (N, beams) in m.
+
+        Ranges are `inf` where nothing is within reach, `-inf` where something is too near. Kinds with several values
+        give the one that read_all() has first. Raises SensorError if it cannot measure.
+
+        >>> sim = roboss.Simulation(roboss.example("city.sdf"))
+        >>> cars = sim.robots("car_*")
+        >>> cars["laser"].read().shape
+        (50, 21)
+        """
+        values = self.read_all()
+        name = "ranges" if "ranges" in values else next(iter(values))
+        return values[name]
+
+    def read_all(self) -> dict[str, Reading]:
+        """All values by name, with noise, at this tick. Units: docs/sensors.md.
+
+        Numbers and vectors have robots as the first axis; quaternions are named "..._quat_xyzw". Where robots have
+        different numbers of values (contact points), it is a list with an array for each robot (of a Batch: of the
+        first simulation, then of the second ...).
+
+        >>> cars = roboss.Simulation(roboss.example("city.sdf")).robots("car_*")
+        >>> reading = cars["compass"].read_all()
+        >>> list(reading)
+        ['orientation_quat_xyzw', 'angular_velocity', 'magnetic_field', 'heading']
+        >>> reading["orientation_quat_xyzw"].shape, reading["heading"].shape
+        ((50, 4), (50,))
+        """
+        columns = _core.read(self.robots.simulation._simulations, list(self.robots.ids), self._number)
+        return dict(self._shaped(*column) for column in columns)
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Units of the values of read_all(), by name; "" for counts, ratios, rotations."""
+        columns = _core.read(self.robots.simulation._simulations, list(self.robots.ids[:1]), self._number)
+        return {self._shaped(name, *rest)[0]: rest[0] for name, *rest in columns}
+
+    def _shaped(self, name: str, unit: str, kind: str, values, counts: list[int]) -> tuple[str, Reading]:
+        width = _ROWS.get((self.kind, name), 1)
+        if kind == "quat":
+            name += "_quat_xyzw"
+        elif width == 4:  # w x y z, one behind the other
+            name += "_quat_xyzw"
+            values = np.roll(np.reshape(values, (-1, 4)), -1, axis=1).ravel()
+        lead = (*self.robots.simulation._shape, len(counts) // len(self.robots.simulation._simulations))
+        if kind == "text":
+            ends = np.cumsum([0] + counts)
+            return name, [values[first:last] for first, last in zip(ends[:-1], ends[1:])]
+        if kind in ("bool", "int"):
+            values = values.astype(kind)
+        if len(set(counts)) > 1:
+            parts = np.split(values, np.cumsum(counts)[:-1])
+            return name, [part.reshape(-1, width) if width > 1 else part for part in parts]
+        if kind in ("float", "int", "bool"):
+            return name, values.reshape(lead)
+        return name, values.reshape(*lead, *((counts[0],) if width == 1 else (counts[0] // width, width)))

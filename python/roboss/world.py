@@ -1,0 +1,153 @@
+"""Worlds: files and texts that are read and compiled."""
+from __future__ import annotations
+
+import os
+import warnings
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Iterable, Optional, Union
+
+from . import _core
+from .errors import ArgumentError, WorldError, WorldWarning
+from .names import unknown
+
+_EXAMPLES = Path(__file__).parent / "worlds"
+
+
+class World:
+    """A compiled world: immutable, shared by all simulations of it. `load` makes one."""
+
+    def __init__(self, model: _core.Model, file: str, diagnostics: tuple[_core.Diagnostic, ...]):
+        self._model = model
+        self._types = model.types
+        self._facts: dict[int, TypeFacts] = {}
+        self.file: str = file  #: path that it was loaded from, or "<text>"
+        self.diagnostics: tuple[_core.Diagnostic, ...] = diagnostics  #: all findings; str() has file and line
+        self.robots: tuple[str, ...] = tuple(model.robots)  #: names of all robots, by their number
+
+    @property
+    def name(self) -> str:
+        """Name of the world in its file."""
+        return self._model.name
+
+    @property
+    def dt(self) -> float:
+        """Length of a tick, s."""
+        return self._model.dt
+
+    @property
+    def gravity(self) -> tuple[float, float, float]:
+        """Gravity, m/s^2, world axes."""
+        return self._model.gravity
+
+    @property
+    def hash(self) -> str:
+        """16 hexadecimal digits: equal for equal worlds, as `roboss check` prints it."""
+        return self._model.hash
+
+    @property
+    def scenery(self) -> tuple[str, ...]:
+        """Names of the static shapes, "model::link::collision"."""
+        return tuple(self._model.scenery)
+
+    def __repr__(self) -> str:
+        return f"<roboss.World '{self.name}' from {self.file}: {len(self.robots)} robots, dt={self.dt} s>"
+
+    def _find(self, wanted: Union[str, Iterable[str]]) -> list[int]:
+        """Numbers of the robots that match a pattern or are named."""
+        names = self.robots
+        if isinstance(wanted, str):
+            ids = [number for number, name in enumerate(names) if fnmatchcase(name, wanted)]
+            if not ids:
+                raise unknown("robot", wanted, names)
+        else:
+            known = {name: number for number, name in enumerate(names)}
+            ids = []
+            for name in wanted:
+                if name not in known:
+                    raise unknown("robot", name, names)
+                ids.append(known[name])
+        return ids
+
+    def _facts_of(self, robot: int) -> TypeFacts:
+        """What the type of this robot consists of."""
+        number = self._types[robot]
+        if number not in self._facts:
+            self._facts[number] = TypeFacts(**_core.facts_of(self._model, robot))
+        return self._facts[number]
+
+
+@dataclass(frozen=True)
+class TypeFacts:
+    """What all robots of a type have."""
+
+    name: str
+    free_base: bool
+    links: list[str]
+    axes: list[str]
+    limits: list[list[float]]
+    sensors: list[tuple[str, str, float]]
+    commands: list[tuple[str, tuple[tuple[str, str], ...], bool]]
+
+
+def load(source: Union[str, os.PathLike], *, search_paths: Iterable[Union[str, os.PathLike]] = (), profile: str = "",
+         ground: bool = False, fixed_base: Iterable[str] = (), dt: Optional[float] = None, sleep: Optional[bool] = None,
+         accuracy: str = "", precision: Optional[str] = None, strict: bool = False) -> World:
+    """Reads and compiles a world.
+
+    Args:
+        source: path of an SDFormat or URDF file, or its text (anything that begins with "<").
+        search_paths: folders for `model://`, `package://` and relative URIs, before those of the environment.
+        profile: name of the `<physics>` to use; "": the world's default.
+        ground: add a plane at z = 0, for a file with a robot alone, such as a URDF.
+        fixed_base: names of models to weld to the world.
+        dt: length of a tick in s; None: the world's.
+        sleep: whether robots at rest sleep; None: the world's choice.
+        accuracy: "fast", "standard" or "high"; "": the world's choice.
+        precision: "double" or "float", in which lone robots are stepped; None: the world's choice.
+        strict: refuse a world of which a model had to be left out.
+
+    Raises:
+        WorldError: the world cannot be used; its text has all errors with file and line.
+
+    Warnings and models that are left out are issued as WorldWarning, each with file and line; World.diagnostics has
+    all findings.
+
+    >>> roboss.load(roboss.example("pile.sdf")).dt
+    0.002
+    >>> world = roboss.load('''<robot name="ball"><link name="body">
+    ...   <inertial><mass value="1"/><inertia ixx=".1" iyy=".1" izz=".1" ixy="0" ixz="0" iyz="0"/></inertial>
+    ...   <collision><geometry><sphere radius="0.1"/></geometry></collision>
+    ... </link></robot>''', ground=True)
+    >>> world.robots
+    ('ball',)
+    """
+    if precision not in (None, "double", "float"):
+        raise ArgumentError(f"a precision of {precision!r}", "give 'double', 'float' or None")
+    source = os.fspath(source)
+    is_text = source.lstrip().startswith("<")
+    model, findings = _core.load(source, is_text, [os.fspath(path) for path in search_paths], profile, ground,
+                                 list(fixed_base), dt, sleep, accuracy, precision and precision == "float")
+    errors = [finding for finding in findings if finding.severity == "error"]
+    if model is None or (strict and errors):
+        file = "the text" if is_text else f"'{source}'"
+        text = "\n".join(str(error) for error in errors)
+        raise WorldError(f"the world of {file} cannot be used:\n{text}", code=errors[0].code if errors else "",
+                         diagnostics=tuple(findings))
+    for finding in findings:
+        if finding.severity != "note":
+            warnings.warn(str(finding), WorldWarning, stacklevel=2)
+    return World(model, "<text>" if is_text else source, tuple(findings))
+
+
+def example(name: str) -> str:
+    """Path of a world that comes with the package: "city.sdf", "crossroads.sdf", "pile.sdf" ...
+
+    >>> roboss.load(roboss.example("city.sdf")).robots[:2]
+    ('car_0', 'car_1')
+    """
+    path = _EXAMPLES / name
+    if not path.is_file():
+        raise unknown("example world", name, sorted(world.name for world in _EXAMPLES.glob("*.sdf")))
+    return str(path)

@@ -1,0 +1,52 @@
+// Many simulations of one world on one pool of threads.
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/vector.h>
+
+#include "bindings.h"
+#include "roboss/local/local_batch.h"
+#include "simulation.h"
+
+namespace nb = nanobind;
+using namespace roboss;
+
+namespace roboss_python {
+
+namespace {
+
+struct Batch {
+    std::shared_ptr<LocalBatch> runs;
+    Simulations simulations;  // one for each run
+};
+
+Batch make(std::shared_ptr<const Model> model, std::size_t count, unsigned threads, std::uint64_t seed) {
+    Batch batch;
+    batch.runs =
+        value_or_raise(LocalBatch::create(model, count, {.threads = threads, .seed = seed}), "WorldError");
+    for (std::size_t i = 0; i < count; ++i)
+        batch.simulations.push_back(
+            std::make_shared<Simulation>(model, std::shared_ptr<LocalRun>(batch.runs, &batch.runs->run(i))));
+    return batch;
+}
+
+/// Which simulations stopped before the last tick.
+std::vector<bool> step(Batch& batch, Tick ticks) {
+    std::vector<bool> stopped(batch.simulations.size());
+    step_in_parts(ticks, [&](Tick part) {
+        const std::vector<Result<>> results =
+            without_gil(batch.simulations, [&] { return batch.runs->step(part); });
+        for (std::size_t i = 0; i < results.size(); ++i) stopped[i] = stopped[i] || !results[i].ok();
+    });
+    return stopped;
+}
+
+}  // namespace
+
+void bind_batch(nb::module_& module) {
+    nb::class_<Batch>(module, "Batch")
+        .def("step", &step, nb::arg("ticks"))
+        .def_prop_ro("threads", [](const Batch& batch) { return batch.runs->threads(); })
+        .def_ro("simulations", &Batch::simulations);
+    module.def("batch", &make, nb::arg("model"), nb::arg("count"), nb::arg("threads"), nb::arg("seed"));
+}
+
+}  // namespace roboss_python

@@ -1,0 +1,15 @@
+// The parts of the module, one function for each file.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+namespace roboss_python {
+
+void bind_world(nanobind::module_& module);
+void bind_simulation(nanobind::module_& module);
+void bind_journal(nanobind::module_& module);
+void bind_batch(nanobind::module_& module);
+void bind_robots(nanobind::module_& module);
+void bind_readings(nanobind::module_& module);
+
+}  // namespace roboss_python

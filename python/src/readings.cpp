@@ -1,0 +1,112 @@
+// Sensors: the readings of one sensor of many robots, value by value.
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <type_traits>
+
+#include "bindings.h"
+#include "simulation.h"
+
+namespace nb = nanobind;
+using namespace roboss;
+
+namespace roboss_python {
+
+namespace {
+
+/// One value of the readings of all robots, one robot behind the other.
+struct Column {
+    std::string name, unit;
+    const char* type = "float";  // "float", "int", "bool", "vector", "quat" (x y z w), "list" or "text"
+    std::vector<double> numbers;
+    std::vector<std::string> texts;
+    std::vector<std::size_t> counts;  // numbers or texts of each robot
+};
+
+void add(Column& column, std::initializer_list<double> numbers) {
+    column.numbers.insert(column.numbers.end(), numbers);
+    column.counts.push_back(numbers.size());
+}
+
+void add(Column& column, const Vec3& v) {
+    column.type = "vector";
+    add(column, {v.x, v.y, v.z});
+}
+
+void add(Column& column, const Quat& q) {
+    column.type = "quat";
+    add(column, {q.x, q.y, q.z, q.w});
+}
+
+void add(Column& column, const std::vector<double>& values) {
+    column.type = "list";
+    column.numbers.insert(column.numbers.end(), values.begin(), values.end());
+    column.counts.push_back(values.size());
+}
+
+void add(Column& column, const std::vector<std::string>& texts) {
+    column.type = "text";
+    column.texts.insert(column.texts.end(), texts.begin(), texts.end());
+    column.counts.push_back(texts.size());
+}
+
+template <class T>
+requires std::is_arithmetic_v<T>
+void add(Column& column, T value) {
+    if (std::is_same_v<T, bool>)
+        column.type = "bool";
+    else if (std::is_integral_v<T>)
+        column.type = "int";
+    add(column, {static_cast<double>(value)});
+}
+
+/// Adds the readings of the robots of one run.
+Result<> read_all(LocalRun& run, const std::vector<std::uint32_t>& robots, std::size_t sensor,
+                  std::vector<Column>& columns) {
+    for (const std::uint32_t robot : robots) {
+        const Result<Sample> sample = run.read(RobotId(robot), sensor);
+        if (!sample) return sample.error();
+        std::size_t at = 0;
+        visit_fields(sample.value(), [&](const ReadingField& field, const auto& value) {
+            if (at == columns.size()) columns.push_back({field.name, field.unit, "float", {}, {}, {}});
+            add(columns[at++], value);
+        });
+    }
+    return Ok{};
+}
+
+nb::object to_array(std::vector<double>&& numbers) {
+    auto* const kept = new std::vector<double>(std::move(numbers));
+    const nb::capsule owner(kept, [](void* p) noexcept { delete static_cast<std::vector<double>*>(p); });
+    return nb::cast(nb::ndarray<nb::numpy, double>(kept->data(), {kept->size()}, owner));
+}
+
+/// A list of (name, unit, type, numbers or texts, how many of them each robot has), simulation by simulation.
+nb::list read(const Simulations& simulations, const std::vector<std::uint32_t>& robots, std::size_t sensor) {
+    std::vector<LocalRun*> runs;
+    for (const auto& simulation : simulations) runs.push_back(&simulation->run());
+    std::vector<Column> columns;
+    const Result<> done = without_gil(simulations, [&]() -> Result<> {
+        for (LocalRun* run : runs)
+            if (Result<> one = read_all(*run, robots, sensor, columns); !one) return one;
+        return Ok{};
+    });
+    if (!done) raise("SensorError", done.error());
+    nb::list result;
+    for (Column& column : columns) {
+        const bool is_text = std::string(column.type) == "text";
+        const nb::object values = is_text ? nb::cast(column.texts) : to_array(std::move(column.numbers));
+        result.append(nb::make_tuple(column.name, column.unit, column.type, values, column.counts));
+    }
+    return result;
+}
+
+}  // namespace
+
+void bind_readings(nb::module_& module) {
+    module.def("read", &read, nb::arg("simulations"), nb::arg("robots"), nb::arg("sensor"));
+}
+
+}  // namespace roboss_python

@@ -1,0 +1,134 @@
+// Stepping, saving, and contacts.
+#include "simulation.h"
+
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+
+#include <cinttypes>
+#include <cstdio>
+
+#include "bindings.h"
+
+namespace nb = nanobind;
+using namespace roboss;
+
+namespace roboss_python {
+
+namespace {
+
+/// One row of Simulation.contacts; CONTACT of roboss/simulation.py names the same fields.
+struct ContactRow {
+    std::int32_t robot_a, robot_b, link_a, link_b;
+    double position[3], normal[3], gap, force[3], torque[3];
+};
+static_assert(sizeof(ContactRow) == 16 + 13 * 8);
+
+void put(double* out, const Vec3& v) {
+    out[0] = v.x, out[1] = v.y, out[2] = v.z;
+}
+
+ContactRow row_of(const ContactReport& contact, double dt_s) {
+    const auto index = [](auto id) { return id.valid() ? static_cast<std::int32_t>(id.value) : -1; };
+    ContactRow row{index(contact.robot_a),
+                   index(contact.robot_b),
+                   index(contact.link_a),
+                   index(contact.link_b),
+                   {},
+                   {},
+                   contact.gap,
+                   {},
+                   {}};
+    put(row.position, contact.p_W);
+    put(row.normal, contact.normal);
+    put(row.force, (contact.normal * contact.impulse + contact.friction) * (1 / dt_s));
+    put(row.torque, contact.moment * (1 / dt_s));
+    return row;
+}
+
+nb::ndarray<nb::numpy, std::uint8_t> contacts(const std::shared_ptr<Simulation>& simulation) {
+    LocalRun& run = simulation->run();
+    const std::span<const ContactReport> all = without_gil({simulation}, [&] { return run.contacts(); });
+    auto rows = std::make_unique<std::vector<ContactRow>>();
+    for (const ContactReport& contact : all) rows->push_back(row_of(contact, simulation->model()->dt_s));
+    const std::size_t bytes = rows->size() * sizeof(ContactRow);
+    auto* const data = reinterpret_cast<std::uint8_t*>(rows->data());
+    const nb::capsule owner(rows.release(),
+                            [](void* p) noexcept { delete static_cast<std::vector<ContactRow>*>(p); });
+    return {data, {bytes}, owner};
+}
+
+void step(const std::shared_ptr<Simulation>& simulation, Tick ticks) {
+    LocalRun& run = simulation->run();
+    step_in_parts(ticks, [&](Tick part) {
+        const Result<> stepped = without_gil({simulation}, [&] { return run.step(part); });
+        if (!stepped) raise("StateError", stepped.error());
+    });
+}
+
+std::string hash_of(Simulation& simulation) {
+    char text[17];
+    std::snprintf(text, sizeof text, "%016" PRIx64, simulation.run().hash());
+    return text;
+}
+
+Attach attach_of(std::uint32_t link, std::uint32_t other, std::uint32_t other_link, double reach,
+                 double max_force, double max_torque) {
+    return {LinkId(link), RobotId(other), LinkId(other_link), reach, max_force, max_torque};
+}
+
+void order(Simulation& simulation, std::uint32_t robot, const Action& action) {
+    const Result<> given = simulation.run().order(RobotId(robot), action);
+    if (!given) raise("OrderError", given.error());
+}
+
+}  // namespace
+
+void bind_simulation(nb::module_& module) {
+    nb::class_<LocalSave>(module, "Save").def_ro("tick", &LocalSave::tick).def_ro("seed", &LocalSave::seed);
+
+    nb::class_<Simulation>(module, "Simulation")
+        .def(
+            "__init__",
+            [](Simulation* self, std::shared_ptr<const Model> model, unsigned threads, std::uint64_t seed) {
+                std::shared_ptr<LocalRun> run =
+                    value_or_raise(LocalRun::create(model, {.threads = threads, .seed = seed}), "WorldError");
+                new (self) Simulation(std::move(model), std::move(run));
+            },
+            nb::arg("model"), nb::arg("threads"), nb::arg("seed"))
+        .def("step", &step, nb::arg("ticks"))
+        .def_prop_ro("tick", [](Simulation& s) { return s.run().tick(); })
+        .def_prop_ro("time", [](Simulation& s) { return s.run().time_s(); })
+        .def_prop_ro("seed", [](Simulation& s) { return s.run().seed(); })
+        .def_prop_ro("threads", [](Simulation& s) { return s.run().threads(); })
+        .def_prop_ro("hash", &hash_of)
+        .def("contacts", &contacts)
+        .def("save", [](Simulation& s) { return s.run().save(); })
+        .def(
+            "restore",
+            [](Simulation& s, const LocalSave& save) {
+                if (const Result<> restored = s.run().restore(save); !restored)
+                    raise("SaveError", restored.error());
+            },
+            nb::arg("save"))
+        .def(
+            "reset", [](Simulation& s, std::optional<std::uint64_t> seed) { s.run().reset(seed); },
+            nb::arg("seed").none())
+        .def(
+            "attach",
+            [](Simulation& s, std::uint32_t robot, std::uint32_t link, std::uint32_t other,
+               std::uint32_t other_link, double reach, double max_force, double max_torque) {
+                order(s, robot, attach_of(link, other, other_link, reach, max_force, max_torque));
+            },
+            nb::arg("robot"), nb::arg("link"), nb::arg("other"), nb::arg("other_link"), nb::arg("reach"),
+            nb::arg("max_force"), nb::arg("max_torque"))
+        .def(
+            "detach",
+            [](Simulation& s, std::uint32_t robot, std::uint32_t other) {
+                order(s, robot, Detach{RobotId(other)});
+            },
+            nb::arg("robot"), nb::arg("other"));
+}
+
+}  // namespace roboss_python

@@ -1,0 +1,157 @@
+// Worlds: loading and compiling, findings about the file, and what robots consist of.
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <cinttypes>
+#include <cstdio>
+
+#include "bindings.h"
+#include "errors.h"
+#include "roboss/local/robot_set.h"
+#include "roboss/sdf/load_world.h"
+#include "roboss/world/bare_model.h"
+
+namespace nb = nanobind;
+using namespace roboss;
+
+namespace roboss_python {
+
+namespace {
+
+/// What load() takes.
+struct Wanted {
+    std::string source;
+    bool is_text = false;
+    LoadOptions load;
+    BareModelOptions bare;
+    CompileOptions compile;
+};
+
+/// A compiled world and all findings; no model: it is refused.
+using Loaded = std::pair<std::shared_ptr<const Model>, std::vector<Diagnostic>>;
+
+Loaded load(const Wanted& wanted) {
+    Diagnostics diagnostics;
+    std::optional<World> world = wanted.is_text
+                                     ? load_world_text(wanted.source, "<text>", wanted.load, diagnostics)
+                                     : load_world(wanted.source, wanted.load, diagnostics);
+    std::shared_ptr<const Model> model;
+    if (world && !diagnostics.refuses()) {
+        if (const Result<> completed = complete(*world, wanted.bare); !completed)
+            diagnostics.error({world->file, 0}, completed.error().code, completed.error().message,
+                              completed.error().remedy);
+        else
+            model = compile(*world, wanted.compile, diagnostics);
+    }
+    if (diagnostics.refuses()) model = nullptr;
+    return {model, diagnostics.items()};
+}
+
+std::string hex(std::uint64_t hash) {
+    char text[17];
+    std::snprintf(text, sizeof text, "%016" PRIx64, hash);
+    return text;
+}
+
+/// One (lower, upper, maximum effort, maximum velocity) for each column of the arrays of joints.
+std::vector<std::vector<double>> limits_of(const RobotType& type, const std::vector<JointAxis>& axes) {
+    std::vector<std::vector<double>> limits;
+    for (const JointAxis& axis : axes) {
+        const Dof& dof = type.dof(type.joints[axis.joint.index()], axis.axis);
+        limits.push_back({dof.lower, dof.upper, dof.max_effort, dof.max_velocity});
+    }
+    return limits;
+}
+
+nb::list sensors_of(const RobotType& type) {
+    nb::list sensors;
+    for (const SensorInfo& sensor : type.sensors)
+        sensors.append(nb::make_tuple(sensor.spec.name, sensor.spec.kind().name, sensor.spec.update_rate_hz));
+    return sensors;
+}
+
+nb::list commands_of(const RobotType& type) {
+    nb::list commands;
+    for (const ChannelInfo& info : type.channels) {
+        nb::list values;
+        for (const ChannelValue& value : info.channel.values)
+            values.append(nb::make_tuple(value.name, value.unit));
+        commands.append(nb::make_tuple(info.channel.name, nb::tuple(values), info.channel.is_list));
+    }
+    return commands;
+}
+
+template <class Named>
+std::vector<std::string> names_of(const std::vector<Named>& all) {
+    std::vector<std::string> names;
+    for (const Named& one : all) names.push_back(one.name);
+    return names;
+}
+
+nb::dict facts_of(const std::shared_ptr<const Model>& model, std::size_t robot) {
+    const RobotSet one(model, {RobotId(robot)});
+    const RobotType& type = *one.type();
+    nb::dict facts;
+    facts["name"] = type.name;
+    facts["free_base"] = type.free_base;
+    facts["links"] = names_of(type.links);
+    facts["axes"] = names_of(one.axes());
+    facts["limits"] = limits_of(type, one.axes());
+    facts["sensors"] = sensors_of(type);
+    facts["commands"] = commands_of(type);
+    return facts;
+}
+
+std::vector<std::size_t> types_of(const Model& model) {
+    std::vector<std::size_t> types;
+    for (const Robot& robot : model.robots) types.push_back(robot.type.index());
+    return types;
+}
+
+}  // namespace
+
+void bind_world(nb::module_& module) {
+    nb::class_<Diagnostic>(module, "Diagnostic")
+        .def_prop_ro("severity", [](const Diagnostic& d) { return std::string(to_text(d.severity)); })
+        .def_prop_ro("file", [](const Diagnostic& d) { return d.where.file; })
+        .def_prop_ro("line", [](const Diagnostic& d) { return d.where.line; })
+        .def_ro("code", &Diagnostic::code)
+        .def_ro("message", &Diagnostic::message)
+        .def_ro("remedy", &Diagnostic::remedy)
+        .def("__str__", [](const Diagnostic& d) { return to_text(d); });
+
+    nb::class_<Model>(module, "Model")
+        .def_ro("name", &Model::name)
+        .def_ro("dt", &Model::dt_s)
+        .def_prop_ro("hash", [](const Model& m) { return hex(m.hash); })
+        .def_prop_ro("gravity",
+                     [](const Model& m) { return nb::make_tuple(m.gravity.x, m.gravity.y, m.gravity.z); })
+        .def_prop_ro("robots", [](const Model& m) { return names_of(m.robots); })
+        .def_prop_ro("types", &types_of)
+        .def_prop_ro("scenery", [](const Model& m) { return names_of(m.statics); });
+    module.def("facts_of", &facts_of, nb::arg("model"), nb::arg("robot"));
+
+    module.def(
+        "load",
+        [](std::string source, bool is_text, std::vector<std::string> search_paths, std::string profile,
+           bool ground, std::vector<std::string> fixed_base, std::optional<double> dt,
+           std::optional<bool> sleep, std::string accuracy, std::optional<bool> floats) {
+            Wanted wanted{std::move(source),
+                          is_text,
+                          {std::move(search_paths), std::move(profile), false},
+                          {ground, std::move(fixed_base)},
+                          {.dt_s = dt, .sleep = sleep}};
+            wanted.compile.accuracy.setting = std::move(accuracy);
+            if (floats) wanted.compile.precision = *floats ? Precision::kFloat : Precision::kDouble;
+            const nb::gil_scoped_release release;
+            return load(wanted);
+        },
+        nb::arg("source"), nb::arg("is_text"), nb::arg("search_paths"), nb::arg("profile"), nb::arg("ground"),
+        nb::arg("fixed_base"), nb::arg("dt").none(), nb::arg("sleep").none(), nb::arg("accuracy"),
+        nb::arg("floats").none());
+}
+
+}  // namespace roboss_python

@@ -1,0 +1,91 @@
+"""Where the repository is, and runs of the golden list."""
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import roboss
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+
+
+@dataclass(frozen=True)
+class Golden:
+    """A run of tests/golden_hashes.txt: the hash that `roboss run` gives in every build."""
+
+    hash: str
+    world: str
+    orders: str
+    duration: float
+    precision: str
+
+    def __str__(self):
+        return Path(self.world).stem + ("-float" if self.precision == "float" else "")
+
+
+def golden_runs():
+    """One of each set of lines with the same hash, without those that need a control program or messages."""
+    runs = {}
+    for line in (REPOSITORY / "tests" / "golden_hashes.txt").read_text().splitlines():
+        words = line.split()
+        if not words or line.startswith("#") or "--client" in words or "errands" in words[1]:
+            continue
+        options = dict(zip(words, words[1:]))
+        runs.setdefault(words[0], Golden(words[0], words[1], options.get("--orders", ""), float(options["--duration"]),
+                                         options.get("--precision", "double")))
+    return list(runs.values())
+
+
+@pytest.fixture
+def crossroads():
+    """A simulation of sixteen cars on a ring."""
+    return roboss.Simulation(roboss.example("crossroads.sdf"), threads=1)
+
+
+class OrderFile:
+    """Orders of a --orders file, given through the package when their tick has come."""
+
+    def __init__(self, path, sim):
+        lines = [json.loads(line) for line in path.read_text().splitlines() if line and not line.startswith("#")]
+        self.sim = sim
+        self.lines = sorted(lines, key=lambda line: line["t"])  # stable: of one tick in the order of the file
+
+    def run(self, end, part):
+        """Steps to the tick `end`, at most `part` ticks a call."""
+        while self.sim.tick < end:
+            while self.lines and round(self.lines[0]["t"] / self.sim.dt) <= self.sim.tick:
+                self.give(self.lines.pop(0))
+            due = round(self.lines[0]["t"] / self.sim.dt) if self.lines else end
+            self.sim.step(min(part, due - self.sim.tick, end - self.sim.tick))
+
+    def give(self, line):
+        (kind, order), = ((key, value) for key, value in line.items() if key not in ("t", "robot"))
+        getattr(self, kind)(self.sim.robots([line["robot"]]), order)
+
+    def joint(self, robot, order):
+        mode, = (key for key in ("velocity", "position", "effort") if key in order)
+        name = order["name"] if order["name"] in robot.joints else f"{order['name']}:{order.get('axis', 0)}"
+        robot.set_joint_targets(order[mode], name, mode=mode, max_effort=order.get("max_effort"))
+
+    def command(self, robot, order):
+        named = {name: value for name, value in order.items() if name != "name"}
+        robot.command(order["name"], named.pop("values", None), **named)
+
+    def set_pose(self, robot, order):
+        w, x, y, z = order.get("orientation", [1, 0, 0, 0])
+        robot.pose = order["position"] + list(np.array([x, y, z, w]) / np.sqrt(w * w + x * x + y * y + z * z))
+
+    def set_velocity(self, robot, order):
+        robot.twist = order.get("linear", [0, 0, 0]) + order.get("angular", [0, 0, 0])
+
+    def wrench(self, robot, order):
+        robot.apply_wrench(order.get("force", [0, 0, 0]) + order.get("torque", [0, 0, 0]), order["link"],
+                           ticks=round(order["duration"] / self.sim.dt))
+
+    def attach(self, robot, order):
+        self.sim.attach(robot.names[0], order["robot"], max_force=order.get("max_force", float("inf")))
+
+    def detach(self, robot, order):
+        self.sim.detach(robot.names[0], order["robot"])

@@ -1,0 +1,142 @@
+"""Errors are exceptions that name the thing, list what exists, and leave the world as it was."""
+import numpy as np
+import pytest
+
+import roboss
+
+BALL = """<sdf version="1.9"><world name="w">
+<model name="ball"><link name="body"><inertial><mass>1</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz>
+</inertia></inertial>{}
+</link></model></world></sdf>"""
+
+
+def refused(error, code, *words):
+    assert error.value.code == code, str(error.value)
+    for word in words:
+        assert word in str(error.value)
+
+
+def test_names_that_do_not_exist(crossroads):
+    cars = crossroads.robots("car_*")
+    with pytest.raises(roboss.UnknownNameError) as error:
+        crossroads.robots(["car_1", "cat_2"])
+    refused(error, "unknown-name", "cat_2", "did you mean 'car_2'", "car_0")
+    with pytest.raises(roboss.UnknownNameError) as error:
+        crossroads.robots("truck*")
+    refused(error, "unknown-name", "truck*", "car_0")
+    with pytest.raises(roboss.UnknownNameError) as error:
+        cars.set_joint_targets(1, ["front_lefd"])
+    refused(error, "unknown-name", "front_lefd", "front_left", "rear_right")
+    with pytest.raises(roboss.UnknownNameError) as error:
+        cars["scan"]
+    refused(error, "unknown-name", "scan", "laser", "odometer")
+    with pytest.raises(roboss.UnknownNameError) as error:
+        cars.apply_wrench(0, "wing")
+    refused(error, "unknown-name", "wing", "chassis")
+    with pytest.raises(roboss.UnknownNameError):
+        cars.command("cmd_vel", 1)
+    with pytest.raises(roboss.UnknownNameError):
+        cars.set_joint_targets(1, mode="torque")
+    with pytest.raises(roboss.UnknownNameError):
+        roboss.example("town.sdf")
+
+
+def test_arrays_that_do_not_fit(crossroads):
+    cars = crossroads.robots("car_*")
+    for wrong in (np.zeros((15, 7)), np.zeros(16), "far away", [[1, 2], [3]]):
+        with pytest.raises(roboss.ArgumentError):
+            cars.pose = wrong
+    with pytest.raises(roboss.ArgumentError) as error:
+        cars.set_joint_targets(np.zeros((16, 3)))
+    refused(error, "bad-shape", "(16, 3)", "(16, 4)")
+    with pytest.raises(roboss.ArgumentError):
+        crossroads.step(-1)
+    with pytest.raises(TypeError):
+        crossroads.step(1.5)
+
+
+def test_what_a_robot_refuses_changes_nothing(crossroads):
+    cars = crossroads.robots("car_*")
+    before = crossroads.state_hash
+    poses = cars.pose
+    poses[0, 0] += 1
+    poses[5, 1] = np.nan
+    with pytest.raises(roboss.OrderError) as error:
+        cars.pose = poses
+    refused(error, "not-finite", "car_5")
+    with pytest.raises(roboss.OrderError) as error:
+        cars.twist = [1e9, 0, 0, 0, 0, 0]
+    refused(error, "beyond-limit", "car_0")
+    with pytest.raises(roboss.OrderError) as error:
+        cars.joint_velocity = np.inf
+    refused(error, "not-finite", "front_left", "car_0")
+    with pytest.raises(roboss.OrderError):
+        cars.set_joint_targets(np.nan)
+    with pytest.raises(roboss.OrderError):
+        cars.apply_wrench(1, ticks=0)
+    assert crossroads.state_hash == before
+    crossroads.step(10)
+    fresh = roboss.Simulation(crossroads.world)
+    fresh.step(10)
+    assert crossroads.state_hash == fresh.state_hash  # no order of the refused calls was left
+
+
+def test_a_state_that_is_not_finite_stops_at_its_tick():
+    text = BALL.format("").replace("<iyy>1", "<iyy>2").replace("<mass>1", "<mass>1e-3")
+    sim = roboss.Simulation(roboss.load(text.replace(">1<", ">1e-6<").replace(">2<", ">2e-6<"), dt=0.1))
+    ball = sim.robots("ball")
+    ball.apply_wrench([0, 0, 0, 1e9, 1e9, 1e9], ticks=100)
+    with pytest.raises(roboss.StateError) as error:
+        sim.step(100)
+    refused(error, "not-finite", "ball")
+    assert sim.tick < 100 and np.isfinite(ball.pose).all() and np.isfinite(ball.twist).all()
+    sim.reset()
+    sim.step(10)
+    assert sim.tick == 10
+
+
+def test_robots_of_several_types():
+    sim = roboss.Simulation(roboss.example("pile.sdf"))
+    everything = sim.robots()
+    assert everything.pose.shape == (len(everything), 7)
+    with pytest.raises(roboss.ArgumentError) as error:
+        everything.joint_position
+    refused(error, "mixed-types")
+
+
+def test_a_save_of_another_world(crossroads):
+    with pytest.raises(roboss.SaveError) as error:
+        crossroads.restore(roboss.Simulation(roboss.example("pile.sdf")).save())
+    refused(error, "other-world")
+
+
+def test_worlds_that_cannot_be_used():
+    with pytest.raises(roboss.WorldError) as error:
+        roboss.load("<sdf version='1.9'>\n<world name='w'>\n<oops</world></sdf>")
+    assert "<text>:" in str(error.value) and error.value.diagnostics[0].severity == "error"
+    with pytest.raises(roboss.WorldError) as error:
+        roboss.load("no_such_file.sdf")
+    refused(error, "cannot-read", "no_such_file.sdf")
+    with pytest.raises(roboss.WorldError) as error:
+        roboss.Simulation(roboss.example("errands.sdf"))
+    refused(error, "message-board")
+    with pytest.raises(roboss.WorldError) as error:
+        roboss.load(roboss.example("pile.sdf"), fixed_base=["nobody"])
+    refused(error, "no-model", "nobody")
+    assert issubclass(roboss.WorldError, ValueError) and issubclass(roboss.StateError, RuntimeError)
+
+
+def test_warnings_have_file_and_line():
+    with pytest.warns(roboss.WorldWarning, match=r"<text>:3: warning: .*oops"):
+        world = roboss.load(BALL.format("<oops/>"))
+    assert [(found.file, found.line) for found in world.diagnostics if found.severity == "warning"] == [("<text>", 3)]
+
+
+def test_a_model_with_errors_is_left_out_or_refused():
+    bad = BALL[BALL.index("<model"):BALL.index("</world>")].format(
+        "<collision name='c'><geometry><sphere><radius>-1</radius></sphere></geometry></collision>")
+    text = BALL.format("").replace("</world>", bad.replace("ball", "bad") + "</world>")
+    with pytest.warns(roboss.WorldWarning, match="bad"):
+        assert roboss.load(text).robots == ("ball",)
+    with pytest.raises(roboss.WorldError):
+        roboss.load(text, strict=True)

@@ -1,0 +1,36 @@
+"""The wheel in a clean environment, without the libraries of the system."""
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import roboss
+from conftest import REPOSITORY
+
+
+@pytest.fixture(scope="module")
+def clean_python(tmp_path_factory):
+    """The Python of a new environment that has the wheel and what pip installs with it."""
+    wheel, = (REPOSITORY / "dist").glob("roboss-*.whl")
+    folder = tmp_path_factory.mktemp("clean")
+    subprocess.run([sys.executable, "-m", "venv", folder], check=True)
+    python = folder / "bin" / "python"
+    subprocess.run([python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", wheel], check=True)
+    return python
+
+
+def test_a_clean_environment_needs_nothing_else(clean_python, tmp_path):
+    script = Path(__file__).with_name("check_install.py")
+    done = subprocess.run([clean_python, "-I", script], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    sim = roboss.Simulation(roboss.example("city.sdf"), threads=1)
+    sim.step(1000)
+    assert done.stdout.split() == [sim.state_hash]
+
+
+def test_has_types_and_licences(clean_python):
+    package = Path(subprocess.run([clean_python, "-I", "-c", "import roboss; print(roboss.__path__[0])"],
+                                  capture_output=True, text=True, check=True).stdout.strip())
+    assert (package / "py.typed").exists() and "class Simulation" in (package / "_core.pyi").read_text()
+    assert {"roboss.txt", "libembree3-3.txt", "libsdformat12-12.txt"} <= {path.name for path in (package / "licences").iterdir()}

@@ -1,0 +1,67 @@
+"""Recordings of `roboss run`, at any time and to the last bit."""
+import json
+import subprocess
+
+import numpy as np
+import pytest
+
+import roboss
+from conftest import REPOSITORY
+
+ROBOSS = REPOSITORY / "build" / "release" / "bin" / "roboss"
+WORLD = [REPOSITORY / "worlds/crossroads.sdf", "--orders", REPOSITORY / "worlds/crossroads.jsonl"]
+
+
+def run(*arguments):
+    """The JSON summary of `roboss run`."""
+    command = [ROBOSS, "run", *arguments, "--headless", "--json", "-"]
+    return json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+
+
+@pytest.fixture(scope="module")
+def recorded(tmp_path_factory):
+    """A journal of 2.3 s with checkpoints, and the hash at its end."""
+    path = tmp_path_factory.mktemp("journal") / "crossroads.journal"
+    summary = run(*WORLD, "--duration", "2.3", "--journal", path)
+    return path, summary["state_hash"]
+
+
+def test_is_at_any_time_as_the_run_was(recorded):
+    path, last = recorded
+    journal = roboss.Journal(path)
+    assert journal.times() == (0, pytest.approx(2.3))
+    assert journal.branches[-1].last_hash == last and journal.at(2.3).state_hash == last
+    for time in (0, 1.1):
+        assert journal.at(time, threads=2).state_hash == run(*WORLD, "--duration", str(time))["state_hash"]
+    for tick, state_hash in journal.checkpoints():
+        assert journal.at(tick * journal.world().dt).state_hash == state_hash
+
+
+def test_follows_the_recording_or_goes_its_own_way(recorded):
+    path, last = recorded
+    journal = roboss.Journal(path)
+    sim = journal.at(0.5)
+    sim.step(1150 - sim.tick)
+    assert sim.state_hash == last
+    free = journal.at(0.5, follow=False)
+    free.step(1150 - free.tick)
+    assert free.state_hash != last
+
+
+def test_plays_through_times(recorded):
+    journal = roboss.Journal(recorded[0])
+    heights = np.array([sim.robots("car_*").pose[:, 2] for sim in journal.play(np.arange(0, 2.3, 0.5))])
+    assert heights.shape == (5, 16)
+    assert np.array_equal(heights[3], journal.at(1.5).robots("car_*").pose[:, 2])
+
+
+def test_errors_name_file_and_time(recorded, tmp_path):
+    journal = roboss.Journal(recorded[0])
+    for call, code in ((lambda: journal.at(3), "no-such-time"), (lambda: journal.at(1, branch=9), "no-branch")):
+        with pytest.raises(roboss.JournalError) as error:
+            call()
+        assert error.value.code == code and str(recorded[0]) in str(error.value)
+    (tmp_path / "no.journal").write_text("no journal")
+    for name in ("no.journal", "missing.journal"):
+        with pytest.raises(roboss.JournalError, match=name):
+            roboss.Journal(tmp_path / name)

@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# Makes build/python/venv, an environment with the packages of tools/python_packages.txt, and prints the path of its
+# Python. Nothing happens where it is up to date. PYTHON names the Python that it is made with.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+packages=tools/python_packages.txt
+venv=$PWD/build/python/venv
+stamp="$(${PYTHON:-python3} -c 'import sys; print(sys.executable, sys.version)') $(cat "$packages")"
+if [[ ! -f $venv/stamp || $(cat "$venv/stamp") != "$stamp" ]]; then
+    rm -rf "$venv"
+    mkdir -p "$(dirname "$venv")"
+    "${PYTHON:-python3}" -m venv "$venv" >&2
+    "$venv/bin/python" -m pip install --quiet --disable-pip-version-check -r "$packages" >&2
+    printf '%s\n' "$stamp" >"$venv/stamp"
+fi
+printf '%s\n' "$venv/bin/python"
