@@ -24,6 +24,7 @@ namespace roboss {
 struct GroupScratch {
     bool keep_reactions =
         false;  // then robots with loops do not move freely, for then nothing knows their loads
+    bool profiles_solver = false;  // StepProfile::solver is wanted
     std::vector<LoopReaction> reactions;
     std::vector<ContactReport> contact_reports;
     LaneSteppers lanes;        // for robots that touch nobody

@@ -15,6 +15,7 @@
 #include "core/union_find.h"
 #include "physics/bodies/body_solver.h"
 #include "physics/solver/solver.h"
+#include "physics/step_profile.h"
 
 namespace roboss {
 
@@ -27,6 +28,8 @@ class IslandParts {
     SolveReport solve(const Problem& problem, std::vector<double>& v);
     /// Robots of the largest part of the last call.
     int largest_part() const { return largest_part_; }
+    /// What friction is off by in the parts of the last call, if that solved for velocities.
+    void profile_friction(const Problem& p, SolverProfile& profile) const;
 
   private:
     /// The two robots of a contact (numbers in the problem); a == b if it joins none.
@@ -48,6 +51,7 @@ class IslandParts {
     void join_all();
     void sort_by_parts(const Problem& p);
     SolveReport solve_part(const Problem& p, std::size_t part, std::vector<double>& v);
+    static bool has_parts(const Problem& p);
     bool is_of_bodies(const Problem& p, std::size_t part) const;
     void take_part(const Problem& p, std::size_t part, const std::vector<double>& v);
     void take_columns(const Problem& p, std::size_t& first, std::size_t& last);

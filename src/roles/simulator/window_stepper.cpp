@@ -24,11 +24,11 @@ WindowStepper::WindowStepper(std::shared_ptr<const Model> model, ThreadPool& poo
       pool_(pool),
       options_(std::move(options)),
       scratch_(pool.threads()),
-      stage_times_(pool.threads()),
+      profiles_(pool.threads()),
       lane_groups_(pool.threads()) {
     for (StepScratch& scratch : scratch_) {
         scratch.use_lanes(options_.lanes);
-        scratch.measure_stages(options_.stages.now);
+        scratch.measure_stages(options_.meter.now);
     }
 }
 
@@ -92,7 +92,7 @@ WindowResult WindowStepper::step(const Assignment& assignment, StateStore& store
     pool_.run(
         batch_offsets_.size() - 1, [&](std::size_t b, std::size_t worker) { step_batch(job, b, worker); },
         [&] { between({}); });
-    report_stages();
+    report_profile();
     if (job.result.left > 0) return std::move(job.result);
     for (auto& boxes : earlier_) {
         job.result.earlier.insert(job.result.earlier.end(), boxes.begin(), boxes.end());
@@ -101,11 +101,11 @@ WindowResult WindowStepper::step(const Assignment& assignment, StateStore& store
     return std::move(job.result);
 }
 
-void WindowStepper::report_stages() {
-    if (!options_.stages) return;
-    StageTimes all;
-    for (StageTimes& times : stage_times_) all += std::exchange(times, {});
-    options_.stages.add(all);
+void WindowStepper::report_profile() {
+    if (!options_.meter) return;
+    StepProfile all;
+    for (StepProfile& profile : profiles_) all += std::exchange(profile, {});
+    options_.meter.add(all);
 }
 
 void WindowStepper::step_batch(Job& job, std::size_t batch, std::size_t worker) {
@@ -154,7 +154,7 @@ bool WindowStepper::step_tick(Job& job, std::size_t island, Tick tick, std::span
     const StepReport report =
         step_island(*model_, tick, robots, std::span(states_).subspan(first, robots.size()), orders,
                     std::span(bounds_).subspan(first, robots.size()), scratch_[worker]);
-    stage_times_[worker] += report.stages;
+    profiles_[worker] += report.profile;
     sweep(job, island, orders);
     for (const float effort : read_efforts(scratch_[worker])) count(island, effort);
     IslandResult& outcome = job.result.islands[island];
@@ -235,7 +235,7 @@ bool WindowStepper::step_lane_group(Job& job, Tick tick, std::size_t worker) {
     }
     const StepReport report =
         step_island(*model_, tick, c.robots, c.states, c.orders, c.bounds, scratch_[worker]);
-    stage_times_[worker] += report.stages;
+    profiles_[worker] += report.profile;
     for (std::size_t i = 0; i < c.islands.size(); ++i)
         bounds_[job.assignment.island_offsets[c.islands[i]]] = c.bounds[i];
     for (const std::uint32_t i : c.islands) sweep(job, i, c.orders);

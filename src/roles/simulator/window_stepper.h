@@ -32,7 +32,7 @@ struct SteppingOptions {
     std::function<void(double)> counted;  // called with counted work, in ns, as it is done; may be empty
     std::size_t lanes = kMostLanes;       // robots stepped at once, at most
     std::size_t look_up = 64;             // robots times ticks between two calls of `between` in lockstep
-    StageMeter stages{};
+    StepMeter meter{};
 };
 
 class WindowStepper {
@@ -62,7 +62,7 @@ class WindowStepper {
         std::vector<EarlierBox> earlier;
     };
 
-    void report_stages();
+    void report_profile();
     void sort_orders(const Assignment& assignment);
     void cut_batches(const Assignment& assignment);
     void step_batch(Job& job, std::size_t batch, std::size_t worker);
@@ -91,8 +91,8 @@ class WindowStepper {
     std::shared_ptr<const Model> model_;
     ThreadPool& pool_;
     SteppingOptions options_;
-    std::vector<StepScratch> scratch_;     // one a thread
-    std::vector<StageTimes> stage_times_;  // likewise, of this window
+    std::vector<StepScratch> scratch_;   // one a thread
+    std::vector<StepProfile> profiles_;  // likewise, of this window
 
     // flat over the assignment's robots
     std::vector<RobotState*> states_;
