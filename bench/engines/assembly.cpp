@@ -2,9 +2,12 @@
 #include "engines/assembly.h"
 
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <utility>
 
 #include "core/check.h"
+#include "core/union_find.h"
 
 namespace roboss::bench {
 namespace {
@@ -13,7 +16,8 @@ constexpr int kUnplaced = -2;
 
 class Assembler {
   public:
-    explicit Assembler(const ModelSpec& model) : model_(model), used_(model.joints.size(), 0) {
+    explicit Assembler(const ModelSpec& model)
+        : model_(model), used_(model.joints.size(), 0), closes_(loop_closers(model)) {
         assembly_.body_of_link.assign(model.links.size(), kUnplaced);
         assembly_.X_BL.resize(model.links.size());
     }
@@ -37,6 +41,28 @@ class Assembler {
             put(l, add_body(l));
             walk(model_.links[l].name, assembly_.body_of_link[l]);
         }
+    }
+
+    /// By joint. Of a loop the last joint in the file closes it, but no fixed one where there is another: so
+    /// a file tells all engines the same tree, however deep depth-first search would make it.
+    static std::vector<char> loop_closers(const ModelSpec& model) {
+        std::map<std::string, std::uint32_t> nodes{{"world", 0}};
+        for (const LinkSpec& link : model.links)
+            nodes.emplace(link.name, static_cast<std::uint32_t>(nodes.size()));
+        UnionFind joined;
+        joined.reset(nodes.size());
+        std::vector<char> closes(model.joints.size(), 0);
+        for (const bool fixed : {true, false}) {
+            for (std::size_t j = 0; j < model.joints.size(); ++j) {
+                const JointSpec& joint = model.joints[j];
+                if (joint.kind == JointSpecKind::kGearbox || (joint.kind == JointSpecKind::kFixed) != fixed)
+                    continue;
+                const std::uint32_t a = nodes.at(joint.parent), b = nodes.at(joint.child);
+                closes[j] = joined.find(a) == joined.find(b) ? 1 : 0;
+                joined.unite(a, b);
+            }
+        }
+        return closes;
     }
 
     bool is_child(const std::string& name) const {
@@ -67,13 +93,15 @@ class Assembler {
             const bool forward = joint.parent == name, backward = joint.child == name;
             if (used_[j] || joint.kind == JointSpecKind::kGearbox || !(forward || backward)) continue;
             const std::string& other = forward ? joint.child : joint.parent;
-            used_[j] = 1;
+            const bool closes = closes_[j] != 0;
             if (other == "world") {
+                used_[j] = 1;
                 assembly_.joints.push_back({&joint, j, body, -1, true, true});
                 continue;
             }
             const std::size_t link = find(other);
-            const bool closes = assembly_.body_of_link[link] != kUnplaced;
+            if (closes && assembly_.body_of_link[link] == kUnplaced) continue;  // it is met again from there
+            used_[j] = 1;
             if (joint.kind == JointSpecKind::kFixed && !closes) {
                 put(link, body);
             } else {
@@ -121,7 +149,7 @@ class Assembler {
     }
 
     const ModelSpec& model_;
-    std::vector<char> used_;
+    std::vector<char> used_, closes_;
     Assembly assembly_;
 };
 

@@ -50,5 +50,9 @@ Scene arms_scene(std::size_t arms);
 Scene shapes_scene(std::size_t shapes);
 // The same in twenty layers: they land on each other and collapse.
 Scene deep_pile_scene(std::size_t shapes);
+// Bodies with four passive legs, dropped into a box.
+Scene pile_scene(std::size_t robots);
+// A net of plates and ball joints, hanging on two corners: one robot. Its plates are counted.
+Scene joint_grid_scene(std::size_t plates);
 
 }  // namespace roboss::bench

@@ -11,6 +11,11 @@ std::span<const SceneKind> scenes() {
         {"arms", "arms of four joints on fixed bases following a path", {100}, arms_scene},
         {"shapes", "boxes, spheres and cylinders falling on a plane and on each other", {3000}, shapes_scene},
         {"deep_pile", "the same in twenty layers that collapse", {400, 4000}, deep_pile_scene},
+        {"pile", "four-legged bodies without motors dropped into a box", {50, 500}, pile_scene},
+        {"joint_grid",
+         "a net of plates and ball joints on two corners; plates are counted",
+         {36, 100},
+         joint_grid_scene},
     };
     return kinds;
 }

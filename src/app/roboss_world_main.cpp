@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "app/worlds/city_world.h"
+#include "app/worlds/joint_grid_world.h"
 
 namespace {
 
@@ -42,7 +43,17 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
     make_city->add_option("--seed", city.seed, "seed of the random layout")->capture_default_str();
-    make_city->add_option("-o,--output", file, "output file (default, or with -: standard output)");
+    roboss::JointGridOptions grid;
+    CLI::App* make_grid = app.add_subcommand(
+        "joint-grid", "a net of plates with a ball joint between neighbours, hanging on two corners");
+    make_grid->add_option("--rows", grid.rows, "1 to 1000")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    make_grid->add_option("--columns", grid.columns, "1 to 1000")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    for (CLI::App* make : {make_city, make_grid})
+        make->add_option("-o,--output", file, "output file (default, or with -: standard output)");
     CLI11_PARSE(app, argc, argv);
-    return write_world(roboss::city_sdf(city), file);
+    return write_world(make_grid->parsed() ? roboss::joint_grid_sdf(grid) : roboss::city_sdf(city), file);
 }

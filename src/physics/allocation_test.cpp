@@ -149,6 +149,14 @@ TEST(Allocation, CollidingHeapAllocatesNothing) {
     EXPECT_EQ(allocations_of(sim, 150), 0u);
 }
 
+TEST(Allocation, ProfileOfACollidingHeapAllocatesNothing) {
+    Simulation sim(random_crowd(23, 30));
+    stir(sim, 23);
+    sim.scratch.measure_stages([] { return std::uint64_t{0}; });
+    EXPECT_EQ(allocations_of(sim, 150), 0u);
+    EXPECT_GT(sim.report.profile.solver.islands, 0u);
+}
+
 TEST(Allocation, FreeFlightAndMotorsInTheAirAllocateNothing) {
     World world = empty_world(1e-3);
     place(world, spider(), "spider");

@@ -19,6 +19,7 @@ namespace roboss {
 struct GroupScratch {
     bool keep_reactions =
         false;  // then robots with loops do not move freely, for then nothing knows their loads
+    bool profiles_solver = false;  // StepProfile::solver is wanted
     std::vector<ContactReport> contact_reports;
     LaneSteppers lanes;        // for robots that touch nobody
     bool tried_alone = false;  // the group is one robot that lanes and floats did not step

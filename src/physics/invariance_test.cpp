@@ -241,6 +241,7 @@ TEST(Invariance, ATeamOfThreadsGivesTheSameBits) {
     const World world = large_heap();
     Simulation alone(world), shared(world);
     ThreadPool two(2), three(3);
+    for (Simulation* sim : {&alone, &shared}) sim->scratch.measure_stages([] { return std::uint64_t{0}; });
     int contacts = 0, largest = 0;
     for (int i = 0; i < 300; ++i) {
         shared.scratch.use_team(i % 3 == 0 ? Team() : Team(i % 3 == 1 ? two : three));
@@ -248,6 +249,7 @@ TEST(Invariance, ATeamOfThreadsGivesTheSameBits) {
         largest = std::max(largest, shared.step().largest_group);
         ASSERT_EQ(alone.report.contacts, shared.report.contacts) << "tick " << i;
         ASSERT_EQ(alone.report.iterations, shared.report.iterations) << "tick " << i;
+        ASSERT_EQ(alone.report.profile.solver, shared.report.profile.solver) << "tick " << i;
         ASSERT_EQ(alone.hash(), shared.hash()) << "tick " << i;
     }
     EXPECT_GT(largest, 100);

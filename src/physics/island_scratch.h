@@ -26,6 +26,7 @@ struct GroupView {
     std::span<const HeldBond> bonds;        // likewise, by holders
     FreeCourses* free_courses = nullptr;    // of the group's robots
     bool keep_reactions = false;
+    bool profiles_solver = false;  // StepProfile::solver is wanted
 };
 
 struct IslandScratch {

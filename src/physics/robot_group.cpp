@@ -109,8 +109,9 @@ void RobotGroup::start_islands() {
     if (s_.island.size() < team().size()) s_.island.resize(team().size());
     for (std::size_t worker = 0; worker < team().size(); ++worker) {
         IslandScratch& island = s_.island[worker];
-        island.group = {s_.contacts, s_.finder.near_misses(), s_.bonds.held(), &s_.finder.free_courses(),
-                        s_.keep_reactions};
+        island.group = {s_.contacts,       s_.finder.near_misses(),
+                        s_.bonds.held(),   &s_.finder.free_courses(),
+                        s_.keep_reactions, s_.profiles_solver};
         if (worker == 0) continue;
         island.free_courses.start(robots_.size(), s_.keep_reactions);
         island.group.free_courses = &island.free_courses;

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 
 namespace roboss {
 
@@ -41,14 +40,6 @@ struct StageTimes {
 
 using StageNow = std::uint64_t (*)();  // a monotone time in ns
 
-/// Who wants to know the times of a run's steps; nobody: `now` is null, and nothing is measured.
-struct StageMeter {
-    StageNow now = nullptr;
-    std::function<void(const StageTimes&)> add{};  // called with the sum of each window's steps
-
-    explicit operator bool() const { return now != nullptr; }
-};
-
 /// Attributes the time of one call of step_island to stages: each lasts until the next begins. Costs one
 /// reading of the clock a stage, or one predicted branch if it is off.
 class StageClock {
@@ -61,6 +52,7 @@ class StageClock {
         if (now_ != nullptr) [[unlikely]]
             take_up(stage);
     }
+    bool is_on() const { return now_ != nullptr; }
     void stop() {
         if (now_ != nullptr) take_up(Stage::kOrders);
         now_ = nullptr, times_ = nullptr;

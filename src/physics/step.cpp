@@ -275,7 +275,7 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
     const ExactFloatScope exact;
     Impl& s = scratch.impl();
     StepReport report;
-    s.clock.start(s.now, report.stages);
+    s.clock.start(s.now, report.profile.stages);
     s.start(model, robots.size());
     s.clock.enter(Stage::kOrders);
     apply_orders(model, robots, states, orders, s.ordered);
@@ -290,6 +290,7 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
     step_lone_robots(call, s);  // batches of robots that meet nobody: likewise
     sort_contact_reports(s.group.contact_reports);
     s.clock.stop();
+    if (s.group.profiles_solver) report.profile.solver.residual = report.residual;
     return report;
 }
 
@@ -301,6 +302,7 @@ void StepScratch::use_lanes(std::size_t most) {
 
 void StepScratch::measure_stages(StageNow now) {
     impl_->now = now;
+    impl_->group.profiles_solver = now != nullptr;
 }
 
 std::size_t StepScratch::lanes(Precision precision) const {

@@ -14,7 +14,7 @@
 #include "model/model.h"
 #include "model/order.h"
 #include "model/robot_state.h"
-#include "physics/stage.h"
+#include "physics/step_profile.h"
 
 namespace roboss {
 
@@ -38,12 +38,13 @@ struct StepReport {
     RobotId not_finite;
     JointId not_finite_joint;     // whose coordinate or velocity it is; not valid: the base's
     bool beyond_numbers = false;  // found before the step, so it was not made
-    StageTimes stages;            // zero unless they are measured (StepScratch::measure_stages)
+    StepProfile profile;          // zero unless it is measured (StepScratch::measure_stages)
 
     /// What another thread did for the same step.
     void add_solves(const StepReport& other) {
         iterations += other.iterations;
         residual = std::max(residual, other.residual);
+        profile.solver += other.profile.solver;
     }
 };
 
@@ -64,8 +65,8 @@ class StepScratch {
     /// From now on at most so many robots of a type are stepped at once in lanes (lane_stepper.h), as far as
     /// this processor can; 1: none. At first as many as it can. No bit depends on it.
     void use_lanes(std::size_t most);
-    /// From now on each step reports how long its stages take by this clock; nullptr: not. No bit depends on
-    /// it.
+    /// From now on each step reports how long its stages take by this clock, and what its solver did;
+    /// nullptr: not. No bit depends on it.
     void measure_stages(StageNow now);
     /// From now on the team's threads share the work of a large group of robots that may meet. No bit depends
     /// on it. The team must not be running during a step.

@@ -34,7 +34,7 @@ struct SimulationOptions {
     std::vector<std::string> clients_awaited;
     unsigned threads = 1;            // that step islands, shared by the Simulators of this process
     std::size_t lanes = kMostLanes;  // most robots of a type stepped at once
-    StageMeter stages{};             // who measures the stages of the steps in this process
+    StepMeter meter{};               // who profiles the steps in this process
     std::string world_file;          // for saved runs
     /// Called in every round: advances a viewer, say. No result may depend on it.
     std::function<void(Bus&)> observer;
@@ -148,7 +148,7 @@ class Simulation {
     std::unique_ptr<Bus> bus_;
     ThreadPool pool_;
     std::size_t lanes_;  // robots of a type stepped at once
-    StageMeter stages_;
+    StepMeter meter_;
     std::function<void(Bus&)> observer_;
     std::uint64_t instance_ = 0;  // of the last role made here
     Controller controller_;

@@ -82,7 +82,16 @@ class Outputs(unittest.TestCase):
         for stage in ("orders", "forward kinematics", "narrow phase", "constraint rows", "solve velocities", "integrate"):
             self.assertGreater(times[stage], 0, stage)
         self.assertLess(sum(times.values()), 2 * measured["wall_time_s"], "no more than two threads have")
+        solver = measured["solver"]
+        self.assertGreaterEqual(solver["largest_island_robots"], solver["largest_part_robots"])
+        self.assertGreater(solver["largest_part_robots"], 1)
+        self.assertGreater(solver["iterations_per_island_most"], solver["iterations_per_island_mean"])
+        self.assertGreater(solver["iterations_per_tick_mean"], 0)
+        self.assertLess(solver["residual_worst"], 1e-3)
+        self.assertGreater(solver["friction_solves"], 0)
+        self.assertNotIn("solver", plain)
         text = roboss("run", world, *run, "--stage-times").stdout
+        self.assertRegex(text, r"largest contact island [0-9]+ robots")
         self.assertRegex(text, r"solve velocities +[0-9.]+ +[0-9.]+ +[0-9.]+ +[0-9.]+\n")
 
     def test_stage_times_of_other_processes_are_refused(self):

@@ -30,6 +30,38 @@ std::string stage_table(const StageTimes& times, double ticks, double robot_tick
     return text + row("all", times.sum());
 }
 
+double ratio(double part, double all) {
+    return all > 0 ? part / all : 0.0;
+}
+
+/// What the solver did, for people.
+std::string solver_text(const SolverProfile& p, double ticks, double tolerance) {
+    const auto islands = static_cast<double>(p.islands), iterations = static_cast<double>(p.iterations);
+    return fmt::format(
+        "solver            largest contact island {} robots, of these {} at most solved together\n"
+        "iterations        {:.1f} a step; {:.2f} a contact island on average, {} at most\n"
+        "balance           of momentum, worst relative residual {:.1e}\n"
+        "friction          off by more than {:g} in {:.2f} % of {} solves, by {:.1e} at most\n",
+        p.largest_island, p.largest_part, ratio(iterations, ticks), ratio(iterations, islands),
+        p.iterations_most, p.residual, tolerance,
+        100 * ratio(static_cast<double>(p.friction_misses), static_cast<double>(p.friction_solves)),
+        p.friction_solves, p.friction_error);
+}
+
+nlohmann::ordered_json solver_json(const SolverProfile& p, double ticks) {
+    const auto islands = static_cast<double>(p.islands), iterations = static_cast<double>(p.iterations);
+    return {{"largest_island_robots", p.largest_island},
+            {"largest_part_robots", p.largest_part},
+            {"iterations_per_tick_mean", ratio(iterations, ticks)},
+            {"iterations_per_island_mean", ratio(iterations, islands)},
+            {"iterations_per_island_most", p.iterations_most},
+            {"residual_worst", p.residual},
+            {"friction_solves", p.friction_solves},
+            {"friction_missed_share",
+             ratio(static_cast<double>(p.friction_misses), static_cast<double>(p.friction_solves))},
+            {"friction_error_worst", p.friction_error}};
+}
+
 }  // namespace
 
 std::string to_json(const Summary& s) {
@@ -56,9 +88,11 @@ std::string to_json(const Summary& s) {
     if (!s.journal.empty()) o["journal"] = {{"file", s.journal}, {"bytes", s.journal_bytes}};
     o["model_hash"] = to_hex(s.model_hash);
     o["state_hash"] = to_hex(s.state_hash);
-    if (s.stages)
+    if (s.profile) {
         for (std::size_t i = 0; i < kStages; ++i)
-            o["stage_times_s"][stage_name(Stage(i))] = seconds(s.stages->ns[i]);
+            o["stage_times_s"][stage_name(Stage(i))] = seconds(s.profile->stages.ns[i]);
+        o["solver"] = solver_json(s.profile->solver, static_cast<double>(s.ticks));
+    }
     return o.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -83,7 +117,9 @@ std::string to_text(const Summary& s) {
     if (!s.journal.empty())
         text += fmt::format("journal           {}, {:.1f} MB (--journal-keep limits it)\n", s.journal,
                             1e-6 * static_cast<double>(s.journal_bytes));
-    if (s.stages) text += stage_table(*s.stages, ticks, robot_ticks);
+    if (s.profile)
+        text += solver_text(s.profile->solver, ticks, s.friction_tolerance) +
+                stage_table(s.profile->stages, ticks, robot_ticks);
     return text;
 }
 

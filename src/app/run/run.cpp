@@ -203,7 +203,7 @@ SimulationOptions Run::simulation_options(const SavedRun* from) {
     options.simulators = static_cast<std::size_t>(o_.simulators);
     options.threads = static_cast<unsigned>(threads_of_each(o_.threads, 1));
     options.lanes = o_.lanes;
-    if (o_.stage_times) options.stages = {now_ns, [this](const StageTimes& times) { stage_times_ += times; }};
+    if (o_.stage_times) options.meter = {now_ns, [this](const StepProfile& more) { profile_ += more; }};
     options.world_file = o_.world;
     options.controller.seed = o_.seed.value_or(from != nullptr ? from->seed : 0);
     options.controller.window = o_.window == "auto" ? 0 : static_cast<Tick>(std::stod(o_.window));
@@ -318,7 +318,8 @@ Summary Run::summary(double wall_s) const {
     s.migrations = c.migrations;
     s.cuts = c.cuts;
     s.simulators = c.simulators;
-    if (o_.stage_times) s.stages = stage_times_;
+    if (o_.stage_times) s.profile = profile_;
+    s.friction_tolerance = model_->accuracy.friction_tolerance;
     if (journal_->writes()) s.journal = journal_->file(), s.journal_bytes = journal_->bytes();
     return s;
 }

@@ -168,7 +168,7 @@ class Run {
     Clock::time_point last_page_;  // when it was last seen by a page since then
     Clock::duration rested_{};     // wall time in which the run was paused
     TrafficMeter traffic_;
-    StageTimes stage_times_;  // of the steps in this process
+    StepProfile profile_;  // of the steps in this process, if it is measured
     /// A request and who waits for its outcome.
     struct Request {
         ControlAction action;

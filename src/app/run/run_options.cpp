@@ -152,8 +152,8 @@ void add_watch_options(CLI::App& command, RunOptions& o, ViewerDefault viewer) {
         "write the summary as JSON to this file (-: standard output; the text then goes to standard "
         "error)");
     command.add_flag("--stage-times", o.stage_times,
-                     "measure how long each stage of the steps takes; the summary has a table of it (of the "
-                     "Simulators in this process; docs/performance.md)");
+                     "measure how long each stage of the steps takes and what the solver does; the summary "
+                     "tells both (of the Simulators in this process; docs/performance.md)");
     command
         .add_option(
             "--log", o.log,

@@ -379,8 +379,11 @@ void ContactIsland::build_rows() {
 }
 
 void ContactIsland::solve_velocities() {
-    const SolveReport solved =
-        s_.solver.solve({model_.accuracy, s_.robots, s_.offsets, s_.rows}, s_.v, s_.team);
+    const IslandSolver::Problem problem{model_.accuracy, s_.robots, s_.offsets, s_.rows};
+    iterations_before_ = report_.iterations;
+    const SolveReport solved = s_.solver.solve(problem, s_.v, s_.team);
+    largest_part_ = s_.solver.largest_part();
+    if (s_.group.profiles_solver) s_.solver.profile_friction(problem, report_.profile.solver);
     report_.iterations += solved.iterations;
     report_.residual = std::max(report_.residual, solved.residual);
     ROBOSS_CHECK(s_.v.size() == s_.v_before.size(), std::to_string(s_.v.size()));
@@ -402,6 +405,9 @@ void ContactIsland::solve_displacements() {
     mark_pushed(robots_, s_);
     stop_late_hits(model_, robots_, s_, members_, needs_displacement_, report_);
     mark_touched(robots_, s_);
+    if (s_.group.profiles_solver)
+        report_.profile.solver.add_island(members_.size(), static_cast<std::size_t>(largest_part_),
+                                          report_.iterations - iterations_before_);
 }
 
 void ContactIsland::integrate() {

@@ -41,6 +41,7 @@ class ContactIsland {
     bool is_tied_ = false;             // a bond joins it to scenery, or to what does not move freely
     bool bounces_ = false;             // throws_back
     bool guards_energy_ = false;
+    int iterations_before_ = 0, largest_part_ = 0;  // for profiles
 };
 
 }  // namespace roboss

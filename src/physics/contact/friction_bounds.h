@@ -18,42 +18,69 @@ void update_bound(const T& wanted, T& bound, T& last_error, T& relaxation) {
     bound += relaxation * error;
 }
 
-/// The disc's bound follows the normal impulse; returns the change of its impulse if it did so at full step.
+/// Change of the disc's impulse if its bound became that of the normal impulse.
 template <class T>
-T update_disc(FrictionDiscT<T>& disc, const T& normal_impulse) {
+T disc_change(const FrictionDiscT<T>& disc, const T& normal_impulse) {
     if (disc.coefficient == 0) return 0;
     const T wanted = disc.coefficient * normal_impulse;
     const TangentialT<T> before = impulse_at(disc, disc.u_1, disc.u_2, disc.bound);
     const TangentialT<T> after = impulse_at(disc, disc.u_1, disc.u_2, wanted);
-    update_bound(wanted, disc.bound, disc.bound_error, disc.relaxation);
     return magnitude(after.t1 - before.t1) + magnitude(after.t2 - before.t2);
 }
 
+/// How much friction would change if all bounds became those of the normal impulses, relative to the largest
+/// normal impulse (moments are compared by the radius that their coefficient is).
 template <class T>
-void update_spin(AngularRowT<T>& row, const T& normal_impulse) {
-    update_bound(row.torsional * normal_impulse, row.spin.high, row.spin_error, row.spin_relaxation);
-    row.spin.low = -row.spin.high;
+struct BoundError {
+    T largest{}, change{};
+
+    void add(const ContactRowT<T>& row) {
+        largest = larger(largest, row.normal.impulse);
+        change = larger(change, disc_change(row.slip, row.normal.impulse));
+    }
+    /// `normal_impulse`: of its contact.
+    void add(const AngularRowT<T>& row, const T& normal_impulse) {
+        if (row.torsional > 0)
+            change =
+                larger(change, magnitude(row.torsional * normal_impulse - row.spin.high) / T(row.torsional));
+        if (row.roll.coefficient > 0)
+            change = larger(change, disc_change(row.roll, normal_impulse) / T(row.roll.coefficient));
+    }
+    T relative() const { return select(largest > T(0), change / largest, T(0)); }
+};
+
+template <class T>
+BoundError<T> bound_error(const IslandRowsT<T>& rows) {
+    BoundError<T> error;
+    for (const ContactRowT<T>& row : rows.contacts) error.add(row);
+    for (const AngularRowT<T>& row : rows.angulars) error.add(row, rows.contacts[row.contact].normal.impulse);
+    return error;
 }
 
-/// All friction bounds follow the normal impulses; returns how much friction that would change at full step,
-/// relative to the largest normal impulse (moments are compared by the radius that their coefficient is).
+template <class T>
+void update_disc(FrictionDiscT<T>& disc, const T& normal_impulse) {
+    if (disc.coefficient == 0) return;
+    update_bound(disc.coefficient * normal_impulse, disc.bound, disc.bound_error, disc.relaxation);
+}
+
+/// All friction bounds follow the normal impulses; returns their error before that.
 template <class T>
 T update_bounds(IslandRowsT<T>& rows) {
-    T largest = 0, change = 0;
+    BoundError<T> error;
     for (ContactRowT<T>& row : rows.contacts) {
-        largest = larger(largest, row.normal.impulse);
-        change = larger(change, update_disc(row.slip, row.normal.impulse));
+        error.add(row);
+        update_disc(row.slip, row.normal.impulse);
     }
     for (AngularRowT<T>& row : rows.angulars) {
         const T normal = rows.contacts[row.contact].normal.impulse;
+        error.add(row, normal);
         if (row.torsional > 0) {
-            change = larger(change, magnitude(row.torsional * normal - row.spin.high) / T(row.torsional));
-            update_spin(row, normal);
+            update_bound(row.torsional * normal, row.spin.high, row.spin_error, row.spin_relaxation);
+            row.spin.low = -row.spin.high;
         }
-        if (row.roll.coefficient > 0)
-            change = larger(change, update_disc(row.roll, normal) / T(row.roll.coefficient));
+        if (row.roll.coefficient > 0) update_disc(row.roll, normal);
     }
-    return select(largest > T(0), change / largest, T(0));
+    return error.relative();
 }
 
 /// Every friction bound as the normal impulse at the present velocity says.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/check.h"
+#include "physics/contact/friction_bounds.h"
 #include "physics/solver/row_math.h"
 
 namespace roboss {
@@ -40,8 +41,7 @@ void IslandParts::ByPart::sort(std::size_t parts, std::span<const std::uint32_t>
 SolveReport IslandParts::solve(const Problem& p, std::vector<double>& v, const Team& team) {
     const std::size_t count = p.robots.size();
     largest_part_ = static_cast<int>(count);
-    const bool is_alone = count == 1 && !BodySolver::can_solve(*p.robots[0]);
-    if (is_alone || p.rows.contacts.empty()) return solvers_[0].islands.solve(p, v);
+    if (!has_parts(p)) return solvers_[0].islands.solve(p, v);
     prepare(p, v.size());
     join_by_pushing(p, v);
     SolveReport report;
@@ -57,6 +57,27 @@ SolveReport IslandParts::solve(const Problem& p, std::vector<double>& v, const T
     }
     finish_left_out(p, v);
     return report;
+}
+
+bool IslandParts::has_parts(const Problem& p) {
+    const bool is_alone = p.robots.size() == 1 && !BodySolver::can_solve(*p.robots[0]);
+    return !is_alone && !p.rows.contacts.empty();
+}
+
+void IslandParts::profile_friction(const Problem& p, SolverProfile& profile) const {
+    const auto add = [&](const friction::BoundError<double>& error) {
+        if (error.largest > 0) profile.add_friction(error.relative(), p.accuracy.friction_tolerance);
+    };
+    if (!has_parts(p)) return add(friction::bound_error(p.rows));
+    for (std::size_t part = 0; part + 1 < robots_.first.size(); ++part) {
+        friction::BoundError<double> error;
+        for (const std::uint32_t c : contacts_.of(part)) error.add(p.rows.contacts[c]);
+        for (const std::uint32_t a : angulars_.of(part)) {
+            const AngularRow& row = p.rows.angulars[a];
+            error.add(row, p.rows.contacts[row.contact].normal.impulse);
+        }
+        add(error);
+    }
 }
 
 void IslandParts::list_changed() {

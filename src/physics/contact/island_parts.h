@@ -16,6 +16,7 @@
 #include "core/union_find.h"
 #include "physics/bodies/body_solver.h"
 #include "physics/solver/solver.h"
+#include "physics/step_profile.h"
 
 namespace roboss {
 
@@ -28,6 +29,8 @@ class IslandParts {
     SolveReport solve(const Problem& problem, std::vector<double>& v, const Team& team = {});
     /// Robots of the largest part of the last call.
     int largest_part() const { return largest_part_; }
+    /// What friction is off by in the parts of the last call, if that solved for velocities.
+    void profile_friction(const Problem& p, SolverProfile& profile) const;
 
   private:
     /// The two robots of a contact (numbers in the problem); a == b if it joins none.
@@ -61,6 +64,7 @@ class IslandParts {
     bool join_violated(const Problem& p, const std::vector<double>& v);
     void join_all();
     void sort_by_parts(const Problem& p);
+    static bool has_parts(const Problem& p);
     void list_changed();
     void solve_changed(const Problem& p, const Team& team, std::vector<double>& v, SolveReport& report);
     SolveReport solve_part(const Problem& p, std::size_t part, PartSolver& s, std::vector<double>& v) const;

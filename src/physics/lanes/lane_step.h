@@ -29,7 +29,7 @@ class LaneStep final : public LaneStepper {
 
     unsigned step(const Model& model, std::span<const LaneRobot> robots, StepReport& report,
                   StageClock& clock) override {
-        Batch batch{*this, model, robots, report};
+        Batch batch{*this, model, robots, report, clock.is_on()};
         return step_robots(batch, clock) ? batch.together.present() : 0;
     }
 
@@ -44,6 +44,7 @@ class LaneStep final : public LaneStepper {
         const Model& model;
         std::span<const LaneRobot> robots;
         StepReport& result;
+        bool is_profiled = false;
         Lockstep<T> together{};
 
         bool forward_kinematics() { return kernel.place(model, robots, together); }
@@ -60,12 +61,18 @@ class LaneStep final : public LaneStepper {
         }
         bool has_rows() const { return true; }
         void build_rows() { kernel.add_rows(model, together); }
-        void solve_velocities() { kernel.solve(model, together); }
+        void solve_velocities() {
+            kernel.solve(model, together);
+            if (is_profiled) kernel.friction_error_ = friction::bound_error(kernel.rows_);
+        }
         void solve_displacements() { kernel.find_displacement(model, together); }
         void integrate() { kernel.integrate(model, together); }
         void guard() {}         // whose energy or momentum is guarded has left
         void put_to_sleep() {}  // who is slow enough has left
-        void report() { kernel.scatter(model, robots, together, result); }
+        void report() {
+            kernel.scatter(model, robots, together, result);
+            if (is_profiled) kernel.profile(model, together, result.profile.solver);
+        }
     };
 
     static bool is_in(const Lockstep<T>& together, std::size_t lane) {
@@ -463,6 +470,17 @@ class LaneStep final : public LaneStepper {
         if (lane(solved_.residual, i) > report.residual) report.residual = lane(solved_.residual, i);
     }
 
+    /// Each lane is a contact island of one robot.
+    void profile(const Model& model, const Lockstep<T>& together, SolverProfile& profile) const {
+        const double tolerance = std::max(model.accuracy.friction_tolerance, newton::kFinest<T>);
+        const T error = friction_error_.relative();
+        for (std::size_t i = 0; i < kLanesOf<T>; ++i) {
+            if (!is_in(together, i)) continue;
+            profile.add_island(1, 1, static_cast<int>(lane(solved_.iterations, i)));
+            if (lane(friction_error_.largest, i) > 0) profile.add_friction(lane(error, i), tolerance);
+        }
+    }
+
     void scatter_contacts(std::size_t i) {
         for (std::size_t c = 0; c < contacts_.size(); ++c) {
             Contact& to = found_.contact(i, c);
@@ -500,6 +518,7 @@ class LaneStep final : public LaneStepper {
     IslandRowsT<T> rows_;
     Newton<T, TreeHessian<T>> newton_;
     SolveReportT<T> solved_;
+    friction::BoundError<T> friction_error_;  // of the velocities, if it is profiled
     Mask split_{false}, free_{false}, pushed_{false};
     LaneContacts found_{kLanesOf<T>};
     bool on_plane_ = false;             // contacts_ are not from found_

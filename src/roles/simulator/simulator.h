@@ -27,7 +27,7 @@ struct SimulatorOptions {
     std::size_t look_up = 64;      // robots times ticks between two polls for messages, where few are stepped
     double cut_least_ns = 50'000;  // of an assignment's work: less is not worth reporting or giving away
     std::size_t lanes = kMostLanes;  // robots stepped at once (StepScratch::use_lanes)
-    StageMeter stages{};             // who measures the stages of its steps
+    StepMeter meter{};               // who profiles its steps
     std::string name;                // where it runs, for reports
 };
 

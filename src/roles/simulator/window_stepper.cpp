@@ -24,12 +24,12 @@ WindowStepper::WindowStepper(std::shared_ptr<const Model> model, ThreadPool& poo
       pool_(pool),
       options_(std::move(options)),
       scratch_(pool.threads()),
-      stage_times_(pool.threads()),
+      profiles_(pool.threads()),
       largest_groups_(pool.threads()),
       lane_groups_(pool.threads()) {
     for (StepScratch& scratch : scratch_) {
         scratch.use_lanes(options_.lanes);
-        scratch.measure_stages(options_.stages.now);
+        scratch.measure_stages(options_.meter.now);
     }
 }
 
@@ -94,7 +94,7 @@ WindowResult WindowStepper::step(const Assignment& assignment, StateStore& store
     pool_.run(
         batch_offsets_.size() - 1 - large,
         [&](std::size_t b, std::size_t worker) { step_batch(job, large + b, worker); }, [&] { between({}); });
-    report_stages();
+    report_profile();
     if (job.result.left > 0) return std::move(job.result);
     for (auto& boxes : earlier_) {
         job.result.earlier.insert(job.result.earlier.end(), boxes.begin(), boxes.end());
@@ -120,11 +120,11 @@ std::size_t WindowStepper::step_large_batches(Job& job) {
     return large;
 }
 
-void WindowStepper::report_stages() {
-    if (!options_.stages) return;
-    StageTimes all;
-    for (StageTimes& times : stage_times_) all += std::exchange(times, {});
-    options_.stages.add(all);
+void WindowStepper::report_profile() {
+    if (!options_.meter) return;
+    StepProfile all;
+    for (StepProfile& profile : profiles_) all += std::exchange(profile, {});
+    options_.meter.add(all);
 }
 
 void WindowStepper::step_batch(Job& job, std::size_t batch, std::size_t worker) {
@@ -173,7 +173,7 @@ bool WindowStepper::step_tick(Job& job, std::size_t island, Tick tick, std::span
     const StepReport report =
         step_island(*model_, tick, robots, std::span(states_).subspan(first, robots.size()), orders,
                     std::span(bounds_).subspan(first, robots.size()), scratch_[worker]);
-    stage_times_[worker] += report.stages;
+    profiles_[worker] += report.profile;
     largest_groups_[worker] =
         std::max(largest_groups_[worker], static_cast<std::size_t>(report.largest_group));
     sweep(job, island, orders);
@@ -256,7 +256,7 @@ bool WindowStepper::step_lane_group(Job& job, Tick tick, std::size_t worker) {
     }
     const StepReport report =
         step_island(*model_, tick, c.robots, c.states, c.orders, c.bounds, scratch_[worker]);
-    stage_times_[worker] += report.stages;
+    profiles_[worker] += report.profile;
     for (std::size_t i = 0; i < c.islands.size(); ++i)
         bounds_[job.assignment.island_offsets[c.islands[i]]] = c.bounds[i];
     for (const std::uint32_t i : c.islands) sweep(job, i, c.orders);
