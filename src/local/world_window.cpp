@@ -68,9 +68,8 @@ void WorldStepper::plan(Tick ticks, std::span<const Order> orders, std::vector<R
     }
 }
 
-/// Batches with an island that one thread would be busy with after the others are done, if its robots mostly
-/// may meet: all threads step such a batch together, one after the other. They are the first; returns how
-/// many.
+/// All threads step a batch together if one of its islands is more than their share of the work, and most of
+/// its robots may meet. Such batches are the first; returns how many.
 std::size_t WorldStepper::step_large_batches(Tick from, Tick until, std::span<const Order> orders) {
     const std::span<Batch> batches = std::span(batches_).first(batch_count_);
     double all = 0;

@@ -20,13 +20,19 @@ void expect_same_bits(const RobotState& a, const RobotState& b, const std::strin
     ASSERT_EQ(x, y) << where;
 }
 
-/// Two heaps and two cars, far apart, in one world.
-World two_places() {
+/// Ground, and as the last prototypes a box and a car.
+World boxes_and_cars() {
     World world = empty_world(2e-3);
     place(world, ground(surface(0.7)), "ground");
-    const std::size_t box = world.prototypes.size();
     world.prototypes.push_back(solid_box(1.0, {0.2, 0.2, 0.2}, surface(0.6, 0.2)));
     world.prototypes.push_back(car());
+    return world;
+}
+
+/// Two heaps and two cars, far apart, in one world.
+World two_places() {
+    World world = boxes_and_cars();
+    const std::size_t box = world.prototypes.size() - 2;
     for (int i = 0; i < 8; ++i) {
         const double x = i % 2 == 0 ? 0 : 50;  // ids alternate between the places
         world.instances.push_back(
@@ -213,15 +219,10 @@ TEST(Invariance, StateThroughBytesContinuesWithTheSameBits) {
     }
 }
 
-#if defined(__x86_64__)
-/// So many robots that all may meet that a team steps them: a large heap, pairs of boxes, and cars that
-/// drive.
+/// A group large enough for a team: a heap, pairs of boxes, and cars.
 World large_heap() {
-    World world = empty_world(2e-3);
-    place(world, ground(surface(0.7)), "ground");
-    const std::size_t box = world.prototypes.size();
-    world.prototypes.push_back(solid_box(1.0, {0.2, 0.2, 0.2}, surface(0.6, 0.2)));
-    world.prototypes.push_back(car());
+    World world = boxes_and_cars();
+    const std::size_t box = world.prototypes.size() - 2;
     for (int i = 0; i < 120; ++i) {
         const int column = i % 30, layer = i / 30;
         const double x = 0.21 * (column % 6) + 0.03 * layer, y = 0.21 * (column / 6) - 0.02 * layer;
@@ -256,6 +257,7 @@ TEST(Invariance, ATeamOfThreadsGivesTheSameBits) {
     EXPECT_GT(contacts, 30000);
 }
 
+#if defined(__x86_64__)
 TEST(Invariance, FlushToZeroAndRoundingOfTheCallerChangeNoBit) {
     const World world = random_crowd(13, 10);
     Simulation plain(world), flushed(world);

@@ -97,10 +97,9 @@ void RobotGroup::build_contact_islands() {
 }
 
 /// Small groups are not worth waking other threads for. Reactions are kept in the order of the islands.
-const Team& RobotGroup::team() const {
-    static const Team alone;
+Team RobotGroup::team() const {
     constexpr std::size_t kWorthIt = 96;  // robots
-    return robots_.size() < kWorthIt || s_.keep_reactions ? alone : s_.team;
+    return robots_.size() < kWorthIt || s_.keep_reactions ? Team() : s_.team;
 }
 
 /// Tells each thread's islands about the group.

@@ -44,7 +44,7 @@ class RobotGroup {
 
   private:
     bool goes_in_lanes(std::span<const std::uint32_t> members) const;
-    const Team& team() const;
+    Team team() const;
     void start_islands();
     std::size_t count_large();
     void keep_contact_reports();

@@ -1,5 +1,5 @@
-// What a profile of a run tells: how long each stage of its steps takes, and what the solver did. Nothing of
-// it is found out unless somebody asks (StepScratch::measure_stages), and no bit of a run depends on it.
+// The profile of a run: how long each stage of its steps takes, and what the solver did. It is measured only
+// on request (StepScratch::measure_stages), and no bit of a run depends on it.
 #pragma once
 
 #include <algorithm>
@@ -61,7 +61,7 @@ struct StepProfile {
     }
 };
 
-/// Who wants the profile of a run's steps; nobody: `now` is null, and nothing is measured.
+/// Receives the profile of a run's steps; if `now` is null, nothing is measured.
 struct StepMeter {
     StageNow now = nullptr;
     std::function<void(const StepProfile&)> add{};  // called with the sum of each window's steps

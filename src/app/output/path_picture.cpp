@@ -9,23 +9,16 @@
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 
+#include "app/text.h"
 #include "core/fixed_math.h"
 
 namespace roboss {
 namespace {
 
-using Text = fmt::memory_buffer;
-
 constexpr double kMargin = 32, kHeader = 84, kFooter = 58;  // px
 constexpr const char* kPathColours[] = {"#d1495b", "#2e7d9a", "#e08e2b", "#3f9263", "#7d5ba6", "#c2577f",
                                         "#4f6fc4", "#a07a1f", "#1f9a93", "#b5562f", "#6b8e23", "#8a4f6d"};
-
-template <class... Args>
-void add(Text& text, fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(text), format, std::forward<Args>(args)...);
-}
 
 struct Point {
     double x = 0, y = 0;

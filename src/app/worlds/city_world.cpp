@@ -5,15 +5,10 @@
 
 #include <iterator>
 
+#include "app/text.h"
+
 namespace roboss {
 namespace {
-
-using Text = fmt::memory_buffer;
-
-template <class... Args>
-void add(Text& text, fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(text), format, std::forward<Args>(args)...);
-}
 
 // The numbers of the car below: chassis box of 5 kg, wheels of 0.3 kg, inertias of the solid box and
 // cylinders. A motor of 0.8 N m can just skid its wheel sideways (grip 0.9 * 15 N * 0.05 m = 0.68 N m), so

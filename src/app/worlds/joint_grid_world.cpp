@@ -4,17 +4,10 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
+#include "app/text.h"
 
 namespace roboss {
 namespace {
-
-using Text = fmt::memory_buffer;
-
-template <class... Args>
-void add(Text& text, fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(text), format, std::forward<Args>(args)...);
-}
 
 constexpr double kSpacing = 0.1, kHeight = 2;  // m
 constexpr double kBowl = 0.6;                  // depth over half the length

@@ -25,8 +25,9 @@ bool BodySolver::change_pushing() {
 bool BodySolver::displace() {
     constexpr int kRoundsMax = 10;
     keep_start();
+    residual_ = kernel_.balance(island_);
     for (int round = 0; round < kRoundsMax; ++round) {
-        return_to_start();
+        if (round > 0) return_to_start();
         set_curvatures(island_.points);
         for (BodyPoint& p : island_.points) {
             p.d_n = p.f_n = 0;

@@ -20,14 +20,14 @@ struct SixBlock {
 
 struct FreeBody {
     SixBlock mass;
-    Six impulse;                            // M v + dt (applied - bias)
-    Six v, mv;                              // velocity, M v
-    Six gradient;                           // mv - impulse - applied
-    Six applied;                            // impulses of all contacts
-    Six step, m_step;                       // of the velocity, M step
-    Six lightness;                          // 1 / M's diagonal
-    SixBlock mobility;                      // M^-1, for sweeps
-    Six swept, swept_before, swept_course;  // sweeps: velocity, before the last one, and its course
+    Six impulse;                               // M v + dt (applied - bias)
+    Six v, mv;                                 // velocity, M v
+    Six gradient;                              // mv - impulse - applied
+    Six applied;                               // impulses of all contacts
+    Six step, m_step;                          // of the velocity, M step
+    Six lightness;                             // 1 / M's diagonal
+    SixBlock mobility;                         // M^-1, for sweeps
+    Six swept, swept_before, sweep_direction;  // sweeps: velocity, before the last one; search direction
 };
 
 /// A contact point. `n`, `t1`, `t2`: normal, tangents. Friction velocities are relative to their targets.
@@ -49,7 +49,7 @@ struct BodyPoint {
     double mass_n = 0, mass_t = 0;                             // effective, while sweeping
     double swept_n = 0, swept_1 = 0, swept_2 = 0;              // impulses
     double before_n = 0, before_1 = 0, before_2 = 0;           // before the last sweep
-    double course_n = 0, course_1 = 0, course_2 = 0;
+    double direction_n = 0, direction_1 = 0, direction_2 = 0;  // search direction of sweeps
 };
 
 /// Order of elimination and places of all blocks of the factor. Edges join a body to those that are

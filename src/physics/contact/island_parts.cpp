@@ -49,7 +49,7 @@ SolveReport IslandParts::solve(const Problem& p, std::vector<double>& v, const T
     largest_part_ = 0;
     for (int round = 0;; ++round) {
         sort_by_parts(p);
-        list_changed();
+        list_changed(team);
         solve_changed(p, team, v, report);
         std::ranges::fill(changed_, 0);
         if (!join_violated(p, v)) break;
@@ -80,11 +80,12 @@ void IslandParts::profile_friction(const Problem& p, SolverProfile& profile) con
     }
 }
 
-void IslandParts::list_changed() {
+void IslandParts::list_changed(const Team& team) {
     to_solve_.clear();
     for (std::uint32_t part = 0; part + 1 < robots_.first.size(); ++part)
         if (std::ranges::any_of(robots_.of(part), [&](std::uint32_t r) { return changed_[r] != 0; }))
             to_solve_.push_back(part);
+    if (team.size() == 1) return;
     std::ranges::sort(to_solve_, [&](std::uint32_t a, std::uint32_t b) {
         return std::pair(robots_.of(b).size(), a) < std::pair(robots_.of(a).size(), b);
     });

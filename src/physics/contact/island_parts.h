@@ -65,7 +65,7 @@ class IslandParts {
     void join_all();
     void sort_by_parts(const Problem& p);
     static bool has_parts(const Problem& p);
-    void list_changed();
+    void list_changed(const Team& team);
     void solve_changed(const Problem& p, const Team& team, std::vector<double>& v, SolveReport& report);
     SolveReport solve_part(const Problem& p, std::size_t part, PartSolver& s, std::vector<double>& v) const;
     bool is_of_bodies(const Problem& p, std::size_t part) const;
@@ -86,7 +86,7 @@ class IslandParts {
     std::vector<char> changed_;               // by robot: a contact joined it since it was solved
     ByPart robots_, couplings_, contacts_, angulars_;
     std::vector<std::uint32_t> keys_;
-    std::vector<std::uint32_t> to_solve_;  // parts, the largest first
+    std::vector<std::uint32_t> to_solve_;  // parts; for a team the largest first
     std::vector<SolveReport> reports_;     // of these
     std::vector<PartSolver> solvers_ = std::vector<PartSolver>(1);
 };

@@ -11,20 +11,21 @@ namespace {
 
 /// Gauss-Seidel sweeps over the points of a BodyIsland: projected impulses, one point after the other. The
 /// change of a sweep is taken for a descent direction, and sweeps are accelerated as by nonlinear conjugate
-/// gradients (Silcowitz-Hansen, Niebe, Erleben 2010): each adds a share of the course of those before it. The
-/// course starts anew where a sweep changes more than the one before it.
+/// gradients (Silcowitz-Hansen, Niebe, Erleben 2010): after each, impulses also move along the search
+/// direction, which collects the changes of the sweeps. It starts anew where a sweep changes more than the
+/// one before it.
 class LaneSweeps {
   public:
-    /// At most so many; fewer once a sweep changes next to nothing.
+    /// At most `most` sweeps; fewer if they converge.
     static void run(BodyIsland& s, int most) {
-        constexpr double kNothing = 1e-8;  // of the squared impulses
+        constexpr double kConverged = 1e-8;  // squared change, relative to the squared impulses
         start(s);
         double last = 0, enough = 0;
         for (int i = 0; i < most; ++i) {
             const double change = sweep(s);
-            if (i == 0) enough = kNothing * squared_impulses(s);
+            if (i == 0) enough = kConverged * squared_impulses(s);
             if (i + 1 == most || change <= enough) break;
-            follow(s, i > 0 && change <= last ? change / last : 0);
+            accelerate(s, i > 0 && change <= last ? change / last : 0);
             last = change;
         }
         for (FreeBody& body : s.bodies) body.v = body.swept;
@@ -56,24 +57,24 @@ class LaneSweeps {
         return sum;
     }
 
-    /// Adds a share of the course, which goes on with the last sweep's change. Velocities are linear in the
-    /// impulses, so they have a course of their own.
-    static void follow(BodyIsland& s, double share) {
+    /// Moves along the search direction, shortened by `share`, and adds the last sweep's change to it.
+    /// Velocities are linear in the impulses, so they have a search direction of their own.
+    static void accelerate(BodyIsland& s, double share) {
         for (FreeBody& body : s.bodies) {
-            const Row course = share * load(body.swept_course), swept = load(body.swept);
-            store(course + (swept - load(body.swept_before)), body.swept_course);
-            store(swept + course, body.swept);
+            const Row direction = share * load(body.sweep_direction), swept = load(body.swept);
+            store(direction + (swept - load(body.swept_before)), body.sweep_direction);
+            store(swept + direction, body.swept);
         }
-        const auto follow_one = [share](double before, double& swept, double& course) {
+        const auto accelerate_one = [share](double before, double& swept, double& direction) {
             const double change = swept - before;
-            course *= share;
-            swept += course;
-            course += change;
+            direction *= share;
+            swept += direction;
+            direction += change;
         };
         for (BodyPoint& p : s.points) {
-            follow_one(p.before_n, p.swept_n, p.course_n);
-            follow_one(p.before_1, p.swept_1, p.course_1);
-            follow_one(p.before_2, p.swept_2, p.course_2);
+            accelerate_one(p.before_n, p.swept_n, p.direction_n);
+            accelerate_one(p.before_1, p.swept_1, p.direction_1);
+            accelerate_one(p.before_2, p.swept_2, p.direction_2);
         }
     }
 
@@ -81,7 +82,7 @@ class LaneSweeps {
         for (FreeBody& body : s.bodies) {
             invert(body.mass, body.mobility);
             store(times(body.mobility, body.impulse), body.swept);
-            body.swept_course = {};
+            body.sweep_direction = {};
         }
         FreeBody* bodies = s.bodies.data();
         for (BodyPoint& p : s.points) {
@@ -101,7 +102,7 @@ class LaneSweeps {
             p.mass_n = 1.0 / (total(n) + 1.0 / p.stiffness_n);
             p.mass_t = 1.0 / (std::max(total(t1), total(t2)) + 1.0 / p.stiffness_t);
             p.swept_n = p.f_n, p.swept_1 = p.f_1, p.swept_2 = p.f_2;
-            p.course_n = p.course_1 = p.course_2 = 0;
+            p.direction_n = p.direction_1 = p.direction_2 = 0;
             Row va = load(a.swept);
             push(va, p.by_n_a, p.swept_n), push(va, p.by_t1_a, p.swept_1), push(va, p.by_t2_a, p.swept_2);
             store(va, a.swept);

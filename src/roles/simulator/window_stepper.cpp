@@ -103,8 +103,8 @@ WindowResult WindowStepper::step(const Assignment& assignment, StateStore& store
     return std::move(job.result);
 }
 
-/// An island with so many of the robots that one thread would be busy with it after the others are done, if
-/// they mostly may meet: all threads step it together. Such islands are the first; returns how many.
+/// All threads step an island together if it has more than their share of the robots, and most of its robots
+/// may meet. Such islands are the first; returns how many.
 std::size_t WindowStepper::step_large_batches(Job& job) {
     const std::size_t groups = std::ranges::max(largest_groups_), robots = job.assignment.robots.size();
     std::ranges::fill(largest_groups_, 0);
