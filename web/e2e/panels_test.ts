@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
+import type { Page } from "playwright-core";
 import { Bench, choose, openPage, pressInBar, PROGRAM, startRun, time, until, WAIT_MS } from "./bench";
 
 declare global {
@@ -128,13 +129,36 @@ bench.test("a picture is saved, and a link brings back camera and selection", as
     await other.page.context().close();
 });
 
+/** Plays a video to its end: the frames that were shown, and what was wrong with it. */
+async function play(page: Page, video: Buffer): Promise<{ problem: string; frames: number }> {
+    return page.evaluate(async (text) => {
+        const film = document.createElement("video");
+        film.muted = true;
+        film.src = URL.createObjectURL(new Blob([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))]));
+        let frames = 0;
+        const count = () => {
+            ++frames;
+            film.requestVideoFrameCallback(count);
+        };
+        film.requestVideoFrameCallback(count);
+        const ended = new Promise<string>((resolve) => {
+            film.onended = () => resolve("");
+            film.onerror = () => resolve(film.error?.message ?? "it cannot be played");
+        });
+        await film.play();
+        return { problem: await ended, frames };
+    }, video.toString("base64"));
+}
+
 bench.test("a video is recorded and saved", async (page) => {
     await pressInBar(page, "Record a video");
     await page.waitForTimeout(2500);
     const [download] = await Promise.all([page.waitForEvent("download"), pressInBar(page, "Record a video")]);
     const video = readFileSync(await download.path());
     assert.match(download.suggestedFilename(), /\.(webm|mp4)$/);
-    assert.ok(video.length > 2000, `${video.length} bytes`);
+    const { problem, frames } = await play(page, video);
+    assert.equal(problem, "");
+    assert.ok(frames > 1, `${frames} frames in ${video.length} bytes`);
 });
 
 bench.test("keys do what the card says, and the card opens with ?", async (page) => {
