@@ -1,8 +1,8 @@
 // A square net of plates with a ball joint between neighbours, hanging on two corners. It starts as a bowl
 // and swings: nothing but joints, most of them in loops, and no contact. The figures count plates.
 //
-// A bowl, for where all joints lie in one plane many of their conditions say the same, and a step further
-// they do not: RoBOSS, which keeps loops closed exactly, goes wrong there. The others' joints are soft.
+// A bowl, for a flat net is in a singular configuration: there engines differ in what they make of it, and
+// not only in speed.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -83,6 +83,20 @@ T update_bounds(IslandRowsT<T>& rows) {
     return error.relative();
 }
 
+/// All friction bounds, and back.
+template <class T>
+void keep_bounds(IslandRowsT<T>& rows, std::vector<T>& bounds) {
+    bounds.clear();
+    for_each_disc(rows, [&](FrictionDiscT<T>& disc) { bounds.push_back(disc.bound); });
+    for (const AngularRowT<T>& row : rows.angulars) bounds.push_back(row.spin.high);
+}
+template <class T>
+void set_bounds(IslandRowsT<T>& rows, const std::vector<T>& bounds) {
+    std::size_t at = 0;
+    for_each_disc(rows, [&](FrictionDiscT<T>& disc) { disc.bound = bounds[at++]; });
+    for (AngularRowT<T>& row : rows.angulars) row.spin.high = bounds[at++], row.spin.low = -row.spin.high;
+}
+
 /// Every friction bound as the normal impulse at the present velocity says.
 template <class T>
 void tie_bounds(IslandRowsT<T>& rows) {

@@ -38,7 +38,7 @@ void IslandParts::ByPart::sort(std::size_t parts, std::span<const std::uint32_t>
     first[0] = 0;
 }
 
-SolveReport IslandParts::solve(const Problem& p, std::vector<double>& v, const Team& team) {
+SolveReport IslandParts::solve(Problem p, std::vector<double>& v, const Team& team) {
     const std::size_t count = p.robots.size();
     largest_part_ = static_cast<int>(count);
     if (!has_parts(p)) return solvers_[0].islands.solve(p, v);
@@ -50,6 +50,7 @@ SolveReport IslandParts::solve(const Problem& p, std::vector<double>& v, const T
     for (int round = 0;; ++round) {
         sort_by_parts(p);
         list_changed(team);
+        p.again = round > 0;
         solve_changed(p, team, v, report);
         std::ranges::fill(changed_, 0);
         if (!join_violated(p, v)) break;
@@ -117,7 +118,7 @@ SolveReport IslandParts::solve_part(const Problem& p, std::size_t part, PartSolv
         report = s.islands.solve(p, v);
     } else {
         take_part(p, part, v, s);
-        report = s.islands.solve({p.accuracy, s.robots, s.offsets, s.rows, p.position}, s.v);
+        report = s.islands.solve({p.accuracy, s.robots, s.offsets, s.rows, p.position, p.again}, s.v);
         give_back(p, part, s, v);
     }
     report.iterations += tried.iterations;

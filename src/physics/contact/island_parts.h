@@ -26,7 +26,7 @@ class IslandParts {
 
     /// As IslandSolver::solve, for the whole contact island. `impulse` of the normals of contacts: what they
     /// carried last. Parts are shared by the threads of the team.
-    SolveReport solve(const Problem& problem, std::vector<double>& v, const Team& team = {});
+    SolveReport solve(Problem problem, std::vector<double>& v, const Team& team = {});
     /// Robots of the largest part of the last call.
     int largest_part() const { return largest_part_; }
     /// What friction is off by in the parts of the last call, if that solved for velocities.

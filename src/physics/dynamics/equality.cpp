@@ -15,9 +15,12 @@ namespace {
 // A row whose free mobility, given the others, is below this share of its nominal one counts as implied by
 // them: hinges of a planar linkage that are parallel to 3e-4 rad do not lock it.
 constexpr double kImplied = 1e-7;
-constexpr double kClosed = 1e-14;  // m or rad
-constexpr double kStepMax = 0.2;   // rad or m, of one Newton step
-constexpr int kNewtonMax = 4;      // of one tick
+constexpr double kClosed = 1e-14;        // m or rad
+constexpr double kNearlyClosed = 1e-10;  // m or rad: rounding decides which of two steps is better
+constexpr double kStepMax = 0.2;         // rad or m, of one Newton step
+constexpr int kNewtonMax = 4;            // of one tick
+constexpr int kHalvedMax = 4;            // of one Newton step
+constexpr double kMoreError = 2;         // after a Newton step that is taken, times the error before
 
 BodyKinematics motion_of(const RobotWork& work, std::span<const double> q, int body) {
     if (body < 0) return {{to_matrix(Quat{q[3], q[4], q[5], q[6]}), {}}, {}, {}};
@@ -160,22 +163,36 @@ void EqualityProjection::prepare(const RobotType& type, std::span<const char> lo
     solver_.prepare(type, work_.mass_matrix, equalities_);
 }
 
+double EqualityProjection::largest_error() const {
+    double largest = 0;
+    for (const EqualityRow& row : equalities_.rows) largest = std::max(largest, std::fabs(row.error));
+    return largest;
+}
+
 void EqualityProjection::close_coordinates(const RobotType& type, std::span<double> q,
                                            std::span<const char> locked) {
-    for (int i = 0; i < kNewtonMax; ++i) {
-        place(type, q);
-        double largest = 0;
-        for (std::size_t r = 0; r < wanted_.size(); ++r) {
-            wanted_[r] = -equalities_.rows[r].error;
-            largest = std::max(largest, std::fabs(wanted_[r]));
-        }
-        if (largest <= kClosed) return;
+    place(type, q);
+    double error = largest_error();
+    for (int i = 0; i < kNewtonMax && error > kClosed; ++i) {
+        for (std::size_t r = 0; r < wanted_.size(); ++r) wanted_[r] = -equalities_.rows[r].error;
         prepare(type, locked);
         solver_.solve(wanted_, change_);
         double step = 0;
         for (const double x : change_) step = std::max(step, std::fabs(x));
-        advance_coordinates<double>(type, change_, step > kStepMax ? kStepMax / step : 1.0, q);
-        if (step <= kClosed) return;
+        q_before_.assign(q.begin(), q.end());
+        double share = step > kStepMax ? kStepMax / step : 1.0;
+        for (int halved = 0;; ++halved, share *= 0.5) {
+            advance_coordinates<double>(type, change_, share, q);
+            if (step * share <= kClosed) return;
+            place(type, q);
+            const double now = largest_error();
+            if (now <= std::max(kMoreError * error, kNearlyClosed)) {
+                error = now;
+                break;
+            }
+            std::copy(q_before_.begin(), q_before_.end(), q.begin());
+            if (halved == kHalvedMax) return;
+        }
     }
 }
 

@@ -70,11 +70,12 @@ class EqualityProjection {
   private:
     void prepare(const RobotType& type, std::span<const char> locked);
     void place(const RobotType& type, std::span<const double> q);
+    double largest_error() const;
 
     RobotWork work_;
     Equalities equalities_;
     EqualitySolver solver_;
-    std::vector<double> wanted_, change_;
+    std::vector<double> wanted_, change_, q_before_;
 };
 
 }  // namespace roboss

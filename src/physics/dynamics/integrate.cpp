@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "physics/dynamics/joint_rows.h"
+#include "physics/dynamics/robot_energy.h"
 #include "physics/dynamics/tree_factor.h"
 
 namespace roboss {
@@ -60,8 +61,9 @@ void add_joint_forces(const Model& model, std::span<const double> q, std::span<c
     }
 }
 
-/// Acceleration of the robot at (q, v) with what acts on it evenly, into its work's velocity.
-void free_acceleration(const Model& model, const SteadyRows& rows, std::span<const double> q,
+/// Acceleration of the robot's tree at (q, v), its loops open, with what acts on it evenly, into its work's
+/// velocity.
+void tree_acceleration(const Model& model, const SteadyRows& rows, std::span<const double> q,
                        std::span<const double> v, FreeBuffer& free) {
     RobotWork& buffer = free.work;
     const RobotType& type = *buffer.type;
@@ -77,7 +79,6 @@ void free_acceleration(const Model& model, const SteadyRows& rows, std::span<con
     tree_factor(type.paths, buffer.mass_matrix.data());
     buffer.velocity = buffer.impulse;
     tree_solve(type.paths, buffer.mass_matrix.data(), buffer.velocity.data());
-    if (type.has_equalities()) add_equality_acceleration(q, rows.locked, free);
 }
 
 /// Into so many parts the tick is cut: no body turns further in one than the method follows to a millionth.
@@ -129,6 +130,48 @@ void add_rates(std::span<const double> from, double dt, std::span<const double> 
     for (std::size_t i = 0; i < size; ++i) to[i] = from[i] + dt * sum[i];
 }
 
+/// Makes room for a step and keeps where it begins.
+void start_part(const Method& method, RobotWork& work, FreeBuffer& buffer) {
+    const RobotState& state = *work.state;
+    const std::size_t nq = state.q.size(), nv = state.v.size();
+    for (auto* sized_q : {&buffer.q, &buffer.q_sum}) sized_q->resize(nq);
+    for (auto* sized_v : {&buffer.v, &buffer.v_sum}) sized_v->resize(nv);
+    buffer.q_rates.resize(method.stages * nq), buffer.v_rates.resize(method.stages * nv);
+    buffer.work.type = work.type;
+    buffer.work.state = work.state;
+    if (!work.type->has_equalities()) return;
+    buffer.q_start = state.q, buffer.v_start = state.v;
+}
+
+/// Puts the state back onto the loops and couplings.
+void close(const SteadyRows& rows, const RobotType& type, RobotState& state, FreeBuffer& buffer) {
+    buffer.projection.close_coordinates(type, state.q, rows.locked);
+    buffer.projection.close_velocities(type, state.q, state.v, rows.locked);
+}
+
+/// True where a step made kinetic energy that no force gave. Loop reactions do no work, so at most the energy
+/// remains that the robot had, or would have with its loops open. Near a dead point of a mechanism the
+/// conditions of its loops are almost dependent, and reactions grow beyond what the method follows.
+bool gained_energy(const Model& model, const RobotWork& work, FreeBuffer& buffer) {
+    constexpr double kMore = 1.05;
+    const auto kinetic = [&](std::span<const double> q, std::span<const double> v) {
+        return sum_bodies(model, q, v, work.origin, buffer.work).kinetic;
+    };
+    const double most =
+        std::max(kinetic(buffer.q_start, buffer.v_start), kinetic(buffer.q_start, buffer.open_velocity));
+    return !(kinetic(work.state->q, work.state->v) <= kMore * most);
+}
+
+/// A step of first order that projects velocities onto the loops: that takes energy and never gives it.
+void advance_projected(double dt, const SteadyRows& rows, RobotWork& work, FreeBuffer& buffer) {
+    const RobotType& type = *work.type;
+    RobotState& state = *work.state;
+    state.q = buffer.q_start, state.v = buffer.open_velocity;
+    buffer.projection.close_velocities(type, state.q, state.v, rows.locked);
+    advance_coordinates<double>(type, state.v, dt, state.q);
+    close(rows, type, state, buffer);
+}
+
 /// One step of the method, of length `dt`.
 void advance_part(const Model& model, double dt, const SteadyRows& rows, RobotWork& work,
                   FreeBuffer& buffer) {
@@ -136,18 +179,21 @@ void advance_part(const Model& model, double dt, const SteadyRows& rows, RobotWo
     const Method& method = method_of(type);
     RobotState& state = *work.state;
     const std::size_t nq = state.q.size(), nv = state.v.size();
-    for (auto* sized_q : {&buffer.q, &buffer.q_sum}) sized_q->resize(nq);
-    for (auto* sized_v : {&buffer.v, &buffer.v_sum}) sized_v->resize(nv);
-    buffer.q_rates.resize(method.stages * nq), buffer.v_rates.resize(method.stages * nv);
-    buffer.work.type = work.type;
-    buffer.work.state = work.state;
+    start_part(method, work, buffer);
     for (std::size_t stage = 0; stage < method.stages; ++stage) {
         const auto weights = std::span(method.from[stage]).first(stage);
         add_rates(state.q, dt, weights, buffer.q_rates, buffer.q_sum, buffer.q);
         add_rates(state.v, dt, weights, buffer.v_rates, buffer.v_sum, buffer.v);
         normalise(type, buffer.q);
         coordinate_rate(type, buffer.q, buffer.v, std::span(buffer.q_rates).subspan(stage * nq, nq));
-        free_acceleration(model, rows, buffer.q, buffer.v, buffer);
+        tree_acceleration(model, rows, buffer.q, buffer.v, buffer);
+        if (type.has_equalities()) {
+            if (stage == 0) {
+                buffer.open_velocity = state.v;
+                for (std::size_t i = 0; i < nv; ++i) buffer.open_velocity[i] += dt * buffer.work.velocity[i];
+            }
+            add_equality_acceleration(buffer.q, rows.locked, buffer);
+        }
         std::copy(buffer.work.velocity.begin(), buffer.work.velocity.end(),
                   buffer.v_rates.begin() + static_cast<std::ptrdiff_t>(stage * nv));
     }
@@ -156,8 +202,8 @@ void advance_part(const Model& model, double dt, const SteadyRows& rows, RobotWo
     add_rates(state.v, dt, weights, buffer.v_rates, buffer.v_sum, state.v);
     normalise(type, state.q);
     if (!type.has_equalities()) return;
-    buffer.projection.close_coordinates(type, state.q, rows.locked);
-    buffer.projection.close_velocities(type, state.q, state.v, rows.locked);
+    close(rows, type, state, buffer);
+    if (gained_energy(model, work, buffer)) advance_projected(dt, rows, work, buffer);
 }
 
 }  // namespace

@@ -27,6 +27,8 @@ struct FreeBuffer {
     EqualityProjection projection;
     std::vector<double> wanted, change, factor;
     std::vector<double> q, q_sum, v, v_sum;
+    std::vector<double> q_start, v_start,
+        open_velocity;                     // of a robot with loops; the last with its loops open
     std::vector<double> q_rates, v_rates;  // of all stages, one after the other
     std::vector<double> force;             // of SteadyRows
     HeldJoints held;

@@ -387,8 +387,8 @@ void advance_freely(const Model& model, RobotWork& work, FreeBuffer& buffer) {
     const double slow =
         work.type->dofs.empty() ? 0.005 : 0.02;  // rad in a tick: the methods' errors are small
     const double fastest = fastest_turn(work);
-    if (fastest * model.dt_s * model.dt_s < slow * slow)
-        return advance_steadily(model, work, {}, fastest, buffer);
+    const bool is_slow = fastest * model.dt_s * model.dt_s < slow * slow;
+    if (is_slow && !work.type->has_equalities()) return advance_steadily(model, work, {}, fastest, buffer);
     SolvedTick free;
     free.isolated = true;
     free.passive = is_passive(work);

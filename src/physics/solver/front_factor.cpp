@@ -87,7 +87,7 @@ bool FrontFactor::eliminate_general(const Front& front) {
     const std::size_t stride = front.stride;
     for (std::size_t c = 0; c < front.own; ++c) {
         double* pivot = a + c * stride;
-        if (!(pivot[c] > 0)) return false;
+        if (!(pivot[c] != 0)) return false;  // nor not a number
         const double inverse = 1.0 / pivot[c];
         pivot[c] = inverse;
         for (std::size_t r = c + 1; r < front.size; ++r) {

@@ -59,7 +59,7 @@ class FrontFactor {
     void begin_factor(bool symmetric);
     Place unsymmetric_place(std::size_t clique);
     /// x := A^-1 x, once after begin_factor: by A = L D L^T, or A = L U without pivoting if it is not
-    /// symmetric. False if a pivot of that is not positive.
+    /// symmetric. False if a pivot of that is zero.
     bool solve(std::span<double> x);
 
   private:

@@ -35,6 +35,7 @@ struct SolveProblem {
     std::span<const int> offsets;
     IslandRowsT<T>& rows;
     bool position = false;
+    bool again = false;  // rows hold the impulses of an earlier solution of the same tick
 };
 
 namespace newton {
@@ -56,6 +57,15 @@ T may_lack(const T& residual) {
     return smaller(T(0.3), T(30) * residual);
 }
 
+/// How long Newton's method goes on, and from where it couples friction bounds to the normal impulses.
+struct Plan {
+    double couple_from = kRoughly;  // residual
+    int far_max = 16;               // steps far from the balance
+    int coupled_steps = 8, halvings = 0;
+    double progress = 0.5;  // of the residual in a coupled step, at least
+    int checks = 0;         // of the friction bounds, once momentum balances
+};
+
 }  // namespace newton
 
 /// `Matrix`: of Newton's method, as TreeHessian.
@@ -70,6 +80,9 @@ class Newton {
     Mask solve(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v, SolveReportT<T>& report);
 
   protected:
+    /// The same from a balance that is known; with friction bounds as they are, if they are `settled`.
+    Mask iterate(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v, SolveReportT<T>& report,
+                 bool settled);
     void times_mass(const SolveProblem<T>& p, const std::vector<T>& x, std::vector<T>& y) const;
     Mask find_step(const SolveProblem<T>& p, bool coupled, const T& lack = 0);
     void move(const SolveProblem<T>& p, const T& alpha, std::vector<T>& v);
@@ -94,7 +107,9 @@ class Newton {
                            SolveReportT<T>& report);
     bool solve_coupled(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v,
                        SolveReportT<T>& report);
+    void return_to_checked(const SolveProblem<T>& p, std::vector<T>& v, SolveReportT<T>& report);
 
+    newton::Plan plan_;
     std::size_t n_ = 0;
     Matrix hessian_;
     std::vector<T> mv_;       // M v
@@ -103,6 +118,7 @@ class Newton {
     std::vector<T> step_, m_step_;
     std::vector<T> lightness_;           // 1 / M's diagonal
     std::vector<T> v_start_, mv_start_;  // where an attempt began
+    std::vector<T> v_checked_, bounds_checked_;
     LineSearchBreakpoints<T> breakpoints_;
     std::vector<T> u_start_;  // floats: velocities along all rows there
 };
@@ -296,23 +312,35 @@ MaskOf<T> Newton<T, Matrix>::find_step(const SolveProblem<T>& p, bool coupled, c
 template <class T, class Matrix>
 bool Newton<T, Matrix>::solve_coupled(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v,
                                       SolveReportT<T>& report) {
-    constexpr int kStepsMax = 8;
-    constexpr double kProgress = 0.5;  // of the residual in a step, at least
     keep_start(p, v);
-    T best = std::numeric_limits<double>::infinity();
-    for (int i = 0;; ++i) {
+    const auto tied_balance = [&] {
         friction::tie_bounds(p.rows);
-        report.residual = balance(p);
+        return balance(p);
+    };
+    report.residual = tied_balance();
+    for (int i = 0;; ++i) {
         const Mask there = report.residual <= tolerance(p);
         if (together.all(there)) return true;
-        if (i == kStepsMax || !together(there | (report.residual <= kProgress * best))) break;
-        best = report.residual;
+        if (i == plan_.coupled_steps) break;
+        const T before = report.residual;
         newton::set_curvatures(p.rows);
         const Mask slides = friction::couple_bounds(p.rows);
         const bool coupled = together.without(there, slides);
-        if (!together(there | find_step(p, coupled, newton::may_lack(report.residual)))) break;
+        if (!together(there | find_step(p, coupled, newton::may_lack(before)))) break;
         move_some(p, !there, v);
         report.iterations += select(there, T(0), T(1));
+        report.residual = tied_balance();
+        double alpha = 1;
+        const auto improves = [&] {
+            return (report.residual <= tolerance(p)) |
+                   (report.residual <= T(1 - plan_.progress * alpha) * before);
+        };
+        for (int h = 0; h < plan_.halvings && !together(improves()); ++h) {
+            alpha *= 0.5;
+            move(p, -alpha, v);
+            report.residual = tied_balance();
+        }
+        if (!together(improves())) break;
     }
     return_to_start(p, v);
     return false;
@@ -367,19 +395,25 @@ void Newton<T, Matrix>::start_as_expected(const SolveProblem<T>& p, Lockstep<T>&
 template <class T, class Matrix>
 MaskOf<T> Newton<T, Matrix>::solve(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v,
                                    SolveReportT<T>& report) {
+    start_as_expected(p, together, v, report);
+    return iterate(p, together, v, report, p.position);
+}
+
+template <class T, class Matrix>
+MaskOf<T> Newton<T, Matrix>::iterate(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v,
+                                     SolveReportT<T>& report, bool settled) {
     constexpr double kFar =
         1e-2;  // a residual that shows that the set of sliding and open contacts is not found yet
     // Each such step turns an edge or two of the potential. A few robots with motors and limits get there in
     // the end; in a heap of bodies there is always another edge (decision 0003).
     constexpr std::size_t kFew = 8;
-    const int far_max = p.robots.size() <= kFew && !p.rows.joints.empty() ? 60 : 16;
+    const int far_max = p.robots.size() <= kFew && !p.rows.joints.empty() ? 60 : plan_.far_max;
     constexpr int kCoupledTries = 3;
-    int far = 0, bound_updates = 0, stalls = 0, coupled_tries = 0;
-    bool settled = p.position;  // the friction bounds
-    T best = 1;
-    start_as_expected(p, together, v, report);
+    int far = 0, bound_updates = 0, stalls = 0, coupled_tries = 0, checks = 0;
+    const bool stays_settled = settled;
+    T best = 1, checked_error = 0;
     for (int i = 0; together.any(); ++i) {
-        if (together(report.residual <= T(newton::kRoughly))) {
+        if (together(report.residual <= T(plan_.couple_from))) {
             if (!settled && coupled_tries < kCoupledTries) {
                 ++coupled_tries;
                 if (solve_coupled(p, together, v, report)) return true;
@@ -395,16 +429,45 @@ MaskOf<T> Newton<T, Matrix>::solve(const SolveProblem<T>& p, Lockstep<T>& togeth
                                                         (report.residual > 0.9 * best));
             stalls = stalls_now ? stalls + 1 : 0;
             best = settled ? smaller(best, report.residual) : T(1);
-            if (settled && (together(report.residual <= tolerance(p)) || stalls >= 3)) return true;
+            if (settled && (together(report.residual <= tolerance(p)) || stalls >= 3)) {
+                if (stays_settled || checks == plan_.checks) break;
+                const T error = friction::bound_error(p.rows).relative();
+                if (together(error <= friction_tolerance(p))) return true;
+                if (checks == 0 || together(error < checked_error)) {
+                    checked_error = error;
+                    v_checked_ = v;
+                    friction::keep_bounds(p.rows, bounds_checked_);
+                }
+                settled = false, stalls = 0, best = 1;
+                // Every other check gets one more series of coupled steps.
+                coupled_tries = ++checks % 2 == 0 ? kCoupledTries : kCoupledTries - 1;
+                continue;
+            }
         }
         if (together(report.residual > T(kFar))) ++far;
-        if (far > far_max || i == p.accuracy.newton_max) return report.residual <= T(newton::kRoughly);
+        if (far > far_max || i == p.accuracy.newton_max) {
+            if (checks == 0) return report.residual <= T(newton::kRoughly);
+            break;
+        }
         newton::set_curvatures(p.rows);
         find_step(p, false, newton::may_lack(report.residual));
         report.residual = take_step(p, together, v);
         report.iterations += T(1);
     }
-    return false;
+    if (checks > 0) return_to_checked(p, v, report);
+    return together.any();
+}
+
+/// Momentum balanced there, and friction missed its tolerance by the least.
+template <class T, class Matrix>
+void Newton<T, Matrix>::return_to_checked(const SolveProblem<T>& p, std::vector<T>& v,
+                                          SolveReportT<T>& report) {
+    v = v_checked_;
+    friction::set_bounds(p.rows, bounds_checked_);
+    times_mass(p, v, mv_);
+    set_steps(p.rows, v);
+    newton::take_velocities(p.rows);
+    report.residual = balance(p);
 }
 
 }  // namespace roboss

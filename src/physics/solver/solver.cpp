@@ -2,6 +2,18 @@
 #include "physics/solver/solver.h"
 
 namespace roboss {
+namespace {
+
+constexpr std::size_t kPile = 4;  // robots
+constexpr newton::Plan kPilePlan{
+    .couple_from = 1e-2, .far_max = 30, .coupled_steps = 12, .halvings = 3, .progress = 0.3, .checks = 10};
+
+/// Where Newton's method would turn one row after the other.
+bool is_pile(const IslandSolver::Problem& p) {
+    return p.robots.size() >= kPile && !p.rows.contacts.empty();
+}
+
+}  // namespace
 
 /// Newton's method, and where many contacts stand between sticking and sliding the interior point method:
 /// each Newton step would turn only one of them, for the potential of hard rows is all edges. The interior
@@ -9,15 +21,17 @@ namespace roboss {
 /// the bounds of the last tick, once with those that follow from it.
 void IslandSolver::solve_any(const Problem& p, std::vector<double>& v, Report& report) {
     Lockstep<double> alone;
+    plan_ = is_pile(p) ? kPilePlan : newton::Plan{};
     start(p, v);
-    start_bounds_.clear();
-    for_each_disc(p.rows, [&](FrictionDisc& disc) { start_bounds_.push_back(disc.bound); });
-    for (const AngularRow& row : p.rows.angulars) start_bounds_.push_back(row.spin.high);
-    if (Newton::solve(p, alone, v, report)) return;
-    std::size_t at = 0;
-    for_each_disc(p.rows, [&](FrictionDisc& disc) { disc.bound = start_bounds_[at++]; });
-    for (AngularRow& row : p.rows.angulars)
-        row.spin.high = start_bounds_[at++], row.spin.low = -row.spin.high;
+    friction::keep_bounds(p.rows, start_bounds_);
+    if (is_pile(p)) {
+        if (p.position ? displace(p, v, report) : solve_by_sweeps(p, v, report)) return;
+        start_as_expected(p, alone, v, report);
+        if (Newton::iterate(p, alone, v, report, p.position)) return;
+    } else if (Newton::solve(p, alone, v, report)) {
+        return;
+    }
+    friction::set_bounds(p.rows, start_bounds_);
     interior_point(p, v, report);
     if (p.position) return;
     for (ContactRow& row : p.rows.contacts) row.slip.bound = row.slip.coefficient * row.normal.impulse;

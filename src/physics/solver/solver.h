@@ -14,6 +14,7 @@
 
 #include "physics/solver/hessian.h"
 #include "physics/solver/newton.h"
+#include "physics/solver/row_sweeps.h"
 
 namespace roboss {
 
@@ -32,14 +33,23 @@ class IslandSolver : Newton<double, Hessian> {
 
   private:
     using Report = SolveReportT<double>;
+    enum class Pushing : char { kLow, kBetween, kHigh };  // where a row's impulse is in its bounds
     void solve_any(const Problem& p, std::vector<double>& v, Report& report);
+    // island_start.cpp
+    bool solve_by_sweeps(const Problem& p, std::vector<double>& v, Report& report);
+    void step_as_swept(const Problem& p, std::vector<double>& v, Report& report);
+    void expect_swept(const Problem& p);
+    bool displace(const Problem& p, std::vector<double>& v, Report& report);
     // interior_point.cpp
     void interior_point(const Problem& p, std::vector<double>& v, Report& report);
     double longest_step(const Problem& p, double mu);
     double interior_step(const Problem& p, double mu, std::vector<double>& v);
 
+    RowSweeps sweeps_;
     std::vector<double> start_bounds_;  // friction bounds of the last tick
-    std::vector<double> changes_;       // interior point: steps of the impulses
+    std::vector<double> v_before_sweeps_;
+    std::vector<Pushing> pushing_;  // bounded rows, while the displacement is solved
+    std::vector<double> changes_;   // interior point: steps of the impulses
 };
 
 }  // namespace roboss

@@ -1,0 +1,168 @@
+// Where IslandSolver starts in a pile of robots: velocities from sweeps, and the displacement by an active
+// set method. physics/bodies has the same for free bodies.
+#include <algorithm>
+#include <cmath>
+
+#include "physics/solver/newton_rows.h"
+#include "physics/solver/solver.h"
+
+namespace roboss {
+namespace {
+
+constexpr double kSticking = 0.998;  // of the squared friction bound: beyond, a sweep says that it slides
+
+/// Impulses spread through few robots a sweep.
+int most_sweeps(std::size_t robots) {
+    return robots < 16 ? 60 : 200;
+}
+
+/// The impulse between the row's bounds, or at one of them.
+void set_between(BoundedRow& row) {
+    row.d = row.stiffness;
+    row.impulse = (row.target - row.u) * row.stiffness;
+}
+void set_at(double bound, BoundedRow& row) {
+    row.d = 0;
+    row.impulse = bound;
+}
+void set_as_swept(double swept, BoundedRow& row) {
+    if (swept > row.low && swept < row.high)
+        set_between(row);
+    else
+        set_at(swept, row);
+}
+
+/// What friction does at a normal impulse that is swept.
+void set_as_swept(const RowSweeps::ContactImpulse& swept, FrictionDisc& slip) {
+    if (!(slip.bound > 0)) {
+        slip.impulse_1 = slip.impulse_2 = 0;
+        return;
+    }
+    if (slip_disc::slips(slip)) {
+        const Tangential t = impulse_at(slip, slip.u_1, slip.u_2, slip.bound);
+        slip.impulse_1 = t.t1, slip.impulse_2 = t.t2;
+        return;
+    }
+    const double size2 = swept.t1 * swept.t1 + swept.t2 * swept.t2, bound2 = slip.bound * slip.bound,
+                 speed2 = slip.u_1 * slip.u_1 + slip.u_2 * slip.u_2;
+    if (size2 < kSticking * bound2 || speed2 * slip.stiffness * slip.stiffness <= bound2) {
+        slip.d_11 = slip.d_22 = slip.stiffness, slip.d_12 = 0;
+        slip.impulse_1 = -slip.u_1 * slip.stiffness, slip.impulse_2 = -slip.u_2 * slip.stiffness;
+    } else {
+        const double share = -slip.bound / std::sqrt(speed2);
+        slip.impulse_1 = share * slip.u_1, slip.impulse_2 = share * slip.u_2;
+    }
+}
+
+}  // namespace
+
+/// Impulses and curvatures as the sweeps left each row, at the velocities that they found.
+void IslandSolver::expect_swept(const Problem& p) {
+    IslandRows& rows = p.rows;
+    for (std::size_t c = 0; c < rows.contacts.size(); ++c)
+        rows.contacts[c].slip.bound = rows.contacts[c].slip.coefficient * sweeps_.contact(c).n;
+    for (AngularRow& row : rows.angulars) {
+        const double normal = sweeps_.contact(row.contact).n;
+        row.roll.bound = row.roll.coefficient * normal;
+        row.spin.high = row.torsional * normal, row.spin.low = -row.spin.high;
+    }
+    newton::update_impulses(rows);
+    newton::set_curvatures(rows);
+    for (std::size_t r = 0; r < rows.joints.size(); ++r) set_as_swept(sweeps_.joint(r), rows.joints[r]);
+    for (std::size_t r = 0; r < rows.couplings.size(); ++r)
+        set_as_swept(sweeps_.coupling(r), rows.couplings[r]);
+    for (std::size_t c = 0; c < rows.contacts.size(); ++c) {
+        set_as_swept(sweeps_.contact(c).n, rows.contacts[c].normal);
+        set_as_swept(sweeps_.contact(c), rows.contacts[c].slip);
+    }
+}
+
+/// A step to where the robots would be if every row did what the sweeps say.
+void IslandSolver::step_as_swept(const Problem& p, std::vector<double>& v, Report& report) {
+    times_mass(p, v, mv_);
+    set_steps(p.rows, v);
+    newton::take_velocities(p.rows);
+    expect_swept(p);
+    set_gradient(p);
+    find_step(p, false);
+    move(p, 1.0, v);
+    report.iterations += 1;
+    report.residual = balance(p);
+}
+
+/// Sweeps, then coupled steps of Newton's method; where these fail, more sweeps; in the end Newton's method
+/// with the friction bounds that the sweeps found. False, and back to the start, if momentum does not balance
+/// then.
+bool IslandSolver::solve_by_sweeps(const Problem& p, std::vector<double>& v, Report& report) {
+    constexpr int kTries = 3;
+    Lockstep<double> alone;
+    std::vector<double>& v_before = v_before_sweeps_;
+    v_before = v;
+    const int most = most_sweeps(p.robots.size());
+    sweeps_.run(p, most, v);
+    for (int i = 0; i < kTries; ++i) {
+        if (i > 0) sweeps_.go_on(p, most, v);
+        step_as_swept(p, v, report);
+        if (report.residual <= plan_.couple_from && solve_coupled(p, alone, v, report)) return true;
+    }
+    // Sweeps that do not converge still tell the friction bounds better than anything else.
+    step_as_swept(p, v, report);
+    if (Newton::iterate(p, alone, v, report, true)) return true;
+    v = v_before;
+    times_mass(p, v, mv_);
+    set_steps(p.rows, v);
+    newton::take_velocities(p.rows);
+    friction::set_bounds(p.rows, start_bounds_);
+    return false;
+}
+
+/// Each round is the solution if the rows push that it started with and no others, with friction linear, as
+/// it is at the solved velocities. False if the rounds do not tell which rows push; then all is as before.
+bool IslandSolver::displace(const Problem& p, std::vector<double>& v, Report& report) {
+    constexpr int kRoundsMax = 10;
+    constexpr double kViolation = 1e-9;  // m/s or rad/s
+    pushing_.clear();
+    for_each_bounded(p.rows, [&](BoundedRow& row) {
+        pushing_.push_back(row.impulse <= row.low    ? Pushing::kLow
+                           : row.impulse >= row.high ? Pushing::kHigh
+                                                     : Pushing::kBetween);
+    });
+    keep_start(p, v);
+    for (int round = 0; round < kRoundsMax; ++round) {
+        if (round > 0) return_to_start(p, v);
+        newton::update_impulses(p.rows);
+        newton::set_curvatures(p.rows);
+        const Pushing* pushing = pushing_.data();
+        for_each_bounded(p.rows, [&](BoundedRow& row) {
+            const Pushing now = *pushing++;
+            if (now == Pushing::kBetween)
+                set_between(row);
+            else
+                set_at(now == Pushing::kLow ? row.low : row.high, row);
+        });
+        set_gradient(p);
+        find_step(p, false);
+        ++report.iterations;
+        move(p, 1.0, v);
+        bool changed = false;
+        Pushing* at = pushing_.data();
+        for_each_bounded(p.rows, [&](BoundedRow& row) {
+            Pushing& now = *at++;
+            const Pushing then = now;
+            const double raw = (row.target - row.u) * row.stiffness, slack = kViolation * row.stiffness;
+            if (now == Pushing::kBetween)
+                now = raw < row.low ? Pushing::kLow : raw > row.high ? Pushing::kHigh : now;
+            else if (now == Pushing::kLow ? raw > row.low + slack : raw < row.high - slack)
+                now = Pushing::kBetween;
+            changed |= now != then;
+        });
+        if (changed) continue;
+        newton::update_impulses(p.rows);
+        report.residual = 0;
+        return true;
+    }
+    return_to_start(p, v);
+    return false;
+}
+
+}  // namespace roboss
