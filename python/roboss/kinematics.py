@@ -219,7 +219,7 @@ class RobotModel:
     def inverse_kinematics(self, target: ArrayLike, link: str, *, start: Optional[ArrayLike] = None,
                            tool: Optional[ArrayLike] = None, weights: ArrayLike = (1, 1, 1, 1, 1, 1),
                            axes: str = "world", joints: Union[str, Iterable[str], None] = None,
-                           tolerance: float = 1e-8, iterations: int = 100, attempts: int = 20, seed: int = 0,
+                           tolerance: float = 1e-8, iterations: int = 100, attempts: int = 100, seed: int = 0,
                            path: bool = False) -> IKSolution:
         """Configurations in which a link's frame, or a tool, is at the targets: damped least squares
         (Levenberg-Marquardt) within the joint limits, from several starts.

@@ -1,6 +1,7 @@
 // RobotModel: kinematics and dynamics of one robot for many configurations; and trajectories. Shapes are checked in
 // Python, sizes again in C++. Nothing here holds the GIL while it computes.
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>

@@ -12,9 +12,9 @@
 namespace roboss {
 namespace {
 
-constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-12, kMostDamping = 1e8;  // m^2, rad^2
-constexpr int kIdleSteps = 5;          // so many in a row with little gain: a local minimum
-constexpr double kLittleGain = 1e-3;   // of the squared error
+constexpr double kFirstDamping = 0.1, kLeastDamping = 1e-12, kMostDamping = 1e8;  // m^2, rad^2
+constexpr int kIdleSteps = 3;          // so many in a row with little gain: a local minimum
+constexpr double kLittleGain = 0.01;   // of the squared error
 
 double half_square(const SixNumbers& e) {
     double sum = 0;
@@ -27,7 +27,8 @@ struct Unknown {
     std::size_t column = 0;              // in RobotModel::columns()
     double lower = 0, upper = 0;         // rad or m, its followers' limits included
     SixNumbers reduction{};              // of the error, per unit
-    double step = 0;
+    double step = 0;                     // of this iteration, rad or m
+    bool fixed = false;                  // it takes no part in the present solution
 };
 
 /// What moves a tool: a degree of freedom on its path, and by which unknown.
@@ -168,19 +169,29 @@ class Search {
         return towards > 0 ? position(unknown) >= unknown.upper : position(unknown) <= unknown.lower;
     }
 
-    /// The damped step that reduces the error e.
-    void set_steps(const SixNumbers& e, double damping) {
-        std::array<SixNumbers, 6> A{};
-        for (const Unknown& unknown : unknowns_) {
-            if (is_held(unknown, e)) continue;
-            for (std::size_t i = 0; i < 6; ++i)
-                for (std::size_t j = 0; j <= i; ++j) A[i][j] += unknown.reduction[i] * unknown.reduction[j];
-        }
-        const SixNumbers y = solve_damped(A, damping, e);
-        for (Unknown& unknown : unknowns_) {
-            unknown.step = 0;
-            if (is_held(unknown, e)) continue;
-            for (std::size_t i = 0; i < 6; ++i) unknown.step += unknown.reduction[i] * y[i];
+    /// The damped step that reduces the error e. Joints that it would take beyond a limit go to the limit, and the others
+    /// make up for it.
+    void set_steps(SixNumbers e, double damping) {
+        for (Unknown& unknown : unknowns_) unknown.step = 0, unknown.fixed = is_held(unknown, e);
+        for (bool again = true; again;) {
+            std::array<SixNumbers, 6> A{};
+            for (const Unknown& unknown : unknowns_)
+                for (std::size_t i = 0; i < 6 && !unknown.fixed; ++i)
+                    for (std::size_t j = 0; j <= i; ++j) A[i][j] += unknown.reduction[i] * unknown.reduction[j];
+            const SixNumbers y = solve_damped(A, damping, e);
+            again = false;
+            SixNumbers rest = e;
+            for (Unknown& unknown : unknowns_) {
+                if (unknown.fixed) continue;
+                unknown.step = 0;
+                for (std::size_t i = 0; i < 6; ++i) unknown.step += unknown.reduction[i] * y[i];
+                if (is_ball(unknown)) continue;
+                const double x = position(unknown), within = std::clamp(x + unknown.step, unknown.lower, unknown.upper);
+                if (within == x + unknown.step) continue;
+                unknown.step = within - x, unknown.fixed = again = true;
+                for (std::size_t i = 0; i < 6; ++i) rest[i] -= unknown.reduction[i] * unknown.step;
+            }
+            e = rest;
         }
     }
 

@@ -22,7 +22,7 @@ struct InverseKinematicsOptions {
     FrameAxes axes = FrameAxes::kWorld;  ///< of the weights; kTool: of the target's frame
     double tolerance = 1e-8;             ///< m and rad, of the errors that matter
     int iterations = 100;                ///< of an attempt, at most
-    int attempts = 20;                   ///< at most; the first one begins at `start`
+    int attempts = 100;                  ///< at most; the first one begins at `start`
     std::uint64_t seed = 0;              ///< of the random positions
     std::vector<char> moving{};          ///< by RobotModel::axes(): whether it may move; empty: all may
     bool path = false;  ///< the targets are a path: each search after the first starts at the solution before
