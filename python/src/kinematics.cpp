@@ -1,5 +1,5 @@
-// RobotModel: kinematics and dynamics of one robot for many configurations; and trajectories. Shapes are checked in
-// Python, sizes again in C++. Nothing here holds the GIL while it computes.
+// RobotModel: kinematics and dynamics of one robot for many configurations; and trajectories. Shapes are
+// checked in Python, sizes again in C++. Nothing here holds the GIL while it computes.
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
@@ -53,7 +53,8 @@ FrameAxes axes_of(bool in_tool) {
     return in_tool ? FrameAxes::kTool : FrameAxes::kWorld;
 }
 
-RobotModel make(std::shared_ptr<const Model> model, std::size_t robot, bool cut_loops, const MaybeGiven& base) {
+RobotModel make(std::shared_ptr<const Model> model, std::size_t robot, bool cut_loops,
+                const MaybeGiven& base) {
     RobotModelOptions options{.cut_loops = cut_loops};
     if (base) options.X_WR = pose(*base);
     return value_or_raise(RobotModel::create(std::move(model), RobotId(robot), options), "ArgumentError");
@@ -71,8 +72,8 @@ nb::list columns_of(const RobotModel& robot) {
 }
 
 /// Columns of `report`: success, errors of position and orientation, iterations, attempts.
-void solve(const RobotModel& robot, std::size_t link, const InverseKinematicsOptions& options, const Given& targets,
-           const Given& start, const Filled& q, const Filled& report) {
+void solve(const RobotModel& robot, std::size_t link, const InverseKinematicsOptions& options,
+           const Given& targets, const Given& start, const Filled& q, const Filled& report) {
     const nb::gil_scoped_release release;
     std::vector<InverseKinematicsResult> results(targets.size() / 7);
     inverse_kinematics(robot, LinkId(link), options, span_of(targets), span_of(start), span_of(q), results);
@@ -97,12 +98,16 @@ void bind_links(Bound& bound) {
             WithoutGil())
         .def(
             "link_poses",
-            [](const RobotModel& r, const Given& q, const Filled& out) { link_poses(r, span_of(q), span_of(out)); },
+            [](const RobotModel& r, const Given& q, const Filled& out) {
+                link_poses(r, span_of(q), span_of(out));
+            },
             WithoutGil())
         .def(
             "tool_twists",
             [](const RobotModel& r, const Given& q, const Given& v, std::size_t link, const Given& tool,
-               const Filled& out) { tool_twists(r, span_of(q), span_of(v), LinkId(link), pose(tool), span_of(out)); },
+               const Filled& out) {
+                tool_twists(r, span_of(q), span_of(v), LinkId(link), pose(tool), span_of(out));
+            },
             WithoutGil())
         .def(
             "tool_jacobians",
@@ -111,30 +116,31 @@ void bind_links(Bound& bound) {
                 tool_jacobians(r, span_of(q), LinkId(link), pose(tool), axes_of(in_tool), span_of(out));
             },
             WithoutGil())
-        .def("inverse_kinematics", [](const RobotModel& r, std::size_t link, const Given& tool,
-                                      const std::array<double, 6>& weights, bool in_tool, const nb::dict& options,
-                                      const std::vector<bool>& moving, const Given& targets, const Given& start,
-                                      const Filled& q, const Filled& report) {
-            solve(r, link,
-                  {.X_LT = pose(tool),
-                   .weights = weights,
-                   .axes = axes_of(in_tool),
-                   .tolerance = nb::cast<double>(options["tolerance"]),
-                   .iterations = nb::cast<int>(options["iterations"]),
-                   .attempts = nb::cast<int>(options["attempts"]),
-                   .seed = nb::cast<std::uint64_t>(options["seed"]),
-                   .moving = {moving.begin(), moving.end()},
-                   .path = nb::cast<bool>(options["path"])},
-                  targets, start, q, report);
-        });
+        .def(
+            "inverse_kinematics",
+            [](const RobotModel& r, std::size_t link, const Given& tool, const std::array<double, 6>& weights,
+               bool in_tool, const nb::dict& options, const std::vector<bool>& moving, const Given& targets,
+               const Given& start, const Filled& q, const Filled& report) {
+                solve(r, link,
+                      {.X_LT = pose(tool),
+                       .weights = weights,
+                       .axes = axes_of(in_tool),
+                       .tolerance = nb::cast<double>(options["tolerance"]),
+                       .iterations = nb::cast<int>(options["iterations"]),
+                       .attempts = nb::cast<int>(options["attempts"]),
+                       .seed = nb::cast<std::uint64_t>(options["seed"]),
+                       .moving = {moving.begin(), moving.end()},
+                       .path = nb::cast<bool>(options["path"])},
+                      targets, start, q, report);
+            });
 }
 
 void bind_dynamics(Bound& bound) {
     bound
         .def(
             "inverse_dynamics",
-            [](const RobotModel& r, const Given& q, const MaybeGiven& v, const MaybeGiven& a, const Given& gravity,
-               const Filled& out) {
+            [](const RobotModel& r, const Given& q, const MaybeGiven& v, const MaybeGiven& a,
+               const Given& gravity, const Filled& out) {
                 inverse_dynamics(r, span_of(q), span_of(v), span_of(a), vec3(gravity), span_of(out));
             },
             nb::arg(), nb::arg().none(), nb::arg().none(), nb::arg(), nb::arg(), WithoutGil())
@@ -178,8 +184,8 @@ void bind_kinematics(nb::module_& module) {
                nb::arg("base").none());
     module.def(
         "joint_trajectory",
-        [](const Given& q0, const Given& q1, const Given& v0, const Given& v1, const Given& times, const Filled& q,
-           const Filled& v, const Filled& a) {
+        [](const Given& q0, const Given& q1, const Given& v0, const Given& v1, const Given& times,
+           const Filled& q, const Filled& v, const Filled& a) {
             joint_trajectory({span_of(q0), span_of(q1), span_of(v0), span_of(v1)}, span_of(times),
                              {span_of(q), span_of(v), span_of(a)});
         },
@@ -188,7 +194,8 @@ void bind_kinematics(nb::module_& module) {
         "cartesian_trajectory",
         [](const Given& pose0, const Given& pose1, double ramp, const Given& times, const Filled& poses,
            const Filled& twists) {
-            cartesian_trajectory(pose(pose0), pose(pose1), ramp, span_of(times), span_of(poses), span_of(twists));
+            cartesian_trajectory(pose(pose0), pose(pose1), ramp, span_of(times), span_of(poses),
+                                 span_of(twists));
         },
         WithoutGil());
 }

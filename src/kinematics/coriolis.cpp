@@ -1,12 +1,14 @@
-// The matrix of Coriolis terms (Echeandia and Wensing 2021), in world axes about the base origin; see dynamics.h.
+// The matrix of Coriolis terms (Echeandia and Wensing 2021), in world axes about the base origin; see
+// dynamics.h.
 //
-// A body of inertia I and velocity w has the force dI/dt w + I dw/dt. Its part that is linear in the velocities is
-// B x with
+// A body of inertia I and velocity w has the force dI/dt w + I dw/dt. Its part that is linear in the
+// velocities is B x with
 //
 //     B x = (w x* (I x) + x x* (I w) - I (w x x)) / 2,
 //
-// which gives w x* (I w) for x = w, and differs from (dI/dt) / 2 by a skew-symmetric matrix; so dM/dt - 2 C is
-// skew-symmetric. With the axes S of the joints, their rates S', and I, B summed over subtrees, for j on the path of i:
+// which gives w x* (I w) for x = w, and differs from (dI/dt) / 2 by a skew-symmetric matrix; so dM/dt - 2 C
+// is skew-symmetric. With the axes S of the joints, their rates S', and I, B summed over subtrees, for j on
+// the path of i:
 //
 //     C_ji = S_j (I_i S'_i + B_i S_i),   C_ij = S'_j I_i S_i + S_j B_i^T S_i.
 #include <algorithm>
@@ -59,8 +61,8 @@ Spatial axis_rate(const RobotType& type, const Body& body, std::size_t i, const 
 }
 
 /// The rows and columns of one body's joint; `B`: of its subtree.
-void put_terms(const PosedRobot& moving, std::size_t b, const MotionToForce& B, std::span<const Spatial> rates,
-               double* out) {
+void put_terms(const PosedRobot& moving, std::size_t b, const MotionToForce& B,
+               std::span<const Spatial> rates, double* out) {
     const RobotModel& robot = moving.robot;
     const Body& body = robot.type().bodies[b];
     const DofPaths& paths = robot.type().paths;

@@ -22,7 +22,8 @@ std::size_t checked_rows(const RobotModel& robot, std::span<const double> q,
     const std::size_t rows = RobotModel::rows(q.size(), robot.q_columns());
     for (const std::span<const double>& array : optional)
         ROBOSS_CHECK(array.empty() || array.size() == rows * robot.v_columns(), std::to_string(array.size()));
-    ROBOSS_CHECK(out == rows * out_columns, std::to_string(out) + " numbers of " + std::to_string(rows) + " rows");
+    ROBOSS_CHECK(out == rows * out_columns,
+                 std::to_string(out) + " numbers of " + std::to_string(rows) + " rows");
     return rows;
 }
 
@@ -32,7 +33,8 @@ class DynamicRobot : public PosedRobot {
     explicit DynamicRobot(const RobotModel& of)
         : PosedRobot(of), accelerations_(of.type().bodies.size()), a_(of.v_columns()) {}
 
-    /// Newton and Euler: the forces of a moving robot (place(), move()) with accelerations `a`, nullptr: zeros.
+    /// Newton and Euler: the forces of a moving robot (place(), move()) with accelerations `a`, nullptr:
+    /// zeros.
     void add_up_forces(const double* a, const Vec3& gravity, double* out) {
         if (a != nullptr) accelerate(a);
         set_body_impulses<double>(gravity, 1.0, 0.0, work);  // weight minus inertial force, of each body
@@ -151,7 +153,8 @@ void passive_forces(const RobotModel& robot, std::span<const double> q, std::spa
             const Dof& dof = robot.type().dofs[entry];
             double& force = out[r * columns + robot.base_v() + d];
             if (!robot.columns()[d].is_ball)
-                force -= dof.spring_stiffness * (q[r * robot.q_columns() + robot.base_q() + d] - dof.spring_reference);
+                force -= dof.spring_stiffness *
+                         (q[r * robot.q_columns() + robot.base_q() + d] - dof.spring_reference);
             if (velocity != nullptr) force -= dof.damping * velocity[robot.base_v() + d];
         }
     }

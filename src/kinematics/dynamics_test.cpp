@@ -1,11 +1,11 @@
-// Inverse and forward dynamics against energies, finite differences, a textbook formula and the simulation's step.
+// Inverse and forward dynamics against energies, finite differences, a textbook formula and the simulation's
+// step.
 #include "kinematics/dynamics.h"
 
 #include <gtest/gtest.h>
 
+#include <support/kinematic_robots.h>
 #include <support/mechanical_sums.h>
-
-#include "kinematics/test_robots.h"
 
 namespace roboss::test {
 namespace {
@@ -132,7 +132,9 @@ TEST(Dynamics, DoublePendulumIsThatOfTheTextbook) {
     place(world, double_pendulum(), "pendulum");
     const RobotModel robot = RobotModel::create(compiled(world), RobotId(0U)).value();
     const Numbers q{0.4, -0.7}, v{1.2, 0.5}, a{-0.6, 2.0};
-    const auto inertia = [](double m, double l) { return m / 12 * (0.04 * 0.04 + l * l); };  // box_inertia of rod()
+    const auto inertia = [](double m, double l) {
+        return m / 12 * (0.04 * 0.04 + l * l);
+    };  // box_inertia of rod()
     const double c1 = 0.5 * l1, c2 = 0.5 * l2, i1 = inertia(m1, l1), i2 = inertia(m2, l2);
     const double cos2 = std::cos(q[1]), sin2 = std::sin(q[1]);
     const double m11 = i1 + i2 + m1 * c1 * c1 + m2 * (l1 * l1 + c2 * c2 + 2 * l1 * c2 * cos2),
@@ -146,8 +148,8 @@ TEST(Dynamics, DoublePendulumIsThatOfTheTextbook) {
     EXPECT_LT(largest_difference(forces, wanted), 1e-12);
 }
 
-/// A step of the simulation with the efforts that inverse dynamics ask for, against the accelerations asked for. A tick
-/// of dt differs from them by a multiple of dt: two ticks tell the limit.
+/// A step of the simulation with the efforts that inverse dynamics ask for, against the accelerations asked
+/// for. A tick of dt differs from them by a multiple of dt: two ticks tell the limit.
 TEST(Dynamics, AStepOfTheSimulationAcceleratesAsAsked) {
     Random random(16);
     for (const ModelSpec& spec : {arm(), arm_of_all_joints(), reversed_ball()}) {
@@ -160,12 +162,14 @@ TEST(Dynamics, AStepOfTheSimulationAcceleratesAsAsked) {
             Model model = e.robot.model();
             model.dt_s = dt;
             RobotState state = state_of(e.robot, e.q, e.v);
-            for (std::size_t c = 0; c < e.n(); ++c) state.motors[e.robot.v_of(c)] = {MotorMode::kEffort, motors[c], 1e6};
+            for (std::size_t c = 0; c < e.n(); ++c)
+                state.motors[e.robot.v_of(c)] = {MotorMode::kEffort, motors[c], 1e6};
             const RobotId id(0U);
             RobotState* const pointer = &state;
             Aabb bound;
             StepScratch scratch;
-            step_island(model, 0, std::span(&id, 1), std::span(&pointer, 1), {}, std::span(&bound, 1), scratch);
+            step_island(model, 0, std::span(&id, 1), std::span(&pointer, 1), {}, std::span(&bound, 1),
+                        scratch);
             Numbers a(e.n());
             for (std::size_t c = 0; c < e.n(); ++c) a[c] = (state.v[e.robot.v_of(c)] - e.v[c]) / dt;
             return a;

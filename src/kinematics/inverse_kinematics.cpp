@@ -13,8 +13,8 @@ namespace roboss {
 namespace {
 
 constexpr double kFirstDamping = 0.1, kLeastDamping = 1e-12, kMostDamping = 1e8;  // m^2, rad^2
-constexpr int kIdleSteps = 3;          // so many in a row with little gain: a local minimum
-constexpr double kLittleGain = 0.01;   // of the squared error
+constexpr int kIdleSteps = 3;         // so many in a row with little gain: a local minimum
+constexpr double kLittleGain = 0.01;  // of the squared error
 
 double half_square(const SixNumbers& e) {
     double sum = 0;
@@ -24,11 +24,11 @@ double half_square(const SixNumbers& e) {
 
 /// A degree of freedom that the search moves, and those that move along.
 struct Unknown {
-    std::size_t column = 0;              // in RobotModel::columns()
-    double lower = 0, upper = 0;         // rad or m, its followers' limits included
-    SixNumbers reduction{};              // of the error, per unit
-    double step = 0;                     // of this iteration, rad or m
-    bool fixed = false;                  // it takes no part in the present solution
+    std::size_t column = 0;       // in RobotModel::columns()
+    double lower = 0, upper = 0;  // rad or m, its followers' limits included
+    SixNumbers reduction{};       // of the error, per unit
+    double step = 0;              // of this iteration, rad or m
+    bool fixed = false;           // it takes no part in the present solution
 };
 
 /// What moves a tool: a degree of freedom on its path, and by which unknown.
@@ -111,7 +111,8 @@ class Search {
                 else
                     position(unknown) = random_position(unknown, share);
             }
-            if (!is_ball(unknown)) position(unknown) = std::clamp(position(unknown), unknown.lower, unknown.upper);
+            if (!is_ball(unknown))
+                position(unknown) = std::clamp(position(unknown), unknown.lower, unknown.upper);
         }
         move();
     }
@@ -132,7 +133,8 @@ class Search {
             step_[static_cast<std::size_t>(robot_.columns()[unknown.column].v)] = unknown.step;
         advance_coordinates<double>(robot_.type(), step_, 1.0, posed_.q);
         for (const Unknown& unknown : unknowns_)
-            if (!is_ball(unknown)) position(unknown) = std::clamp(position(unknown), unknown.lower, unknown.upper);
+            if (!is_ball(unknown))
+                position(unknown) = std::clamp(position(unknown), unknown.lower, unknown.upper);
         for (const RobotModel::Column& column : robot_.columns()) {
             const RobotModel::Column& leader = robot_.columns()[static_cast<std::size_t>(column.leader)];
             if (&leader != &column)
@@ -169,15 +171,16 @@ class Search {
         return towards > 0 ? position(unknown) >= unknown.upper : position(unknown) <= unknown.lower;
     }
 
-    /// The damped step that reduces the error e. Joints that it would take beyond a limit go to the limit, and the others
-    /// make up for it.
+    /// The damped step that reduces the error e. Joints that it would take beyond a limit go to the limit,
+    /// and the others make up for it.
     void set_steps(SixNumbers e, double damping) {
         for (Unknown& unknown : unknowns_) unknown.step = 0, unknown.fixed = is_held(unknown, e);
         for (bool again = true; again;) {
             std::array<SixNumbers, 6> A{};
             for (const Unknown& unknown : unknowns_)
                 for (std::size_t i = 0; i < 6 && !unknown.fixed; ++i)
-                    for (std::size_t j = 0; j <= i; ++j) A[i][j] += unknown.reduction[i] * unknown.reduction[j];
+                    for (std::size_t j = 0; j <= i; ++j)
+                        A[i][j] += unknown.reduction[i] * unknown.reduction[j];
             const SixNumbers y = solve_damped(A, damping, e);
             again = false;
             SixNumbers rest = e;
@@ -186,7 +189,8 @@ class Search {
                 unknown.step = 0;
                 for (std::size_t i = 0; i < 6; ++i) unknown.step += unknown.reduction[i] * y[i];
                 if (is_ball(unknown)) continue;
-                const double x = position(unknown), within = std::clamp(x + unknown.step, unknown.lower, unknown.upper);
+                const double x = position(unknown),
+                             within = std::clamp(x + unknown.step, unknown.lower, unknown.upper);
                 if (within == x + unknown.step) continue;
                 unknown.step = within - x, unknown.fixed = again = true;
                 for (std::size_t i = 0; i < 6; ++i) rest[i] -= unknown.reduction[i] * unknown.step;
@@ -195,7 +199,8 @@ class Search {
         }
     }
 
-    /// Ends within the tolerance, in a local minimum, or after the most iterations; returns the error that is left.
+    /// Ends within the tolerance, in a local minimum, or after the most iterations; returns the error that is
+    /// left.
     double attempt(PoseError& error, int& iterations) {
         double left = measure(error), damping = kFirstDamping;
         int idle = 0;
@@ -235,8 +240,10 @@ void inverse_kinematics(const RobotModel& robot, LinkId link, const InverseKinem
                         std::span<const double> targets, std::span<const double> start, std::span<double> q,
                         std::span<InverseKinematicsResult> results) {
     const std::size_t rows = RobotModel::rows(targets.size(), 7), columns = robot.q_columns();
-    ROBOSS_CHECK(q.size() == rows * columns && results.size() == rows, std::to_string(results.size()) + " results");
-    ROBOSS_CHECK(start.empty() || start.size() == q.size(), std::to_string(start.size()) + " numbers to start from");
+    ROBOSS_CHECK(q.size() == rows * columns && results.size() == rows,
+                 std::to_string(results.size()) + " results");
+    ROBOSS_CHECK(start.empty() || start.size() == q.size(),
+                 std::to_string(start.size()) + " numbers to start from");
     const std::vector<double> at_first = robot.start();
     Search search(robot, link, options);
     for (std::size_t i = 0; i < rows; ++i) {

@@ -1,8 +1,9 @@
-// Inverse kinematics by damped least squares with joint limits, for many targets. Each attempt is a Levenberg-Marquardt
-// iteration: steps that do not reduce the error are taken back with more damping (Marquardt 1963; of robots: Sugihara,
-// Solvability-unconcerned inverse kinematics by the Levenberg-Marquardt method, 2011). Joints at a limit towards which
-// they would go are held. If an attempt ends in a local minimum, the next one starts from random positions, which depend
-// on nothing but the options: a target has the same solution in every batch.
+// Inverse kinematics by damped least squares with joint limits, for many targets. Each attempt is a
+// Levenberg-Marquardt iteration: steps that do not reduce the error are taken back with more damping
+// (Marquardt 1963; of robots: Sugihara, Solvability-unconcerned inverse kinematics by the Levenberg-Marquardt
+// method, 2011). Joints at a limit towards which they would go are held. If an attempt ends in a local
+// minimum, the next one starts from random positions, which depend on nothing but the options: a target has
+// the same solution in every batch.
 #pragma once
 
 #include <array>
@@ -30,18 +31,18 @@ struct InverseKinematicsOptions {
 
 /// How the search for one target ended.
 struct InverseKinematicsResult {
-    bool success = false;          ///< both errors are within the tolerance
-    double position_error = 0,     ///< m, along the axes that matter
-        orientation_error = 0;     ///< rad, about the axes that matter
-    int iterations = 0,            ///< in all attempts
-        attempts = 0;              ///< that were made
+    bool success = false;       ///< both errors are within the tolerance
+    double position_error = 0,  ///< m, along the axes that matter
+        orientation_error = 0;  ///< rad, about the axes that matter
+    int iterations = 0,         ///< in all attempts
+        attempts = 0;           ///< that were made
 };
 
 /// Configurations in which the tool is at the targets.
 ///
-/// targets: rows x 7, m and quaternion x y z w, world. start: rows x q_columns(); empty: the start of the world; beyond
-/// limits, it is moved to them. A free base stays where `start` has it. Joints that follow others (mimic) do so. Without
-/// success, q is the best configuration that was found.
+/// targets: rows x 7, m and quaternion x y z w, world. start: rows x q_columns(); empty: the start of the
+/// world; beyond limits, it is moved to them; it does not overlap q. A free base stays where `start` has it.
+/// Joints that follow others (mimic) do so. Without success, q is the best configuration that was found.
 void inverse_kinematics(const RobotModel& robot, LinkId link, const InverseKinematicsOptions& options,
                         std::span<const double> targets, std::span<const double> start, std::span<double> q,
                         std::span<InverseKinematicsResult> results);

@@ -1,10 +1,10 @@
-// Inverse kinematics: targets that are reachable are reached, within limits; masks, tools, followers, what is out of
-// reach, and the same answer in every batch.
+// Inverse kinematics: targets that are reachable are reached, within limits; masks, tools, followers, what is
+// out of reach, and the same answer in every batch.
 #include "kinematics/inverse_kinematics.h"
 
 #include <gtest/gtest.h>
 
-#include "kinematics/test_robots.h"
+#include <support/kinematic_robots.h>
 
 namespace roboss::test {
 namespace {
@@ -34,8 +34,8 @@ struct Answer {
     std::vector<InverseKinematicsResult> results;
 };
 
-Answer solve(const RobotModel& robot, LinkId link, const Numbers& targets, const InverseKinematicsOptions& options = {},
-             const Numbers& start = {}) {
+Answer solve(const RobotModel& robot, LinkId link, const Numbers& targets,
+             const InverseKinematicsOptions& options = {}, const Numbers& start = {}) {
     Answer answer;
     answer.results.resize(targets.size() / 7);
     answer.q.resize(answer.results.size() * robot.q_columns());
@@ -74,7 +74,8 @@ TEST(InverseKinematics, ReachesWhatIsReachableWithinTheLimits) {
         const double* a = &reached[i * 7];
         const double* b = &targets[i * 7];
         const double sign = a[3] * b[3] + a[4] * b[4] + a[5] * b[5] + a[6] * b[6] < 0 ? -1 : 1;
-        for (std::size_t k = 0; k < 7; ++k) worst = std::max(worst, std::fabs(a[k] * (k < 3 ? 1 : sign) - b[k]));
+        for (std::size_t k = 0; k < 7; ++k)
+            worst = std::max(worst, std::fabs(a[k] * (k < 3 ? 1 : sign) - b[k]));
     }
     tell("mean iterations a target", iterations / 200);
     EXPECT_LT(worst, 1e-8);
@@ -87,7 +88,8 @@ TEST(InverseKinematics, GivesATargetTheSameAnswerInEveryBatch) {
     const Answer all = solve(robot, last_link(robot), targets);
     const std::ptrdiff_t n = static_cast<std::ptrdiff_t>(robot.q_columns());
     for (std::ptrdiff_t i = 0; i < 20; ++i) {
-        const Answer one = solve(robot, last_link(robot), {targets.begin() + i * 7, targets.begin() + (i + 1) * 7});
+        const Answer one =
+            solve(robot, last_link(robot), {targets.begin() + i * 7, targets.begin() + (i + 1) * 7});
         EXPECT_TRUE(std::equal(one.q.begin(), one.q.end(), all.q.begin() + i * n)) << "target " << i;
     }
 }

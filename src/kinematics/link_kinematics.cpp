@@ -38,7 +38,8 @@ void link_poses(const RobotModel& robot, std::span<const double> q, std::span<do
     PosedRobot posed(robot);
     for (std::size_t i = 0; i < rows; ++i) {
         posed.place(&q[i * robot.q_columns()]);
-        for (std::size_t l = 0; l < links; ++l) put_pose(posed.link_pose(LinkId(l)), &out[(i * links + l) * 7]);
+        for (std::size_t l = 0; l < links; ++l)
+            put_pose(posed.link_pose(LinkId(l)), &out[(i * links + l) * 7]);
     }
 }
 
@@ -53,17 +54,16 @@ void tool_twists(const RobotModel& robot, std::span<const double> q, std::span<c
         const double* velocity = &v[i * robot.v_columns()];
         const Vec3 p = posed.link_pose(link) * X_LT.p;
         Spatial twist;
-        posed.visit_path(link, [&](std::size_t d) {
-            twist += posed.point_motion(d, p) * velocity[robot.column_of(d)];
-        });
+        posed.visit_path(
+            link, [&](std::size_t d) { twist += posed.point_motion(d, p) * velocity[robot.column_of(d)]; });
         const double numbers[] = {twist.linear.x,  twist.linear.y,  twist.linear.z,
                                   twist.angular.x, twist.angular.y, twist.angular.z};
         std::copy(std::begin(numbers), std::end(numbers), &out[i * 6]);
     }
 }
 
-void tool_jacobians(const RobotModel& robot, std::span<const double> q, LinkId link, const Pose& X_LT, FrameAxes axes,
-                    std::span<double> out) {
+void tool_jacobians(const RobotModel& robot, std::span<const double> q, LinkId link, const Pose& X_LT,
+                    FrameAxes axes, std::span<double> out) {
     const std::size_t rows = RobotModel::rows(q.size(), robot.q_columns()), columns = robot.v_columns();
     check_size(out, rows * 6 * columns);
     std::fill(out.begin(), out.end(), 0.0);

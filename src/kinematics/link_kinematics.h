@@ -1,5 +1,5 @@
-// Where the links of a robot are and how they move, for many configurations: forward kinematics and Jacobians (Siciliano,
-// Sciavicco, Villani, Oriolo, Robotics, 2009, chapters 2 and 3). Rows are those of robot_model.h.
+// Where the links of a robot are and how they move, for many configurations: forward kinematics and Jacobians
+// (Siciliano, Sciavicco, Villani, Oriolo, Robotics, 2009, chapters 2 and 3). Rows are those of robot_model.h.
 #pragma once
 
 #include <span>
@@ -14,7 +14,8 @@ enum class FrameAxes {
     kTool    ///< of the tool frame, which moves
 };
 
-/// Poses of a tool in the world, rows x 7: m, unit quaternions x y z w. X_LT: the tool frame in the link's frame.
+/// Poses of a tool in the world, rows x 7: m, unit quaternions x y z w. X_LT: the tool frame in the link's
+/// frame.
 void tool_poses(const RobotModel& robot, std::span<const double> q, LinkId link, const Pose& X_LT,
                 std::span<double> out);
 
@@ -25,9 +26,9 @@ void link_poses(const RobotModel& robot, std::span<const double> q, std::span<do
 void tool_twists(const RobotModel& robot, std::span<const double> q, std::span<const double> v, LinkId link,
                  const Pose& X_LT, std::span<double> out);
 
-/// Geometric Jacobians of a tool, rows x 6 x v_columns(): twist = J v. Lines 0 to 2 are the linear velocity of the
-/// tool's origin, 3 to 5 the angular velocity, in `axes`.
-void tool_jacobians(const RobotModel& robot, std::span<const double> q, LinkId link, const Pose& X_LT, FrameAxes axes,
-                    std::span<double> out);
+/// Geometric Jacobians of a tool, rows x 6 x v_columns(): twist = J v. Lines 0 to 2 are the linear velocity
+/// of the tool's origin, 3 to 5 the angular velocity, in `axes`.
+void tool_jacobians(const RobotModel& robot, std::span<const double> q, LinkId link, const Pose& X_LT,
+                    FrameAxes axes, std::span<double> out);
 
 }  // namespace roboss

@@ -3,7 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "kinematics/test_robots.h"
+#include <support/kinematic_robots.h>
+
 #include "physics/dynamics/kinematics.h"
 
 namespace roboss::test {
@@ -21,11 +22,13 @@ TEST(LinkKinematics, PosesAndTwistsAreThoseOfTheSimulation) {
     Random random(2);
     for (const ModelSpec& spec : sample_robots()) {
         const RobotModel robot = robot_of(spec);
-        const std::vector<double> q = random_configuration(robot, random), v = random_row(robot.v_columns(), 2, random);
+        const std::vector<double> q = random_configuration(robot, random),
+                                  v = random_row(robot.v_columns(), 2, random);
         const RobotState state = state_of(robot, q, v);
         std::vector<double> twist(6);
         for (std::size_t l = 0; l < robot.type().links.size(); ++l) {
-            const Transform mine = tool_pose(robot, q, LinkId(l), {}), theirs = link_pose(robot.type(), state, LinkId(l));
+            const Transform mine = tool_pose(robot, q, LinkId(l), {}),
+                            theirs = link_pose(robot.type(), state, LinkId(l));
             EXPECT_LT(norm(mine.p - theirs.p), 1e-13) << spec.name;
             tool_twists(robot, q, v, LinkId(l), {}, twist);
             const Twist wanted = link_twist(robot.type(), state, LinkId(l));
@@ -58,7 +61,8 @@ TEST(LinkKinematics, JacobiansAreTheDerivativesOfPoses) {
             const auto column = [&](const std::vector<double>& J, std::size_t line) {
                 return Vec3{J[line * n + c], J[(line + 1) * n + c], J[(line + 2) * n + c]};
             };
-            worst = std::max({worst, norm(column(jacobian, 0) - linear), norm(column(jacobian, 3) - angular)});
+            worst =
+                std::max({worst, norm(column(jacobian, 0) - linear), norm(column(jacobian, 3) - angular)});
             EXPECT_LT(norm(column(in_tool, 0) - R_TW * column(jacobian, 0)), 1e-12) << spec.name;
             EXPECT_LT(norm(column(in_tool, 3) - R_TW * column(jacobian, 3)), 1e-12) << spec.name;
         }
@@ -77,7 +81,8 @@ TEST(LinkKinematics, RowsOfABatchAreThoseOfSingleCalls) {
     link_poses(robot, q, all);
     for (std::size_t i = 0; i < 5; ++i) {
         link_poses(robot, std::span<const double>(q).subspan(i * robot.q_columns(), robot.q_columns()), one);
-        EXPECT_TRUE(std::equal(one.begin(), one.end(), all.begin() + static_cast<std::ptrdiff_t>(i * one.size())));
+        EXPECT_TRUE(
+            std::equal(one.begin(), one.end(), all.begin() + static_cast<std::ptrdiff_t>(i * one.size())));
     }
 }
 

@@ -11,7 +11,8 @@ namespace roboss {
 
 using SixNumbers = std::array<double, 6>;
 
-/// The error is the displacement (m) and the rotation vector e (rad) that lead from the tool to its target, weighted.
+/// The error is the displacement (m) and the rotation vector e (rad) that lead from the tool to its target,
+/// weighted.
 class PoseError {
   public:
     PoseError(const Pose& target, const InverseKinematicsOptions& options)
@@ -25,7 +26,8 @@ class PoseError {
         // d log(R exp(d)) = J^-1 d, J the right Jacobian of SO(3) (Chirikjian 2012, section 10.8.6)
         const double angle = norm(rotation), half = 0.5 * angle;
         const SinCos h = fixed_sincos(half);
-        const double share = angle < 1e-4 ? 1.0 / 12 + angle * angle / 720 : (1 - half * h.cos / h.sin) / (angle * angle);
+        const double share =
+            angle < 1e-4 ? 1.0 / 12 + angle * angle / 720 : (1 - half * h.cos / h.sin) / (angle * angle);
         const auto column = [&](const Vec3& d) {
             const Vec3 turned = cross(rotation, d);
             return d + turned * 0.5 + cross(rotation, turned) * share;

@@ -1,5 +1,5 @@
-// A RobotModel at one configuration after the other, in the kernel's coordinates: the buffers that all rows of a batch
-// share, so that a row allocates nothing.
+// A RobotModel at one configuration after the other, in the kernel's coordinates: the buffers that all rows
+// of a batch share, so that a row allocates nothing.
 #pragma once
 
 #include "kinematics/robot_model.h"
@@ -28,7 +28,8 @@ struct PosedRobot {
     /// Pose of a link's frame in the world.
     Transform link_pose(LinkId link) const {
         const Link& info = robot.type().links[link.index()];
-        return (info.body < 0 ? base_transform<double>(q) : work.bodies[static_cast<std::size_t>(info.body)].X_WB) *
+        return (info.body < 0 ? base_transform<double>(q)
+                              : work.bodies[static_cast<std::size_t>(info.body)].X_WB) *
                info.X_BL;
     }
     /// Calls visit(entry of v) for each degree of freedom that moves the link.
@@ -39,7 +40,8 @@ struct PosedRobot {
         const Body& body = robot.type().bodies[static_cast<std::size_t>(b)];
         const auto last = static_cast<std::size_t>(body.v_index + body.nv - 1);
         const DofPaths& paths = robot.type().paths;
-        for (std::size_t k = 0; k < paths.length(last); ++k) visit(static_cast<std::size_t>(paths.path(last)[k]));
+        for (std::size_t k = 0; k < paths.length(last); ++k)
+            visit(static_cast<std::size_t>(paths.path(last)[k]));
     }
     /// Motion of a point at the world position p per unit of entry i of v; its body must be one that i moves.
     Spatial point_motion(std::size_t i, const Vec3& p) const {

@@ -11,9 +11,10 @@ Error closed_loop(const RobotType& type) {
     std::string names;
     for (const LoopJoint& loop : type.loops)
         names += (names.empty() ? "'" : ", '") + type.joints[loop.joint.index()].name + "'";
-    return {"robot '" + type.name + "' has kinematic loops, closed by " + names,
-            "cut_loops leaves these joints out; the rest moves as a tree, which the loops do not hold together",
-            "closed-loop"};
+    return {
+        "robot '" + type.name + "' has kinematic loops, closed by " + names,
+        "cut_loops leaves these joints out; the rest moves as a tree, which the loops do not hold together",
+        "closed-loop"};
 }
 
 }  // namespace
@@ -118,8 +119,9 @@ void RobotModel::to_row(std::span<const double> q, double* row) const {
     double* joints = row + base_q();
     for (std::size_t d = 0; d < columns_.size(); ++d) {
         const auto from = static_cast<std::size_t>(columns_[d].q);
-        joints[d] = columns_[d].is_ball ? logarithm(get_quat(&q[from]))[static_cast<std::size_t>(columns_[d].offset)]
-                                     : q[from];
+        joints[d] = columns_[d].is_ball
+                        ? logarithm(get_quat(&q[from]))[static_cast<std::size_t>(columns_[d].offset)]
+                        : q[from];
     }
 }
 

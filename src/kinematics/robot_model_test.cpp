@@ -1,9 +1,10 @@
 // Rows of a RobotModel: to the kernel's coordinates and back, columns, followers, loops.
 #include <gtest/gtest.h>
 
+#include <support/kinematic_robots.h>
+
 #include "kinematics/dynamics.h"
 #include "kinematics/link_kinematics.h"
-#include "kinematics/test_robots.h"
 
 namespace roboss::test {
 namespace {
@@ -18,7 +19,8 @@ TEST(RobotModel, RowsComeBackFromTheKernelsCoordinates) {
         robot.to_row(q, back.data());
         const double sign = robot.base_q() > 0 && back[6] * row[6] < 0 ? -1 : 1;  // q and -q are one rotation
         for (std::size_t c = 0; c < row.size(); ++c)
-            EXPECT_NEAR(back[c] * (c >= 3 && c < robot.base_q() ? sign : 1), row[c], 1e-12) << spec.name << " " << c;
+            EXPECT_NEAR(back[c] * (c >= 3 && c < robot.base_q() ? sign : 1), row[c], 1e-12)
+                << spec.name << " " << c;
     }
 }
 
@@ -26,8 +28,9 @@ TEST(RobotModel, ColumnsAreTheJointsOfTheFile) {
     const RobotModel robot = robot_of(arm_of_all_joints());
     std::vector<std::string> names;
     for (const JointAxis& axis : robot.axes()) names.push_back(axis.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"hinge", "slide", "thread", "cardan:0", "cardan:1", "wheel:0", "wheel:1",
-                                               "turn", "ball:0", "ball:1", "ball:2", "plane:0", "plane:1", "plane:2"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"hinge", "slide", "thread", "cardan:0", "cardan:1", "wheel:0",
+                                               "wheel:1", "turn", "ball:0", "ball:1", "ball:2", "plane:0",
+                                               "plane:1", "plane:2"}));
     EXPECT_EQ(robot.q_columns(), 14u);
     EXPECT_EQ(robot_of(spider()).q_columns(), 7u + 18u);
     EXPECT_EQ(robot_of(spider()).v_columns(), 6u + 18u);
@@ -79,7 +82,8 @@ TEST(RobotModel, RefusesWhatCannotMove) {
 
 TEST(RobotModel, FollowersAreResolvedToTheFirstLeader) {
     ModelSpec chain = arm();
-    const auto follow = [&](std::size_t follower, const std::string& leader, double multiplier, double offset) {
+    const auto follow = [&](std::size_t follower, const std::string& leader, double multiplier,
+                            double offset) {
         MimicSpec mimic;
         mimic.joint = leader, mimic.multiplier = multiplier, mimic.offset = offset;
         chain.joints[follower].axes[0].mimic = mimic;

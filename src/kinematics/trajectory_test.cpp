@@ -39,7 +39,8 @@ TEST(JointTrajectory, KeepsPositionsVelocitiesAndRestAtItsEnds) {
 
 TEST(JointTrajectory, VelocitiesAndAccelerationsAreDerivatives) {
     constexpr double kStep = 1e-4;
-    const Numbers times{0, 0.7 - kStep, 0.7, 0.7 + kStep, 2.0}, q0{0.3, -1}, q1{2, 1}, v0{0.5, 0}, v1{-0.4, 1};
+    const Numbers times{0, 0.7 - kStep, 0.7, 0.7 + kStep, 2.0}, q0{0.3, -1}, q1{2, 1}, v0{0.5, 0},
+        v1{-0.4, 1};
     const Joints t({q0, q1, v0, v1}, times);
     for (std::size_t c = 0; c < 2; ++c) {
         EXPECT_NEAR(t.v[4 + c], (t.q[6 + c] - t.q[2 + c]) / (2 * kStep), 1e-7);
@@ -73,7 +74,8 @@ TEST(CartesianTrajectory, GoesStraightAndTurnsAboutOneAxis) {
         const Vec3 speed = (pose(i + 1).p - pose(i - 1).p) / 0.04;
         const Vec3 angular = logarithm(pose(i + 1).q * conjugate(pose(i - 1).q)) / 0.04;
         const double* w = &twists[i * 6];
-        const double bound = i % 25 == 0 && i != 50 ? 0.05 : 1e-11;  // at the corners of the trapezoid, a mean
+        const double bound =
+            i % 25 == 0 && i != 50 ? 0.05 : 1e-11;  // at the corners of the trapezoid, a mean
         EXPECT_LT(norm(speed - Vec3{w[0], w[1], w[2]}), bound) << i;
         EXPECT_LT(norm(angular - Vec3{w[3], w[4], w[5]}), bound) << i;
     }
@@ -85,7 +87,8 @@ TEST(CartesianTrajectory, TakesTheShorterWayRound) {
     Numbers poses(21), twists(18);
     cartesian_trajectory({}, {{}, far}, 0.0, Numbers{0, 1, 2}, poses, twists);
     EXPECT_NEAR(twists[11], (3.5 - 2 * kPi) / 2, 1e-12);
-    cartesian_trajectory({}, {{}, {-1, 0, 0, 0}}, 0.5, Numbers{0, 1, 2}, poses, twists);  // no rotation at all
+    cartesian_trajectory({}, {{}, {-1, 0, 0, 0}}, 0.5, Numbers{0, 1, 2}, poses,
+                         twists);  // no rotation at all
     EXPECT_NEAR(norm(Vec3{twists[9], twists[10], twists[11]}), 0, 1e-15);
 }
 

@@ -1,4 +1,5 @@
-// The axes of a robot's joints as columns of arrays: what languages with arrays, and programs, count joints by.
+// The axes of a robot's joints as columns of arrays: what languages with arrays, and programs, count joints
+// by.
 #pragma once
 
 #include <string>
