@@ -96,6 +96,8 @@ class RobotModel:
             raise ArgumentError(f"a base_pose of '{self.name}', whose base is free", "give its pose in q", "free-base")
         self._core = _core.robot_model(self.world._model, number, cut_loops, base)
         self._columns = self._core.columns
+        frames = self.world._frames[number] if self.world._frames else []
+        self._frames = {name: (link, np.array(pose)) for name, link, pose in frames if name not in self._facts.links}
         self._base_q, self._base_v = (7, 6) if self._facts.free_base else (0, 0)
 
     def __repr__(self) -> str:
@@ -126,6 +128,12 @@ class RobotModel:
     def links(self) -> tuple[str, ...]:
         """Names of the links."""
         return tuple(self._facts.links)
+
+    @property
+    def frames(self) -> tuple[str, ...]:
+        """Names of places on links, which may stand for a link in all calls: `<frame>` of SDFormat, and links of a URDF
+        that fixed joints merge into another one, as flanges and tool centre points."""
+        return tuple(self._frames)
 
     @property
     def joint_limits(self) -> Floats:
@@ -169,7 +177,7 @@ class RobotModel:
 
         Args:
             q: (..., q_columns).
-            link: its name.
+            link: name of a link, or one of `frames`.
             tool: pose (7,) of a tool in the link's frame; then the result is the tool's.
 
         >>> arm = roboss.RobotModel(roboss.example("arm.sdf"), "arm")
@@ -178,7 +186,7 @@ class RobotModel:
         """
         q, = self._arrays(q=q)
         out = np.empty((*q.shape[:-1], 7))
-        self._core.tool_poses(q, self._link(link), _tool(tool), out)
+        self._core.tool_poses(q, *self._place(link, tool), out)
         return out
 
     def link_poses(self, q: ArrayLike) -> Floats:
@@ -193,7 +201,7 @@ class RobotModel:
         angular in rad/s; world axes. v: (..., v_columns)."""
         q, v = self._arrays(q=q, v=v)
         out = np.empty((*q.shape[:-1], 6))
-        self._core.tool_twists(q, v, self._link(link), _tool(tool), out)
+        self._core.tool_twists(q, v, *self._place(link, tool), out)
         return out
 
     def jacobian(self, q: ArrayLike, link: str, *, tool: Optional[ArrayLike] = None, axes: str = "world") -> Floats:
@@ -213,7 +221,7 @@ class RobotModel:
         """
         q, = self._arrays(q=q)
         out = np.empty((*q.shape[:-1], 6, self.v_columns))
-        self._core.tool_jacobians(q, self._link(link), _tool(tool), _in_tool(axes), out)
+        self._core.tool_jacobians(q, *self._place(link, tool), _in_tool(axes), out)
         return out
 
     def inverse_kinematics(self, target: ArrayLike, link: str, *, start: Optional[ArrayLike] = None,
@@ -260,7 +268,7 @@ class RobotModel:
         target, start = _broadcast(target=target, start=start)
         q, report = np.empty_like(start), np.empty((*target.shape[:-1], 5))
         options = dict(tolerance=tolerance, iterations=iterations, attempts=attempts, seed=seed, path=path)
-        self._core.inverse_kinematics(self._link(link), _tool(tool), list(weights), _in_tool(axes), options,
+        self._core.inverse_kinematics(*self._place(link, tool), list(weights), _in_tool(axes), options,
                                       self._moving(joints), target, start, q, report)
         return IKSolution(q, report[..., 0] != 0, report[..., 1], report[..., 2], report[..., 3].astype(np.int64),
                           report[..., 4].astype(np.int64))
@@ -334,8 +342,15 @@ class RobotModel:
         self._core.passive_forces(q, v, out)
         return out
 
-    def _link(self, name: str) -> int:
-        return index_of("link", name, self._facts.links, f" of '{self.name}'")
+    def _place(self, name: str, tool: Optional[ArrayLike]) -> tuple[int, Floats]:
+        """The link's number, and where on it the tool is."""
+        on_link = _rows("tool", _IDENTITY if tool is None else tool, 7, pose=True).reshape(7)
+        if name not in self._frames:
+            return index_of("link", name, [*self._facts.links, *self._frames], f" of '{self.name}'"), on_link
+        link, frame = self._frames[name]
+        out = np.empty(7)
+        _core.compose(frame, on_link, out)
+        return link, out
 
     def _columns_in(self, robots: Robots) -> list[int]:
         joints = list(robots.joints)
@@ -383,10 +398,6 @@ def _broadcast(**arrays: Floats) -> list[Floats]:
         raise ArgumentError(f"arrays that do not fit each other: {shapes}", "all but their last axes are broadcast",
                             "bad-shape") from None
     return [np.ascontiguousarray(np.broadcast_to(array, (*leading, array.shape[-1]))) for array in arrays.values()]
-
-
-def _tool(tool: Optional[ArrayLike]) -> Floats:
-    return _rows("tool", _IDENTITY if tool is None else tool, 7, pose=True).reshape(7)
 
 
 def _in_tool(axes: str) -> bool:

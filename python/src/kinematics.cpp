@@ -182,6 +182,11 @@ void bind_kinematics(nb::module_& module) {
     bind_dynamics(bound);
     module.def("robot_model", &make, nb::arg("model"), nb::arg("robot"), nb::arg("cut_loops"),
                nb::arg("base").none());
+    module.def("compose", [](const Given& a, const Given& b, const Filled& out) {
+        const Pose X = pose(a) * pose(b);
+        const std::array<double, 7> numbers{X.p.x, X.p.y, X.p.z, X.q.x, X.q.y, X.q.z, X.q.w};
+        std::copy(numbers.begin(), numbers.end(), out.data());
+    });
     module.def(
         "joint_trajectory",
         [](const Given& q0, const Given& q1, const Given& v0, const Given& v1, const Given& times,

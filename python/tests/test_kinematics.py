@@ -156,6 +156,19 @@ def test_followers_are_named():
     assert robot.followers == (roboss.Follower("joint_2", "joint_1", 2.0, 0.0),)
 
 
+def test_merged_links_of_a_urdf_are_frames():
+    text = random_urdf(5, links=4, kinds=["revolute"]).replace(
+        "</robot>", '<link name="flange"/><joint name="weld" type="fixed"><parent link="link_3"/><child link="flange"/>'
+        '<origin xyz="0 0.1 0.2" rpy="0.3 0 0"/></joint></robot>')
+    robot = roboss.RobotModel(roboss.load(text, fixed_base=["random_5"]))
+    assert robot.frames == ("flange",) and "flange" not in robot.links
+    q, on_link = [0.1, 0.2, 0.3], [0, 0.1, 0.2, np.sin(0.15), 0, 0, np.cos(0.15)]
+    same_pose(robot.link_pose(q, "flange"), robot.link_pose(q, "link_3", tool=on_link), 1e-14)
+    assert np.allclose(robot.jacobian(q, "flange", axes="tool"), robot.jacobian(q, "link_3", tool=on_link, axes="tool"))
+    found = robot.inverse_kinematics(robot.link_pose(q, "flange"), "flange")
+    assert found.success
+
+
 def test_a_fixed_base_stands_where_it_is_put():
     arm = roboss.RobotModel(roboss.example("arm.sdf"), "arm", base_pose=[1, 2, 3, 0, 0, 1, 1])
     assert np.allclose(arm.link_pose(np.zeros(6), "tool")[:3], [1, 2, 4.45])

@@ -45,7 +45,7 @@ class RobotModel {
         double lower = 0,       ///< rad or m; infinite: none
             upper = 0;          ///< rad or m
         int leader = 0;         ///< column of the one that it follows (mimic, gearbox); itself: none
-        double multiplier = 1,  ///< position = multiplier * leader's position + offset_of_leader
+        double multiplier = 1,  ///< position = multiplier * leader's position + leader_offset
             leader_offset = 0;  ///< rad or m
         bool turns = false;     ///< it is an angle
     };

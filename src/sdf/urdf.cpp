@@ -1,6 +1,8 @@
 // Converts URDF to SDF text and maps lines by the names of links and joints.
 #include "sdf/urdf.h"
 
+#include <cstring>
+#include <iterator>
 #include <map>
 #include <sdf/sdf.hh>
 #include <sstream>
@@ -90,6 +92,37 @@ void report_transmissions(const SourceFile& urdf, Diagnostics& diagnostics) {
 bool has_link(const std::string& sdf, const std::string& name) {
     return sdf.find("<link name='" + name + "'") != std::string::npos ||
            sdf.find("<frame name='" + name + "'") != std::string::npos;
+}
+
+/// The fixed joint that merges a link into its parent, unless the parent is lost; null: there is none. `depth`: how many
+/// parents may follow (a loop of joints has no end).
+pugi::xml_node merging_joint(pugi::xml_node robot, const std::string& sdf, const std::string& link, std::size_t depth) {
+    for (const auto joint : robot.children("joint")) {
+        if (link != joint.child("child").attribute("link").value()) continue;
+        if (std::strcmp(joint.attribute("type").value(), "fixed") != 0 || depth == 0) return {};
+        const std::string parent = joint.child("parent").attribute("link").value();
+        return has_link(sdf, parent) || merging_joint(robot, sdf, parent, depth - 1) ? joint : pugi::xml_node{};
+    }
+    return {};
+}
+
+/// libsdformat 12 merges links at fixed joints without a trace: they become frames, on the line of the model's end.
+void add_merged_links(pugi::xml_node robot, std::string& sdf) {
+    const auto joints = robot.children("joint");
+    const auto count = static_cast<std::size_t>(std::distance(joints.begin(), joints.end()));
+    std::string frames;
+    for (const auto link : robot.children("link")) {
+        const std::string name = link.attribute("name").value();
+        if (has_link(sdf, name) || name.find_first_of("'<>&") != std::string::npos) continue;
+        const pugi::xml_node joint = merging_joint(robot, sdf, name, count);
+        if (!joint) continue;
+        const auto origin = joint.child("origin");
+        frames += "<frame name='" + name + "' attached_to='" +
+                  joint.child("parent").attribute("link").value() + "'><pose>" +
+                  origin.attribute("xyz").as_string("0 0 0") + " " + origin.attribute("rpy").as_string("0 0 0") +
+                  "</pose></frame>";
+    }
+    if (const std::size_t end = sdf.rfind("</model>"); end != std::string::npos) sdf.insert(end, frames);
 }
 
 /// "'a', 'b' and 10 more".
@@ -195,6 +228,7 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
         }
         return nullptr;
     }
+    add_merged_links(robot, text);
     if (!report_lost_links(urdf, text, diagnostics)) return nullptr;
     add_mimics(robot, text);
     add_joint_types(joint_types, text);
