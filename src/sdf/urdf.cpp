@@ -94,19 +94,22 @@ bool has_link(const std::string& sdf, const std::string& name) {
            sdf.find("<frame name='" + name + "'") != std::string::npos;
 }
 
-/// The fixed joint that merges a link into its parent, unless the parent is lost; null: there is none. `depth`: how many
-/// parents may follow (a loop of joints has no end).
-pugi::xml_node merging_joint(pugi::xml_node robot, const std::string& sdf, const std::string& link, std::size_t depth) {
+/// The fixed joint that merges a link into its parent, unless the parent is lost; null: there is none.
+/// `depth`: how many parents may follow (a loop of joints has no end).
+pugi::xml_node merging_joint(pugi::xml_node robot, const std::string& sdf, const std::string& link,
+                             std::size_t depth) {
     for (const auto joint : robot.children("joint")) {
         if (link != joint.child("child").attribute("link").value()) continue;
         if (std::strcmp(joint.attribute("type").value(), "fixed") != 0 || depth == 0) return {};
         const std::string parent = joint.child("parent").attribute("link").value();
-        return has_link(sdf, parent) || merging_joint(robot, sdf, parent, depth - 1) ? joint : pugi::xml_node{};
+        return has_link(sdf, parent) || merging_joint(robot, sdf, parent, depth - 1) ? joint
+                                                                                     : pugi::xml_node{};
     }
     return {};
 }
 
-/// libsdformat 12 merges links at fixed joints without a trace: they become frames, on the line of the model's end.
+/// libsdformat 12 merges links at fixed joints without a trace: they become frames, on the line of the
+/// model's end.
 void add_merged_links(pugi::xml_node robot, std::string& sdf) {
     const auto joints = robot.children("joint");
     const auto count = static_cast<std::size_t>(std::distance(joints.begin(), joints.end()));
@@ -119,8 +122,8 @@ void add_merged_links(pugi::xml_node robot, std::string& sdf) {
         const auto origin = joint.child("origin");
         frames += "<frame name='" + name + "' attached_to='" +
                   joint.child("parent").attribute("link").value() + "'><pose>" +
-                  origin.attribute("xyz").as_string("0 0 0") + " " + origin.attribute("rpy").as_string("0 0 0") +
-                  "</pose></frame>";
+                  origin.attribute("xyz").as_string("0 0 0") + " " +
+                  origin.attribute("rpy").as_string("0 0 0") + "</pose></frame>";
     }
     if (const std::size_t end = sdf.rfind("</model>"); end != std::string::npos) sdf.insert(end, frames);
 }

@@ -71,12 +71,13 @@ TEST(Urdf, SaysWhichLinksHaveNoInertial) {
 
 TEST(Urdf, LinksAtFixedJointsBecomeFrames) {
     std::string arm = kArm;
-    arm.insert(arm.rfind("</robot>"),
-               "<link name='tip'/><joint name='t' type='fixed'><origin xyz='0 0 0.5' rpy='0 0.3 0'/>"
-               "<parent link='upper'/><child link='tip'/></joint>"
-               "<link name='tool'><inertial><mass value='1'/><inertia ixx='.1' iyy='.1' izz='.1' ixy='0' ixz='0' "
-               "iyz='0'/></inertial></link><joint name='s' type='fixed'><origin xyz='0.2 0 0'/>"
-               "<parent link='tip'/><child link='tool'/></joint>");
+    arm.insert(
+        arm.rfind("</robot>"),
+        "<link name='tip'/><joint name='t' type='fixed'><origin xyz='0 0 0.5' rpy='0 0.3 0'/>"
+        "<parent link='upper'/><child link='tip'/></joint>"
+        "<link name='tool'><inertial><mass value='1'/><inertia ixx='.1' iyy='.1' izz='.1' ixy='0' ixz='0' "
+        "iyz='0'/></inertial></link><joint name='s' type='fixed'><origin xyz='0.2 0 0'/>"
+        "<parent link='tip'/><child link='tool'/></joint>");
     const Loaded loaded = load_text(arm, "arm.urdf");
     ASSERT_TRUE(loaded.world) << loaded.text();
     EXPECT_EQ(loaded.diagnostics.count(Severity::kWarning), 0u) << loaded.text();
