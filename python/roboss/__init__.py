@@ -19,14 +19,17 @@ from .batch import Batch
 from .errors import (ArgumentError, JournalError, OrderError, RobossError, SaveError, SensorError, StateError,
                      UnknownNameError, WorldError, WorldWarning)
 from .journal import Journal
+from .kinematics import Follower, IKSolution, RobotModel
 from .robots import Robots
 from .sensors import Sensor
 from .simulation import CONTACT, Simulation
+from .trajectories import CartesianTrajectory, JointTrajectory, ctraj, jtraj
 from .world import World, example, load
 
 __version__ = "0.1.0"
 __all__ = [
-    "ArgumentError", "Batch", "CONTACT", "Diagnostic", "Journal", "JournalError", "OrderError", "RobossError", "Robots",
-    "Save", "SaveError", "Sensor", "SensorError", "Simulation", "StateError", "UnknownNameError", "World", "WorldError",
-    "WorldWarning", "example", "load",
+    "ArgumentError", "Batch", "CONTACT", "CartesianTrajectory", "Diagnostic", "Follower", "IKSolution",
+    "JointTrajectory", "Journal", "JournalError", "OrderError", "RobossError", "RobotModel", "Robots", "Save",
+    "SaveError", "Sensor", "SensorError", "Simulation", "StateError", "UnknownNameError", "World", "WorldError",
+    "WorldWarning", "ctraj", "example", "jtraj", "load",
 ]

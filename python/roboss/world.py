@@ -6,7 +6,7 @@ import warnings
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from pathlib import Path
-from typing import Iterable, Optional, Union
+from typing import Iterable, Optional, Sequence, Union
 
 from . import _core
 from .errors import ArgumentError, WorldError, WorldWarning
@@ -18,8 +18,10 @@ _EXAMPLES = Path(__file__).parent / "worlds"
 class World:
     """A compiled world: immutable, shared by all simulations of it. `load` makes one."""
 
-    def __init__(self, model: _core.Model, file: str, diagnostics: tuple[_core.Diagnostic, ...]):
+    def __init__(self, model: _core.Model, file: str, diagnostics: tuple[_core.Diagnostic, ...],
+                 frames: Sequence[Sequence[tuple[str, int, list[float]]]] = ()):
         self._model = model
+        self._frames = frames  # (name, link, pose on it) by robot
         self._types = model.types
         self._facts: dict[int, TypeFacts] = {}
         self.file: str = file  #: path that it was loaded from, or "<text>"
@@ -127,8 +129,8 @@ def load(source: Union[str, os.PathLike], *, search_paths: Iterable[Union[str, o
         raise ArgumentError(f"a precision of {precision!r}", "give 'double', 'float' or None")
     source = os.fspath(source)
     is_text = source.lstrip().startswith("<")
-    model, findings = _core.load(source, is_text, [os.fspath(path) for path in search_paths], profile, ground,
-                                 list(fixed_base), dt, sleep, accuracy, precision and precision == "float")
+    model, findings, frames = _core.load(source, is_text, [os.fspath(path) for path in search_paths], profile, ground,
+                                         list(fixed_base), dt, sleep, accuracy, precision and precision == "float")
     errors = [finding for finding in findings if finding.severity == "error"]
     if model is None or (strict and errors):
         file = "the text" if is_text else f"'{source}'"
@@ -138,7 +140,7 @@ def load(source: Union[str, os.PathLike], *, search_paths: Iterable[Union[str, o
     for finding in findings:
         if finding.severity != "note":
             warnings.warn(str(finding), WorldWarning, stacklevel=2)
-    return World(model, "<text>" if is_text else source, tuple(findings))
+    return World(model, "<text>" if is_text else source, tuple(findings), frames)
 
 
 def example(name: str) -> str:

@@ -10,4 +10,5 @@ NB_MODULE(_core, module) {
     roboss_python::bind_robots(module);
     roboss_python::bind_readings(module);
     roboss_python::bind_journal(module);
+    roboss_python::bind_kinematics(module);
 }

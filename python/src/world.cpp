@@ -1,10 +1,12 @@
 // Worlds: loading and compiling, findings about the file, and what robots consist of.
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <array>
 #include <cinttypes>
 #include <cstdio>
 
@@ -30,8 +32,27 @@ struct Wanted {
     CompileOptions compile;
 };
 
-/// A compiled world and all findings; no model: it is refused.
-using Loaded = std::pair<std::shared_ptr<const Model>, std::vector<Diagnostic>>;
+/// (name, place of its link, pose x y z, quaternion x y z w in the link's frame) of each frame, by robot.
+using Frames = std::vector<std::vector<std::tuple<std::string, std::size_t, std::array<double, 7>>>>;
+
+/// A compiled world, all findings, and its frames, which no Model has; no model: it is refused.
+using Loaded = std::tuple<std::shared_ptr<const Model>, std::vector<Diagnostic>, Frames>;
+
+Frames frames_of(const World& world, const Model& model) {
+    Frames frames;
+    for (const Robot& robot : model.robots) {
+        const RobotType& type = model.types[robot.type.index()];
+        frames.emplace_back();
+        for (const FrameSpec& frame : world.prototypes[world.instances[robot.family].prototype].frames) {
+            const auto link = type.find_link(frame.link);
+            const Pose& X = frame.X_LF;
+            if (link)
+                frames.back().push_back(
+                    {frame.name, link->index(), {X.p.x, X.p.y, X.p.z, X.q.x, X.q.y, X.q.z, X.q.w}});
+        }
+    }
+    return frames;
+}
 
 Loaded load(const Wanted& wanted) {
     Diagnostics diagnostics;
@@ -47,7 +68,7 @@ Loaded load(const Wanted& wanted) {
             model = compile(*world, wanted.compile, diagnostics);
     }
     if (diagnostics.refuses()) model = nullptr;
-    return {model, diagnostics.items()};
+    return {model, diagnostics.items(), model ? frames_of(*world, *model) : Frames{}};
 }
 
 std::string hex(std::uint64_t hash) {

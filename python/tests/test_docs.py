@@ -7,12 +7,12 @@ import pytest
 
 import roboss
 from conftest import REPOSITORY
-from roboss import batch, robots, sensors, simulation, world
+from roboss import batch, kinematics, robots, sensors, simulation, trajectories, world
 
 BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 
 
-@pytest.mark.parametrize("module", [roboss, batch, world, simulation, robots, sensors], ids=lambda module: module.__name__)
+@pytest.mark.parametrize("module", [roboss, batch, world, simulation, robots, sensors, kinematics, trajectories], ids=lambda module: module.__name__)
 def test_examples_in_docstrings(module):
     result = doctest.testmod(module, extraglobs={"roboss": roboss, "np": np})
     assert result.attempted > 0 and result.failed == 0

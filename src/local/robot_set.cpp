@@ -17,17 +17,6 @@ Vec3 vec3(const double* in) {
     return {in[0], in[1], in[2]};
 }
 
-std::vector<JointAxis> axes_of(const RobotType& type) {
-    std::vector<JointAxis> axes;
-    for (std::size_t j = 0; j < type.joints.size(); ++j) {
-        const Joint& joint = type.joints[j];
-        for (int axis = 0; axis < joint.nv; ++axis)
-            axes.push_back(
-                {JointId(j), axis, joint.nv == 1 ? joint.name : joint.name + ":" + std::to_string(axis)});
-    }
-    return axes;
-}
-
 void put(double* out, const Vec3& p, const Quat& q) {
     put(out, p);
     out[3] = q.x, out[4] = q.y, out[5] = q.z, out[6] = q.w;
@@ -67,7 +56,7 @@ RobotSet::RobotSet(std::shared_ptr<const Model> model, std::vector<RobotId> robo
     const auto is_same = [&](RobotId robot) { return model_->robots[robot.index()].type == first; };
     if (!std::ranges::all_of(robots_, is_same)) return;
     type_ = &model_->types[first.index()];
-    axes_ = axes_of(*type_);
+    axes_ = axes_of_joints(*type_);
 }
 
 double* RobotSet::row(std::span<double> out, std::size_t robot, std::size_t columns) const {

@@ -8,15 +8,9 @@
 #include <vector>
 
 #include "local/local_run.h"
+#include "model/joint_axis.h"
 
 namespace roboss {
-
-/// One axis of a joint: a column of the arrays of joints.
-struct JointAxis {
-    JointId joint;     ///< of the robots' type
-    int axis = 0;      ///< which of its axes, from 0
-    std::string name;  ///< the joint's; with several axes "NAME:0", "NAME:1" ...
-};
 
 /// See the top of the file. A call that sets or orders something does it for all robots, or, if one of them
 /// refuses, for none.

@@ -51,6 +51,8 @@ class ModelConverter {
             convert_joint_of(*scope.model.JointByIndex(i), scope);
         for (std::uint64_t i = 0; i < scope.model.ModelCount(); ++i)
             convert_nested(*scope.model.ModelByIndex(i), scope);
+        for (std::uint64_t i = 0; i < scope.model.FrameCount(); ++i)
+            convert_frame(*scope.model.FrameByIndex(i), scope);
         const std::string canonical = scope.prefix + scope.model.CanonicalLinkAndRelativeName().second;
         for (PluginSensor& sensor : sensors)
             attach_plugin_sensor(std::move(sensor), canonical, scope.X_MS, import_, spec_);
@@ -113,6 +115,15 @@ class ModelConverter {
         weld.X_MJ = link.X_ML;
         weld.where = link.where;
         spec_.joints.push_back(std::move(weld));
+    }
+
+    void convert_frame(const sdf::Frame& frame, const Scope& scope) {
+        std::string body;
+        if (!frame.ResolveAttachedToBody(body).empty()) return;
+        const auto link = std::ranges::find(spec_.links, scope.prefix + body, &LinkSpec::name);
+        if (link == spec_.links.end()) return;
+        const Pose X_MF = scope.X_MS * resolved(frame, "__model__");
+        spec_.frames.push_back({scope.prefix + frame.Name(), link->name, inverse(link->X_ML) * X_MF});
     }
 
     void convert_nested(const sdf::Model& nested, const Scope& outer) {

@@ -1,6 +1,10 @@
 // Converts URDF to SDF text and maps lines by the names of links and joints.
 #include "sdf/urdf.h"
 
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <iterator>
 #include <map>
 #include <sdf/sdf.hh>
 #include <sstream>
@@ -92,6 +96,56 @@ bool has_link(const std::string& sdf, const std::string& name) {
            sdf.find("<frame name='" + name + "'") != std::string::npos;
 }
 
+/// The three numbers of an attribute; zeros if it is missing; empty: they are no numbers.
+std::string three_numbers(pugi::xml_attribute attribute) {
+    std::istringstream words(attribute.as_string("0 0 0"));
+    std::string text, word;
+    for (int i = 0; i < 3; ++i) {
+        if (!(words >> word)) return {};
+        char* end = nullptr;
+        if (!std::isfinite(std::strtod(word.c_str(), &end)) || *end != 0) return {};
+        text += (i == 0 ? "" : " ") + word;
+    }
+    return text;
+}
+
+/// Whether a frame of the SDF may have the name of this link.
+bool may_name_a_frame(const std::string& link) {
+    return link != "world" && link.rfind("__", 0) != 0 && link.find_first_of("'<>&") == std::string::npos;
+}
+
+/// The <frame> of a link that a fixed joint merges into its parent, or into what that is merged into; empty:
+/// no such link, or lost. `depth`: how many parents may follow (a loop of joints has no end).
+std::string frame_of_merged(pugi::xml_node robot, const std::string& sdf, const std::string& link,
+                            std::size_t depth) {
+    if (depth == 0 || !may_name_a_frame(link)) return {};
+    for (const auto joint : robot.children("joint")) {
+        if (link != joint.child("child").attribute("link").value()) continue;
+        const std::string parent = joint.child("parent").attribute("link").value();
+        const std::string xyz = three_numbers(joint.child("origin").attribute("xyz")),
+                          rpy = three_numbers(joint.child("origin").attribute("rpy"));
+        if (std::strcmp(joint.attribute("type").value(), "fixed") != 0 || xyz.empty() || rpy.empty())
+            return {};
+        if (!has_link(sdf, parent) && frame_of_merged(robot, sdf, parent, depth - 1).empty()) return {};
+        return "<frame name='" + link + "' attached_to='" + parent + "'><pose>" + xyz + " " + rpy +
+               "</pose></frame>";
+    }
+    return {};
+}
+
+/// libsdformat 12 merges links at fixed joints without a trace: they become frames, on the line of the
+/// model's end.
+void add_merged_links(pugi::xml_node robot, std::string& sdf) {
+    const auto joints = robot.children("joint");
+    const auto count = static_cast<std::size_t>(std::distance(joints.begin(), joints.end()));
+    std::string frames;
+    for (const auto link : robot.children("link")) {
+        const std::string name = link.attribute("name").value();
+        if (!has_link(sdf, name)) frames += frame_of_merged(robot, sdf, name, count);
+    }
+    if (const std::size_t end = sdf.rfind("</model>"); end != std::string::npos) sdf.insert(end, frames);
+}
+
 /// "'a', 'b' and 10 more".
 std::string first_of(const std::vector<std::string>& names) {
     constexpr std::size_t kShown = 5;
@@ -102,26 +156,32 @@ std::string first_of(const std::vector<std::string>& names) {
     return text;
 }
 
-/// libsdformat leaves out a link without <inertial>, and all that hangs on it, silently. False: nothing is
-/// left.
+/// libsdformat leaves out a moving link without mass, and all that hangs on it, silently; so it does with
+/// what moves on a link without mass that a fixed joint merges. False: nothing is left.
 bool report_lost_links(const SourceFile& urdf, const std::string& sdf, Diagnostics& diagnostics) {
     std::vector<std::string> without, lost;
     SourceLocation where;
     for (const auto link : urdf.root().children("link")) {
         const std::string name = link.attribute("name").value();
         if (name == "world" || has_link(sdf, name)) continue;
+        if (lost.empty()) where = urdf.where(link);
         lost.push_back(name);
         if (link.child("inertial")) continue;
         if (without.empty()) where = urdf.where(link);
         without.push_back(name);
     }
-    if (without.empty()) return true;
+    if (lost.empty()) return true;
     const bool any = sdf.find("<link name=") != std::string::npos;
-    std::string message = "<inertial> is missing in " + std::to_string(without.size()) +
-                          (without.size() == 1 ? " link: " : " links: ") + first_of(without);
-    message += any ? "; left out, with what hangs on them, are " + std::to_string(lost.size()) + " links"
-                   : "; no link is left that could be simulated";
-    const char* const remedy = "Give each link an <inertial> with <mass> and <inertia>.";
+    const std::string left_out = std::to_string(lost.size()) + (lost.size() == 1 ? " link" : " links");
+    std::string message =
+        "left out, because they hang on links without mass, are " + left_out + ": " + first_of(lost);
+    if (!without.empty())
+        message = "<inertial> is missing in " + std::to_string(without.size()) +
+                  (without.size() == 1 ? " link: " : " links: ") + first_of(without) +
+                  (any ? "; left out, with what hangs on them, are " + left_out
+                       : "; no link is left that could be simulated");
+    const char* const remedy =
+        "Give each link, and those that they hang on, an <inertial> with <mass> and <inertia>.";
     if (any)
         diagnostics.warning(where, "no-inertial", message, remedy);
     else
@@ -195,6 +255,7 @@ std::unique_ptr<SourceFile> urdf_to_sdf(const SourceFile& urdf, Diagnostics& dia
         }
         return nullptr;
     }
+    add_merged_links(robot, text);
     if (!report_lost_links(urdf, text, diagnostics)) return nullptr;
     add_mimics(robot, text);
     add_joint_types(joint_types, text);

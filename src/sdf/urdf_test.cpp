@@ -69,6 +69,58 @@ TEST(Urdf, SaysWhichLinksHaveNoInertial) {
     EXPECT_FALSE(load_text(kArm, "arm.urdf").diagnostics.count(Severity::kWarning));
 }
 
+TEST(Urdf, LinksAtFixedJointsBecomeFrames) {
+    std::string arm = kArm;
+    arm.insert(
+        arm.rfind("</robot>"),
+        "<link name='tip'/><joint name='t' type='fixed'><origin xyz='0 0 0.5' rpy='0 0.3 0'/>"
+        "<parent link='upper'/><child link='tip'/></joint>"
+        "<link name='tool'><inertial><mass value='1'/><inertia ixx='.1' iyy='.1' izz='.1' ixy='0' ixz='0' "
+        "iyz='0'/></inertial></link><joint name='s' type='fixed'><origin xyz='0.2 0 0'/>"
+        "<parent link='tip'/><child link='tool'/></joint>");
+    const Loaded loaded = load_text(arm, "arm.urdf");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_EQ(loaded.diagnostics.count(Severity::kWarning), 0u) << loaded.text();
+    const std::vector<FrameSpec>& frames = loaded.world->prototypes.at(0).frames;
+    ASSERT_EQ(frames.size(), 2u);
+    EXPECT_EQ(frames[0].name, "tip");
+    EXPECT_EQ(frames[1].name, "tool");
+    EXPECT_EQ(frames[1].link, "upper");
+    const Pose tip{{0, 0, 0.5}, from_rpy(0, 0.3, 0)};
+    EXPECT_LT(norm(frames[0].X_LF.p - tip.p) + norm(logarithm(conjugate(frames[0].X_LF.q) * tip.q)), 1e-15);
+    EXPECT_LT(norm(frames[1].X_LF.p - tip * Vec3{0.2, 0, 0}), 1e-15);
+}
+
+TEST(Urdf, LinksThatCannotBecomeFramesCostNothingElse) {
+    for (const std::string name : {"__tip__", "a&lt;b"}) {
+        std::string arm = kArm;
+        arm.insert(arm.rfind("</robot>"),
+                   "<link name='" + name +
+                       "'/><joint name='t' type='fixed'><parent link='upper'/><child link='" + name +
+                       "'/></joint><link name='tool'/><joint name='s' type='fixed'><parent link='" + name +
+                       "'/><child link='tool'/></joint>");
+        const Loaded loaded = load_text(arm, "arm.urdf");
+        ASSERT_TRUE(loaded.world) << loaded.text();
+        EXPECT_TRUE(loaded.world->prototypes.at(0).frames.empty()) << name;
+    }
+}
+
+TEST(Urdf, SaysWhatIsLostWithALinkWithoutMass) {
+    for (const std::string inertial : {"", "<inertial><mass value='0'/></inertial>"}) {
+        std::string arm = kArm;
+        arm.insert(
+            arm.rfind("</robot>"),
+            "<link name='mount'>" + inertial +
+                "</link><joint name='t' type='fixed'><parent link='upper'/><child link='mount'/></joint>"
+                "<link name='finger'><inertial><mass value='1'/><inertia ixx='.1' iyy='.1' izz='.1' ixy='0' "
+                "ixz='0' iyz='0'/></inertial></link><joint name='f' type='continuous'>"
+                "<parent link='mount'/><child link='finger'/></joint>");
+        const Loaded loaded = load_text(arm, "arm.urdf");
+        EXPECT_NE(loaded.text().find("'finger'"), std::string::npos) << loaded.text();
+        EXPECT_NE(loaded.find("no-inertial"), nullptr) << loaded.text();
+    }
+}
+
 TEST(Urdf, MimicJointsFollow) {
     std::string hand = kArm;
     const std::string finger =

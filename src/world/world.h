@@ -257,6 +257,13 @@ struct ExtensionElement {
     std::string reason;                     ///< of a plugin that does not run: why
 };
 
+/// A frame on a link: SDF `<frame>`, or a link of a URDF that a fixed joint merges into another one.
+struct FrameSpec {
+    std::string name;  ///< as in the file; in nested models "inner::frame"
+    std::string link;  ///< that it is fixed to
+    Pose X_LF;         ///< m, in that link's frame
+};
+
 /// A model (SDF `<model>`, URDF `<robot>`) with its nested models merged into it; poses at joint zero.
 struct ModelSpec {
     std::string name;                          ///< of the first instance; for messages
@@ -269,6 +276,7 @@ struct ModelSpec {
     std::vector<JointSpec> joints;             ///< in the order of the file
     std::vector<OnboardSpec> onboard;          ///< on-board controllers, in the order of the file
     std::vector<ExtensionElement> extensions;  ///< kept for other programs
+    std::vector<FrameSpec> frames;             ///< named places on links; nothing that is compiled
     SourceLocation where;                      ///< of the element
 };
 

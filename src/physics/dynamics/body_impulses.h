@@ -105,8 +105,9 @@ inline bool is_plain(const Body& body) {
 }  // namespace body_impulse
 
 /// Inertias and impulses of all bodies: momentum * momentum_weight + dt * (weight - bias force), about O.
+/// `gravity`: m/s^2, world axes.
 template <class T>
-void set_body_impulses(const Model& model, double dt, double momentum_weight, Mechanics<T>& work) {
+void set_body_impulses(const Vec3& gravity, double dt, double momentum_weight, Mechanics<T>& work) {
     const std::vector<Body>& bodies = work.type->bodies;
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         const Body& body = bodies[b];
@@ -115,11 +116,11 @@ void set_body_impulses(const Model& model, double dt, double momentum_weight, Me
             if (b + 1 < bodies.size() && body_impulse::is_plain(body) &&
                 body_impulse::is_plain(bodies[b + 1])) {
                 ++b;
-                body_impulse::set_two(model.gravity, body, bodies[b], dt, momentum_weight, w, work.bodies[b]);
+                body_impulse::set_two(gravity, body, bodies[b], dt, momentum_weight, w, work.bodies[b]);
                 continue;
             }
         }
-        const Vec3T<T> weight = broadcast<T>(model.gravity) * T(body.gravity_mass);
+        const Vec3T<T> weight = broadcast<T>(gravity) * T(body.gravity_mass);
         body_impulse::Cause<T> cause{
             T(body.mass), T(body.mass * momentum_weight), set_inertia(body, w), weight, {}};
         if (body.gravity_mass != body.mass)

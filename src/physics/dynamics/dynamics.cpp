@@ -83,7 +83,7 @@ void place_robot(const Model& model, RobotId id, RobotState& state, RobotWork& w
 
 void compute_impulse(const Model& model, double dt, double momentum_weight, std::span<const double> q,
                      std::span<const double> v, RobotWork& work) {
-    set_body_impulses(model, dt, momentum_weight, work);
+    set_body_impulses(model.gravity, dt, momentum_weight, work);
     add_wrenches(*work.type, *work.state, dt, work);
     if (!work.type->drags.empty()) add_drag(model, dt, momentum_weight != 0, work);
     work.flows.clear();

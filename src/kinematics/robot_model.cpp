@@ -1,0 +1,134 @@
+// See robot_model.h.
+#include "kinematics/robot_model.h"
+
+#include "model/joint_motion.h"
+#include "model/robot_state.h"
+
+namespace roboss {
+namespace {
+
+Error closed_loop(const RobotType& type) {
+    std::string names;
+    for (const LoopJoint& loop : type.loops)
+        names += (names.empty() ? "'" : ", '") + type.joints[loop.joint.index()].name + "'";
+    return {
+        "robot '" + type.name + "' has kinematic loops, closed by " + names,
+        "cut_loops leaves these joints out; the rest moves as a tree, which the loops do not hold together",
+        "closed-loop"};
+}
+
+}  // namespace
+
+Result<RobotModel> RobotModel::create(std::shared_ptr<const Model> model, RobotId robot,
+                                      const RobotModelOptions& options) {
+    ROBOSS_CHECK(robot.index() < model->robots.size(), "robot " + std::to_string(robot.value));
+    const RobotType& type = model->type_of(robot);
+    if (!type.loops.empty() && !options.cut_loops) return closed_loop(type);
+    if (type.nv == 0)
+        return Error{"robot '" + type.name + "' has no joints that move, and a fixed base",
+                     "choose a robot that can move", "no-joints"};
+    return RobotModel(std::move(model), robot, options);
+}
+
+RobotModel::RobotModel(std::shared_ptr<const Model> model, RobotId robot, const RobotModelOptions& options)
+    : model_(std::move(model)), robot_(robot) {
+    X_WB_ = options.X_WR.value_or(model_->robots[robot.index()].X_WR);
+    X_WB_.q = normalized(X_WB_.q);
+    for (const std::size_t v : {3, 4, 5, 0, 1, 2})  // rows: linear first; the kernel: angular first
+        if (type().free_base) v_of_column_.push_back(v);
+    add_axes(axes_of_joints(type()));
+    column_of_v_.resize(v_of_column_.size());
+    for (std::size_t c = 0; c < v_of_column_.size(); ++c) column_of_v_[v_of_column_[c]] = c;
+    ROBOSS_CHECK(v_columns() == static_cast<std::size_t>(type().nv), std::to_string(v_columns()));
+    add_followers();
+}
+
+void RobotModel::add_axes(const std::vector<JointAxis>& all) {
+    for (const JointAxis& axis : all) {
+        const Joint& joint = type().joints[axis.joint.index()];
+        if (joint.loop >= 0) {
+            if (axis.axis == 0) cut_joints_.push_back(joint.name);
+            continue;
+        }
+        const int v = joint.v_index + joint.axis_offset(axis.axis);
+        const Dof& info = type().dofs[static_cast<std::size_t>(v - type().base_nv())];
+        const Body& body = type().bodies[static_cast<std::size_t>(info.body)];
+        const JointTraits& traits = joint_traits(body.joint);
+        Column column;
+        column.q = body.q_index, column.v = v, column.offset = v - body.v_index;
+        column.is_ball = traits.is_quaternion, column.turns = traits.turns;
+        column.lower = info.lower, column.upper = info.upper;
+        column.leader = static_cast<int>(columns_.size());
+        columns_.push_back(column);
+        axes_.push_back(axis);
+        v_of_column_.push_back(static_cast<std::size_t>(v));
+    }
+}
+
+/// Followers of followers follow the first of them.
+void RobotModel::add_followers() {
+    const auto column_of_dof = [&](int index) -> Column& {
+        return columns_[column_of_v_[static_cast<std::size_t>(index) + base_v()] - base_v()];
+    };
+    for (const CoordinateCoupling& c : type().couplings) {
+        Column& follower = column_of_dof(c.follower);
+        follower.leader = static_cast<int>(&column_of_dof(c.leader) - columns_.data());
+        follower.multiplier = c.multiplier, follower.leader_offset = c.offset;
+    }
+    for (Column& column : columns_) {
+        for (std::size_t guard = 0; guard < columns_.size(); ++guard) {
+            const Column& leader = columns_[static_cast<std::size_t>(column.leader)];
+            if (&leader == &column || &columns_[static_cast<std::size_t>(leader.leader)] == &leader) break;
+            column.leader_offset += column.multiplier * leader.leader_offset;
+            column.multiplier *= leader.multiplier;
+            column.leader = leader.leader;
+        }
+    }
+}
+
+std::vector<double> RobotModel::start() const {
+    std::vector<double> row(q_columns());
+    to_row(initial_state(*model_, robot_).q, row.data());
+    return row;
+}
+
+void RobotModel::to_coordinates(const double* row, std::span<double> q) const {
+    Pose X_WB = X_WB_;
+    if (type().free_base) {
+        const Pose X_WR{{row[0], row[1], row[2]}, normalized(Quat{row[6], row[3], row[4], row[5]})};
+        X_WB = X_WR * to_pose(type().X_RB);
+    }
+    q[0] = X_WB.p.x, q[1] = X_WB.p.y, q[2] = X_WB.p.z;
+    put_quat(&q[3], X_WB.q);
+    const double* joints = row + base_q();
+    for (std::size_t d = 0; d < columns_.size(); ++d) {
+        const auto to = static_cast<std::size_t>(columns_[d].q);
+        if (!columns_[d].is_ball)
+            q[to] = joints[d];
+        else if (columns_[d].offset == 0)
+            put_quat(&q[to], exponential(Vec3{joints[d], joints[d + 1], joints[d + 2]}));
+    }
+}
+
+void RobotModel::to_row(std::span<const double> q, double* row) const {
+    if (type().free_base) {
+        const Pose X_WR = Pose{{q[0], q[1], q[2]}, get_quat(&q[3])} * inverse(to_pose(type().X_RB));
+        row[0] = X_WR.p.x, row[1] = X_WR.p.y, row[2] = X_WR.p.z;
+        row[3] = X_WR.q.x, row[4] = X_WR.q.y, row[5] = X_WR.q.z, row[6] = X_WR.q.w;
+    }
+    double* joints = row + base_q();
+    for (std::size_t d = 0; d < columns_.size(); ++d) {
+        const auto from = static_cast<std::size_t>(columns_[d].q);
+        joints[d] = columns_[d].is_ball
+                        ? logarithm(get_quat(&q[from]))[static_cast<std::size_t>(columns_[d].offset)]
+                        : q[from];
+    }
+}
+
+std::size_t RobotModel::rows(std::size_t size, std::size_t columns) {
+    ROBOSS_CHECK(columns > 0 && size % columns == 0,
+                 std::to_string(size) + " numbers in rows of " + std::to_string(columns));
+    return size / columns;
+}
+
+}  // namespace roboss
