@@ -9,9 +9,9 @@ import pytest
 import roboss
 from conftest import REPOSITORY
 from roboss import batch, envs, robots, sensors, simulation, world
-from roboss.envs import city, city_driver, parallel
+from roboss.envs import city, city_driver, parallel, soccer
 
-MODULES = [roboss, batch, world, simulation, robots, sensors, envs, city, city_driver, parallel]
+MODULES = [roboss, batch, world, simulation, robots, sensors, envs, city, city_driver, parallel, soccer]
 
 BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 

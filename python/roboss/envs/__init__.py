@@ -17,6 +17,8 @@ same world, see each other and can collide.
 | CityVectorEnv | gymnasium.vector.VectorEnv, "roboss/City-v0" | all cars of one world, or of several equal ones |
 | CityEnv | gymnasium.Env, "roboss/City-v0" | one car; `follow_the_gap` drives the others |
 | CityParallelEnv | pettingzoo.ParallelEnv | all cars of one world, by name |
+| SoccerVectorEnv | gymnasium.vector.VectorEnv, "roboss/Soccer-v0" | all cars of some matches |
+| SoccerParallelEnv | pettingzoo.ParallelEnv | all cars of a match, by name |
 
 An environment of your own is a Task: what agents see, do and get. TaskVectorEnv, TaskEnv and TaskParallelEnv make the
 three interfaces of it.
@@ -30,18 +32,20 @@ except ImportError as missing:
 from .city import CityEnv, CityTask, CityVectorEnv
 from .city_driver import follow_the_gap
 from .single import TaskEnv
+from .soccer import SoccerTask, SoccerVectorEnv
 from .task import Outcome, Task
 from .vector import TaskVectorEnv
 
-__all__ = ["CityEnv", "CityParallelEnv", "CityTask", "CityVectorEnv", "Outcome", "Task", "TaskEnv", "TaskParallelEnv",
-           "TaskVectorEnv", "follow_the_gap"]
+__all__ = ["CityEnv", "CityParallelEnv", "CityTask", "CityVectorEnv", "Outcome", "SoccerParallelEnv", "SoccerTask",
+           "SoccerVectorEnv", "Task", "TaskEnv", "TaskParallelEnv", "TaskVectorEnv", "follow_the_gap"]
 
 gymnasium.register("roboss/City-v0", entry_point="roboss.envs:CityEnv", vector_entry_point="roboss.envs:CityVectorEnv")
+gymnasium.register("roboss/Soccer-v0", vector_entry_point="roboss.envs:SoccerVectorEnv")
 
 
 def __getattr__(name):
     """The classes that need PettingZoo, which only they need."""
-    if name not in ("CityParallelEnv", "TaskParallelEnv"):
+    if name not in ("CityParallelEnv", "SoccerParallelEnv", "TaskParallelEnv"):
         raise AttributeError(f"module 'roboss.envs' has no attribute '{name}'")
     try:
         from . import parallel

@@ -10,17 +10,16 @@ from numpy.typing import NDArray
 from ..errors import ArgumentError
 from ..world import World, load
 from . import city_view
+from .car import drive, heading, poses_of
 from .city_driver import follow_the_gap
-from .city_map import CityMap, city_world, poses_of
+from .city_map import CityMap, city_world
 from .single import TaskEnv
 from .task import Mask, Task
 from .vector import TaskVectorEnv
 
-WHEEL_RADIUS_M = 0.05
 ARRIVED_M = 1.5      # from the middle of a crossing
 CLEARANCE_M = 3.0    # between a car that starts and all others
 NEAREST_M = 0.45     # that a car at a free place sees
-_SIDES = ("front_left", "rear_left", "front_right", "rear_right")
 
 
 class CityTask(Task):
@@ -70,7 +69,7 @@ class CityTask(Task):
     def observe(self) -> NDArray[np.float32]:
         """Observations of all cars, (count, 29): help(roboss.envs.city_view)."""
         pose, twist = self.robots.pose.reshape(-1, 7), self.robots.twist.reshape(-1, 6)
-        cos, sin = _heading(pose)
+        cos, sin = heading(pose)
         away = self._away(pose)
         goal_angle = np.arctan2(cos * away[:, 1] - sin * away[:, 0], cos * away[:, 0] + sin * away[:, 1])
         ranges = self.robots["laser"].read().reshape(self.count, -1)
@@ -80,10 +79,7 @@ class CityTask(Task):
 
     def _act(self, actions: NDArray[np.float64]) -> None:
         self._actions = np.clip(actions, -1, 1) * self.present[:, None]
-        limit = self.robots.joint_velocity_limits.min()
-        left, right = (np.clip(speed / WHEEL_RADIUS_M, -limit, limit) for speed in city_view.rims(self._actions))
-        targets = np.stack([left, left, right, right], axis=1)
-        self.robots.set_joint_targets(targets.reshape(*self.robots.pose.shape[:-1], 4), _SIDES)
+        drive(self.robots, self._actions)
 
     def _outcome(self, rng: np.random.Generator) -> tuple[NDArray[np.float64], Mask, dict[str, NDArray]]:
         pose = self.robots.pose.reshape(-1, 7)
@@ -190,10 +186,3 @@ class CityEnv(TaskEnv):
         if traffic < 0:
             raise ArgumentError(f"{traffic} other cars", "give 0 or more")
         super().__init__(CityTask(1 + traffic, **options), follow_the_gap if traffic else None)
-
-
-def _heading(pose: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Cosine and sine of the cars' yaw."""
-    x, y, z, w = pose[:, 3:].T
-    ahead = np.stack([1 - 2 * (y * y + z * z), 2 * (x * y + w * z)])
-    return tuple(ahead / np.linalg.norm(ahead, axis=0))

@@ -8,7 +8,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .city_view import BEAMS, HALF_TRACK_M, RANGE_M, View, action_of, rims, unpack
+from .car import HALF_TRACK_M, action_of, rims
+from .city_view import BEAMS, RANGE_M, View, unpack
 
 TOP_SPEED, BACK_SPEED = 1.55, -0.6     # m/s
 TOP_TURN = 2.2                         # rad/s

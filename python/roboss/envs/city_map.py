@@ -88,11 +88,3 @@ def city_world(cars: int, dt: Optional[float] = None) -> World:
     scenery = _CAR.sub("", text)
     end = scenery.rindex("</world>")
     return load(scenery[:end] + "".join(models) + scenery[end:], dt=dt)
-
-
-def poses_of(places: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Poses, (N, 7), of places, (N, 3): x, y and yaw."""
-    poses = np.zeros((len(places), 7))
-    poses[:, :2] = places[:, :2]
-    poses[:, 5], poses[:, 6] = np.sin(places[:, 2] / 2), np.cos(places[:, 2] / 2)
-    return poses

@@ -12,8 +12,7 @@ Observation, 29 numbers from -1 to 1, float32:
 | 26, 27 | action of the last step | as below |
 | 28 | 1: the car is in the city | |
 
-Action, two numbers from -1 to 1: speed (1.6 m/s) and turn (2.2 rad/s, to the left). They set the speeds of the wheels'
-rims, speed -+ 0.30 m * turn on the left and right; the motors do what they can.
+Action, two numbers from -1 to 1: speed and turn, see help(roboss.envs.car).
 """
 from __future__ import annotations
 
@@ -25,8 +24,6 @@ from numpy.typing import NDArray
 BEAMS = 21
 COLUMNS = BEAMS + 8
 RANGE_M, SPEED_M_S, YAW_RATE_RAD_S, GOAL_M = 6.0, 2.5, 5.0, 20.0
-TOP_SPEED_M_S, TOP_TURN_RAD_S = 1.6, 2.2
-HALF_TRACK_M = 0.30  # effective: a skid-steered car turns by dragging its wheels sideways
 
 
 @dataclass(frozen=True)
@@ -61,15 +58,3 @@ def unpack(observations: NDArray) -> View:
     seen = np.asarray(observations, dtype=np.float64)
     return View(seen[:, :BEAMS] * RANGE_M, seen[:, 21] * SPEED_M_S, seen[:, 22] * YAW_RATE_RAD_S,
                 np.arctan2(seen[:, 24], seen[:, 23]), seen[:, 25] * GOAL_M, seen[:, 26:28], seen[:, 28])
-
-
-def rims(actions: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Speeds of the left and right wheels' rims, m/s, of actions (N, 2)."""
-    speed, turn = actions[:, 0] * TOP_SPEED_M_S, actions[:, 1] * TOP_TURN_RAD_S
-    return speed - HALF_TRACK_M * turn, speed + HALF_TRACK_M * turn
-
-
-def action_of(left: NDArray, right: NDArray) -> NDArray[np.float64]:
-    """Actions, (N, 2), that give the rims these speeds, m/s."""
-    return np.stack([0.5 * (left + right) / TOP_SPEED_M_S,
-                     0.5 * (right - left) / HALF_TRACK_M / TOP_TURN_RAD_S], axis=1).clip(-1, 1)

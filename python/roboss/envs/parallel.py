@@ -10,6 +10,7 @@ from pettingzoo import ParallelEnv
 
 from ..errors import ArgumentError, StateError
 from .city import CityTask
+from .soccer import SoccerTask
 from .task import Task
 
 
@@ -109,6 +110,23 @@ class CityParallelEnv(TaskParallelEnv):
 
     def __init__(self, cars: int = 16, **options):
         super().__init__(CityTask(cars, **options), "roboss_city_v0")
+
+
+class SoccerParallelEnv(TaskParallelEnv):
+    """Two teams of cars and a ball: "red_0" ..., "blue_0" ... All agents finish at the same time.
+
+    Args:
+        cars: of each team.
+        options: as those of SoccerTask, but for `worlds`.
+
+    >>> env = roboss.envs.SoccerParallelEnv(cars=2)
+    >>> _ = env.reset(seed=1)
+    >>> env.agents
+    ['red_0', 'red_1', 'blue_0', 'blue_1']
+    """
+
+    def __init__(self, cars: int = 3, **options):
+        super().__init__(SoccerTask(cars, **options), "roboss_soccer_v0")
 
 
 def _copy(space):
