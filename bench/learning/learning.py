@@ -4,7 +4,7 @@
 Cars of cities of the same density, 8, 64 and 512 in one world, and 8 in each of many small worlds. A step of an agent is
 0.05 s, 25 ticks of 2 ms: targets of the wheels, the ticks, poses, velocities, collisions, 21 beams of a laser, the next
 goal, the observation. `follow_the_gap` drives; its own time does not count. Engines take turns; the rows have medians:
-CPU time of the process for an agent-step, which other work on the machine hardly changes, and agent-steps a second of the
+CPU time of the process for an agent-step, which other work on the machine changes less, and agent-steps a second of the
 clock.
 
 Usage: ./bench.sh learning [--rounds 5] [--seconds 2] [--only 64] [--json FILE]
