@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Sets up, builds and runs the benchmarks: ./bench.sh [NAME] [flags]; without a name it lists them.
-# A name is a program of its own (peers, accuracy, table1, viewer), or a Google Benchmark of roboss-bench; flags go on to it.
+# A name is a program of its own (peers, accuracy, table1, viewer, learning), or a Google Benchmark of roboss-bench; flags go on to it.
 # Rows carry commit, compiler, CPU, world and number of robots; the same rows as JSON go to build/bench/NAME.json.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -64,6 +64,17 @@ viewer() {
     printf 'rows as JSON: build/bench/viewer.json\n'
 }
 
+# Agents of roboss.envs beside the same ones in MuJoCo, in Python: agent-steps a second (docs/learning.md).
+learning() {
+    tools/build_wheel.sh
+    build roboss-world
+    local python
+    python=$(tools/python_env.sh)
+    "$python" -m pip install --quiet --disable-pip-version-check -r bench/learning/packages.txt
+    OPENBLAS_NUM_THREADS=1 "$python" -B bench/learning/learning.py --json build/bench/learning.json "$@"
+    printf 'rows as JSON: build/bench/learning.json\n'
+}
+
 # Google Benchmarks whose names match.
 google_benchmark() {
     tools/setup.sh build bench
@@ -75,6 +86,7 @@ google_benchmark() {
         printf 'accuracy  (RoBOSS and the same engines against known truths: some minutes; --list; --help)\n'
         printf 'table1  (one world on 1 to 12 Simulators, the paper'"'"'s experiment: about 20 minutes; --help)\n'
         printf 'viewer  (what browsers cost a run of 2000 cars: a minute; --help)\n'
+        printf 'learning  (agents in Python, beside MuJoCo: ten minutes; --only 64: one; --help)\n'
         exec "$program" --benchmark_list_tests
     fi
     local name=$1
@@ -87,6 +99,6 @@ google_benchmark() {
 }
 
 case ${1:-} in
-    peers | accuracy | table1 | viewer) "$@" ;;
+    peers | accuracy | table1 | viewer | learning) "$@" ;;
     *) google_benchmark "$@" ;;
 esac

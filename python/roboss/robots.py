@@ -158,6 +158,25 @@ class Robots:
         """Velocities of a link's frame, (N, 6), as `twist`: linear velocity of the frame's origin."""
         return self._read(self._core.link_twists, 6, self._link(link))
 
+    @property
+    def touching(self) -> NDArray[np.bool_]:
+        """Whether each robot presses against another robot, or against scenery that does not carry it, (N,).
+
+        Scenery carries a robot where the contact's normal is within 45 degrees of the vertical: the ground, a ramp.
+        Contacts are those of Simulation.contacts: they carry a force in the tick that begins now.
+
+        >>> sim = roboss.Simulation(roboss.example("crossroads.sdf"))
+        >>> cars = sim.robots("car_*")
+        >>> cars.set_joint_targets(10.0)           # rad/s: they drive towards each other
+        >>> sim.step(500); cars.touching.any()
+        np.False_
+        >>> sim.step(2000); cars.touching.all()
+        np.True_
+        """
+        out = np.empty(self._rows, dtype=bool)
+        self._core.touching(out)
+        return out
+
     def set_joint_targets(self, targets: ArrayLike, joints: Union[str, Iterable[str], None] = None, *,
                           mode: str = "velocity", max_effort: Optional[float] = None) -> None:
         """Orders setpoints of motors, from the next tick on; they hold until the next ones.

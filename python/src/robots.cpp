@@ -58,6 +58,18 @@ void fill_link(Robots& robots, std::uint32_t link, const Out& out) {
     });
 }
 
+/// Fills flags, a row for each simulation, without the GIL: it steps copies of the states.
+void touching(Robots& robots, const nb::ndarray<bool, nb::c_contig, nb::device::cpu>& out) {
+    std::vector<LocalRun*> runs;
+    for (const auto& simulation : robots.simulations) runs.push_back(&simulation->run());
+    const std::size_t row = robots.set.size();
+    ROBOSS_CHECK(out.size() == runs.size() * row, std::to_string(out.size()) + " flags");
+    without_gil(robots.simulations, [&] {
+        for (std::size_t i = 0; i < runs.size(); ++i)
+            robots.set.touching(*runs[i], {out.data() + i * row, row});
+    });
+}
+
 /// A method that sets something from an array.
 template <Result<> (RobotSet::*Set)(LocalRun&, std::span<const double>) const>
 void set(Robots& robots, const In& values) {
@@ -83,6 +95,7 @@ void bind_robots(nb::module_& module) {
         .def("joint_velocities", &fill<&RobotSet::joint_velocities>, nb::arg("out"))
         .def("link_poses", &fill_link<&RobotSet::link_poses>, nb::arg("link"), nb::arg("out"))
         .def("link_twists", &fill_link<&RobotSet::link_twists>, nb::arg("link"), nb::arg("out"))
+        .def("touching", &touching, nb::arg("out"))
         .def("set_poses", &set<&RobotSet::set_poses>, nb::arg("poses"))
         .def("set_twists", &set<&RobotSet::set_twists>, nb::arg("twists"))
         .def("set_joint_positions", &set<&RobotSet::set_joint_positions>, nb::arg("positions"))

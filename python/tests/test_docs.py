@@ -1,26 +1,32 @@
-"""Examples in docstrings, and the Python in README.md and docs/python.md, run as they stand."""
+"""Examples in docstrings, and the Python in README.md, docs/python.md and docs/learning.md, run as they stand."""
 import doctest
 import re
 
+import gymnasium
 import numpy as np
 import pytest
 
 import roboss
 from conftest import REPOSITORY
-from roboss import batch, kinematics, robots, sensors, simulation, trajectories, world
+from roboss import batch, envs, kinematics, robots, sensors, simulation, trajectories, world
+from roboss.envs import city, city_driver, parallel, soccer
+
+MODULES = [roboss, batch, world, simulation, robots, sensors, kinematics, trajectories]
+MODULES += [envs, city, city_driver, parallel, soccer]
 
 BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 
 
-@pytest.mark.parametrize("module", [roboss, batch, world, simulation, robots, sensors, kinematics, trajectories], ids=lambda module: module.__name__)
+@pytest.mark.parametrize("module", MODULES, ids=lambda module: module.__name__)
 def test_examples_in_docstrings(module):
-    result = doctest.testmod(module, extraglobs={"roboss": roboss, "np": np})
+    result = doctest.testmod(module, extraglobs={"roboss": roboss, "np": np, "gymnasium": gymnasium})
     assert result.attempted > 0 and result.failed == 0
 
 
-def test_everything_public_has_a_docstring():
-    for name in roboss.__all__:
-        thing = getattr(roboss, name)
+@pytest.mark.parametrize("module", [roboss, envs], ids=lambda module: module.__name__)
+def test_everything_public_has_a_docstring(module):
+    for name in module.__all__:
+        thing = getattr(module, name)
         if isinstance(thing, type):
             members = [getattr(thing, member) for member in vars(thing) if not member.startswith("_")]
             described = [member for member in members if callable(member) or isinstance(member, property)]
@@ -28,7 +34,7 @@ def test_everything_public_has_a_docstring():
                 assert all(member.__doc__ for member in [thing, *described]), name
 
 
-@pytest.mark.parametrize("page", ["README.md", "docs/python.md"])
+@pytest.mark.parametrize("page", ["README.md", "docs/python.md", "docs/learning.md"])
 def test_blocks_of_pages_run(page, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "my_robot.urdf").write_text((REPOSITORY / "examples/first_robot/rover.urdf").read_text())

@@ -34,3 +34,9 @@ def test_has_types_and_licences(clean_python):
                                   capture_output=True, text=True, check=True).stdout.strip())
     assert (package / "py.typed").exists() and "class Simulation" in (package / "_core.pyi").read_text()
     assert {"roboss.txt", "libembree3-3.txt", "libsdformat12-12.txt"} <= {path.name for path in (package / "licences").iterdir()}
+
+
+def test_environments_without_their_extra_say_what_is_missing(clean_python):
+    script = "try:\n import roboss.envs\nexcept ImportError as error:\n print(error.name, str(error).count('roboss[envs]'))"
+    done = subprocess.run([clean_python, "-I", "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["gymnasium", "1"]

@@ -1,6 +1,7 @@
 // LocalRun and RobotSet: exact save and restore, resets, orders, errors that leave the world intact, arrays.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include <support/bodies.h>
@@ -253,6 +254,29 @@ TEST(RobotSet, GivesPosesAndTwistsOfLinks) {
     ASSERT_TRUE(cars.set_twists(*run, std::vector<double>{1, 2, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0}).ok());
     cars.link_twists(*run, wheel, twists);
     EXPECT_NEAR(twists[2], 3, 1e-12);
+}
+
+TEST(RobotSet, TellsWhoTouchesMoreThanTheGround) {
+    const auto model = crowd(3);
+    const auto run = run_of(model);
+    const RobotSet cars = all_of(model);
+    std::array<bool, 3> touching{true, true, true};
+    ASSERT_TRUE(run->step(200).ok());  // they stand
+    ASSERT_FALSE(run->contacts().empty());
+    cars.touching(*run, touching);
+    EXPECT_EQ(touching, (std::array<bool, 3>{}));
+    std::vector<double> poses(21);
+    cars.poses(*run, poses);
+    poses[14] = poses[0] - 0.6, poses[15] = poses[1];  // the last one drives at the first from behind
+    ASSERT_TRUE(cars.set_poses(*run, poses).ok());
+    std::vector<double> twists(18);
+    twists[12] = 3;
+    ASSERT_TRUE(cars.set_twists(*run, twists).ok());
+    for (int tick = 0; tick < 100 && !touching[0]; ++tick) {
+        ASSERT_TRUE(run->step(1).ok());
+        cars.touching(*run, touching);
+    }
+    EXPECT_EQ(touching, (std::array<bool, 3>{true, false, true}));
 }
 
 TEST(RobotSet, GivesPosesTwistsAndJointsAndTakesThem) {

@@ -2,6 +2,7 @@
 #include "local/robot_set.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "physics/dynamics/kinematics.h"
 
@@ -43,6 +44,11 @@ void read_joints(const RobotSet& set, const LocalRun& run, double JointState::*v
     for (const RobotId robot : set.robots())
         for (const JointAxis& axis : set.axes())
             *to++ = joint_state(*set.type(), run.state(robot), axis.joint, axis.axis).*value;
+}
+
+/// Whether this is scenery that carries robot A: the normal is within 45 degrees of the vertical.
+bool carries(const ContactReport& contact, const Vec3& gravity) {
+    return !contact.robot_b.valid() && dot(contact.normal, gravity) < -std::sqrt(0.5) * norm(gravity);
 }
 
 }  // namespace
@@ -104,6 +110,17 @@ void RobotSet::joint_positions(const LocalRun& run, std::span<double> out) const
 
 void RobotSet::joint_velocities(const LocalRun& run, std::span<double> out) const {
     read_joints(*this, run, &JointState::velocity, out);
+}
+
+void RobotSet::touching(LocalRun& run, std::span<bool> out) const {
+    ROBOSS_CHECK(out.size() == size(), std::to_string(out.size()) + " flags");
+    std::vector<char> touched(model_->robots.size());
+    for (const ContactReport& contact : run.contacts()) {
+        if (carries(contact, model_->gravity)) continue;
+        touched[contact.robot_a.index()] = 1;
+        if (contact.robot_b.valid()) touched[contact.robot_b.index()] = 1;
+    }
+    for (std::size_t i = 0; i < size(); ++i) out[i] = touched[robots_[i].index()] != 0;
 }
 
 Result<> RobotSet::give(LocalRun& run, std::size_t orders_per_row, const ActionOfRow& action) const {

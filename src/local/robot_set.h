@@ -44,6 +44,9 @@ class RobotSet {
     void joint_positions(const LocalRun& run, std::span<double> out) const;
     /// Velocities of the joints, size() x axes(): rad/s or m/s.
     void joint_velocities(const LocalRun& run, std::span<double> out) const;
+    /// Whether each robot presses against another robot, or against scenery that does not carry it (the
+    /// contact's normal is more than 45 degrees off the vertical), size(): contacts of LocalRun::contacts().
+    void touching(LocalRun& run, std::span<bool> out) const;
 
     // What sets a state does so at once (LocalRun::change()).
 

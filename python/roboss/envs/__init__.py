@@ -1,0 +1,55 @@
+"""Environments for learning: worlds of many agents for Gymnasium and PettingZoo. They need `roboss[envs]`.
+
+One world with N agents is one vectorised environment: each sub-environment is one agent, and all of them drive in the
+same world, see each other and can collide.
+
+    >>> import gymnasium, roboss.envs
+    >>> cars = gymnasium.make_vec("roboss/City-v0", num_envs=16)
+    >>> observations, _ = cars.reset(seed=1)
+    >>> observations.shape
+    (16, 29)
+    >>> observations, rewards, terminated, truncated, infos = cars.step(cars.action_space.sample())
+    >>> rewards.shape, infos["collided"].shape
+    ((16,), (16,))
+
+| class | interface | agents |
+|---|---|---|
+| CityVectorEnv | gymnasium.vector.VectorEnv, "roboss/City-v0" | all cars of one world, or of several equal ones |
+| CityEnv | gymnasium.Env, "roboss/City-v0" | one car; `follow_the_gap` drives the others |
+| CityParallelEnv | pettingzoo.ParallelEnv | all cars of one world, by name |
+| SoccerVectorEnv | gymnasium.vector.VectorEnv, "roboss/Soccer-v0" | all cars of some matches |
+| SoccerParallelEnv | pettingzoo.ParallelEnv | all cars of a match, by name |
+
+An environment of your own is a Task: what agents see, do and get. TaskVectorEnv, TaskEnv and TaskParallelEnv make the
+three interfaces of it.
+"""
+try:
+    import gymnasium
+except ImportError as missing:
+    raise ImportError("roboss.envs needs the package 'gymnasium', which is not installed\n"
+                      "  remedy: pip install 'roboss[envs]'", name="gymnasium") from missing
+
+from .city import CityEnv, CityTask, CityVectorEnv
+from .city_driver import follow_the_gap
+from .single import TaskEnv
+from .soccer import SoccerTask, SoccerVectorEnv
+from .task import Outcome, Task
+from .vector import TaskVectorEnv
+
+__all__ = ["CityEnv", "CityParallelEnv", "CityTask", "CityVectorEnv", "Outcome", "SoccerParallelEnv", "SoccerTask",
+           "SoccerVectorEnv", "Task", "TaskEnv", "TaskParallelEnv", "TaskVectorEnv", "follow_the_gap"]
+
+gymnasium.register("roboss/City-v0", entry_point="roboss.envs:CityEnv", vector_entry_point="roboss.envs:CityVectorEnv")
+gymnasium.register("roboss/Soccer-v0", vector_entry_point="roboss.envs:SoccerVectorEnv")
+
+
+def __getattr__(name):
+    """The classes that need PettingZoo, which only they need."""
+    if name not in ("CityParallelEnv", "SoccerParallelEnv", "TaskParallelEnv"):
+        raise AttributeError(f"module 'roboss.envs' has no attribute '{name}'")
+    try:
+        from . import parallel
+    except ImportError as missing:
+        raise ImportError(f"roboss.envs.{name} needs the package 'pettingzoo', which is not installed\n"
+                          "  remedy: pip install 'roboss[envs]'", name="pettingzoo") from missing
+    return getattr(parallel, name)

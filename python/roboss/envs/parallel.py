@@ -1,0 +1,133 @@
+"""TaskParallelEnv: the agents of a Task as a pettingzoo.ParallelEnv, by name."""
+from __future__ import annotations
+
+from typing import Any, Optional
+
+import numpy as np
+from gymnasium.utils import seeding
+from numpy.typing import NDArray
+from pettingzoo import ParallelEnv
+
+from ..errors import ArgumentError, StateError
+from .city import CityTask
+from .soccer import SoccerTask
+from .task import Task
+
+
+class TaskParallelEnv(ParallelEnv):
+    """All agents of the task's only world. An agent whose episode is over leaves the world until the next reset.
+
+    Args:
+        task: one world.
+        name: of the environment.
+    """
+
+    def __init__(self, task: Task, name: str):
+        if task.worlds != 1:
+            raise ArgumentError(f"a task of {task.worlds} worlds", "give one world; TaskVectorEnv takes several")
+        self.task = task
+        self.metadata = {"name": name, "render_modes": [], "is_parallelizable": True}
+        self.render_mode = None
+        self.possible_agents = list(task.names)
+        self.agents: list[str] = []
+        self._observation_spaces = {agent: _copy(task.observation_space) for agent in self.possible_agents}
+        self._action_spaces = {agent: _copy(task.action_space) for agent in self.possible_agents}
+        self._rows = {agent: row for row, agent in enumerate(self.possible_agents)}
+        self._rng, _ = seeding.np_random()
+
+    def observation_space(self, agent: str):
+        """What the agent sees."""
+        return self._observation_spaces[agent]
+
+    def action_space(self, agent: str):
+        """What the agent can do."""
+        return self._action_spaces[agent]
+
+    @property
+    def state_hash(self) -> str:
+        """Simulation.state_hash of the world."""
+        return self.task.state_hashes[0]
+
+    def reset(self, seed: Optional[int] = None, options: Optional[dict[str, Any]] = None
+              ) -> tuple[dict[str, NDArray[np.float32]], dict[str, dict]]:
+        """Starts the world again, with all agents; the same seed gives the same observations. There are no options."""
+        if seed is not None:
+            self._rng, _ = seeding.np_random(seed)
+        self.agents = list(self.possible_agents)
+        self.task.reset(self._rng)
+        return self._by_name(self.task.observe()), {agent: {} for agent in self.agents}
+
+    def step(self, actions: dict[str, NDArray]) -> tuple[dict, dict, dict, dict, dict]:
+        """One step of the world; agents of which no action is given get zeros. See pettingzoo.ParallelEnv.step.
+
+        Raises:
+            StateError: there is no agent (code "not-reset"), or as Simulation.step.
+        """
+        if not self.agents:
+            raise StateError("no agent is in the world", "call reset() first", "not-reset")
+        rows = np.zeros((self.task.count, *self.task.action_space.shape))
+        for agent in self.agents:
+            if agent in actions:
+                rows[self._rows[agent]] = actions[agent]
+        outcome = self.task.step(rows, self._rng)
+        seen = self._by_name(self.task.observe())
+        rewards, terminated, truncated = (
+            {agent: values[self._rows[agent]].item() for agent in self.agents}
+            for values in (outcome.rewards, outcome.terminated, outcome.truncated))
+        infos = {agent: {name: values[self._rows[agent]] for name, values in outcome.infos.items()} for agent in self.agents}
+        if outcome.finished.any():
+            self.task.leave(outcome.finished)
+            self.agents = [agent for agent in self.agents if not outcome.finished[self._rows[agent]]]
+        return seen, rewards, terminated, truncated, infos
+
+    def state(self) -> NDArray[np.float64]:
+        """Poses and twists of all robots of the agents, (agents, 13): as Robots.pose and Robots.twist."""
+        return np.concatenate([self.task.robots.pose, self.task.robots.twist], axis=1)
+
+    def render(self) -> None:
+        """Nothing: `roboss run` shows worlds in the browser."""
+
+    def close(self) -> None:
+        """Nothing has to be released."""
+
+    def _by_name(self, rows: NDArray) -> dict[str, NDArray]:
+        return {agent: rows[self._rows[agent]].copy() for agent in self.agents}
+
+
+class CityParallelEnv(TaskParallelEnv):
+    """Cars in a city, by name: "car_0", "car_1" ... A car that touches something leaves the city.
+
+    Args:
+        cars: how many.
+        options: as those of CityTask, but for `worlds`.
+
+    >>> env = roboss.envs.CityParallelEnv(cars=8)
+    >>> observations, _ = env.reset(seed=1)
+    >>> observations["car_3"].shape
+    (29,)
+    >>> _ = env.step({agent: env.action_space(agent).sample() for agent in env.agents})
+    """
+
+    def __init__(self, cars: int = 16, **options):
+        super().__init__(CityTask(cars, **options), "roboss_city_v0")
+
+
+class SoccerParallelEnv(TaskParallelEnv):
+    """Two teams of cars and a ball: "red_0" ..., "blue_0" ... All agents finish at the same time.
+
+    Args:
+        cars: of each team.
+        options: as those of SoccerTask, but for `worlds`.
+
+    >>> env = roboss.envs.SoccerParallelEnv(cars=2)
+    >>> _ = env.reset(seed=1)
+    >>> env.agents
+    ['red_0', 'red_1', 'blue_0', 'blue_1']
+    """
+
+    def __init__(self, cars: int = 3, **options):
+        super().__init__(SoccerTask(cars, **options), "roboss_soccer_v0")
+
+
+def _copy(space):
+    return type(space)(space.low, space.high, dtype=space.dtype)

@@ -1,0 +1,72 @@
+"""TaskEnv: one agent of a Task as a gymnasium.Env, with other agents that a program drives."""
+from __future__ import annotations
+
+from typing import Any, Callable, Optional
+
+import gymnasium
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ArgumentError, StateError
+from .task import Outcome, Task
+
+
+class TaskEnv(gymnasium.Env):
+    """The first agent of the task's only world.
+
+    Args:
+        task: one world.
+        others: gives the actions of all agents, (count, ...), from their observations; it drives the other agents, which
+            start again as soon as their episodes are over. None: the task has one agent.
+    """
+
+    metadata = {"render_modes": []}
+
+    def __init__(self, task: Task, others: Optional[Callable[[NDArray], NDArray]] = None):
+        if task.worlds != 1 or (others is None and task.count != 1):
+            raise ArgumentError(f"a task of {task.worlds} worlds with {task.count} agents",
+                                "give one world, and `others` if it has several agents")
+        self.task, self._others = task, others
+        self.observation_space, self.action_space = task.observation_space, task.action_space
+        self._seen: Optional[NDArray] = None
+
+    @property
+    def state_hash(self) -> str:
+        """Simulation.state_hash of the world."""
+        return self.task.state_hashes[0]
+
+    def reset(self, *, seed: Optional[int] = None, options: Optional[dict[str, Any]] = None
+              ) -> tuple[NDArray[np.float32], dict[str, Any]]:
+        """Starts the world again; the same seed gives the same observations and state hash. There are no options."""
+        super().reset(seed=seed)
+        self.task.reset(self.np_random)
+        self._seen = self.task.observe()
+        return self._seen[0].copy(), {}
+
+    def step(self, action: NDArray) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
+        """One step of the world; see gymnasium.Env.step.
+
+        Raises:
+            StateError: the episode is over or has not begun (code "not-reset"), or as Simulation.step.
+        """
+        if self._seen is None or not self.task.present[0]:
+            raise StateError("the episode is over, or has not begun", "call reset() first", "not-reset")
+        actions = np.zeros((self.task.count, *self.action_space.shape))
+        if self._others is not None:
+            actions[:] = self._others(self._seen)
+        actions[0] = action
+        outcome = self.task.step(actions, self.np_random)
+        self._replace(outcome)
+        self._seen = self.task.observe()
+        if outcome.finished[0]:
+            self.task.leave(np.arange(self.task.count) == 0)
+        infos = {name: values[0].item() if values.ndim == 1 else values[0] for name, values in outcome.infos.items()}
+        return (self._seen[0].copy(), float(outcome.rewards[0]), bool(outcome.terminated[0]), bool(outcome.truncated[0]),
+                infos)
+
+    def _replace(self, outcome: Outcome) -> None:
+        """Starts other agents again whose episodes are over."""
+        finished = outcome.finished.copy()
+        finished[0] = False
+        if finished.any():
+            self.task.start(finished, self.np_random)

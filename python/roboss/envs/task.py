@@ -1,0 +1,156 @@
+"""Task: what the agents of a world see, do and get. It knows neither Gymnasium's nor PettingZoo's calls."""
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Optional, Union
+
+import gymnasium
+import numpy as np
+from numpy.typing import NDArray
+
+from ..batch import Batch
+from ..errors import ArgumentError
+from ..simulation import Simulation
+from ..world import World
+
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What one step brought to each of `count` agents; agents that are not in the world have zeros.
+
+    Attributes:
+        rewards: (count,) float64.
+        terminated: (count,): the agent's episode is over, because of what happened.
+        truncated: (count,): it is over, because its time is up.
+        infos: more arrays, (count, ...), by name.
+    """
+
+    rewards: NDArray[np.float64]
+    terminated: Mask
+    truncated: Mask
+    infos: dict[str, NDArray]
+
+    @property
+    def finished(self) -> Mask:
+        """Whose episode is over."""
+        return self.terminated | self.truncated
+
+
+class Task(ABC):
+    """Agents of one world, or of a batch of equal worlds, as arrays with one row for each agent.
+
+    The rows of world w are w * len(names) to (w + 1) * len(names) - 1. An agent is in the world from `start` to `leave`;
+    the other ones have left it, and wait where nobody sees them.
+
+    Args:
+        world: a World.
+        names: of the robots that are agents.
+        observation_space, action_space: of one agent.
+        worlds: how many equal worlds; more than one are stepped as a roboss.Batch.
+        threads: that step; None: one for each core that this process may use. No bit depends on it.
+        ticks: time steps of the world in a step of the environment.
+        episode_steps: after so many steps an episode is truncated.
+    """
+
+    def __init__(self, world: World, names: tuple[str, ...], observation_space: gymnasium.spaces.Box,
+                 action_space: gymnasium.spaces.Box, *, worlds: int = 1, threads: Optional[int] = None, ticks: int = 25,
+                 episode_steps: int = 1200):
+        if worlds < 1 or ticks < 1 or episode_steps < 1:
+            raise ArgumentError(f"{worlds} worlds, {ticks} ticks a step, {episode_steps} steps an episode", "give 1 or more")
+        self.names = tuple(names)  #: agents of each world
+        self.worlds, self.ticks, self.episode_steps = worlds, ticks, episode_steps
+        self.observation_space, self.action_space = observation_space, action_space  #: of one agent
+        self.simulation: Union[Simulation, Batch] = (
+            Simulation(world, threads=threads) if worlds == 1 else Batch(world, worlds, threads=threads))
+        self.robots = self.simulation.robots(self.names)  #: the agents' robots, of all worlds
+        self.simulations = [self.simulation] if worlds == 1 else list(self.simulation)
+        self._robots_of = [simulation.robots(self.names) for simulation in self.simulations]
+        self.present: Mask = np.zeros(self.count, dtype=bool)  #: who is in the world
+        self.age = np.zeros(self.count, dtype=np.int64)  #: steps since each agent's start
+
+    @property
+    def count(self) -> int:
+        """How many agents, of all worlds."""
+        return self.worlds * len(self.names)
+
+    @property
+    def step_s(self) -> float:
+        """Simulated time of a step, s."""
+        return self.ticks * self.simulation.world.dt
+
+    @property
+    def state_hashes(self) -> tuple[str, ...]:
+        """Simulation.state_hash of each world."""
+        return tuple(simulation.state_hash for simulation in self.simulations)
+
+    def reset(self, rng: np.random.Generator) -> None:
+        """All worlds at their start, with other sensor noise, and all agents at new places."""
+        seed = int(rng.integers(2**31))
+        for number, simulation in enumerate(self.simulations):
+            simulation.reset(seed + number)
+        self.present[:] = False
+        self.start(np.ones(self.count, dtype=bool), rng)
+
+    def start(self, agents: Mask, rng: np.random.Generator) -> None:
+        """Begins a new episode of these agents; all others go on."""
+        self.age[agents] = 0
+        self._place(agents, rng)
+        self.present |= agents
+
+    def leave(self, agents: Mask) -> None:
+        """Takes these agents out of the world."""
+        self._remove(agents)
+        self.present &= ~agents
+
+    def step(self, actions: NDArray, rng: np.random.Generator) -> Outcome:
+        """Gives the agents' actions, (count, ...), advances all worlds by `ticks` and tells what came of it.
+
+        Raises:
+            StateError: as Simulation.step.
+        """
+        self._act(np.asarray(actions, dtype=np.float64))
+        if self.worlds == 1:
+            self.simulation.step(self.ticks)
+        else:
+            for number in np.flatnonzero(self.simulation.step(self.ticks)):
+                self.simulations[number].step()  # raises: it stopped
+        self.age += self.present
+        rewards, terminated, infos = self._outcome(rng)
+        truncated = self.present & ~terminated & (self.age >= self.episode_steps)
+        return Outcome(rewards, terminated, truncated, infos)
+
+    @abstractmethod
+    def observe(self) -> NDArray[np.float32]:
+        """What each agent sees now, (count, ...)."""
+
+    @abstractmethod
+    def _place(self, agents: Mask, rng: np.random.Generator) -> None:
+        """Puts these agents at new places, at rest."""
+
+    @abstractmethod
+    def _remove(self, agents: Mask) -> None:
+        """Puts these agents where nobody sees them, at rest."""
+
+    @abstractmethod
+    def _act(self, actions: NDArray[np.float64]) -> None:
+        """Orders what the agents that are present want; the others stand."""
+
+    @abstractmethod
+    def _outcome(self, rng: np.random.Generator) -> tuple[NDArray[np.float64], Mask, dict[str, NDArray]]:
+        """Rewards, who is terminated, and infos, of those that are present."""
+
+    def _put(self, agents: Mask, poses: NDArray[np.float64]) -> None:
+        """Sets the poses of these agents' robots, (agents, 7), at rest."""
+        done = 0
+        for robots, chosen in zip(self._robots_of, agents.reshape(self.worlds, -1)):
+            rows = np.flatnonzero(chosen)
+            if rows.size:
+                some = robots[rows]
+                some.pose = poses[done:done + rows.size]
+                some.twist = 0
+                some.joint_position = 0
+                some.joint_velocity = 0
+                done += rows.size

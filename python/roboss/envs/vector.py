@@ -1,0 +1,108 @@
+"""TaskVectorEnv: the agents of a Task as the sub-environments of a gymnasium.vector.VectorEnv."""
+from __future__ import annotations
+
+from typing import Any, Optional, Union
+
+import numpy as np
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
+from numpy.typing import NDArray
+
+from ..errors import ArgumentError, StateError
+from .task import Mask, Outcome, Task
+
+
+class TaskVectorEnv(VectorEnv):
+    """Sub-environment i is agent i of the task: agents of one world share it, and nothing else.
+
+    An agent whose episode is over leaves its world, and comes back when its next episode starts. `reset` resets whole
+    worlds; what happens to a single agent that has finished is told by the autoreset mode:
+
+    - "NextStep": it starts at the end of the next step, which ignores its action and gives it a reward of 0.
+    - "SameStep": it starts in the same step; `infos["final_obs"]` and `infos["final_info"]` are those of the old episode.
+    - "Disabled": it stays out, with rewards of 0, until `reset(options={"reset_mask": mask})` starts it.
+
+    `infos` has an array for each kind of info of the task, (num_envs,), and `infos["present"]`: who was in the world
+    during the step.
+
+    Args:
+        task: the agents.
+        autoreset_mode: a gymnasium.vector.AutoresetMode, or its value.
+    """
+
+    def __init__(self, task: Task, autoreset_mode: Union[AutoresetMode, str] = AutoresetMode.NEXT_STEP):
+        self.task = task
+        self.autoreset_mode = AutoresetMode(autoreset_mode)
+        self.metadata = {"autoreset_mode": self.autoreset_mode, "render_modes": []}
+        self.num_envs = task.count
+        self.single_observation_space, self.single_action_space = task.observation_space, task.action_space
+        self.observation_space = batch_space(task.observation_space, task.count)
+        self.action_space = batch_space(task.action_space, task.count)
+        self._was_reset = False
+
+    @property
+    def state_hashes(self) -> tuple[str, ...]:
+        """Simulation.state_hash of each world: equal hashes, equal worlds, to the last bit."""
+        return self.task.state_hashes
+
+    def reset(self, *, seed: Optional[int] = None, options: Optional[dict[str, Any]] = None
+              ) -> tuple[NDArray[np.float32], dict[str, Any]]:
+        """Starts all worlds again, with all agents; or, with options={"reset_mask": mask}, only these agents.
+
+        The same seed gives the same observations and state hashes. A mask is a bool array (num_envs,).
+        """
+        super().reset(seed=seed)
+        mask = (options or {}).get("reset_mask")
+        if mask is None:
+            self.task.reset(self.np_random)
+        else:
+            self._check(mask)
+            self.task.start(mask, self.np_random)
+        self._was_reset = True
+        return self.task.observe(), {}
+
+    def step(self, actions: NDArray) -> tuple[NDArray[np.float32], NDArray[np.float64], Mask, Mask, dict[str, Any]]:
+        """One step of all agents; see gymnasium.vector.VectorEnv.step, and the modes above.
+
+        Raises:
+            StateError: it was not reset, or as Simulation.step.
+        """
+        if not self._was_reset:
+            raise _not_reset()
+        present = self.task.present.copy()
+        outcome = self.task.step(actions, self.np_random)
+        infos = with_masks({**outcome.infos, "present": present}, np.ones(self.num_envs, dtype=bool))
+        if self.autoreset_mode == AutoresetMode.SAME_STEP and outcome.finished.any():
+            infos = self._start_again(outcome, infos)
+        elif self.autoreset_mode == AutoresetMode.NEXT_STEP and not present.all():
+            self.task.start(~present, self.np_random)
+        observations = self.task.observe()
+        if self.autoreset_mode != AutoresetMode.SAME_STEP and outcome.finished.any():
+            self.task.leave(outcome.finished)
+        return observations, outcome.rewards, outcome.terminated, outcome.truncated, infos
+
+    def _start_again(self, outcome: Outcome, infos: dict[str, Any]) -> dict[str, Any]:
+        """Starts the finished agents; the infos with what they saw and were told last."""
+        last = self.task.observe()
+        final = np.full(self.num_envs, None, dtype=object)
+        for agent in np.flatnonzero(outcome.finished):
+            final[agent] = last[agent]
+        told = {"final_obs": final, "final_info": with_masks(outcome.infos, outcome.finished)}
+        self.task.start(outcome.finished, self.np_random)
+        return {**infos, **with_masks(told, outcome.finished)}
+
+    def _check(self, mask: Any) -> None:
+        if not isinstance(mask, np.ndarray) or mask.shape != (self.num_envs,) or mask.dtype != np.bool_ or not mask.any():
+            raise ArgumentError(f"a reset_mask of {getattr(mask, 'shape', mask)}, {getattr(mask, 'dtype', type(mask))}",
+                                f"give an array of bool, ({self.num_envs},), with True for at least one agent", "bad-mask")
+        if not self._was_reset:
+            raise _not_reset()
+
+
+def with_masks(infos: dict[str, Any], who: Mask) -> dict[str, Any]:
+    """The infos, and for each "name" a "_name" that tells for which agents it holds, as Gymnasium has it."""
+    return {**infos, **{f"_{name}": who.copy() for name in infos}}
+
+
+def _not_reset() -> StateError:
+    return StateError("the environment was not reset", "call reset() first", "not-reset")
