@@ -82,7 +82,9 @@ class Batch:
         return self._shape[0]
 
     def __getitem__(self, number: int) -> Simulation:
-        return Simulation._of(self.world, self._simulations[number])
+        simulation = Simulation._of(self.world, self._simulations[number])
+        simulation._in_batch = True
+        return simulation
 
     def __repr__(self) -> str:
         return f"<roboss.Batch of {len(self)} simulations of '{self.world.name}'>"

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from .errors import ArgumentError
+from .errors import ArgumentError, StateError
 from .names import filled, index_of, numbers, unknown
 from .sensors import Sensor
 
@@ -43,7 +43,8 @@ class Robots:
     def __init__(self, simulation: Union[Simulation, Batch], ids: Sequence[int]):
         self.simulation: Union[Simulation, Batch] = simulation  #: that they are in
         self.ids: tuple[int, ...] = tuple(ids)  #: their places in World.robots
-        self._core = _core.robots(simulation._simulations, list(ids))
+        self._world, self._simulations = simulation.world, simulation._simulations  # both stay when robots come or go
+        self._core = _core.robots(self._simulations, list(ids))
 
     def __len__(self) -> int:
         return len(self.ids)
@@ -55,16 +56,16 @@ class Robots:
     @property
     def names(self) -> tuple[str, ...]:
         """Names of the robots, by row."""
-        return tuple(self.simulation.world.robots[number] for number in self.ids)
+        return tuple(self._world.robots[number] for number in self.ids)
 
     @property
     def _facts(self) -> TypeFacts:
-        types = self.simulation.world._types
+        types = self._world._types
         if len({types[number] for number in self.ids}) != 1:
-            kinds = sorted({self.simulation.world._facts_of(number).name for number in self.ids})
+            kinds = sorted({self._world._facts_of(number).name for number in self.ids})
             raise ArgumentError(f"these {len(self)} robots are of {len(kinds)} types ({', '.join(kinds[:8])})",
                                 "select robots of one type for joints, links, sensors and commands", "mixed-types")
-        return self.simulation.world._facts_of(self.ids[0])
+        return self._world._facts_of(self.ids[0])
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -256,6 +257,9 @@ class Robots:
             names = [name for name, _, _ in facts.sensors]
             return Sensor(self, index_of("sensor", key, names, f" of '{facts.name}'"), *facts.sensors[names.index(key)])
         chosen = np.atleast_1d(np.asarray(self.ids)[key])
+        if self._simulations is not self.simulation._simulations:
+            raise StateError("robots were spawned or removed since these were asked for",
+                             "ask Simulation.robots() again", "changed-world")
         return Robots(self.simulation, [int(number) for number in chosen])
 
     def _link(self, name: str) -> int:

@@ -61,13 +61,13 @@ class Sensor:
         >>> reading["orientation_quat_xyzw"].shape, reading["heading"].shape
         ((50, 4), (50,))
         """
-        columns = _core.read(self.robots.simulation._simulations, list(self.robots.ids), self._number)
+        columns = _core.read(self.robots._simulations, list(self.robots.ids), self._number)
         return dict(self._shaped(*column) for column in columns)
 
     @property
     def units(self) -> dict[str, str]:
         """Units of the values of read_all(), by name; "" for counts, ratios, rotations."""
-        columns = _core.read(self.robots.simulation._simulations, list(self.robots.ids[:1]), self._number)
+        columns = _core.read(self.robots._simulations, list(self.robots.ids[:1]), self._number)
         return {self._shaped(name, *rest)[0]: rest[0] for name, *rest in columns}
 
     def _shaped(self, name: str, unit: str, kind: str, values, counts: list[int]) -> tuple[str, Reading]:
@@ -77,7 +77,7 @@ class Sensor:
         elif width == 4:  # w x y z, one behind the other
             name += "_quat_xyzw"
             values = np.roll(np.reshape(values, (-1, 4)), -1, axis=1).ravel()
-        lead = (*self.robots.simulation._shape, len(counts) // len(self.robots.simulation._simulations))
+        lead = (*self.robots.simulation._shape, len(counts) // len(self.robots._simulations))
         if kind == "text":
             ends = np.cumsum([0] + counts)
             return name, [values[first:last] for first, last in zip(ends[:-1], ends[1:])]

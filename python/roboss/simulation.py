@@ -2,13 +2,14 @@
 from __future__ import annotations
 
 import os
-from typing import Iterable, Optional, Union
+from typing import Iterable, Optional, Sequence, Union
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from .names import index_of
+from .errors import StateError
+from .names import filled, index_of
 from .robots import Robots
 from .world import World, load
 
@@ -61,7 +62,7 @@ class Simulation:
         return simulation
 
     def _take(self, core: _core.Simulation) -> None:
-        self._core, self._simulations, self._shape = core, [core], ()
+        self._core, self._simulations, self._shape, self._in_batch = core, [core], (), False
 
     def step(self, ticks: int = 1) -> None:
         """Advances the world by `ticks` time steps of `dt`. Other threads of Python run meanwhile; Ctrl-C ends it.
@@ -160,6 +161,69 @@ class Simulation:
     def reset(self, seed: Optional[int] = None) -> None:
         """Back to the start of the world, without orders; with this seed of noise, None: the same one."""
         self._core.reset(seed)
+
+    def spawn(self, source: Union[World, str, os.PathLike], name: Union[None, str, Sequence[str]] = None,
+              pose: ArrayLike = (0, 0, 0, 0, 0, 0, 1)) -> Robots:
+        """Adds the models of a world, or copies of its only model, at the present tick. They are at rest.
+
+        Args:
+            source: a World with the same `dt`, or what `load` takes.
+            name: of the model in this world, or names of several copies; None: as it is called in `source`.
+            pose: where the origin of `source` is in this world: x y z (m), quaternion x y z w; shape (7,), or (copies,
+                7).
+
+        Returns the robots that came. Robots that were asked for before raise StateError (code "changed-world") from now
+        on; ask `robots` again. All others keep every bit of their states. `reset` puts the new ones where they came.
+
+        Raises:
+            WorldError: a name is taken (code "name-taken"), another `dt` ("other-step"), or `load` refuses the source.
+
+        >>> sim = roboss.Simulation(roboss.example("crossroads.sdf"))
+        >>> sim.step(100)
+        >>> ball = '''<robot name="ball"><link name="body">
+        ...   <inertial><mass value="1"/><inertia ixx=".1" iyy=".1" izz=".1" ixy="0" ixz="0" iyz="0"/></inertial>
+        ...   <collision><geometry><sphere radius="0.2"/></geometry></collision>
+        ... </link></robot>'''
+        >>> balls = sim.spawn(ball, ["ball_0", "ball_1"], [[0, 0, 2, 0, 0, 0, 1], [0, 0, 3, 0, 0, 0, 1]])
+        >>> sim.step(100)
+        >>> balls.pose[:, 2].round(3)                      # m, 0.2 s later
+        array([1.804, 2.804])
+        """
+        self._may_change()
+        addition = source if isinstance(source, World) else load(source, dt=self.dt)
+        names = [""] if name is None else [name] if isinstance(name, str) else list(name)
+        poses = filled("pose", pose, (len(names), 7)).tolist()
+        before = len(self.world.robots)
+        core, model, _ = self._core.spawn(addition._model, names, poses)
+        frames = self.world._frames or [()] * before
+        new = len(model.robots) - before
+        self._continue(core, model, [*frames, *(list(addition._frames) or [()] * new) * len(names)])
+        return Robots(self, range(before, before + new))
+
+    def remove(self, robots: Union[str, Iterable[str], Robots]) -> None:
+        """Takes robots out of the world: those of a pattern, of a list of names, or these. The others keep every bit.
+
+        Robots that were asked for before raise StateError (code "changed-world") from now on; ask `robots` again.
+
+        >>> sim = roboss.Simulation(roboss.example("crossroads.sdf"))
+        >>> sim.remove("car_1*")
+        >>> len(sim.robots("car_*"))
+        9
+        """
+        self._may_change()
+        names = robots.names if isinstance(robots, Robots) else [self.world.robots[n] for n in self.world._find(robots)]
+        core, model, now = self._core.remove(list(names))
+        frames = [frame for frame, new in zip(self.world._frames, now) if new >= 0]
+        self._continue(core, model, frames)
+
+    def _may_change(self) -> None:
+        if self._in_batch:
+            raise StateError("the simulations of a Batch are all of one world", "use a Simulation", "in-batch")
+
+    def _continue(self, core: _core.Simulation, model: _core.Model, frames: list) -> None:
+        """Goes on in another world."""
+        self.world = World(model, self.world.file, self.world.diagnostics, frames)
+        self._take(core)
 
     def attach(self, holder: str, held: str, *, link: Optional[str] = None, held_link: Optional[str] = None,
                reach: float = 0.1, max_force: float = float("inf"), max_torque: float = float("inf")) -> None:

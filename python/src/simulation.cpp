@@ -2,14 +2,20 @@
 #include "simulation.h"
 
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
 
+#include <array>
 #include <cinttypes>
 #include <cstdio>
+#include <tuple>
 
 #include "bindings.h"
+#include "roboss/model/edit.h"
 
 namespace nb = nanobind;
 using namespace roboss;
@@ -83,6 +89,35 @@ void order(Simulation& simulation, std::uint32_t robot, const Action& action) {
     if (!given) raise("OrderError", given.error());
 }
 
+/// (the simulation that goes on, its model, by old number of a robot the new one or -1); the old simulation
+/// is retired.
+using Edited = std::tuple<std::shared_ptr<Simulation>, std::shared_ptr<const Model>, std::vector<long>>;
+
+Edited edited(Simulation& simulation, const Result<ModelEdit>& edit) {
+    const ModelEdit change = value_or_raise(edit, "WorldError");
+    std::shared_ptr<LocalRun> run = value_or_raise(simulation.run().edited(change), "WorldError");
+    std::vector<long> now;
+    for (const RobotId id : change.now) now.push_back(id.valid() ? static_cast<long>(id.value) : -1);
+    simulation.retire();
+    return {std::make_shared<Simulation>(change.model, std::move(run)), change.model, std::move(now)};
+}
+
+Edited spawn(Simulation& simulation, const std::shared_ptr<const Model>& addition,
+             const std::vector<std::string>& names, const std::vector<std::array<double, 7>>& poses) {
+    std::vector<CopyPlace> places;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const std::array<double, 7>& x = poses[i];
+        places.push_back({names[i], {{x[0], x[1], x[2]}, normalized(Quat{x[6], x[3], x[4], x[5]})}});
+    }
+    simulation.run();  // nobody is inside
+    return edited(simulation, with_models(*simulation.model(), *addition, places));
+}
+
+Edited remove(Simulation& simulation, const std::vector<std::string>& names) {
+    simulation.run();
+    return edited(simulation, without_robots(*simulation.model(), names));
+}
+
 }  // namespace
 
 void bind_simulation(nb::module_& module) {
@@ -115,6 +150,8 @@ void bind_simulation(nb::module_& module) {
         .def(
             "reset", [](Simulation& s, std::optional<std::uint64_t> seed) { s.run().reset(seed); },
             nb::arg("seed").none())
+        .def("spawn", &spawn, nb::arg("addition"), nb::arg("names"), nb::arg("poses"))
+        .def("remove", &remove, nb::arg("names"))
         .def(
             "attach",
             [](Simulation& s, std::uint32_t robot, std::uint32_t link, std::uint32_t other,

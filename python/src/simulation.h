@@ -24,11 +24,17 @@ class Simulation {
 
     /// The run; raises StateError while another thread is inside. The GIL must be held.
     roboss::LocalRun& run() {
+        if (!run_)
+            raise("StateError", {"robots were spawned or removed since these were asked for",
+                                 "ask Simulation.robots() again", "changed-world"});
         if (busy_)
             raise("StateError", {"the simulation is in use by another thread",
                                  "let one thread at a time use it, or give each its own", "busy"});
         return *run_;
     }
+
+    /// The run goes on in another Simulation.
+    void retire() { run_.reset(); }
 
     /// Whether a thread that does not hold the GIL is inside.
     void set_busy(bool busy) { busy_ = busy; }

@@ -36,7 +36,10 @@ Result<std::unique_ptr<LocalRun>> LocalRun::create(std::shared_ptr<const Model> 
 }
 
 LocalRun::LocalRun(std::shared_ptr<const Model> model, const LocalRunOptions& options)
-    : model_(std::move(model)), stepper_(model_, options.threads, options.lanes), seed_(options.seed) {
+    : model_(std::move(model)),
+      options_(options),
+      stepper_(model_, options.threads, options.lanes),
+      seed_(options.seed) {
     states_.resize(model_->robots.size());
     for (const RobotState& state : states_) pointers_.push_back(&state);
     reset();
@@ -184,6 +187,19 @@ Result<> LocalRun::restore(const LocalSave& save) {
     stepper_.forget();
     changed();
     return Ok{};
+}
+
+Result<std::unique_ptr<LocalRun>> LocalRun::edited(const ModelEdit& edit) const {
+    LocalRunOptions options = options_;
+    options.seed = seed_;
+    Result<std::unique_ptr<LocalRun>> made = create(edit.model, options);
+    if (!made) return made;
+    LocalRun& run = *made.value();
+    std::ranges::move(carry_over(edit, states_), run.states_.begin());
+    run.tick_ = tick_, run.given_ = given_;
+    run.orders_ = orders_;
+    std::erase_if(run.orders_, [&](Order& order) { return !carry_over(edit, order); });
+    return made;
 }
 
 }  // namespace roboss

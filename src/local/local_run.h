@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "local/world_stepper.h"
+#include "model/edit.h"
 #include "physics/probe.h"
 #include "sensors/readings.h"
 
@@ -98,6 +99,10 @@ class LocalRun : private SensorSources {
     Result<> restore(const LocalSave& save);
     /// Back to the beginning of the world, without orders; with the seed given, or the same one.
     void reset(std::optional<std::uint64_t> seed = {});
+    /// A run of the edited world that continues from here, with the same options: robots that stay keep
+    /// their states and orders, those that came are in their initial states, at rest. This run stays as it
+    /// is. Errors: those of create().
+    Result<std::unique_ptr<LocalRun>> edited(const ModelEdit& edit) const;
 
   private:
     LocalRun(std::shared_ptr<const Model> model, const LocalRunOptions& options);
@@ -107,6 +112,7 @@ class LocalRun : private SensorSources {
     void changed();
 
     std::shared_ptr<const Model> model_;
+    LocalRunOptions options_;
     WorldStepper stepper_;
     std::uint64_t seed_ = 0, given_ = 0;
     Tick tick_ = 0;

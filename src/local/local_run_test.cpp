@@ -49,6 +49,28 @@ void drive(LocalRun& run, const RobotSet& cars) {
     EXPECT_TRUE(cars.set_joints(run, columns, MotorMode::kVelocity, targets).ok());
 }
 
+TEST(LocalRun, ContinuesInAnEditedWorldWithEveryBit) {
+    const auto model = crowd(6);
+    const auto run = run_of(model);
+    drive(*run, all_of(model));
+    ASSERT_TRUE(run->step(100).ok());
+    ASSERT_TRUE(run->order(RobotId(5u), SetJoint{JointId(0u), 0, MotorMode::kVelocity, -3}).ok());
+    const Result<ModelEdit> edit = without_robots(*model, {"car_2"});
+    ASSERT_TRUE(edit.ok());
+    Result<std::unique_ptr<LocalRun>> edited = run->edited(edit.value());
+    ASSERT_TRUE(edited.ok());
+    LocalRun& less = *edited.value();
+    EXPECT_EQ(less.tick(), 100);
+    ASSERT_EQ(less.states().size(), 5u);
+    EXPECT_EQ(less.state(RobotId(1u)), run->state(RobotId(1u)));
+    EXPECT_EQ(less.state(RobotId(2u)).q, run->state(RobotId(3u)).q);
+    ASSERT_EQ(less.save().orders.size(), 1u);
+    EXPECT_EQ(less.save().orders[0].robot, RobotId(4u));
+    ASSERT_TRUE(less.step(1).ok());
+    EXPECT_EQ(less.state(RobotId(4u)).motors[0].target, -3);
+    EXPECT_EQ(run->states().size(), 6u) << "the old run stays as it is";
+}
+
 TEST(LocalRun, GivesTheSameBitsOnThreadsWhereRobotsCollide) {
     const auto model = crowd(40);
     const RobotSet cars = all_of(model);
