@@ -28,7 +28,7 @@ SIZES = ((8, 1), (64, 1), (512, 1), (8, 8), (8, 64))  # cars in a world, worlds
 
 
 def city_of(cars):
-    """Path of a city for so many cars, of the density that all cities of roboss-world have."""
+    """Path of a city for this number of cars, with the density of all cities of roboss-world."""
     path = ROOT / "build" / "bench" / f"city_{cars}.sdf"
     path.parent.mkdir(parents=True, exist_ok=True)
     subprocess.run([ROOT / "build/release/bin/roboss-world", "city", "--cars", str(cars), "-o", path], check=True)
@@ -100,7 +100,7 @@ def main():
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--seconds", type=float, default=2, help="of each engine in a round")
     parser.add_argument("--threads", type=int, nargs="+", default=[1, 2])
-    parser.add_argument("--only", type=int, help="agents: only the sizes with so many")
+    parser.add_argument("--only", type=int, help="only the sizes with this number of agents")
     parser.add_argument("--json", type=Path)
     given = parser.parse_args()
     about = {"commit": os.environ.get("ROBOSS_COMMIT", "unknown"), "cpu": cpu(), "python": platform.python_version(),

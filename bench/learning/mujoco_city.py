@@ -61,6 +61,9 @@ class Cars:
         angles = np.linspace(-0.5 * np.pi, 0.5 * np.pi, BEAMS)
         self.beams = np.stack([np.cos(angles), np.sin(angles), np.zeros(BEAMS)], axis=1)
 
+    def __len__(self):
+        return len(self.rows)
+
     def __getitem__(self, key):
         if isinstance(key, str):
             return self  # the laser

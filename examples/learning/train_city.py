@@ -66,11 +66,11 @@ def learn(learner, most_steps, most_seconds):
     return np.array(curve)
 
 
-def report(rows, seconds_of_cars):
-    """One line about the last updates, each of which had so many seconds of cars."""
+def report(rows, car_seconds):
+    """One line about the last updates; `car_seconds`: simulated time of an update, summed over the cars."""
     metres, collisions = np.sum(rows, axis=0)[2:]
     print("%9d steps  %6.0f s  %5.2f m/s  %6.0f m for each collision" % (
-        *rows[-1][:2], metres / (len(rows) * seconds_of_cars), metres / max(1, collisions)), flush=True)
+        *rows[-1][:2], metres / (len(rows) * car_seconds), metres / max(1, collisions)), flush=True)
 
 
 if __name__ == "__main__":

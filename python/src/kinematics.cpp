@@ -1,6 +1,5 @@
 // RobotModel: kinematics and dynamics of one robot for many configurations; and trajectories. Shapes are
 // checked in Python, sizes again in C++. Nothing here holds the GIL while it computes.
-#include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
@@ -10,11 +9,13 @@
 #include <algorithm>
 #include <array>
 
+#include "arrays.h"
 #include "bindings.h"
 #include "errors.h"
 #include "roboss/kinematics/dynamics.h"
 #include "roboss/kinematics/inverse_kinematics.h"
 #include "roboss/kinematics/trajectory.h"
+#include "roboss/math/array_rows.h"
 
 namespace nb = nanobind;
 using namespace roboss;
@@ -23,38 +24,15 @@ namespace roboss_python {
 
 namespace {
 
-using Filled = nb::ndarray<double, nb::c_contig, nb::device::cpu>;
-using Given = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
-using MaybeGiven = std::optional<Given>;
-
-std::span<double> span_of(const Filled& array) {
-    return {array.data(), array.size()};
-}
-
-std::span<const double> span_of(const Given& array) {
-    return {array.data(), array.size()};
-}
-
-std::span<const double> span_of(const MaybeGiven& array) {
-    return array ? span_of(*array) : std::span<const double>{};
-}
-
-Vec3 vec3(const Given& three) {
-    return {three.data()[0], three.data()[1], three.data()[2]};
-}
-
-/// x y z, quaternion x y z w.
-Pose pose(const Given& seven) {
-    const double* p = seven.data();
-    return {{p[0], p[1], p[2]}, normalized(Quat{p[6], p[3], p[4], p[5]})};
+Pose pose(const In& seven) {
+    return pose_at(seven.data());
 }
 
 FrameAxes axes_of(bool in_tool) {
     return in_tool ? FrameAxes::kTool : FrameAxes::kWorld;
 }
 
-RobotModel make(std::shared_ptr<const Model> model, std::size_t robot, bool cut_loops,
-                const MaybeGiven& base) {
+RobotModel make(std::shared_ptr<const Model> model, std::size_t robot, bool cut_loops, const MaybeIn& base) {
     RobotModelOptions options{.cut_loops = cut_loops};
     if (base) options.X_WR = pose(*base);
     return value_or_raise(RobotModel::create(std::move(model), RobotId(robot), options), "ArgumentError");
@@ -73,10 +51,10 @@ nb::list columns_of(const RobotModel& robot) {
 
 /// Columns of `report`: success, errors of position and orientation, iterations, attempts.
 void solve(const RobotModel& robot, std::size_t link, const InverseKinematicsOptions& options,
-           const Given& targets, const Given& start, const Filled& q, const Filled& report) {
+           const In& targets, const In& start, const Out& q, const Out& report) {
     const nb::gil_scoped_release release;
     std::vector<InverseKinematicsResult> results(targets.size() / 7);
-    inverse_kinematics(robot, LinkId(link), options, span_of(targets), span_of(start), span_of(q), results);
+    inverse_kinematics(robot, LinkId(link), options, numbers(targets), numbers(start), numbers(q), results);
     double* out = report.data();
     for (const InverseKinematicsResult& r : results) {
         const std::array<double, 5> row{r.success ? 1.0 : 0.0, r.position_error, r.orientation_error,
@@ -92,81 +70,80 @@ void bind_links(Bound& bound) {
     bound
         .def(
             "tool_poses",
-            [](const RobotModel& r, const Given& q, std::size_t link, const Given& tool, const Filled& out) {
-                tool_poses(r, span_of(q), LinkId(link), pose(tool), span_of(out));
+            [](const RobotModel& r, const In& q, std::size_t link, const In& tool, const Out& out) {
+                tool_poses(r, numbers(q), LinkId(link), pose(tool), numbers(out));
             },
             WithoutGil())
         .def(
             "link_poses",
-            [](const RobotModel& r, const Given& q, const Filled& out) {
-                link_poses(r, span_of(q), span_of(out));
-            },
+            [](const RobotModel& r, const In& q, const Out& out) { link_poses(r, numbers(q), numbers(out)); },
             WithoutGil())
         .def(
             "tool_twists",
-            [](const RobotModel& r, const Given& q, const Given& v, std::size_t link, const Given& tool,
-               const Filled& out) {
-                tool_twists(r, span_of(q), span_of(v), LinkId(link), pose(tool), span_of(out));
+            [](const RobotModel& r, const In& q, const In& v, std::size_t link, const In& tool,
+               const Out& out) {
+                tool_twists(r, numbers(q), numbers(v), LinkId(link), pose(tool), numbers(out));
             },
             WithoutGil())
         .def(
             "tool_jacobians",
-            [](const RobotModel& r, const Given& q, std::size_t link, const Given& tool, bool in_tool,
-               const Filled& out) {
-                tool_jacobians(r, span_of(q), LinkId(link), pose(tool), axes_of(in_tool), span_of(out));
+            [](const RobotModel& r, const In& q, std::size_t link, const In& tool, bool in_tool,
+               const Out& out) {
+                tool_jacobians(r, numbers(q), LinkId(link), pose(tool), axes_of(in_tool), numbers(out));
             },
             WithoutGil())
-        .def(
-            "inverse_kinematics",
-            [](const RobotModel& r, std::size_t link, const Given& tool, const std::array<double, 6>& weights,
-               bool in_tool, const nb::dict& options, const std::vector<bool>& moving, const Given& targets,
-               const Given& start, const Filled& q, const Filled& report) {
-                solve(r, link,
-                      {.X_LT = pose(tool),
-                       .weights = weights,
-                       .axes = axes_of(in_tool),
-                       .tolerance = nb::cast<double>(options["tolerance"]),
-                       .iterations = nb::cast<int>(options["iterations"]),
-                       .attempts = nb::cast<int>(options["attempts"]),
-                       .seed = nb::cast<std::uint64_t>(options["seed"]),
-                       .moving = {moving.begin(), moving.end()},
-                       .path = nb::cast<bool>(options["path"])},
-                      targets, start, q, report);
-            });
+        .def("inverse_kinematics",
+             [](const RobotModel& r, std::size_t link, const In& tool, const std::array<double, 6>& weights,
+                bool in_tool, const nb::dict& options, const std::vector<bool>& moving, const In& targets,
+                const In& start, const Out& q, const Out& report) {
+                 solve(r, link,
+                       {.X_LT = pose(tool),
+                        .weights = weights,
+                        .axes = axes_of(in_tool),
+                        .tolerance = nb::cast<double>(options["tolerance"]),
+                        .iterations = nb::cast<int>(options["iterations"]),
+                        .attempts = nb::cast<int>(options["attempts"]),
+                        .seed = nb::cast<std::uint64_t>(options["seed"]),
+                        .moving = {moving.begin(), moving.end()},
+                        .path = nb::cast<bool>(options["path"])},
+                       targets, start, q, report);
+             });
 }
 
 void bind_dynamics(Bound& bound) {
     bound
         .def(
             "inverse_dynamics",
-            [](const RobotModel& r, const Given& q, const MaybeGiven& v, const MaybeGiven& a,
-               const Given& gravity, const Filled& out) {
-                inverse_dynamics(r, span_of(q), span_of(v), span_of(a), vec3(gravity), span_of(out));
+            [](const RobotModel& r, const In& q, const MaybeIn& v, const MaybeIn& a, const In& gravity,
+               const Out& out) {
+                inverse_dynamics(r, numbers(q), numbers(v), numbers(a), vec3_at(gravity.data()),
+                                 numbers(out));
             },
             nb::arg(), nb::arg().none(), nb::arg().none(), nb::arg(), nb::arg(), WithoutGil())
         .def(
             "forward_dynamics",
-            [](const RobotModel& r, const Given& q, const MaybeGiven& v, const MaybeGiven& forces,
-               const Given& gravity, const Filled& out) {
-                forward_dynamics(r, span_of(q), span_of(v), span_of(forces), vec3(gravity), span_of(out));
+            [](const RobotModel& r, const In& q, const MaybeIn& v, const MaybeIn& forces, const In& gravity,
+               const Out& out) {
+                forward_dynamics(r, numbers(q), numbers(v), numbers(forces), vec3_at(gravity.data()),
+                                 numbers(out));
             },
             nb::arg(), nb::arg().none(), nb::arg().none(), nb::arg(), nb::arg(), WithoutGil())
         .def(
             "passive_forces",
-            [](const RobotModel& r, const Given& q, const MaybeGiven& v, const Filled& out) {
-                passive_forces(r, span_of(q), span_of(v), span_of(out));
+            [](const RobotModel& r, const In& q, const MaybeIn& v, const Out& out) {
+                passive_forces(r, numbers(q), numbers(v), numbers(out));
             },
             nb::arg(), nb::arg().none(), nb::arg(), WithoutGil())
         .def(
             "mass_matrices",
-            [](const RobotModel& r, const Given& q, const Filled& out) {
-                mass_matrices(r, span_of(q), span_of(out));
+            [](const RobotModel& r, const In& q, const Out& out) {
+                mass_matrices(r, numbers(q), numbers(out));
             },
             WithoutGil())
         .def(
             "coriolis_matrices",
-            [](const RobotModel& r, const Given& q, const Given& v, const Filled& out) {
-                coriolis_matrices(r, span_of(q), span_of(v), span_of(out));
+            [](const RobotModel& r, const In& q, const In& v, const Out& out) {
+                coriolis_matrices(r, numbers(q), numbers(v), numbers(out));
             },
             WithoutGil());
 }
@@ -182,25 +159,22 @@ void bind_kinematics(nb::module_& module) {
     bind_dynamics(bound);
     module.def("robot_model", &make, nb::arg("model"), nb::arg("robot"), nb::arg("cut_loops"),
                nb::arg("base").none());
-    module.def("compose", [](const Given& a, const Given& b, const Filled& out) {
-        const Pose X = pose(a) * pose(b);
-        const std::array<double, 7> numbers{X.p.x, X.p.y, X.p.z, X.q.x, X.q.y, X.q.z, X.q.w};
-        std::copy(numbers.begin(), numbers.end(), out.data());
-    });
+    module.def("compose",
+               [](const In& a, const In& b, const Out& out) { put_row(pose(a) * pose(b), out.data()); });
     module.def(
         "joint_trajectory",
-        [](const Given& q0, const Given& q1, const Given& v0, const Given& v1, const Given& times,
-           const Filled& q, const Filled& v, const Filled& a) {
-            joint_trajectory({span_of(q0), span_of(q1), span_of(v0), span_of(v1)}, span_of(times),
-                             {span_of(q), span_of(v), span_of(a)});
+        [](const In& q0, const In& q1, const In& v0, const In& v1, const In& times, const Out& q,
+           const Out& v, const Out& a) {
+            joint_trajectory({numbers(q0), numbers(q1), numbers(v0), numbers(v1)}, numbers(times),
+                             {numbers(q), numbers(v), numbers(a)});
         },
         WithoutGil());
     module.def(
         "cartesian_trajectory",
-        [](const Given& pose0, const Given& pose1, double ramp, const Given& times, const Filled& poses,
-           const Filled& twists) {
-            cartesian_trajectory(pose(pose0), pose(pose1), ramp, span_of(times), span_of(poses),
-                                 span_of(twists));
+        [](const In& pose0, const In& pose1, double ramp, const In& times, const Out& poses,
+           const Out& twists) {
+            cartesian_trajectory(pose(pose0), pose(pose1), ramp, numbers(times), numbers(poses),
+                                 numbers(twists));
         },
         WithoutGil());
 }

@@ -1,9 +1,9 @@
 // RobotSet: arrays of some robots of a Simulation. Rows and columns are checked in Python; sizes are checked
 // again in C++.
-#include <nanobind/ndarray.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/vector.h>
 
+#include "arrays.h"
 #include "bindings.h"
 #include "roboss/local/robot_set.h"
 #include "simulation.h"
@@ -14,17 +14,6 @@ using namespace roboss;
 namespace roboss_python {
 
 namespace {
-
-using Out = nb::ndarray<double, nb::c_contig, nb::device::cpu>;
-using In = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
-
-std::span<double> numbers(const Out& array) {
-    return {array.data(), array.size()};
-}
-
-std::span<const double> numbers(const In& array) {
-    return {array.data(), array.size()};
-}
 
 /// Some robots, and the simulations of one world that they are in.
 struct Robots {

@@ -15,6 +15,7 @@
 #include <tuple>
 
 #include "bindings.h"
+#include "roboss/math/array_rows.h"
 #include "roboss/model/edit.h"
 
 namespace nb = nanobind;
@@ -31,10 +32,6 @@ struct ContactRow {
 };
 static_assert(sizeof(ContactRow) == 16 + 13 * 8);
 
-void put(double* out, const Vec3& v) {
-    out[0] = v.x, out[1] = v.y, out[2] = v.z;
-}
-
 ContactRow row_of(const ContactReport& contact, double dt_s) {
     const auto index = [](auto id) { return id.valid() ? static_cast<std::int32_t>(id.value) : -1; };
     ContactRow row{index(contact.robot_a),
@@ -46,10 +43,10 @@ ContactRow row_of(const ContactReport& contact, double dt_s) {
                    contact.gap,
                    {},
                    {}};
-    put(row.position, contact.p_W);
-    put(row.normal, contact.normal);
-    put(row.force, (contact.normal * contact.impulse + contact.friction) * (1 / dt_s));
-    put(row.torque, contact.moment * (1 / dt_s));
+    put_row(contact.p_W, row.position);
+    put_row(contact.normal, row.normal);
+    put_row((contact.normal * contact.impulse + contact.friction) * (1 / dt_s), row.force);
+    put_row(contact.moment * (1 / dt_s), row.torque);
     return row;
 }
 
@@ -105,10 +102,7 @@ Edited edited(Simulation& simulation, const Result<ModelEdit>& edit) {
 Edited spawn(Simulation& simulation, const std::shared_ptr<const Model>& addition,
              const std::vector<std::string>& names, const std::vector<std::array<double, 7>>& poses) {
     std::vector<CopyPlace> places;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        const std::array<double, 7>& x = poses[i];
-        places.push_back({names[i], {{x[0], x[1], x[2]}, normalized(Quat{x[6], x[3], x[4], x[5]})}});
-    }
+    for (std::size_t i = 0; i < names.size(); ++i) places.push_back({names[i], pose_at(poses[i].data())});
     simulation.run();  // nobody is inside
     return edited(simulation, with_models(*simulation.model(), *addition, places));
 }

@@ -13,6 +13,7 @@
 #include "bindings.h"
 #include "errors.h"
 #include "roboss/local/robot_set.h"
+#include "roboss/math/array_rows.h"
 #include "roboss/sdf/load_world.h"
 #include "roboss/world/bare_model.h"
 
@@ -45,10 +46,10 @@ Frames frames_of(const World& world, const Model& model) {
         frames.emplace_back();
         for (const FrameSpec& frame : world.prototypes[world.instances[robot.family].prototype].frames) {
             const auto link = type.find_link(frame.link);
-            const Pose& X = frame.X_LF;
-            if (link)
-                frames.back().push_back(
-                    {frame.name, link->index(), {X.p.x, X.p.y, X.p.z, X.q.x, X.q.y, X.q.z, X.q.w}});
+            if (!link) continue;
+            std::array<double, 7> pose{};
+            put_row(frame.X_LF, pose.data());
+            frames.back().push_back({frame.name, link->index(), pose});
         }
     }
     return frames;

@@ -23,7 +23,7 @@ def test_pettingzoo_accepts_the_environment():
 def test_a_goal_ends_one_match_for_all_its_cars():
     env = gymnasium.make_vec("roboss/Soccer-v0", num_envs=12, threads=1)
     env.reset(seed=1)
-    env.task.leave(np.arange(12) >= 6)  # nobody stands in the way
+    env.task.leave(np.arange(12) >= 6)  # the way is free
     env.task.present[:] = True
     kick(env, 1, 4.0)
     still = np.zeros((12, 2))

@@ -7,6 +7,7 @@
 #include "core/noise.h"
 #include "kinematics/pose_error.h"
 #include "kinematics/posed_robot.h"
+#include "math/array_rows.h"
 #include "model/coordinates.h"
 
 namespace roboss {
@@ -247,8 +248,7 @@ void inverse_kinematics(const RobotModel& robot, LinkId link, const InverseKinem
     const std::vector<double> at_first = robot.start();
     Search search(robot, link, options);
     for (std::size_t i = 0; i < rows; ++i) {
-        const double* t = &targets[i * 7];
-        const Pose target{{t[0], t[1], t[2]}, normalized(Quat{t[6], t[3], t[4], t[5]})};
+        const Pose target = pose_at(&targets[i * 7]);
         const double* from = start.empty() ? at_first.data() : &start[i * columns];
         if (options.path && i > 0) from = &q[(i - 1) * columns];
         results[i] = search.run(target, from, &q[i * columns]);

@@ -4,15 +4,10 @@
 #include <algorithm>
 
 #include "kinematics/posed_robot.h"
+#include "math/array_rows.h"
 
 namespace roboss {
 namespace {
-
-void put_pose(const Transform& X, double* out) {
-    const Quat q = to_quat(X.R);
-    const double numbers[] = {X.p.x, X.p.y, X.p.z, q.x, q.y, q.z, q.w};
-    std::copy(std::begin(numbers), std::end(numbers), out);
-}
 
 void check_size(std::span<double> out, std::size_t wanted) {
     ROBOSS_CHECK(out.size() == wanted, std::to_string(out.size()) + " numbers for " + std::to_string(wanted));
@@ -28,7 +23,7 @@ void tool_poses(const RobotModel& robot, std::span<const double> q, LinkId link,
     PosedRobot posed(robot);
     for (std::size_t i = 0; i < rows; ++i) {
         posed.place(&q[i * robot.q_columns()]);
-        put_pose(posed.link_pose(link) * X, &out[i * 7]);
+        put_row(to_pose(posed.link_pose(link) * X), &out[i * 7]);
     }
 }
 
@@ -39,7 +34,7 @@ void link_poses(const RobotModel& robot, std::span<const double> q, std::span<do
     for (std::size_t i = 0; i < rows; ++i) {
         posed.place(&q[i * robot.q_columns()]);
         for (std::size_t l = 0; l < links; ++l)
-            put_pose(posed.link_pose(LinkId(l)), &out[(i * links + l) * 7]);
+            put_row(to_pose(posed.link_pose(LinkId(l))), &out[(i * links + l) * 7]);
     }
 }
 
@@ -56,9 +51,7 @@ void tool_twists(const RobotModel& robot, std::span<const double> q, std::span<c
         Spatial twist;
         posed.visit_path(
             link, [&](std::size_t d) { twist += posed.point_motion(d, p) * velocity[robot.column_of(d)]; });
-        const double numbers[] = {twist.linear.x,  twist.linear.y,  twist.linear.z,
-                                  twist.angular.x, twist.angular.y, twist.angular.z};
-        std::copy(std::begin(numbers), std::end(numbers), &out[i * 6]);
+        put_row(twist.linear, twist.angular, &out[i * 6]);
     }
 }
 

@@ -1,6 +1,7 @@
 // See robot_model.h.
 #include "kinematics/robot_model.h"
 
+#include "math/array_rows.h"
 #include "model/joint_motion.h"
 #include "model/robot_state.h"
 
@@ -95,8 +96,7 @@ std::vector<double> RobotModel::start() const {
 void RobotModel::to_coordinates(const double* row, std::span<double> q) const {
     Pose X_WB = X_WB_;
     if (type().free_base) {
-        const Pose X_WR{{row[0], row[1], row[2]}, normalized(Quat{row[6], row[3], row[4], row[5]})};
-        X_WB = X_WR * to_pose(type().X_RB);
+        X_WB = pose_at(row) * to_pose(type().X_RB);
     }
     q[0] = X_WB.p.x, q[1] = X_WB.p.y, q[2] = X_WB.p.z;
     put_quat(&q[3], X_WB.q);
@@ -112,9 +112,7 @@ void RobotModel::to_coordinates(const double* row, std::span<double> q) const {
 
 void RobotModel::to_row(std::span<const double> q, double* row) const {
     if (type().free_base) {
-        const Pose X_WR = Pose{{q[0], q[1], q[2]}, get_quat(&q[3])} * inverse(to_pose(type().X_RB));
-        row[0] = X_WR.p.x, row[1] = X_WR.p.y, row[2] = X_WR.p.z;
-        row[3] = X_WR.q.x, row[4] = X_WR.q.y, row[5] = X_WR.q.z, row[6] = X_WR.q.w;
+        put_row(Pose{vec3_at(q.data()), get_quat(&q[3])} * inverse(to_pose(type().X_RB)), row);
     }
     double* joints = row + base_q();
     for (std::size_t d = 0; d < columns_.size(); ++d) {

@@ -1,32 +1,13 @@
 // A row of a batch allocates nothing: operator new of this program is counted for few rows and for many.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <functional>
-#include <new>
 
+#include <support/count_allocations.h>
 #include <support/kinematic_robots.h>
 
 #include "kinematics/dynamics.h"
 #include "kinematics/inverse_kinematics.h"
-
-namespace {
-std::size_t allocations = 0;  // this program has one thread
-}
-
-// NOLINTBEGIN: replacements of the global operators; inlined, g++ would take malloc and delete for a mismatch
-[[gnu::noinline]] void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* p = std::malloc(size > 0 ? size : 1)) return p;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept {
-    std::free(p);
-}
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept {
-    std::free(p);
-}
-// NOLINTEND
 
 namespace roboss::test {
 namespace {

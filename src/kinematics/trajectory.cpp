@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/check.h"
+#include "math/array_rows.h"
 
 namespace roboss {
 namespace {
@@ -71,9 +72,8 @@ void cartesian_trajectory(const Pose& X0, const Pose& X1, double ramp, std::span
         const Vec3 p = X0.p + way * at.x, v = way * (at.v / clock.duration),
                    w = turn * (at.v / clock.duration);
         const Quat q = normalized(exponential(turn * at.x) * X0.q);
-        const double pose[] = {p.x, p.y, p.z, q.x, q.y, q.z, q.w}, twist[] = {v.x, v.y, v.z, w.x, w.y, w.z};
-        std::copy(std::begin(pose), std::end(pose), &poses[t * 7]);
-        std::copy(std::begin(twist), std::end(twist), &twists[t * 6]);
+        put_row(Pose{p, q}, &poses[t * 7]);
+        put_row(v, w, &twists[t * 6]);
     }
 }
 

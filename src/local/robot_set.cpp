@@ -4,24 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/array_rows.h"
 #include "physics/dynamics/kinematics.h"
 
 namespace roboss {
 
 namespace {
-
-void put(double* out, const Vec3& v) {
-    out[0] = v.x, out[1] = v.y, out[2] = v.z;
-}
-
-Vec3 vec3(const double* in) {
-    return {in[0], in[1], in[2]};
-}
-
-void put(double* out, const Vec3& p, const Quat& q) {
-    put(out, p);
-    out[3] = q.x, out[4] = q.y, out[5] = q.z, out[6] = q.w;
-}
 
 /// Calls change(run, robot, axis, value, check) for each axis of each robot: first, with `check`, to learn
 /// whether it would be refused.
@@ -73,8 +61,7 @@ double* RobotSet::row(std::span<double> out, std::size_t robot, std::size_t colu
 void RobotSet::poses(const LocalRun& run, std::span<double> out) const {
     for (std::size_t i = 0; i < size(); ++i) {
         const RobotType& type = model_->type_of(robots_[i]);
-        const Pose X_WR = base_pose(run.state(robots_[i])) * inverse(to_pose(type.X_RB));
-        put(row(out, i, kPoseColumns), X_WR.p, X_WR.q);
+        put_row(base_pose(run.state(robots_[i])) * inverse(to_pose(type.X_RB)), row(out, i, kPoseColumns));
     }
 }
 
@@ -82,25 +69,21 @@ void RobotSet::twists(const LocalRun& run, std::span<double> out) const {
     for (std::size_t i = 0; i < size(); ++i) {
         const std::vector<double>& v = run.state(robots_[i]).v;
         const bool free = model_->type_of(robots_[i]).free_base;
-        double* to = row(out, i, kTwistColumns);
-        put(to, free ? vec3(&v[3]) : Vec3{});
-        put(to + 3, free ? vec3(v.data()) : Vec3{});
+        put_row(free ? vec3_at(&v[3]) : Vec3{}, free ? vec3_at(v.data()) : Vec3{},
+                row(out, i, kTwistColumns));
     }
 }
 
 void RobotSet::link_poses(const LocalRun& run, LinkId link, std::span<double> out) const {
     for (std::size_t i = 0; i < size(); ++i) {
-        const Transform X_WL = link_pose(*type_, run.state(robots_[i]), link);
-        put(row(out, i, kPoseColumns), X_WL.p, to_quat(X_WL.R));
+        put_row(to_pose(link_pose(*type_, run.state(robots_[i]), link)), row(out, i, kPoseColumns));
     }
 }
 
 void RobotSet::link_twists(const LocalRun& run, LinkId link, std::span<double> out) const {
     for (std::size_t i = 0; i < size(); ++i) {
         const Twist twist = link_twist(*type_, run.state(robots_[i]), link);
-        double* to = row(out, i, kTwistColumns);
-        put(to, twist.linear);
-        put(to + 3, twist.angular);
+        put_row(twist.linear, twist.angular, row(out, i, kTwistColumns));
     }
 }
 
@@ -144,17 +127,15 @@ Result<> RobotSet::change(LocalRun& run, const ActionOfRow& action) const {
 
 Result<> RobotSet::set_poses(LocalRun& run, std::span<const double> poses) const {
     ROBOSS_CHECK(poses.size() == size() * kPoseColumns, std::to_string(poses.size()) + " numbers");
-    return change(run, [&](std::size_t i, std::size_t) {
-        const double* at = &poses[i * kPoseColumns];
-        return SetPose{{vec3(at), normalized(Quat{at[6], at[3], at[4], at[5]})}};
-    });
+    return change(run,
+                  [&](std::size_t i, std::size_t) { return SetPose{pose_at(&poses[i * kPoseColumns])}; });
 }
 
 Result<> RobotSet::set_twists(LocalRun& run, std::span<const double> twists) const {
     ROBOSS_CHECK(twists.size() == size() * kTwistColumns, std::to_string(twists.size()) + " numbers");
     return change(run, [&](std::size_t i, std::size_t) {
         const double* at = &twists[i * kTwistColumns];
-        return SetVelocity{vec3(at), vec3(at + 3)};
+        return SetVelocity{vec3_at(at), vec3_at(at + 3)};
     });
 }
 
@@ -187,7 +168,7 @@ Result<> RobotSet::apply_wrenches(LocalRun& run, LinkId link, std::span<const do
                                   Tick ticks) const {
     ROBOSS_CHECK(wrenches.size() == size() * 6, std::to_string(wrenches.size()) + " numbers");
     return give(run, 1, [&](std::size_t i, std::size_t) {
-        return ApplyWrench{link, vec3(&wrenches[i * 6]), vec3(&wrenches[i * 6 + 3]), ticks};
+        return ApplyWrench{link, vec3_at(&wrenches[i * 6]), vec3_at(&wrenches[i * 6 + 3]), ticks};
     });
 }
 

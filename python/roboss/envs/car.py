@@ -33,7 +33,8 @@ def drive(cars: Robots, actions: NDArray[np.float64]) -> None:
     limit = cars.joint_velocity_limits.min()
     left, right = (np.clip(speed / WHEEL_RADIUS_M, -limit, limit) for speed in rims(actions))
     targets = np.stack([left, left, right, right], axis=1)
-    cars.set_joint_targets(targets.reshape(*cars.pose.shape[:-1], 4), _WHEELS)
+    several = len(targets) != len(cars)  # of a batch: simulations are the first axis
+    cars.set_joint_targets(targets.reshape(-1, len(cars), 4) if several else targets, _WHEELS)
 
 
 def heading(pose: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -72,7 +72,7 @@ class CityMap:
 
 
 def city_world(cars: int, dt: Optional[float] = None) -> World:
-    """The city of the package with so many cars, which wait outside.
+    """The city of the package with this number of cars, which wait outside the wall.
 
     Raises:
         ArgumentError: less than one car, or too many for its streets.

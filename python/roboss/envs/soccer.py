@@ -52,6 +52,7 @@ class SoccerTask(Task):
                          worlds=worlds, threads=threads, ticks=round(step_s / world.dt), episode_steps=round(match_s / step_s))
         self._team = cars
         self._side = np.tile(np.repeat([1.0, -1.0], cars), worlds)  # towards +x or -x
+        self._others_of = _others_of_each(cars)
         self._outside = outside(2 * cars)
         self._ball = self.simulation.robots("ball")
         self._balls = [simulation.robots("ball") for simulation in self.simulations]
@@ -81,11 +82,7 @@ class SoccerTask(Task):
         """From each car to its team-mates and opponents, (count, 2 * cars - 1, 2), m."""
         every = 2 * self._team
         of_world = place.reshape(self.worlds, 1, every, 2) - place.reshape(self.worlds, every, 1, 2)
-        numbers = np.arange(every)
-        order = np.array([[other for other in (*numbers[numbers // self._team == car // self._team],
-                                               *numbers[numbers // self._team != car // self._team]) if other != car]
-                          for car in numbers])
-        return np.take_along_axis(of_world, order[None, :, :, None], axis=2).reshape(self.count, every - 1, 2)
+        return np.take_along_axis(of_world, self._others_of[None, :, :, None], axis=2).reshape(self.count, every - 1, 2)
 
     def _act(self, actions: NDArray[np.float64]) -> None:
         drive(self.robots, np.clip(actions, -1, 1) * self.present[:, None])
@@ -118,6 +115,13 @@ class SoccerTask(Task):
 
     def _remove(self, agents: Mask) -> None:
         self._put(agents, np.tile(self._outside, (self.worlds, 1))[agents])
+
+
+def _others_of_each(cars: int) -> NDArray[np.int64]:
+    """Rows of the team-mates, then of the opponents, of each car of a match, (2 * cars, 2 * cars - 1)."""
+    rows = np.arange(2 * cars)
+    return np.array([[other for other in (*rows[rows // cars == car // cars], *rows[rows // cars != car // cars])
+                      if other != car] for car in rows])
 
 
 def _free_place(side: float, taken: list[NDArray], rng: np.random.Generator) -> NDArray[np.float64]:

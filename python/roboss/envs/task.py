@@ -43,7 +43,7 @@ class Task(ABC):
     """Agents of one world, or of a batch of equal worlds, as arrays with one row for each agent.
 
     The rows of world w are w * len(names) to (w + 1) * len(names) - 1. An agent is in the world from `start` to `leave`;
-    the other ones have left it, and wait where nobody sees them.
+    the others are out of reach of all its sensors.
 
     Args:
         world: a World.
@@ -52,7 +52,7 @@ class Task(ABC):
         worlds: how many equal worlds; more than one are stepped as a roboss.Batch.
         threads: that step; None: one for each core that this process may use. No bit depends on it.
         ticks: time steps of the world in a step of the environment.
-        episode_steps: after so many steps an episode is truncated.
+        episode_steps: an episode is truncated after this number of steps.
     """
 
     def __init__(self, world: World, names: tuple[str, ...], observation_space: gymnasium.spaces.Box,
@@ -132,7 +132,7 @@ class Task(ABC):
 
     @abstractmethod
     def _remove(self, agents: Mask) -> None:
-        """Puts these agents where nobody sees them, at rest."""
+        """Puts these agents out of reach of all sensors, at rest."""
 
     @abstractmethod
     def _act(self, actions: NDArray[np.float64]) -> None:

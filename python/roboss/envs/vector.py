@@ -16,7 +16,7 @@ class TaskVectorEnv(VectorEnv):
     """Sub-environment i is agent i of the task: agents of one world share it, and nothing else.
 
     An agent whose episode is over leaves its world, and comes back when its next episode starts. `reset` resets whole
-    worlds; what happens to a single agent that has finished is told by the autoreset mode:
+    worlds; the autoreset mode says what happens to a single agent whose episode is over:
 
     - "NextStep": it starts at the end of the next step, which ignores its action and gives it a reward of 0.
     - "SameStep": it starts in the same step; `infos["final_obs"]` and `infos["final_info"]` are those of the old episode.

@@ -97,17 +97,25 @@ void set_bounds(IslandRowsT<T>& rows, const std::vector<T>& bounds) {
     for (AngularRowT<T>& row : rows.angulars) row.spin.high = bounds[at++], row.spin.low = -row.spin.high;
 }
 
-/// Every friction bound as the normal impulse at the present velocity says.
-template <class T>
-void tie_bounds(IslandRowsT<T>& rows) {
-    for (ContactRowT<T>& row : rows.contacts)
-        row.slip.bound = row.slip.coefficient * impulse_at(row.normal, row.normal.u);
+/// Every friction bound as the normal impulse says: normal_of(c) of contact c.
+template <class T, class NormalOf>
+void fit_bounds(IslandRowsT<T>& rows, const NormalOf& normal_of) {
+    for (std::size_t c = 0; c < rows.contacts.size(); ++c)
+        rows.contacts[c].slip.bound = rows.contacts[c].slip.coefficient * normal_of(c);
     for (AngularRowT<T>& row : rows.angulars) {
-        const BoundedRowT<T>& normal = rows.contacts[row.contact].normal;
-        const T impulse = impulse_at(normal, normal.u);
+        const T impulse = normal_of(row.contact);
         row.roll.bound = row.roll.coefficient * impulse;
         row.spin.high = row.torsional * impulse, row.spin.low = -row.spin.high;
     }
+}
+
+/// The same of the normal impulses at the present velocity.
+template <class T>
+void tie_bounds(IslandRowsT<T>& rows) {
+    fit_bounds(rows, [&](std::size_t c) {
+        const BoundedRowT<T>& normal = rows.contacts[c].normal;
+        return impulse_at(normal, normal.u);
+    });
 }
 
 /// Derivatives of sliding friction by the normal velocity; true where anything slides.

@@ -2,6 +2,7 @@
 // stay closed and never gain energy.
 #include <gtest/gtest.h>
 
+#include <support/joint_net.h>
 #include <support/mechanisms.h>
 #include <support/simulation.h>
 
@@ -9,37 +10,6 @@
 
 namespace roboss::test {
 namespace {
-
-constexpr double kSpacing = 0.1;  // m
-
-std::string plate(int row, int column) {
-    return "plate_" + std::to_string(row) + "_" + std::to_string(column);
-}
-
-/// A square net of plates in one plane with a ball joint between neighbours, hanging on two corners.
-ModelSpec flat_net(int side) {
-    ModelSpec model;
-    model.name = "net";
-    model.canonical_link = plate(0, 0);
-    const auto place_of = [](int row, int column) { return Vec3{kSpacing * column, kSpacing * row, 0}; };
-    for (int r = 0; r < side; ++r)
-        for (int c = 0; c < side; ++c)
-            model.links.push_back(
-                link(plate(r, c), 0.05, box_inertia(0.05, {0.08, 0.08, 0.02}), {place_of(r, c), {}}));
-    const auto join = [&](const std::string& parent, int row, int column, const Vec3& at) {
-        const std::string child = plate(row, column);
-        model.joints.push_back(joint(JointSpecKind::kBall, parent + child, parent, child, {at, {}}));
-    };
-    join("world", 0, 0, place_of(0, 0));
-    for (int r = 0; r < side; ++r) {
-        for (int c = 0; c < side; ++c) {
-            if (c > 0) join(plate(r, c - 1), r, c, place_of(r, c) - Vec3{0.5 * kSpacing, 0, 0});
-            if (r > 0) join(plate(r - 1, c), r, c, place_of(r, c) - Vec3{0, 0.5 * kSpacing, 0});
-        }
-    }
-    join("world", 0, side - 1, place_of(0, side - 1));
-    return model;
-}
 
 /// Two cranks of .2 m and a coupler that stays parallel to the ground: at 90 degrees all lie in a line.
 ModelSpec parallelogram(bool free_base) {
@@ -83,11 +53,11 @@ Course watch(Simulation& sim, int ticks) {
     return course;
 }
 
-class FlatNet : public testing::TestWithParam<int> {};
+class FlatNet : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(FlatNet, FallsClosedAndGainsNoEnergy) {
     World world = empty_world(2e-3);
-    place(world, flat_net(GetParam()), "net");
+    place(world, joint_net(GetParam(), 0), "net");
     Simulation sim(world);
     const Course course = watch(sim, 1000);
     tell("largest gain, J", course.gain);
@@ -97,7 +67,7 @@ TEST_P(FlatNet, FallsClosedAndGainsNoEnergy) {
     EXPECT_GT(course.moved, 1) << "it does fall";
 }
 
-INSTANTIATE_TEST_SUITE_P(Sides, FlatNet, testing::Values(2, 3, 4));
+INSTANTIATE_TEST_SUITE_P(Sides, FlatNet, testing::Values(2U, 3U, 4U));
 
 class Parallelogram : public testing::TestWithParam<bool> {};
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/contact/friction_bounds.h"
 #include "physics/solver/newton_rows.h"
 #include "physics/solver/solver.h"
 
@@ -59,13 +60,7 @@ void set_as_swept(const RowSweeps::ContactImpulse& swept, FrictionDisc& slip) {
 /// Impulses and curvatures as the sweeps left each row, at the velocities that they found.
 void IslandSolver::expect_swept(const Problem& p) {
     IslandRows& rows = p.rows;
-    for (std::size_t c = 0; c < rows.contacts.size(); ++c)
-        rows.contacts[c].slip.bound = rows.contacts[c].slip.coefficient * sweeps_.contact(c).n;
-    for (AngularRow& row : rows.angulars) {
-        const double normal = sweeps_.contact(row.contact).n;
-        row.roll.bound = row.roll.coefficient * normal;
-        row.spin.high = row.torsional * normal, row.spin.low = -row.spin.high;
-    }
+    friction::fit_bounds(rows, [&](std::size_t c) { return sweeps_.contact(c).n; });
     newton::update_impulses(rows);
     newton::set_curvatures(rows);
     for (std::size_t r = 0; r < rows.joints.size(); ++r) set_as_swept(sweeps_.joint(r), rows.joints[r]);
@@ -79,9 +74,7 @@ void IslandSolver::expect_swept(const Problem& p) {
 
 /// A step to where the robots would be if every row did what the sweeps say.
 void IslandSolver::step_as_swept(const Problem& p, std::vector<double>& v, Report& report) {
-    times_mass(p, v, mv_);
-    set_steps(p.rows, v);
-    newton::take_velocities(p.rows);
+    take_velocities(p, v);
     expect_swept(p);
     set_gradient(p);
     find_step(p, false);
@@ -96,8 +89,7 @@ void IslandSolver::step_as_swept(const Problem& p, std::vector<double>& v, Repor
 bool IslandSolver::solve_by_sweeps(const Problem& p, std::vector<double>& v, Report& report) {
     constexpr int kTries = 3;
     Lockstep<double> alone;
-    std::vector<double>& v_before = v_before_sweeps_;
-    v_before = v;
+    v_before_sweeps_ = v;
     const int most = most_sweeps(p.robots.size());
     sweeps_.run(p, most, v);
     for (int i = 0; i < kTries; ++i) {
@@ -108,10 +100,8 @@ bool IslandSolver::solve_by_sweeps(const Problem& p, std::vector<double>& v, Rep
     // Sweeps that do not converge still tell the friction bounds better than anything else.
     step_as_swept(p, v, report);
     if (Newton::iterate(p, alone, v, report, true)) return true;
-    v = v_before;
-    times_mass(p, v, mv_);
-    set_steps(p.rows, v);
-    newton::take_velocities(p.rows);
+    v = v_before_sweeps_;
+    take_velocities(p, v);
     friction::set_bounds(p.rows, start_bounds_);
     return false;
 }

@@ -84,6 +84,7 @@ class Newton {
     Mask iterate(const SolveProblem<T>& p, Lockstep<T>& together, std::vector<T>& v, SolveReportT<T>& report,
                  bool settled);
     void times_mass(const SolveProblem<T>& p, const std::vector<T>& x, std::vector<T>& y) const;
+    void take_velocities(const SolveProblem<T>& p, const std::vector<T>& v);
     Mask find_step(const SolveProblem<T>& p, bool coupled, const T& lack = 0);
     void move(const SolveProblem<T>& p, const T& alpha, std::vector<T>& v);
     void move_some(const SolveProblem<T>& p, const Mask& some, std::vector<T>& v);
@@ -133,6 +134,14 @@ void Newton<T, Matrix>::times_mass(const SolveProblem<T>& p, const std::vector<T
     }
 }
 
+/// M v, and the velocities along the rows.
+template <class T, class Matrix>
+void Newton<T, Matrix>::take_velocities(const SolveProblem<T>& p, const std::vector<T>& v) {
+    times_mass(p, v, mv_);
+    set_steps(p.rows, v);
+    newton::take_velocities(p.rows);
+}
+
 template <class T, class Matrix>
 void Newton<T, Matrix>::start(const SolveProblem<T>& p, const std::vector<T>& v) {
     n_ = v.size();
@@ -142,11 +151,9 @@ void Newton<T, Matrix>::start(const SolveProblem<T>& p, const std::vector<T>& v)
         for (std::size_t k = 0; k < robot->type->paths.size(); ++k)
             *lightness++ = T(1) / robot->mass_matrix[robot->type->paths.diagonal(k)];
     hessian_.start(p.robots, p.offsets, p.rows, n_);
-    times_mass(p, v, mv_);
-    set_steps(p.rows, v);
+    take_velocities(p, v);
     for_each_bounded(p.rows, [](BoundedRowT<T>& row) { row.stiffness = T(1) / row.compliance; });
     for_each_disc(p.rows, [](FrictionDiscT<T>& disc) { disc.stiffness = T(1) / disc.compliance; });
-    newton::take_velocities(p.rows);
     if (p.position) for_each_bounded(p.rows, [](BoundedRowT<T>& row) { row.target = row.position_target; });
     if constexpr (kIsFloat<T>) measure_from_targets(p);
 }
@@ -464,9 +471,7 @@ void Newton<T, Matrix>::return_to_checked(const SolveProblem<T>& p, std::vector<
                                           SolveReportT<T>& report) {
     v = v_checked_;
     friction::set_bounds(p.rows, bounds_checked_);
-    times_mass(p, v, mv_);
-    set_steps(p.rows, v);
-    newton::take_velocities(p.rows);
+    take_velocities(p, v);
     report.residual = balance(p);
 }
 

@@ -114,70 +114,64 @@ void RowSweeps::start_contacts(const Problem& p) {
     }
 }
 
-RowSweeps::Side RowSweeps::add_side(int dof, std::size_t vectors) {
+/// The side of the robot that has this degree of freedom, new if it is the first of that robot.
+const RowSweeps::Side& RowSweeps::side_of(int dof, std::size_t vectors, Sides& sides) {
     const std::size_t robot = robot_of_[static_cast<std::size_t>(dof)];
-    const Side side{place_[robot], place_[robot + 1] - place_[robot], numbers_.size()};
+    Side& side = sides.a.count == 0 || sides.a.robot == robot ? sides.a : sides.b;
+    if (side.count > 0) return side;
+    side = {robot, place_[robot], place_[robot + 1] - place_[robot], numbers_.size()};
     numbers_.resize(numbers_.size() + 2 * vectors * side.count);
     return side;
 }
 
 /// M^-1 J^T behind J.
-void RowSweeps::respond(const Problem& p, const Side& side, std::size_t vectors) {
-    if (side.count == 0) return;
-    const auto at = std::ranges::lower_bound(place_, side.velocity);
-    const auto robot = static_cast<std::size_t>(at - place_.begin());
-    double* const first = numbers_.data() + side.jacobian;
-    std::copy_n(first, vectors * side.count, first + vectors * side.count);
-    for (std::size_t k = 0; k < vectors; ++k)
-        tree_solve(p.robots[robot]->type->paths, factors_.data() + factor_first_[robot],
-                   first + (vectors + k) * side.count);
+void RowSweeps::respond(const Problem& p, const Sides& sides, std::size_t vectors) {
+    for (const Side* side : {&sides.a, &sides.b}) {
+        if (side->count == 0) continue;
+        double* const first = numbers_.data() + side->jacobian;
+        std::copy_n(first, vectors * side->count, first + vectors * side->count);
+        for (std::size_t k = 0; k < vectors; ++k)
+            tree_solve(p.robots[side->robot]->type->paths, factors_.data() + factor_first_[side->robot],
+                       first + (vectors + k) * side->count);
+    }
 }
 
 void RowSweeps::add_joint(const Problem& p, const JointRow& row) {
     Scalar scalar;
-    Side& side = scalar.sides.a = add_side(row.dof, kOfScalar);
-    const std::size_t robot = robot_of_[static_cast<std::size_t>(row.dof)];
-    const auto i = static_cast<std::size_t>(row.dof - p.offsets[robot]);
+    const Side& side = side_of(row.dof, kOfScalar, scalar.sides);
+    const auto i = static_cast<std::size_t>(row.dof - p.offsets[side.robot]);
     scalar.unknown = side.velocity + i;
     numbers_[side.jacobian + i] = 1;
-    respond(p, side, kOfScalar);
+    respond(p, scalar.sides, kOfScalar);
     scalar.mass = 1.0 / (numbers_[side.jacobian + side.count + i] + row.compliance);
     scalars_.push_back(scalar);
 }
 
 void RowSweeps::add_coupling(const Problem& p, const CouplingRow& row) {
     Scalar scalar;
-    Sides& sides = scalar.sides;
     for (std::size_t c = row.first; c < row.last; ++c) {
         const CouplingColumn& column = p.rows.coupling_columns[c];
-        const std::size_t robot = robot_of_[static_cast<std::size_t>(column.dof)];
-        if (sides.a.count == 0) sides.a = add_side(column.dof, kOfScalar);
-        const bool other = place_[robot] != sides.a.velocity;
-        if (other && sides.b.count == 0) sides.b = add_side(column.dof, kOfScalar);
-        const Side& side = other ? sides.b : sides.a;
-        numbers_[side.jacobian + static_cast<std::size_t>(column.dof - p.offsets[robot])] += column.j;
+        const Side& side = side_of(column.dof, kOfScalar, scalar.sides);
+        numbers_[side.jacobian + static_cast<std::size_t>(column.dof - p.offsets[side.robot])] += column.j;
     }
-    respond(p, sides.a, kOfScalar), respond(p, sides.b, kOfScalar);
-    scalar.mass = 1.0 / (product(sides, 0, kOfScalar) + row.compliance);
+    respond(p, scalar.sides, kOfScalar);
+    scalar.mass = 1.0 / (product(scalar.sides, 0, kOfScalar) + row.compliance);
     scalars_.push_back(scalar);
 }
 
 void RowSweeps::add_contact(const Problem& p, const ContactRow& row) {
     Contact contact;
-    Sides& sides = contact.sides;
     const ContactColumns& columns = p.rows.columns;
     for (std::size_t c = row.first; c < row.last; ++c) {
-        const std::size_t robot = robot_of_[static_cast<std::size_t>(columns.dof[c])];
-        if (sides.a.count == 0) sides.a = add_side(columns.dof[c], kOfContact);
-        const bool other = place_[robot] != sides.a.velocity;
-        if (other && sides.b.count == 0) sides.b = add_side(columns.dof[c], kOfContact);
-        const Side& side = other ? sides.b : sides.a;
-        double* const j =
-            numbers_.data() + side.jacobian + static_cast<std::size_t>(columns.dof[c] - p.offsets[robot]);
+        const Side& side = side_of(columns.dof[c], kOfContact, contact.sides);
+        const auto i = static_cast<std::size_t>(columns.dof[c] - p.offsets[side.robot]);
+        double* const j = numbers_.data() + side.jacobian + i;
         j[0] = columns.n[c], j[side.count] = columns.t1[c], j[2 * side.count] = columns.t2[c];
     }
-    respond(p, sides.a, kOfContact), respond(p, sides.b, kOfContact);
-    const auto mobility = [&](std::size_t i, std::size_t j) { return product(sides, i, kOfContact + j); };
+    respond(p, contact.sides, kOfContact);
+    const auto mobility = [&](std::size_t i, std::size_t j) {
+        return product(contact.sides, i, kOfContact + j);
+    };
     contact.mass_n = 1.0 / (mobility(0, 0) + row.normal.compliance);
     contact.mass_t = 1.0 / (std::max(mobility(1, 1), mobility(2, 2)) + row.slip.compliance);
     contact.t1_n = mobility(1, 0), contact.t2_n = mobility(2, 0);
@@ -189,6 +183,15 @@ double RowSweeps::product(const Sides& sides, std::size_t vector, std::size_t ot
     const auto of = [&](const Side& side) {
         const double* const first = numbers_.data() + side.jacobian;
         return dot(first + vector * side.count, first + other * side.count, side.count);
+    };
+    return of(sides.a) + of(sides.b);
+}
+
+/// Along one vector of J.
+double RowSweeps::velocity(const Sides& sides, std::size_t vector) const {
+    const auto of = [&](const Side& side) {
+        return dot(numbers_.data() + side.jacobian + vector * side.count, v_.data() + side.velocity,
+                   side.count);
     };
     return of(sides.a) + of(sides.b);
 }
@@ -215,20 +218,13 @@ double RowSweeps::sweep_scalar(const BoundedRow& row, std::size_t at, double u) 
 double RowSweeps::sweep_contact(const ContactRow& row, std::size_t at) {
     const Contact& contact = contacts_[at];
     const Sides& sides = contact.sides;
-    const auto along = [&](std::size_t vector) {
-        const auto of = [&](const Side& side) {
-            return dot(numbers_.data() + side.jacobian + vector * side.count, v_.data() + side.velocity,
-                       side.count);
-        };
-        return of(sides.a) + of(sides.b);
-    };
     ContactImpulse& now = contact_impulses_[at];
     const ContactImpulse before = now;
-    now.n += (row.normal.target - along(0) - row.normal.compliance * before.n) * contact.mass_n;
+    now.n += (row.normal.target - velocity(sides, 0) - row.normal.compliance * before.n) * contact.mass_n;
     now.n = std::clamp(now.n, row.normal.low, row.normal.high);
     if (now.n == 0 && before.n == 0 && before.t1 == 0 && before.t2 == 0) return 0;  // most do not push
-    const double dn = now.n - before.n, u_1 = along(1) - row.slip.target_1,
-                 u_2 = along(2) - row.slip.target_2;
+    const double dn = now.n - before.n, u_1 = velocity(sides, 1) - row.slip.target_1,
+                 u_2 = velocity(sides, 2) - row.slip.target_2;
     now.t1 -= (u_1 + contact.t1_n * dn + row.slip.compliance * before.t1) * contact.mass_t;
     now.t2 -= (u_2 + contact.t2_n * dn + row.slip.compliance * before.t2) * contact.mass_t;
     cut(row.slip.coefficient, now);
@@ -252,13 +248,8 @@ double RowSweeps::sweep(const Problem& p) {
     double change = 0;
     for (std::size_t i = 0; i < joints_; ++i)
         change += sweep_scalar(p.rows.joints[i], i, v_[scalars_[i].unknown]);
-    for (std::size_t i = joints_; i < scalars_.size(); ++i) {
-        const Sides& sides = scalars_[i].sides;
-        const auto velocity = [&](const Side& side) {
-            return dot(numbers_.data() + side.jacobian, v_.data() + side.velocity, side.count);
-        };
-        change += sweep_scalar(p.rows.couplings[i - joints_], i, velocity(sides.a) + velocity(sides.b));
-    }
+    for (std::size_t i = joints_; i < scalars_.size(); ++i)
+        change += sweep_scalar(p.rows.couplings[i - joints_], i, velocity(scalars_[i].sides, 0));
     for (std::size_t c = 0; c < contacts_.size(); ++c) change += sweep_contact(p.rows.contacts[c], c);
     return change;
 }

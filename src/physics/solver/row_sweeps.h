@@ -35,6 +35,7 @@ class RowSweeps {
   private:
     /// A robot that rows act on. Its numbers stand together, an even number of them.
     struct Side {
+        std::size_t robot = 0;
         std::size_t velocity = 0, count = 0;  // in v_
         std::size_t jacobian = 0;             // in numbers_: J, one vector after the other, then M^-1 J^T
     };
@@ -60,8 +61,9 @@ class RowSweeps {
     void add_joint(const Problem& p, const JointRow& row);
     void add_coupling(const Problem& p, const CouplingRow& row);
     void add_contact(const Problem& p, const ContactRow& row);
-    Side add_side(int dof, std::size_t vectors);
-    void respond(const Problem& p, const Side& side, std::size_t vectors);
+    const Side& side_of(int dof, std::size_t vectors, Sides& sides);
+    void respond(const Problem& p, const Sides& sides, std::size_t vectors);
+    double velocity(const Sides& sides, std::size_t vector) const;
     double product(const Sides& sides, std::size_t vector, std::size_t other) const;
     double sweep(const Problem& p);
     double sweep_scalar(const BoundedRow& row, std::size_t at, double u);

@@ -85,6 +85,17 @@ class SweptIsland : public testing::Test {
         rows_.contacts.push_back(row);
     }
 
+    /// The rows take the impulses that were found.
+    void take(const RowSweeps& sweeps) {
+        for (std::size_t r = 0; r < rows_.joints.size(); ++r) rows_.joints[r].impulse = sweeps.joint(r);
+        rows_.couplings[0].impulse = sweeps.coupling(0);
+        for (std::size_t c = 0; c < rows_.contacts.size(); ++c) {
+            const RowSweeps::ContactImpulse& found = sweeps.contact(c);
+            rows_.contacts[c].normal.impulse = found.n;
+            rows_.contacts[c].slip.impulse_1 = found.t1, rows_.contacts[c].slip.impulse_2 = found.t2;
+        }
+    }
+
     RowSweeps::Problem problem() { return {accuracy_, robots_, offsets_, rows_}; }
 
     Simulation sim_;
@@ -107,14 +118,8 @@ TEST_F(SweptIsland, ConvergesToImpulsesThatFitTheirVelocities) {
     RowSweeps sweeps;
     sweeps.run(problem(), 3000, v_);
     for (int i = 0; i < 10; ++i) sweeps.go_on(problem(), 3000, v_);
+    take(sweeps);
     // Momentum: M v = impulse + J^T of what was found.
-    for (std::size_t r = 0; r < rows_.joints.size(); ++r) rows_.joints[r].impulse = sweeps.joint(r);
-    rows_.couplings[0].impulse = sweeps.coupling(0);
-    for (std::size_t c = 0; c < rows_.contacts.size(); ++c) {
-        const RowSweeps::ContactImpulse& found = sweeps.contact(c);
-        rows_.contacts[c].normal.impulse = found.n;
-        rows_.contacts[c].slip.impulse_1 = found.t1, rows_.contacts[c].slip.impulse_2 = found.t2;
-    }
     std::vector<double> applied(v_.size(), 0.0), momentum(v_.size());
     add_impulses(rows_, applied);
     for (std::size_t r = 0; r < robots_.size(); ++r) {
@@ -158,13 +163,7 @@ TEST_F(SweptIsland, GoesOnFromWhereItWasWhenSolvedAgain) {
     RowSweeps sweeps;
     sweeps.run(problem(), 3000, v_);
     for (int i = 0; i < 5; ++i) sweeps.go_on(problem(), 3000, v_);
-    for (std::size_t r = 0; r < rows_.joints.size(); ++r) rows_.joints[r].impulse = sweeps.joint(r);
-    rows_.couplings[0].impulse = sweeps.coupling(0);
-    for (std::size_t c = 0; c < rows_.contacts.size(); ++c) {
-        const RowSweeps::ContactImpulse& found = sweeps.contact(c);
-        rows_.contacts[c].normal.impulse = found.n;
-        rows_.contacts[c].slip.impulse_1 = found.t1, rows_.contacts[c].slip.impulse_2 = found.t2;
-    }
+    take(sweeps);
     const std::vector<double> v = v_;
     RowSweeps::Problem again = problem();
     again.again = true;

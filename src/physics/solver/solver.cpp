@@ -21,10 +21,11 @@ bool is_pile(const IslandSolver::Problem& p) {
 /// the bounds of the last tick, once with those that follow from it.
 void IslandSolver::solve_any(const Problem& p, std::vector<double>& v, Report& report) {
     Lockstep<double> alone;
-    plan_ = is_pile(p) ? kPilePlan : newton::Plan{};
+    const bool piled = is_pile(p);
+    plan_ = piled ? kPilePlan : newton::Plan{};
     start(p, v);
     friction::keep_bounds(p.rows, start_bounds_);
-    if (is_pile(p)) {
+    if (piled) {
         if (p.position ? displace(p, v, report) : solve_by_sweeps(p, v, report)) return;
         start_as_expected(p, alone, v, report);
         if (Newton::iterate(p, alone, v, report, p.position)) return;
@@ -34,12 +35,7 @@ void IslandSolver::solve_any(const Problem& p, std::vector<double>& v, Report& r
     friction::set_bounds(p.rows, start_bounds_);
     interior_point(p, v, report);
     if (p.position) return;
-    for (ContactRow& row : p.rows.contacts) row.slip.bound = row.slip.coefficient * row.normal.impulse;
-    for (AngularRow& row : p.rows.angulars) {
-        const double normal = p.rows.contacts[row.contact].normal.impulse;
-        row.roll.bound = row.roll.coefficient * normal;
-        row.spin.high = row.torsional * normal, row.spin.low = -row.spin.high;
-    }
+    friction::fit_bounds(p.rows, [&](std::size_t c) { return p.rows.contacts[c].normal.impulse; });
     if (Newton::solve(p, alone, v, report)) return;
     interior_point(p, v, report);
 }
