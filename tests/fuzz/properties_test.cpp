@@ -75,5 +75,21 @@ TEST(Property, HashIsTheSameInFiveConfigurations) {
     expect_holds({"hash", 56, 0.3, {"fleet", "wild", "crowd", "room", "loop", "coupled", "acting"}});
 }
 
+/// Seeds that failed in a soak, until their cause was mended.
+TEST(Property, SeedsThatOnceFailedHold) {
+    struct Once {
+        const char* property;
+        Setting setting;
+        double seconds;
+    };
+    const Once seeds[] = {
+        {"energy", {1278, "room", 0.001, 100, 0}, 1},     // a tick that ends at its first hit, on scenery
+        {"finite", {2469, "acting", 0.005, 100, 0}, 5}};  // a large wing that spins
+    for (const Once& once : seeds) {
+        const Finding finding = find_property(once.property)->run({once.setting, once.seconds});
+        EXPECT_FALSE(finding.failed) << once.property << " " << once.setting.seed << ": " << finding.text;
+    }
+}
+
 }  // namespace
 }  // namespace roboss::fuzz

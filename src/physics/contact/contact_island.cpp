@@ -103,7 +103,7 @@ void drift(const Model& model, RobotWork& work, std::size_t member, bool touched
     solved.kick = own(s.split.kick), solved.load = own(s.split.load), solved.locked = own(s.split.locked);
     solved.held = own(s.split.held);
     solved.isolated = !touched && !work.bonded;
-    solved.passive = is_passive(work);
+    solved.passive = is_passive(model, work);
     s.gained_moment += advance_kick_drift(model, work, solved, s.free_buffer);
 }
 
@@ -274,6 +274,12 @@ void stop_at_first_hit(const Model& model, std::span<RobotWork> robots, IslandSc
     const bool free = !s.anchored && std::ranges::all_of(s.look.hits(), [&](const Contact& hit) {
         return flies(hit.robot_a) && flies(hit.robot_b);
     });
+    s.anchored |= !free;  // what is stopped gets its momentum from there
+    for (const Contact& hit : s.look.hits()) {
+        if (hit.robot_a == hit.robot_b) continue;
+        s.touched[static_cast<std::size_t>(hit.robot_a)] = 1;
+        if (hit.robot_b >= 0) s.touched[static_cast<std::size_t>(hit.robot_b)] = 1;
+    }
     BodySums all;
     for (std::size_t m = 0; free && m < members.size(); ++m) {
         const RobotWork& robot = robots[members[m]];
@@ -336,6 +342,8 @@ bool start_guard(const Model& model, std::span<RobotWork> robots, IslandScratch&
     island.touched = std::ranges::any_of(members, [&](std::uint32_t m) { return s.touched[m] != 0; });
     island.bonded = !s.bonds.empty();
     island.anchored = s.anchored, island.bounces = bounces, island.drifts = drifts;
+    for (std::size_t m = 0; m < members.size(); ++m)
+        island.blown |= s.drifts[m] == 0 && robots[members[m]].type->feels_flow;
     return s.guard.start(model, robots, island, s.free_buffer.work);
 }
 

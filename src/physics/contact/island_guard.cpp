@@ -129,20 +129,22 @@ bool IslandGuard::start(const Model& model, std::span<RobotWork> robots, const I
     const auto any = [&](auto&& is) {
         return std::ranges::any_of(island.members, [&](std::uint32_t m) { return is(robots[m]); });
     };
-    const bool driven = any([](const RobotWork& robot) { return !is_passive(robot); });
+    const bool driven = any([&](const RobotWork& robot) { return !is_passive(model, robot); });
     const bool soft = std::ranges::any_of(island.rows.contacts, &ContactRow::soft);
     if (driven || soft) {
-        if (!island.drifts || any([](const RobotWork& robot) {
-                return !only_motors_drive(robot) || has_soft_loop_motor(robot);
+        if (!island.drifts || any([&](const RobotWork& robot) {
+                return !only_motors_drive(model, robot) || has_soft_loop_motor(robot);
             }))
             return false;
     } else {
         const auto bends = [&](const RobotWork& robot) {
             return !robot.type->dofs.empty() || fastest_turn(robot) * model.dt_s * model.dt_s > kSlow * kSlow;
         };
-        if (!island.bonded && !(island.touched && (island.bounces || any(bends)))) return false;
+        const bool contacts_may_add = island.touched && (island.bounces || any(bends));
+        if (!island.bonded && !contacts_may_add && !(island.blown && any(bends))) return false;
     }
-    anchored_ = island.anchored || any([](const RobotWork& robot) { return !robot.type->free_base; });
+    anchored_ =
+        island.anchored || island.blown || any([](const RobotWork& robot) { return !robot.type->free_base; });
     origin_ = robots[island.members[0]].origin;
     energy_ = sum_robots(model, robots, island.members, origin_, buffer).energy();
     if (driven) energy_ += most_work_of_motors(model, robots, island);

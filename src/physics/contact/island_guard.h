@@ -42,6 +42,7 @@ class IslandGuard {
         bool anchored = false;  // something pushes it that does not move freely
         bool bounces = false;   // throws_back
         bool drifts = false;    // a member takes the kick-drift step
+        bool blown = false;     // a fluid pushes a member so hard that it takes the explicit step
     };
 
     /// Before the states are moved: notes the energy that the island may have after the tick. False where it

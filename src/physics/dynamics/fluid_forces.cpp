@@ -435,6 +435,16 @@ void add_flow_inertia(const RobotType& type, Mechanics<double>& work) {
     }
 }
 
+bool flow_takes_energy(const Model& model, const RobotWork& work) {
+    if (!work.type->fluids.empty()) return false;
+    return std::ranges::all_of(work.type->onboard, [&](const OnboardInfo& info) {
+        if (!is_force_law(info.spec.parameters)) return true;
+        const auto* wing = std::get_if<LiftDragSpec>(&info.spec.parameters);
+        return wing != nullptr && wing->cma == 0 && wing->cma_stall == 0 && wing->cm_delta == 0 &&
+               wind_in(wing->density, model, work) == Vec3{};
+    });
+}
+
 namespace {
 
 /// Whether a wing might push so hard within the tick that an explicit step could not follow, although it does

@@ -21,6 +21,10 @@ void set_added_masses(const RobotType& type, Mechanics<double>& work);
 /// Adds `flows` to the mass matrix.
 void add_flow_inertia(const RobotType& type, Mechanics<double>& work);
 
+/// True if all that the fluids do to the robot takes energy from its motion: wings in still air, without
+/// moments of their own. Lift is normal to the velocity, drag is against it.
+bool flow_takes_energy(const Model& model, const RobotWork& work);
+
 /// Damping so large that the explicit Runge-Kutta step would not follow it.
 bool flow_is_stiff(const Model& model, const RobotWork& work);
 

@@ -7,6 +7,7 @@
 
 #include "physics/dynamics/axis_rows.h"
 #include "physics/dynamics/fast_turning.h"
+#include "physics/dynamics/fluid_forces.h"
 #include "physics/dynamics/tree_factor.h"
 
 namespace roboss {
@@ -364,13 +365,14 @@ class KickDrift {
 
 }  // namespace
 
-bool is_passive(const RobotWork& work) {
-    return !is_driven<double>(work.state->motors) && only_motors_drive(work);
+bool is_passive(const Model& model, const RobotWork& work) {
+    return !is_driven<double>(work.state->motors) && only_motors_drive(model, work);
 }
 
-bool only_motors_drive(const RobotWork& work) {
+bool only_motors_drive(const Model& model, const RobotWork& work) {
     const RobotType& type = *work.type;
-    if (!work.state->wrenches.empty() || type.feels_flow) return false;
+    if (!work.state->wrenches.empty()) return false;
+    if (type.feels_flow && !flow_takes_energy(model, work)) return false;
     for (const LinkDrag& drag : type.drags)
         if (drag.wind) return false;
     for (const LoopJoint& loop : type.loops)
@@ -391,7 +393,7 @@ void advance_freely(const Model& model, RobotWork& work, FreeBuffer& buffer) {
     if (is_slow && !work.type->has_equalities()) return advance_steadily(model, work, {}, fastest, buffer);
     SolvedTick free;
     free.isolated = true;
-    free.passive = is_passive(work);
+    free.passive = is_passive(model, work);
     KickDrift(model, free, work, buffer).fly();
 }
 

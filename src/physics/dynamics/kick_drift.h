@@ -17,9 +17,9 @@ namespace roboss {
 
 /// True if no motor, wrench, wind or spring of a loop joint can give the robot energy that BodySums does not
 /// count.
-bool is_passive(const RobotWork& work);
+bool is_passive(const Model& model, const RobotWork& work);
 /// The same of all but motors.
-bool only_motors_drive(const RobotWork& work);
+bool only_motors_drive(const Model& model, const RobotWork& work);
 
 /// What the solver found for one robot; all spans have its nv entries, or none where no row acts.
 struct SolvedTick {
