@@ -59,9 +59,11 @@ void BodySolver::take_point(const BodyPart& part, const ContactRow& row, BodyPoi
     p.a = side(row.first, p.n_a, p.t1_a, p.t2_a);
     if (row.last > row.first + 6) p.b = side(row.first + 6, p.n_b, p.t1_b, p.t2_b);
     p.sticks = row.sticks;
-    p.target_n = position_ ? row.normal.position_target : row.normal.target;
+    BoundedRow normal = row.normal;
+    if (position_) aim_at_displacement(normal);
+    p.target_n = normal.target;
     p.target_1 = row.slip.target_1, p.target_2 = row.slip.target_2;
-    p.stiffness_n = 1.0 / row.normal.compliance, p.stiffness_t = 1.0 / row.slip.compliance;
+    p.stiffness_n = 1.0 / normal.compliance, p.stiffness_t = 1.0 / row.slip.compliance;
     p.coefficient = row.slip.coefficient, p.bound = row.slip.bound;
     p.swept_n = row.normal.impulse;
 }

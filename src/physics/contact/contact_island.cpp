@@ -258,7 +258,8 @@ void hold_displacement(IslandScratch& s, bool split) {
     for (ContactRow& row : s.rows.contacts) {
         const jacobian::Along<double> u =
             jacobian::along(s.rows.columns, row.first, row.last, s.displacement);
-        row.normal.position_target = std::min(row.normal.position_target, u.n);
+        const double given = u.n + row.normal.position_compliance * row.normal.impulse;
+        row.normal.position_target = std::min(row.normal.position_target, given);
         if (!split) row.slip.bound = row.slip.coefficient * row.normal.impulse;
     }
 }
@@ -404,7 +405,7 @@ void ContactIsland::solve_velocities() {
 void ContactIsland::solve_displacements() {
     if (needs_displacement_) {
         s_.displacement = s_.v;
-        for (ContactRow& row : s_.rows.contacts) row.slip.bound = row.slip.coefficient * row.normal.impulse;
+        for (ContactRow& row : s_.rows.contacts) turn_to_displacement(row);
         solve_displacement(model_, s_, report_);
         limit_correction(robots_, s_, members_);
     } else {

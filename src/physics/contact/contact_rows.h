@@ -56,7 +56,13 @@ inline constexpr double kWeights =
     10;  // a load that a contact may take up at once, in weights of what it moves
 inline constexpr double kSticking = 0.99;  // of the friction bound; beyond, a contact is taken for sliding
 inline constexpr double kSoftBlow = 10;    // m/s
-inline constexpr double kCorrectionShare = 0.3;  // of the penetration beyond the slop corrected in one tick
+inline constexpr double kDeep = 2e-4;      // m of penetration beyond the slop
+inline constexpr double kCorrectionShare = 0.3,
+                        kDeepCorrectionShare =
+                            0.1;  // of the penetration beyond the slop and, of that, beyond kDeep, in a tick
+/// What corrects a deep penetration gives way to what stands against it: bodies that are stuck in each other
+/// stay so, instead of shaking all that they touch.
+inline constexpr double kDeepCompliance = 0.1;
 
 /// Along `direction`, the velocity of point p of a free base per unit of its turning and moving.
 template <class T>
@@ -181,19 +187,25 @@ bool set_softness(const ContactT<T>& c, const Softness& soft, double dt, double 
 
 /// Targets of the normal. The load of the last tick is where the row starts from (a proximal step): a contact
 /// at rest carries it without any velocity, however compliant the row. True if velocity and displacement
-/// differ. `bounce_compliance`: of what hits and bounces.
+/// differ. `bounce_compliance`: of what hits and bounces, `deep_compliance`: of what corrects deep
+/// penetration.
 template <class T>
 MaskOf<T> set_normal(const ContactT<T>& c, const SurfacePair& surface, const T& approach, const T& gravity_n,
-                     double dt, const T& compliance, double bounce_compliance, BoundedRowT<T>& row) {
+                     double dt, const T& compliance, double bounce_compliance, double deep_compliance,
+                     BoundedRowT<T>& row) {
     row.compliance = compliance;
     const T closing = select(c.gap > T(0), -c.gap / T(dt), T(0));
     const MaskOf<T> corrects = c.gap < T(-surface.slop);
-    const T correction =
-        smaller(kCorrectionShare * (-c.gap - surface.slop) / T(dt), T(surface.correction_speed));
+    const T depth = -c.gap - surface.slop, shallow = smaller(depth, T(kDeep));
+    const T recovered = kCorrectionShare * shallow + kDeepCorrectionShare * (depth - shallow);
+    const T correction = smaller(recovered / T(dt), T(surface.correction_speed));
+    const MaskOf<T> deep = depth > T(kDeep);
     row.target = closing + compliance * c.load;
-    row.position_target = select(corrects, correction, closing) + compliance * c.load;
+    row.position_compliance = select(deep, T(deep_compliance), T(0));
+    row.position_target = select(corrects, correction, closing) + select(deep, T(0), compliance * c.load);
     if (surface.restitution <= 0) return corrects;
-    const NormalTargets<T> hit = impact(c, surface, approach, gravity_n, dt);
+    NormalTargets<T> hit = impact(c, surface, approach, gravity_n, dt);
+    hit.split = hit.split & !deep;  // shapes deep in each other do not hit
     row.compliance = select(hit.split, T(bounce_compliance), row.compliance);
     row.target = select(hit.split, hit.velocity, row.target);
     row.position_target = select(hit.split, hit.displacement, row.position_target);
@@ -235,6 +247,14 @@ void count_surface_motion(const SurfacePair& surface, const ContactFrameT<T>& fr
 
 }  // namespace contact
 
+/// Before displacements are solved: friction, and what deep penetration starts from, by the impulses of the
+/// velocities.
+template <class T>
+void turn_to_displacement(ContactRowT<T>& row) {
+    row.slip.bound = row.slip.coefficient * row.normal.impulse;
+    row.normal.position_target += row.normal.position_compliance * row.normal.impulse;
+}
+
 /// Adds the rows of a contact of `a` with `b` (nullptr: scenery). True if the displacement of this tick needs
 /// another target than the velocity.
 template <class T>
@@ -269,9 +289,9 @@ MaskOf<T> add_contact_row(const Model& model, const ContactT<T>& c, const Surfac
                               inverse_effective_mass * bounce_compliance<T>(model.accuracy), row.normal);
     MaskOf<T> split = false;
     if (!row.soft)
-        split =
-            contact::set_normal(c, surface, approach, gravity_n, dt, compliance,
-                                inverse_effective_mass * bounce_compliance<T>(model.accuracy), row.normal);
+        split = contact::set_normal(c, surface, approach, gravity_n, dt, compliance,
+                                    inverse_effective_mass * bounce_compliance<T>(model.accuracy),
+                                    inverse_effective_mass * contact::kDeepCompliance, row.normal);
     row.slip.coefficient = surface.friction.mu;
     row.slip.bound = surface.friction.mu * c.impulse;
     const T slip_compliance = T(inverse_effective_mass * friction_compliance<T>(model.accuracy));

@@ -315,7 +315,7 @@ void IslandParts::give_back(const Problem& p, std::size_t part, const PartSolver
 /// Rows of contacts between parts, as the solver leaves rows that do not push.
 void IslandParts::finish_left_out(const Problem& p, const std::vector<double>& v) const {
     const auto finish = [&](std::size_t first, std::size_t last, BoundedRow& row, FrictionDisc& disc) {
-        if (p.position) row.target = row.position_target;
+        if (p.position) aim_at_displacement(row);
         row.stiffness = 1 / row.compliance, disc.stiffness = 1 / disc.compliance;
         const jacobian::Along<double> u = jacobian::along(p.rows.columns, first, last, v);
         row.u = u.n, disc.u_1 = u.t1 - disc.target_1, disc.u_2 = u.t2 - disc.target_2;

@@ -121,6 +121,9 @@ TEST(WildScenes, LimbsThatTurnFarInATickDoNotRunAway) {
         for (int i = 0; i < 200; ++i) {
             sim.step();
             ASSERT_FALSE(sim.report.not_finite.valid()) << "seed " << seed << ", tick " << i;
+            for (const RobotState& state : sim.states)
+                for (const double v : state.v)
+                    ASSERT_LT(std::fabs(v), 1e5) << "seed " << seed << ", tick " << i;
         }
     }
 }

@@ -384,7 +384,7 @@ class LaneStep final : public LaneStepper {
 
     void solve_displacement(SolveProblem<T> problem, Lockstep<T>& together) {
         problem.position = true;
-        for (ContactRowT<T>& row : rows_.contacts) row.slip.bound = row.slip.coefficient * row.normal.impulse;
+        for (ContactRowT<T>& row : rows_.contacts) turn_to_displacement(row);
         SolveReportT<T> report;
         newton_.start(problem, displacement_);
         leave_where(!newton_.solve(problem, together, displacement_, report), together);

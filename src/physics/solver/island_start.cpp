@@ -83,19 +83,26 @@ void IslandSolver::step_as_swept(const Problem& p, std::vector<double>& v, Repor
     report.residual = balance(p);
 }
 
-/// Sweeps, then coupled steps of Newton's method; where these fail, more sweeps; in the end Newton's method
-/// with the friction bounds that the sweeps found. False, and back to the start, if momentum does not balance
-/// then.
+/// Sweeps, then coupled steps of Newton's method. Where these begin close to the balance and fail, few rows
+/// are other than they seem: a few sweeps from there settle them. Where they cannot begin, the sweeps go on.
+/// In the end Newton's method with the friction bounds that the sweeps found. False, and back to the start,
+/// if momentum does not balance then.
 bool IslandSolver::solve_by_sweeps(const Problem& p, std::vector<double>& v, Report& report) {
-    constexpr int kTries = 3;
+    constexpr int kTries = 6, kLongMost = 3;  // of them, from so many series of sweeps
+    constexpr int kFewSweeps = 20;
     Lockstep<double> alone;
     v_before_sweeps_ = v;
     const int most = most_sweeps(p.robots.size());
     sweeps_.run(p, most, v);
-    for (int i = 0; i < kTries; ++i) {
-        if (i > 0) sweeps_.go_on(p, most, v);
+    for (int tries = 1, longs = 1;; ++tries) {
         step_as_swept(p, v, report);
-        if (report.residual <= plan_.couple_from && solve_coupled(p, alone, v, report)) return true;
+        const bool is_close = report.residual <= plan_.couple_from;
+        if (is_close && solve_coupled(p, alone, v, report)) return true;
+        if (tries == kTries || (!is_close && longs == kLongMost)) break;
+        if (is_close)
+            sweeps_.take_up(p, kFewSweeps, v);  // from the impulses at which Newton's method gave up
+        else
+            ++longs, sweeps_.go_on(p, most, v);
     }
     // Sweeps that do not converge still tell the friction bounds better than anything else.
     step_as_swept(p, v, report);
@@ -104,6 +111,27 @@ bool IslandSolver::solve_by_sweeps(const Problem& p, std::vector<double>& v, Rep
     take_velocities(p, v);
     friction::set_bounds(p.rows, start_bounds_);
     return false;
+}
+
+/// Where nothing finds a balance (limbs jammed between motors without bounds): sweeps from rest. Momentum is
+/// then that of impulses within their bounds, although not all rows have what they ask for.
+void IslandSolver::settle_for_sweeps(Problem p, std::vector<double>& v) {
+    constexpr int kSweeps = 200;
+    IslandRows& rows = p.rows;
+    p.again = false;
+    for (ContactRow& row : rows.contacts) row.normal.impulse = 0;
+    sweeps_.run(p, kSweeps, v);
+    take_velocities(p, v);
+    for_each_bounded(rows, [](BoundedRow& row) { row.impulse = 0; });
+    for_each_disc(rows, [](FrictionDisc& disc) { disc.impulse_1 = disc.impulse_2 = 0; });
+    for (std::size_t r = 0; r < rows.joints.size(); ++r) rows.joints[r].impulse = sweeps_.joint(r);
+    for (std::size_t r = 0; r < rows.couplings.size(); ++r) rows.couplings[r].impulse = sweeps_.coupling(r);
+    friction::fit_bounds(rows, [&](std::size_t c) { return sweeps_.contact(c).n; });
+    for (std::size_t c = 0; c < rows.contacts.size(); ++c) {
+        const RowSweeps::ContactImpulse& swept = sweeps_.contact(c);
+        ContactRow& row = rows.contacts[c];
+        row.normal.impulse = swept.n, row.slip.impulse_1 = swept.t1, row.slip.impulse_2 = swept.t2;
+    }
 }
 
 /// Each round is the solution if the rows push that it started with and no others, with friction linear, as

@@ -152,9 +152,9 @@ void Newton<T, Matrix>::start(const SolveProblem<T>& p, const std::vector<T>& v)
             *lightness++ = T(1) / robot->mass_matrix[robot->type->paths.diagonal(k)];
     hessian_.start(p.robots, p.offsets, p.rows, n_);
     take_velocities(p, v);
+    if (p.position) for_each_bounded(p.rows, [](BoundedRowT<T>& row) { aim_at_displacement(row); });
     for_each_bounded(p.rows, [](BoundedRowT<T>& row) { row.stiffness = T(1) / row.compliance; });
     for_each_disc(p.rows, [](FrictionDiscT<T>& disc) { disc.stiffness = T(1) / disc.compliance; });
-    if (p.position) for_each_bounded(p.rows, [](BoundedRowT<T>& row) { row.target = row.position_target; });
     if constexpr (kIsFloat<T>) measure_from_targets(p);
 }
 

@@ -84,27 +84,35 @@ void RowSweeps::start(const Problem& p, std::size_t n) {
     for (const JointRow& row : p.rows.joints) add_joint(p, row);
     for (const CouplingRow& row : p.rows.couplings) add_coupling(p, row);
     for (const ContactRow& row : p.rows.contacts) add_contact(p, row);
+    v_free_ = v_;
     directions_.assign(scalars_.size(), 0.0);
     contact_directions_.assign(contacts_.size(), {});
-    start_scalars(p);
-    start_contacts(p);
+    start_scalars(p, p.again);
+    start_contacts(p, p.again);
 }
 
-void RowSweeps::start_scalars(const Problem& p) {
+void RowSweeps::take_up(const Problem& p, int most, std::vector<double>& v) {
+    v_ = v_free_;
+    start_scalars(p, true);
+    start_contacts(p, true);
+    sweep_all(p, most, v);
+}
+
+void RowSweeps::start_scalars(const Problem& p, bool again) {
     impulses_.assign(scalars_.size(), 0.0);
-    if (!p.again) return;
+    if (!again) return;
     for (std::size_t i = 0; i < scalars_.size(); ++i) {
         impulses_[i] = i < joints_ ? p.rows.joints[i].impulse : p.rows.couplings[i - joints_].impulse;
         push(scalars_[i].sides, kOfScalar, 0, impulses_[i]);
     }
 }
 
-void RowSweeps::start_contacts(const Problem& p) {
+void RowSweeps::start_contacts(const Problem& p, bool again) {
     contact_impulses_.clear();
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
         const FrictionDisc& slip = p.rows.contacts[c].slip;
         ContactImpulse impulse{p.rows.contacts[c].normal.impulse, slip.impulse_1, slip.impulse_2};
-        if (!p.again)
+        if (!again)
             impulse.t1 = slip.target_1 / slip.compliance, impulse.t2 = slip.target_2 / slip.compliance;
         cut(slip.coefficient, impulse);
         contact_impulses_.push_back(impulse);

@@ -27,6 +27,9 @@ class RowSweeps {
     /// Continues from there until they converge ten times closer.
     void go_on(const Problem& p, int most, std::vector<double>& v);
 
+    /// Starts again from the impulses that the rows hold now, and sweeps.
+    void take_up(const Problem& p, int most, std::vector<double>& v);
+
     /// Impulses found, by row.
     double joint(std::size_t row) const { return impulses_[row]; }
     double coupling(std::size_t row) const { return impulses_[joints_ + row]; }
@@ -56,8 +59,8 @@ class RowSweeps {
 
     void start(const Problem& p, std::size_t n);
     void sweep_all(const Problem& p, int most, std::vector<double>& v);
-    void start_scalars(const Problem& p);
-    void start_contacts(const Problem& p);
+    void start_scalars(const Problem& p, bool again);
+    void start_contacts(const Problem& p, bool again);
     void add_joint(const Problem& p, const JointRow& row);
     void add_coupling(const Problem& p, const CouplingRow& row);
     void add_contact(const Problem& p, const ContactRow& row);
@@ -81,6 +84,7 @@ class RowSweeps {
     std::vector<Scalar> scalars_;            // joint rows, then couplings
     std::vector<Contact> contacts_;
     std::vector<double> numbers_;
+    std::vector<double> v_free_;                      // without rows
     std::vector<double> v_, v_before_, v_direction_;  // now; before the last sweep; search direction
     std::vector<double> impulses_, impulses_before_, directions_;  // likewise, of scalars_
     std::vector<ContactImpulse> contact_impulses_, contacts_before_, contact_directions_;

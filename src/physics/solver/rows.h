@@ -43,6 +43,7 @@ struct BoundedRowT {
     T target{};           // for the velocity
     T position_target{};  // for the displacement of this tick, which corrects violations without adding speed
     T compliance{1}, low{}, high{};
+    T position_compliance{};      // for the displacement, if it is larger
     T stiffness{1};               // 1 / compliance, set by the solver
     T u{}, du{};                  // velocity along it; per unit step of the line search
     T impulse{};                  // solved; before that, of the normals of contacts: what they carried last
@@ -52,6 +53,13 @@ struct BoundedRowT {
     T slack_low_step{}, slack_high_step{};
 };
 using BoundedRow = BoundedRowT<double>;
+
+/// From now on the row is one of the displacement's.
+template <class T>
+void aim_at_displacement(BoundedRowT<T>& row) {
+    row.target = row.position_target;
+    row.compliance = larger(row.compliance, row.position_compliance);
+}
 
 /// Friction in a plane: impulse = (target - u) / compliance, cut to the disc of radius `bound` = coefficient
 /// * normal impulse (isotropic Coulomb).

@@ -41,8 +41,10 @@ void IslandSolver::solve_any(const Problem& p, std::vector<double>& v, Report& r
 }
 
 SolveReport IslandSolver::solve(const Problem& p, std::vector<double>& v) {
+    constexpr double kUseless = 1e-2;  // of the residual
     Report report;
     solve_any(p, v, report);
+    if (!(report.residual <= kUseless)) settle_for_sweeps(p, v);
     return {static_cast<int>(report.iterations), report.residual};
 }
 

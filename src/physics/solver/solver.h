@@ -40,6 +40,7 @@ class IslandSolver : Newton<double, Hessian> {
     void step_as_swept(const Problem& p, std::vector<double>& v, Report& report);
     void expect_swept(const Problem& p);
     bool displace(const Problem& p, std::vector<double>& v, Report& report);
+    void settle_for_sweeps(Problem p, std::vector<double>& v);
     // interior_point.cpp
     void interior_point(const Problem& p, std::vector<double>& v, Report& report);
     double longest_step(const Problem& p, double mu);
