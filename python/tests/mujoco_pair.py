@@ -24,17 +24,20 @@ def load(path, **options):
         return roboss.load(path, **options)
 
 
+def names_of_bodies(model):
+    """Names of MuJoCo's bodies, as the importer names those that have none."""
+    return [model.body(b).name or f"body_{b}" for b in range(model.nbody)]
+
+
 class RobotPair:
     """A robot of RoBOSS and its bodies, coordinates and velocities in MuJoCo."""
 
     def __init__(self, world, name, model):
         self.robot = roboss.RobotModel(world, name, cut_loops=True)
         self.order = roboss.MujocoOrder(self.robot)
-        root = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name)
-        roots = {root} if root > 0 else set()
-        names = {model.body(b).name: b for b in range(1, model.nbody)}
-        self.bodies = [(link, names[link]) for link in self.robot.links if link in names]
-        roots |= {int(model.body_rootid[b]) for _, b in self.bodies}  # of trees that equalities tie, several
+        numbers = {body: b for b, body in enumerate(names_of_bodies(model))}
+        self.bodies = [(link, numbers[link]) for link in self.robot.links if link in numbers]
+        roots = {int(model.body_rootid[b]) for _, b in self.bodies}  # of trees that equalities tie, several
         self.q, self.v, self.joints = [], [], []
         for j in range(model.njnt):
             if int(model.body_rootid[model.jnt_bodyid[j]]) not in roots:
@@ -75,14 +78,9 @@ class MujocoPair:
         self.model = mujoco.MjModel.from_xml_path(self.path)
         self.data = mujoco.MjData(self.model)
         self.world = load(self.path)
-        moving = {self.model.body(int(self.model.body_rootid[self.model.jnt_bodyid[j]])).name
-                  for j in range(self.model.njnt)}
-        self.robots = [RobotPair(self.world, name, self.model) for name in self.world.robots
-                       if name in moving or name not in self._body_names()]
-        self.robots = [robot for robot in self.robots if robot.v]
-
-    def _body_names(self):
-        return {self.model.body(b).name for b in range(self.model.nbody)}
+        names = names_of_bodies(self.model)
+        moving = {names[self.model.body_rootid[self.model.jnt_bodyid[j]]] for j in range(self.model.njnt)}
+        self.robots = [RobotPair(self.world, name, self.model) for name in self.world.robots if name in moving]
 
     def random_state(self, random):
         """Sets qpos within the limits, or a turn or metre around 0, and qvel."""

@@ -146,3 +146,18 @@ def test_order_refuses_wrong_shapes():
         order.q([0, 0, 0])
     with pytest.raises(roboss.ArgumentError):
         order.q(np.zeros(7))  # a quaternion of length 0
+
+
+def test_a_robot_that_stands_in_mujoco_stands():
+    path = str(REPOSITORY / "tests" / "mjcf" / "quadruped.xml")
+    model = mujoco.MjModel.from_xml_path(path)
+    data = mujoco.MjData(model)
+    sim = roboss.Simulation(path, threads=1)
+    trunk = sim.robots("trunk")
+    data.qpos[:] = trunk.qpos = model.key("home").qpos
+    trunk.set_joint_targets(0.0, mode="position")
+    mujoco.mj_step(model, data, 2000)
+    sim.step(2000)
+    assert 0.38 < data.qpos[2] < 0.42
+    assert abs(trunk.qpos[0, 2] - data.qpos[2]) < 0.01  # contacts are soft there, rigid here
+    assert np.abs(trunk.qvel).max() < 0.01
