@@ -36,7 +36,13 @@ class RobotPair:
         self.robot = roboss.RobotModel(world, name, cut_loops=True)
         self.order = roboss.MujocoOrder(self.robot)
         numbers = {body: b for b, body in enumerate(names_of_bodies(model))}
-        self.bodies = [(link, numbers[link]) for link in self.robot.links if link in numbers]
+        root = numbers.get(name, 0)
+        copy = name.removeprefix(self.robot.links[0])  # links of copies (<replicate>) have the names of the original
+        own = {link: numbers.get(link, numbers.get(link + copy)) for link in self.robot.links}
+        for k in range(model.nbody - root):  # bodies without names, in copies
+            if own.get(f"body_{k}", 0) is None:
+                own[f"body_{k}"] = root + k
+        self.bodies = [(link, b) for link, b in own.items() if b]
         roots = {int(model.body_rootid[b]) for _, b in self.bodies}  # of trees that equalities tie, several
         self.q, self.v, self.joints = [], [], []
         for j in range(model.njnt):

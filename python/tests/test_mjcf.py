@@ -161,3 +161,12 @@ def test_a_robot_that_stands_in_mujoco_stands():
     assert 0.38 < data.qpos[2] < 0.42
     assert abs(trunk.qpos[0, 2] - data.qpos[2]) < 0.01  # contacts are soft there, rigid here
     assert np.abs(trunk.qvel).max() < 0.01
+
+
+def test_copies_are_of_one_type():
+    post = '<body name="post"><joint name="j" axis="0 1 0"/><geom size=".1" pos="0 0 1"/><body pos="0 0 1"><joint/><geom size=".1"/></body></body>'
+    sim = roboss.Simulation(mjcf(f'<replicate count="12" offset="1 0 0">{post}</replicate>'), threads=1)
+    posts = sim.robots("post*")
+    assert posts.names == tuple(f"post{k:02}" for k in range(12)) and posts.joints == ("j", "body_1_joint")
+    posts.qpos = np.arange(24.0).reshape(12, 2) / 24
+    assert posts.qpos.shape == (12, 2) and posts[3].qpos[0, 1] == 7 / 24

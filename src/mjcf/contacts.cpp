@@ -71,7 +71,8 @@ void read_contact_excludes(Robots& robots, const Reading& reading) {
         }
         const std::size_t first = robots.tree().index_of(*a), second = robots.tree().index_of(*b);
         if (robots.same_model(first, second))
-            robots.model_of(first).no_contact.emplace_back(a->name, b->name);
+            robots.model_of(first).no_contact.emplace_back(robots.local_name(first),
+                                                           robots.local_name(second));
         else
             reading.diagnostics.warning(element.where(), "ignored-element",
                                         "<exclude> has no effect between two robots, or a robot and scenery",

@@ -157,8 +157,8 @@ void add_joint(const Element& element, const Ends& ends, Robots& robots) {
                                         : element.name();
     while (std::ranges::any_of(model.joints, [&](const JointSpec& j) { return j.name == joint.name; }))
         joint.name += "_";
-    joint.parent = stands(parent) ? "world" : tree.bodies[parent].name;
-    joint.child = tree.bodies[child].name;
+    joint.parent = stands(parent) ? "world" : robots.local_name(parent);
+    joint.child = robots.local_name(child);
     const Pose &X_parent = parent == ends.first ? ends.X_first : ends.X_second,
                &X_child = parent == ends.first ? ends.X_second : ends.X_first;
     joint.X_MJ = placed_in(robots, own, parent, X_parent);

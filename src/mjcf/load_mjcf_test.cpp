@@ -168,6 +168,7 @@ TEST(LoadMjcf, CopiesAreNumbered) {
     ASSERT_TRUE(loaded.world) << loaded.text();
     ASSERT_NE(loaded.model("post09"), nullptr);
     EXPECT_DOUBLE_EQ(loaded.world->instances[9].X_WM.p.x, 9);
+    EXPECT_EQ(loaded.model("post09")->links[0].name, loaded.model("post00")->links[0].name);
 }
 
 TEST(LoadMjcf, SensorsStandOnTheLinksOfTheirSites) {

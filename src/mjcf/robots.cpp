@@ -125,6 +125,9 @@ Robots::Robots(Tree& tree, const std::vector<std::pair<std::size_t, std::size_t>
         const std::size_t a = first_of(roots_[pair.first]), b = first_of(roots_[pair.second]);
         leader[std::max(a, b)] = std::min(a, b);
     }
+    for (const BodyPart& body : tree.bodies) copy_.push_back(body.copy);
+    for (std::size_t b = 0; b < tree.bodies.size(); ++b)
+        if (const std::size_t first = first_of(b); first != b) copy_[b] = copy_[first] = "";
     for (std::size_t b = 0; b < tree.bodies.size(); ++b) {
         const std::size_t root = roots_[b], first = first_of(root);
         model_of_[b] = b == root && first == b ? start_model(b) : model_of_[first];
@@ -132,12 +135,28 @@ Robots::Robots(Tree& tree, const std::vector<std::pair<std::size_t, std::size_t>
     }
 }
 
+std::string Robots::local_name(std::size_t body) const {
+    const std::size_t root = roots_[body];
+    if (!tree_.bodies[body].has_name && !copy_[root].empty()) return "body_" + std::to_string(body - root);
+    return local_name(body, tree_.bodies[body].name);
+}
+
+std::string Robots::local_name(std::size_t body, const std::string& part) const {
+    const BodyPart& owner = tree_.bodies[body];
+    const std::string& copy = copy_[roots_[body]];
+    if (copy.empty()) return part;
+    if (!owner.has_name && part.starts_with(owner.name) && part != owner.name)
+        return local_name(body) + part.substr(owner.name.size());
+    return part.ends_with(copy) && part.size() > copy.size() ? part.substr(0, part.size() - copy.size())
+                                                             : part;
+}
+
 std::size_t Robots::start_model(std::size_t body) {
     const BodyPart& root = tree_.bodies[body];
     ModelSpec model;
     model.name = body == 0 ? unused_name(kScenery, models_, tree_) : root.name;
     model.where = root.where;
-    model.canonical_link = body == 0 ? model.name : root.name;
+    model.canonical_link = body == 0 ? model.name : local_name(body);
     model.is_static = fates_[body] == Fate::kScenery;
     model.kinematic = fates_[body] == Fate::kMocap;
     model.self_collide = !model.is_static && !model.kinematic;
@@ -154,15 +173,15 @@ void Robots::add_body(std::size_t index) {
     const bool is_root = roots_[index] == index;
     Pose X = is_root ? inverse(X_WM_[model_of_[index]]) * body.X_PB : X_MB_[body.parent] * body.X_PB;
     if (is_root && model.links.empty()) X = {};  // it is the model's frame
-    const std::string parent = is_root ? "world" : tree_.bodies[body.parent].name;
+    const std::string parent = is_root ? "world" : local_name(body.parent);
     const std::string last = is_free(body) || model.is_static ? parent : add_joints(body, parent, X);
     X_MB_[index] = X;
     add_link(index, X);
     if (body.joints.empty() && !model.is_static) {
         JointSpec weld;
-        weld.name = "fix_" + body.name;
+        weld.name = "fix_" + local_name(index);
         while (tree_.find_joint(weld.name)) weld.name += "_";
-        weld.parent = last, weld.child = body.name;
+        weld.parent = last, weld.child = local_name(index);
         weld.X_MJ = X;
         weld.where = body.where;
         model.joints.push_back(std::move(weld));
@@ -171,16 +190,17 @@ void Robots::add_body(std::size_t index) {
 
 /// The joints of a body, with links without mass between them. Returns the parent of the last one.
 std::string Robots::add_joints(const BodyPart& body, const std::string& parent, Pose& X) {
-    ModelSpec& model = models_[model_of_[tree_.index_of(body)]];
+    const std::size_t index = tree_.index_of(body);
+    ModelSpec& model = models_[model_of_[index]];
     std::string before = parent;
     for (std::size_t k = 0; k < body.joints.size(); ++k) {
         const JointPart& part = body.joints[k];
         const bool is_last = k + 1 == body.joints.size();
         JointSpec joint;
-        joint.name = part.name;
+        joint.name = local_name(index, part.name);
         joint.kind = kind_of(part.motion);
         joint.parent = before;
-        joint.child = is_last ? body.name : body.name + "/" + part.name;
+        joint.child = is_last ? local_name(index) : local_name(index) + "/" + joint.name;
         joint.X_MJ = X * Pose{part.pos, {}};
         joint.where = part.where;
         joint.ball_damping = part.ball_damping;
@@ -190,7 +210,7 @@ std::string Robots::add_joints(const BodyPart& body, const std::string& parent, 
             X = joint.X_MJ * turned_back(part) * Pose{-part.pos, {}};
         }
         before = joint.child;
-        joint_index_[tree_.index_of(body)].push_back(model.joints.size());
+        joint_index_[index].push_back(model.joints.size());
         model.joints.push_back(std::move(joint));
         if (is_last) break;
         LinkSpec between;
@@ -209,7 +229,7 @@ void Robots::add_link(std::size_t index, const Pose& X) {
     const BodyPart& body = tree_.bodies[index];
     ModelSpec& model = models_[model_of_[index]];
     LinkSpec link;
-    link.name = index == 0 ? model.canonical_link : body.name;
+    link.name = index == 0 ? model.canonical_link : local_name(index);
     link.X_ML = X;
     link.where = body.where;
     link.gravity = body.gravity;
@@ -220,7 +240,7 @@ void Robots::add_link(std::size_t index, const Pose& X) {
     add_geoms(body, link);
     if (index != 0) link.lights = body.lights;
     for (const SitePart& site : body.sites)
-        if (!site.name.empty()) model.frames.push_back({site.name, link.name, site.X_BS});
+        if (!site.name.empty()) model.frames.push_back({local_name(index, site.name), link.name, site.X_BS});
     link_index_[index] = model.links.size();
     model.links.push_back(std::move(link));
 }

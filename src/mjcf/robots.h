@@ -37,6 +37,10 @@ class Robots {
     LinkSpec& link_of(std::size_t body);
     /// The joint of the model that a joint of the file became; nullptr: a free joint.
     JointSpec* joint_of(const Tree::JointPlace& place);
+    /// Name of a body in its model, and of a part of a body (joint, site). Those of copies of a robot
+    /// (<replicate>) are alike: the robots' own names differ, and all are of one type.
+    std::string local_name(std::size_t body) const;
+    std::string local_name(std::size_t body, const std::string& part) const;
     /// Pose of a body in its model, all joints at zero.
     const Pose& pose_of(std::size_t body) const { return X_MB_[body]; }
     /// Pose of a body's model in the world.
@@ -58,7 +62,8 @@ class Robots {
     Tree& tree_;
     const Reading& reading_;
     std::vector<std::size_t> roots_;
-    std::vector<Fate> fates_;  // by root
+    std::vector<Fate> fates_;        // by root
+    std::vector<std::string> copy_;  // by root: what its names lose; empty where trees are tied to each other
     double mass_factor_ = 1;
     std::vector<Pose> X_MB_;
     std::vector<std::size_t> model_of_, link_index_;

@@ -62,7 +62,8 @@ class SensorReader {
         SensorSpec sensor;
         sensor.parameters = std::move(parameters);
         sensor.sdf_type = source.element().node.name();
-        sensor.name = shared || source.name().empty() ? site.name : source.name();
+        sensor.name =
+            shared || source.name().empty() ? robots_.local_name(place->body, site.name) : source.name();
         sensor.X_LS = site.X_BS * Pose{{}, turn};
         sensor.where = source.where();
         std::vector<SensorSpec>& sensors = robots_.link_of(place->body).sensors;
@@ -77,11 +78,9 @@ class SensorReader {
     void add_force(const Attributes& source) {
         const auto place = site_of(source);
         if (!place) return;
-        const BodyPart& body = robots_.tree().bodies[place->body];
+        const std::string own = robots_.local_name(place->body);
         const ModelSpec& model = robots_.model_of(place->body);
-        const auto holds = [&](const JointSpec& joint) {
-            return joint.child == body.name && !joint.closes_loop;
-        };
+        const auto holds = [&](const JointSpec& joint) { return joint.child == own && !joint.closes_loop; };
         const auto joint = std::ranges::find_if(model.joints, holds);
         if (joint == model.joints.end())
             return no_effect(source.element(),

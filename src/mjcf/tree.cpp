@@ -83,6 +83,8 @@ class TreeReader {
         const Attributes attributes({element}, r_.diagnostics);
         BodyPart body;
         body.name = element.name().empty() ? "" : element.name() + scope.suffix;
+        body.has_name = !body.name.empty();
+        body.copy = scope.suffix;
         body.parent = parent;
         body.X_PB = scope.X_BF * read_pose(attributes, r_.settings);
         body.mocap = attributes.boolean("mocap", false);

@@ -49,6 +49,8 @@ struct SitePart {
 
 struct BodyPart {
     std::string name;
+    bool has_name = true;           ///< false: the file gives it none
+    std::string copy;               ///< what the <replicate>s around it add to names
     std::size_t parent = 0;         ///< in Tree::bodies
     Pose X_PB;                      ///< in the parent body
     std::vector<JointPart> joints;  ///< the first one moves all others
