@@ -20,6 +20,7 @@ from .errors import (ArgumentError, JournalError, OrderError, RobossError, SaveE
                      UnknownNameError, WorldError, WorldWarning)
 from .journal import Journal
 from .kinematics import Follower, IKSolution, RobotModel
+from .mujoco_order import MujocoOrder
 from .robots import Robots
 from .sensors import Sensor
 from .simulation import CONTACT, Simulation
@@ -29,7 +30,7 @@ from .world import World, example, load
 __version__ = "0.1.0"
 __all__ = [
     "ArgumentError", "Batch", "CONTACT", "CartesianTrajectory", "Diagnostic", "Follower", "IKSolution",
-    "JointTrajectory", "Journal", "JournalError", "OrderError", "RobossError", "RobotModel", "Robots", "Save",
+    "JointTrajectory", "Journal", "JournalError", "MujocoOrder", "OrderError", "RobossError", "RobotModel", "Robots", "Save",
     "SaveError", "Sensor", "SensorError", "Simulation", "StateError", "UnknownNameError", "World", "WorldError",
     "WorldWarning", "ctraj", "example", "jtraj", "load",
 ]

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from .errors import ArgumentError, StateError
+from .mujoco_order import MujocoOrder
 from .names import filled, index_of, numbers, unknown
 from .sensors import Sensor
 
@@ -131,7 +132,7 @@ class Robots:
 
     @property
     def joint_position(self) -> Floats:
-        """Positions of the joints, (N, joints): rad or m, zero as in the file.
+        """Positions of the joints, (N, joints): rad or m, zero as in the file; of a ball joint a rotation vector.
 
         Set positions beyond the limits are pushed back within some ticks. Joints that close loops follow from the
         others and cannot be set (OrderError, code "loop-joint").
@@ -150,6 +151,36 @@ class Robots:
     @joint_velocity.setter
     def joint_velocity(self, values: ArrayLike) -> None:
         self._core.set_joint_velocities(self._fill("joint_velocity", values, len(self._facts.axes)))
+
+    @property
+    def qpos(self) -> Floats:
+        """Coordinates of the robots in MuJoCo's order, (N, nq): of a free base x y z (m) and quaternion w x y z, then
+        those of the joints, of a ball joint a quaternion w x y z. MujocoOrder has the order, and converts other arrays.
+
+        >>> arms = roboss.Simulation(roboss.example("arm.sdf")).robots("arm")
+        >>> arms.qpos = [0.1, 0.2, 0.3, 0, 0, 0]
+        >>> arms.joint_position
+        array([[0.1, 0.2, 0.3, 0. , 0. , 0. ]])
+        """
+        return self._mujoco.qpos_of(self)
+
+    @qpos.setter
+    def qpos(self, values: ArrayLike) -> None:
+        self._mujoco.put_qpos(self, self._fill("qpos", values, self._mujoco.nq))
+
+    @property
+    def qvel(self) -> Floats:
+        """Velocities of the robots in MuJoCo's order, (N, nv): of a free base linear in world axes (m/s) and angular in
+        its own axes (rad/s), then those of the joints, of a ball joint in the axes of the child. Assign qpos first."""
+        return self._mujoco.qvel_of(self)
+
+    @qvel.setter
+    def qvel(self, values: ArrayLike) -> None:
+        self._mujoco.put_qvel(self, self._fill("qvel", values, self._mujoco.nv))
+
+    @property
+    def _mujoco(self) -> MujocoOrder:
+        return MujocoOrder._of(self._facts)
 
     def link_pose(self, link: str) -> Floats:
         """Poses of a link's frame in the world, (N, 7), as `pose`."""

@@ -89,6 +89,7 @@ class TypeFacts:
     links: list[str]
     axes: list[str]
     limits: list[list[float]]
+    coordinates: list[str]  # of each axis: "axis", "ball" or "loop"
     sensors: list[tuple[str, str, float]]
     commands: list[tuple[str, tuple[tuple[str, str], ...], bool]]
 
@@ -99,7 +100,7 @@ def load(source: Union[str, os.PathLike], *, search_paths: Iterable[Union[str, o
     """Reads and compiles a world.
 
     Args:
-        source: path of an SDFormat or URDF file, or its text (anything that begins with "<").
+        source: path of an SDFormat, URDF or MJCF (MuJoCo) file, or its text (anything that begins with "<").
         search_paths: folders for `model://`, `package://` and relative URIs, before those of the environment.
         profile: name of the `<physics>` to use; "": the world's default.
         ground: add a plane at z = 0, for a file with a robot alone, such as a URDF.

@@ -16,6 +16,7 @@
 #include "roboss/math/array_rows.h"
 #include "roboss/sdf/load_world.h"
 #include "roboss/world/bare_model.h"
+#include "roboss/world/joint_type.h"
 
 namespace nb = nanobind;
 using namespace roboss;
@@ -88,6 +89,19 @@ std::vector<std::vector<double>> limits_of(const RobotType& type, const std::vec
     return limits;
 }
 
+/// What each column of the arrays of joints is: "axis", "ball" (a component of a rotation vector), or "loop"
+/// (of a joint that closes a loop).
+std::vector<std::string> coordinates_of(const RobotType& type, const std::vector<JointAxis>& axes) {
+    std::vector<std::string> coordinates;
+    for (const JointAxis& axis : axes) {
+        const Joint& joint = type.joints[axis.joint.index()];
+        coordinates.push_back(joint.loop >= 0                         ? "loop"
+                              : joint_type(joint.kind).is_isotropic() ? "ball"
+                                                                      : "axis");
+    }
+    return coordinates;
+}
+
 nb::list sensors_of(const RobotType& type) {
     nb::list sensors;
     for (const SensorInfo& sensor : type.sensors)
@@ -122,6 +136,7 @@ nb::dict facts_of(const std::shared_ptr<const Model>& model, std::size_t robot) 
     facts["links"] = names_of(type.links);
     facts["axes"] = names_of(one.axes());
     facts["limits"] = limits_of(type, one.axes());
+    facts["coordinates"] = coordinates_of(type, one.axes());
     facts["sensors"] = sensors_of(type);
     facts["commands"] = commands_of(type);
     return facts;

@@ -142,6 +142,32 @@ Result<> LocalRun::change_joint(RobotId robot, JointId id, int axis, std::option
     return Ok{};
 }
 
+Result<> LocalRun::check_ball_change(RobotId robot, JointId id, const Vec3& rotation) const {
+    if (Result<> checked = check_joint_change(robot, id, 0, {}, {}); !checked) return checked;
+    const Joint& joint = model_->type_of(robot).joints[id.index()];
+    const std::string what =
+        "joint '" + joint.name + "' of robot '" + model_->robots[robot.index()].name + "'";
+    if (!joint_type(joint.kind).is_isotropic())
+        return Error{what + " is no ball joint", "set the position of its axis", "no-ball"};
+    if (!is_finite(rotation) || norm(rotation) > kOrderLimits.position)
+        return Error{"the position of " + what + " is not finite, or beyond 1e9 rad",
+                     "give a finite rotation vector", "beyond-limit"};
+    return Ok{};
+}
+
+Result<> LocalRun::change_ball_joint(RobotId robot, JointId id, const Vec3& rotation) {
+    if (Result<> checked = check_ball_change(robot, id, rotation); !checked) return checked;
+    const Joint& joint = model_->type_of(robot).joints[id.index()];
+    const Quat q = exponential(rotation);
+    RobotState& state = states_[robot.index()];
+    state.rest = {};
+    double* const at = &state.q[static_cast<std::size_t>(joint.q_index)];
+    at[0] = q.w, at[1] = q.x, at[2] = q.y, at[3] = q.z;
+    stepper_.forget();
+    changed();
+    return Ok{};
+}
+
 Result<> LocalRun::submit(const Order& order) {
     if (order.apply_at < tick_)
         return Error{"an order for tick " + std::to_string(order.apply_at) + ", but the world is at tick " +

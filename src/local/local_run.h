@@ -73,9 +73,15 @@ class LocalRun : private SensorSources {
     Result<> change(RobotId robot, const Action& action);
     /// Puts one axis of a joint at a position (rad or m), or gives it a velocity (rad/s or m/s), at once. An
     /// Error: there is no such robot, joint or axis; it closes a loop ("loop-joint"), or is a ball joint with
-    /// a position ("no-position"); the number is not finite or too large.
+    /// a position ("no-position": see change_ball_joint()); the number is not finite or too large.
     Result<> change_joint(RobotId robot, JointId joint, int axis, std::optional<double> position,
                           std::optional<double> velocity);
+    /// Puts a ball joint at a rotation vector (rad, of the child in the joint frame), at once. An Error:
+    /// there is no such robot or joint; it is no ball joint ("no-ball"), or closes a loop ("loop-joint"); the
+    /// vector is not finite.
+    Result<> change_ball_joint(RobotId robot, JointId joint, const Vec3& rotation);
+    /// Why change_ball_joint() would refuse.
+    Result<> check_ball_change(RobotId robot, JointId joint, const Vec3& rotation) const;
     /// Why change_joint() would refuse.
     Result<> check_joint_change(RobotId robot, JointId joint, int axis, std::optional<double> position,
                                 std::optional<double> velocity) const;

@@ -212,6 +212,7 @@ TEST(LocalRun, RefusesJointsThatCannotBeSet) {
     EXPECT_EQ(run->change_joint(car, wheel, 1, 1.0, {}).error().code, "no-axis");
     EXPECT_EQ(run->change_joint(car, wheel, 0, 1e10, {}).error().code, "beyond-limit");
     EXPECT_EQ(run->change_joint(car, wheel, 0, {}, NAN).error().code, "not-finite");
+    EXPECT_EQ(run->change_ball_joint(car, wheel, {}).error().code, "no-ball");
 }
 
 TEST(LocalBatch, EachRunGoesItsOwnWayWithTheBitsOfARunAlone) {

@@ -6,12 +6,13 @@
 
 #include "math/array_rows.h"
 #include "physics/dynamics/kinematics.h"
+#include "world/joint_type.h"
 
 namespace roboss {
 
 namespace {
 
-/// Calls change(run, robot, axis, value, check) for each axis of each robot: first, with `check`, to learn
+/// Calls change(run, robot, axis, &value, check) for each axis of each robot: first, with `check`, to learn
 /// whether it would be refused.
 template <class Change>
 Result<> change_joints(const RobotSet& set, LocalRun& run, std::span<const double> values, Change change) {
@@ -20,7 +21,7 @@ Result<> change_joints(const RobotSet& set, LocalRun& run, std::span<const doubl
         const double* from = values.data();
         for (const RobotId robot : set.robots())
             for (const JointAxis& axis : set.axes())
-                if (Result<> done = change(run, robot, axis, *from++, check); !done) return done;
+                if (Result<> done = change(run, robot, axis, from++, check); !done) return done;
     }
     return Ok{};
 }
@@ -141,17 +142,22 @@ Result<> RobotSet::set_twists(LocalRun& run, std::span<const double> twists) con
 
 Result<> RobotSet::set_joint_positions(LocalRun& run, std::span<const double> positions) const {
     return change_joints(*this, run, positions,
-                         [](LocalRun& r, RobotId robot, const JointAxis& a, double x, bool check) {
-                             return check ? r.check_joint_change(robot, a.joint, a.axis, x, {})
-                                          : r.change_joint(robot, a.joint, a.axis, x, {});
+                         [&](LocalRun& r, RobotId robot, const JointAxis& a, const double* x, bool check) {
+                             const Joint& joint = type_->joints[a.joint.index()];
+                             if (!joint_type(joint.kind).is_isotropic())
+                                 return check ? r.check_joint_change(robot, a.joint, a.axis, *x, {})
+                                              : r.change_joint(robot, a.joint, a.axis, *x, {});
+                             if (a.axis > 0) return Result<>(Ok{});  // with the first one
+                             return check ? r.check_ball_change(robot, a.joint, vec3_at(x))
+                                          : r.change_ball_joint(robot, a.joint, vec3_at(x));
                          });
 }
 
 Result<> RobotSet::set_joint_velocities(LocalRun& run, std::span<const double> velocities) const {
     return change_joints(*this, run, velocities,
-                         [](LocalRun& r, RobotId robot, const JointAxis& a, double x, bool check) {
-                             return check ? r.check_joint_change(robot, a.joint, a.axis, {}, x)
-                                          : r.change_joint(robot, a.joint, a.axis, {}, x);
+                         [](LocalRun& r, RobotId robot, const JointAxis& a, const double* x, bool check) {
+                             return check ? r.check_joint_change(robot, a.joint, a.axis, {}, *x)
+                                          : r.change_joint(robot, a.joint, a.axis, {}, *x);
                          });
 }
 

@@ -52,7 +52,7 @@ class RobotSet {
 
     /// Puts the robots at poses as poses() gives them; quaternions are normalised.
     Result<> set_poses(LocalRun& run, std::span<const double> poses) const;
-    /// Positions of the joints, as joint_positions() gives them.
+    /// Positions of the joints, as joint_positions() gives them; of a ball joint a rotation vector.
     Result<> set_joint_positions(LocalRun& run, std::span<const double> positions) const;
     /// Velocities of the joints, as joint_velocities() gives them.
     Result<> set_joint_velocities(LocalRun& run, std::span<const double> velocities) const;

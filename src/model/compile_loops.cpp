@@ -134,7 +134,7 @@ LoopJoint to_loop_joint(const JointSpec& spec, const Transform& X_MA, const Tran
     loop.kind = spec.kind;
     const Transform X_MJ = to_transform(spec.X_MJ);
     loop.X_AJ = inverse(X_MA) * X_MJ;
-    loop.X_BJ = inverse(X_MB) * X_MJ;
+    loop.X_BJ = inverse(X_MB) * (spec.X_MJ_child ? to_transform(*spec.X_MJ_child) : X_MJ);
     if (!spec.axes.empty()) loop.axis_J = spec.axes[0].xyz;
     if (spec.axes.size() > 1) loop.axis2_J = spec.axes[1].xyz;
     const JointType& type = joint_type(spec.kind);

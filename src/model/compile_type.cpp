@@ -164,6 +164,7 @@ class PartBuilder {
         if (!type.is_isotropic()) return k < spec.axes.size() ? std::optional(spec.axes[k]) : std::nullopt;
         AxisSpec each;
         each.damping = spec.ball_damping;
+        each.armature = spec.ball_armature;
         return each;
     }
 
@@ -307,7 +308,7 @@ class PartBuilder {
         check_joints_read(type, spec_.name + part_.suffix, diagnostics_);
         for (const Body& body : type.bodies) type.mass += body.mass;
         type.reach = reach_of(type);
-        if (type.self_collide) add_self_pairs(type);
+        if (type.self_collide) type.self_pairs = self_pairs_of(type, &spec_);
         close_start(spec_, type, diagnostics_);
         compute_mobility(type);
         type.hash = type_hash(type);

@@ -71,8 +71,9 @@ void check_joints_read(const RobotType& type, const std::string& robot, Diagnost
 /// Radius of the sphere about the base origin that holds every shape in every pose.
 double reach_of(const RobotType& type);
 
-/// Fills RobotType::self_pairs: shapes of bodies that no joint joins. Needs RobotType::links.
-void add_self_pairs(RobotType& type);
+/// RobotType::self_pairs: shapes of bodies that no joint joins, without the pairs that `spec` excludes
+/// (nullptr: none). Needs RobotType::links.
+std::vector<std::pair<int, int>> self_pairs_of(const RobotType& type, const ModelSpec* spec);
 
 /// Fills Body::inverse_mass_linear, inverse_inertia_angular and Dof::inverse_inertia from the mass matrix at
 /// the zero pose.

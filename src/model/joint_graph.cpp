@@ -38,6 +38,7 @@ std::set<std::string> joints_in_use(const ModelSpec& spec) {
 /// How much a joint should be in the tree.
 int worth(const JointSpec& joint, bool in_use) {
     const JointType& type = joint_type(joint.kind);
+    if (joint.closes_loop) return -1;
     if (type.welds()) return 100;
     int sum = in_use ? 50 : 0;
     for (const AxisSpec& axis : joint.axes) {

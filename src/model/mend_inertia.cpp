@@ -55,6 +55,7 @@ void mend_inertia(RobotType& type, const ModelSpec& spec, const std::vector<std:
         Body& body = type.bodies[static_cast<std::size_t>(link.body)];
         if (seen[static_cast<std::size_t>(link.body)]++ != 0) continue;
         const LinkSpec& source = spec.links[links[l]];
+        if (source.between_joints) continue;
         if (!(body.mass > 0)) {
             link.mass = kSmallMass;
             const double moment = 0.4 * kSmallMass * kSmallRadius * kSmallRadius;

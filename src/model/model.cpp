@@ -115,6 +115,10 @@ std::uint64_t type_hash(const RobotType& type) {
     for (const CoordinateCoupling& coupling : type.couplings) add_coupling(hash, coupling);
     for (const OnboardInfo& onboard : type.onboard) add_to_hash(hash, onboard);
     if (type.kinematic) hash.add(std::string_view("kinematic"));
+    if (type.self_collide && type.self_pairs != self_pairs_of(type, nullptr)) {
+        hash.add(std::string_view("self-pairs"));
+        for (const auto& pair : type.self_pairs) add(hash, pair.first), add(hash, pair.second);
+    }
     if (!type.scenery.empty()) add(hash, type.scenery.min), add(hash, type.scenery.max);
     return hash.value();
 }

@@ -1,6 +1,7 @@
 // What the bodies of a type amount to: their masses, how far its shapes reach, which of them may meet.
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "model/compile_type.h"
 #include "model/joint_motion.h"
@@ -25,11 +26,16 @@ double slide_range(const RobotType& type, const Body& body) {
 }
 
 /// For each body the nearest one before it, towards the base, that carries a link. A joint of several motions
-/// puts bodies without links between the two that it joins.
-std::vector<int> parents_with_links(const RobotType& type) {
+/// puts bodies without links between the two that it joins; so do several joints of one body (MJCF).
+std::vector<int> parents_with_links(const RobotType& type, const ModelSpec* spec) {
+    std::set<std::string> between;
+    if (spec != nullptr)
+        for (const LinkSpec& link : spec->links)
+            if (link.between_joints) between.insert(link.name);
     std::vector<char> has_link(type.bodies.size(), 0);
     for (const Link& link : type.links)
-        if (link.body >= 0) has_link[static_cast<std::size_t>(link.body)] = 1;
+        if (link.body >= 0 && between.count(link.name) == 0)
+            has_link[static_cast<std::size_t>(link.body)] = 1;
     std::vector<int> parents;
     for (const Body& body : type.bodies) {
         int parent = body.parent;
@@ -38,6 +44,19 @@ std::vector<int> parents_with_links(const RobotType& type) {
         parents.push_back(parent);
     }
     return parents;
+}
+
+/// The bodies that the file keeps from touching, each pair both ways.
+std::set<std::pair<int, int>> excluded_pairs(const RobotType& type, const ModelSpec* spec) {
+    std::set<std::pair<int, int>> pairs;
+    if (spec == nullptr) return pairs;
+    for (const auto& names : spec->no_contact) {
+        const auto first = type.find_link(names.first), second = type.find_link(names.second);
+        if (!first || !second) continue;
+        const int a = type.links[first->index()].body, b = type.links[second->index()].body;
+        pairs.insert({{a, b}, {b, a}});
+    }
+    return pairs;
 }
 
 bool loop_joins(const RobotType& type, int a, int b) {
@@ -78,16 +97,20 @@ double reach_of(const RobotType& type) {
     return std::max(extent[0], extent.size() > 1 && type.free_base ? extent[1] : 0.0);
 }
 
-void add_self_pairs(RobotType& type) {
-    const std::vector<int> parents = parents_with_links(type);
+std::vector<std::pair<int, int>> self_pairs_of(const RobotType& type, const ModelSpec* spec) {
+    const std::vector<int> parents = parents_with_links(type, spec);
     const auto parent = [&](int b) { return b < 0 ? -2 : parents[static_cast<std::size_t>(b)]; };
+    const std::set<std::pair<int, int>> excluded = excluded_pairs(type, spec);
+    std::vector<std::pair<int, int>> pairs;
     for (std::size_t a = 0; a < type.shapes.size(); ++a) {
         for (std::size_t b = a + 1; b < type.shapes.size(); ++b) {
             const int ba = type.shapes[a].body, bb = type.shapes[b].body;
             if (ba == bb || parent(ba) == bb || parent(bb) == ba || loop_joins(type, ba, bb)) continue;
-            type.self_pairs.emplace_back(static_cast<int>(a), static_cast<int>(b));
+            if (excluded.count({ba, bb}) > 0) continue;
+            pairs.emplace_back(static_cast<int>(a), static_cast<int>(b));
         }
     }
+    return pairs;
 }
 
 }  // namespace roboss

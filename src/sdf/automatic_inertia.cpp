@@ -7,59 +7,12 @@
 #include <map>
 #include <vector>
 
+#include "math/solid.h"
+
 namespace roboss::sdf_import {
 namespace {
 
 constexpr double kWater = 1000.0;  // kg/m^3, SDFormat's default density
-
-/// About the shape's own centre of mass, which lies at `centre` in its frame, per unit of density.
-struct Solid {
-    double volume = 0;
-    Vec3 centre;
-    Mat3 inertia;
-};
-
-Mat3 diagonal(const Vec3& m) {
-    return Mat3::diagonal(m.x, m.y, m.z);
-}
-
-Solid box(const Vec3& s) {
-    const double v = s.x * s.y * s.z;
-    return {v,
-            {},
-            diagonal(Vec3{s.y * s.y + s.z * s.z, s.x * s.x + s.z * s.z, s.x * s.x + s.y * s.y} * (v / 12.0))};
-}
-
-Solid ellipsoid(const Vec3& r) {
-    const double v = 4.0 / 3.0 * kPi * r.x * r.y * r.z;
-    return {v,
-            {},
-            diagonal(Vec3{r.y * r.y + r.z * r.z, r.x * r.x + r.z * r.z, r.x * r.x + r.y * r.y} * (v / 5.0))};
-}
-
-Solid cylinder(double r, double l) {
-    const double v = kPi * r * r * l;
-    const double across = v * (3.0 * r * r + l * l) / 12.0;
-    return {v, {}, diagonal({across, across, v * r * r / 2.0})};
-}
-
-/// SDFormat's cone stands centred on its height, the tip up.
-Solid cone(double r, double l) {
-    const double v = kPi * r * r * l / 3.0;
-    const double across = v * (3.0 * r * r / 20.0 + 3.0 * l * l / 80.0);
-    return {v, {0, 0, -l / 4.0}, diagonal({across, across, 0.3 * v * r * r})};
-}
-
-Solid capsule(double r, double l) {
-    const Solid straight = cylinder(r, l), ball = ellipsoid({r, r, r});
-    // Each half ball's centre is 3/8 r beyond the cylinder's end.
-    const double off = l / 2.0 + 3.0 / 8.0 * r;
-    const double half_ball_across = ball.inertia(0, 0) - ball.volume * (9.0 / 64.0) * r * r;
-    const double across = straight.inertia(0, 0) + half_ball_across + ball.volume * off * off;
-    return {straight.volume + ball.volume,
-            {},
-            diagonal({across, across, straight.inertia(2, 2) + ball.inertia(2, 2)})};
-}
 
 /// The sum over the tetrahedra between the origin and the triangles, which must be closed and wound outward.
 class SolidSum {
@@ -136,17 +89,17 @@ std::optional<Solid> solid_of(const Element& geometry, const Import& import) {
     if (!spec) return std::nullopt;
     switch (spec->kind) {
         case GeometryKind::kBox:
-            return box(spec->size);
+            return solid_box(spec->size);
         case GeometryKind::kSphere:
-            return ellipsoid({spec->radius, spec->radius, spec->radius});
+            return solid_ellipsoid({spec->radius, spec->radius, spec->radius});
         case GeometryKind::kCylinder:
-            return cylinder(spec->radius, spec->length);
+            return solid_cylinder(spec->radius, spec->length);
         case GeometryKind::kCapsule:
-            return capsule(spec->radius, spec->length);
+            return solid_capsule(spec->radius, spec->length);
         case GeometryKind::kEllipsoid:
-            return ellipsoid(spec->size);
+            return solid_ellipsoid(spec->size);
         case GeometryKind::kCone:
-            return cone(spec->radius, spec->length);
+            return solid_cone(spec->radius, spec->length);
         case GeometryKind::kMesh:
             return spec->mesh ? mesh_solid(*spec->mesh) : std::nullopt;
         case GeometryKind::kPolyline:

@@ -3,10 +3,10 @@
 
 #include <map>
 #include <optional>
-#include <pugixml.hpp>
 #include <set>
 #include <string>
 #include <vector>
+#include "xml/source_file.h"
 
 #include "onboard_kinds/message_board.h"
 #include "sdf/crumb_conversion.h"

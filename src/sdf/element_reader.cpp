@@ -5,26 +5,6 @@
 #include <cmath>
 
 namespace roboss::sdf_import {
-namespace {
-
-bool is_space(char c) {
-    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
-}
-
-}  // namespace
-
-std::vector<std::string_view> words_of(std::string_view text) {
-    std::vector<std::string_view> words;
-    std::size_t at = 0;
-    while (at < text.size()) {
-        while (at < text.size() && is_space(text[at])) ++at;
-        const std::size_t start = at;
-        while (at < text.size() && !is_space(text[at])) ++at;
-        if (at > start) words.push_back(text.substr(start, at - start));
-    }
-    return words;
-}
-
 /// libsdformat takes the number at the start of a word and leaves the rest.
 std::optional<double> number_at_start(std::string_view text) {
     while (!text.empty() && !std::isdigit(static_cast<unsigned char>(text.back())) && text.back() != '.')

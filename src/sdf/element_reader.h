@@ -21,13 +21,6 @@ enum class Finite { kRequired, kInfinityAllowed };
 /// The number that a text begins with, whatever follows it; nullopt: none.
 std::optional<double> number_at_start(std::string_view text);
 
-/// The words of a text between white space.
-std::vector<std::string_view> words_of(std::string_view text);
-inline std::vector<std::string_view> words_of(const char* text) {
-    return words_of(std::string_view(text));
-}
-std::vector<std::string_view> words_of(std::string&& text) = delete;  // the words would outlive it
-
 class ElementReader {
   public:
     explicit ElementReader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}

@@ -9,9 +9,9 @@
 #include <fstream>
 #include <map>
 #include <optional>
-#include <pugixml.hpp>
 #include <set>
 #include <sstream>
+#include "xml/source_file.h"
 
 #include "sdf/parameter_reader.h"
 

@@ -1,8 +1,8 @@
 // See event_conversion.h.
 #include "sdf/event_conversion.h"
 
-#include <pugixml.hpp>
 #include <utility>
+#include "xml/source_file.h"
 
 #include "sdf/board_builder.h"
 

@@ -60,7 +60,7 @@ const SourceFile* IncludeStore::file_of(const Element& include) {
     }
     const auto [entry, is_new] = files_.try_emplace(*found.path);
     if (is_new) {
-        auto file = SourceFile::read(*found.path, diagnostics_);
+        auto file = read_source(*found.path, diagnostics_);
         if (file && std::string(file->root().name()) == "robot") file = urdf_to_sdf(*file, diagnostics_);
         if (file && !first_model(*file)) {
             // model://sun is in nearly every world of Gazebo's older version: a file with a light.

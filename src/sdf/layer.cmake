@@ -1,7 +1,6 @@
-# libsdformat knows SDFormat's versions and frame semantics; pugixml does the fast pass. Neither shows in load_world.h.
-find_package(pugixml REQUIRED)
+# libsdformat knows SDFormat's versions and frame semantics. It does not show in load_world.h.
 find_package(sdformat12 REQUIRED)
-target_link_libraries(roboss_sdf PRIVATE pugixml::pugixml sdformat12::sdformat12)
+target_link_libraries(roboss_sdf PRIVATE sdformat12::sdformat12)
 # libsdformat's headers hold a std::regex; with a sanitizer g++ 12 takes its parts for uninitialised (GCC bug 105562).
 if(ROBOSS_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set_source_files_properties(

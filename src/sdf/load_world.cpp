@@ -5,6 +5,8 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "mjcf/load_mjcf.h"
+#include "sdf/actor_conversion.h"
 #include "sdf/crumb_conversion.h"
 #include "sdf/environment.h"
 #include "sdf/event_conversion.h"
@@ -48,10 +50,9 @@ class WorldLoader {
           diagnostics_(diagnostics),
           profile_(options.profile) {}
 
-    /// `file`: nullptr if it could not be read.
     std::optional<World> load(std::unique_ptr<SourceFile> file) {
         file_ = std::move(file);
-        if (file_ && std::string(file_->root().name()) == "robot") file_ = urdf_to_sdf(*file_, diagnostics_);
+        if (std::string(file_->root().name()) == "robot") file_ = urdf_to_sdf(*file_, diagnostics_);
         if (!file_) return std::nullopt;
         const auto world = find_world();
         if (!world) return std::nullopt;
@@ -89,8 +90,8 @@ class WorldLoader {
         if (std::string(root.node.name()) != "sdf") {
             diagnostics_.error(root.where(), "not-sdf",
                                "the file begins with <" + std::string(root.node.name()) +
-                                   ">; it is neither SDFormat nor URDF",
-                               "Give a file whose root element is <sdf> or <robot>.");
+                                   ">; it is neither SDFormat, URDF nor MJCF",
+                               "Give a file whose root element is <sdf>, <robot> or <mujoco>.");
             return std::nullopt;
         }
         check_version(*file_, diagnostics_);
@@ -202,6 +203,15 @@ class WorldLoader {
     std::vector<std::size_t> distinct_of_;  // by placement
 };
 
+/// `file`: nullptr if it could not be read.
+std::optional<World> load(std::unique_ptr<SourceFile> file, const LoadOptions& options, Diagnostics& found) {
+    if (!file) return std::nullopt;
+    if (std::string(file->root().name()) == "mujoco")
+        return load_mjcf(std::move(file), {options.search_paths, options.looks}, found);
+    make_models_of_actors(file->root());
+    return WorldLoader(options, found).load(std::move(file));
+}
+
 /// Findings that say the same in the same file become one, with their number and the first line.
 void add_grouped(const Diagnostics& found, Diagnostics& out) {
     std::map<std::tuple<Severity, std::string, std::string, std::string, bool>, std::size_t> count;
@@ -224,7 +234,7 @@ void add_grouped(const Diagnostics& found, Diagnostics& out) {
 std::optional<World> load_world(const std::string& file, const LoadOptions& options,
                                 Diagnostics& diagnostics) {
     Diagnostics found;
-    auto world = WorldLoader(options, found).load(SourceFile::read(file, found));
+    auto world = load(SourceFile::read(file, found), options, found);
     add_grouped(found, diagnostics);
     return world;
 }
@@ -232,7 +242,7 @@ std::optional<World> load_world(const std::string& file, const LoadOptions& opti
 std::optional<World> load_world_text(const std::string& text, const std::string& name,
                                      const LoadOptions& options, Diagnostics& diagnostics) {
     Diagnostics found;
-    auto world = WorldLoader(options, found).load(SourceFile::from_text(name, text, {}, found));
+    auto world = load(SourceFile::from_text(name, text, {}, found), options, found);
     add_grouped(found, diagnostics);
     return world;
 }

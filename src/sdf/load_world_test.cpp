@@ -31,6 +31,20 @@ TEST(LoadWorld, ReadsAModelWithItsPlaceInTheWorld) {
     EXPECT_EQ(loaded.world->prototypes[0].links[0].mass, 2.0);
 }
 
+TEST(LoadWorld, ReadsMjcfByItsRootElement) {
+    const std::string text =
+        "<mujoco model='m'>\n<worldbody><body name='b'><freejoint/>\n<geom size='.1' "
+        "oops='1'/></body></worldbody>"
+        "</mujoco>";
+    const Loaded loaded = load_text(text, "robot.xml");
+    ASSERT_TRUE(loaded.world) << loaded.text();
+    EXPECT_EQ(loaded.world->instances.at(0).name, "b");
+    ASSERT_NE(loaded.find("unknown-attribute"), nullptr) << loaded.text();
+    EXPECT_EQ(loaded.find("unknown-attribute")->where.line, 3);
+    Diagnostics diagnostics;
+    EXPECT_TRUE(load_world_text(text, "<text>", {}, diagnostics));
+}
+
 TEST(LoadWorld, ReadsTextAsAFileOfThatName) {
     Diagnostics diagnostics;
     const std::string text = "<sdf version='1.9'><model name='m'>\n<oops/>" + link("a") + "</model></sdf>";

@@ -100,17 +100,17 @@ void report_newer_elements(const Element& model, Diagnostics& diagnostics) {
 void check_version(const SourceFile& file, Diagnostics& diagnostics) {
     const SourceLocation where = file.where(file.root());
     const std::string written = file.root().attribute("version").value();
-    if (file.version() == 0) {
+    if (version_of(file) == 0) {
         diagnostics.warning(where, "no-version",
                             "<sdf> has " +
                                 (written.empty() ? "no version" : "the version '" + written + "'") +
                                 "; the file is read as 1.9",
                             "Write <sdf version=\"1.9\">, or the version that the file was made for.");
-    } else if (file.version() < kOldestVersion) {
+    } else if (version_of(file) < kOldestVersion) {
         diagnostics.warning(where, "old-version",
                             "SDFormat " + written + " is older than 1.4, the oldest that is supported",
                             "Convert it with: gz sdf -p FILE.");
-    } else if (file.version() > kNewestKnownHere) {
+    } else if (version_of(file) > kNewestKnownHere) {
         diagnostics.warning(where, "newer-version",
                             "SDFormat " + written + " is newer than 1.12; elements it adds may be missed",
                             "Look through the other diagnostics; elements that are not known are reported.");

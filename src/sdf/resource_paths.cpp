@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <pugixml.hpp>
+#include "xml/source_file.h"
 
 #include "sdf/fuel_cache.h"
 #include "sdf/source_file.h"

@@ -72,7 +72,7 @@ class Writer {
 
     void top_model(const Element& model, TopPose pose) {
         const bool keep = pose == TopPose::kKept;
-        const std::string version = libsdformat_version(model.source->version());
+        const std::string version = libsdformat_version(version_of(*model.source));
         out_.head = "<sdf version=\"" + version + "\"><model name=\"" + escaped(model.name()) + "\"";
         out_.lines.push_back(model);
         for (const auto attribute : model.node.attributes()) {

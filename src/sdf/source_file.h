@@ -1,57 +1,24 @@
-// SourceFile: one XML file as read by pugixml, with line numbers. Every element that a diagnostic may name is
-// an Element: a node and the file it stands in.
+// SDFormat files as the importer reads them: xml::SourceFile, with actors made models.
 #pragma once
 
 #include <memory>
-#include <pugixml.hpp>
 #include <string>
-#include <vector>
 
-#include "core/diagnostics.h"
+#include "xml/source_file.h"
 
 namespace roboss::sdf_import {
+
+using xml::Element;
+using xml::SourceFile;
+using xml::words_of;
 
 /// SDFormat versions as major * 100 + minor: 1.6 is 106, 1.12 is 112. 0: unknown.
 int parse_version(const std::string& text);
 
-class SourceFile {
-  public:
-    /// Reads and parses a file; a malformed or missing one gives an error and nullptr.
-    static std::unique_ptr<SourceFile> read(const std::string& path, Diagnostics& diagnostics);
+/// The version that the root element names.
+int version_of(const SourceFile& file);
 
-    /// Parses text that was made from `path` (an SDF from a URDF); `lines[i]` is the line of `path` behind
-    /// line i + 1 of the text.
-    static std::unique_ptr<SourceFile> from_text(const std::string& path, std::string text,
-                                                 std::vector<int> lines, Diagnostics& diagnostics);
-
-    const std::string& path() const { return path_; }
-    std::string folder() const;
-    pugi::xml_node root() const { return document_.document_element(); }
-    int version() const { return version_; }
-
-    int line(pugi::xml_node node) const;
-    SourceLocation where(pugi::xml_node node) const { return {path_, line(node)}; }
-
-  private:
-    bool parse(std::string text, Diagnostics& diagnostics);
-    int line_of_offset(std::ptrdiff_t offset) const;
-
-    std::string path_;
-    pugi::xml_document document_;
-    std::vector<std::size_t> line_starts_;
-    std::vector<int> line_map_;  // empty: identity
-    int version_ = 0;
-};
-
-struct Element {
-    const SourceFile* source = nullptr;
-    pugi::xml_node node;
-
-    explicit operator bool() const { return source != nullptr && static_cast<bool>(node); }
-    Element child(const char* name) const { return {source, node.child(name)}; }
-    SourceLocation where() const { return source ? source->where(node) : SourceLocation{}; }
-    std::string name() const { return node.attribute("name").value(); }
-    std::string text(const char* child_name) const { return node.child(child_name).text().get(); }
-};
+/// Reads a file that a world includes; one that is malformed or missing gives an error and nullptr.
+std::unique_ptr<SourceFile> read_source(const std::string& path, Diagnostics& diagnostics);
 
 }  // namespace roboss::sdf_import

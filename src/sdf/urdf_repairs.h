@@ -3,8 +3,8 @@
 #pragma once
 
 #include <map>
-#include <pugixml.hpp>
 #include <string>
+#include "xml/source_file.h"
 
 #include "core/diagnostics.h"
 #include "sdf/source_file.h"

@@ -130,7 +130,8 @@ class ModelCheck {
 
     void check_joint(const JointSpec& joint) {
         const std::string name = named("joint", joint.name);
-        if (!names_.insert(joint.name).second) {
+        auto& taken = model_.shared_names ? joints_ : names_;
+        if (!taken.insert(joint.name).second) {
             diagnostics_.error(joint.where, "duplicate-name",
                                name + ": the model has two links or joints of that name",
                                "Give each a name of its own.");
@@ -150,8 +151,8 @@ class ModelCheck {
             diagnostics_.error(joint.where, "bad-pitch", name + " has a thread without pitch",
                                "Write <screw_thread_pitch> in metres a turn, other than 0.");
         }
-        if (!(joint.ball_damping >= 0)) {
-            diagnostics_.error(joint.where, "bad-dynamics", name + " has a negative damping",
+        if (!(joint.ball_damping >= 0) || !(joint.ball_armature >= 0)) {
+            diagnostics_.error(joint.where, "bad-dynamics", name + " has a negative damping or armature",
                                "Write values of at least 0.");
         }
         if (joint.axes.size() == 3 &&

@@ -172,7 +172,10 @@ struct LinkSpec {
     std::vector<VisualSpec> visuals;        ///< shapes that are drawn
     std::vector<SensorSpec> sensors;        ///< sensors that it carries
     std::vector<LightSpec> lights;          ///< lights that move with it
-    SourceLocation where;                   ///< of the element
+    /// It only stands between two joints of one body of the file (MJCF): it has no mass and no shapes, and
+    /// gets none.
+    bool between_joints = false;
+    SourceLocation where;  ///< of the element
 };
 
 /// The types and what each means: world/joint_type.h. Zero is a fixed joint.
@@ -224,14 +227,19 @@ struct AxisSpec {
 
 /// A joint between two links (SDF and URDF `<joint>`), or a gearbox between two joints.
 struct JointSpec {
-    std::string name;            ///< unique in its model
-    JointSpecKind kind{};        ///< its type, e.g. revolute; default: fixed
-    std::string parent;          ///< link name or "world"
-    std::string child;           ///< link name
-    Pose X_MJ;                   ///< joint frame in the model frame, all joints at zero
+    std::string name;      ///< unique in its model
+    JointSpecKind kind{};  ///< its type, e.g. revolute; default: fixed
+    std::string parent;    ///< link name or "world"
+    std::string child;     ///< link name
+    Pose X_MJ;             ///< joint frame in the model frame, all joints at zero
+    /// The joint frame as the child carries it, if that is not X_MJ when all joints are at zero; of loops
+    /// only.
+    std::optional<Pose> X_MJ_child{};
+    bool closes_loop = false;    ///< it is never one of the tree's joints (MJCF equalities)
     std::vector<AxisSpec> axes;  ///< as JointType::axes
     double screw_pitch = 0;      ///< of a screw: m per radian
-    double ball_damping = 0;     ///< of a ball: N m s/rad, in all directions
+    double ball_damping = 0,     ///< of a ball: N m s/rad, in all directions
+        ball_armature = 0;       ///< of a ball: kg m^2, rotor inertia in all directions
     /// Gearbox: angle of the child against the reference link = -ratio * angle of the parent against it.
     double gearbox_ratio = 1;
     std::string gearbox_reference;  ///< link name or "world"
@@ -266,11 +274,14 @@ struct FrameSpec {
 
 /// A model (SDF `<model>`, URDF `<robot>`) with its nested models merged into it; poses at joint zero.
 struct ModelSpec {
-    std::string name;                          ///< of the first instance; for messages
-    bool is_static = false;                    ///< SDF `<static>`: scenery that never moves
-    bool kinematic = false;                    ///< goes where its controller says, whatever touches it
-    bool self_collide = false;                 ///< SDF `<self_collide>`: its links touch each other
-    bool may_sleep = true;                     ///< SDF allow_auto_disable
+    std::string name;           ///< of the first instance; for messages
+    bool is_static = false;     ///< SDF `<static>`: scenery that never moves
+    bool kinematic = false;     ///< goes where its controller says, whatever touches it
+    bool self_collide = false;  ///< SDF `<self_collide>`: its links touch each other
+    bool may_sleep = true;      ///< SDF allow_auto_disable
+    bool shared_names = false;  ///< a joint may have the name of a link (MJCF)
+    /// Pairs of links that do not touch each other even so (MJCF `<exclude>`).
+    std::vector<std::pair<std::string, std::string>> no_contact{};
     std::string canonical_link;                ///< name of the link that the model frame is fixed to
     std::vector<LinkSpec> links;               ///< in the order of the file
     std::vector<JointSpec> joints;             ///< in the order of the file

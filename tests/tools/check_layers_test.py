@@ -35,7 +35,7 @@ class CheckLayers(unittest.TestCase):
         self.refuses({"src/sdf/a.cpp": '\n#include "sensors/b.h"\n', "src/sensors/b.h": ""}, "src/sdf/a.cpp:2")
 
     def test_refuses_an_external_library_outside_its_layer(self):
-        self.refuses({"src/math/a.cpp": "#include <pugixml.hpp>\n"}, "<pugixml.hpp> belongs in sdf only")
+        self.refuses({"src/math/a.cpp": "#include <pugixml.hpp>\n"}, "<pugixml.hpp> belongs in xml only")
 
     def test_refuses_a_library_that_nobody_listed(self):
         self.refuses({"src/core/a.cpp": "#include <curl/curl.h>\n"}, "<curl/curl.h> is not known")

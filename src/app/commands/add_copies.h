@@ -14,7 +14,7 @@ struct CopyOptions {
     std::string poses;  // a file of lines "NAME x y z roll pitch yaw"; empty: none
     std::string pose;   // of the first copy: "x y z roll pitch yaw"
     std::string name;   // copies are called NAME_0, NAME_1 ...; empty: by the file
-    std::string file;   // SDF or URDF
+    std::string file;   // SDF, URDF or MJCF
 };
 
 /// Lines "NAME x y z roll pitch yaw" for each copy (client/control_text.h). Errors: bad-grid, bad-pose,

@@ -25,7 +25,7 @@ constexpr const char* kHelp =
     "Reads a world without running it. Prints the numbers of robots, links, joints, shapes and sensors, the\n"
     "commands that the robots take, what becomes of each <plugin>, and all errors, warnings and unsupported\n"
     "elements, each with file, line and remedy.\n"
-    "WORLD is an SDFormat file (1.4 to 1.12) or a URDF file.\n\n"
+    "WORLD is an SDFormat file (1.4 to 1.12), a URDF file, or an MJCF file (MuJoCo).\n\n"
     "Exit codes: 0 no errors (warnings and notes allowed), 1 errors: `roboss run` leaves out the models that "
     "have\n"
     "them, or refuses the world if no other model is left; also a file that cannot be read; 2 wrong usage.\n"
@@ -262,7 +262,7 @@ void add_check_command(CLI::App& app, int& exit_code) {
     CLI::App* command =
         app.add_subcommand("check", "report what a world file holds and what is wrong with it");
     command->footer(kHelp);
-    command->add_option("world", options->worlds, "world files: SDFormat or URDF")
+    command->add_option("world", options->worlds, "world files: SDFormat, URDF or MJCF")
         ->required()
         ->type_name("WORLD");
     command

@@ -175,9 +175,9 @@ void add_changes(CLI::App& command, ControlCommandOptions& o, const Ask& ask, in
     sub->add_option("name", o.name, "name of the copy")->required();
     sub->add_option("--pose", o.pose, "\"x y z roll pitch yaw\" of the copy, m and rad")->required();
     sub->callback([&o, ask] { ask({"copy", o.value, o.name, o.pose}); });
-    sub = command.add_subcommand("add", "add the models of an SDF or URDF file to the world");
+    sub = command.add_subcommand("add", "add the models of an SDF, URDF or MJCF file to the world");
     sub->add_option("file", o.value,
-                    "SDF or URDF file; its meshes are looked up on the Controller's computer")
+                    "SDF, URDF or MJCF file; its meshes are looked up on the Controller's computer")
         ->required();
     sub->add_option("--pose", o.pose, "\"x y z roll pitch yaw\", m and rad")->capture_default_str();
     sub->add_option("--name", o.name, "name in the world (default: the name in the file)");

@@ -211,7 +211,7 @@ void add_kept_options(CLI::App& command, RunOptions& o) {
 }
 
 void add_common_options(CLI::App& command, RunOptions& o) {
-    command.add_option("world", o.world, "the world: an SDF or URDF file")->required();
+    command.add_option("world", o.world, "the world: an SDF, URDF or MJCF file")->required();
     command.add_option("--path", o.paths,
                        "folder in which model:// and package:// URIs are looked up (may be repeated)");
     command.add_flag("--strict", o.strict,

@@ -1,0 +1,122 @@
+// An actuator's force law in the joint's own coordinate: kp and kv times gear^2, bounds times gear. Several
+// actuators of a joint add up, as a position and a velocity servo often do.
+#include "mjcf/actuators.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mjcf/drive.h"
+#include "mjcf/reflected_inertia.h"
+
+namespace roboss::mjcf {
+namespace {
+
+class ActuatorReader {
+  public:
+    ActuatorReader(Robots& robots, const Reading& reading) : robots_(robots), r_(reading) {}
+
+    void read() {
+        std::vector<Driven> driven;
+        for (const Element& element : r_.document.in_sections("actuator"))
+            if (auto found = read_one(element)) driven.push_back(std::move(*found));
+        for (const Driven& d : driven)  // before damping ratios, which depend on rotors
+            d.axis->armature += d.drive.gear * d.drive.gear * d.drive.armature;
+        for (const Driven& d : driven) set_motor(d);
+    }
+
+  private:
+    struct Driven {
+        Attributes source;
+        Drive drive;
+        Tree::JointPlace place;
+        AxisSpec* axis = nullptr;
+    };
+
+    std::optional<Driven> read_one(const Element& element) {
+        const Attributes source({element}, r_.diagnostics);
+        if (!element.node.attribute("joint") && !element.node.attribute("jointinparent"))
+            return no_effect(source, "an actuator that drives no joint (but a tendon, site, body or crank)",
+                             "Drive the joints themselves.");
+        const std::string name = source.text("joint", source.text("jointinparent"));
+        const auto place = robots_.tree().find_joint(name);
+        if (!place) {
+            r_.report_unknown(source.where(), "unknown-joint",
+                              "an actuator names the joint '" + name + "', which the file does not have",
+                              "Check the name.");
+            return std::nullopt;
+        }
+        JointSpec* joint = robots_.joint_of(*place);
+        if (joint == nullptr || joint->axes.empty())
+            return no_effect(source, "an actuator of a ball or free joint", "Write several hinges instead.");
+        Drive drive;
+        for (const Element& set : r_.defaults.actuator_defaults(element))
+            drive.apply({{set}, r_.diagnostics});
+        drive.known = true;
+        drive.apply(source);
+        if (!drive.known || (drive.gain_type != "fixed" && drive.gain_type != "affine") ||
+            (drive.bias_type != "none" && drive.bias_type != "affine"))
+            return no_effect(source, "an actuator that is no motor, position, velocity or affine general one",
+                             "Use one of these.");
+        return Driven{source, drive, *place, joint->axes.data()};
+    }
+
+    std::nullopt_t no_effect(const Attributes& source, const std::string& what,
+                             const std::string& remedy) const {
+        r_.diagnostics.warning(source.where(), "ignored-actuator", what + " has no effect", remedy);
+        return std::nullopt;
+    }
+
+    void set_motor(const Driven& driven) {
+        const Drive& drive = driven.drive;
+        AxisSpec& axis = *driven.axis;
+        const double gear = drive.gear, gear2 = gear * gear;
+        if (r_.settings.dampers) axis.damping += gear2 * drive.damping;
+        if (!r_.settings.actuation) return;
+        report_rest(driven);
+        const bool biased = drive.bias_type == "affine";
+        double speed_gain = biased ? drive.bias[2] : 0;
+        const double kp = biased ? -drive.bias[1] : 0;
+        if (speed_gain > 0 && drive.gain[0] == kp)  // a damping ratio
+            speed_gain = -speed_gain * 2 * std::sqrt(kp * reflected_inertia(robots_, driven.place) / gear2);
+        axis.position_gain += std::max(0.0, kp) * gear2;
+        axis.velocity_gain += std::max(0.0, -speed_gain) * gear2;
+        set_bound(drive, kp > 0 || speed_gain < 0, axis);
+    }
+
+    /// The largest force at the joint.
+    void set_bound(const Drive& drive, bool is_servo, AxisSpec& axis) const {
+        double bound = -1;
+        const auto take = [&](const double(&range)[2], double factor) {
+            const double most = std::max(std::fabs(range[0]), std::fabs(range[1])) * std::fabs(factor);
+            bound = bound < 0 ? most : std::min(bound, most);
+        };
+        if (drive.forces_limited(r_.settings.autolimits)) take(drive.force_range, drive.gear);
+        if (!is_servo && drive.controls_limited(r_.settings.autolimits))
+            take(drive.control_range, drive.gear * drive.gain[0]);
+        if (bound < 0) return;
+        axis.max_effort = axis.max_effort < 0 ? bound : std::min(axis.max_effort, bound);
+    }
+
+    void report_rest(const Driven& driven) const {
+        const Drive& drive = driven.drive;
+        const auto note = [&](const std::string& what) {
+            r_.diagnostics.note(driven.source.where(), "ignored-attribute",
+                                what + " of an actuator has no effect", "Do it in the control program.");
+        };
+        if (drive.dynamics != "none") note("the filter or integrator (dyntype, timeconst)");
+        if (drive.bias_type == "affine" && drive.bias[0] != 0) note("the constant force (biasprm)");
+        if (drive.gain_type == "affine" && (drive.gain[1] != 0 || drive.gain[2] != 0))
+            note("a gain that depends on position or velocity (gainprm)");
+    }
+
+    Robots& robots_;
+    const Reading& r_;
+};
+
+}  // namespace
+
+void read_actuators(Robots& robots, const Reading& reading) {
+    ActuatorReader(robots, reading).read();
+}
+
+}  // namespace roboss::mjcf

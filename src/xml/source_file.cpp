@@ -1,0 +1,139 @@
+// Reads XML files and finds the line of a node from its offset in the text.
+#include "xml/source_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/similar.h"
+
+namespace roboss::xml {
+
+namespace {
+
+constexpr int kDeepest = 100;  // tinyxml2, inside libsdformat, refuses more; no world comes near it
+
+bool is_space(char c) {
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
+}
+
+/// The first node that lies too deep for recursive reading, if any.
+pugi::xml_node too_deep(pugi::xml_node root) {
+    int depth = 0;
+    pugi::xml_node node = root;
+    while (node) {
+        if (node.first_child()) {
+            node = node.first_child();
+            if (++depth > kDeepest) return node;
+            continue;
+        }
+        while (node != root && !node.next_sibling()) {
+            node = node.parent();
+            --depth;
+        }
+        if (node == root) break;
+        node = node.next_sibling();
+    }
+    return {};
+}
+
+/// What to do about a file that cannot be read: the file of the folder that was probably meant.
+std::string remedy_for(const std::string& path) {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    const fs::path wanted(path), folder = wanted.has_parent_path() ? wanted.parent_path() : fs::path(".");
+    if (!fs::exists(folder, error)) return "There is no folder '" + folder.string() + "'; check the path.";
+    std::vector<std::string> names;
+    if (!fs::exists(wanted, error))
+        for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+            names.push_back(at->path().filename().string());
+    std::ranges::sort(names);
+    const std::string similar = similar_to(wanted.filename().string(), names);
+    if (similar.empty()) return "Check the path and the permissions.";
+    return "Did you mean '" + (wanted.parent_path() / similar).string() + "'?";
+}
+
+}  // namespace
+
+std::vector<std::string_view> words_of(std::string_view text) {
+    std::vector<std::string_view> words;
+    std::size_t at = 0;
+    while (at < text.size()) {
+        while (at < text.size() && is_space(text[at])) ++at;
+        const std::size_t start = at;
+        while (at < text.size() && !is_space(text[at])) ++at;
+        if (at > start) words.push_back(text.substr(start, at - start));
+    }
+    return words;
+}
+
+std::unique_ptr<SourceFile> SourceFile::read(const std::string& path, Diagnostics& diagnostics) {
+    std::error_code ignored;
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream || std::filesystem::is_directory(path, ignored)) {
+        diagnostics.error({path, 0}, "cannot-read", "the file '" + path + "' cannot be read",
+                          remedy_for(path));
+        return nullptr;
+    }
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return from_text(path, std::move(text).str(), {}, diagnostics);
+}
+
+std::unique_ptr<SourceFile> SourceFile::from_text(const std::string& path, std::string text,
+                                                  std::vector<int> lines, Diagnostics& diagnostics) {
+    auto file = std::make_unique<SourceFile>();
+    file->path_ = path;
+    file->line_map_ = std::move(lines);
+    if (!file->parse(std::move(text), diagnostics)) return nullptr;
+    return file;
+}
+
+bool SourceFile::parse(std::string text, Diagnostics& diagnostics) {
+    line_starts_.push_back(0);
+    for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1)) {
+        line_starts_.push_back(at + 1);
+    }
+    const auto result =
+        document_.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_trim_pcdata);
+    if (!result) {
+        const int line = line_of_offset(result.offset);
+        const auto column =
+            result.offset - static_cast<std::ptrdiff_t>(line_starts_[static_cast<std::size_t>(line - 1)]) + 1;
+        diagnostics.error({path_, line}, "malformed-xml",
+                          "the XML is malformed at line " + std::to_string(line) + ", column " +
+                              std::to_string(column) + ": " + result.description(),
+                          "Check that every tag that is opened is closed, and that the file is complete.");
+        return false;
+    }
+    if (const auto node = too_deep(root())) {
+        diagnostics.error({path_, line(node.parent())}, "too-deep",
+                          "elements are nested more than " + std::to_string(kDeepest) + " deep",
+                          "Flatten the file; nested models rarely need more than a few levels.");
+        return false;
+    }
+    return true;
+}
+
+std::string SourceFile::folder() const {
+    return std::filesystem::path(path_).parent_path().string();
+}
+
+int SourceFile::line(pugi::xml_node node) const {
+    const int line = line_of_offset(node.offset_debug());
+    if (line_map_.empty() || line == 0) return line;
+    const auto index = static_cast<std::size_t>(line - 1);
+    return index < line_map_.size() ? line_map_[index] : 0;
+}
+
+int SourceFile::line_of_offset(std::ptrdiff_t offset) const {
+    if (offset < 0) return 0;
+    const auto after =
+        std::upper_bound(line_starts_.begin(), line_starts_.end(), static_cast<std::size_t>(offset));
+    return static_cast<int>(after - line_starts_.begin());
+}
+
+}  // namespace roboss::xml
