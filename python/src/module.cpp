@@ -4,6 +4,7 @@
 
 NB_MODULE(_core, module) {
     module.doc() = "The C++ side of the package roboss; programs use roboss itself.";
+    roboss_python::bind_view(module);
     roboss_python::bind_world(module);
     roboss_python::bind_simulation(module);
     roboss_python::bind_batch(module);

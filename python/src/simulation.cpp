@@ -15,6 +15,7 @@
 #include <tuple>
 
 #include "bindings.h"
+#include "looks.h"
 #include "roboss/math/array_rows.h"
 #include "roboss/model/edit.h"
 
@@ -64,10 +65,11 @@ nb::ndarray<nb::numpy, std::uint8_t> contacts(const std::shared_ptr<Simulation>&
 
 void step(const std::shared_ptr<Simulation>& simulation, Tick ticks) {
     LocalRun& run = simulation->run();
-    step_in_parts(ticks, [&](Tick part) {
+    const auto step_part = [&](Tick part) {
         const Result<> stepped = without_gil({simulation}, [&] { return run.step(part); });
         if (!stepped) raise("StateError", stepped.error());
-    });
+    };
+    step_in_parts(ticks, step_part, simulation->viewed() ? kViewedPart_s : kPart_s);
 }
 
 std::string hash_of(Simulation& simulation) {
@@ -144,6 +146,13 @@ void bind_simulation(nb::module_& module) {
         .def(
             "reset", [](Simulation& s, std::optional<std::uint64_t> seed) { s.run().reset(seed); },
             nb::arg("seed").none())
+        .def(
+            "show_in",
+            [](Simulation& s, std::shared_ptr<LocalView> view, const LooksOf& looks) {
+                s.show_in(std::move(view), looks.worlds);
+            },
+            nb::arg("view").none(), nb::arg("looks"))
+        .def("turn_view", &Simulation::turn_view)
         .def("spawn", &spawn, nb::arg("addition"), nb::arg("names"), nb::arg("poses"))
         .def("remove", &remove, nb::arg("names"))
         .def(

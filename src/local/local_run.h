@@ -53,9 +53,10 @@ class LocalRun : private SensorSources {
     Tick tick() const { return tick_; }  ///< the world is at its beginning
     /// Simulated time since the start of the world, s.
     double time_s() const { return static_cast<double>(tick_) * model_->dt_s; }
-    const Model& model() const { return *model_; }              ///< the compiled world
-    std::uint64_t seed() const { return seed_; }                ///< of sensor noise
-    std::size_t threads() const { return stepper_.threads(); }  ///< that step
+    const Model& model() const { return *model_; }                               ///< the compiled world
+    const std::shared_ptr<const Model>& shared_model() const { return model_; }  ///< the same
+    std::uint64_t seed() const { return seed_; }                                 ///< of sensor noise
+    std::size_t threads() const { return stepper_.threads(); }                   ///< that step
     /// Hash of the model and all states, as `roboss run` reports it.
     std::uint64_t hash() const;
     /// The robot's state at tick(); the robot must exist.
