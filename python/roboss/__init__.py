@@ -16,6 +16,7 @@ all arrays. The result is the same to the last bit for any number of threads, an
 """
 from ._core import Diagnostic, Save
 from .batch import Batch
+from .builder import ModelBuilder, WorldBuilder
 from .errors import (ArgumentError, JournalError, OrderError, RobossError, SaveError, SensorError, StateError,
                      UnknownNameError, ViewError, WorldError, WorldWarning)
 from .journal import Journal
@@ -30,7 +31,7 @@ from .world import World, example, load
 __version__ = "0.1.0"
 __all__ = [
     "ArgumentError", "Batch", "CONTACT", "CartesianTrajectory", "Diagnostic", "Follower", "IKSolution",
-    "JointTrajectory", "Journal", "JournalError", "OrderError", "RobossError", "RobotModel", "Robots", "Save",
-    "SaveError", "Sensor", "SensorError", "Simulation", "StateError", "UnknownNameError", "View", "ViewError", "World", "WorldError",
-    "WorldWarning", "ctraj", "example", "jtraj", "load",
+    "JointTrajectory", "Journal", "JournalError", "ModelBuilder", "OrderError", "RobossError", "RobotModel",
+    "Robots", "Save", "SaveError", "Sensor", "SensorError", "Simulation", "StateError", "UnknownNameError", "View",
+    "ViewError", "World", "WorldBuilder", "WorldError", "WorldWarning", "ctraj", "example", "jtraj", "load",
 ]

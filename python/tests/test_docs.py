@@ -8,10 +8,10 @@ import pytest
 
 import roboss
 from conftest import REPOSITORY
-from roboss import batch, envs, kinematics, robots, sensors, simulation, trajectories, view, world
+from roboss import batch, builder, envs, kinematics, robots, sensors, simulation, trajectories, view, world
 from roboss.envs import city, city_driver, parallel, soccer
 
-MODULES = [roboss, batch, world, simulation, robots, sensors, kinematics, trajectories, view]
+MODULES = [roboss, batch, builder, world, simulation, robots, sensors, kinematics, trajectories, view]
 MODULES += [envs, city, city_driver, parallel, soccer]
 
 BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
