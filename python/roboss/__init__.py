@@ -16,11 +16,13 @@ all arrays. The result is the same to the last bit for any number of threads, an
 """
 from ._core import Diagnostic, Save
 from .batch import Batch
+from .camera import Camera
 from .builder import ModelBuilder, WorldBuilder
-from .errors import (ArgumentError, JournalError, OrderError, RobossError, SaveError, SensorError, StateError,
+from .errors import (ArgumentError, ClusterError, JournalError, OrderError, RobossError, SaveError, SensorError, StateError,
                      UnknownNameError, ViewError, WorldError, WorldWarning)
 from .journal import Journal
 from .kinematics import Follower, IKSolution, RobotModel
+from .remote import RemoteSimulation, connect
 from .robots import Robots
 from .sensors import Sensor
 from .simulation import CONTACT, Simulation
@@ -30,8 +32,8 @@ from .world import World, example, load
 
 __version__ = "0.1.0"
 __all__ = [
-    "ArgumentError", "Batch", "CONTACT", "CartesianTrajectory", "Diagnostic", "Follower", "IKSolution",
-    "JointTrajectory", "Journal", "JournalError", "ModelBuilder", "OrderError", "RobossError", "RobotModel",
+    "ArgumentError", "Batch", "CONTACT", "Camera", "CartesianTrajectory", "ClusterError", "Diagnostic", "Follower", "IKSolution",
+    "JointTrajectory", "Journal", "JournalError", "ModelBuilder", "OrderError", "RobossError", "RemoteSimulation", "RobotModel",
     "Robots", "Save", "SaveError", "Sensor", "SensorError", "Simulation", "StateError", "UnknownNameError", "View",
-    "ViewError", "World", "WorldBuilder", "WorldError", "WorldWarning", "ctraj", "example", "jtraj", "load",
+    "ViewError", "World", "WorldBuilder", "WorldError", "WorldWarning", "connect", "ctraj", "example", "jtraj", "load",
 ]

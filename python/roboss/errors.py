@@ -60,6 +60,10 @@ class ViewError(RobossError, RuntimeError):
     """A view that cannot be opened: no port is free, the address cannot be used."""
 
 
+class ClusterError(RobossError, RuntimeError):
+    """A run on a cluster that cannot be reached, has ended, or refuses a request."""
+
+
 class StateError(RobossError, RuntimeError):
     """The world cannot be stepped further, or another thread is using it."""
 

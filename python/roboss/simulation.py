@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from .camera import Camera
 from .errors import StateError
 from .names import filled, index_of
 from .robots import Robots
@@ -256,6 +257,17 @@ class Simulation:
         if self._view is None or self._view.closed:
             self._view = View(self, port, address, role, height)
         return self._view
+
+    def camera(self, position: ArrayLike, target: ArrayLike, *, size: tuple[int, int] = (640, 480), fov: float = 1.0,
+               far: float = 200.0) -> Camera:
+        """A camera that looks from `position` to `target` (m, world), with z upwards; it needs no browser.
+
+        Args:
+            size: columns and rows of its pictures.
+            fov: angle that it sees across, rad.
+            far: nothing is seen beyond it, m.
+        """
+        return Camera(self, position, target, size, fov, far)
 
     def attach(self, holder: str, held: str, *, link: Optional[str] = None, held_link: Optional[str] = None,
                reach: float = 0.1, max_force: float = float("inf"), max_torque: float = float("inf")) -> None:

@@ -10,6 +10,8 @@ NB_MODULE(_core, module) {
     roboss_python::bind_batch(module);
     roboss_python::bind_robots(module);
     roboss_python::bind_readings(module);
+    roboss_python::bind_remote(module);
+    roboss_python::bind_camera(module);
     roboss_python::bind_journal(module);
     roboss_python::bind_kinematics(module);
 }

@@ -52,7 +52,7 @@ ContactRow row_of(const ContactReport& contact, double dt_s) {
 }
 
 nb::ndarray<nb::numpy, std::uint8_t> contacts(const std::shared_ptr<Simulation>& simulation) {
-    LocalRun& run = simulation->run();
+    RunAccess& run = simulation->access();
     const std::span<const ContactReport> all = without_gil({simulation}, [&] { return run.contacts(); });
     auto rows = std::make_unique<std::vector<ContactRow>>();
     for (const ContactReport& contact : all) rows->push_back(row_of(contact, simulation->model()->dt_s));
@@ -74,7 +74,7 @@ void step(const std::shared_ptr<Simulation>& simulation, Tick ticks) {
 
 std::string hash_of(Simulation& simulation) {
     char text[17];
-    std::snprintf(text, sizeof text, "%016" PRIx64, simulation.run().hash());
+    std::snprintf(text, sizeof text, "%016" PRIx64, simulation.access().hash());
     return text;
 }
 
@@ -84,7 +84,7 @@ Attach attach_of(std::uint32_t link, std::uint32_t other, std::uint32_t other_li
 }
 
 void order(Simulation& simulation, std::uint32_t robot, const Action& action) {
-    const Result<> given = simulation.run().order(RobotId(robot), action);
+    const Result<> given = simulation.access().order({Order{0, ClientId(0U), 0, RobotId(robot), action}});
     if (!given) raise("OrderError", given.error());
 }
 

@@ -19,26 +19,38 @@ namespace roboss_python {
 class Simulation {
   public:
     Simulation(std::shared_ptr<const roboss::Model> model, std::shared_ptr<roboss::LocalRun> run)
-        : model_(std::move(model)), run_(std::move(run)) {}
+        : model_(std::move(model)), run_(std::move(run)), access_(run_) {}
+
+    /// A run elsewhere: only what access() has can be asked.
+    Simulation(std::shared_ptr<const roboss::Model> model, std::shared_ptr<roboss::RunAccess> remote)
+        : model_(std::move(model)), access_(std::move(remote)) {}
 
     const std::shared_ptr<const roboss::Model>& model() const { return model_; }
 
-    /// The run; raises StateError while another thread is inside. The GIL must be held.
+    /// The run, stepped here; raises as access().
     roboss::LocalRun& run() {
-        if (!run_)
+        (void)access();
+        if (!run_) raise("StateError", {"the run is stepped elsewhere", "load its world here", "remote"});
+        return *run_;
+    }
+
+    /// What is asked of any run; raises StateError while another thread is inside. The GIL must be held.
+    roboss::RunAccess& access() {
+        if (!access_)
             raise("StateError", {"robots were spawned or removed since these were asked for",
                                  "ask Simulation.robots() again", "changed-world"});
         if (busy_)
             raise("StateError", {"the simulation is in use by another thread",
                                  "let one thread at a time use it, or give each its own", "busy"});
-        return *run_;
+        return *access_;
     }
 
-    /// The run goes on in another Simulation.
-    void retire() { run_.reset(); }
+    /// The run goes on in another Simulation, or without this program.
+    void retire() { run_.reset(), access_.reset(); }
 
     /// Whether a thread that does not hold the GIL is inside.
     void set_busy(bool busy) { busy_ = busy; }
+    bool busy() const { return busy_; }
 
     /// From now on `view` shows the run; null: none does.
     void show_in(std::shared_ptr<roboss::LocalView> view, roboss::Looks looks) {
@@ -52,7 +64,8 @@ class Simulation {
 
   private:
     std::shared_ptr<const roboss::Model> model_;
-    std::shared_ptr<roboss::LocalRun> run_;
+    std::shared_ptr<roboss::LocalRun> run_;  // null: stepped elsewhere, or retired
+    std::shared_ptr<roboss::RunAccess> access_;
     bool busy_ = false;
     std::shared_ptr<roboss::LocalView> view_;
     roboss::Looks looks_;
@@ -63,7 +76,7 @@ using Simulations = std::vector<std::shared_ptr<Simulation>>;
 /// Calls work() without the GIL, while the simulations are busy, and returns what it returns.
 template <class Work>
 auto without_gil(const Simulations& simulations, Work work) {
-    for (const auto& simulation : simulations) simulation->run();
+    for (const auto& simulation : simulations) (void)simulation->access();
     for (const auto& simulation : simulations) simulation->set_busy(true);
     const auto idle = [](const Simulations* busy) {
         for (const auto& simulation : *busy) simulation->set_busy(false);

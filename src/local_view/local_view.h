@@ -14,6 +14,7 @@
 
 namespace roboss {
 
+/// Where a LocalView listens, and what its pages may do.
 struct LocalViewOptions {
     std::string listen = "8090";       ///< [ADDRESS:]PORT; if the port is taken, one of those behind it
     std::string page_folder;           ///< with the page's files
