@@ -33,7 +33,7 @@ class Camera:
     >>> camera.picture().shape                 # rows, columns, red green blue
     (120, 160, 3)
     >>> float(camera.depth()[60, 80].round(1))  # m, in the middle
-    18.8
+    18.6
     """
 
     def __init__(self, simulation: Union[Simulation, RemoteSimulation], position: ArrayLike, target: ArrayLike,
