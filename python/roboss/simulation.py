@@ -8,9 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from .camera import Camera
 from .errors import StateError
 from .names import filled, index_of
 from .robots import Robots
+from .view import View
 from .world import World, load
 
 #: Fields of Simulation.contacts. Numbers of robots are places in World.robots, numbers of links places in Robots.links.
@@ -48,6 +50,8 @@ class Simulation:
     >>> sim.tick, sim.time
     (10, 0.02)
     """
+
+    _view: Optional[View] = None
 
     def __init__(self, world: Union[World, str, os.PathLike], *, threads: Optional[int] = None, seed: int = 0):
         self.world: World = world if isinstance(world, World) else load(world)  #: that it simulates
@@ -197,7 +201,8 @@ class Simulation:
         core, model, _ = self._core.spawn(addition._model, names, poses)
         frames = self.world._frames or [()] * before
         new = len(model.robots) - before
-        self._continue(core, model, [*frames, *(list(addition._frames) or [()] * new) * len(names)])
+        looks = self.world._looks.with_copies(addition._looks, addition._model, names, poses)
+        self._continue(core, model, [*frames, *(list(addition._frames) or [()] * new) * len(names)], looks)
         return Robots(self, range(before, before + new))
 
     def remove(self, robots: Union[str, Iterable[str], Robots]) -> None:
@@ -214,16 +219,55 @@ class Simulation:
         names = robots.names if isinstance(robots, Robots) else [self.world.robots[n] for n in self.world._find(robots)]
         core, model, now = self._core.remove(list(names))
         frames = [frame for frame, new in zip(self.world._frames, now) if new >= 0]
-        self._continue(core, model, frames)
+        self._continue(core, model, frames, self.world._looks)
 
     def _may_change(self) -> None:
         if self._in_batch:
             raise StateError("the simulations of a Batch are all of one world", "use a Simulation", "in-batch")
 
-    def _continue(self, core: _core.Simulation, model: _core.Model, frames: list) -> None:
+    def _continue(self, core: _core.Simulation, model: _core.Model, frames: list, looks: _core.Looks) -> None:
         """Goes on in another world."""
-        self.world = World(model, self.world.file, self.world.diagnostics, frames)
+        self.world = World(model, self.world.file, self.world.diagnostics, frames, looks)
         self._take(core)
+        if self._view is not None:
+            self._view._show()
+
+    def view(self, port: Optional[int] = None, *, address: str = "127.0.0.1", role: str = "steer",
+             height: int = 480) -> View:
+        """Shows this simulation in browsers, on the page of docs/viewer.md: what `step` does, as it is done.
+
+        The server runs in this process until View.close(), or until the simulation or the program ends. A simulation
+        has one view: a second call gives the same one. In a notebook, a cell that ends with it shows the page.
+
+        Args:
+            port: None: 8090, or the next one that is free; a number: this one, or the next one that is free.
+            address: to listen at; with another one than loopback, the `url` carries a token.
+            role: the most that a page may do: "watch" or "steer" (order robots: drag, push, set joints).
+            height: of the frame in a notebook, pixels.
+
+        Raises:
+            ViewError: it cannot listen there.
+
+        >>> sim = roboss.Simulation(roboss.example("crossroads.sdf"))
+        >>> with sim.view() as view:
+        ...     print(view.url.split(":")[0])           # open it in a browser
+        ...     sim.step(100)
+        http
+        """
+        if self._view is None or self._view.closed:
+            self._view = View(self, port, address, role, height)
+        return self._view
+
+    def camera(self, position: ArrayLike, target: ArrayLike, *, size: tuple[int, int] = (640, 480), fov: float = 1.0,
+               far: float = 200.0) -> Camera:
+        """A camera that looks from `position` to `target` (m, world), with z upwards; it needs no browser.
+
+        Args:
+            size: columns and rows of its pictures.
+            fov: angle that it sees across, rad.
+            far: nothing is seen beyond it, m.
+        """
+        return Camera(self, position, target, size, fov, far)
 
     def attach(self, holder: str, held: str, *, link: Optional[str] = None, held_link: Optional[str] = None,
                reach: float = 0.1, max_force: float = float("inf"), max_torque: float = float("inf")) -> None:

@@ -19,9 +19,10 @@ class World:
     """A compiled world: immutable, shared by all simulations of it. `load` makes one."""
 
     def __init__(self, model: _core.Model, file: str, diagnostics: tuple[_core.Diagnostic, ...],
-                 frames: Sequence[Sequence[tuple[str, int, list[float]]]] = ()):
+                 frames: Sequence[Sequence[tuple[str, int, list[float]]]] = (), looks: Optional[_core.Looks] = None):
         self._model = model
         self._frames = frames  # (name, link, pose on it) by robot
+        self._looks = looks or _core.Looks()  # colours and meshes, for views
         self._types = model.types
         self._facts: dict[int, TypeFacts] = {}
         self.file: str = file  #: path that it was loaded from, or "<text>"
@@ -130,7 +131,7 @@ def load(source: Union[str, os.PathLike], *, search_paths: Iterable[Union[str, o
         raise ArgumentError(f"a precision of {precision!r}", "give 'double', 'float' or None")
     source = os.fspath(source)
     is_text = source.lstrip().startswith("<")
-    model, findings, frames = _core.load(source, is_text, [os.fspath(path) for path in search_paths], profile, ground,
+    model, findings, frames, looks = _core.load(source, is_text, [os.fspath(path) for path in search_paths], profile, ground,
                                          list(fixed_base), dt, sleep, accuracy, precision and precision == "float")
     errors = [finding for finding in findings if finding.severity == "error"]
     if model is None or (strict and errors):
@@ -141,7 +142,7 @@ def load(source: Union[str, os.PathLike], *, search_paths: Iterable[Union[str, o
     for finding in findings:
         if finding.severity != "note":
             warnings.warn(str(finding), WorldWarning, stacklevel=2)
-    return World(model, "<text>" if is_text else source, tuple(findings), frames)
+    return World(model, "<text>" if is_text else source, tuple(findings), frames, looks)
 
 
 def example(name: str) -> str:

@@ -11,6 +11,9 @@ void bind_journal(nanobind::module_& module);
 void bind_batch(nanobind::module_& module);
 void bind_robots(nanobind::module_& module);
 void bind_readings(nanobind::module_& module);
+void bind_remote(nanobind::module_& module);
+void bind_camera(nanobind::module_& module);
+void bind_view(nanobind::module_& module);
 void bind_kinematics(nanobind::module_& module);
 
 }  // namespace roboss_python

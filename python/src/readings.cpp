@@ -63,7 +63,7 @@ void add(Column& column, T value) {
 }
 
 /// Adds the readings of the robots of one run.
-Result<> read_all(LocalRun& run, const std::vector<std::uint32_t>& robots, std::size_t sensor,
+Result<> read_all(RunAccess& run, const std::vector<std::uint32_t>& robots, std::size_t sensor,
                   std::vector<Column>& columns) {
     for (const std::uint32_t robot : robots) {
         const Result<Sample> sample = run.read(RobotId(robot), sensor);
@@ -85,11 +85,11 @@ nb::object to_array(std::vector<double>&& numbers) {
 
 /// A list of (name, unit, type, numbers or texts, how many of them each robot has), simulation by simulation.
 nb::list read(const Simulations& simulations, const std::vector<std::uint32_t>& robots, std::size_t sensor) {
-    std::vector<LocalRun*> runs;
-    for (const auto& simulation : simulations) runs.push_back(&simulation->run());
+    std::vector<RunAccess*> runs;
+    for (const auto& simulation : simulations) runs.push_back(&simulation->access());
     std::vector<Column> columns;
     const Result<> done = without_gil(simulations, [&]() -> Result<> {
-        for (LocalRun* run : runs)
+        for (RunAccess* run : runs)
             if (Result<> one = read_all(*run, robots, sensor, columns); !one) return one;
         return Ok{};
     });

@@ -25,7 +25,7 @@ struct Robots {
     void for_each(std::span<T> array, Visit visit) const {
         const std::size_t part = array.size() / std::max<std::size_t>(1, simulations.size());
         for (std::size_t i = 0; i < simulations.size(); ++i)
-            visit(simulations[i]->run(), array.subspan(i * part, part));
+            visit(simulations[i]->access(), array.subspan(i * part, part));
     }
 };
 
@@ -34,23 +34,23 @@ void raise_if_refused(const Result<>& result) {
 }
 
 /// A method that fills an array: the method of RobotSet, called with the run.
-template <void (RobotSet::*Read)(const LocalRun&, std::span<double>) const>
+template <void (RobotSet::*Read)(const RunAccess&, std::span<double>) const>
 void fill(Robots& robots, const Out& out) {
     robots.for_each(numbers(out),
-                    [&](LocalRun& run, std::span<double> part) { (robots.set.*Read)(run, part); });
+                    [&](RunAccess& run, std::span<double> part) { (robots.set.*Read)(run, part); });
 }
 
-template <void (RobotSet::*Read)(const LocalRun&, LinkId, std::span<double>) const>
+template <void (RobotSet::*Read)(const RunAccess&, LinkId, std::span<double>) const>
 void fill_link(Robots& robots, std::uint32_t link, const Out& out) {
-    robots.for_each(numbers(out), [&](LocalRun& run, std::span<double> part) {
+    robots.for_each(numbers(out), [&](RunAccess& run, std::span<double> part) {
         (robots.set.*Read)(run, LinkId(link), part);
     });
 }
 
 /// Fills flags, a row for each simulation, without the GIL: it steps copies of the states.
 void touching(Robots& robots, const nb::ndarray<bool, nb::c_contig, nb::device::cpu>& out) {
-    std::vector<LocalRun*> runs;
-    for (const auto& simulation : robots.simulations) runs.push_back(&simulation->run());
+    std::vector<RunAccess*> runs;
+    for (const auto& simulation : robots.simulations) runs.push_back(&simulation->access());
     const std::size_t row = robots.set.size();
     ROBOSS_CHECK(out.size() == runs.size() * row, std::to_string(out.size()) + " flags");
     without_gil(robots.simulations, [&] {
@@ -60,9 +60,9 @@ void touching(Robots& robots, const nb::ndarray<bool, nb::c_contig, nb::device::
 }
 
 /// A method that sets something from an array.
-template <Result<> (RobotSet::*Set)(LocalRun&, std::span<const double>) const>
+template <Result<> (RobotSet::*Set)(RunAccess&, std::span<const double>) const>
 void set(Robots& robots, const In& values) {
-    robots.for_each(numbers(values), [&](LocalRun& run, std::span<const double> part) {
+    robots.for_each(numbers(values), [&](RunAccess& run, std::span<const double> part) {
         raise_if_refused((robots.set.*Set)(run, part));
     });
 }
@@ -93,7 +93,7 @@ void bind_robots(nb::module_& module) {
             "set_joints",
             [](Robots& r, const std::vector<std::size_t>& columns, std::uint32_t mode, const In& targets,
                double max_effort) {
-                r.for_each(numbers(targets), [&](LocalRun& run, std::span<const double> part) {
+                r.for_each(numbers(targets), [&](RunAccess& run, std::span<const double> part) {
                     raise_if_refused(
                         r.set.set_joints(run, columns, static_cast<MotorMode>(mode), part, max_effort));
                 });
@@ -102,7 +102,7 @@ void bind_robots(nb::module_& module) {
         .def(
             "apply_wrenches",
             [](Robots& r, std::uint32_t link, const In& wrenches, Tick ticks) {
-                r.for_each(numbers(wrenches), [&](LocalRun& run, std::span<const double> part) {
+                r.for_each(numbers(wrenches), [&](RunAccess& run, std::span<const double> part) {
                     raise_if_refused(r.set.apply_wrenches(run, LinkId(link), part, ticks));
                 });
             },
@@ -110,7 +110,7 @@ void bind_robots(nb::module_& module) {
         .def(
             "command",
             [](Robots& r, std::size_t channel, std::size_t values, const In& rows) {
-                r.for_each(numbers(rows), [&](LocalRun& run, std::span<const double> part) {
+                r.for_each(numbers(rows), [&](RunAccess& run, std::span<const double> part) {
                     raise_if_refused(r.set.command(run, channel, values, part));
                 });
             },

@@ -15,6 +15,7 @@
 #include <tuple>
 
 #include "bindings.h"
+#include "looks.h"
 #include "roboss/math/array_rows.h"
 #include "roboss/model/edit.h"
 
@@ -51,7 +52,7 @@ ContactRow row_of(const ContactReport& contact, double dt_s) {
 }
 
 nb::ndarray<nb::numpy, std::uint8_t> contacts(const std::shared_ptr<Simulation>& simulation) {
-    LocalRun& run = simulation->run();
+    RunAccess& run = simulation->access();
     const std::span<const ContactReport> all = without_gil({simulation}, [&] { return run.contacts(); });
     auto rows = std::make_unique<std::vector<ContactRow>>();
     for (const ContactReport& contact : all) rows->push_back(row_of(contact, simulation->model()->dt_s));
@@ -64,15 +65,16 @@ nb::ndarray<nb::numpy, std::uint8_t> contacts(const std::shared_ptr<Simulation>&
 
 void step(const std::shared_ptr<Simulation>& simulation, Tick ticks) {
     LocalRun& run = simulation->run();
-    step_in_parts(ticks, [&](Tick part) {
+    const auto step_part = [&](Tick part) {
         const Result<> stepped = without_gil({simulation}, [&] { return run.step(part); });
         if (!stepped) raise("StateError", stepped.error());
-    });
+    };
+    step_in_parts(ticks, step_part, simulation->viewed() ? kViewedPart_s : kPart_s);
 }
 
 std::string hash_of(Simulation& simulation) {
     char text[17];
-    std::snprintf(text, sizeof text, "%016" PRIx64, simulation.run().hash());
+    std::snprintf(text, sizeof text, "%016" PRIx64, simulation.access().hash());
     return text;
 }
 
@@ -82,7 +84,7 @@ Attach attach_of(std::uint32_t link, std::uint32_t other, std::uint32_t other_li
 }
 
 void order(Simulation& simulation, std::uint32_t robot, const Action& action) {
-    const Result<> given = simulation.run().order(RobotId(robot), action);
+    const Result<> given = simulation.access().order({Order{0, ClientId(0U), 0, RobotId(robot), action}});
     if (!given) raise("OrderError", given.error());
 }
 
@@ -144,6 +146,13 @@ void bind_simulation(nb::module_& module) {
         .def(
             "reset", [](Simulation& s, std::optional<std::uint64_t> seed) { s.run().reset(seed); },
             nb::arg("seed").none())
+        .def(
+            "show_in",
+            [](Simulation& s, std::shared_ptr<LocalView> view, const LooksOf& looks) {
+                s.show_in(std::move(view), looks.worlds);
+            },
+            nb::arg("view").none(), nb::arg("looks"))
+        .def("turn_view", &Simulation::turn_view)
         .def("spawn", &spawn, nb::arg("addition"), nb::arg("names"), nb::arg("poses"))
         .def("remove", &remove, nb::arg("names"))
         .def(

@@ -12,37 +12,63 @@
 
 #include "errors.h"
 #include "roboss/local/local_run.h"
+#include "roboss/local_view/local_view.h"
 
 namespace roboss_python {
 
 class Simulation {
   public:
     Simulation(std::shared_ptr<const roboss::Model> model, std::shared_ptr<roboss::LocalRun> run)
-        : model_(std::move(model)), run_(std::move(run)) {}
+        : model_(std::move(model)), run_(std::move(run)), access_(run_) {}
+
+    /// A run elsewhere: only what access() has can be asked.
+    Simulation(std::shared_ptr<const roboss::Model> model, std::shared_ptr<roboss::RunAccess> remote)
+        : model_(std::move(model)), access_(std::move(remote)) {}
 
     const std::shared_ptr<const roboss::Model>& model() const { return model_; }
 
-    /// The run; raises StateError while another thread is inside. The GIL must be held.
+    /// The run, stepped here; raises as access().
     roboss::LocalRun& run() {
-        if (!run_)
+        (void)access();
+        if (!run_) raise("StateError", {"the run is stepped elsewhere", "load its world here", "remote"});
+        return *run_;
+    }
+
+    /// What is asked of any run; raises StateError while another thread is inside. The GIL must be held.
+    roboss::RunAccess& access() {
+        if (!access_)
             raise("StateError", {"robots were spawned or removed since these were asked for",
                                  "ask Simulation.robots() again", "changed-world"});
         if (busy_)
             raise("StateError", {"the simulation is in use by another thread",
                                  "let one thread at a time use it, or give each its own", "busy"});
-        return *run_;
+        return *access_;
     }
 
-    /// The run goes on in another Simulation.
-    void retire() { run_.reset(); }
+    /// The run goes on in another Simulation, or without this program.
+    void retire() { run_.reset(), access_.reset(); }
 
     /// Whether a thread that does not hold the GIL is inside.
     void set_busy(bool busy) { busy_ = busy; }
+    bool busy() const { return busy_; }
+
+    /// From now on `view` shows the run; null: none does.
+    void show_in(std::shared_ptr<roboss::LocalView> view, roboss::Looks looks) {
+        view_ = std::move(view), looks_ = std::move(looks);
+    }
+    bool viewed() const { return view_ != nullptr; }
+    /// Brings the view up to date. The GIL must be held; nothing happens while a thread is inside.
+    void turn_view() {
+        if (view_ && run_ && !busy_) view_->turn(*run_, looks_);
+    }
 
   private:
     std::shared_ptr<const roboss::Model> model_;
-    std::shared_ptr<roboss::LocalRun> run_;
+    std::shared_ptr<roboss::LocalRun> run_;  // null: stepped elsewhere, or retired
+    std::shared_ptr<roboss::RunAccess> access_;
     bool busy_ = false;
+    std::shared_ptr<roboss::LocalView> view_;
+    roboss::Looks looks_;
 };
 
 using Simulations = std::vector<std::shared_ptr<Simulation>>;
@@ -50,20 +76,23 @@ using Simulations = std::vector<std::shared_ptr<Simulation>>;
 /// Calls work() without the GIL, while the simulations are busy, and returns what it returns.
 template <class Work>
 auto without_gil(const Simulations& simulations, Work work) {
-    for (const auto& simulation : simulations) simulation->run();
+    for (const auto& simulation : simulations) (void)simulation->access();
     for (const auto& simulation : simulations) simulation->set_busy(true);
     const auto idle = [](const Simulations* busy) {
         for (const auto& simulation : *busy) simulation->set_busy(false);
+        for (const auto& simulation : *busy) simulation->turn_view();
     };
     const std::unique_ptr<const Simulations, decltype(idle)> end(&simulations, idle);  // with the GIL again
     const nanobind::gil_scoped_release release;
     return work();
 }
 
-/// How many ticks a call without the GIL makes: parts of about a tenth of a second, so that Ctrl-C is obeyed
-/// between them. No bit depends on the parts. step(ticks) is called until all are done.
+/// About how long a part of a step takes: Ctrl-C is obeyed between two; and while a view shows them.
+inline constexpr double kPart_s = 0.1, kViewedPart_s = 0.02;
+
+/// Calls step(ticks) in parts that take about `part_s` each, until all are done. No bit depends on the parts.
 template <class Step>
-void step_in_parts(roboss::Tick ticks, Step step) {
+void step_in_parts(roboss::Tick ticks, Step step, double part_s = kPart_s) {
     if (ticks < 0)
         raise("ArgumentError",
               {"a step of " + std::to_string(ticks) + " ticks", "give 0 or more", "bad-ticks"});
@@ -75,7 +104,10 @@ void step_in_parts(roboss::Tick ticks, Step step) {
         if (PyErr_CheckSignals() != 0) throw nanobind::python_error();
         ticks -= now;
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-        if (took.count() < 0.05) part *= 2;
+        if (took.count() < 0.5 * part_s)
+            part *= 2;
+        else if (took.count() > part_s && part > 1)
+            part /= 2;
     }
 }
 

@@ -12,6 +12,7 @@
 
 #include "bindings.h"
 #include "errors.h"
+#include "looks.h"
 #include "roboss/local/robot_set.h"
 #include "roboss/math/array_rows.h"
 #include "roboss/sdf/load_world.h"
@@ -37,8 +38,8 @@ struct Wanted {
 /// (name, place of its link, pose x y z, quaternion x y z w in the link's frame) of each frame, by robot.
 using Frames = std::vector<std::vector<std::tuple<std::string, std::size_t, std::array<double, 7>>>>;
 
-/// A compiled world, all findings, and its frames, which no Model has; no model: it is refused.
-using Loaded = std::tuple<std::shared_ptr<const Model>, std::vector<Diagnostic>, Frames>;
+/// A compiled world, all findings, and what no Model has: its frames and its looks; no model: it is refused.
+using Loaded = std::tuple<std::shared_ptr<const Model>, std::vector<Diagnostic>, Frames, LooksOf>;
 
 Frames frames_of(const World& world, const Model& model) {
     Frames frames;
@@ -70,7 +71,10 @@ Loaded load(const Wanted& wanted) {
             model = compile(*world, wanted.compile, diagnostics);
     }
     if (diagnostics.refuses()) model = nullptr;
-    return {model, diagnostics.items(), model ? frames_of(*world, *model) : Frames{}};
+    if (!model) return {nullptr, diagnostics.items(), Frames{}, LooksOf{}};
+    Frames frames = frames_of(*world, *model);
+    return {model, diagnostics.items(), std::move(frames),
+            LooksOf{{std::make_shared<const World>(*std::move(world))}}};
 }
 
 std::string hex(std::uint64_t hash) {

@@ -11,11 +11,10 @@ OF_PYTHON = re.compile(r"(libpython3|libexpat|libffi|libssl|libcrypto|libuuid|li
                        r"libsqlite3|libnsl|libtirpc|libb2|libmpdec)")
 
 
-def foreign_libraries():
-    """Shared libraries of this process from outside the environment that a bare Debian lacks."""
-    mapped = {line.split(maxsplit=5)[5].strip() for line in Path("/proc/self/maps").read_text().splitlines()
+def foreign_libraries(process="self", inside=(sys.prefix, sys.base_prefix + "/lib/python3")):
+    """Shared libraries of this process from outside these folders that a bare Debian lacks."""
+    mapped = {line.split(maxsplit=5)[5].strip() for line in Path(f"/proc/{process}/maps").read_text().splitlines()
               if ".so" in line and len(line.split(maxsplit=5)) == 6}
-    inside = (sys.prefix, sys.base_prefix + "/lib/python3")
     outside = [path for path in mapped if not path.startswith(inside)]
     return [path for path in outside if not OF_EVERY_DEBIAN.match(Path(path).name)
             and not OF_PYTHON.match(Path(path).name)]
@@ -31,4 +30,5 @@ def main():
     print(sim.state_hash)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -1,5 +1,7 @@
 """Where the repository is, and runs of the golden list."""
 import json
+import subprocess
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -42,6 +44,17 @@ def golden_runs():
 def crossroads():
     """A simulation of sixteen cars on a ring."""
     return roboss.Simulation(roboss.example("crossroads.sdf"), threads=1)
+
+
+@pytest.fixture(scope="session")
+def clean_python(tmp_path_factory):
+    """The Python of a new environment that has the wheel and what pip installs with it."""
+    wheel, = (REPOSITORY / "dist").glob("roboss-*.whl")
+    folder = tmp_path_factory.mktemp("clean")
+    subprocess.run([sys.executable, "-m", "venv", folder], check=True)
+    python = folder / "bin" / "python"
+    subprocess.run([python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", wheel], check=True)
+    return python
 
 
 class OrderFile:

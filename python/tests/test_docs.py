@@ -8,11 +8,11 @@ import pytest
 
 import roboss
 from conftest import REPOSITORY
-from roboss import batch, envs, kinematics, robots, sensors, simulation, trajectories, world
-from roboss.envs import city, city_driver, parallel, soccer
+from roboss import batch, builder, camera, envs, kinematics, robots, sensors, simulation, trajectories, view, world
+from roboss.envs import city, city_driver, parallel, single, soccer
 
-MODULES = [roboss, batch, world, simulation, robots, sensors, kinematics, trajectories]
-MODULES += [envs, city, city_driver, parallel, soccer]
+MODULES = [roboss, batch, builder, camera, world, simulation, robots, sensors, kinematics, trajectories, view]
+MODULES += [envs, city, city_driver, parallel, single, soccer]
 
 BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 

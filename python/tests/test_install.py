@@ -1,23 +1,8 @@
 """The wheel in a clean environment, without the libraries of the system."""
 import subprocess
-import sys
 from pathlib import Path
 
-import pytest
-
 import roboss
-from conftest import REPOSITORY
-
-
-@pytest.fixture(scope="module")
-def clean_python(tmp_path_factory):
-    """The Python of a new environment that has the wheel and what pip installs with it."""
-    wheel, = (REPOSITORY / "dist").glob("roboss-*.whl")
-    folder = tmp_path_factory.mktemp("clean")
-    subprocess.run([sys.executable, "-m", "venv", folder], check=True)
-    python = folder / "bin" / "python"
-    subprocess.run([python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", wheel], check=True)
-    return python
 
 
 def test_a_clean_environment_needs_nothing_else(clean_python, tmp_path):

@@ -32,6 +32,8 @@ class BusClient : public Client {
         (void)known(robot);
         return states_[robot.index()];
     }
+    /// All states at tick(), by RobotId.
+    const std::vector<RobotState>& states() const { return states_; }
     std::uint64_t seed() const override { return seed_; }
     Result<> order(RobotId robot, const Action& action) override;
     void control(ControlAction request) override;

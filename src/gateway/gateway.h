@@ -20,6 +20,7 @@ struct GatewayOptions {
     std::string page_folder;      // empty: where it was built or installed
     bool next_port = true;        // if the port is taken, one of those behind it
     std::string program = "roboss";
+    bool framed = false;                    // pages of this computer (a notebook) may show it in a frame
     bool journal = false;                   // the run keeps one: pages offer to rewind
     PageRole role = PageRole::kAdminister;  // the greatest that a page gets
     /// A new address for the Bus, never used before.

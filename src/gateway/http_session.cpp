@@ -24,7 +24,10 @@ const char* const kContentSecurityPolicy =
     "default-src 'self'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
     "media-src 'self' blob:; worker-src 'self' blob:; connect-src 'self'; object-src 'none'; base-uri "
     "'none'; "
-    "form-action 'none'; frame-ancestors 'none'";
+    "form-action 'none'; frame-ancestors ";
+/// Notebooks in a browser on this computer, and in an editor.
+const char* const kLocalFrames =
+    "http://localhost:* http://127.0.0.1:* https://localhost:* https://127.0.0.1:* vscode-webview:";
 
 std::string_view view_of(beast::string_view text) {
     return {text.data(), text.size()};
@@ -185,7 +188,8 @@ void HttpSession::send(Answer answer) {
     response->set(http::field::content_type, answer.type);
     response->set(http::field::cache_control,
                   answer.never_changes ? "private, max-age=86400, immutable" : "no-cache");
-    response->set("Content-Security-Policy", kContentSecurityPolicy);
+    response->set("Content-Security-Policy",
+                  std::string(kContentSecurityPolicy) + (core_.framed() ? kLocalFrames : "'none'"));
     response->set("X-Content-Type-Options", "nosniff");
     response->set("Referrer-Policy", "no-referrer");
     response->set("Cross-Origin-Resource-Policy", "same-origin");

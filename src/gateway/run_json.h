@@ -16,8 +16,11 @@ std::string status_json(const RunStatus& status);
 std::string status_line(const RunStatus& status, double real_time_factor);
 /// The line with surfaces in motion and bonds (docs/viewer-protocol.md).
 std::string extras_line(const ViewExtras& extras, Tick tick, std::uint32_t scene);
+/// By robot: its Simulator and its island.
 std::string groups_json(const RobotGroups& groups);
+/// The boxes that robots swept, m.
 std::string bounds_json(const RobotBounds& bounds);
+/// Branches and bookmarks of the journal.
 std::string timeline_json(const RunTimeline& timeline);
 /// What is shown and what is not; the robots only as a number.
 std::string preview_json(const RunPreview& preview);

@@ -48,6 +48,7 @@ class ServerCore {
     // --- for sessions
     const Access& access() const { return access_; }
     const PageFiles& files() const { return files_; }
+    bool framed() const { return options_.framed; }
     const std::shared_ptr<const ShownScene>& scene() const { return scene_; }
     const ViewStateCache& book() const { return order_log_; }
     /// The first line; it says why this page was disconnected when it had the number `before`.

@@ -36,24 +36,19 @@ Result<std::unique_ptr<LocalRun>> LocalRun::create(std::shared_ptr<const Model> 
 }
 
 LocalRun::LocalRun(std::shared_ptr<const Model> model, const LocalRunOptions& options)
-    : model_(std::move(model)),
+    : RunAccess(std::move(model)),
       options_(options),
-      stepper_(model_, options.threads, options.lanes),
+      stepper_(shared_model(), options.threads, options.lanes),
       seed_(options.seed) {
-    states_.resize(model_->robots.size());
-    for (const RobotState& state : states_) pointers_.push_back(&state);
+    states_.resize(shared_model()->robots.size());
     reset();
-}
-
-void LocalRun::changed() {
-    rays_are_new_ = probe_is_new_ = false;
 }
 
 void LocalRun::reset(std::optional<std::uint64_t> seed) {
     seed_ = seed.value_or(seed_);
     tick_ = 0, given_ = 0;
     orders_.clear();
-    for (std::size_t r = 0; r < states_.size(); ++r) states_[r] = initial_state(*model_, RobotId(r));
+    for (std::size_t r = 0; r < states_.size(); ++r) states_[r] = initial_state(model(), RobotId(r));
     stepper_.forget();
     changed();
 }
@@ -67,15 +62,8 @@ Result<> LocalRun::step(Tick ticks) {
     tick_ = outcome.tick;
     orders_.erase(orders_.begin(), std::ranges::lower_bound(orders_, tick_, {}, &Order::apply_at));
     changed();
-    if (outcome.not_finite.valid()) return not_finite(*model_, outcome);
+    if (outcome.not_finite.valid()) return not_finite(model(), outcome);
     return Ok{};
-}
-
-std::uint64_t LocalRun::hash() const {
-    std::vector<std::uint64_t> hashes;
-    for (std::size_t r = 0; r < states_.size(); ++r)
-        hashes.push_back(state_hash(RobotId(r), tick_, states_[r]));
-    return world_hash(model_->hash, hashes);
 }
 
 Result<> LocalRun::order(RobotId robot, const Action& action) {
@@ -88,7 +76,7 @@ Result<> LocalRun::order(std::vector<Order> orders) {
     std::uint64_t sequence = given_;
     for (Order& order : orders) {
         order.apply_at = tick_, order.client = ClientId(0U), order.sequence = sequence++;
-        if (Result<> checked = check_order(*model_, order); !checked) return checked;
+        if (Result<> checked = check_order(model(), order); !checked) return checked;
     }
     given_ = sequence;
     const auto at =
@@ -99,8 +87,8 @@ Result<> LocalRun::order(std::vector<Order> orders) {
 
 Result<> LocalRun::change(RobotId robot, const Action& action) {
     const Order now{tick_, ClientId(0U), given_, robot, action};
-    if (Result<> checked = check_order(*model_, now); !checked) return checked;
-    apply_order(*model_, now, states_[robot.index()]);
+    if (Result<> checked = check_order(model(), now); !checked) return checked;
+    apply_order(model(), now, states_[robot.index()]);
     stepper_.forget();
     changed();
     return Ok{};
@@ -110,11 +98,11 @@ Result<> LocalRun::check_joint_change(RobotId robot, JointId id, int axis, std::
                                       std::optional<double> velocity) const {
     // What an order of a velocity may be, a velocity may be.
     const SetJoint like{id, axis, MotorMode::kVelocity, velocity.value_or(0)};
-    if (Result<> checked = check_order(*model_, {tick_, ClientId(0U), 0, robot, like}); !checked)
+    if (Result<> checked = check_order(model(), {tick_, ClientId(0U), 0, robot, like}); !checked)
         return checked;
-    const Joint& joint = model_->type_of(robot).joints[id.index()];
+    const Joint& joint = model().type_of(robot).joints[id.index()];
     const std::string what =
-        "joint '" + joint.name + "' of robot '" + model_->robots[robot.index()].name + "'";
+        "joint '" + joint.name + "' of robot '" + model().robots[robot.index()].name + "'";
     if (joint.loop >= 0)
         return Error{what + " closes a loop: its state follows from the other joints", "set those",
                      "loop-joint"};
@@ -131,7 +119,7 @@ Result<> LocalRun::check_joint_change(RobotId robot, JointId id, int axis, std::
 Result<> LocalRun::change_joint(RobotId robot, JointId id, int axis, std::optional<double> position,
                                 std::optional<double> velocity) {
     if (Result<> checked = check_joint_change(robot, id, axis, position, velocity); !checked) return checked;
-    const Joint& joint = model_->type_of(robot).joints[id.index()];
+    const Joint& joint = model().type_of(robot).joints[id.index()];
     const int offset = joint.axis_offset(axis);
     RobotState& state = states_[robot.index()];
     state.rest = {};
@@ -144,9 +132,9 @@ Result<> LocalRun::change_joint(RobotId robot, JointId id, int axis, std::option
 
 Result<> LocalRun::check_ball_change(RobotId robot, JointId id, const Vec3& rotation) const {
     if (Result<> checked = check_joint_change(robot, id, 0, {}, {}); !checked) return checked;
-    const Joint& joint = model_->type_of(robot).joints[id.index()];
+    const Joint& joint = model().type_of(robot).joints[id.index()];
     const std::string what =
-        "joint '" + joint.name + "' of robot '" + model_->robots[robot.index()].name + "'";
+        "joint '" + joint.name + "' of robot '" + model().robots[robot.index()].name + "'";
     if (!joint_type(joint.kind).is_isotropic())
         return Error{what + " is no ball joint", "set the position of its axis", "no-ball"};
     if (!is_finite(rotation) || norm(rotation) > kOrderLimits.position)
@@ -157,7 +145,7 @@ Result<> LocalRun::check_ball_change(RobotId robot, JointId id, const Vec3& rota
 
 Result<> LocalRun::change_ball_joint(RobotId robot, JointId id, const Vec3& rotation) {
     if (Result<> checked = check_ball_change(robot, id, rotation); !checked) return checked;
-    const Joint& joint = model_->type_of(robot).joints[id.index()];
+    const Joint& joint = model().type_of(robot).joints[id.index()];
     const Quat q = exponential(rotation);
     RobotState& state = states_[robot.index()];
     state.rest = {};
@@ -173,38 +161,17 @@ Result<> LocalRun::submit(const Order& order) {
         return Error{"an order for tick " + std::to_string(order.apply_at) + ", but the world is at tick " +
                          std::to_string(tick_),
                      "give it earlier", "late"};
-    if (Result<> checked = check_order(*model_, order); !checked) return checked;
+    if (Result<> checked = check_order(model(), order); !checked) return checked;
     orders_.insert(std::upper_bound(orders_.begin(), orders_.end(), order, comes_before), order);
     return Ok{};
 }
 
-Result<Sample> LocalRun::read(RobotId robot, std::size_t sensor) {
-    if (robot.index() >= states_.size())
-        return Error{"there is no robot number " + std::to_string(robot.value),
-                     "the world has " + std::to_string(states_.size()), "no-robot"};
-    return measure({*model_, robot, sensor, state(robot), tick_, seed_, *this});
-}
-
-RayScene& LocalRun::ray_scene() {
-    if (!rays_) rays_ = std::make_unique<RayScene>(model_);
-    if (!rays_are_new_) rays_->update(pointers_);
-    rays_are_new_ = true;
-    return *rays_;
-}
-
-StepProbe& LocalRun::step_probe() {
-    if (!probe_) probe_ = std::make_unique<StepProbe>(*model_);
-    if (!probe_is_new_) probe_->step(tick_, pointers_);
-    probe_is_new_ = true;
-    return *probe_;
-}
-
 LocalSave LocalRun::save() const {
-    return {model_->hash, seed_, tick_, states_, orders_, given_};
+    return {model().hash, seed_, tick_, states_, orders_, given_};
 }
 
 Result<> LocalRun::restore(const LocalSave& save) {
-    if (save.model_hash != model_->hash || save.states.size() != states_.size())
+    if (save.model_hash != model().hash || save.states.size() != states_.size())
         return Error{"the state was saved with another world", "restore it in a run of the same world",
                      "other-world"};
     seed_ = save.seed, tick_ = save.tick, given_ = save.given;

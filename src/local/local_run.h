@@ -5,13 +5,11 @@
 
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
+#include "local/run_access.h"
 #include "local/world_stepper.h"
 #include "model/edit.h"
-#include "physics/probe.h"
-#include "sensors/readings.h"
 
 namespace roboss {
 
@@ -38,7 +36,7 @@ struct LocalSave {
 ///     run.order(car, SetJoint{wheel, 0, MotorMode::kVelocity, 8.0});
 ///     run.step(100);
 ///     const Pose X_WB = base_pose(run.state(car));
-class LocalRun : private SensorSources {
+class LocalRun final : public RunAccess {
   public:
     /// At the beginning of the world. An Error, "message-board": the world has plugins that react to messages
     /// (docs/plugins.md); a program of `roboss run` does that, and here it is missing.
@@ -50,54 +48,27 @@ class LocalRun : private SensorSources {
     /// causes it may still be pending.
     Result<> step(Tick ticks = 1);
 
-    Tick tick() const { return tick_; }  ///< the world is at its beginning
-    /// Simulated time since the start of the world, s.
-    double time_s() const { return static_cast<double>(tick_) * model_->dt_s; }
-    const Model& model() const { return *model_; }              ///< the compiled world
-    std::uint64_t seed() const { return seed_; }                ///< of sensor noise
+    Tick tick() const override { return tick_; }
+    std::uint64_t seed() const override { return seed_; }
+    const std::vector<RobotState>& states() const override { return states_; }
     std::size_t threads() const { return stepper_.threads(); }  ///< that step
-    /// Hash of the model and all states, as `roboss run` reports it.
-    std::uint64_t hash() const;
-    /// The robot's state at tick(); the robot must exist.
-    const RobotState& state(RobotId robot) const { return states_[robot.index()]; }
-    const std::vector<RobotState>& states() const { return states_; }  ///< all, by RobotId
 
     /// Takes effect at the beginning of the next tick that is stepped, in the order in which they were given.
     /// An Error says why check_order() refuses it.
     Result<> order(RobotId robot, const Action& action);
-    /// Orders for several robots, as order(), or, if one is refused, none; their ticks, Clients and sequences
-    /// do not count.
-    Result<> order(std::vector<Order> orders);
+    Result<> order(std::vector<Order> orders) override;
     /// As order(), but at once: state() shows what it did. Orders that wait for the next tick follow it, also
     /// those given before.
-    Result<> change(RobotId robot, const Action& action);
-    /// Puts one axis of a joint at a position (rad or m), or gives it a velocity (rad/s or m/s), at once. An
-    /// Error: there is no such robot, joint or axis; it closes a loop ("loop-joint"), or is a ball joint with
-    /// a position ("no-position": see change_ball_joint()); the number is not finite or too large.
+    Result<> change(RobotId robot, const Action& action) override;
     Result<> change_joint(RobotId robot, JointId joint, int axis, std::optional<double> position,
-                          std::optional<double> velocity);
-    /// Puts a ball joint at a rotation vector (rad, of the child in the joint frame), at once. An Error:
-    /// there is no such robot or joint; it is no ball joint ("no-ball"), or closes a loop ("loop-joint"); the
-    /// vector is not finite.
-    Result<> change_ball_joint(RobotId robot, JointId joint, const Vec3& rotation);
-    /// Why change_ball_joint() would refuse.
-    Result<> check_ball_change(RobotId robot, JointId joint, const Vec3& rotation) const;
-    /// Why change_joint() would refuse.
+                          std::optional<double> velocity) override;
+    Result<> change_ball_joint(RobotId robot, JointId joint, const Vec3& rotation) override;
+    Result<> check_ball_change(RobotId robot, JointId joint, const Vec3& rotation) const override;
     Result<> check_joint_change(RobotId robot, JointId joint, int axis, std::optional<double> position,
-                                std::optional<double> velocity) const;
+                                std::optional<double> velocity) const override;
     /// An order with a tick, tick() or later, as from a file. Those of a tick are sorted by (Client,
     /// sequence); those of order() are Client 0.
     Result<> submit(const Order& order);
-
-    /// Reading of sensor number `sensor` (RobotType::sensors) at tick(), with noise. `<update_rate>` has no
-    /// effect: each call measures. Returns an Error if there is no such robot or sensor, or if the sensor
-    /// cannot measure.
-    Result<Sample> read(RobotId robot, std::size_t sensor);
-    /// All contact points of the tick that begins at tick(), as long as no order takes effect at it
-    /// (physics/probe.h). Valid until the world is changed.
-    std::span<const ContactReport> contacts() { return step_probe().contacts(); }
-    /// What the joints of the robot bear in the same tick.
-    std::vector<JointReaction> joint_reactions(RobotId robot) { return step_probe().joint_reactions(robot); }
 
     /// Everything needed to continue exactly.
     LocalSave save() const;
@@ -112,23 +83,13 @@ class LocalRun : private SensorSources {
 
   private:
     LocalRun(std::shared_ptr<const Model> model, const LocalRunOptions& options);
-    RayScene& ray_scene() override;
-    StepProbe& step_probe() override;
-    const RobotState& state_of(RobotId robot) override { return state(robot); }
-    void changed();
 
-    std::shared_ptr<const Model> model_;
     LocalRunOptions options_;
     WorldStepper stepper_;
     std::uint64_t seed_ = 0, given_ = 0;
     Tick tick_ = 0;
     std::vector<RobotState> states_;
     std::vector<Order> orders_;  // in canonical order
-    std::vector<const RobotState*> pointers_;
-    // made by the first question of a tick
-    std::unique_ptr<RayScene> rays_;
-    std::unique_ptr<StepProbe> probe_;
-    bool rays_are_new_ = false, probe_is_new_ = false;
 };
 
 }  // namespace roboss

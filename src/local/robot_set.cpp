@@ -15,7 +15,7 @@ namespace {
 /// Calls change(run, robot, axis, &value, check) for each axis of each robot: first, with `check`, to learn
 /// whether it would be refused.
 template <class Change>
-Result<> change_joints(const RobotSet& set, LocalRun& run, std::span<const double> values, Change change) {
+Result<> change_joints(const RobotSet& set, RunAccess& run, std::span<const double> values, Change change) {
     ROBOSS_CHECK(values.size() == set.size() * set.axes().size(), std::to_string(values.size()) + " numbers");
     for (const bool check : {true, false}) {
         const double* from = values.data();
@@ -27,7 +27,8 @@ Result<> change_joints(const RobotSet& set, LocalRun& run, std::span<const doubl
 }
 
 /// One value of each axis of each robot, row by row.
-void read_joints(const RobotSet& set, const LocalRun& run, double JointState::*value, std::span<double> out) {
+void read_joints(const RobotSet& set, const RunAccess& run, double JointState::*value,
+                 std::span<double> out) {
     ROBOSS_CHECK(out.size() == set.size() * set.axes().size(), std::to_string(out.size()) + " numbers");
     double* to = out.data();
     for (const RobotId robot : set.robots())
@@ -59,14 +60,14 @@ double* RobotSet::row(std::span<double> out, std::size_t robot, std::size_t colu
     return out.data() + robot * columns;
 }
 
-void RobotSet::poses(const LocalRun& run, std::span<double> out) const {
+void RobotSet::poses(const RunAccess& run, std::span<double> out) const {
     for (std::size_t i = 0; i < size(); ++i) {
         const RobotType& type = model_->type_of(robots_[i]);
         put_row(base_pose(run.state(robots_[i])) * inverse(to_pose(type.X_RB)), row(out, i, kPoseColumns));
     }
 }
 
-void RobotSet::twists(const LocalRun& run, std::span<double> out) const {
+void RobotSet::twists(const RunAccess& run, std::span<double> out) const {
     for (std::size_t i = 0; i < size(); ++i) {
         const std::vector<double>& v = run.state(robots_[i]).v;
         const bool free = model_->type_of(robots_[i]).free_base;
@@ -75,28 +76,28 @@ void RobotSet::twists(const LocalRun& run, std::span<double> out) const {
     }
 }
 
-void RobotSet::link_poses(const LocalRun& run, LinkId link, std::span<double> out) const {
+void RobotSet::link_poses(const RunAccess& run, LinkId link, std::span<double> out) const {
     for (std::size_t i = 0; i < size(); ++i) {
         put_row(to_pose(link_pose(*type_, run.state(robots_[i]), link)), row(out, i, kPoseColumns));
     }
 }
 
-void RobotSet::link_twists(const LocalRun& run, LinkId link, std::span<double> out) const {
+void RobotSet::link_twists(const RunAccess& run, LinkId link, std::span<double> out) const {
     for (std::size_t i = 0; i < size(); ++i) {
         const Twist twist = link_twist(*type_, run.state(robots_[i]), link);
         put_row(twist.linear, twist.angular, row(out, i, kTwistColumns));
     }
 }
 
-void RobotSet::joint_positions(const LocalRun& run, std::span<double> out) const {
+void RobotSet::joint_positions(const RunAccess& run, std::span<double> out) const {
     read_joints(*this, run, &JointState::position, out);
 }
 
-void RobotSet::joint_velocities(const LocalRun& run, std::span<double> out) const {
+void RobotSet::joint_velocities(const RunAccess& run, std::span<double> out) const {
     read_joints(*this, run, &JointState::velocity, out);
 }
 
-void RobotSet::touching(LocalRun& run, std::span<bool> out) const {
+void RobotSet::touching(RunAccess& run, std::span<bool> out) const {
     ROBOSS_CHECK(out.size() == size(), std::to_string(out.size()) + " flags");
     std::vector<char> touched(model_->robots.size());
     for (const ContactReport& contact : run.contacts()) {
@@ -107,7 +108,7 @@ void RobotSet::touching(LocalRun& run, std::span<bool> out) const {
     for (std::size_t i = 0; i < size(); ++i) out[i] = touched[robots_[i].index()] != 0;
 }
 
-Result<> RobotSet::give(LocalRun& run, std::size_t orders_per_row, const ActionOfRow& action) const {
+Result<> RobotSet::give(RunAccess& run, std::size_t orders_per_row, const ActionOfRow& action) const {
     std::vector<Order> orders;
     orders.reserve(size() * orders_per_row);
     for (std::size_t i = 0; i < size(); ++i)
@@ -116,7 +117,7 @@ Result<> RobotSet::give(LocalRun& run, std::size_t orders_per_row, const ActionO
     return run.order(std::move(orders));
 }
 
-Result<> RobotSet::change(LocalRun& run, const ActionOfRow& action) const {
+Result<> RobotSet::change(RunAccess& run, const ActionOfRow& action) const {
     for (std::size_t i = 0; i < size(); ++i)
         if (Result<> fine = check_order(*model_, {run.tick(), ClientId(0U), 0, robots_[i], action(i, 0)});
             !fine)
@@ -126,13 +127,13 @@ Result<> RobotSet::change(LocalRun& run, const ActionOfRow& action) const {
     return Ok{};
 }
 
-Result<> RobotSet::set_poses(LocalRun& run, std::span<const double> poses) const {
+Result<> RobotSet::set_poses(RunAccess& run, std::span<const double> poses) const {
     ROBOSS_CHECK(poses.size() == size() * kPoseColumns, std::to_string(poses.size()) + " numbers");
     return change(run,
                   [&](std::size_t i, std::size_t) { return SetPose{pose_at(&poses[i * kPoseColumns])}; });
 }
 
-Result<> RobotSet::set_twists(LocalRun& run, std::span<const double> twists) const {
+Result<> RobotSet::set_twists(RunAccess& run, std::span<const double> twists) const {
     ROBOSS_CHECK(twists.size() == size() * kTwistColumns, std::to_string(twists.size()) + " numbers");
     return change(run, [&](std::size_t i, std::size_t) {
         const double* at = &twists[i * kTwistColumns];
@@ -140,9 +141,9 @@ Result<> RobotSet::set_twists(LocalRun& run, std::span<const double> twists) con
     });
 }
 
-Result<> RobotSet::set_joint_positions(LocalRun& run, std::span<const double> positions) const {
+Result<> RobotSet::set_joint_positions(RunAccess& run, std::span<const double> positions) const {
     return change_joints(*this, run, positions,
-                         [&](LocalRun& r, RobotId robot, const JointAxis& a, const double* x, bool check) {
+                         [&](RunAccess& r, RobotId robot, const JointAxis& a, const double* x, bool check) {
                              const Joint& joint = type_->joints[a.joint.index()];
                              if (!joint_type(joint.kind).is_isotropic())
                                  return check ? r.check_joint_change(robot, a.joint, a.axis, *x, {})
@@ -153,15 +154,15 @@ Result<> RobotSet::set_joint_positions(LocalRun& run, std::span<const double> po
                          });
 }
 
-Result<> RobotSet::set_joint_velocities(LocalRun& run, std::span<const double> velocities) const {
+Result<> RobotSet::set_joint_velocities(RunAccess& run, std::span<const double> velocities) const {
     return change_joints(*this, run, velocities,
-                         [](LocalRun& r, RobotId robot, const JointAxis& a, const double* x, bool check) {
+                         [](RunAccess& r, RobotId robot, const JointAxis& a, const double* x, bool check) {
                              return check ? r.check_joint_change(robot, a.joint, a.axis, {}, *x)
                                           : r.change_joint(robot, a.joint, a.axis, {}, *x);
                          });
 }
 
-Result<> RobotSet::set_joints(LocalRun& run, std::span<const std::size_t> columns, MotorMode mode,
+Result<> RobotSet::set_joints(RunAccess& run, std::span<const std::size_t> columns, MotorMode mode,
                               std::span<const double> targets, double max_effort) const {
     ROBOSS_CHECK(targets.size() == size() * columns.size(), std::to_string(targets.size()) + " numbers");
     return give(run, columns.size(), [&](std::size_t i, std::size_t k) {
@@ -170,7 +171,7 @@ Result<> RobotSet::set_joints(LocalRun& run, std::span<const std::size_t> column
     });
 }
 
-Result<> RobotSet::apply_wrenches(LocalRun& run, LinkId link, std::span<const double> wrenches,
+Result<> RobotSet::apply_wrenches(RunAccess& run, LinkId link, std::span<const double> wrenches,
                                   Tick ticks) const {
     ROBOSS_CHECK(wrenches.size() == size() * 6, std::to_string(wrenches.size()) + " numbers");
     return give(run, 1, [&](std::size_t i, std::size_t) {
@@ -178,7 +179,7 @@ Result<> RobotSet::apply_wrenches(LocalRun& run, LinkId link, std::span<const do
     });
 }
 
-Result<> RobotSet::command(LocalRun& run, std::size_t channel, std::size_t values,
+Result<> RobotSet::command(RunAccess& run, std::size_t channel, std::size_t values,
                            std::span<const double> rows) const {
     ROBOSS_CHECK(rows.size() == size() * values, std::to_string(rows.size()) + " numbers");
     return give(run, 1, [&](std::size_t i, std::size_t) {

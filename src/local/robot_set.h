@@ -1,4 +1,4 @@
-// RobotSet: some robots of a LocalRun as arrays, robots the first axis; what bindings to array languages
+// RobotSet: some robots of a run as arrays, robots the first axis; what bindings to array languages
 // need. Arrays are rows of doubles, one row a robot, in the order of the set. SI units and radians, world
 // axes.
 #pragma once
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "local/local_run.h"
+#include "local/run_access.h"
 #include "model/joint_axis.h"
 
 namespace roboss {
@@ -32,51 +32,51 @@ class RobotSet {
     const std::vector<JointAxis>& axes() const { return axes_; }
 
     /// Poses of the robot (SDF model) frames in the world, size() x kPoseColumns: m, unit quaternions.
-    void poses(const LocalRun& run, std::span<double> out) const;
+    void poses(const RunAccess& run, std::span<double> out) const;
     /// Velocities of the bases, size() x kTwistColumns: m/s of the base's origin, rad/s. Zero where the base
     /// is fixed.
-    void twists(const LocalRun& run, std::span<double> out) const;
+    void twists(const RunAccess& run, std::span<double> out) const;
     /// Poses of a link's frame of each robot in the world, as poses().
-    void link_poses(const LocalRun& run, LinkId link, std::span<double> out) const;
+    void link_poses(const RunAccess& run, LinkId link, std::span<double> out) const;
     /// Velocities of a link's frame at its origin, as twists().
-    void link_twists(const LocalRun& run, LinkId link, std::span<double> out) const;
+    void link_twists(const RunAccess& run, LinkId link, std::span<double> out) const;
     /// Positions of the joints, size() x axes(): rad or m.
-    void joint_positions(const LocalRun& run, std::span<double> out) const;
+    void joint_positions(const RunAccess& run, std::span<double> out) const;
     /// Velocities of the joints, size() x axes(): rad/s or m/s.
-    void joint_velocities(const LocalRun& run, std::span<double> out) const;
+    void joint_velocities(const RunAccess& run, std::span<double> out) const;
     /// Whether each robot presses against another robot, or against scenery that does not carry it (the
-    /// contact's normal is more than 45 degrees off the vertical), size(): contacts of LocalRun::contacts().
-    void touching(LocalRun& run, std::span<bool> out) const;
+    /// contact's normal is more than 45 degrees off the vertical), size(): contacts of RunAccess::contacts().
+    void touching(RunAccess& run, std::span<bool> out) const;
 
-    // What sets a state does so at once (LocalRun::change()).
+    // What sets a state does so at once where the run is in this process (RunAccess::change()).
 
     /// Puts the robots at poses as poses() gives them; quaternions are normalised.
-    Result<> set_poses(LocalRun& run, std::span<const double> poses) const;
+    Result<> set_poses(RunAccess& run, std::span<const double> poses) const;
     /// Positions of the joints, as joint_positions() gives them; of a ball joint a rotation vector.
-    Result<> set_joint_positions(LocalRun& run, std::span<const double> positions) const;
+    Result<> set_joint_positions(RunAccess& run, std::span<const double> positions) const;
     /// Velocities of the joints, as joint_velocities() gives them.
-    Result<> set_joint_velocities(LocalRun& run, std::span<const double> velocities) const;
+    Result<> set_joint_velocities(RunAccess& run, std::span<const double> velocities) const;
     /// Sets velocities as twists() gives them.
-    Result<> set_twists(LocalRun& run, std::span<const double> twists) const;
+    Result<> set_twists(RunAccess& run, std::span<const double> twists) const;
 
     // What follows are orders: they take effect at the beginning of the next tick.
 
     /// Setpoints of some axes, size() x columns.size(). A negative max_effort: the joint's own bound.
-    Result<> set_joints(LocalRun& run, std::span<const std::size_t> columns, MotorMode mode,
+    Result<> set_joints(RunAccess& run, std::span<const std::size_t> columns, MotorMode mode,
                         std::span<const double> targets, double max_effort = -1) const;
     /// Applies a wrench to this link of each robot for `ticks` ticks. A row is the force (N, at the link's
     /// centre of mass) and the torque (N m), size() x 6.
-    Result<> apply_wrenches(LocalRun& run, LinkId link, std::span<const double> wrenches, Tick ticks) const;
+    Result<> apply_wrenches(RunAccess& run, LinkId link, std::span<const double> wrenches, Tick ticks) const;
     /// A command of on-board controllers, size() x values.
-    Result<> command(LocalRun& run, std::size_t channel, std::size_t values,
+    Result<> command(RunAccess& run, std::size_t channel, std::size_t values,
                      std::span<const double> rows) const;
 
   private:
     double* row(std::span<double> out, std::size_t robot, std::size_t columns) const;
     /// The action number `k` of a row.
     using ActionOfRow = std::function<Action(std::size_t row, std::size_t k)>;
-    Result<> give(LocalRun& run, std::size_t orders_per_row, const ActionOfRow& action) const;
-    Result<> change(LocalRun& run, const ActionOfRow& action) const;
+    Result<> give(RunAccess& run, std::size_t orders_per_row, const ActionOfRow& action) const;
+    Result<> change(RunAccess& run, const ActionOfRow& action) const;
 
     std::shared_ptr<const Model> model_;
     std::vector<RobotId> robots_;

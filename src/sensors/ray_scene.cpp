@@ -35,6 +35,19 @@ struct RayAndItems final : RayTree::Target {
     std::span<const Item> items;
 };
 
+/// Also keeps what it was that was nearest so far.
+struct Watching final : RayTree::Target {
+    Watching(const RayScene::Ray& ray, std::span<const Item> items, RayScene::Sight& nearest_so_far)
+        : target(ray, items), sight(nearest_so_far) {}
+    double distance(std::uint32_t i) const override {
+        const double distance = target.distance(i);
+        if (distance < sight.distance) sight = {distance, target.items[i].robot};
+        return distance;
+    }
+    RayAndItems target;
+    RayScene::Sight& sight;
+};
+
 double nearest_of_all(const RayScene::Ray& ray, std::span<const Item> items, double limit) {
     const RayAndItems target(ray, items);
     for (std::uint32_t i = 0; i < items.size(); ++i) limit = std::fmin(limit, target.distance(i));
@@ -57,6 +70,7 @@ struct RayScene::Impl {
 
     void add_robot(RobotId robot, const RobotState& state);
     double nearest(const Ray& ray) const;
+    Sight look(const Ray& ray) const;
 };
 
 void RayScene::Impl::add_robot(RobotId robot, const RobotState& state) {
@@ -84,6 +98,18 @@ double RayScene::Impl::nearest(const Ray& ray) const {
     limit = static_tree.nearest(ray.origin_W, ray.direction_W, limit, RayAndItems(ray, static_items));
     limit = robot_tree.nearest(ray.origin_W, ray.direction_W, limit, RayAndItems(ray, robot_items));
     return limit <= ray.max_range ? limit : kInfinity;
+}
+
+RayScene::Sight RayScene::Impl::look(const Ray& ray) const {
+    Sight sight{std::nextafter(ray.max_range, kInfinity), RobotId()};
+    for (const std::vector<Item>* planes : {&static_planes, &robot_planes}) {
+        const Watching watching(ray, *planes, sight);
+        for (std::uint32_t i = 0; i < planes->size(); ++i) (void)watching.distance(i);
+    }
+    const Watching scenery(ray, static_items, sight), robots(ray, robot_items, sight);
+    (void)static_tree.nearest(ray.origin_W, ray.direction_W, sight.distance, scenery);
+    (void)robot_tree.nearest(ray.origin_W, ray.direction_W, sight.distance, robots);
+    return sight.distance <= ray.max_range ? sight : Sight{kInfinity, RobotId()};
 }
 
 RayScene::RayScene(std::shared_ptr<const Model> model) : impl_(std::make_unique<Impl>(std::move(model))) {
@@ -116,6 +142,12 @@ void RayScene::cast(std::span<const Ray> rays, std::span<double> distances) {
     const ExactFloatScope exact;
     ROBOSS_CHECK(rays.size() == distances.size(), "as many distances as rays");
     for (std::size_t i = 0; i < rays.size(); ++i) distances[i] = impl_->nearest(rays[i]);
+}
+
+void RayScene::look(std::span<const Ray> rays, std::span<Sight> sights) const {
+    const ExactFloatScope exact;
+    ROBOSS_CHECK(rays.size() == sights.size(), "as many sights as rays");
+    for (std::size_t i = 0; i < rays.size(); ++i) sights[i] = impl_->look(rays[i]);
 }
 
 }  // namespace roboss

@@ -32,6 +32,13 @@ class RayScene {
     };
     /// Distance of the nearest hit of each ray, in m, or +infinity. Both spans have the same size.
     void cast(std::span<const Ray> rays, std::span<double> distances);
+    /// What a ray meets first.
+    struct Sight {
+        double distance = 0;  ///< m, or +infinity
+        RobotId robot;        ///< not valid: scenery, or nothing
+    };
+    /// The same, and whose shapes they are. Several threads may call it at once, between two update().
+    void look(std::span<const Ray> rays, std::span<Sight> sights) const;
 
   private:
     struct Impl;

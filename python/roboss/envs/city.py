@@ -173,6 +173,7 @@ class CityEnv(TaskEnv):
 
     Args:
         traffic: how many other cars.
+        render_mode: None, "rgb_array" or "human", as TaskEnv.
         options: more options of CityTask, but for `worlds`.
 
     >>> env = gymnasium.make("roboss/City-v0", traffic=7)
@@ -182,7 +183,7 @@ class CityEnv(TaskEnv):
     ['arrived', 'collided', 'progress']
     """
 
-    def __init__(self, traffic: int = 15, **options):
+    def __init__(self, traffic: int = 15, render_mode: Optional[str] = None, **options):
         if traffic < 0:
             raise ArgumentError(f"{traffic} other cars", "give 0 or more")
-        super().__init__(CityTask(1 + traffic, **options), follow_the_gap if traffic else None)
+        super().__init__(CityTask(1 + traffic, **options), follow_the_gap if traffic else None, render_mode)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ArgumentError, StateError
+from .picture import MODES, Picture
 from .task import Outcome, Task
 
 
@@ -18,15 +19,20 @@ class TaskEnv(gymnasium.Env):
         task: one world.
         others: gives the actions of all agents, (count, ...), from their observations; it drives the other agents, which
             start again as soon as their episodes are over. None: the task has one agent.
+        render_mode: of render(): "rgb_array": a frame from behind the agent, without a browser; "human": the viewer's
+            page, opened by the first call.
     """
 
-    metadata = {"render_modes": []}
+    metadata = {"render_modes": MODES, "render_fps": 20}
 
-    def __init__(self, task: Task, others: Optional[Callable[[NDArray], NDArray]] = None):
+    def __init__(self, task: Task, others: Optional[Callable[[NDArray], NDArray]] = None,
+                 render_mode: Optional[str] = None):
         if task.worlds != 1 or (others is None and task.count != 1):
             raise ArgumentError(f"a task of {task.worlds} worlds with {task.count} agents",
                                 "give one world, and `others` if it has several agents")
         self.task, self._others = task, others
+        self.render_mode, self._picture = render_mode, Picture(task, render_mode)
+        self.metadata = {"render_modes": MODES, "render_fps": round(1 / task.step_s)}
         self.observation_space, self.action_space = task.observation_space, task.action_space
         self._seen: Optional[NDArray] = None
 
@@ -63,6 +69,20 @@ class TaskEnv(gymnasium.Env):
         infos = {name: values[0].item() if values.ndim == 1 else values[0] for name, values in outcome.infos.items()}
         return (self._seen[0].copy(), float(outcome.rewards[0]), bool(outcome.terminated[0]), bool(outcome.truncated[0]),
                 infos)
+
+    def render(self) -> Optional[NDArray[np.uint8]]:
+        """A frame, (rows, columns, 3), in the mode "rgb_array"; None in the others.
+
+        >>> env = gymnasium.make("roboss/City-v0", traffic=3, render_mode="rgb_array")
+        >>> _ = env.reset(seed=1)
+        >>> env.render().shape
+        (320, 480, 3)
+        """
+        return self._picture.render()
+
+    def close(self) -> None:
+        """Closes the viewer's page, if there is one."""
+        self._picture.close()
 
     def _replace(self, outcome: Outcome) -> None:
         """Starts other agents again whose episodes are over."""

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <unordered_set>
 
-#include "model/edit.h"
+#include "scene/placed_copies.h"
 
 namespace roboss {
 namespace {
@@ -59,16 +59,8 @@ void ModelVisuals::change(const Model& from, const Model& to) {
 }
 
 void ModelVisuals::add(const Addition& addition, World world, std::span<const CopyPlace> places) {
-    const std::vector<ModelInstance> once = std::exchange(world.instances, {});
-    world.instances.reserve(once.size() * places.size());
-    for (const CopyPlace& place : places)
-        for (ModelInstance instance : once) {
-            instance.name = name_in_model(addition.added, instance.name, place.name);
-            instance.X_WM = place.X_WA * instance.X_WM;
-            world.instances.push_back(std::move(instance));
-        }
     Worlds worlds = worlds_of(addition.from);
-    worlds.push_back(std::make_shared<const World>(std::move(world)));
+    worlds.push_back(std::make_shared<const World>(placed_copies(std::move(world), addition.added, places)));
     learn(addition.to, std::move(worlds));
 }
 

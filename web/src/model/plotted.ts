@@ -3,6 +3,7 @@
 import { WATCHED_ROBOTS_MAX } from "../protocol";
 import type { RobotReport } from "../wire/messages";
 import { type CurveData, type CurveName, formatPlots, parsePlots } from "./plot_data";
+import { keep, kept } from "./kept";
 import { allReadings } from "./readings";
 import { Signal } from "./signal";
 import type { ViewerState } from "./viewer_state";
@@ -113,7 +114,7 @@ export class Plotted {
     private set(curves: readonly Curve[]): void {
         this.curves.set(curves);
         this.state.pinned.set([...new Set(curves.map((curve) => curve.robot))]);
-        if (this.world !== "") localStorage.setItem(this.place(), this.words());
+        if (this.world !== "") keep(this.place(), this.words());
     }
 
     private place(): string {
@@ -156,6 +157,6 @@ export class Plotted {
     }
 
     private kept(world: string): string | null {
-        return localStorage.getItem(`roboss.plots.${world}`);
+        return kept(`roboss.plots.${world}`);
     }
 }

@@ -1,18 +1,19 @@
 // Choices from the page's address, and the address of the choices: what one copies to show another person the same view.
 import type { Views } from "../camera/views";
 import { type Address, formatCamera } from "./address";
+import { keep, kept } from "./kept";
 import { type CameraMode, type ColourBy, type Overlay, OVERLAYS, type Theme, type ViewerState } from "./viewer_state";
 
 const THEME_KEPT = "roboss.theme";
 
 export function startTheme(address: Address): Theme {
-    const asked = address.get("theme") ?? localStorage.getItem(THEME_KEPT);
+    const asked = address.get("theme") ?? kept(THEME_KEPT);
     if (asked === "light" || asked === "dark") return asked;
     return matchMedia("(prefers-color-scheme: light)").matches ? "light" : "dark";
 }
 
 export function keepTheme(theme: Theme): void {
-    localStorage.setItem(THEME_KEPT, theme);
+    keep(THEME_KEPT, theme);
 }
 
 /** Choices that need no scene. */

@@ -1,5 +1,6 @@
 // What a newcomer needs to know, once: a card over the picture that never comes back after it was dismissed.
 import type { Address } from "../model/address";
+import { keep, kept } from "../model/kept";
 import { h } from "../ui/dom";
 import { COARSE } from "../ui/touch";
 
@@ -19,11 +20,9 @@ const TOUCH = [
 export function firstHints(address: Address): HTMLElement | null {
     // Pictures and tests ask for a quality or for less around the picture.
     if (["hide", "quality", "panel"].some((name) => address.get(name) !== null)) return null;
-    try {
-        if (localStorage.getItem(KEPT) === "dismissed") return null;
-    } catch {
-        return null; // where nothing can be kept, they would come each time
-    }
+    const before = kept(KEPT);
+    // Where nothing can be kept, they would come each time.
+    if (before === "dismissed" || !keep(KEPT, before ?? "shown")) return null;
     const element = h(
         "aside",
         { class: "hints", "aria-label": "First steps" },
@@ -32,7 +31,7 @@ export function firstHints(address: Address): HTMLElement | null {
         h("div", { class: "buttons" }, h("button", { type: "button", class: "small", onclick: dismiss }, "Got it")),
     );
     function dismiss(): void {
-        localStorage.setItem(KEPT, "dismissed");
+        keep(KEPT, "dismissed");
         element.remove();
     }
     return element;

@@ -1,0 +1,189 @@
+"""RemoteSimulation: a run of a Controller elsewhere, with the objects of a Simulation."""
+from __future__ import annotations
+
+import json
+import logging
+import threading
+import weakref
+from typing import Any, Iterable, Sequence, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core
+from .camera import Camera
+from .errors import ArgumentError, StateError
+from .names import index_of
+from .robots import Robots
+from .simulation import CONTACT
+from .world import World
+
+_TURN_S = 0.05  # between two looks at the network while nothing is stepped
+_log = logging.getLogger("roboss")
+
+
+def connect(simulation: str = "default", *, name: str = "python", period: int = 10, latency: int = 0,
+            interface: str = "127.0.0.1", domain: int = 0, peers: Sequence[str] = (), discovery_server: str = "",
+            patience: float = 10.0) -> RemoteSimulation:
+    """Joins a run of `roboss controller`, on this computer or on a cluster, as a Client that steps it.
+
+    From then on the world waits for this program at every `period` ticks: `step` lets it go on. Start the Controller
+    with `--await-client NAME` if it shall wait for this program from the beginning.
+
+    Args:
+        simulation: name of the run (`--simulation`).
+        name: of this Client; unique in the run.
+        period: ticks between two observations; `step` takes multiples of it.
+        latency: ticks from an observation to the effect of the orders that are given at it. With 0, states are those
+            that a Simulation would have; more lets the cluster compute ahead meanwhile.
+        interface, domain, peers, discovery_server: the network, as the options of `roboss controller`.
+        patience: s without a Controller after which ClusterError is raised (code "no-controller").
+
+    Raises:
+        ClusterError: no Controller is found, or it refuses this Client.
+        ArgumentError: a period or latency that cannot be.
+    """
+    if period < 1 or latency < 0:
+        raise ArgumentError(f"a period of {period} ticks and a latency of {latency}",
+                            "give a period of 1 or more, and a latency of 0 or more", "bad-ticks")
+    core = _core.connect(simulation, name, period, latency, patience, interface, domain, list(peers), discovery_server)
+    return RemoteSimulation(core, f"<simulation '{simulation}'>")
+
+
+class RemoteSimulation:
+    """A run elsewhere, at the tick that this program observes. `connect` makes it; `with` leaves the run at the end.
+
+    `robots`, their arrays, orders, commands, sensors and `contacts` are those of a Simulation. Sensors are computed in
+    this process. What is assigned to `pose` and `twist` is an order: it is seen after the next `step`. Joint states
+    cannot be set (OrderError, code "remote"). Robots that come or go end the connection (StateError, "changed-world").
+    Orders that the Controller refuses go to the logger "roboss".
+    """
+
+    def __init__(self, core: _core.Remote, source: str):
+        self._core = core
+        self._simulations, self._shape = [core.simulation], ()
+        self.world: World = World(core.model, source, ())  #: that is simulated
+        self._end = threading.Event()
+        # The Controller repeats what is not answered: somebody takes it while nothing is stepped.
+        self._thread = threading.Thread(target=_advance, args=(weakref.ref(self), self._end), daemon=True, name="roboss remote")
+        self._thread.start()
+
+    def step(self, ticks: int = 0) -> None:
+        """Lets the world go on by `ticks`, a multiple of `period`; 0: one period. Ctrl-C ends the wait.
+
+        Raises:
+            ArgumentError: no multiple of `period`.
+            ClusterError: the run is over (code "run-over"), or the Controller is gone ("no-controller").
+            StateError: robots came or went ("changed-world"): connect again.
+        """
+        self._core.step(ticks or self.period)
+        for line in self._core.take_refusals():
+            _log.warning(line)
+
+    @property
+    def period(self) -> int:
+        """Ticks between two observations."""
+        return self._core.period
+
+    @property
+    def dt(self) -> float:
+        """Length of a tick, s."""
+        return self.world.dt
+
+    @property
+    def tick(self) -> int:
+        """Ticks since the start of the world, of the observation."""
+        return self._core.tick
+
+    @property
+    def time(self) -> float:
+        """Simulated time since the start of the world, s."""
+        return self._core.time
+
+    @property
+    def seed(self) -> int:
+        """Seed of the run, for sensor noise."""
+        return self._core.seed
+
+    @property
+    def state_hash(self) -> str:
+        """16 hexadecimal digits over world, tick and the states of all robots, as `roboss run` prints them."""
+        return self._simulations[0].hash
+
+    def robots(self, wanted: Union[str, Iterable[str]] = "*") -> Robots:
+        """Robots as arrays, as Simulation.robots."""
+        return Robots(self, self.world._find(wanted))
+
+    @property
+    def contacts(self) -> NDArray[np.void]:
+        """Contact points, as Simulation.contacts."""
+        return self._simulations[0].contacts().view(CONTACT)
+
+    def camera(self, position: ArrayLike, target: ArrayLike, *, size: tuple[int, int] = (640, 480), fov: float = 1.0,
+               far: float = 200.0) -> Camera:
+        """A camera, as Simulation.camera.
+
+        Args:
+            size: columns and rows of its pictures.
+            fov: angle that it sees across, rad.
+            far: nothing is seen beyond it, m.
+        """
+        return Camera(self, position, target, size, fov, far)
+
+    def control(self, *words: str) -> str:
+        """A request to the run in the words of `roboss control`: `control("speed", "max")`. Returns its answer.
+
+        Raises ClusterError if it is refused, ArgumentError if there is no such request.
+        """
+        return self._core.control(list(words))
+
+    def status(self) -> dict[str, Any]:
+        """The run as `roboss control status` tells it: members, islands, windows, losses ..."""
+        return json.loads(self._core.control(["status"]))
+
+    def attach(self, holder: str, held: str, *, reach: float = 0.1, max_force: float = float("inf"),
+               max_torque: float = float("inf")) -> None:
+        """Lets the robot `holder` hold `held` rigidly by their first links, as Simulation.attach."""
+        self._simulations[0].attach(self._number_of(holder), 0, self._number_of(held), 0, reach, max_force, max_torque)
+
+    def detach(self, holder: str, held: str) -> None:
+        """Lets go what `attach` made."""
+        self._simulations[0].detach(self._number_of(holder), self._number_of(held))
+
+    def close(self) -> None:
+        """Leaves the run, which goes on without this program. Later calls raise StateError."""
+        if self._end.is_set():
+            return
+        self._end.set()
+        self._thread.join()
+        self._core.leave()
+
+    def _number_of(self, robot: str) -> int:
+        return index_of("robot", robot, list(self.world.robots))
+
+    def __enter__(self) -> RemoteSimulation:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __getattr__(self, name: str) -> Any:
+        if name in ("reset", "save", "restore", "spawn", "remove", "view", "threads"):
+            raise StateError(f"'{name}' is for a Simulation in this process",
+                             "see control() and `roboss control` for runs on a cluster", "remote")
+        raise AttributeError(name)
+
+    def __repr__(self) -> str:
+        if self._end.is_set():
+            return "<roboss.RemoteSimulation, closed>"
+        return f"<roboss.RemoteSimulation of '{self.world.name}' at {self.time:g} s: {len(self.world.robots)} robots>"
+
+
+def _advance(remote: weakref.ref[RemoteSimulation], end: threading.Event) -> None:
+    """Takes what comes while nothing is stepped. Lives in a thread, as long as the connection."""
+    while not end.wait(_TURN_S):
+        there = remote()
+        if there is None:
+            return
+        there._core.advance()
+        del there

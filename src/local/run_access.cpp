@@ -1,0 +1,40 @@
+// See run_access.h.
+#include "local/run_access.h"
+
+namespace roboss {
+
+std::uint64_t RunAccess::hash() const {
+    std::vector<std::uint64_t> hashes;
+    for (std::size_t r = 0; r < states().size(); ++r)
+        hashes.push_back(state_hash(RobotId(r), tick(), states()[r]));
+    return world_hash(model_->hash, hashes);
+}
+
+Result<Sample> RunAccess::read(RobotId robot, std::size_t sensor) {
+    if (robot.index() >= states().size())
+        return Error{"there is no robot number " + std::to_string(robot.value),
+                     "the world has " + std::to_string(states().size()), "no-robot"};
+    return measure({*model_, robot, sensor, state(robot), tick(), seed(), *this});
+}
+
+std::vector<const RobotState*> RunAccess::pointers() const {
+    std::vector<const RobotState*> all;
+    for (const RobotState& state : states()) all.push_back(&state);
+    return all;
+}
+
+RayScene& RunAccess::ray_scene() {
+    if (!rays_) rays_ = std::make_unique<RayScene>(model_);
+    if (!rays_are_new_) rays_->update(pointers());
+    rays_are_new_ = true;
+    return *rays_;
+}
+
+StepProbe& RunAccess::step_probe() {
+    if (!probe_) probe_ = std::make_unique<StepProbe>(*model_);
+    if (!probe_is_new_) probe_->step(tick(), pointers());
+    probe_is_new_ = true;
+    return *probe_;
+}
+
+}  // namespace roboss

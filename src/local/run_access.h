@@ -1,0 +1,86 @@
+// RunAccess: a run as a program sees it at a tick, wherever it is stepped: states, sensors, contacts, orders.
+// LocalRun is one in this process, RemoteRun one on a cluster; RobotSet shows either as arrays.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/result.h"
+#include "model/order.h"
+#include "physics/probe.h"
+#include "sensors/readings.h"
+
+namespace roboss {
+
+/// See the top of the file. Not for use by several threads at once.
+class RunAccess : private SensorSources {
+  public:
+    /// Of this world.
+    explicit RunAccess(std::shared_ptr<const Model> model) : model_(std::move(model)) {}
+
+    const Model& model() const { return *model_; }                               ///< the compiled world
+    const std::shared_ptr<const Model>& shared_model() const { return model_; }  ///< the same
+    virtual Tick tick() const = 0;           ///< the world is at its beginning
+    virtual std::uint64_t seed() const = 0;  ///< of sensor noise
+    /// Simulated time since the start of the world, s.
+    double time_s() const { return static_cast<double>(tick()) * model_->dt_s; }
+    /// All states at tick(), by RobotId.
+    virtual const std::vector<RobotState>& states() const = 0;
+    /// The robot's state at tick(); the robot must exist.
+    const RobotState& state(RobotId robot) const { return states()[robot.index()]; }
+    /// Hash of the model and all states, as `roboss run` reports it.
+    std::uint64_t hash() const;
+
+    /// Orders for several robots, in this order, or, if one is refused, none; their ticks, Clients and
+    /// sequences do not count. An Error says why check_order() refuses it.
+    virtual Result<> order(std::vector<Order> orders) = 0;
+    /// Changes a state: at once where the run is in this process, else as an order.
+    virtual Result<> change(RobotId robot, const Action& action) = 0;
+    /// Puts one axis of a joint at a position (rad or m), or gives it a velocity (rad/s or m/s), at once. An
+    /// Error: there is no such robot, joint or axis; it closes a loop ("loop-joint"), or is a ball joint with
+    /// a position ("no-position": see change_ball_joint()); the number is not finite or too large; the run is elsewhere ("remote").
+    virtual Result<> change_joint(RobotId robot, JointId joint, int axis, std::optional<double> position,
+                                  std::optional<double> velocity) = 0;
+    /// Why change_joint() would refuse.
+    virtual Result<> check_joint_change(RobotId robot, JointId joint, int axis,
+                                        std::optional<double> position,
+                                        std::optional<double> velocity) const = 0;
+    /// Puts a ball joint at a rotation vector (rad, of the child in the joint frame), at once. An Error:
+    /// there is no such robot or joint; it is no ball joint ("no-ball"), or closes a loop ("loop-joint"); the
+    /// vector is not finite; the run is elsewhere ("remote").
+    virtual Result<> change_ball_joint(RobotId robot, JointId joint, const Vec3& rotation) = 0;
+    /// Why change_ball_joint() would refuse.
+    virtual Result<> check_ball_change(RobotId robot, JointId joint, const Vec3& rotation) const = 0;
+
+    /// Reading of sensor number `sensor` (RobotType::sensors) at tick(), with noise. `<update_rate>` has no
+    /// effect: each call measures. Returns an Error if there is no such robot or sensor, or if the sensor
+    /// cannot measure.
+    Result<Sample> read(RobotId robot, std::size_t sensor);
+    /// All contact points of the tick that begins at tick(), as long as no order takes effect at it
+    /// (physics/probe.h). Valid until the world is changed.
+    std::span<const ContactReport> contacts() { return step_probe().contacts(); }
+    /// What rays meet at tick(). Valid until the world is changed.
+    const RayScene& shapes() { return ray_scene(); }
+    /// What the joints of the robot bear in the same tick.
+    std::vector<JointReaction> joint_reactions(RobotId robot) { return step_probe().joint_reactions(robot); }
+
+  protected:
+    /// States are others than before.
+    void changed() { rays_are_new_ = probe_is_new_ = false; }
+
+  private:
+    RayScene& ray_scene() override;
+    StepProbe& step_probe() override;
+    const RobotState& state_of(RobotId robot) override { return state(robot); }
+    std::vector<const RobotState*> pointers() const;
+
+    std::shared_ptr<const Model> model_;
+    // made by the first question of a tick
+    std::unique_ptr<RayScene> rays_;
+    std::unique_ptr<StepProbe> probe_;
+    bool rays_are_new_ = false, probe_is_new_ = false;
+};
+
+}  // namespace roboss

@@ -1,0 +1,150 @@
+// See remote_run.h.
+#include "remote/remote_run.h"
+
+#include <random>
+
+#include "bus/model_pull.h"
+
+namespace roboss {
+
+namespace {
+
+constexpr std::int64_t kTurn_ms = 10, kResend_ms = 250, kLeave_ms = 5'000;
+
+Address client_address() {
+    std::random_device device;
+    return {Role::kClient, static_cast<std::uint64_t>(device()) << 32 | device()};
+}
+
+Error no_controller(const RemoteOptions& options) {
+    return {"no Controller of simulation '" + options.network.simulation + "' (interface " +
+                options.network.interface + ", domain " + std::to_string(options.network.domain) +
+                ") was found for " + std::to_string(static_cast<int>(options.patience_s)) + " s",
+            "start `roboss controller` with the same --simulation, --domain and network", "no-controller"};
+}
+
+Error interrupted() {
+    return {"interrupted", "", "interrupted"};
+}
+
+/// Why waiting ends, or nothing: a Controller is there.
+class Patience {
+  public:
+    Patience(DdsBus& bus, const RemoteOptions& options) : bus_(bus), o_(options), seen_ms_(bus.now_ms()) {}
+
+    Result<> wait(const RemoteRun::GoOn& go_on) {
+        bus_.wait(kTurn_ms);
+        if (!go_on()) return interrupted();
+        const std::int64_t now = bus_.now_ms();
+        if (bus_.present(kControllerAddress)) seen_ms_ = now;
+        if (static_cast<double>(now - seen_ms_) > 1e3 * o_.patience_s) return no_controller(o_);
+        return Ok{};
+    }
+
+  private:
+    DdsBus& bus_;
+    const RemoteOptions& o_;
+    std::int64_t seen_ms_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<RemoteRun>> RemoteRun::connect(const RemoteOptions& options, const GoOn& go_on) {
+    Result<std::unique_ptr<DdsBus>> opened = DdsBus::create(options.network);
+    if (!opened) return opened.error();
+    std::unique_ptr<DdsBus> bus = std::move(opened).value();
+    const Address self = client_address();
+    Patience patience(*bus, options);
+    ModelPull pull;
+    for (pull.advance(*bus, self, kResend_ms); !pull.model(); pull.advance(*bus, self, kResend_ms))
+        if (Result<> waited = patience.wait(go_on); !waited) return waited.error();
+    if (!pull.model()->ok()) return pull.model()->error();
+    const std::shared_ptr<const Model> model = pull.model()->value();
+    BusClientOptions wanted;
+    wanted.name = options.name;
+    wanted.period = options.period;
+    wanted.latency = options.latency;
+    auto client = std::make_unique<BusClient>(model, self, std::move(wanted));
+    std::unique_ptr<RemoteRun> run(new RemoteRun(model, options, std::move(bus), std::move(client)));
+    if (Result<> shown = run->wait_until([&] { return run->client_->observing(); }, go_on); !shown)
+        return shown.error();
+    run->until_ = run->tick();
+    return run;
+}
+
+Result<> RemoteRun::wait_until(const std::function<bool()>& done, const GoOn& go_on) {
+    Patience patience(*bus_, options_);
+    for (;;) {
+        client_->advance(*bus_);
+        if (done()) return Ok{};
+        if (!client_->over().empty())
+            return Error{"the run is over: " + client_->over(), "connect to another one", "run-over"};
+        if (client_->outdated())
+            return Error{"the world of the run has changed", "connect again", "changed-world"};
+        if (!client_->joined())
+            for (const std::string& reason : client_->take_refusals())
+                return Error{"the run refuses the Client '" + options_.name + "': " + reason,
+                             "choose another name", "refused"};
+        if (Result<> waited = patience.wait(go_on); !waited) return waited;
+    }
+}
+
+Result<> RemoteRun::step(Tick ticks, const GoOn& go_on) {
+    if (ticks < 0 || ticks % options_.period != 0)
+        return Error{"a step of " + std::to_string(ticks) + " ticks, where the run is observed every " +
+                         std::to_string(options_.period),
+                     "give a multiple of it, or connect with another period", "bad-ticks"};
+    until_ = tick() + ticks;
+    return finish(go_on);
+}
+
+Result<> RemoteRun::finish(const GoOn& go_on) {
+    while (tick() < until_) {
+        if (client_->observing()) client_->answer(*bus_);
+        if (Result<> shown = wait_until([&] { return client_->observing(); }, go_on); !shown) return shown;
+        changed();
+    }
+    return Ok{};
+}
+
+Result<> RemoteRun::order(std::vector<Order> orders) {
+    for (Order& order : orders) {
+        order.apply_at = tick();
+        if (Result<> checked = check_order(model(), order); !checked) return checked;
+    }
+    for (const Order& order : orders)
+        if (Result<> given = client_->order(order.robot, order.action); !given) return given;
+    return Ok{};
+}
+
+Result<> RemoteRun::change(RobotId robot, const Action& action) {
+    return order({Order{0, ClientId(0U), 0, robot, action}});
+}
+
+Error RemoteRun::not_here() {
+    return {"joints of a run on a cluster cannot be set at once", "order setpoints of their motors",
+            "remote"};
+}
+
+Result<ControlOutcome> RemoteRun::control(const ControlAction& action, const GoOn& go_on) {
+    client_->control(action);
+    std::vector<ControlAnswer> answers;
+    const auto answered = [&] {
+        answers = client_->take_control_answers();
+        return !answers.empty();
+    };
+    if (Result<> waited = wait_until(answered, go_on); !waited) return waited.error();
+    return std::move(answers.back().outcome);
+}
+
+void RemoteRun::leave() {
+    const std::int64_t begin_ms = bus_->now_ms();
+    if (client_->over().empty() && client_->joined()) client_->leave(*bus_);
+    while (client_->over().empty() && !client_->heard() && bus_->now_ms() - begin_ms < kLeave_ms) {
+        bus_->wait(kTurn_ms);
+        client_->advance(*bus_);
+    }
+    bus_->flush(500);
+}
+
+}  // namespace roboss

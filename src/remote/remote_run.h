@@ -1,0 +1,83 @@
+// RemoteRun: a run of a Controller elsewhere, as a program sees it that steps it: a synchronous Client over
+// DDS. The world waits at each observation until the program steps on. Its states are those of the cluster,
+// bit for bit, with the arrays and sensors of a LocalRun.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "client/bus_client.h"
+#include "dds/dds_bus.h"
+#include "local/run_access.h"
+
+namespace roboss {
+
+/// Which run a RemoteRun joins, and as whom.
+struct RemoteOptions {
+    DdsOptions network{};         ///< where the Controller is
+    std::string name = "remote";  ///< as a Client; unique in the run
+    Tick period = 1;              ///< ticks between observations
+    Tick latency = 0;             ///< ticks from an observation to the effect of its orders
+    double patience_s = 10;       ///< for a Controller that is not to be found, s
+};
+
+/// See the top of the file.
+class RemoteRun final : public RunAccess {
+  public:
+    /// Called now and then while something is waited for; false: it is given up.
+    using GoOn = std::function<bool()>;
+
+    /// Joins the run and waits for its first observation. Errors: "no-controller"; "interrupted", if go_on()
+    /// said so; the run refuses the Client ("refused").
+    static Result<std::unique_ptr<RemoteRun>> connect(const RemoteOptions& options, const GoOn& go_on);
+
+    Tick tick() const override { return client_->tick(); }
+    std::uint64_t seed() const override { return client_->seed(); }
+    const std::vector<RobotState>& states() const override { return client_->states(); }
+    Tick period() const { return options_.period; }  ///< ticks between observations
+
+    /// Lets the world go on by `ticks`, a multiple of period(), with the orders given since. Errors:
+    /// "bad-ticks"; "run-over"; "changed-world", if robots came or went; "no-controller"; "interrupted": call
+    /// finish() to wait on.
+    Result<> step(Tick ticks, const GoOn& go_on);
+    /// Waits for the rest of a step() that was interrupted. Nothing happens if there is none.
+    Result<> finish(const GoOn& go_on);
+
+    Result<> order(std::vector<Order> orders) override;
+    Result<> change(RobotId robot, const Action& action) override;
+    Result<> change_joint(RobotId, JointId, int, std::optional<double>, std::optional<double>) override {
+        return not_here();
+    }
+    Result<> check_joint_change(RobotId, JointId, int, std::optional<double>,
+                                std::optional<double>) const override {
+        return not_here();
+    }
+    Result<> change_ball_joint(RobotId, JointId, const Vec3&) override { return not_here(); }
+    Result<> check_ball_change(RobotId, JointId, const Vec3&) const override { return not_here(); }
+
+    /// A request to the run itself: pause, status ... Errors as of step().
+    Result<ControlOutcome> control(const ControlAction& action, const GoOn& go_on);
+    /// Orders that the Controller refused since the last call, one line each.
+    std::vector<std::string> take_refusals() { return client_->take_refusals(); }
+    /// To be called now and then while nothing is stepped: takes what has come.
+    void advance() { client_->advance(*bus_); }
+    /// Leaves the run, which goes on without it; takes a moment. Nothing else may be called then.
+    void leave();
+
+  private:
+    RemoteRun(std::shared_ptr<const Model> model, const RemoteOptions& options, std::unique_ptr<DdsBus> bus,
+              std::unique_ptr<BusClient> client)
+        : RunAccess(std::move(model)), options_(options), bus_(std::move(bus)), client_(std::move(client)) {}
+    static Error not_here();
+    /// Waits until done(), advancing the Client.
+    Result<> wait_until(const std::function<bool()>& done, const GoOn& go_on);
+
+    RemoteOptions options_;
+    std::unique_ptr<DdsBus> bus_;
+    std::unique_ptr<BusClient> client_;
+    Tick until_ = 0;  // of the step() under way
+};
+
+}  // namespace roboss
