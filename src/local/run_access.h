@@ -40,7 +40,8 @@ class RunAccess : private SensorSources {
     virtual Result<> change(RobotId robot, const Action& action) = 0;
     /// Puts one axis of a joint at a position (rad or m), or gives it a velocity (rad/s or m/s), at once. An
     /// Error: there is no such robot, joint or axis; it closes a loop ("loop-joint"), or is a ball joint with
-    /// a position ("no-position": see change_ball_joint()); the number is not finite or too large; the run is elsewhere ("remote").
+    /// a position ("no-position": see change_ball_joint()); the number is not finite or too large; the run is
+    /// elsewhere ("remote").
     virtual Result<> change_joint(RobotId robot, JointId joint, int axis, std::optional<double> position,
                                   std::optional<double> velocity) = 0;
     /// Why change_joint() would refuse.
