@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "car_field.h"
+#include "local/local_run.h"
 #include "local/robot_set.h"
 #include "take.h"
 
