@@ -4,6 +4,8 @@
 #include <random>
 
 #include "bus/model_pull.h"
+#include "client/bus_client.h"
+#include "dds/dds_bus.h"
 
 namespace roboss {
 
@@ -48,6 +50,31 @@ class Patience {
 };
 
 }  // namespace
+
+RemoteRun::RemoteRun(std::shared_ptr<const Model> model, const RemoteOptions& options,
+                     std::unique_ptr<DdsBus> bus, std::unique_ptr<BusClient> client)
+    : RunAccess(std::move(model)), options_(options), bus_(std::move(bus)), client_(std::move(client)) {}
+RemoteRun::~RemoteRun() = default;
+
+Tick RemoteRun::tick() const {
+    return client_->tick();
+}
+
+std::uint64_t RemoteRun::seed() const {
+    return client_->seed();
+}
+
+const std::vector<RobotState>& RemoteRun::states() const {
+    return client_->states();
+}
+
+std::vector<std::string> RemoteRun::take_refusals() {
+    return client_->take_refusals();
+}
+
+void RemoteRun::advance() {
+    client_->advance(*bus_);
+}
 
 Result<std::unique_ptr<RemoteRun>> RemoteRun::connect(const RemoteOptions& options, const GoOn& go_on) {
     Result<std::unique_ptr<DdsBus>> opened = DdsBus::create(options.network);

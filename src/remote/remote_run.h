@@ -8,11 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "client/bus_client.h"
-#include "dds/dds_bus.h"
+#include "client/client.h"
+#include "dds/dds_options.h"
 #include "local/run_access.h"
 
 namespace roboss {
+
+class BusClient;
+class DdsBus;
 
 /// Which run a RemoteRun joins, and as whom.
 struct RemoteOptions {
@@ -33,9 +36,11 @@ class RemoteRun final : public RunAccess {
     /// said so; the run refuses the Client ("refused").
     static Result<std::unique_ptr<RemoteRun>> connect(const RemoteOptions& options, const GoOn& go_on);
 
-    Tick tick() const override { return client_->tick(); }
-    std::uint64_t seed() const override { return client_->seed(); }
-    const std::vector<RobotState>& states() const override { return client_->states(); }
+    ~RemoteRun() override;
+
+    Tick tick() const override;
+    std::uint64_t seed() const override;
+    const std::vector<RobotState>& states() const override;
     Tick period() const { return options_.period; }  ///< ticks between observations
 
     /// Lets the world go on by `ticks`, a multiple of period(), with the orders given since. Errors:
@@ -60,16 +65,15 @@ class RemoteRun final : public RunAccess {
     /// A request to the run itself: pause, status ... Errors as of step().
     Result<ControlOutcome> control(const ControlAction& action, const GoOn& go_on);
     /// Orders that the Controller refused since the last call, one line each.
-    std::vector<std::string> take_refusals() { return client_->take_refusals(); }
+    std::vector<std::string> take_refusals();
     /// To be called now and then while nothing is stepped: takes what has come.
-    void advance() { client_->advance(*bus_); }
+    void advance();
     /// Leaves the run, which goes on without it; takes a moment. Nothing else may be called then.
     void leave();
 
   private:
     RemoteRun(std::shared_ptr<const Model> model, const RemoteOptions& options, std::unique_ptr<DdsBus> bus,
-              std::unique_ptr<BusClient> client)
-        : RunAccess(std::move(model)), options_(options), bus_(std::move(bus)), client_(std::move(client)) {}
+              std::unique_ptr<BusClient> client);
     static Error not_here();
     /// Waits until done(), advancing the Client.
     Result<> wait_until(const std::function<bool()>& done, const GoOn& go_on);
