@@ -18,15 +18,16 @@ from ._core import Diagnostic, Save
 from .batch import Batch
 from .camera import Camera
 from .builder import ModelBuilder, WorldBuilder
-from .errors import (ArgumentError, ClusterError, JournalError, OrderError, RobossError, SaveError, SensorError, StateError,
-                     UnknownNameError, ViewError, WorldError, WorldWarning)
+from .errors import (ArgumentError, ClusterError, JournalError, OrderError, RobossError, SaveError, SensorError,
+                     StateError, UnknownNameError, ViewError, WorldError, WorldWarning)
 from .journal import Journal
 from .kinematics import Follower, IKSolution, RobotModel
 from .mujoco_order import MujocoOrder
 from .remote import RemoteSimulation, connect
 from .robots import Robots
 from .sensors import Sensor
-from .simulation import CONTACT, Simulation
+from .run import CONTACT
+from .simulation import Simulation
 from .trajectories import CartesianTrajectory, JointTrajectory, ctraj, jtraj
 from .view import View
 from .world import World, example, load

@@ -5,17 +5,11 @@ import json
 import logging
 import threading
 import weakref
-from typing import Any, Iterable, Sequence, Union
-
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from typing import Any, Sequence
 
 from . import _core
-from .camera import Camera
 from .errors import ArgumentError, StateError
-from .names import index_of
-from .robots import Robots
-from .simulation import CONTACT
+from .run import Run
 from .world import World
 
 _TURN_S = 0.05  # between two looks at the network while nothing is stepped
@@ -50,7 +44,7 @@ def connect(simulation: str = "default", *, name: str = "python", period: int = 
     return RemoteSimulation(core, f"<simulation '{simulation}'>")
 
 
-class RemoteSimulation:
+class RemoteSimulation(Run):
     """A run elsewhere, at the tick that this program observes. `connect` makes it; `with` leaves the run at the end.
 
     `robots`, their arrays, orders, commands, sensors and `contacts` are those of a Simulation. Sensors are computed in
@@ -86,49 +80,9 @@ class RemoteSimulation:
         return self._core.period
 
     @property
-    def dt(self) -> float:
-        """Length of a tick, s."""
-        return self.world.dt
-
-    @property
     def tick(self) -> int:
         """Ticks since the start of the world, of the observation."""
         return self._core.tick
-
-    @property
-    def time(self) -> float:
-        """Simulated time since the start of the world, s."""
-        return self._core.time
-
-    @property
-    def seed(self) -> int:
-        """Seed of the run, for sensor noise."""
-        return self._core.seed
-
-    @property
-    def state_hash(self) -> str:
-        """16 hexadecimal digits over world, tick and the states of all robots, as `roboss run` prints them."""
-        return self._simulations[0].hash
-
-    def robots(self, wanted: Union[str, Iterable[str]] = "*") -> Robots:
-        """Robots as arrays, as Simulation.robots."""
-        return Robots(self, self.world._find(wanted))
-
-    @property
-    def contacts(self) -> NDArray[np.void]:
-        """Contact points, as Simulation.contacts."""
-        return self._simulations[0].contacts().view(CONTACT)
-
-    def camera(self, position: ArrayLike, target: ArrayLike, *, size: tuple[int, int] = (640, 480), fov: float = 1.0,
-               far: float = 200.0) -> Camera:
-        """A camera, as Simulation.camera.
-
-        Args:
-            size: columns and rows of its pictures.
-            fov: angle that it sees across, rad.
-            far: nothing is seen beyond it, m.
-        """
-        return Camera(self, position, target, size, fov, far)
 
     def control(self, *words: str) -> str:
         """A request to the run in the words of `roboss control`: `control("speed", "max")`. Returns its answer.
@@ -141,25 +95,13 @@ class RemoteSimulation:
         """The run as `roboss control status` tells it: members, islands, windows, losses ..."""
         return json.loads(self._core.control(["status"]))
 
-    def attach(self, holder: str, held: str, *, reach: float = 0.1, max_force: float = float("inf"),
-               max_torque: float = float("inf")) -> None:
-        """Lets the robot `holder` hold `held` rigidly by their first links, as Simulation.attach."""
-        self._simulations[0].attach(self._number_of(holder), 0, self._number_of(held), 0, reach, max_force, max_torque)
-
-    def detach(self, holder: str, held: str) -> None:
-        """Lets go what `attach` made."""
-        self._simulations[0].detach(self._number_of(holder), self._number_of(held))
-
     def close(self) -> None:
-        """Leaves the run, which goes on without this program. Later calls raise StateError."""
+        """Leaves the run, which continues without this program. Later calls raise StateError."""
         if self._end.is_set():
             return
         self._end.set()
         self._thread.join()
         self._core.leave()
-
-    def _number_of(self, robot: str) -> int:
-        return index_of("robot", robot, list(self.world.robots))
 
     def __enter__(self) -> RemoteSimulation:
         return self

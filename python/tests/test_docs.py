@@ -8,10 +8,10 @@ import pytest
 
 import roboss
 from conftest import REPOSITORY
-from roboss import batch, builder, camera, envs, kinematics, robots, sensors, simulation, trajectories, view, world
+from roboss import batch, builder, camera, envs, kinematics, robots, run, sensors, simulation, trajectories, view, world
 from roboss.envs import city, city_driver, parallel, single, soccer
 
-MODULES = [roboss, batch, builder, camera, world, simulation, robots, sensors, kinematics, trajectories, view]
+MODULES = [roboss, batch, builder, camera, world, run, simulation, robots, sensors, kinematics, trajectories, view]
 MODULES += [envs, city, city_driver, parallel, single, soccer]
 
 BLOCK = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
@@ -28,7 +28,8 @@ def test_everything_public_has_a_docstring(module):
     for name in module.__all__:
         thing = getattr(module, name)
         if isinstance(thing, type):
-            members = [getattr(thing, member) for member in vars(thing) if not member.startswith("_")]
+            own = [base for base in thing.__mro__ if base.__module__.startswith("roboss.")]
+            members = [getattr(thing, member) for base in own for member in vars(base) if not member.startswith("_")]
             described = [member for member in members if callable(member) or isinstance(member, property)]
             if thing.__module__ != "roboss._core":
                 assert all(member.__doc__ for member in [thing, *described]), name
