@@ -1,36 +1,16 @@
 // For the tests of this layer: files given as text.
 #pragma once
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "mjcf/load_mjcf.h"
+#include "world/test_loaded.h"
 
 namespace roboss::mjcf_test {
 
-struct Loaded {
-    std::optional<World> world;
-    Diagnostics diagnostics;
-
-    /// The first finding with this code; nullptr: none.
-    const Diagnostic* find(const std::string& code) const {
-        const auto at = std::ranges::find(diagnostics.items(), code, &Diagnostic::code);
-        return at == diagnostics.items().end() ? nullptr : &*at;
-    }
-    std::string text() const {
-        std::string all;
-        for (const Diagnostic& d : diagnostics.items()) all += to_text(d) + "\n";
-        return all;
-    }
-    /// nullptr: no such model.
-    const ModelSpec* model(const std::string& name) const {
-        if (!world) return nullptr;
-        const auto at = std::ranges::find(world->prototypes, name, &ModelSpec::name);
-        return at == world->prototypes.end() ? nullptr : &*at;
-    }
-};
+using Loaded = world_test::Loaded;
 
 /// Loads a whole file given as text, as `name`.
 inline Loaded load_text(const std::string& text, const std::string& name = "robot.xml") {

@@ -1,33 +1,17 @@
 // For the tests of this layer: worlds given as text, in a folder of their own that goes away with the object.
 #pragma once
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string>
 
 #include "sdf/load_world.h"
+#include "world/test_loaded.h"
 
 namespace roboss::sdf_test {
 
-struct Loaded {
-    std::optional<World> world;
-    Diagnostics diagnostics;
-
-    /// The first finding with this code; nullptr: none.
-    const Diagnostic* find(const std::string& code) const {
-        const auto& items = diagnostics.items();
-        const auto at =
-            std::find_if(items.begin(), items.end(), [&](const Diagnostic& d) { return d.code == code; });
-        return at == items.end() ? nullptr : &*at;
-    }
-    std::string text() const {
-        std::string all;
-        for (const Diagnostic& d : diagnostics.items()) all += to_text(d) + "\n";
-        return all;
-    }
-};
+using Loaded = world_test::Loaded;
 
 class TestFolder {
   public:
