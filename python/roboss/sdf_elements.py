@@ -43,7 +43,7 @@ def checked_name(kind: str, name: str, taken: Sequence[str]) -> str:
 
 
 def vector(what: str, values: ArrayLike, size: int) -> NDArray[np.float64]:
-    """So many finite numbers."""
+    """An array of `size` finite numbers."""
     array = numbers(what, values).ravel()
     if array.size != size or not np.isfinite(array).all():
         raise ArgumentError(f"{what} of {array.tolist()}", f"give {size} finite numbers", "bad-shape")

@@ -74,14 +74,14 @@ class View:
         webbrowser.open(self.url)
 
     def wait(self, pages: int = 1, timeout: float = 60.0) -> bool:
-        """Waits until so many pages are open, at most `timeout` s. Returns whether they are."""
+        """Waits until this number of pages is open, at most `timeout` s. Returns whether they are."""
         end = time.monotonic() + timeout
         while self.pages < pages and time.monotonic() < end and not self.closed:
             time.sleep(_TURN_S)
         return self.pages >= pages
 
     def close(self) -> None:
-        """Tells all pages that it ends, and frees the port. The simulation goes on without a view."""
+        """Tells all pages that it ends, and frees the port. The simulation continues without a view."""
         core, self._core = self._core, None
         if core is None:
             return

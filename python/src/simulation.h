@@ -45,7 +45,7 @@ class Simulation {
         return *access_;
     }
 
-    /// The run goes on in another Simulation, or without this program.
+    /// The run continues in another Simulation, or without this program.
     void retire() { run_.reset(), access_.reset(); }
 
     /// Whether a thread that does not hold the GIL is inside.

@@ -1,5 +1,5 @@
 // The table has a row for each element that is read. Elements that MuJoCo knows and RoBOSS leaves out are in
-// a second table. Anything else is a slip of the pen.
+// a second table. Anything else is reported as unknown.
 #include "mjcf/unread.h"
 
 #include <algorithm>

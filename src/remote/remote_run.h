@@ -68,7 +68,7 @@ class RemoteRun final : public RunAccess {
     std::vector<std::string> take_refusals();
     /// To be called now and then while nothing is stepped: takes what has come.
     void advance();
-    /// Leaves the run, which goes on without it; takes a moment. Nothing else may be called then.
+    /// Leaves the run, which continues without it; takes a moment. Nothing else may be called then.
     void leave();
 
   private:
