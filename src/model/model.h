@@ -24,6 +24,7 @@
 #include "math/aabb.h"
 #include "math/pose.h"
 #include "model/dof_paths.h"
+#include "model/joint_elimination.h"
 #include "world/world.h"
 
 namespace roboss {
@@ -249,6 +250,7 @@ struct RobotType {
     /// For each entry of v: the previous one on its path to the root, -1 at the root.
     std::vector<int> dof_parent;
     DofPaths paths;                             ///< the same, as whole paths
+    JointElimination elimination;               ///< of a robot with many loops; computed by seal()
     std::vector<Link> links;                    ///< by LinkId
     std::vector<Joint> joints;                  ///< by JointId
     std::vector<LoopJoint> loops;               ///< joints that close kinematic loops

@@ -75,6 +75,7 @@ void seal(Model& model) {
     for (RobotType& type : model.types) {
         type.paths = DofPaths(type.dof_parent);
         lay_out_onboard(type);
+        type.elimination = joint_elimination(type);
         type.hash = type_hash(type);
     }
     build_bvh(model);

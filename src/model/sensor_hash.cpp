@@ -10,38 +10,38 @@
 namespace roboss {
 namespace {
 
-void add(Hash& hash, const NoiseSpec& n) {
+void add_value(Hash& hash, const NoiseSpec& n) {
     for (double x : {n.mean, n.stddev, n.bias_mean, n.bias_stddev, n.precision}) hash.add(x);
 }
 
-void add(Hash& hash, int value) {
+void add_value(Hash& hash, int value) {
     hash.add(static_cast<std::uint64_t>(static_cast<std::int64_t>(value)));
 }
 
-void add(Hash& hash, double value) {
+void add_value(Hash& hash, double value) {
     hash.add(value);
 }
 
-void add(Hash& hash, const Vec3& v) {
+void add_value(Hash& hash, const Vec3& v) {
     hash.add(v.x), hash.add(v.y), hash.add(v.z);
 }
 
-void add(Hash& hash, const std::string& text) {
+void add_value(Hash& hash, const std::string& text) {
     hash.add(std::string_view(text));
 }
 
-void add(Hash& hash, const std::vector<std::string>& texts) {
+void add_value(Hash& hash, const std::vector<std::string>& texts) {
     hash.add(static_cast<std::uint64_t>(texts.size()));
-    for (const std::string& text : texts) add(hash, text);
+    for (const std::string& text : texts) add_value(hash, text);
 }
 
-void add(Hash& hash, const std::vector<double>& values) {
+void add_value(Hash& hash, const std::vector<double>& values) {
     hash.add(static_cast<std::uint64_t>(values.size()));
     hash.add(std::span<const double>(values));
 }
 
-void add(Hash& hash, const Pose& X) {
-    add(hash, X.p);
+void add_value(Hash& hash, const Pose& X) {
+    add_value(hash, X.p);
     for (const double x : {X.q.w, X.q.x, X.q.y, X.q.z}) hash.add(x);
 }
 
@@ -91,7 +91,7 @@ struct Record {
     void keep(const Parameter& parameter, const Value& value) {
         has_rest = true;
         rest.add(std::string_view(parameter.name));
-        add(rest, value);
+        add_value(rest, value);
     }
 };
 
@@ -106,10 +106,10 @@ void add_to_hash(Hash& hash, const SensorInfo& info) {
                      s.update_rate_hz})
         hash.add(x);
     for (const auto& [name, value] : record.numbers) hash.add(value);
-    for (const auto& [name, noise] : record.noises) add(hash, noise);
-    add(hash, static_cast<int>(s.kind().number));
-    for (const auto& [name, count] : record.counts) add(hash, count);
-    add(hash, static_cast<int>(info.link.value));
+    for (const auto& [name, noise] : record.noises) add_value(hash, noise);
+    add_value(hash, static_cast<int>(s.kind().number));
+    for (const auto& [name, count] : record.counts) add_value(hash, count);
+    add_value(hash, static_cast<int>(info.link.value));
     for (const std::string& joint : record.joints) hash.add(std::string_view(joint));
     if (record.has_rest) hash.add(record.rest.value());
 }

@@ -4,8 +4,9 @@
 #pragma once
 
 #include <cstddef>
-#include <utility>
 #include <vector>
+
+#include "core/minimum_degree.h"
 
 namespace roboss {
 
@@ -66,7 +67,7 @@ class BodyOrder {
     };
     const std::vector<Pivot>& pivots() const { return pivots_; }
     /// The other body of an edge.
-    const std::vector<int>& ends() const { return ends_; }
+    const std::vector<int>& ends() const { return elimination_.ends(); }
     /// For each pivot, each pair of its edges (i < j): the edge that joins their ends, and whether the end of
     /// j is eliminated before that of i.
     struct Update {
@@ -74,19 +75,15 @@ class BodyOrder {
         bool j_first = false;
     };
     const std::vector<Update>& updates() const { return updates_; }
-    std::size_t edges() const { return ends_.size(); }
+    std::size_t edges() const { return elimination_.ends().size(); }
 
   private:
-    void eliminate(std::size_t bodies);
+    bool goes_first(int a, int b) const;
     int edge_of(int a, int b) const;
 
+    MinimumDegree elimination_;
     std::vector<Pivot> pivots_;
-    std::vector<int> ends_;
     std::vector<Update> updates_;
-    std::vector<int> position_, degree_;  // by body: when it is eliminated; neighbours left
-    std::vector<std::vector<int>> near_;  // by body: neighbours left, ascending
-    std::vector<int> merged_;
-    std::vector<std::pair<int, int>> queue_;  // (degree, body), a heap; outdated entries are skipped
 };
 
 struct BodyIsland {

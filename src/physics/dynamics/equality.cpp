@@ -78,8 +78,11 @@ double times_row(const Equalities& equalities, const EqualityRow& row, std::span
     return sum;
 }
 
-void EqualitySolver::prepare(const RobotType& type, std::span<const double> factor,
+void EqualitySolver::prepare(const RobotWork& work, std::span<const char> locked,
                              const Equalities& equalities) {
+    const RobotType& type = *work.type;
+    sparse_ = !needs_mass_matrix(type);
+    if (sparse_) return by_joints_.prepare(work, locked, equalities);
     n_ = static_cast<std::size_t>(type.nv), m_ = equalities.rows.size();
     y_.assign(m_ * n_, 0.0);
     a_.resize(m_ * m_);
@@ -90,7 +93,7 @@ void EqualitySolver::prepare(const RobotType& type, std::span<const double> fact
         double* const y = y_.data() + i * n_;
         for (std::size_t c = row.first; c < row.last; ++c)
             y[equalities.columns[c].dof] = equalities.columns[c].j * scale_[i];
-        tree_solve(type.paths, factor.data(), y);
+        tree_solve(type.paths, work.mass_matrix.data(), y);
     }
     for (std::size_t i = 0; i < m_; ++i)
         for (std::size_t j = 0; j < m_; ++j)
@@ -121,6 +124,13 @@ void EqualitySolver::factor() {
 }
 
 void EqualitySolver::solve(std::span<const double> wanted, std::span<double> change) {
+    if (sparse_)
+        by_joints_.solve(wanted, change);
+    else
+        solve_dense(wanted, change);
+}
+
+void EqualitySolver::solve_dense(std::span<const double> wanted, std::span<double> change) {
     const auto at = [&](std::size_t i, std::size_t j) { return a_[order_[i] * m_ + order_[j]]; };
     x_.resize(rank_);
     for (std::size_t i = 0; i < rank_; ++i) {
@@ -155,12 +165,14 @@ void EqualityProjection::place(const RobotType& type, std::span<const double> q)
 }
 
 void EqualityProjection::prepare(const RobotType& type, std::span<const char> locked) {
-    compute_inertias(type, work_);
-    compute_mass_matrix<double>(type, 0.0, work_);
-    lock_rows(type.paths, locked, work_.mass_matrix.data());
     leave_out_locked(locked, equalities_);
-    tree_factor(type.paths, work_.mass_matrix.data());
-    solver_.prepare(type, work_.mass_matrix, equalities_);
+    if (EqualitySolver::needs_mass_matrix(type)) {
+        compute_inertias(type, work_);
+        compute_mass_matrix<double>(type, 0.0, work_);
+        lock_rows(type.paths, locked, work_.mass_matrix.data());
+        tree_factor(type.paths, work_.mass_matrix.data());
+    }
+    solver_.prepare(work_, locked, equalities_);
 }
 
 double EqualityProjection::largest_error() const {

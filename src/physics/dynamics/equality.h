@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "physics/dynamics/robot_work.h"
+#include "physics/dynamics/sparse_equality.h"
 
 namespace roboss {
 
@@ -39,17 +40,25 @@ void leave_out_locked(std::span<const char> locked, Equalities& equalities);
 /// J x of one row.
 double times_row(const Equalities& equalities, const EqualityRow& row, std::span<const double> x);
 
-/// Solves J M^-1 J^T impulses = wanted by Cholesky's method with diagonal pivoting. Rows that others imply
-/// (a planar linkage in space has three of them) are met with those, and get no impulse.
+/// Solves J M^-1 J^T impulses = wanted by Cholesky's method with diagonal pivoting, or joint by joint where a
+/// robot has many loops (sparse_equality.h). Rows that others imply (a planar linkage in space has three of
+/// them) are met with those, and get no impulse.
 class EqualitySolver {
   public:
-    /// `factor`: of the mass matrix, by tree_factor.
-    void prepare(const RobotType& type, std::span<const double> factor, const Equalities& equalities);
+    /// Whether prepare() needs the mass matrix.
+    static bool needs_mass_matrix(const RobotType& type) { return type.elimination.empty(); }
+    /// `work`: placed, its mass matrix factored by tree_factor, if it is needed, with what is locked;
+    /// `locked` and `equalities` as leave_out_locked takes them.
+    void prepare(const RobotWork& work, std::span<const char> locked, const Equalities& equalities);
     /// change = M^-1 J^T impulses, such that J change = wanted.
     void solve(std::span<const double> wanted, std::span<double> change);
 
   private:
     void factor();
+    void solve_dense(std::span<const double> wanted, std::span<double> change);
+
+    bool sparse_ = false;
+    SparseEqualitySolver by_joints_;
 
     std::size_t n_ = 0, m_ = 0, rank_ = 0;
     std::vector<double> y_;      // m x n: M^-1 J^T, a row each

@@ -31,10 +31,9 @@ void normalise(const RobotType& type, std::span<double> q) {
 /// Adds what loops and couplings accelerate: so much that their second derivatives are zero.
 void add_equality_acceleration(std::span<const double> q, std::span<const char> locked, FreeBuffer& free) {
     RobotWork& work = free.work;
-    const RobotType& type = *work.type;
     gather_equalities(work, q, free.equalities);
     leave_out_locked(locked, free.equalities);
-    free.solver.prepare(type, work.mass_matrix, free.equalities);
+    free.solver.prepare(work, locked, free.equalities);
     free.wanted.clear();
     for (const EqualityRow& row : free.equalities.rows)
         free.wanted.push_back(-row.curvature - times_row(free.equalities, row, work.velocity));

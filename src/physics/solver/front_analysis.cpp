@@ -5,7 +5,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <iterator>
 
 #include "core/make_room.h"
 
@@ -73,34 +72,12 @@ void FrontFactor::order_small() {
     }
 }
 
-/// The same with sorted lists.
+/// The same for any number of groups.
 void FrontFactor::order_large() {
-    if (neighbours_.size() < groups_) neighbours_.resize(groups_);
-    for (std::size_t g = 0; g < groups_; ++g) neighbours_[g].clear();
-    for (const auto& [a, b] : links_) {
-        neighbours_[static_cast<std::size_t>(a)].push_back(b);
-        neighbours_[static_cast<std::size_t>(b)].push_back(a);
-    }
-    for (std::size_t g = 0; g < groups_; ++g) {
-        std::vector<int>& list = neighbours_[g];
-        std::sort(list.begin(), list.end());
-        list.erase(std::unique(list.begin(), list.end()), list.end());
-    }
-    for (std::size_t k = 0; k < groups_; ++k) {
-        std::size_t best = groups_;
-        for (std::size_t g = 0; g < groups_; ++g)
-            if (position_[g] < 0 && (best == groups_ || neighbours_[g].size() < neighbours_[best].size()))
-                best = g;
-        take_group(best);
-        const std::vector<int>& front = neighbours_[best];
-        for (int u : front) {
-            std::vector<int>& list = neighbours_[static_cast<std::size_t>(u)];
-            merged_.clear();
-            std::set_union(list.begin(), list.end(), front.begin(), front.end(), std::back_inserter(merged_));
-            std::erase_if(merged_, [&](int x) { return x == u || x == static_cast<int>(best); });
-            list.swap(merged_);
-        }
-    }
+    large_.begin(groups_);
+    for (const auto& [a, b] : links_) large_.join(a, b);
+    large_.eliminate();
+    for (const int g : large_.order()) take_group(static_cast<std::size_t>(g));
 }
 
 void FrontFactor::take_group(std::size_t group) {

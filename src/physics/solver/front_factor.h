@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/minimum_degree.h"
 #include "model/dof_paths.h"
 
 namespace roboss {
@@ -95,11 +96,10 @@ class FrontFactor {
     bool symmetric_ = true;
     std::vector<int> group_first_, heads_, group_of_;  // of the groups, twice; of the unknowns
     std::vector<std::pair<int, int>> links_;           // groups that a clique couples
-    std::vector<std::vector<int>> neighbours_;         // groups, sorted, while a large island is ordered
-    std::vector<int> merged_;
-    std::vector<int> order_, position_;  // groups as eliminated; and back
-    std::vector<int> rank_;              // of the unknowns: when they are eliminated
-    std::vector<int> clique_front_;      // group of each clique
+    MinimumDegree large_;                              // order of many groups
+    std::vector<int> order_, position_;                // groups as eliminated; and back
+    std::vector<int> rank_;                            // of the unknowns: when they are eliminated
+    std::vector<int> clique_front_;                    // group of each clique
     std::vector<std::size_t> clique_start_, cliques_by_front_, clique_first_;
     std::vector<Front> fronts_;  // by group
     std::vector<int> index_, to_parent_, local_, mark_, where_;

@@ -1,0 +1,101 @@
+// See joint_elimination.h.
+#include "model/joint_elimination.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/minimum_degree.h"
+#include "model/model.h"
+
+namespace roboss {
+namespace {
+
+// So many loops pay off (docs/decisions/0032-many-loops.md); fewer are solved in the coordinates of the tree.
+constexpr std::size_t kLoopsMin = 6;
+// Bodies, and directions of one body, that differ more would cost digits.
+constexpr double kMassRatioMax = 1e4, kInertiaRatioMax = 1e5;
+
+/// What J M^-1 J^T over all joints does not hold: rotors, couplings of coordinates, added mass.
+bool is_plain(const RobotType& type) {
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (const Body& body : type.bodies) {
+        const Mat3& I = body.inertia_C;
+        const auto [low, high] = std::minmax({I.r0.x, I.r1.y, I.r2.z});
+        if (!(body.mass > 0) || !(low > 0) || !(high <= kInertiaRatioMax * low)) return false;
+        least = std::min(least, body.mass), most = std::max(most, body.mass);
+    }
+    const auto has_rotor = [](const Dof& dof) { return dof.armature != 0; };
+    const auto joins_nothing = [](const LoopJoint& loop) { return loop.body_a == loop.body_b; };
+    return most <= kMassRatioMax * least && type.couplings.empty() && type.fluids.empty() &&
+           !type.feels_flow && std::ranges::none_of(type.dofs, has_rotor) &&
+           std::ranges::none_of(type.loops, joins_nothing);
+}
+
+std::vector<JointElimination::Node> joints_of(const RobotType& type) {
+    std::vector<JointElimination::Node> nodes;
+    for (std::size_t b = 0; b < type.bodies.size(); ++b)
+        nodes.push_back({type.bodies[b].parent, static_cast<int>(b), -1, 0, 0});
+    for (std::size_t i = 0; i < type.loops.size(); ++i)
+        nodes.push_back({type.loops[i].body_a, type.loops[i].body_b, static_cast<int>(i), 0, 0});
+    return nodes;
+}
+
+/// By body: the joints that hold it.
+std::vector<std::vector<int>> joints_by_body(const RobotType& type,
+                                             const std::vector<JointElimination::Node>& nodes) {
+    std::vector<std::vector<int>> by_body(type.bodies.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        for (const int body : {nodes[i].body_a, nodes[i].body_b})
+            if (body >= 0) by_body[static_cast<std::size_t>(body)].push_back(static_cast<int>(i));
+    return by_body;
+}
+
+/// Sorts the nodes by the order of elimination.
+void order(const RobotType& type, JointElimination& out) {
+    const std::vector<JointElimination::Node> nodes = joints_of(type);
+    MinimumDegree elimination;
+    elimination.begin(nodes.size());
+    for (const std::vector<int>& joints : joints_by_body(type, nodes))
+        for (std::size_t i = 0; i < joints.size(); ++i)
+            for (std::size_t j = i + 1; j < joints.size(); ++j)
+                if (joints[i] != joints[j]) elimination.join(joints[i], joints[j]);
+    elimination.eliminate();
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+        const auto [first, last] = elimination.ends_of(k);
+        JointElimination::Node node = nodes[static_cast<std::size_t>(elimination.order()[k])];
+        node.first = first, node.last = last;
+        out.nodes.push_back(node);
+    }
+    for (const int end : elimination.ends())
+        out.ends.push_back(elimination.position()[static_cast<std::size_t>(end)]);
+    for (const JointElimination::Node& node : out.nodes)
+        std::sort(out.ends.begin() + static_cast<std::ptrdiff_t>(node.first),
+                  out.ends.begin() + static_cast<std::ptrdiff_t>(node.last));
+}
+
+void couple(const RobotType& type, JointElimination& out) {
+    const std::vector<std::vector<int>> by_body = joints_by_body(type, out.nodes);
+    for (std::size_t b = 0; b < by_body.size(); ++b)
+        for (const int p : by_body[b]) {
+            const JointElimination::Node& node = out.nodes[static_cast<std::size_t>(p)];
+            const auto first = out.ends.begin() + static_cast<std::ptrdiff_t>(node.first);
+            const auto last = out.ends.begin() + static_cast<std::ptrdiff_t>(node.last);
+            for (const int q : by_body[b]) {
+                if (q < p) continue;
+                const auto edge = q == p ? -1 : std::lower_bound(first, last, q) - out.ends.begin();
+                out.couplings.push_back({static_cast<int>(b), p, q, static_cast<int>(edge)});
+            }
+        }
+}
+
+}  // namespace
+
+JointElimination joint_elimination(const RobotType& type) {
+    JointElimination out;
+    if (type.loops.size() < kLoopsMin || !is_plain(type)) return out;
+    order(type, out);
+    couple(type, out);
+    return out;
+}
+
+}  // namespace roboss
