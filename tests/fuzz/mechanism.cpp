@@ -229,6 +229,27 @@ ModelSpec random_loop(Random& random, const MechanismOptions& options) {
     return m;
 }
 
+ModelSpec random_net(Random& random, MechanismOptions options) {
+    options.stores = options.planar = false;
+    options.bare = chance(random, 0.5);
+    ModelSpec m = named("net");
+    const int loops = random.integer(6, 9), links = loops + random.integer(3, 6);  // behind the base
+    m.links.push_back(random_link(random, link_name(0), {{}, random.rotation()}, options));
+    for (int i = 1; i <= links; ++i) {
+        const JointSpecKind kind = chance(random, 0.2) ? random_kind(random, options) : JointSpecKind::kBall;
+        add_limb(random, options, i, random.integer(0, i - 1), kind, m);
+    }
+    for (int k = 0; k < loops; ++k) {
+        const int a = random.integer(0, links), other = random.integer(0, links - 1);
+        const int b = other < a ? other : other + 1;
+        const auto at = [&](int i) { return m.links[static_cast<std::size_t>(i)].X_ML.p; };
+        m.joints.push_back(bare_joint(random, JointSpecKind::kBall, "closing_" + std::to_string(k),
+                                      link_name(a), link_name(b),
+                                      {(at(a) + at(b)) * 0.5 + random.vector(0.05), random.rotation()}));
+    }
+    return m;
+}
+
 ModelSpec random_coupled(Random& random, const MechanismOptions& options) {
     const double ratio = random.uniform(0.3, 3) * (chance(random, 0.5) ? 1 : -1);
     if (chance(random, 0.25)) {

@@ -34,6 +34,10 @@ ModelSpec random_tree(Random& random, const MechanismOptions& options);
 /// back to its base, or a planar four-bar linkage.
 ModelSpec random_loop(Random& random, const MechanismOptions& options);
 
+/// A mechanism with six loops and more, closed by ball joints between random links, and at least as many
+/// internal degrees of freedom as loops. No rotors, so that its loops are solved joint by joint.
+ModelSpec random_net(Random& random, MechanismOptions options);
+
 /// A tree with a mimic joint, or two wheels with a gearbox.
 ModelSpec random_coupled(Random& random, const MechanismOptions& options);
 

@@ -47,6 +47,11 @@ TEST(Property, EnergyOfPassiveMechanismsNeverGrows) {
         {"energy", 84, 10, {"tree", "bare", "anchored", "hanging", "loop", "coupled", "idle-motors"}});
 }
 
+TEST(Property, EnergyAndMomentumOfNetsStay) {
+    expect_holds({"energy", 12, 1, {"net"}});
+    expect_holds({"momentum", 12, 1, {"net"}});
+}
+
 TEST(Property, EnergyOfPassiveRobotsThatCollideNeverGrows) {
     expect_holds({"energy", 36, 5, {"cloud", "room", "fleet"}});
 }

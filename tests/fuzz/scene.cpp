@@ -57,6 +57,10 @@ Scene loop(Random& random, const Setting& setting) {
     return one_robot(setting, random_loop(random, {}));
 }
 
+Scene net(Random& random, const Setting& setting) {
+    return one_robot(setting, random_net(random, {}));
+}
+
 Scene coupled(Random& random, const Setting& setting) {
     return one_robot(setting, random_coupled(random, {}));
 }
@@ -293,6 +297,7 @@ constexpr SceneKind kKinds[] = {
     {"wild", "driven robots that start interpenetrating, soft contacts, any accuracy", wild, false, false},
     {"acting", "robots with on-board controllers that are commanded and hold each other", acting, false,
      false},
+    {"net", "a free mechanism with six loops and more", net, true, true},
 };
 
 /// Any motor at all, with targets far beyond what it can reach.
