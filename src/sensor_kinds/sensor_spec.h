@@ -30,6 +30,7 @@
 #include "sensor_kinds/odometer.h"
 #include "sensor_kinds/odometry.h"
 #include "sensor_kinds/onboard_values.h"
+#include "sensor_kinds/sonar.h"
 
 namespace roboss {
 
@@ -60,7 +61,7 @@ using SensorKinds =
                    ContactSpec, ForceTorqueSpec, OdometrySpec, JointStatesSpec, LinkPosesSpec,
                    WheelOdometrySpec, BatterySensorSpec, KineticEnergySpec, TrajectoryProgressSpec,
                    LogicalCameraSpec, MicrophoneSpec, AirPressureSpec, AirSpeedSpec, EnvironmentalSpec,
-                   TrackOdometrySpec>;
+                   TrackOdometrySpec, SonarSpec>;
 
 /// Parameters of any kind.
 using SensorParameters = SensorKinds::Parameters;

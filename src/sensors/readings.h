@@ -83,5 +83,6 @@ Result<AirPressureReading> read(const AirPressureSpec& barometer, const SensorQu
 Result<AirSpeedReading> read(const AirSpeedSpec& tube, const SensorQuery& query);
 Result<EnvironmentalReading> read(const EnvironmentalSpec& sensor, const SensorQuery& query);
 Result<TrackOdometryReading> read(const TrackOdometrySpec& odometry, const SensorQuery& query);
+Result<SonarReading> read(const SonarSpec& sonar, const SensorQuery& query);
 
 }  // namespace roboss

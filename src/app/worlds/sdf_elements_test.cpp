@@ -236,7 +236,8 @@ const Element kElements[] = {
     {In::kLink,
      "<sensor name='l' "
      "type='logical_camera'><logical_camera><near>0</near><far>5</far></logical_camera></sensor>"},
-    {In::kLink, "<sensor name='a' type='sonar'/>", "sonar"},
+    {In::kLink, "<sensor name='a' type='sonar'><sonar><min>0</min><max>2</max></sonar></sensor>"},
+    {In::kLink, "<sensor name='a' type='wireless_receiver'/>", "wireless_receiver"},
     {In::kInertial, "<pose>0 0 .1 0 0 0</pose>"},
     {In::kInertial, "<fluid_added_mass><xx>1</xx></fluid_added_mass>", "", "1.10"},
     {In::kModel, "<self_collide>1</self_collide>"},
