@@ -67,7 +67,7 @@ def test_poses_are_orders_and_bonds_hold(name):
     with controller(name, world=roboss.example("bonds.sdf")), roboss.connect(name, period=5) as remote:
         first = remote.world.robots[0]
         robot = remote.robots([first])
-        before = robot.pose
+        before = robot.pose.copy()
         robot.pose = before + [0, 0, 1.5, 0, 0, 0, 0]
         np.testing.assert_array_equal(robot.pose, before)
         remote.step()
