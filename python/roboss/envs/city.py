@@ -152,6 +152,7 @@ class CityVectorEnv(TaskVectorEnv):
         num_envs: cars of all worlds together.
         worlds: equal worlds, each with num_envs / worlds cars.
         autoreset_mode: "NextStep", "SameStep" or "Disabled".
+        render_mode: None or "rgb_array", as TaskVectorEnv.
         options: more options of CityTask.
 
     >>> cars = roboss.envs.CityVectorEnv(num_envs=12, worlds=3)
@@ -162,10 +163,11 @@ class CityVectorEnv(TaskVectorEnv):
     True
     """
 
-    def __init__(self, num_envs: int = 64, *, worlds: int = 1, autoreset_mode="NextStep", **options):
+    def __init__(self, num_envs: int = 64, *, worlds: int = 1, autoreset_mode="NextStep", render_mode: Optional[str] = None,
+                 **options):
         if worlds < 1 or num_envs < 1 or num_envs % worlds:
             raise ArgumentError(f"{num_envs} cars in {worlds} worlds", "give as many cars to each world")
-        super().__init__(CityTask(num_envs // worlds, worlds=worlds, **options), autoreset_mode)
+        super().__init__(CityTask(num_envs // worlds, worlds=worlds, **options), autoreset_mode, render_mode)
 
 
 class CityEnv(TaskEnv):
