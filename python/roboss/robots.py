@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from .camera import RobotCameras
 from .errors import ArgumentError, StateError
 from .mujoco_order import MujocoOrder
 from .names import filled, index_of, numbers, unknown
@@ -293,6 +294,20 @@ class Robots:
         else:
             array = self._fill(f"command '{name}'", values, len(fields))
         self._core.command(number, array.shape[-1], array)
+
+    def camera(self, position: ArrayLike, target: ArrayLike, *, link: Optional[str] = None, size: tuple[int, int] = (64, 64),
+               fov: float = 1.2, far: float = 50.0) -> RobotCameras:
+        """A camera on each robot, which looks from `position` to `target` (m, in the robot frame) and moves with it.
+
+        Args:
+            link: name of the link in whose frame they are; None: the robot frame.
+            size: columns and rows of its pictures.
+            fov: angle that it sees across, rad.
+            far: nothing is seen beyond it, m.
+        """
+        if link is not None:
+            self._link(link)
+        return RobotCameras(self, position, target, link, size, fov, far)
 
     def __getitem__(self, key: Union[str, int, slice, NDArray]) -> Union[Sensor, Robots]:
         if isinstance(key, str):

@@ -115,7 +115,7 @@ class CityTask(Task):
             others = positions[world, staying[world]]
             nearest = np.full(len(places), np.inf)
             if len(others) and mask.any():
-                nearest = np.linalg.norm(places[:, None] - others, axis=2).min(axis=1)
+                nearest = _nearest(places, others)
             for _ in range(np.count_nonzero(mask)):
                 free = np.flatnonzero(nearest > CLEARANCE_M)
                 place = int(free[rng.integers(len(free))] if len(free) else nearest.argmax())
@@ -143,6 +143,12 @@ class CityTask(Task):
                 free[first:first + len(some)] &= nearest[:len(some)] > NEAREST_M
         self.simulations[0].reset()
         return free
+
+
+def _nearest(places: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray[np.float64]:
+    """How far the nearest of the others is from each place, m: |p - o|^2 = |p|^2 - 2 p o + |o|^2."""
+    squares = np.sum(others**2, axis=1) - 2 * places @ others.T
+    return np.sqrt(np.maximum(0, squares.min(axis=1) + np.sum(places**2, axis=1)))
 
 
 class CityVectorEnv(TaskVectorEnv):
