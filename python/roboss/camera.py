@@ -53,13 +53,13 @@ class Camera:
 
     def picture(self) -> NDArray[np.uint8]:
         """What it sees, (rows, columns, 3): red, green, blue."""
-        return _picture_of(self._simulation, self._far, *self._look())
+        return _picture_of(self._simulation, self._far, _threads_of(self._simulation), *self._look())
 
     def _look(self) -> tuple[Floats, Floats, Floats, NDArray[np.int32]]:
         """Where it is, directions, distances and robots by pixel."""
         position = filled("position", self.position, (3,))
         rays = _rays_of(self._plane, position, filled("target", self.target, (3,)))
-        return position, rays, *_cast(self._simulation, position, rays, self._far)
+        return position, rays, *_cast(self._simulation, position, rays, self._far, _threads_of(self._simulation))
 
 
 class RobotCameras:
@@ -76,21 +76,25 @@ class RobotCameras:
     def __init__(self, robots: Robots, position: ArrayLike, target: ArrayLike, link: Optional[str], size: tuple[int, int],
                  fov: float, far: float):
         self._robots, self._link, self._far = robots, link, far
+        self._threads = _threads_of(robots.simulation)
         self._position = filled("position", position, (3,))
         self._rays = _rays_of(_plane_of(size, fov, far), self._position, filled("target", target, (3,)))
 
     def depth(self) -> Floats:
         """Distance along each ray in m, (N, rows, columns); infinite where there is nothing within `far`."""
-        return self._each(lambda simulation, eyes, rays: _cast(simulation, eyes, rays, self._far)[0])
+        return self._each(lambda *of_one: self._cast(*of_one)[0])
 
     def segmentation(self) -> NDArray[np.int32]:
         """Which robot is seen, (N, rows, columns): its place in World.robots; -1: scenery, or nothing."""
-        return self._each(lambda simulation, eyes, rays: _cast(simulation, eyes, rays, self._far)[1])
+        return self._each(lambda *of_one: self._cast(*of_one)[1])
 
     def picture(self) -> NDArray[np.uint8]:
         """What they see, (N, rows, columns, 3): red, green, blue."""
         return self._each(lambda simulation, eyes, rays: _picture_of(
-            simulation, self._far, eyes, rays, *_cast(simulation, eyes, rays, self._far)))
+            simulation, self._far, self._threads, eyes, rays, *self._cast(simulation, eyes, rays)))
+
+    def _cast(self, simulation: Simulation, eyes: Floats, rays: Floats) -> tuple[Floats, NDArray[np.int32]]:
+        return _cast(simulation, eyes, rays, self._far, self._threads)
 
     def _each(self, look: Callable) -> NDArray:
         """What look(simulation, eyes (N, 1, 1, 3), rays (N, rows, columns, 3)) gives of each simulation."""
@@ -138,15 +142,20 @@ def _matrices(quaternions: Floats) -> Floats:
     return np.moveaxis(np.array(rows), 2, 0)
 
 
-def _cast(simulation: Any, origins: Floats, rays: Floats, far: float) -> tuple[Floats, NDArray[np.int32]]:
+def _cast(simulation: Any, origins: Floats, rays: Floats, far: float, threads: int) -> tuple[Floats, NDArray[np.int32]]:
     """Distances (m) and robots of rays of any shape (..., 3), whose origins are broadcast to them."""
     table = np.concatenate([np.broadcast_to(origins, rays.shape), rays], axis=-1).reshape(-1, 6)
     distances, robots = np.empty(len(table)), np.empty(len(table), dtype=np.int32)
-    _core.look(simulation._simulations[0], table, far, getattr(simulation._core, "threads", 1), distances, robots)
+    _core.look(simulation._simulations[0], table, far, threads, distances, robots)
     return distances.reshape(rays.shape[:-1]), robots.reshape(rays.shape[:-1])
 
 
-def _picture_of(simulation: Any, far: float, origins: Floats, rays: Floats, distance: Floats,
+def _threads_of(simulation: Any) -> int:
+    """Threads of a Simulation or Batch; a run elsewhere has one here."""
+    return getattr(simulation._core, "threads", 1)
+
+
+def _picture_of(simulation: Any, far: float, threads: int, origins: Floats, rays: Floats, distance: Floats,
                 robot: NDArray[np.int32]) -> NDArray[np.uint8]:
     """Colours of pixels, (..., rows, columns, 3)."""
     seen = np.isfinite(distance)
@@ -157,7 +166,7 @@ def _picture_of(simulation: Any, far: float, origins: Floats, rays: Floats, dist
     lit = np.clip(normal @ _SUN, 0, 1)
     shadow = np.zeros_like(lit)
     starts = points[seen] + 2e-3 * normal[seen]
-    shadow[seen] = np.isfinite(_cast(simulation, starts, np.broadcast_to(_SUN, starts.shape), far)[0])
+    shadow[seen] = np.isfinite(_cast(simulation, starts, np.broadcast_to(_SUN, starts.shape), far, threads)[0])
     types = np.array([*simulation.world._types, -1])
     colour = np.where((robot >= 0)[..., None], _ROBOTS[types[robot] % len(_ROBOTS)], _SCENERY)
     colour = colour * (0.5 + 0.5 * lit * (1 - shadow))[..., None]

@@ -113,8 +113,9 @@ def test_refuses_to_look_straight_down(still):
         still.camera([0, 0, 9], [0, 0, 0]).picture()
 
 
-def test_environments_render_frames_that_change():
-    env = gymnasium.make("roboss/City-v0", traffic=3, render_mode="rgb_array")
+@pytest.mark.parametrize("name, others", [("City", {"traffic": 3}), ("Soccer", {"cars": 1}), ("Warehouse", {"others": 1})])
+def test_environments_render_frames_that_change(name, others):
+    env = gymnasium.make(f"roboss/{name}-v0", render_mode="rgb_array", **others)
     env.reset(seed=1)
     first = env.render()
     assert first.shape == (320, 480, 3) and first.dtype == np.uint8 and first.std() > 10
