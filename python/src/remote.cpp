@@ -107,7 +107,9 @@ std::string control(const Remote& remote, const std::vector<std::string>& words)
 
 /// Nothing happens while another thread is inside.
 void advance(const Remote& remote) {
-    if (remote.run && !remote.simulation->busy()) remote.run->advance();
+    if (!remote.run || remote.simulation->busy()) return;
+    remote.run->advance();
+    remote.simulation->refresh();
 }
 
 void leave(Remote& remote) {

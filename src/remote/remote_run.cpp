@@ -73,7 +73,9 @@ std::vector<std::string> RemoteRun::take_refusals() {
 }
 
 void RemoteRun::advance() {
+    const Tick before = tick();
     client_->advance(*bus_);
+    if (tick() != before) changed();
 }
 
 Result<std::unique_ptr<RemoteRun>> RemoteRun::connect(const RemoteOptions& options, const GoOn& go_on) {
@@ -106,7 +108,7 @@ Result<std::unique_ptr<RemoteRun>> RemoteRun::join(const RemoteOptions& options,
 Result<> RemoteRun::wait_until(const std::function<bool()>& done, const GoOn& go_on, bool even_outdated) {
     Patience patience(*bus_, options_);
     for (;;) {
-        client_->advance(*bus_);
+        advance();
         if (done()) return Ok{};
         if (!client_->over().empty())
             return Error{"the run is over: " + client_->over(), "connect to another one", "run-over"};
