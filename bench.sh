@@ -64,15 +64,17 @@ viewer() {
     printf 'rows as JSON: build/bench/viewer.json\n'
 }
 
-# Agents of roboss.envs beside the same ones in MuJoCo, in Python: agent-steps a second (docs/learning.md).
+# Agents of roboss.envs beside the same ones in MuJoCo, in Python: agent-steps a second. Only a whole run, without flags,
+# changes docs/learning.md.
 learning() {
     tools/build_wheel.sh
     build roboss-world
     local python
     python=$(tools/python_env.sh)
-    "$python" -m pip install --quiet --disable-pip-version-check -r bench/learning/packages.txt
-    OPENBLAS_NUM_THREADS=1 "$python" -B bench/learning/learning.py --json build/bench/learning.json "$@"
-    printf 'rows as JSON: build/bench/learning.json\n'
+    local rows=build/bench/learning.json
+    OPENBLAS_NUM_THREADS=1 "$python" -B bench/learning/learning.py --json "$rows" "$@"
+    [[ $# -gt 0 ]] || "$python" -B tools/learning_report "$rows" --page docs/learning.md
+    printf 'rows as JSON: %s\n' "$rows"
 }
 
 # Google Benchmarks whose names match.
@@ -86,7 +88,7 @@ google_benchmark() {
         printf 'accuracy  (RoBOSS and the same engines against known truths: some minutes; --list; --help)\n'
         printf 'table1  (one world on 1 to 12 Simulators, the paper'"'"'s experiment: about 20 minutes; --help)\n'
         printf 'viewer  (what browsers cost a run of 2000 cars: a minute; --help)\n'
-        printf 'learning  (agents in Python, beside MuJoCo: ten minutes; --only 64: one; --help)\n'
+        printf 'learning  (agents in Python, beside MuJoCo: a quarter of an hour; --only 64: one; --help)\n'
         exec "$program" --benchmark_list_tests
     fi
     local name=$1

@@ -1,9 +1,18 @@
 """The city and its cars in MuJoCo: MJCF made from the same SDF file, behind the calls that roboss.envs.CityTask uses.
 
 So the task, its observations and its Python are the same for both engines; only what steps and measures differs. Stated
-where engines differ: motors are MuJoCo's velocity actuators with the same torque limit; integrator, contacts, solver and
-tolerances are MuJoCo's defaults, of which the Euler integrator is the fastest here; the laser has no noise (mj_multiRay
-from the same place).
+where engines differ:
+
+- Motors are MuJoCo's velocity actuators with the same torque limit; kv = 2 N m s/rad and the integrator "implicitfast"
+  make them hold their speeds (with the Euler integrator more than kv = 0.375 is unstable).
+- These cars turn by dragging their wheels sideways. With Coulomb friction alone they turn on the spot at 2.18 rad/s where
+  the wheels' rims move at 0.66 m/s: the moments of friction about the middle balance there,
+  0.13 m (0.66 m/s - 0.13 m w) = (0.15 m)^2 w, for wheels at (0.15 m, 0.13 m). RoBOSS's cars do 1.99 rad/s (wheels are
+  4 cm wide), MuJoCo's with its default contacts 0.2 to 0.6: its convex contacts push a wheel that slides upwards, so the
+  car hops from wheel to wheel. Softer contacts (solref 0.1 s) keep the wheels on the ground; TURN_GAIN makes up for what
+  is still missing, so that the same actions turn the cars alike: 0.3, 1.3 and 2.0 rad/s where RoBOSS's do 0.6, 1.2, 2.0.
+- Contacts, solver and tolerances are otherwise MuJoCo's defaults (pyramidal cones are the fastest). The laser has no
+  noise (mj_multiRay from the same place).
 """
 import re
 from concurrent.futures import ThreadPoolExecutor
@@ -16,9 +25,10 @@ from roboss.envs.city_view import BEAMS, RANGE_M
 
 SOLID = re.compile(r"<collision name=\"part_\d+\"><pose>([^<]*)</pose><geometry>(.*?)</geometry>")
 WHEELS = (("front_left", 0.15, 0.13), ("front_right", 0.15, -0.13), ("rear_left", -0.15, 0.13), ("rear_right", -0.15, -0.13))
+TURN_GAIN = 2.0
 HEAD = """<mujoco><compiler angle="radian" eulerseq="XYZ"/>
-<option timestep="{dt}" gravity="0 0 -9.8"/><size memory="{memory}"/><worldbody>
-<geom name="ground" type="plane" size="0 0 1" friction="0.9"/>
+<option timestep="{dt}" gravity="0 0 -9.8" integrator="implicitfast"/><size memory="{memory}"/><worldbody>
+<geom name="ground" type="plane" size="0 0 1" friction="0.9" solref="0.1 1"/>
 """
 CHASSIS = """<body name="{name}" pos="{x} {y} 0.08"><freejoint/>
 <inertial pos="0 0 0" mass="5" diaginertia="0.0208333 0.0708333 0.0833333"/>
@@ -26,9 +36,9 @@ CHASSIS = """<body name="{name}" pos="{x} {y} 0.08"><freejoint/>
 """
 WHEEL = """<body pos="{x} {y} -0.03"><joint name="{name}_{wheel}" axis="0 1 0"/>
 <inertial pos="0 0 0" mass="0.3" diaginertia="0.0002275 0.000375 0.0002275"/>
-<geom type="cylinder" size="0.05 0.02" euler="1.5707963 0 0" friction="0.9"/></body>
+<geom type="cylinder" size="0.05 0.02" euler="1.5707963 0 0" friction="0.9" solref="0.1 1"/></body>
 """
-MOTOR = '<velocity joint="{name}_{wheel}" kv="0.2" ctrlrange="-40 40" forcerange="-0.8 0.8"/>\n'
+MOTOR = '<velocity joint="{name}_{wheel}" kv="2" ctrlrange="-40 40" forcerange="-0.8 0.8"/>\n'
 
 
 def mjcf_of(sdf, names, waiting, dt):
@@ -112,10 +122,11 @@ class Cars:
     joint_velocity = property(fset=lambda self, values: self._set_joints("qvel", values))
 
     def set_joint_targets(self, targets, joints):
-        """Targets of the wheels, in the order of `joints`."""
+        """Targets of the wheels, in the order of `joints`; both sides differ by TURN_GAIN more (see the top)."""
         order = [joints.index(wheel) for wheel, _, _ in WHEELS]
         for data, part in self._each(targets, 4):
-            data.ctrl.reshape(self.cars, 4)[self.rows] = part[:, order]
+            mean = part.mean(axis=1, keepdims=True)
+            data.ctrl.reshape(self.cars, 4)[self.rows] = (mean + TURN_GAIN * (part - mean))[:, order].clip(-40, 40)
 
     @property
     def touching(self):
@@ -143,6 +154,34 @@ class Cars:
             mujoco.mj_multiRay(self.model, data, start, (self.beams @ turn.T).ravel(), None, True, body, hit, scan, None,
                                BEAMS, RANGE_M)
         return np.where(ranges < 0, np.inf, ranges)
+
+
+class DepthCameras:
+    """As roboss.RobotCameras, for depths: rays from the same places, as MuJoCo's renderer needs OpenGL.
+
+    Args:
+        cars: all cars of all worlds.
+        rays: directions in the frame of the car, (rows, columns, 3).
+    """
+
+    def __init__(self, cars, position, rays, far):
+        self.cars, self.position, self.far = cars, np.asarray(position) - [0, 0, 0.08], far  # from the chassis
+        self.shape, self.rays = rays.shape[:2], rays.reshape(-1, 3)
+
+    def depth(self):
+        """Distances, m, (cars, rows, columns) or with an axis of worlds in front; inf: nothing within reach."""
+        return self.cars._shaped([self._look(data) for data in self.cars.worlds])
+
+    def _look(self, data):
+        model, count = self.cars.model, len(self.rays)
+        mujoco.mj_kinematics(model, data)
+        depths, hit = np.empty((len(self.cars), count)), np.empty(count, dtype=np.int32)
+        for depth, car in zip(depths, self.cars.rows):
+            body = 1 + 5 * car
+            turn = data.xmat[body].reshape(3, 3)
+            mujoco.mj_multiRay(model, data, data.xpos[body] + turn @ self.position, (self.rays @ turn.T).ravel(), None, True,
+                               body, hit, depth, None, count, self.far)
+        return np.where(depths < 0, np.inf, depths).reshape(-1, *self.shape)
 
 
 class Worlds:

@@ -16,7 +16,7 @@ all arrays. The result is the same to the last bit for any number of threads, an
 """
 from ._core import Diagnostic, Save
 from .batch import Batch
-from .camera import Camera
+from .camera import Camera, RobotCameras
 from .builder import ModelBuilder, WorldBuilder
 from .errors import (ArgumentError, ClusterError, JournalError, OrderError, RobossError, SaveError, SensorError,
                      StateError, UnknownNameError, ViewError, WorldError, WorldWarning)
@@ -34,8 +34,9 @@ from .world import World, example, load
 
 __version__ = "0.1.0"
 __all__ = [
-    "ArgumentError", "Batch", "CONTACT", "Camera", "CartesianTrajectory", "ClusterError", "Diagnostic", "Follower", "IKSolution",
-    "JointTrajectory", "Journal", "JournalError", "ModelBuilder", "MujocoOrder", "OrderError", "RobossError", "RemoteSimulation", "RobotModel",
-    "Robots", "Save", "SaveError", "Sensor", "SensorError", "Simulation", "StateError", "UnknownNameError", "View",
-    "ViewError", "World", "WorldBuilder", "WorldError", "WorldWarning", "connect", "ctraj", "example", "jtraj", "load",
+    "ArgumentError", "Batch", "CONTACT", "Camera", "CartesianTrajectory", "ClusterError", "Diagnostic", "Follower",
+    "IKSolution", "JointTrajectory", "Journal", "JournalError", "ModelBuilder", "MujocoOrder", "OrderError", "RobossError",
+    "RemoteSimulation", "RobotCameras", "RobotModel", "Robots", "Save", "SaveError", "Sensor", "SensorError", "Simulation",
+    "StateError", "UnknownNameError", "View", "ViewError", "World", "WorldBuilder", "WorldError", "WorldWarning", "connect",
+    "ctraj", "example", "jtraj", "load",
 ]

@@ -72,7 +72,7 @@ class Journal:
     def play(self, times: Iterable[float], branch: Optional[int] = None) -> Iterator[Simulation]:
         """Goes through the recording: a simulation at each of the ascending times, for tables and plots.
 
-        It is one Simulation that is stepped on, so take what you need before the next time.
+        It is one Simulation that is stepped on, so take what you need before the next time; of live views a copy.
         """
         sim = None
         for time in times:

@@ -132,7 +132,7 @@ class MujocoOrder:
         """Sets Robots.qpos: all of it, or nothing."""
         self._refuse_loops(robots)
         q = self.q(qpos)
-        before = robots.pose
+        before = robots.pose.copy()
         if self._free:
             robots.pose = q[..., :7]
         try:
@@ -147,7 +147,7 @@ class MujocoOrder:
         """Sets Robots.qvel: all of it, or nothing."""
         self._refuse_loops(robots)
         v = self.v(robots.qpos, qvel)
-        before = robots.twist
+        before = robots.twist.copy()
         if self._free:
             robots.twist = v[..., :6]
         try:

@@ -3,12 +3,18 @@ from __future__ import annotations
 
 import json
 import logging
+import os
 import threading
 import weakref
-from typing import Any, Sequence
+from pathlib import Path
+from typing import Any, Callable, Iterable, Sequence, Union
+
+from numpy.typing import ArrayLike
 
 from . import _core
 from .errors import ArgumentError, StateError
+from .names import filled
+from .robots import Robots
 from .run import Run
 from .world import World
 
@@ -47,10 +53,14 @@ def connect(simulation: str = "default", *, name: str = "python", period: int = 
 class RemoteSimulation(Run):
     """A run elsewhere, at the tick that this program observes. `connect` makes it; `with` leaves the run at the end.
 
-    `robots`, their arrays, orders, commands, sensors and `contacts` are those of a Simulation. Sensors are computed in
-    this process. What is assigned to `pose` and `twist` is an order: it is seen after the next `step`. Joint states
-    cannot be set (OrderError, code "remote"). Robots that come or go end the connection (StateError, "changed-world").
-    Orders that the Controller refuses go to the logger "roboss".
+    `robots`, their arrays (joint positions and velocities among them), orders, commands, sensors and `contacts` are those
+    of a Simulation. Sensors are computed in this process. What is assigned to `pose` and `twist` is an order: it is seen
+    after the next `step`. Joint states cannot be set (OrderError, code "remote"): no order does that. Robots that others
+    add or remove end the connection (StateError, "changed-world"). Orders that the Controller refuses go to the logger
+    "roboss".
+
+    `reset`, `restore`, `spawn` and `remove` are requests to the run: they change the world for all its Clients. Orders that
+    were given since the last `step` are dropped by them.
     """
 
     def __init__(self, core: _core.Remote, source: str):
@@ -84,6 +94,74 @@ class RemoteSimulation(Run):
         """Ticks since the start of the world, of the observation."""
         return self._core.tick
 
+    def reset(self) -> None:
+        """Back to the start of the world file: robots that were added leave, those that were removed come back.
+
+        The seed of noise stays. Raises ClusterError where the run refuses it.
+        """
+        self._change(self._core.reset)
+
+    def save(self, file: str, *, overwrite: bool = False) -> str:
+        """Saves the run on the Controller's computer, as `roboss control save FILE`; returns what the run answers.
+
+        Args:
+            file: below the folder that the run allows (`roboss controller --save-folder`).
+            overwrite: whether a file of that name is replaced.
+
+        Raises:
+            ClusterError: the run refuses it: no folder, the file exists (code "file-exists") ...
+        """
+        return self._core.control(["save", file, *(["overwrite"] if overwrite else [])])
+
+    def restore(self) -> None:
+        """Back to the last `save` of the run, or to the file that it was started from (`--from`).
+
+        Raises ClusterError if there is none (code "no-save"). To continue from an older file start a run with `--from`.
+        """
+        self._change(self._core.restore)
+
+    def spawn(self, source: Union[str, os.PathLike], name: Union[None, str, Sequence[str]] = None,
+              pose: ArrayLike = (0, 0, 0, 0, 0, 0, 1)) -> Robots:
+        """Adds the models of a file, or copies of its only model, at the present tick. They are at rest.
+
+        Args:
+            source: path or text of an SDFormat, URDF or MJCF file. Files that it refers to (meshes) are looked up on the
+                Controller's computer.
+            name, pose: as of Simulation.spawn.
+
+        Returns the robots that came. Robots that were asked for before raise StateError from now on; ask `robots` again.
+
+        Raises:
+            ArgumentError: a World, which has no text to send.
+            ClusterError: the run refuses the file (its findings are in the text), or a name.
+        """
+        if isinstance(source, World):
+            raise ArgumentError("a World cannot be sent to a run", "give the path or the text of its file", "no-text")
+        source = os.fspath(source)
+        is_text = source.lstrip().startswith("<")
+        content = source if is_text else Path(source).read_text(encoding="utf-8")
+        names = [""] if name is None else [name] if isinstance(name, str) else list(name)
+        before = set(self.world.robots)
+        self._change(self._core.add, "<text>" if is_text else source, content, names,
+                     filled("pose", pose, (len(names), 7)).tolist())
+        return self.robots([robot for robot in self.world.robots if robot not in before])
+
+    def remove(self, robots: Union[str, Iterable[str], Robots]) -> None:
+        """Takes robots out of the world: those of a pattern, of a list of names, or these.
+
+        Robots that were asked for before raise StateError from now on; ask `robots` again.
+        """
+        names = robots.names if isinstance(robots, Robots) else [self.world.robots[n] for n in self.world._find(robots)]
+        self._change(self._core.remove, list(names))
+
+    def _change(self, request: Callable, *arguments: Any) -> None:
+        """Sends a request that changes the world; then this is the run with what the world has now."""
+        request(*arguments)
+        core = self._core.simulation
+        if core is not self._simulations[0]:
+            self._simulations = [core]
+            self.world = World(self._core.model, self.world.file, ())
+
     def control(self, *words: str) -> str:
         """A request to the run in the words of `roboss control`: `control("speed", "max")`. Returns its answer.
 
@@ -110,7 +188,7 @@ class RemoteSimulation(Run):
         self.close()
 
     def __getattr__(self, name: str) -> Any:
-        if name in ("reset", "save", "restore", "spawn", "remove", "view", "threads"):
+        if name in ("view", "threads"):
             raise StateError(f"'{name}' is for a Simulation in this process",
                              "see control() and `roboss control` for runs on a cluster", "remote")
         raise AttributeError(name)

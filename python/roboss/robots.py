@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from .camera import RobotCameras
 from .errors import ArgumentError, StateError
 from .mujoco_order import MujocoOrder
 from .names import filled, index_of, numbers, unknown
@@ -26,9 +27,15 @@ class Robots:
 
     Robots of a Batch have one more axis in front: their poses are (simulations, N, 7).
 
-    What is read is a new array: the state of this moment. What is assigned is in effect at once, and takes a full
-    array, one row for all robots, or one number for everything; if one robot refuses it, nothing is changed
-    (OrderError). Joints, links, sensors and commands need robots of one type.
+    `pose`, `twist`, `joint_position` and `joint_velocity` are live views: read-only arrays that follow the simulation.
+    After `step`, `reset`, `restore` and assignments, every array that the program still holds has the new state; so
+    have its slices. `.copy()` keeps the state of a moment. They are copied from the states into the same memory, only
+    while somebody holds them, and never within a step. After `spawn`, `remove` or `close` they keep their last values.
+    All other arrays are new ones.
+
+    What is assigned (`cars.pose = ...`) is in effect at once, and takes a full array, one row for all robots, or one
+    number for everything; if one robot refuses it, nothing is changed (OrderError). `cars.pose[0] = ...` raises
+    ValueError: assign `cars[0].pose`. Joints, links, sensors and commands need robots of one type.
 
     `robots["scan"]` is a Sensor, `robots[3]`, `robots[2:5]`, `robots[mask]` are some of the robots.
 
@@ -39,6 +46,10 @@ class Robots:
     >>> cars[3:5].joint_velocity
     array([[1., 2., 1., 2.],
            [1., 2., 1., 2.]])
+    >>> speeds, before = cars.joint_velocity, cars.joint_velocity.copy()
+    >>> cars.joint_velocity = 5
+    >>> speeds[0], before[0]
+    (array([5., 5., 5., 5.]), array([1., 2., 1., 2.]))
     """
 
     def __init__(self, simulation: Union[Simulation, Batch], ids: Sequence[int]):
@@ -105,14 +116,14 @@ class Robots:
 
     @property
     def pose(self) -> Floats:
-        """Poses of the robot (SDF model) frames in the world, (N, 7): x y z in m, unit quaternion x y z w.
+        """Poses of the robot (SDF model) frames in the world, (N, 7): x y z in m, unit quaternion x y z w. A live view.
 
         >>> cars = roboss.Simulation(roboss.example("crossroads.sdf")).robots("car_*")
         >>> cars[0].pose = [5, 1, 0.1, 0, 0, 0, 1]
         >>> cars[0].pose
         array([[5. , 1. , 0.1, 0. , 0. , 0. , 1. ]])
         """
-        return self._read(self._core.poses, 7)
+        return self._core.pose(self._single)
 
     @pose.setter
     def pose(self, values: ArrayLike) -> None:
@@ -122,9 +133,9 @@ class Robots:
     def twist(self) -> Floats:
         """Velocities of the bases, (N, 6): linear in m/s, of the origin of the base link; angular in rad/s; world axes.
 
-        Zero where the base is fixed; setting it there raises OrderError.
+        A live view. Zero where the base is fixed; setting it there raises OrderError.
         """
-        return self._read(self._core.twists, 6)
+        return self._core.twist(self._single)
 
     @twist.setter
     def twist(self, values: ArrayLike) -> None:
@@ -134,10 +145,11 @@ class Robots:
     def joint_position(self) -> Floats:
         """Positions of the joints, (N, joints): rad or m, zero as in the file; of a ball joint a rotation vector.
 
-        Set positions beyond the limits are pushed back within some ticks. Joints that close loops follow from the
+        A live view. Set positions beyond the limits are pushed back within some ticks. Joints that close loops follow from the
         others and cannot be set (OrderError, code "loop-joint").
         """
-        return self._read(self._core.joint_positions, len(self._facts.axes))
+        self._facts  # raises: of one type
+        return self._core.joint_position(self._single)
 
     @joint_position.setter
     def joint_position(self, values: ArrayLike) -> None:
@@ -145,8 +157,9 @@ class Robots:
 
     @property
     def joint_velocity(self) -> Floats:
-        """Velocities of the joints, (N, joints): rad/s or m/s."""
-        return self._read(self._core.joint_velocities, len(self._facts.axes))
+        """Velocities of the joints, (N, joints): rad/s or m/s. A live view."""
+        self._facts  # raises: of one type
+        return self._core.joint_velocity(self._single)
 
     @joint_velocity.setter
     def joint_velocity(self, values: ArrayLike) -> None:
@@ -282,6 +295,20 @@ class Robots:
             array = self._fill(f"command '{name}'", values, len(fields))
         self._core.command(number, array.shape[-1], array)
 
+    def camera(self, position: ArrayLike, target: ArrayLike, *, link: Optional[str] = None, size: tuple[int, int] = (64, 64),
+               fov: float = 1.2, far: float = 50.0) -> RobotCameras:
+        """A camera on each robot, which looks from `position` to `target` (m, in the robot frame) and moves with it.
+
+        Args:
+            link: name of the link in whose frame they are; None: the robot frame.
+            size: columns and rows of its pictures.
+            fov: angle that it sees across, rad.
+            far: nothing is seen beyond it, m.
+        """
+        if link is not None:
+            self._link(link)
+        return RobotCameras(self, position, target, link, size, fov, far)
+
     def __getitem__(self, key: Union[str, int, slice, NDArray]) -> Union[Sensor, Robots]:
         if isinstance(key, str):
             facts = self._facts
@@ -295,6 +322,11 @@ class Robots:
 
     def _link(self, name: str) -> int:
         return index_of("link", name, self._facts.links, f" of '{self._facts.name}'")
+
+    @property
+    def _single(self) -> bool:
+        """Whether arrays have no axis of simulations."""
+        return not self.simulation._shape
 
     @property
     def _rows(self) -> tuple[int, ...]:

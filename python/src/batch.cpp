@@ -3,7 +3,6 @@
 #include <nanobind/stl/vector.h>
 
 #include "bindings.h"
-#include "roboss/local/local_batch.h"
 #include "simulation.h"
 
 namespace nb = nanobind;
@@ -22,9 +21,11 @@ Batch make(std::shared_ptr<const Model> model, std::size_t count, unsigned threa
     Batch batch;
     batch.runs =
         value_or_raise(LocalBatch::create(model, count, {.threads = threads, .seed = seed}), "WorldError");
-    for (std::size_t i = 0; i < count; ++i)
-        batch.simulations.push_back(
-            std::make_shared<Simulation>(model, std::shared_ptr<LocalRun>(batch.runs, &batch.runs->run(i))));
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::shared_ptr<LocalRun> run(batch.runs, &batch.runs->run(i));
+        batch.simulations.push_back(std::make_shared<Simulation>(model, run));
+        batch.simulations.back()->set_batch(batch.runs);
+    }
     return batch;
 }
 

@@ -77,6 +77,16 @@ Result<> read_all(RunAccess& run, const std::vector<std::uint32_t>& robots, std:
     return Ok{};
 }
 
+/// Adds the values of another simulation behind these.
+void append(std::vector<Column>& columns, const std::vector<Column>& more) {
+    const auto add_all = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+        add_all(columns[c].numbers, more[c].numbers);
+        add_all(columns[c].texts, more[c].texts);
+        add_all(columns[c].counts, more[c].counts);
+    }
+}
+
 nb::object to_array(std::vector<double>&& numbers) {
     auto* const kept = new std::vector<double>(std::move(numbers));
     const nb::capsule owner(kept, [](void* p) noexcept { delete static_cast<std::vector<double>*>(p); });
@@ -85,15 +95,14 @@ nb::object to_array(std::vector<double>&& numbers) {
 
 /// A list of (name, unit, type, numbers or texts, how many of them each robot has), simulation by simulation.
 nb::list read(const Simulations& simulations, const std::vector<std::uint32_t>& robots, std::size_t sensor) {
-    std::vector<RunAccess*> runs;
-    for (const auto& simulation : simulations) runs.push_back(&simulation->access());
-    std::vector<Column> columns;
-    const Result<> done = without_gil(simulations, [&]() -> Result<> {
-        for (RunAccess* run : runs)
-            if (Result<> one = read_all(*run, robots, sensor, columns); !one) return one;
-        return Ok{};
-    });
-    if (!done) raise("SensorError", done.error());
+    std::vector<std::vector<Column>> parts(simulations.size());
+    std::vector<Result<>> done(simulations.size(), Ok{});
+    for_each_run(simulations,
+                 [&](std::size_t i, RunAccess& run) { done[i] = read_all(run, robots, sensor, parts[i]); });
+    for (const Result<>& one : done)
+        if (!one) raise("SensorError", one.error());
+    std::vector<Column> columns = std::move(parts.front());
+    for (std::size_t i = 1; i < parts.size(); ++i) append(columns, parts[i]);
     nb::list result;
     for (Column& column : columns) {
         const bool is_text = std::string(column.type) == "text";

@@ -1,6 +1,7 @@
 // Runs on a cluster: joining, stepping, requests to the run.
 #include "roboss/remote/remote_run.h"
 
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -8,6 +9,7 @@
 #include "bindings.h"
 #include "roboss/client/control_text.h"
 #include "roboss/gateway/run_json.h"
+#include "roboss/math/array_rows.h"
 #include "simulation.h"
 
 namespace nb = nanobind;
@@ -45,14 +47,42 @@ bool go_on() {
           error);
 }
 
+Remote as_seen(std::shared_ptr<RemoteRun> run) {
+    return {run, std::make_shared<Simulation>(run->shared_model(), run)};
+}
+
 Remote connect(const RemoteOptions& options) {
     Result<std::unique_ptr<RemoteRun>> made = [&] {
         const nb::gil_scoped_release release;
         return RemoteRun::connect(options, &go_on);
     }();
     if (!made) raise_remote(made.error());
-    std::shared_ptr<RemoteRun> run = std::move(made).value();
-    return {run, std::make_shared<Simulation>(run->shared_model(), run)};
+    return as_seen(std::move(made).value());
+}
+
+/// Sends a request that changes the world; returns its answer. If robots came or went, the run is another
+/// one.
+std::string change(Remote& remote, const ControlAction& action) {
+    RemoteRun& run = remote.there();
+    const Result<std::string> done =
+        without_gil({remote.simulation}, [&] { return run.change_run(action, &go_on); });
+    if (!done) raise_remote(done.error());
+    if (!run.outdated()) return done.value();
+    Result<std::unique_ptr<RemoteRun>> renewed =
+        without_gil({remote.simulation}, [&] { return run.renewed(&go_on); });
+    remote.simulation->retire();
+    remote.run.reset();
+    if (!renewed) raise_remote(renewed.error());
+    remote = as_seen(std::move(renewed).value());
+    return done.value();
+}
+
+std::string add(Remote& remote, const std::string& file, const std::string& content,
+                const std::vector<std::string>& names, const std::vector<std::array<double, 7>>& poses) {
+    AddModels request{file, content, pose_at(poses.front().data()), names.front()};
+    for (std::size_t i = 0; names.size() > 1 && i < names.size(); ++i)
+        request.copies.push_back({names[i], pose_at(poses[i].data())});
+    return change(remote, request);
 }
 
 void step(const Remote& remote, Tick ticks) {
@@ -77,7 +107,9 @@ std::string control(const Remote& remote, const std::vector<std::string>& words)
 
 /// Nothing happens while another thread is inside.
 void advance(const Remote& remote) {
-    if (remote.run && !remote.simulation->busy()) remote.run->advance();
+    if (!remote.run || remote.simulation->busy()) return;
+    remote.run->advance();
+    remote.simulation->refresh();
 }
 
 void leave(Remote& remote) {
@@ -93,6 +125,13 @@ void bind_remote(nb::module_& module) {
     nb::class_<Remote>(module, "Remote")
         .def("step", &step, nb::arg("ticks"))
         .def("control", &control, nb::arg("words"))
+        .def("add", &add, nb::arg("file"), nb::arg("content"), nb::arg("names"), nb::arg("poses"))
+        .def(
+            "remove",
+            [](Remote& r, const std::vector<std::string>& names) { return change(r, RemoveRobots{names}); },
+            nb::arg("names"))
+        .def("reset", [](Remote& r) { return change(r, ResetRun{}); })
+        .def("restore", [](Remote& r) { return change(r, ResetRun{ResetRun::To::kLastSave}); })
         .def("advance", &advance)
         .def("leave", &leave)
         .def("take_refusals", [](Remote& r) { return r.there().take_refusals(); })

@@ -3,6 +3,8 @@
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/vector.h>
 
+#include <array>
+
 #include "arrays.h"
 #include "bindings.h"
 #include "roboss/local/robot_set.h"
@@ -18,7 +20,10 @@ namespace {
 /// Some robots, and the simulations of one world that they are in.
 struct Robots {
     Simulations simulations;
-    RobotSet set;
+    std::shared_ptr<const RobotSet> robots;
+    std::array<std::shared_ptr<LiveArray>, 4> live{};  // those that were asked for, by Property
+
+    const RobotSet& set() const { return *robots; }
 
     /// Calls visit(run, part) with each run and its part of the array.
     template <class T, class Visit>
@@ -33,44 +38,73 @@ void raise_if_refused(const Result<>& result) {
     if (!result) raise("OrderError", result.error());
 }
 
-/// A method that fills an array: the method of RobotSet, called with the run.
-template <void (RobotSet::*Read)(const RunAccess&, std::span<double>) const>
-void fill(Robots& robots, const Out& out) {
-    robots.for_each(numbers(out),
-                    [&](RunAccess& run, std::span<double> part) { (robots.set.*Read)(run, part); });
+enum class Property { kPose, kTwist, kJointPosition, kJointVelocity };
+
+std::shared_ptr<LiveArray> make_live(const Robots& robots, Property property) {
+    const std::size_t parts = robots.simulations.size(), axes = robots.set().axes().size();
+    const auto make = [&](LiveArray::Read read, std::size_t columns) {
+        return std::make_shared<LiveArray>(robots.robots, read, columns, parts);
+    };
+    switch (property) {
+        case Property::kPose:
+            return make(&RobotSet::poses, RobotSet::kPoseColumns);
+        case Property::kTwist:
+            return make(&RobotSet::twists, RobotSet::kTwistColumns);
+        case Property::kJointPosition:
+            return make(&RobotSet::joint_positions, axes);
+        case Property::kJointVelocity:
+            break;
+    }
+    return make(&RobotSet::joint_velocities, axes);
+}
+
+/// The array of a property, up to date; from then on the simulations feed it. `is_single`: without an axis of
+/// simulations.
+template <Property P>
+LiveArray::Array live(Robots& robots, bool is_single) {
+    for (const auto& simulation : robots.simulations)
+        (void)simulation->access();  // raises before anything is changed
+    std::shared_ptr<LiveArray>& array = robots.live[static_cast<std::size_t>(P)];
+    const bool is_new = !array;
+    if (is_new) array = make_live(robots, P);
+    for (std::size_t i = 0; i < robots.simulations.size(); ++i) {
+        if (is_new) robots.simulations[i]->feed(array, i);
+        array->update(i, robots.simulations[i]->access());
+    }
+    return LiveArray::array(array, is_single);
 }
 
 template <void (RobotSet::*Read)(const RunAccess&, LinkId, std::span<double>) const>
 void fill_link(Robots& robots, std::uint32_t link, const Out& out) {
     robots.for_each(numbers(out), [&](RunAccess& run, std::span<double> part) {
-        (robots.set.*Read)(run, LinkId(link), part);
+        (robots.set().*Read)(run, LinkId(link), part);
     });
 }
 
 /// Fills flags, a row for each simulation, without the GIL: it steps copies of the states.
 void touching(Robots& robots, const nb::ndarray<bool, nb::c_contig, nb::device::cpu>& out) {
-    std::vector<RunAccess*> runs;
-    for (const auto& simulation : robots.simulations) runs.push_back(&simulation->access());
-    const std::size_t row = robots.set.size();
-    ROBOSS_CHECK(out.size() == runs.size() * row, std::to_string(out.size()) + " flags");
-    without_gil(robots.simulations, [&] {
-        for (std::size_t i = 0; i < runs.size(); ++i)
-            robots.set.touching(*runs[i], {out.data() + i * row, row});
+    const std::size_t row = robots.set().size();
+    ROBOSS_CHECK(out.size() == robots.simulations.size() * row, std::to_string(out.size()) + " flags");
+    for_each_run(robots.simulations, [&](std::size_t i, RunAccess& run) {
+        robots.set().touching(run, {out.data() + i * row, row});
     });
 }
 
 /// A method that sets something from an array.
 template <Result<> (RobotSet::*Set)(RunAccess&, std::span<const double>) const>
 void set(Robots& robots, const In& values) {
+    Result<> done = Ok{};
     robots.for_each(numbers(values), [&](RunAccess& run, std::span<const double> part) {
-        raise_if_refused((robots.set.*Set)(run, part));
+        if (done) done = (robots.set().*Set)(run, part);
     });
+    for (const auto& simulation : robots.simulations) simulation->refresh();
+    raise_if_refused(done);
 }
 
 Robots make(Simulations simulations, const std::vector<std::uint32_t>& ids) {
     std::vector<RobotId> robots;
     for (const std::uint32_t id : ids) robots.emplace_back(id);
-    RobotSet set(simulations.front()->model(), std::move(robots));
+    auto set = std::make_shared<RobotSet>(simulations.front()->model(), std::move(robots));
     return {std::move(simulations), std::move(set)};
 }
 
@@ -78,10 +112,10 @@ Robots make(Simulations simulations, const std::vector<std::uint32_t>& ids) {
 
 void bind_robots(nb::module_& module) {
     nb::class_<Robots>(module, "Robots")
-        .def("poses", &fill<&RobotSet::poses>, nb::arg("out"))
-        .def("twists", &fill<&RobotSet::twists>, nb::arg("out"))
-        .def("joint_positions", &fill<&RobotSet::joint_positions>, nb::arg("out"))
-        .def("joint_velocities", &fill<&RobotSet::joint_velocities>, nb::arg("out"))
+        .def("pose", &live<Property::kPose>, nb::arg("single"))
+        .def("twist", &live<Property::kTwist>, nb::arg("single"))
+        .def("joint_position", &live<Property::kJointPosition>, nb::arg("single"))
+        .def("joint_velocity", &live<Property::kJointVelocity>, nb::arg("single"))
         .def("link_poses", &fill_link<&RobotSet::link_poses>, nb::arg("link"), nb::arg("out"))
         .def("link_twists", &fill_link<&RobotSet::link_twists>, nb::arg("link"), nb::arg("out"))
         .def("touching", &touching, nb::arg("out"))
@@ -95,7 +129,7 @@ void bind_robots(nb::module_& module) {
                double max_effort) {
                 r.for_each(numbers(targets), [&](RunAccess& run, std::span<const double> part) {
                     raise_if_refused(
-                        r.set.set_joints(run, columns, static_cast<MotorMode>(mode), part, max_effort));
+                        r.set().set_joints(run, columns, static_cast<MotorMode>(mode), part, max_effort));
                 });
             },
             nb::arg("columns"), nb::arg("mode"), nb::arg("targets"), nb::arg("max_effort"))
@@ -103,7 +137,7 @@ void bind_robots(nb::module_& module) {
             "apply_wrenches",
             [](Robots& r, std::uint32_t link, const In& wrenches, Tick ticks) {
                 r.for_each(numbers(wrenches), [&](RunAccess& run, std::span<const double> part) {
-                    raise_if_refused(r.set.apply_wrenches(run, LinkId(link), part, ticks));
+                    raise_if_refused(r.set().apply_wrenches(run, LinkId(link), part, ticks));
                 });
             },
             nb::arg("link"), nb::arg("wrenches"), nb::arg("ticks"))
@@ -111,7 +145,7 @@ void bind_robots(nb::module_& module) {
             "command",
             [](Robots& r, std::size_t channel, std::size_t values, const In& rows) {
                 r.for_each(numbers(rows), [&](RunAccess& run, std::span<const double> part) {
-                    raise_if_refused(r.set.command(run, channel, values, part));
+                    raise_if_refused(r.set().command(run, channel, values, part));
                 });
             },
             nb::arg("channel"), nb::arg("values"), nb::arg("rows"));

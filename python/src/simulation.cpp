@@ -141,10 +141,12 @@ void bind_simulation(nb::module_& module) {
             [](Simulation& s, const LocalSave& save) {
                 if (const Result<> restored = s.run().restore(save); !restored)
                     raise("SaveError", restored.error());
+                s.refresh();
             },
             nb::arg("save"))
         .def(
-            "reset", [](Simulation& s, std::optional<std::uint64_t> seed) { s.run().reset(seed); },
+            "reset",
+            [](Simulation& s, std::optional<std::uint64_t> seed) { s.run().reset(seed), s.refresh(); },
             nb::arg("seed").none())
         .def(
             "show_in",

@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "errors.h"
-#include "roboss/local/local_run.h"
+#include "live_array.h"
+#include "roboss/local/local_batch.h"
 #include "roboss/local_view/local_view.h"
 
 namespace roboss_python {
@@ -52,6 +53,23 @@ class Simulation {
     void set_busy(bool busy) { busy_ = busy; }
     bool busy() const { return busy_; }
 
+    /// It is run number i of the batch, as the simulations beside it.
+    void set_batch(std::shared_ptr<roboss::LocalBatch> batch) { batch_ = std::move(batch); }
+    const std::shared_ptr<roboss::LocalBatch>& batch() const { return batch_; }
+
+    /// From now on refresh() brings this part of the array up to date.
+    void feed(const std::shared_ptr<LiveArray>& array, std::size_t part) {
+        std::erase_if(fed_, [](const Fed& fed) { return fed.array.expired(); });
+        fed_.push_back({array, part});
+    }
+    /// After what changes states: the arrays that Python holds follow. The GIL must be held.
+    void refresh() {
+        if (!access_ || busy_) return;
+        for (const Fed& fed : fed_)
+            if (const auto array = fed.array.lock(); array && array->is_held())
+                array->update(fed.part, *access_);
+    }
+
     /// From now on `view` shows the run; null: none does.
     void show_in(std::shared_ptr<roboss::LocalView> view, roboss::Looks looks) {
         view_ = std::move(view), looks_ = std::move(looks);
@@ -63,10 +81,17 @@ class Simulation {
     }
 
   private:
+    struct Fed {
+        std::weak_ptr<LiveArray> array;
+        std::size_t part;
+    };
+
     std::shared_ptr<const roboss::Model> model_;
     std::shared_ptr<roboss::LocalRun> run_;  // null: stepped elsewhere, or retired
     std::shared_ptr<roboss::RunAccess> access_;
     bool busy_ = false;
+    std::vector<Fed> fed_;
+    std::shared_ptr<roboss::LocalBatch> batch_;  // null: it is alone
     std::shared_ptr<roboss::LocalView> view_;
     roboss::Looks looks_;
 };
@@ -79,12 +104,27 @@ auto without_gil(const Simulations& simulations, Work work) {
     for (const auto& simulation : simulations) (void)simulation->access();
     for (const auto& simulation : simulations) simulation->set_busy(true);
     const auto idle = [](const Simulations* busy) {
-        for (const auto& simulation : *busy) simulation->set_busy(false);
+        for (const auto& simulation : *busy) simulation->set_busy(false), simulation->refresh();
         for (const auto& simulation : *busy) simulation->turn_view();
     };
     const std::unique_ptr<const Simulations, decltype(idle)> end(&simulations, idle);  // with the GIL again
     const nanobind::gil_scoped_release release;
     return work();
+}
+
+/// Calls work(i, run) for each simulation, those of a batch on its threads; without the GIL, as
+/// without_gil(). work() must not throw.
+template <class Work>
+void for_each_run(const Simulations& simulations, Work work) {
+    std::vector<roboss::RunAccess*> runs;
+    for (const auto& simulation : simulations) runs.push_back(&simulation->access());
+    const std::shared_ptr<roboss::LocalBatch> batch = simulations.front()->batch();
+    without_gil(simulations, [&] {
+        if (batch && batch->size() == runs.size())
+            batch->for_each([&](std::size_t i, roboss::LocalRun&) { work(i, *runs[i]); });
+        else
+            for (std::size_t i = 0; i < runs.size(); ++i) work(i, *runs[i]);
+    });
 }
 
 /// About how long a part of a step takes: Ctrl-C is obeyed between two; and while a view shows them.

@@ -30,7 +30,7 @@ def test_arrays_have_simulations_first():
     cars = batch.robots("car_*")
     assert cars.twist.shape == (3, 16, 6) and cars["gps"].read().shape == (3, 16, 3)
     assert cars["compass"].read_all()["heading"].shape == (3, 16)
-    poses = cars.pose
+    poses = cars.pose.copy()
     poses[1, 5, 2] += 1
     cars.pose = poses
     assert np.allclose(cars.pose, poses) and np.allclose(batch[1].robots("car_5").pose, poses[1, 5])
@@ -40,6 +40,26 @@ def test_arrays_have_simulations_first():
         cars.pose = np.zeros((2, 16, 7))
     with pytest.raises(roboss.ArgumentError):
         roboss.Batch(batch.world, 0)
+
+
+def test_readings_are_the_same_for_any_number_of_threads():
+    readings = []
+    for threads in (1, 2, 5):
+        batch = roboss.Batch(roboss.example("crossroads.sdf"), 7, threads=threads, seed=3)
+        cars = batch.robots("car_*")
+        cars.set_joint_targets(np.arange(7.0)[:, None, None])
+        batch.step(400)
+        read = {name: cars[name].read_all() for name in cars.sensors}
+        readings.append((read, cars.touching))
+    for read, touching in readings[1:]:
+        assert np.array_equal(touching, readings[0][1])
+        for name, values in readings[0][0].items():
+            for value, expected in values.items():
+                assert all(map(np.array_equal, read[name][value], expected)), (name, value)
+    alone = roboss.Simulation(batch.world, threads=1, seed=3 + 4)
+    alone.robots("car_*").set_joint_targets(4.0)
+    alone.step(400)
+    assert np.array_equal(read["laser"]["ranges"][4], alone.robots("car_*")["laser"].read())
 
 
 def test_one_that_stops_keeps_no_other_from_going_on():

@@ -51,6 +51,42 @@ def test_pictures_show_robots_in_colour_and_shadows(still):
     assert len(np.unique(picture.reshape(-1, 3), axis=0)) > 100
 
 
+def test_cameras_on_robots_see_what_a_camera_at_that_place_sees():
+    sim = roboss.Simulation(roboss.example("city.sdf"), threads=2)
+    cars = sim.robots("car_*")
+    cars.set_joint_targets(8.0)
+    sim.step(200)
+    eye, target = [0.3, 0, 0.2], [2.3, 0, 0.1]
+    front = cars.camera(eye, target, size=(41, 31), fov=1.0, far=200.0)
+    depth, robot, picture = front.depth(), front.segmentation(), front.picture()
+    assert depth.shape == robot.shape == (50, 31, 41) and picture.shape == (50, 31, 41, 3)
+    for car in (0, 17):  # upright, so that the horizon of a camera at rest is the same
+        x, y, z, _, _, qz, qw = cars.pose[car]
+        yaw = 2 * np.arctan2(qz, qw)
+        turn = np.array([[np.cos(yaw), -np.sin(yaw), 0], [np.sin(yaw), np.cos(yaw), 0], [0, 0, 1]])
+        there = sim.camera([x, y, z] + turn @ eye, [x, y, z] + turn @ target, size=(41, 31), fov=1.0)
+        near = depth[car] < 5
+        assert near.sum() > 100 and np.median(np.abs(depth[car][near] - there.depth()[near])) < 0.02
+        assert (robot[car] == there.segmentation()).mean() > 0.97
+    assert ((robot >= 0) & (robot != np.array(cars.ids)[:, None, None])).any()   # some see others
+
+
+def test_cameras_of_a_batch_have_simulations_first():
+    batch = roboss.Batch(roboss.example("crossroads.sdf"), 2, threads=2)
+    cars = batch.robots("car_*")
+    cars.set_joint_targets(np.array([0.0, 8.0])[:, None, None])
+    batch.step(300)
+    front = cars.camera([0.05, 0, 0], [1, 0, 0], link="chassis", size=(16, 12))
+    depth = front.depth()
+    assert depth.shape == (2, 16, 12, 16) and front.picture().shape == (2, 16, 12, 16, 3)
+    alone = batch[1].robots("car_*").camera([0.05, 0, 0], [1, 0, 0], link="chassis", size=(16, 12))
+    assert np.array_equal(depth[1], alone.depth()) and not np.array_equal(depth[0], depth[1])
+    with pytest.raises(roboss.UnknownNameError):
+        cars.camera([0, 0, 0], [1, 0, 0], link="mast")
+    with pytest.raises(roboss.ArgumentError):
+        cars.camera([0, 0, 1], [0, 0, 2])
+
+
 def test_threads_change_no_pixel_and_pictures_no_bit():
     pictures, hashes = [], []
     for threads in (1, 3):
@@ -77,8 +113,9 @@ def test_refuses_to_look_straight_down(still):
         still.camera([0, 0, 9], [0, 0, 0]).picture()
 
 
-def test_environments_render_frames_that_change():
-    env = gymnasium.make("roboss/City-v0", traffic=3, render_mode="rgb_array")
+@pytest.mark.parametrize("name, others", [("City", {"traffic": 3}), ("Soccer", {"cars": 1}), ("Warehouse", {"others": 1})])
+def test_environments_render_frames_that_change(name, others):
+    env = gymnasium.make(f"roboss/{name}-v0", render_mode="rgb_array", **others)
     env.reset(seed=1)
     first = env.render()
     assert first.shape == (320, 480, 3) and first.dtype == np.uint8 and first.std() > 10

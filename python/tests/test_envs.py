@@ -36,9 +36,53 @@ def run_until_one_finishes(env, most=200):
     raise AssertionError("no car touched anything")
 
 
-def test_gymnasium_accepts_the_environment(quiet):
-    check_env(gymnasium.make("roboss/City-v0", traffic=3).unwrapped, skip_render_check=True)
-    check_env(envs.CityEnv(traffic=0, threads=1), skip_render_check=True)
+@pytest.mark.parametrize("name, others", [("City", {"traffic": 3}), ("City", {"traffic": 0}), ("Soccer", {"cars": 1}),
+                                          ("Soccer", {"cars": 2}), ("Warehouse", {"others": 2}), ("Warehouse", {"others": 0})])
+def test_gymnasium_accepts_the_environment(quiet, name, others):
+    check_env(gymnasium.make(f"roboss/{name}-v0", **others).unwrapped, skip_render_check=True)
+
+
+@pytest.mark.parametrize("name", ["City", "Soccer", "Warehouse"])
+def test_a_single_agent_has_exact_resets(name):
+    env = gymnasium.make(f"roboss/{name}-v0", threads=1).unwrapped
+    ways = []
+    for _ in range(2):
+        way = [env.reset(seed=9)[0], env.state_hash]
+        rng = np.random.default_rng(1)
+        for _ in range(20):
+            observation, _, terminated, truncated, _ = env.step(rng.uniform(-1, 1, 2).astype(np.float32))
+            way += [observation, env.state_hash]
+            if terminated or truncated:
+                break
+        ways.append(way)
+    assert all(map(np.array_equal, *ways)) and len(ways[0]) == len(ways[1])
+
+
+@pytest.mark.parametrize("make", [lambda **o: envs.CityVectorEnv(4, worlds=2, **o), lambda **o: envs.SoccerVectorEnv(2, cars=1, **o),
+                                  lambda **o: envs.WarehouseVectorEnv(2, **o)])
+def test_vector_environments_have_a_frame_of_each_agent(make):
+    env = make(render_mode="rgb_array", threads=1)
+    env.reset(seed=1)
+    frames = env.render()
+    assert len(frames) == env.num_envs and env.metadata["render_fps"] == 20
+    for frame in frames:
+        assert frame.shape == (160, 240, 3) and frame.dtype == np.uint8 and frame.std() > 10
+    assert not np.array_equal(frames[0], frames[1])
+    env.step(ahead(env))
+    assert not np.array_equal(env.render()[0], frames[0])
+    assert make(threads=1).render() is None
+    with pytest.raises(roboss.UnknownNameError):
+        make(render_mode="human")
+
+
+@pytest.mark.parametrize("make", [lambda **o: envs.CityParallelEnv(3, **o), lambda **o: envs.SoccerParallelEnv(1, **o),
+                                  lambda **o: envs.WarehouseParallelEnv(3, **o)])
+def test_parallel_environments_have_frames(make):
+    env = make(render_mode="rgb_array", threads=1)
+    env.reset(seed=1)
+    frame = env.render()
+    assert frame.shape == (320, 480, 3) and frame.dtype == np.uint8 and frame.std() > 10
+    assert make(threads=1).render() is None
 
 
 @pytest.mark.filterwarnings("error")

@@ -58,7 +58,7 @@ def test_arrays_that_do_not_fit(crossroads):
 def test_what_a_robot_refuses_changes_nothing(crossroads):
     cars = crossroads.robots("car_*")
     before = crossroads.state_hash
-    poses = cars.pose
+    poses = cars.pose.copy()
     poses[0, 0] += 1
     poses[5, 1] = np.nan
     with pytest.raises(roboss.OrderError) as error:

@@ -50,7 +50,7 @@ def test_follows_the_recording_or_goes_its_own_way(recorded):
 
 def test_plays_through_times(recorded):
     journal = roboss.Journal(recorded[0])
-    heights = np.array([sim.robots("car_*").pose[:, 2] for sim in journal.play(np.arange(0, 2.3, 0.5))])
+    heights = np.array([sim.robots("car_*").pose[:, 2].copy() for sim in journal.play(np.arange(0, 2.3, 0.5))])
     assert heights.shape == (5, 16)
     assert np.array_equal(heights[3], journal.at(1.5).robots("car_*").pose[:, 2])
 

@@ -67,11 +67,65 @@ def test_poses_are_orders_and_bonds_hold(name):
     with controller(name, world=roboss.example("bonds.sdf")), roboss.connect(name, period=5) as remote:
         first = remote.world.robots[0]
         robot = remote.robots([first])
-        before = robot.pose
+        before = robot.pose.copy()
         robot.pose = before + [0, 0, 1.5, 0, 0, 0, 0]
         np.testing.assert_array_equal(robot.pose, before)
         remote.step()
         assert robot.pose[0, 2] == pytest.approx(before[0, 2] + 1.5, abs=0.05) and remote.tick == 5
+
+
+def test_a_reset_begins_again_with_the_same_bits(name):
+    with controller(name), roboss.connect(name) as remote:
+        cars = remote.robots("car_*")
+        start, pose = remote.state_hash, cars.pose
+        first = drive(remote, 5)
+        cars.set_joint_targets(9.0)          # dropped by the reset
+        remote.reset()
+        assert remote.tick == 0 and remote.state_hash == start
+        assert np.array_equal(pose, cars.pose) and np.array_equal(pose, remote.robots("car_*").pose)   # a live view
+        assert drive(remote, 5) == first
+        remote.reset()
+        remote.reset()                       # at the start already
+        assert remote.tick == 0 and remote.state_hash == start
+
+
+def test_restores_the_last_save(name, tmp_path):
+    with controller(name, "--save-folder", str(tmp_path)), roboss.connect(name) as remote:
+        drive(remote, 3)
+        at = remote.state_hash
+        assert "tick 30" in remote.save("a.state")
+        with pytest.raises(roboss.ClusterError) as refused:
+            remote.save("a.state")
+        assert refused.value.code == "file-exists"
+        remote.save("a.state", overwrite=True)
+        later = drive(remote, 4)
+        remote.restore()
+        assert remote.tick == 30 and remote.state_hash == at
+        assert drive(remote, 4) == later
+    assert (tmp_path / "a.state").is_file()
+
+
+def test_robots_come_and_go_with_the_bits_of_a_simulation(name):
+    local = roboss.Simulation(WORLD)
+    ball = """<robot name="ball"><link name="b"><inertial><mass value="1"/>
+      <inertia ixx=".1" iyy=".1" izz=".1" ixy="0" ixz="0" iyz="0"/></inertial>
+      <collision><geometry><sphere radius="0.2"/></geometry></collision></link></robot>"""
+    with controller(name), roboss.connect(name) as remote:
+        old = remote.robots("car_*")
+        for sim in (local, remote):
+            drive(sim, 2)
+            balls = sim.spawn(ball, ["ball_0", "ball_1"], [[0, 0, 2, 0, 0, 0, 1], [0, 0, 3, 0, 0, 0, 1]])
+            assert balls.names == ("ball_0", "ball_1") and sim.tick == 20
+            drive(sim, 2)
+            sim.remove(["car_3", "ball_0"])
+            drive(sim, 2)
+        assert remote.world.robots == local.world.robots and "car_3" not in remote.world.robots
+        np.testing.assert_array_equal(remote.robots("ball_1").pose, local.robots("ball_1").pose)
+        assert remote.state_hash == local.state_hash and remote.tick == local.tick == 60
+        with pytest.raises(roboss.StateError):
+            old.pose
+        remote.reset()
+        assert remote.world.robots == roboss.Simulation(WORLD).world.robots and remote.tick == 0
 
 
 def test_waits_as_long_as_the_program_thinks(name):
@@ -109,9 +163,19 @@ def test_what_a_cluster_cannot_do_is_said(name):
         with pytest.raises(roboss.OrderError) as refused:
             remote.robots("car_*").joint_position = 0.0
         assert refused.value.code == "remote"
-        for call in ("reset", "save", "spawn", "view"):
-            with pytest.raises(roboss.StateError, match=call):
-                getattr(remote, call)
+        with pytest.raises(roboss.StateError, match="view"):
+            remote.view
+        with pytest.raises(roboss.ClusterError) as refused:
+            remote.restore()
+        assert refused.value.code == "no-save"
+        with pytest.raises(roboss.ClusterError) as refused:
+            remote.spawn("<robot name='car_1'/>")
+        assert refused.value.remedy
+        with pytest.raises(roboss.ArgumentError):
+            remote.spawn(remote.world)
+        with pytest.raises(roboss.UnknownNameError):
+            remote.remove("bus_*")
+        assert remote.tick == 0
         with pytest.raises(AttributeError):
             remote.no_such_thing
         with pytest.raises(roboss.ArgumentError):

@@ -67,6 +67,18 @@ def test_the_same_seed_gives_the_same_bits(mode):
     assert all(np.array_equal(one, other) for one, other in zip(*(way for way, _ in ways)))
 
 
+def test_the_hand_written_driver_scores():
+    env = envs.SoccerVectorEnv(num_envs=16, cars=1, threads=1)
+    observations, _ = env.reset(seed=2)
+    goals = 0
+    for _ in range(1200):
+        actions = envs.chase_the_ball(observations)
+        actions[1::2] = 0                     # blue cars stand
+        observations, *_, infos = env.step(actions)
+        goals += infos["goals"][::2].sum()
+    assert goals >= 4                         # of eight red cars in a minute
+
+
 def test_wrong_numbers_of_cars_are_refused():
     for make in (lambda: envs.SoccerVectorEnv(num_envs=7), lambda: envs.SoccerVectorEnv(num_envs=6, cars=0),
                  lambda: envs.SoccerTask(cars=9)):

@@ -77,7 +77,7 @@ def test_memory_stays_flat_over_resets_and_restores():
 
 def test_what_is_set_is_there_at_once(crossroads):
     cars = crossroads.robots("car_*")
-    pose = cars.pose
+    pose = cars.pose.copy()
     assert pose.shape == (16, 7) and np.allclose(np.linalg.norm(pose[:, 3:], axis=1), 1)
     pose[:, 2] += np.arange(16)
     cars.pose = pose
@@ -95,7 +95,7 @@ def test_what_is_set_is_there_at_once(crossroads):
 
 def test_falls_as_a_body_falls(crossroads):
     cars = crossroads.robots("car_*")
-    pose = cars.pose
+    pose = cars.pose.copy()
     pose[:, 2] += 10
     cars.pose = pose
     crossroads.step(100)
@@ -134,7 +134,7 @@ def test_effort_motors_drive_as_their_torques(crossroads):
     crossroads.step(200)
     cars.set_joint_targets(0.1, mode="effort")
     crossroads.step(100)
-    speeds = cars.joint_velocity
+    speeds = cars.joint_velocity.copy()
     assert np.allclose(speeds, speeds[0, 0], rtol=1e-3) and speeds[0, 0] > 1
     assert cars.joint_limits.shape == (4, 2) and np.all(cars.joint_effort_limits == 0.8)
 

@@ -84,6 +84,7 @@ void BusClient::take_ack(const ReplyAck& ack) {
 /// What was given before goes out at once, by resend().
 void BusClient::take_welcome(const ClientWelcome& welcome) {
     if (id_.valid()) return;
+    ++welcomes_;
     id_ = welcome.client;
     seed_ = welcome.seed;
     if (was_here_ && welcome.first < expected_) {  // a rewind

@@ -52,6 +52,8 @@ class BusClient : public Client {
     void leave(Bus& bus, const std::string& failure = {});
 
     bool joined() const { return id_.valid(); }
+    /// How often it was welcomed: again after each restart, reset and rewind of the run.
+    std::size_t welcomes() const { return welcomes_; }
     bool synchronous() const { return options_.synchronous; }
     /// Tick of the next observation of a synchronous Client.
     Tick expected() const { return expected_; }
@@ -126,6 +128,7 @@ class BusClient : public Client {
     std::int64_t requested_ms_ = kLongAgo;        // when the first of `requests_` was sent
     static constexpr std::int64_t kAskEvery = 5;  // resend times
     bool outdated_ = false;
+    std::size_t welcomes_ = 0;
     std::uint64_t request_ = 0;
     std::deque<ControlRequest> requests_;  // the first is sent again until it is answered, then the next
     std::vector<ControlAnswer> answers_;

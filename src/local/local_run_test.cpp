@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <support/bodies.h>
 #include <support/robots.h>
@@ -201,6 +202,28 @@ TEST(LocalRun, ChangesAtOnceWhatAnOrderChangesAtTheNextTick) {
         ASSERT_TRUE(later->step(40).ok());
         EXPECT_EQ(now->hash(), later->hash()) << threads;
     }
+}
+
+TEST(LocalRun, HasAnotherVersionAfterEachChangeOfStates) {
+    const auto model = crowd(2);
+    const auto run = run_of(model);
+    std::uint64_t last = run->version();
+    const auto is_new = [&] { return std::exchange(last, run->version()) != last; };
+    EXPECT_TRUE(run->step(1).ok());
+    EXPECT_TRUE(is_new());
+    const LocalSave save = run->save();
+    (void)run->hash();
+    (void)run->contacts();
+    EXPECT_TRUE(run->order(RobotId(0u), SetVelocity{{1, 0, 0}, {}}).ok());
+    EXPECT_FALSE(is_new());
+    EXPECT_TRUE(run->change(RobotId(0u), SetVelocity{{1, 0, 0}, {}}).ok());
+    EXPECT_TRUE(is_new());
+    EXPECT_TRUE(run->change_joint(RobotId(0u), JointId(0u), 0, 1.0, {}).ok());
+    EXPECT_TRUE(is_new());
+    EXPECT_TRUE(run->restore(save).ok());
+    EXPECT_TRUE(is_new());
+    run->reset();
+    EXPECT_TRUE(is_new());
 }
 
 TEST(LocalRun, RefusesJointsThatCannotBeSet) {

@@ -64,12 +64,14 @@ class RunAccess : private SensorSources {
     std::span<const ContactReport> contacts() { return step_probe().contacts(); }
     /// What rays meet at tick(). Valid until the world is changed.
     const RayScene& shapes() { return ray_scene(); }
+    /// Another number whenever the states are others than before.
+    std::uint64_t version() const { return version_; }
     /// What the joints of the robot bear in the same tick.
     std::vector<JointReaction> joint_reactions(RobotId robot) { return step_probe().joint_reactions(robot); }
 
   protected:
     /// States are others than before.
-    void changed() { rays_are_new_ = probe_is_new_ = false; }
+    void changed() { rays_are_new_ = probe_is_new_ = false, ++version_; }
 
   private:
     RayScene& ray_scene() override;
@@ -82,6 +84,7 @@ class RunAccess : private SensorSources {
     std::unique_ptr<RayScene> rays_;
     std::unique_ptr<StepProbe> probe_;
     bool rays_are_new_ = false, probe_is_new_ = false;
+    std::uint64_t version_ = 1;
 };
 
 }  // namespace roboss

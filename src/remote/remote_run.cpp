@@ -73,13 +73,19 @@ std::vector<std::string> RemoteRun::take_refusals() {
 }
 
 void RemoteRun::advance() {
+    const Tick before = tick();
     client_->advance(*bus_);
+    if (tick() != before) changed();
 }
 
 Result<std::unique_ptr<RemoteRun>> RemoteRun::connect(const RemoteOptions& options, const GoOn& go_on) {
     Result<std::unique_ptr<DdsBus>> opened = DdsBus::create(options.network);
     if (!opened) return opened.error();
-    std::unique_ptr<DdsBus> bus = std::move(opened).value();
+    return join(options, std::move(opened).value(), go_on);
+}
+
+Result<std::unique_ptr<RemoteRun>> RemoteRun::join(const RemoteOptions& options, std::unique_ptr<DdsBus> bus,
+                                                   const GoOn& go_on) {
     const Address self = client_address();
     Patience patience(*bus, options);
     ModelPull pull;
@@ -99,14 +105,14 @@ Result<std::unique_ptr<RemoteRun>> RemoteRun::connect(const RemoteOptions& optio
     return run;
 }
 
-Result<> RemoteRun::wait_until(const std::function<bool()>& done, const GoOn& go_on) {
+Result<> RemoteRun::wait_until(const std::function<bool()>& done, const GoOn& go_on, bool even_outdated) {
     Patience patience(*bus_, options_);
     for (;;) {
-        client_->advance(*bus_);
+        advance();
         if (done()) return Ok{};
         if (!client_->over().empty())
             return Error{"the run is over: " + client_->over(), "connect to another one", "run-over"};
-        if (client_->outdated())
+        if (client_->outdated() && !even_outdated)
             return Error{"the world of the run has changed", "connect again", "changed-world"};
         if (!client_->joined())
             for (const std::string& reason : client_->take_refusals())
@@ -162,6 +168,38 @@ Result<ControlOutcome> RemoteRun::control(const ControlAction& action, const GoO
     };
     if (Result<> waited = wait_until(answered, go_on); !waited) return waited.error();
     return std::move(answers.back().outcome);
+}
+
+Result<std::string> RemoteRun::change_run(const ControlAction& action, const GoOn& go_on) {
+    const std::size_t welcomes = client_->welcomes();
+    client_->control(action);
+    std::vector<ControlAnswer> answers;
+    // A run whose Model was changed may wait for this Client before it answers: it is there again by
+    // renewed().
+    const auto answered = [&] {
+        for (ControlAnswer& answer : client_->take_control_answers()) answers.push_back(std::move(answer));
+        return !answers.empty() || client_->outdated();
+    };
+    if (Result<> waited = wait_until(answered, go_on, true); !waited) return waited.error();
+    if (answers.empty()) return std::string();
+    const ControlOutcome& outcome = answers.back().outcome;
+    if (const auto* refused = std::get_if<ControlRefused>(&outcome)) return refused->error();
+    const auto goes_on = [&] {
+        return client_->outdated() || (client_->welcomes() > welcomes && client_->observing());
+    };
+    if (Result<> waited = wait_until(goes_on, go_on, true); !waited) return waited.error();
+    until_ = tick();
+    changed();
+    const auto* done = std::get_if<ControlDone>(&outcome);
+    return done ? done->text : std::string();
+}
+
+bool RemoteRun::outdated() const {
+    return client_->outdated();
+}
+
+Result<std::unique_ptr<RemoteRun>> RemoteRun::renewed(const GoOn& go_on) {
+    return join(options_, std::move(bus_), go_on);
 }
 
 void RemoteRun::leave() {

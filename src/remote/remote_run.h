@@ -64,6 +64,15 @@ class RemoteRun final : public RunAccess {
 
     /// A request to the run itself: pause, status ... Errors as of step().
     Result<ControlOutcome> control(const ControlAction& action, const GoOn& go_on);
+    /// A request after which the run continues from another state: reset, rewind, add, remove, copy. Waits
+    /// until that state is observed, or the run is outdated(); orders given since the last step() are
+    /// dropped. The answer may be empty. Errors as of control(); what the run refuses.
+    Result<std::string> change_run(const ControlAction& action, const GoOn& go_on);
+    /// Robots came or went: only renewed() can be called.
+    bool outdated() const;
+    /// The same run with its present Model, by the same connection. This one can only be destroyed then.
+    /// Errors as of connect().
+    Result<std::unique_ptr<RemoteRun>> renewed(const GoOn& go_on);
     /// Orders that the Controller refused since the last call, one line each.
     std::vector<std::string> take_refusals();
     /// To be called now and then while nothing is stepped: takes what has come.
@@ -74,9 +83,11 @@ class RemoteRun final : public RunAccess {
   private:
     RemoteRun(std::shared_ptr<const Model> model, const RemoteOptions& options, std::unique_ptr<DdsBus> bus,
               std::unique_ptr<BusClient> client);
+    static Result<std::unique_ptr<RemoteRun>> join(const RemoteOptions& options, std::unique_ptr<DdsBus> bus,
+                                                   const GoOn& go_on);
     static Error not_here();
-    /// Waits until done(), advancing the Client.
-    Result<> wait_until(const std::function<bool()>& done, const GoOn& go_on);
+    /// Waits until done(), advancing the Client; also while the Model is another one, if `even_outdated`.
+    Result<> wait_until(const std::function<bool()>& done, const GoOn& go_on, bool even_outdated = false);
 
     RemoteOptions options_;
     std::unique_ptr<DdsBus> bus_;

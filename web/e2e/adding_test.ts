@@ -12,6 +12,34 @@ const URDF = `<robot name="puck"><link name="body"><inertial><mass value="1"/>
 <collision><geometry><cylinder radius="0.2" length="0.1"/></geometry></collision>
 <visual><geometry><cylinder radius="0.2" length="0.1"/></geometry></visual></link></robot>`;
 
+// A floor of its own, a body at rest, and one robot: what many files of MuJoCo have.
+const MJCF = `<mujoco model="hopper"><worldbody><light pos="0 0 3"/><geom name="floor" type="plane" size="5 5 .1"/>
+<body name="post" pos="0 2 .5"><geom type="box" size=".1 .1 .5"/></body>
+<body name="torso" pos="0 0 1.2"><freejoint/><geom type="capsule" size=".07 .2" rgba="1 .5 0 1"/>
+<body name="leg" pos="0 0 -.3"><joint name="knee" type="hinge" axis="0 1 0" range="-60 60"/>
+<geom type="capsule" fromto="0 0 0 0 0 -.4" size=".05"/></body></body></worldbody>
+<actuator><motor joint="knee" gear="20"/></actuator></mujoco>`;
+
+bench.test("an MJCF file is added twice, with another name the second time", async (page) => {
+    for (const [n, expected] of ["torso", "torso_1"].entries()) {
+        await page.getByLabel("Add a shape or a file").click();
+        await page
+            .getByLabel("SDF, URDF or MJCF file")
+            .setInputFiles({ name: "hopper.xml", mimeType: "text/xml", buffer: Buffer.from(MJCF) });
+        await page.getByText("Click where hopper.xml shall stand.").waitFor();
+        const box = (await page.locator("canvas").boundingBox()) ?? { x: 0, y: 0, width: 0, height: 0 };
+        await page.mouse.click(box.x + box.width * (0.4 + 0.2 * n), box.y + box.height * 0.75);
+        await until(expected, async () => (await names(page)).includes(expected));
+    }
+    const robot = await page.evaluate(() => {
+        const fleet = window.roboss.state.world.value?.fleet,
+            type = fleet?.type(fleet.find("torso_1") ?? 0);
+        return { links: type?.links.map(({ name }) => name), shapes: type?.links.map(({ visuals }) => visuals.length) };
+    });
+    assert.deepEqual(robot.links, ["torso", "leg"]);
+    assert.deepEqual(robot.shapes, [1, 1]);
+});
+
 bench.test("a file that is dropped on the picture is added there", async (page) => {
     await page.evaluate((content) => {
         const data = new DataTransfer(),
@@ -27,7 +55,7 @@ bench.test("a file that is dropped on the picture is added there", async (page) 
     const large = URDF.replace("<link", `<!-- ${"x".repeat(200_000)} --><link`);
     await page.getByLabel("Add a shape or a file").click();
     await page
-        .getByLabel("SDF or URDF file")
+        .getByLabel("SDF, URDF or MJCF file")
         .setInputFiles({ name: "large.urdf", mimeType: "text/xml", buffer: Buffer.from(large) });
     await page.getByText("Click where large.urdf shall stand.").waitFor();
     const box = (await page.locator("canvas").boundingBox()) ?? { x: 0, y: 0, width: 0, height: 0 };

@@ -109,7 +109,7 @@ function editActions({ state, selection, editing, add, pointed }: SceneParts): A
             title: "Add a shape or a file",
             group,
             icon: "add",
-            words: "box sphere cylinder urdf sdf",
+            words: "box sphere cylinder urdf sdf mjcf",
             run: add,
         },
         {

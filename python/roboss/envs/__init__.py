@@ -18,7 +18,11 @@ same world, see each other and can collide.
 | CityEnv | gymnasium.Env, "roboss/City-v0" | one car; `follow_the_gap` drives the others |
 | CityParallelEnv | pettingzoo.ParallelEnv | all cars of one world, by name |
 | SoccerVectorEnv | gymnasium.vector.VectorEnv, "roboss/Soccer-v0" | all cars of some matches |
+| SoccerEnv | gymnasium.Env, "roboss/Soccer-v0" | one car; `chase_the_ball` drives the others |
 | SoccerParallelEnv | pettingzoo.ParallelEnv | all cars of a match, by name |
+| WarehouseVectorEnv | gymnasium.vector.VectorEnv, "roboss/Warehouse-v0" | all carriers of one hall, or of several |
+| WarehouseEnv | gymnasium.Env, "roboss/Warehouse-v0" | one carrier; `fetch_and_carry` drives the others |
+| WarehouseParallelEnv | pettingzoo.ParallelEnv | all carriers of a hall, by name |
 
 An environment of your own is a Task: what agents see, do and get. TaskVectorEnv, TaskEnv and TaskParallelEnv make the
 three interfaces of it.
@@ -32,20 +36,26 @@ except ImportError as missing:
 from .city import CityEnv, CityTask, CityVectorEnv
 from .city_driver import follow_the_gap
 from .single import TaskEnv
-from .soccer import SoccerTask, SoccerVectorEnv
+from .soccer import SoccerEnv, SoccerTask, SoccerVectorEnv
+from .soccer_driver import chase_the_ball
 from .task import Outcome, Task
 from .vector import TaskVectorEnv
+from .warehouse import WarehouseEnv, WarehouseTask, WarehouseVectorEnv
+from .warehouse_driver import fetch_and_carry
 
-__all__ = ["CityEnv", "CityParallelEnv", "CityTask", "CityVectorEnv", "Outcome", "SoccerParallelEnv", "SoccerTask",
-           "SoccerVectorEnv", "Task", "TaskEnv", "TaskParallelEnv", "TaskVectorEnv", "follow_the_gap"]
+__all__ = ["CityEnv", "CityParallelEnv", "CityTask", "CityVectorEnv", "Outcome", "SoccerEnv", "SoccerParallelEnv",
+           "SoccerTask", "SoccerVectorEnv", "Task", "TaskEnv", "TaskParallelEnv", "TaskVectorEnv", "WarehouseEnv",
+           "WarehouseParallelEnv", "WarehouseTask", "WarehouseVectorEnv", "chase_the_ball", "fetch_and_carry",
+           "follow_the_gap"]
 
-gymnasium.register("roboss/City-v0", entry_point="roboss.envs:CityEnv", vector_entry_point="roboss.envs:CityVectorEnv")
-gymnasium.register("roboss/Soccer-v0", vector_entry_point="roboss.envs:SoccerVectorEnv")
+for _name in ("City", "Soccer", "Warehouse"):
+    gymnasium.register(f"roboss/{_name}-v0", entry_point=f"roboss.envs:{_name}Env",
+                       vector_entry_point=f"roboss.envs:{_name}VectorEnv")
 
 
 def __getattr__(name):
     """The classes that need PettingZoo, which only they need."""
-    if name not in ("CityParallelEnv", "SoccerParallelEnv", "TaskParallelEnv"):
+    if name not in ("CityParallelEnv", "SoccerParallelEnv", "TaskParallelEnv", "WarehouseParallelEnv"):
         raise AttributeError(f"module 'roboss.envs' has no attribute '{name}'")
     try:
         from . import parallel

@@ -115,7 +115,7 @@ class CityTask(Task):
             others = positions[world, staying[world]]
             nearest = np.full(len(places), np.inf)
             if len(others) and mask.any():
-                nearest = np.linalg.norm(places[:, None] - others, axis=2).min(axis=1)
+                nearest = _nearest(places, others)
             for _ in range(np.count_nonzero(mask)):
                 free = np.flatnonzero(nearest > CLEARANCE_M)
                 place = int(free[rng.integers(len(free))] if len(free) else nearest.argmax())
@@ -145,6 +145,12 @@ class CityTask(Task):
         return free
 
 
+def _nearest(places: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray[np.float64]:
+    """How far the nearest of the others is from each place, m: |p - o|^2 = |p|^2 - 2 p o + |o|^2."""
+    squares = np.sum(others**2, axis=1) - 2 * places @ others.T
+    return np.sqrt(np.maximum(0, squares.min(axis=1) + np.sum(places**2, axis=1)))
+
+
 class CityVectorEnv(TaskVectorEnv):
     """Cars of a city as sub-environments: "roboss/City-v0" of gymnasium.make_vec.
 
@@ -152,6 +158,7 @@ class CityVectorEnv(TaskVectorEnv):
         num_envs: cars of all worlds together.
         worlds: equal worlds, each with num_envs / worlds cars.
         autoreset_mode: "NextStep", "SameStep" or "Disabled".
+        render_mode: None or "rgb_array", as TaskVectorEnv.
         options: more options of CityTask.
 
     >>> cars = roboss.envs.CityVectorEnv(num_envs=12, worlds=3)
@@ -162,10 +169,11 @@ class CityVectorEnv(TaskVectorEnv):
     True
     """
 
-    def __init__(self, num_envs: int = 64, *, worlds: int = 1, autoreset_mode="NextStep", **options):
+    def __init__(self, num_envs: int = 64, *, worlds: int = 1, autoreset_mode="NextStep", render_mode: Optional[str] = None,
+                 **options):
         if worlds < 1 or num_envs < 1 or num_envs % worlds:
             raise ArgumentError(f"{num_envs} cars in {worlds} worlds", "give as many cars to each world")
-        super().__init__(CityTask(num_envs // worlds, worlds=worlds, **options), autoreset_mode)
+        super().__init__(CityTask(num_envs // worlds, worlds=worlds, **options), autoreset_mode, render_mode)
 
 
 class CityEnv(TaskEnv):

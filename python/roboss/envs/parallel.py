@@ -10,8 +10,10 @@ from pettingzoo import ParallelEnv
 
 from ..errors import ArgumentError, StateError
 from .city import CityTask
+from .picture import FRAMES, Picture
 from .soccer import SoccerTask
 from .task import Task
+from .warehouse import WarehouseTask
 
 
 class TaskParallelEnv(ParallelEnv):
@@ -20,14 +22,16 @@ class TaskParallelEnv(ParallelEnv):
     Args:
         task: one world.
         name: of the environment.
+        render_mode: of render(): None, or "rgb_array": frames without a browser.
     """
 
-    def __init__(self, task: Task, name: str):
+    def __init__(self, task: Task, name: str, render_mode: Optional[str] = None):
         if task.worlds != 1:
             raise ArgumentError(f"a task of {task.worlds} worlds", "give one world; TaskVectorEnv takes several")
         self.task = task
-        self.metadata = {"name": name, "render_modes": [], "is_parallelizable": True}
-        self.render_mode = None
+        self.metadata = {"name": name, "render_modes": FRAMES, "is_parallelizable": True,
+                         "render_fps": round(1 / task.step_s)}
+        self.render_mode, self._picture = render_mode, Picture(task, render_mode, FRAMES)
         self.possible_agents = list(task.names)
         self.agents: list[str] = []
         self._observation_spaces = {agent: _copy(task.observation_space) for agent in self.possible_agents}
@@ -84,8 +88,12 @@ class TaskParallelEnv(ParallelEnv):
         """Poses and twists of all robots of the agents, (agents, 13): as Robots.pose and Robots.twist."""
         return np.concatenate([self.task.robots.pose, self.task.robots.twist], axis=1)
 
-    def render(self) -> None:
-        """Nothing: `roboss run` shows worlds in the browser."""
+    def render(self) -> Optional[NDArray[np.uint8]]:
+        """A frame, (320, 480, 3), from behind the first agent that is left, in the mode "rgb_array"; else None.
+
+        `env.task.simulations[0].view()` shows the world in the browser.
+        """
+        return self._picture.render(self._rows[self.agents[0]] if self.agents else 0)
 
     def close(self) -> None:
         """Nothing has to be released."""
@@ -99,6 +107,7 @@ class CityParallelEnv(TaskParallelEnv):
 
     Args:
         cars: how many.
+        render_mode: None or "rgb_array".
         options: as those of CityTask, but for `worlds`.
 
     >>> env = roboss.envs.CityParallelEnv(cars=8)
@@ -108,8 +117,8 @@ class CityParallelEnv(TaskParallelEnv):
     >>> _ = env.step({agent: env.action_space(agent).sample() for agent in env.agents})
     """
 
-    def __init__(self, cars: int = 16, **options):
-        super().__init__(CityTask(cars, **options), "roboss_city_v0")
+    def __init__(self, cars: int = 16, render_mode: Optional[str] = None, **options):
+        super().__init__(CityTask(cars, **options), "roboss_city_v0", render_mode)
 
 
 class SoccerParallelEnv(TaskParallelEnv):
@@ -117,6 +126,7 @@ class SoccerParallelEnv(TaskParallelEnv):
 
     Args:
         cars: of each team.
+        render_mode: None or "rgb_array".
         options: as those of SoccerTask, but for `worlds`.
 
     >>> env = roboss.envs.SoccerParallelEnv(cars=2)
@@ -125,8 +135,28 @@ class SoccerParallelEnv(TaskParallelEnv):
     ['red_0', 'red_1', 'blue_0', 'blue_1']
     """
 
-    def __init__(self, cars: int = 3, **options):
-        super().__init__(SoccerTask(cars, **options), "roboss_soccer_v0")
+    def __init__(self, cars: int = 3, render_mode: Optional[str] = None, **options):
+        super().__init__(SoccerTask(cars, **options), "roboss_soccer_v0", render_mode)
+
+
+class WarehouseParallelEnv(TaskParallelEnv):
+    """Carriers in a warehouse, by name: "carrier_0" ... A carrier that touches something leaves the hall.
+
+    One that charges stays in `agents`: `infos[agent]["in_service"]` tells whether its next action counts.
+
+    Args:
+        carriers: how many.
+        render_mode: None or "rgb_array".
+        options: as those of WarehouseTask, but for `worlds`.
+
+    >>> env = roboss.envs.WarehouseParallelEnv(carriers=4)
+    >>> observations, _ = env.reset(seed=1)
+    >>> observations["carrier_3"].shape
+    (33,)
+    """
+
+    def __init__(self, carriers: int = 8, render_mode: Optional[str] = None, **options):
+        super().__init__(WarehouseTask(carriers, **options), "roboss_warehouse_v0", render_mode)
 
 
 def _copy(space):

@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 
 from ..errors import ArgumentError
 from .car import drive, heading, poses_of
+from .single import TaskEnv
+from .soccer_driver import chase_the_ball
 from .soccer_field import BALL_RADIUS_M, HALF_LENGTH_M, HALF_WIDTH_M, outside, soccer_world
 from .task import Mask, Task
 from .vector import TaskVectorEnv
@@ -142,6 +144,7 @@ class SoccerVectorEnv(TaskVectorEnv):
         num_envs: cars of all matches together.
         cars: of each team.
         autoreset_mode: "NextStep", "SameStep" or "Disabled".
+        render_mode: None or "rgb_array", as TaskVectorEnv.
         options: more options of SoccerTask, but for `worlds`.
 
     >>> cars = roboss.envs.SoccerVectorEnv(num_envs=12)             # two matches, three against three
@@ -150,7 +153,28 @@ class SoccerVectorEnv(TaskVectorEnv):
     (12, 22)
     """
 
-    def __init__(self, num_envs: int = 6, *, cars: int = 3, autoreset_mode="NextStep", **options):
+    def __init__(self, num_envs: int = 6, *, cars: int = 3, autoreset_mode="NextStep", render_mode: Optional[str] = None,
+                 **options):
         if num_envs < 1 or cars < 1 or num_envs % (2 * cars):
             raise ArgumentError(f"{num_envs} cars in teams of {cars}", f"give a multiple of {2 * max(1, cars)}")
-        super().__init__(SoccerTask(cars, worlds=num_envs // (2 * cars), **options), autoreset_mode)
+        super().__init__(SoccerTask(cars, worlds=num_envs // (2 * cars), **options), autoreset_mode,
+                         render_mode)
+
+
+class SoccerEnv(TaskEnv):
+    """The car "red_0": "roboss/Soccer-v0" of gymnasium.make. `chase_the_ball` drives its team-mates and opponents.
+
+    Args:
+        cars: of each team.
+        render_mode: None, "rgb_array" or "human", as TaskEnv.
+        options: more options of SoccerTask, but for `worlds`.
+
+    >>> env = gymnasium.make("roboss/Soccer-v0", cars=2)
+    >>> observation, _ = env.reset(seed=1)
+    >>> observation, reward, terminated, truncated, info = env.step(env.action_space.sample())
+    >>> observation.shape, info
+    ((18,), {'goals': 0})
+    """
+
+    def __init__(self, cars: int = 1, render_mode: Optional[str] = None, **options):
+        super().__init__(SoccerTask(cars, **options), chase_the_ball, render_mode)

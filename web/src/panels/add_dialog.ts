@@ -1,5 +1,5 @@
-// What comes into the world: a shape with its sizes, or an SDF or URDF file of the user's computer. The place is the next
-// click into the picture, or the middle of the view.
+// What comes into the world: a shape with its sizes, or an SDF, URDF or MJCF file of the user's computer. The place is the
+// next click into the picture, or the middle of the view.
 import type { Editing } from "../model/editing";
 import { type NewShape, shapeFault, type ShapeKind, SIZES } from "../model/new_shape";
 import type { ViewerState } from "../model/viewer_state";
@@ -29,8 +29,8 @@ export function addDialog(state: ViewerState, editing: Editing, middle: () => Tr
     };
     const file = h("input", {
         type: "file",
-        accept: ".sdf,.urdf,.xml,.world",
-        "aria-label": "SDF or URDF file",
+        accept: ".sdf,.urdf,.xml,.mjcf,.world",
+        "aria-label": "SDF, URDF or MJCF file",
         onchange: () => {
             const chosen = file.files?.[0];
             file.value = "";
@@ -67,7 +67,7 @@ export function addDialog(state: ViewerState, editing: Editing, middle: () => Tr
         h(
             "p",
             {},
-            "SDF or URDF, at most 4 MiB; or drop it on the picture. Its meshes are looked up on the run's computer.",
+            "SDF, URDF or MJCF, at most 4 MiB; or drop it on the picture. Its meshes are looked up on the run's computer.",
         ),
         file,
         h(
