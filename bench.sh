@@ -17,6 +17,7 @@ build() {
 peers() {
     tools/setup.sh build bench peers
     tools/fetch_mujoco.sh
+    tools/fetch_peers.sh
     build roboss-peers
     local rows=build/bench/peers.json
     build/release/bin/roboss-peers --check-engines  # a second: an adapter that means something else would spoil it all
@@ -34,6 +35,7 @@ peers() {
 accuracy() {
     tools/setup.sh build bench peers
     tools/fetch_mujoco.sh
+    tools/fetch_peers.sh
     build roboss-accuracy
     local outputs=(--json build/bench/accuracy.json)
     [[ $# -gt 0 ]] || outputs+=(--markdown docs/accuracy.md --picture docs/images/arm_energy.svg)

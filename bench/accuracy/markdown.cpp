@@ -157,6 +157,8 @@ runs on RoBOSS and on the engines that Debian 12 packages (random trees and shot
 through one interface (`bench/engines/engine.h`); velocities and poses of all engines are read alike, and energies
 summed alike. This page is written by the program; `./bench.sh accuracy` makes it again (`--list` names the cases,
 `--case NAME` runs some, `--json FILE` writes the rows for programs).
+What the settings `fast`, `standard` and `high` cost and give:
+[price list](performance.md#price-list-of-the-accuracy).
 
 How to read the tables: figures are errors unless the unit says otherwise, and `✗` marks one that does not keep the
 bound in the column *must*. The bounds are for RoBOSS, at its default accuracy. The peers, set up as in the benchmark of

@@ -1,6 +1,7 @@
 // See assembly.h.
 #include "engines/assembly.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -249,6 +250,31 @@ bool has_chains(const World& world) {
                 return true;
     }
     return false;
+}
+
+Vec3 surface_velocity(const ModelSpec& model, const Pose& X_WM) {
+    for (const OnboardSpec& spec : model.onboard)
+        if (const auto* belt = std::get_if<SurfaceVelocitySpec>(&spec.parameters))
+            return rotate(X_WM.q, belt->linear);
+    return {};
+}
+
+bool has_belts(const World& world) {
+    return std::any_of(world.prototypes.begin(), world.prototypes.end(),
+                       [](const ModelSpec& model) { return norm_squared(surface_velocity(model, {})) > 0; });
+}
+
+double body_scale(const World& world) {
+    double largest = 0;
+    for (const ModelSpec& model : world.prototypes)
+        for (const LinkSpec& link : model.links)
+            for (const CollisionSpec& c : link.collisions) {
+                const GeometrySpec& g = c.geometry;
+                const double size = g.kind == GeometryKind::kBox ? std::max({g.size.x, g.size.y, g.size.z})
+                                                                 : std::max(2 * g.radius, g.length);
+                if (!model.is_static) largest = std::max(largest, size);
+            }
+    return largest < 0.5 ? 0.1 : 1;
 }
 
 LinkState link_of_body(const BodyState& body, const Vec3& p_BC, const Pose& X_BL, const Vec3& p_LC) {

@@ -76,6 +76,15 @@ PrincipalAxes principal_axes(Mat3 m);
 /// rounds.
 bool has_chains(const World& world);
 
+/// Velocity of the surfaces of a static model (a belt), m/s, world axes; zero: they stand still.
+Vec3 surface_velocity(const ModelSpec& model, const Pose& X_WM);
+/// Whether surfaces of the world move.
+bool has_belts(const World& world);
+
+/// The size of bodies to which tolerances of an engine for bodies of a metre should be scaled: 0.1 where all
+/// that moves is smaller than half a metre, else 1.
+double body_scale(const World& world);
+
 /// A link's state from its body's.
 LinkState link_of_body(const BodyState& body, const Vec3& p_BC, const Pose& X_BL, const Vec3& p_LC);
 

@@ -86,6 +86,7 @@ class BulletEngine final : public Engine {
     BulletEngine(const World& world, const EngineOptions& options)
         : world_(world),
           dt_(options.dt_s),
+          sleep_(options.sleep),
           iterations_(static_cast<int>((has_chains(world) ? 60 : 20) * std::max(1.0, options.accuracy))) {
         gCalculateCombinedFrictionCallback = [](auto* a, auto* b) { return least_friction(a, b); };
         gCalculateCombinedRestitutionCallback = [](auto* a, auto* b) { return most_restitution(a, b); };
@@ -257,7 +258,7 @@ class BulletEngine final : public Engine {
         body.setFriction(owner.surface->mu);
         body.setRestitution(owner.surface->restitution);
         body.setRollingFriction(owner.surface->rolling_mu);
-        body.setActivationState(DISABLE_DEACTIVATION);
+        if (!sleep_) body.setActivationState(DISABLE_DEACTIVATION);
     }
 
     void add_scenery(const PartShape& shape, std::size_t i) {
@@ -372,6 +373,7 @@ class BulletEngine final : public Engine {
 
     const World& world_;
     double dt_;
+    bool sleep_;
     int iterations_;
     PairFilter filter_;
     btDefaultCollisionConfiguration configuration_;
@@ -389,7 +391,8 @@ class BulletEngine final : public Engine {
 }  // namespace
 
 std::unique_ptr<Engine> make_bullet(const World& world, const EngineOptions& options) {
-    return BulletEngine::can(world) ? std::make_unique<BulletEngine>(world, options) : nullptr;
+    return !has_belts(world) && BulletEngine::can(world) ? std::make_unique<BulletEngine>(world, options)
+                                                         : nullptr;
 }
 
 }  // namespace roboss::bench

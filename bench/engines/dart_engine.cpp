@@ -303,7 +303,8 @@ class DartEngine final : public Engine {
 }  // namespace
 
 std::unique_ptr<Engine> make_dart(const World& world, const EngineOptions& options) {
-    return DartEngine::can(world) ? std::make_unique<DartEngine>(world, options) : nullptr;
+    const bool cannot = has_belts(world) || options.sleep;
+    return !cannot && DartEngine::can(world) ? std::make_unique<DartEngine>(world, options) : nullptr;
 }
 
 }  // namespace roboss::bench

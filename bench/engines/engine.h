@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,11 +34,21 @@ struct JointState {
     double position = 0, velocity = 0;  // rad, rad/s (or m, m/s)
 };
 
+/// What an engine says of its own solver, over all steps.
+struct SolverFigures {
+    double iterations = 0;       // for an island of bodies that touch, in a step
+    double residual = 0;         // worst relative residual of the momentum balance
+    double friction_error = 0;   // worst of an island: how far its friction is from Coulomb's law, relative
+    double friction_misses = 0;  // share of the islands whose friction misses the tolerance
+};
+
 struct EngineOptions {
     double dt_s = 0.002;
     bool fast_bodies =
-        false;            // something may pass through another in a tick: continuous collision, if it has any
-    double accuracy = 1;  // 1: as a careful user would set the engine up; each adapter says what it does
+        false;  // something may pass through another in a tick: continuous collision, if it has any
+    bool measure = false;  // keep solver_figures; costs a little
+    bool sleep = false;    // what rests may be left alone
+    double accuracy = 1;   // 1: as a careful user would set the engine up; each adapter says what it does
 };
 
 class Engine {
@@ -53,6 +64,8 @@ class Engine {
 
     virtual LinkState link(LinkRef link) const = 0;
     virtual JointState joint(JointRef joint) const = 0;
+    /// nullopt: it does not say.
+    virtual std::optional<SolverFigures> solver_figures() const { return std::nullopt; }
 
     // Both before the first step. set_base: for instances with a free base; X_WM places the model frame,
     // `angular` and `linear` are the root link's (rad/s; m/s of its centre of mass; world axes).

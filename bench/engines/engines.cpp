@@ -18,6 +18,12 @@ std::span<const EngineKind> engines() {
 #ifdef ROBOSS_BENCH_DART
         {"DART", make_dart},
 #endif
+#ifdef ROBOSS_BENCH_BOX3D
+        {"Box3D", make_box3d},
+#endif
+#ifdef ROBOSS_BENCH_RAPIER
+        {"Rapier", make_rapier},
+#endif
     };
     return kinds;
 }

@@ -14,5 +14,7 @@ std::unique_ptr<Engine> make_mujoco(const World& world, const EngineOptions& opt
 std::unique_ptr<Engine> make_ode(const World& world, const EngineOptions& options);
 std::unique_ptr<Engine> make_bullet(const World& world, const EngineOptions& options);
 std::unique_ptr<Engine> make_dart(const World& world, const EngineOptions& options);
+std::unique_ptr<Engine> make_box3d(const World& world, const EngineOptions& options);
+std::unique_ptr<Engine> make_rapier(const World& world, const EngineOptions& options);
 
 }  // namespace roboss::bench

@@ -53,7 +53,8 @@ class Writer {
                std::to_string(options_.iterations) + "\"" + attribute("timestep", {options_.dt_s}) +
                attribute("tolerance", {options_.tolerance}) + attribute("impratio", {options_.impratio}) +
                attribute("gravity", {g.x, g.y, g.z}) + ">" +
-               (options_.speculative ? "<flag speculative=\"enable\"/>" : "") + "</option>\n";
+               (options_.speculative ? "<flag speculative=\"enable\"/>" : "") +
+               (options_.sleep ? "<flag sleep=\"enable\"/>" : "") + "</option>\n";
     }
 
     std::string sizes() const {

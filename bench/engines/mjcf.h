@@ -19,6 +19,7 @@ struct MjcfOptions {
     // Before version 3 the first three, since then the last: what its buffers hold.
     long rows_max = 100, contacts_max = 100, stack_numbers = 1000000, memory_bytes = 0;
     std::string integrator = "Euler";
+    bool sleep = false;        // trees at rest; since version 4
     bool speculative = false;  // contacts of bodies that would pass through each other; since version 4
 };
 

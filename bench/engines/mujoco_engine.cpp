@@ -241,6 +241,7 @@ class MujocoEngine final : public Engine {
 }  // namespace
 
 std::unique_ptr<Engine> make_mujoco(const World& world, const EngineOptions& options) {
+    if (has_belts(world) || (options.sleep && mj_version() < kSpeculativeSince)) return nullptr;
     MjcfOptions mjcf;
     mjcf.dt_s = options.dt_s;
     mjcf.contact_time_s = 2 * options.dt_s;
@@ -253,6 +254,7 @@ std::unique_ptr<Engine> make_mujoco(const World& world, const EngineOptions& opt
     mjcf.solver = sizes.freedoms <= kNewtonMax ? "Newton" : "CG";
     mjcf.tolerance /= options.accuracy;
     set_buffers(sizes, mjcf);
+    mjcf.sleep = options.sleep;
     mjcf.speculative = options.fast_bodies && mj_version() >= kSpeculativeSince;
     if (options.fast_bodies && mj_version() >= kArenaSince) mjcf.integrator = "implicit";
     mju_user_warning = [](const char*) {};  // by default they go to a file in the current folder

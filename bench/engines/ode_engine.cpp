@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "core/check.h"
@@ -58,6 +59,7 @@ class OdeEngine final : public Engine {
         dWorldSetQuickStepNumIterations(ode_, iterations);
         dWorldSetContactSurfaceLayer(ode_, 1e-5);
         dWorldSetContactMaxCorrectingVel(ode_, 1.0);
+        dWorldSetAutoDisableFlag(ode_, options.sleep ? 1 : 0);
         space_ = dHashSpaceCreate(nullptr);
         contacts_ = dJointGroupCreate(0);
         instances_.resize(world.instances.size());
@@ -177,7 +179,8 @@ class OdeEngine final : public Engine {
         const bool one_shape =
             instance.assembly.bodies.size() == 1 && instance.assembly.bodies[0].shapes.size() == 1;
         instance.space = model.is_static || one_shape ? space_ : dSimpleSpaceCreate(space_);
-        for (const PartShape& shape : instance.assembly.scenery) add_scenery(shape, spec.X_WM);
+        const Vec3 belt = surface_velocity(model, spec.X_WM);
+        for (const PartShape& shape : instance.assembly.scenery) add_scenery(shape, spec.X_WM, belt);
         for (const PartBody& part : instance.assembly.bodies)
             instance.bodies.push_back(add_body(part, instance.space, spec.X_WM));
         for (const JointSpec& joint : model.joints)
@@ -198,13 +201,14 @@ class OdeEngine final : public Engine {
         }
     }
 
-    void finish(dGeomID geom, const CollisionSpec& collision) {
+    void finish(dGeomID geom, const CollisionSpec& collision, const Vec3& belt = {}) {
         dGeomSetData(geom, const_cast<SurfaceSpec*>(&collision.surface));
+        if (norm_squared(belt) > 0) belts_[geom] = belt;
         dGeomSetCategoryBits(geom, collision.surface.collide_bitmask);
         dGeomSetCollideBits(geom, collision.surface.collide_bitmask);
     }
 
-    void add_scenery(const PartShape& shape, const Pose& X_WM) {
+    void add_scenery(const PartShape& shape, const Pose& X_WM, const Vec3& belt) {
         const Pose X_WS = X_WM * shape.X_BS;
         dGeomID geom = nullptr;
         if (shape.collision->geometry.kind == GeometryKind::kPlane) {
@@ -217,7 +221,7 @@ class OdeEngine final : public Engine {
             dGeomSetPosition(geom, X_WS.p.x, X_WS.p.y, X_WS.p.z);
             dGeomSetQuaternion(geom, q);
         }
-        finish(geom, *shape.collision);
+        finish(geom, *shape.collision, belt);
     }
 
     dBodyID add_body(const PartBody& part, dSpaceID space, const Pose& X_WM) {
@@ -376,11 +380,29 @@ class OdeEngine final : public Engine {
                 contact.surface.mode |= dContactRolling;
                 contact.surface.rho = std::max(A.rolling_mu, B.rolling_mu);
             }
+            if (!engine.belts_.empty()) engine.move_along(contact, a, b);
             dJointAttach(dJointCreateContact(engine.ode_, engine.contacts_, &contact), body_a, body_b);
         }
     }
 
+    /// ODE moves the body that is not part of the scenery along the first friction direction.
+    void move_along(dContact& contact, dGeomID a, dGeomID b) const {
+        for (const dGeomID geom : {a, b}) {
+            const auto belt = belts_.find(geom);
+            if (belt == belts_.end()) continue;
+            const Vec3 n{contact.geom.normal[0], contact.geom.normal[1], contact.geom.normal[2]};
+            const Vec3 along = belt->second - n * dot(belt->second, n);
+            const double speed = norm(along);
+            if (speed < 1e-9) continue;
+            contact.surface.mode |= dContactFDir1 | dContactMotion1;
+            contact.surface.motion1 = speed;
+            contact.fdir1[0] = along.x / speed, contact.fdir1[1] = along.y / speed,
+            contact.fdir1[2] = along.z / speed;
+        }
+    }
+
     const World& world_;
+    std::map<dGeomID, Vec3> belts_;  // m/s, world axes
     double dt_;
     bool quick_;
     int iterations_;

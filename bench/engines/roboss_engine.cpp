@@ -18,6 +18,8 @@ class RobossEngine final : public Engine {
     RobossEngine(const World& world, const EngineOptions& options, Model model, std::size_t lanes)
         : world_(world), accuracy_(options.accuracy), lanes_(lanes), model_(std::move(model)) {
         if (lanes_ > 0) scratch_.use_lanes(lanes_);
+        if (options.measure)
+            scratch_.measure_stages([]() -> std::uint64_t { return 0; });  // no times, only figures
         first_robot_.assign(world.instances.size() + 1, model_.robots.size());
         for (std::size_t r = model_.robots.size(); r-- > 0;) first_robot_[model_.robots[r].family] = r;
         for (std::size_t i = world.instances.size(); i-- > 0;)
@@ -40,14 +42,14 @@ class RobossEngine final : public Engine {
         const bool in_floats = model_.precision == Precision::kFloat;
         return (in_floats ? "floats for robots that meet no other, Newton to the tolerance"
                           : "double, Newton to the tolerance") +
-               (accuracy_ == 1 ? std::string() : ", tolerances / " + std::to_string(accuracy_)) +
-               "; all robots in one call of step_island; lanes: " +
+               accuracy_text() + "; all robots in one call of step_island; lanes: " +
                std::to_string(scratch_.lanes(model_.precision));
     }
 
     void step(int ticks) override {
         for (int i = 0; i < ticks; ++i) {
             const StepReport report = step_island(model_, tick_++, robots_, pointers_, {}, bounds_, scratch_);
+            solver_ += report.profile.solver;
             if (report.not_finite.valid()) throw std::runtime_error("RoBOSS: a state is not finite");
         }
     }
@@ -64,6 +66,15 @@ class RobossEngine final : public Engine {
             return {to_pose(X_WL), twist.angular, twist.linear + cross(twist.angular, X_WL.R * spec.p_LC)};
         }
         return {instance.X_WM * spec.X_ML, {}, {}};
+    }
+
+    std::optional<SolverFigures> solver_figures() const override {
+        if (solver_.islands == 0) return std::nullopt;
+        const auto share = [](std::uint64_t part, std::uint64_t of) {
+            return of > 0 ? static_cast<double>(part) / static_cast<double>(of) : 0.0;
+        };
+        return SolverFigures{share(solver_.iterations, solver_.islands), solver_.residual,
+                             solver_.friction_error, share(solver_.friction_misses, solver_.friction_solves)};
     }
 
     JointState joint(JointRef ref) const override {
@@ -114,6 +125,11 @@ class RobossEngine final : public Engine {
         std::size_t robot = 0, q = 0, v = 0;
     };
 
+    std::string accuracy_text() const {
+        if (accuracy_ == 1) return {};
+        return accuracy_ > 1 ? ", accuracy high" : ", accuracy fast";
+    }
+
     Place find(JointRef ref) const {
         const ModelSpec& spec = world_.prototypes[world_.instances[ref.instance].prototype];
         for (std::size_t r = first_robot_[ref.instance]; r < first_robot_[ref.instance + 1]; ++r) {
@@ -148,6 +164,7 @@ class RobossEngine final : public Engine {
     std::vector<RobotState*> pointers_;
     std::vector<Aabb> bounds_;
     StepScratch scratch_;
+    SolverProfile solver_;  // empty unless it is measured
     Tick tick_ = 0;
 };
 

@@ -74,12 +74,14 @@ void Row::set_times(const std::vector<double>& us) {
     us_least = *least, us_median = median(us), us_most = *most;
 }
 
-std::vector<Row> hold_contest(const SceneKind& kind, std::size_t robots, const ContestOptions& wanted) {
+std::vector<Row> hold_contest(const SceneKind& kind, std::size_t robots, const ContestOptions& wanted,
+                              std::span<const EngineKind> engines) {
     ContestOptions options = wanted;
     options.steps = options.steps_of(robots);
     const Scene scene = kind.make(robots);
+    options.settle = std::max(options.settle, scene.settle);
     std::vector<Entry> entries;
-    for (const EngineKind& engine : contestants()) {
+    for (const EngineKind& engine : engines) {
         if (!is_wanted(options.engines, engine.name)) continue;
         std::fprintf(stderr, "  %s: building and settling\n", engine.name.c_str());
         Entry& entry = entries.emplace_back();
@@ -100,7 +102,11 @@ std::vector<Row> hold_contest(const SceneKind& kind, std::size_t robots, const C
         rows.push_back(entry.row);
     }
     const double ours = rows.empty() || !rows[0].engine.starts_with("RoBOSS") ? 0 : rows[0].us_median;
-    for (Row& row : rows) row.ratio = ours > 0 ? row.us_median / ours : 0;
+    for (Row& row : rows) {
+        row.ratio = ours > 0 ? row.us_median / ours : 0;
+        const double step_us = row.us_median * static_cast<double>(robots);
+        row.real_time_factor = step_us > 0 ? 1e6 * scene.dt_s / step_us : 0;
+    }
     return rows;
 }
 

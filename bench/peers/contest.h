@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ struct Row {
     int steps = 0;                                    // counted
     double us_median = 0, us_least = 0, us_most = 0;  // of the blocks
     double ratio = 0;                                 // to RoBOSS in the same contest; 0: not known
+    double real_time_factor = 0;                      // simulated time by CPU time; 0: not known
     double build_s = 0, bytes_per_robot = 0;
     bool right = false;
     std::string verdict;
@@ -42,7 +44,9 @@ struct Row {
     void set_times(const std::vector<double>& us);
 };
 
-std::vector<Row> hold_contest(const SceneKind& kind, std::size_t robots, const ContestOptions& options);
+/// Between these engines; ratios are to the first.
+std::vector<Row> hold_contest(const SceneKind& kind, std::size_t robots, const ContestOptions& options,
+                              std::span<const EngineKind> engines = contestants());
 
 /// RoBOSS alone, as `roboss run` steps: cars in windows and islands, on one thread and on two, by the wall.
 std::vector<Row> compare_threads(std::size_t cars, const ContestOptions& options);

@@ -6,6 +6,7 @@
 
 #include "peers/agreement.h"
 #include "peers/contest.h"
+#include "peers/price_list.h"
 #include "peers/rows.h"
 #include "peers/trial.h"
 
@@ -17,7 +18,7 @@ struct BenchOptions {
     std::vector<std::string> scenes;
     std::vector<std::size_t> robots;
     ContestOptions contest;
-    bool quick = false, alone = false, check = false;
+    bool quick = false, alone = false, check = false, price_list = false;
     std::string json;
 };
 
@@ -91,6 +92,12 @@ std::vector<Row> run_contests(const BenchOptions& options) {
     return rows;
 }
 
+int run_price_list(const BenchOptions& options) {
+    const std::vector<Price> prices = make_price_list(options.scenes, options.robots, options.contest);
+    print_price_list(prices);
+    return options.json.empty() || write_json(options.json, prices) ? 0 : 2;
+}
+
 void add_options(CLI::App& app, BenchOptions& options) {
     app.add_option("--scene", options.scenes, "only these scenes");
     app.add_option("--robots", options.robots, "instead of the scenes' own sizes")
@@ -115,6 +122,8 @@ void add_options(CLI::App& app, BenchOptions& options) {
     app.add_flag("--alone", options.alone, "in this process, without turns: for profilers");
     app.add_flag("--check-engines", options.check,
                  "instead: do small mechanisms move alike in all engines? (signs, frames, units)");
+    app.add_flag("--price-list", options.price_list,
+                 "instead: what RoBOSS' settings fast, standard and high cost and give");
     app.add_option("--json", options.json, "also write the rows to this file");
 }
 
@@ -129,6 +138,7 @@ int main(int argc, char** argv) {
     try {
         if (options.check) return engines_agree() ? 0 : 1;
         if (options.alone) return run_all_alone(options);
+        if (options.price_list) return run_price_list(options);
         const std::vector<Row> rows = run_contests(options);
         if (rows.empty()) {
             std::fprintf(stderr, "roboss-peers: no such scene or engine; --help lists them\n");

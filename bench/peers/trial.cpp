@@ -35,10 +35,12 @@ double resident() {
 
 }  // namespace
 
-Trial::Trial(const EngineKind& kind, const Scene& scene, double accuracy)
+Trial::Trial(const EngineKind& kind, const Scene& scene, double accuracy, bool measure)
     : scene_(scene), heap_before_(heap_in_use()), resident_before_(resident()) {
     const double start = seconds(CLOCK_MONOTONIC);
-    engine_ = kind.make(scene.world, EngineOptions{.dt_s = kSceneDt, .accuracy = accuracy});
+    engine_ = kind.make(
+        scene.world,
+        EngineOptions{.dt_s = scene.dt_s, .measure = measure, .sleep = scene.sleep, .accuracy = accuracy});
     if (!engine_) throw std::runtime_error(kind.name + " cannot express this scene");
     scene.start(*engine_);
     build_s_ = seconds(CLOCK_MONOTONIC) - start;

@@ -16,7 +16,7 @@ struct Spent {
 class Trial {
   public:
     /// The scene must outlive the trial. Throws std::runtime_error if the engine cannot express it.
-    Trial(const EngineKind& kind, const Scene& scene, double accuracy = 1);
+    Trial(const EngineKind& kind, const Scene& scene, double accuracy = 1, bool measure = false);
 
     /// Steps on; the orders that the scene gives between the ticks are not counted.
     Spent run(int ticks);

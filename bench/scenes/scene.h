@@ -12,6 +12,8 @@
 
 namespace roboss::bench {
 
+inline constexpr double kSceneDt = 0.002;
+
 /// Whether the result is right, with the figures that say so.
 struct Verdict {
     bool good = false;
@@ -20,7 +22,10 @@ struct Verdict {
 
 struct Scene {
     World world;
-    std::size_t robots = 0;                             // those that the figures count
+    std::size_t robots = 0;  // those that the figures count
+    double dt_s = kSceneDt;
+    int settle = 0;                                     // ticks at least before anything is counted
+    bool sleep = false;                                 // what rests may be left alone
     std::function<void(Engine&)> start;                 // before the first tick
     std::function<void(Engine&, Tick)> control;         // before every tick; may be empty
     std::function<Verdict(const Engine&, Tick)> judge;  // after the tick before `Tick`
@@ -34,8 +39,6 @@ struct SceneKind {
 };
 
 std::span<const SceneKind> scenes();
-
-inline constexpr double kSceneDt = 0.002;
 
 // Cars 1.5 m apart on a plane, all driving forward: four wheels, velocity motors of 10 rad/s and .5 N m.
 Scene cars_scene(std::size_t cars);
@@ -52,6 +55,12 @@ Scene shapes_scene(std::size_t shapes);
 Scene deep_pile_scene(std::size_t shapes);
 // Bodies with four passive legs, dropped into a box.
 Scene pile_scene(std::size_t robots);
+// Parcels on a moving belt.
+Scene belt_scene(std::size_t parcels);
+// Boxes, cylinders and spheres at rest, as in gz-sim's example world 3k_shapes: awake, or free to fall
+// asleep.
+Scene resting_shapes_scene(std::size_t shapes);
+Scene sleeping_shapes_scene(std::size_t shapes);
 // A net of plates and ball joints, hanging on two corners: one robot. Its plates are counted.
 Scene joint_grid_scene(std::size_t plates);
 

@@ -16,6 +16,12 @@ std::span<const SceneKind> scenes() {
          "a net of plates and ball joints on two corners; plates are counted",
          {36, 100},
          joint_grid_scene},
+        {"belt", "parcels on a moving belt; some engines have none", {500}, belt_scene},
+        {"3k_shapes",
+         "the shapes of gz-sim's 3k_shapes at rest, awake, dt 1 ms",
+         {3000},
+         resting_shapes_scene},
+        {"3k_asleep", "the same, free to fall asleep, where an engine can", {3000}, sleeping_shapes_scene},
     };
     return kinds;
 }

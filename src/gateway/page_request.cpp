@@ -12,49 +12,47 @@
 namespace roboss {
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr std::size_t kWordsMax = 1024;
 constexpr int kDepthMax = 8;
 
 /// Fields of one object; the first that is wrong is remembered.
 class Fields {
   public:
-    explicit Fields(const Json& object) : object_(object) {}
+    explicit Fields(const nlohmann::json& object) : object_(object) {}
 
-    const Json* find(const char* name) const {
+    const nlohmann::json* find(const char* name) const {
         const auto found = object_.find(name);
         return found == object_.end() ? nullptr : &*found;
     }
     std::string text(const char* name) {
-        const Json* value = find(name);
+        const nlohmann::json* value = find(name);
         if (value != nullptr && value->is_string()) return value->get<std::string>();
         return fail(name, "a string"), std::string();
     }
     double number(const char* name, std::optional<double> otherwise = {}) {
-        const Json* value = find(name);
+        const nlohmann::json* value = find(name);
         if (value == nullptr && otherwise) return *otherwise;
         if (value != nullptr && value->is_number() && std::isfinite(value->get<double>()))
             return value->get<double>();
         return fail(name, "a finite number"), 0;
     }
     std::uint32_t index(const char* name, std::optional<std::uint32_t> otherwise = {}) {
-        const Json* value = find(name);
+        const nlohmann::json* value = find(name);
         if (value == nullptr && otherwise) return *otherwise;
         return value == nullptr ? (fail(name, "a number from 0 on"), 0) : index_of(*value, name);
     }
     std::vector<double> numbers(const char* name, std::size_t count) {
         std::vector<double> values;
-        const Json* list = find(name);
+        const nlohmann::json* list = find(name);
         if (list != nullptr && list->is_array() && list->size() == count)
-            for (const Json& value : *list)
+            for (const nlohmann::json& value : *list)
                 if (value.is_number() && std::isfinite(value.get<double>())) values.push_back(value);
         if (values.size() != count) fail(name, "a list of " + std::to_string(count) + " finite numbers");
         values.resize(count);
         return values;
     }
     std::vector<double> numbers(const char* name) {
-        const Json* list = find(name);
+        const nlohmann::json* list = find(name);
         if (list != nullptr && list->is_array()) return numbers(name, list->size());
         return fail(name, "a list of finite numbers"), std::vector<double>();
     }
@@ -62,7 +60,7 @@ class Fields {
         const std::vector<double> v = numbers(name, 3);
         return {v[0], v[1], v[2]};
     }
-    std::uint32_t index_of(const Json& value, const char* name) {
+    std::uint32_t index_of(const nlohmann::json& value, const char* name) {
         if (value.is_number_unsigned() && value.get<std::uint64_t>() < RobotId::kNone)
             return value.get<std::uint32_t>();
         return fail(name, "a number from 0 on"), 0;
@@ -73,16 +71,16 @@ class Fields {
     const std::string& wrong() const { return wrong_; }
 
   private:
-    const Json& object_;
+    const nlohmann::json& object_;
     std::string wrong_;
 };
 
 ControlArguments control_of(Fields& fields) {
     ControlArguments control;
-    const Json* words = fields.find("words");
+    const nlohmann::json* words = fields.find("words");
     if (words == nullptr || !words->is_array() || words->empty() || words->size() > kWordsMax)
         return fields.fail("words", "a list of 1 to 1024 strings"), control;
-    for (const Json& word : *words) {
+    for (const nlohmann::json& word : *words) {
         if (!word.is_string()) return fields.fail("words", "a list of strings"), control;
         control.words.push_back(word.get<std::string>());
     }
@@ -98,7 +96,7 @@ SetPose pose_of(Fields& fields) {
 }
 
 bool flag_of(Fields& fields, const char* name) {
-    const Json* value = fields.find(name);
+    const nlohmann::json* value = fields.find(name);
     if (value != nullptr && !value->is_boolean()) fields.fail(name, "true or false");
     return value != nullptr && value->is_boolean() && value->get<bool>();
 }
@@ -177,17 +175,17 @@ PageOrder order_of(Fields& fields) {
 
 PageWatch watch_of(Fields& fields) {
     PageWatch watch;
-    const Json none = Json::array();
-    const Json* robots = fields.find("robots");
+    const nlohmann::json none = nlohmann::json::array();
+    const nlohmann::json* robots = fields.find("robots");
     if (robots == nullptr) robots = &none;
     if (!robots->is_array() || robots->size() > viewer_protocol::kWatchedRobotsMax)
         return fields.fail("robots", "a list of at most 8 robots"), watch;
-    for (const Json& robot : *robots) watch.robots.emplace_back(fields.index_of(robot, "robots"));
-    const Json* overlays = fields.find("overlays");
+    for (const nlohmann::json& robot : *robots) watch.robots.emplace_back(fields.index_of(robot, "robots"));
+    const nlohmann::json* overlays = fields.find("overlays");
     if (overlays == nullptr) overlays = &none;
     if (!overlays->is_array() || overlays->size() > 16)
         return fields.fail("overlays", "a list of names"), watch;
-    for (const Json& overlay : *overlays) {
+    for (const nlohmann::json& overlay : *overlays) {
         watch.contacts = watch.contacts || overlay == "contacts";
         watch.bounds = watch.bounds || overlay == "bounds";
         watch.groups = watch.groups || overlay == "groups";
@@ -228,7 +226,7 @@ Result<PageRequest> parse_page_request(std::string_view text) {
         return Error{"invalid message of a page: " + why, "see docs/viewer-protocol.md", "bad-message"};
     };
     if (too_deep(text)) return refused("it is nested too deeply");
-    const Json json = Json::parse(text, nullptr, false);
+    const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
     if (!json.is_object()) return refused("it is not a JSON object");
     Fields fields(json);
     const std::string type = fields.text("type");

@@ -15,7 +15,7 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 
-constexpr std::size_t kLinesMissAt = 8, kLinesMax = 4'000;
+constexpr std::size_t kLinesMissAt = 8, kSessionLinesMax = 4'000;
 constexpr std::int64_t kSilent_s = 30, kExtrasEvery_ms = 100;
 constexpr std::size_t kTypeWithin = 64;  // bytes of a large message
 
@@ -157,7 +157,7 @@ bool PageSession::greet() {
 
 void PageSession::send(std::string text, bool may_miss) {
     if (!open_ || (may_miss && lines_.size() >= kLinesMissAt)) return;
-    if (lines_.size() >= kLinesMax) return end("it does not read its replies", "slow");
+    if (lines_.size() >= kSessionLinesMax) return end("it does not read its replies", "slow");
     lines_.push_back(std::move(text));
     write_next();
 }

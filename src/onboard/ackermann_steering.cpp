@@ -9,8 +9,6 @@
 namespace roboss {
 namespace {
 
-using Spec = AckermannSteeringSpec;
-
 constexpr double kStraight = 1e9;        // m: a radius that is none
 constexpr double kLeastTurn = 1e-3;      // rad/s: slower is straight, as in Gazebo
 constexpr double kSteeringStill = 1e-7;  // rad/s: so slow a steering stands, that the robot may sleep
@@ -27,14 +25,14 @@ double slope(double a, double b) {
 
 /// Where the joints of each kind begin in the context's.
 struct Joints {
-    explicit Joints(const Spec& spec)
+    explicit Joints(const AckermannSteeringSpec& spec)
         : right(spec.left.size()),
           left_steering(right + spec.right.size()),
           right_steering(left_steering + spec.left_steering.size()) {}
     std::size_t right, left_steering, right_steering;
 };
 
-void steer(const Spec& spec, const SteeringAngles& wanted, OnboardContext& c) {
+void steer(const AckermannSteeringSpec& spec, const SteeringAngles& wanted, OnboardContext& c) {
     const Joints at(spec);
     const auto speed = [&](double angle, std::size_t first) {
         const double rate = spec.speed_gain * (angle - c.position(first));
@@ -47,7 +45,7 @@ void steer(const Spec& spec, const SteeringAngles& wanted, OnboardContext& c) {
 
 /// Radius of the circle on which the middle between the kingpins drives, m; positive: to the left. It is
 /// never smaller than the steering allows; then the speed is kept and the turn is slower.
-double radius_for(const Spec& spec, double speed, double turn) {
+double radius_for(const AckermannSteeringSpec& spec, double speed, double turn) {
     if (std::fabs(turn) < kLeastTurn) return kStraight;
     const double least = spec.wheel_base / fixed_sin(spec.steering_limit);
     if (speed == 0) return turn > 0 ? least : -least;
@@ -57,7 +55,7 @@ double radius_for(const Spec& spec, double speed, double turn) {
 
 /// Curvature of the way, 1/m, from the measured steering angles. Each says where the centre of the circle is:
 /// base / tan(angle) to the side of its kingpin; the mean of both is the radius of the middle between them.
-double curvature(const Spec& spec, const SteeringAngles& angles) {
+double curvature(const AckermannSteeringSpec& spec, const SteeringAngles& angles) {
     const SinCos l = fixed_sincos(angles.left), r = fixed_sincos(angles.right);
     if (angles.left * angles.right <= 0) {
         const SinCos mean = fixed_sincos(0.5 * (angles.left + angles.right));
@@ -66,27 +64,31 @@ double curvature(const Spec& spec, const SteeringAngles& angles) {
     return 2.0 * l.sin * r.sin / (spec.wheel_base * (l.cos * r.sin + r.cos * l.sin));
 }
 
-void count_wheels(const Spec& spec, OnboardContext& c, std::span<double> memory) {
+void count_wheels(const AckermannSteeringSpec& spec, OnboardContext& c, std::span<double> memory) {
     const Joints at(spec);
     const double left = c.position(0), right = c.position(at.right);
-    if (memory[Spec::kStarted] != 0) {
+    if (memory[AckermannSteeringSpec::kStarted] != 0) {
         const double moved = 0.5 * spec.wheel_radius *
-                             ((left - memory[Spec::kLeftAngle]) + (right - memory[Spec::kRightAngle]));
+                             ((left - memory[AckermannSteeringSpec::kLeftAngle]) +
+                              (right - memory[AckermannSteeringSpec::kRightAngle]));
         const double turn =
             moved * curvature(spec, {c.position(at.left_steering), c.position(at.right_steering)});
         move_odometry(memory.first<5>(), {moved, 0, turn}, c.dt());
     }
-    memory[Spec::kStarted] = 1, memory[Spec::kLeftAngle] = left, memory[Spec::kRightAngle] = right;
+    memory[AckermannSteeringSpec::kStarted] = 1, memory[AckermannSteeringSpec::kLeftAngle] = left,
+    memory[AckermannSteeringSpec::kRightAngle] = right;
 }
 
-void run_drive(const Spec& spec, OnboardContext& c) {
+void run_drive(const AckermannSteeringSpec& spec, OnboardContext& c) {
     const std::span<double> memory = c.memory();
     count_wheels(spec, c, memory);
     const std::span<const double> twist = c.command(0);
-    const double speed = limit_speed(spec.linear, twist[Twist6::kLinearX], c.dt(), memory[Spec::kSpeed],
-                                     memory[Spec::kSpeed + 1]);
-    const double turn = limit_speed(spec.angular, twist[Twist6::kAngularZ], c.dt(), memory[Spec::kTurnRate],
-                                    memory[Spec::kTurnRate + 1]);
+    const double speed =
+        limit_speed(spec.linear, twist[Twist6::kLinearX], c.dt(), memory[AckermannSteeringSpec::kSpeed],
+                    memory[AckermannSteeringSpec::kSpeed + 1]);
+    const double turn =
+        limit_speed(spec.angular, twist[Twist6::kAngularZ], c.dt(), memory[AckermannSteeringSpec::kTurnRate],
+                    memory[AckermannSteeringSpec::kTurnRate + 1]);
     const double radius = radius_for(spec, speed, turn), half = 0.5 * spec.kingpin_width;
     steer(spec, {slope(spec.wheel_base, radius - half), slope(spec.wheel_base, radius + half)}, c);
     const double across = 0.5 * spec.wheel_separation / radius;
@@ -98,12 +100,13 @@ void run_drive(const Spec& spec, OnboardContext& c) {
 }
 
 /// The command is the angle of a wheel in the middle.
-void run_steering_only(const Spec& spec, OnboardContext& c) {
+void run_steering_only(const AckermannSteeringSpec& spec, OnboardContext& c) {
     const std::span<double> memory = c.memory();
-    const double limited = limit_speed(spec.angular, c.command(0)[0], c.dt(), memory[Spec::kTurnRate],
-                                       memory[Spec::kTurnRate + 1]);
+    const double limited =
+        limit_speed(spec.angular, c.command(0)[0], c.dt(), memory[AckermannSteeringSpec::kTurnRate],
+                    memory[AckermannSteeringSpec::kTurnRate + 1]);
     const double angle = std::fmax(std::fmin(limited, spec.steering_limit), -spec.steering_limit);
-    if (angle != limited) memory[Spec::kTurnRate] = angle;
+    if (angle != limited) memory[AckermannSteeringSpec::kTurnRate] = angle;
     const SinCos middle = fixed_sincos(angle);
     const double along = 2.0 * spec.wheel_base * middle.cos, across = spec.wheel_separation * middle.sin,
                  side = 2.0 * spec.wheel_base * middle.sin;

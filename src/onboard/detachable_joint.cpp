@@ -95,7 +95,7 @@ Bond new_bond(OnboardContext& c, const Child& child) {
 }
 
 /// Whether a command came that was not obeyed yet.
-bool hears(const OnboardContext& c, std::size_t command, double& heard) {
+bool hears_order(const OnboardContext& c, std::size_t command, double& heard) {
     const auto at = static_cast<double>(c.commanded_at(command));
     if (at <= heard) return false;
     heard = at;
@@ -107,8 +107,8 @@ bool hears(const OnboardContext& c, std::size_t command, double& heard) {
 void run(const DetachableJointSpec& spec, OnboardContext& c) {
     const std::span<double> memory = c.memory();
     double& phase = memory[DetachableJointSpec::kPhase];
-    const bool detach = hears(c, 0, memory[DetachableJointSpec::kDetached]);
-    const bool attach = hears(c, 1, memory[DetachableJointSpec::kAttached]);
+    const bool detach = hears_order(c, 0, memory[DetachableJointSpec::kDetached]);
+    const bool attach = hears_order(c, 1, memory[DetachableJointSpec::kAttached]);
     if (!attach && !detach) {
         if (phase == DetachableJointSpec::kLoose || phase == DetachableJointSpec::kHolds) return;
         if (phase == DetachableJointSpec::kWanted && c.tick() % kLookAgain != 0) return;

@@ -6,20 +6,19 @@
 namespace roboss {
 namespace {
 
-using Spec = DiffDriveSpec;
-
 /// Odometry up to now, from the first wheel of each side.
-void count_wheels(const Spec& spec, OnboardContext& c, std::span<double> memory) {
+void count_wheels(const DiffDriveSpec& spec, OnboardContext& c, std::span<double> memory) {
     const double left = c.position(0), right = c.position(spec.left.size());
-    if (memory[Spec::kStarted] != 0) {
-        const double moved_left = spec.wheel_radius * (left - memory[Spec::kLeftAngle]);
-        const double moved_right = spec.wheel_radius * (right - memory[Spec::kRightAngle]);
+    if (memory[DiffDriveSpec::kStarted] != 0) {
+        const double moved_left = spec.wheel_radius * (left - memory[DiffDriveSpec::kLeftAngle]);
+        const double moved_right = spec.wheel_radius * (right - memory[DiffDriveSpec::kRightAngle]);
         move_odometry(
             memory.first<5>(),
             {0.5 * (moved_left + moved_right), 0, (moved_right - moved_left) / spec.wheel_separation},
             c.dt());
     }
-    memory[Spec::kStarted] = 1, memory[Spec::kLeftAngle] = left, memory[Spec::kRightAngle] = right;
+    memory[DiffDriveSpec::kStarted] = 1, memory[DiffDriveSpec::kLeftAngle] = left,
+    memory[DiffDriveSpec::kRightAngle] = right;
 }
 
 }  // namespace
@@ -29,14 +28,16 @@ void run(const DiffDriveSpec& spec, OnboardContext& c) {
     count_wheels(spec, c, memory);
     const bool is_enabled = !c.is_commanded(1) || c.command(1)[0] != 0;
     const auto commanded = static_cast<double>(c.commanded_at(0));
-    if (!is_enabled) memory[Spec::kIgnoredUntil] = commanded;
+    if (!is_enabled) memory[DiffDriveSpec::kIgnoredUntil] = commanded;
     double speed = 0, turn = 0;
-    if (commanded > memory[Spec::kIgnoredUntil]) {
+    if (commanded > memory[DiffDriveSpec::kIgnoredUntil]) {
         const std::span<const double> twist = c.command(0);
         speed = twist[Twist6::kLinearX], turn = twist[Twist6::kAngularZ];
     }
-    speed = limit_speed(spec.linear, speed, c.dt(), memory[Spec::kSpeed], memory[Spec::kSpeed + 1]);
-    turn = limit_speed(spec.angular, turn, c.dt(), memory[Spec::kTurnRate], memory[Spec::kTurnRate + 1]);
+    speed = limit_speed(spec.linear, speed, c.dt(), memory[DiffDriveSpec::kSpeed],
+                        memory[DiffDriveSpec::kSpeed + 1]);
+    turn = limit_speed(spec.angular, turn, c.dt(), memory[DiffDriveSpec::kTurnRate],
+                       memory[DiffDriveSpec::kTurnRate + 1]);
     const double across = 0.5 * turn * spec.wheel_separation;
     const double left = (speed - across) / spec.wheel_radius, right = (speed + across) / spec.wheel_radius;
     const std::size_t lefts = spec.left.size(), count = c.joint_count();

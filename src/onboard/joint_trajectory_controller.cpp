@@ -5,22 +5,22 @@
 namespace roboss {
 namespace {
 
-using Spec = JointTrajectoryControllerSpec;
-
 constexpr double kRounding = 1e-9;  // s: a point's time and the tick that it falls on
 
 /// The numbers of one joint.
 std::span<double> of_joint(std::span<double> memory, std::size_t joint) {
-    return memory.subspan(Spec::kHeadSize + Spec::kJointSize * joint, Spec::kJointSize);
+    return memory.subspan(
+        JointTrajectoryControllerSpec::kHeadSize + JointTrajectoryControllerSpec::kJointSize * joint,
+        JointTrajectoryControllerSpec::kJointSize);
 }
 
 /// Takes the targets of a row of the command.
 void take_targets(std::span<const double> row, std::span<double> memory) {
     for (std::size_t j = 0; 3 * j + 1 < row.size(); ++j) {
         const std::span<double> joint = of_joint(memory, j);
-        joint[Spec::kPosition] = row[3 * j + 1];
-        joint[Spec::kVelocity] = row[3 * j + 2];
-        joint[Spec::kEffort] = row[3 * j + 3];
+        joint[JointTrajectoryControllerSpec::kPosition] = row[3 * j + 1];
+        joint[JointTrajectoryControllerSpec::kVelocity] = row[3 * j + 2];
+        joint[JointTrajectoryControllerSpec::kEffort] = row[3 * j + 3];
     }
 }
 
@@ -30,22 +30,25 @@ void advance(OnboardContext& c, std::span<double> memory) {
     const std::size_t width = 3 * c.joint_count() + 1, count = points.size() / width;
     const auto commanded = static_cast<double>(c.commanded_at(0));
     bool is_new = false;
-    if (commanded > memory[Spec::kSeen]) {
-        memory[Spec::kSeen] = commanded, memory[Spec::kStart] = static_cast<double>(c.tick());
-        memory[Spec::kIndex] = memory[Spec::kProgress] = 0;
-        memory[Spec::kIsActive] = count > 0 ? 1 : 0;
+    if (commanded > memory[JointTrajectoryControllerSpec::kSeen]) {
+        memory[JointTrajectoryControllerSpec::kSeen] = commanded,
+        memory[JointTrajectoryControllerSpec::kStart] = static_cast<double>(c.tick());
+        memory[JointTrajectoryControllerSpec::kIndex] = memory[JointTrajectoryControllerSpec::kProgress] = 0;
+        memory[JointTrajectoryControllerSpec::kIsActive] = count > 0 ? 1 : 0;
         is_new = true;
     }
-    if (memory[Spec::kIsActive] == 0) return;
-    const double elapsed = (static_cast<double>(c.tick()) - memory[Spec::kStart]) * c.dt();
-    auto index = static_cast<std::size_t>(memory[Spec::kIndex]);
+    if (memory[JointTrajectoryControllerSpec::kIsActive] == 0) return;
+    const double elapsed =
+        (static_cast<double>(c.tick()) - memory[JointTrajectoryControllerSpec::kStart]) * c.dt();
+    auto index = static_cast<std::size_t>(memory[JointTrajectoryControllerSpec::kIndex]);
     const std::size_t before = index;
     while (index + 1 < count && points[index * width] + kRounding < elapsed) ++index;
     if (!is_new && index == before) return;
     take_targets(points.subspan(index * width, width), memory);
-    memory[Spec::kIndex] = static_cast<double>(index);
-    memory[Spec::kProgress] = static_cast<double>(index + 1) / static_cast<double>(count);
-    if (index + 1 == count) memory[Spec::kIsActive] = 0;
+    memory[JointTrajectoryControllerSpec::kIndex] = static_cast<double>(index);
+    memory[JointTrajectoryControllerSpec::kProgress] =
+        static_cast<double>(index + 1) / static_cast<double>(count);
+    if (index + 1 == count) memory[JointTrajectoryControllerSpec::kIsActive] = 0;
 }
 
 }  // namespace
@@ -55,11 +58,13 @@ void run(const JointTrajectoryControllerSpec& spec, OnboardContext& c) {
     advance(c, memory);
     for (std::size_t j = 0; j < c.joint_count(); ++j) {
         const std::span<double> joint = of_joint(memory, j);
-        const double by_position = update_pid(spec.position.of(j), c.position(j) - joint[Spec::kPosition],
-                                              c.dt(), {joint, Spec::kPositionPid});
-        const double by_velocity = update_pid(spec.velocity.of(j), c.velocity(j) - joint[Spec::kVelocity],
-                                              c.dt(), {joint, Spec::kVelocityPid});
-        c.push_joint(j, by_position + by_velocity + joint[Spec::kEffort]);
+        const double by_position =
+            update_pid(spec.position.of(j), c.position(j) - joint[JointTrajectoryControllerSpec::kPosition],
+                       c.dt(), {joint, JointTrajectoryControllerSpec::kPositionPid});
+        const double by_velocity =
+            update_pid(spec.velocity.of(j), c.velocity(j) - joint[JointTrajectoryControllerSpec::kVelocity],
+                       c.dt(), {joint, JointTrajectoryControllerSpec::kVelocityPid});
+        c.push_joint(j, by_position + by_velocity + joint[JointTrajectoryControllerSpec::kEffort]);
     }
 }
 

@@ -7,14 +7,12 @@
 namespace roboss {
 namespace {
 
-using Spec = LinearBatterySpec;
-
 constexpr double kSecondsPerHour = 3600;
 constexpr double kNoCurrent = 1e-9;  // A
 constexpr double kNoVoltage = 1e-3;  // V
 
 /// W, that the robot's other controllers draw from this battery.
-double loads_of_others(const Spec& battery, const RobotType& type) {
+double loads_of_others(const LinearBatterySpec& battery, const RobotType& type) {
     double power = 0;
     for (const OnboardInfo& info : type.onboard)
         std::visit(
@@ -39,24 +37,25 @@ bool is_commanded_now(const OnboardContext& c, std::size_t first, std::size_t co
 }
 
 /// Whether power is drawn and whether the battery is recharged.
-void switch_over(const Spec& spec, OnboardContext& c, std::span<double> memory) {
+void switch_over(const LinearBatterySpec& spec, OnboardContext& c, std::span<double> memory) {
     const std::size_t draining = spec.power_command() + 1, stopping = draining + spec.draining_topics.size();
-    if (is_commanded_now(c, stopping, spec.stop_topics.size())) memory[Spec::kDrains] = 0;
+    if (is_commanded_now(c, stopping, spec.stop_topics.size())) memory[LinearBatterySpec::kDrains] = 0;
     if (is_driven(c.state()) || is_commanded_now(c, draining, spec.draining_topics.size()))
-        memory[Spec::kDrains] = 1;
-    const bool charges =
-        spec.enable_recharge && c.commanded_at(Spec::kRechargeStart) > c.commanded_at(Spec::kRechargeStop);
-    memory[Spec::kCharges] = charges ? 1 : 0;
+        memory[LinearBatterySpec::kDrains] = 1;
+    const bool charges = spec.enable_recharge && c.commanded_at(LinearBatterySpec::kRechargeStart) >
+                                                     c.commanded_at(LinearBatterySpec::kRechargeStop);
+    memory[LinearBatterySpec::kCharges] = charges ? 1 : 0;
 }
 
 /// A, that the loads and the charger ask for.
-double wanted_current(const Spec& spec, OnboardContext& c, std::span<const double> memory) {
+double wanted_current(const LinearBatterySpec& spec, OnboardContext& c, std::span<const double> memory) {
     const std::size_t k = spec.power_command();
     const double own = c.is_commanded(k) ? std::fmax(c.command(k)[0], 0) : spec.power_load;
     double current = 0;
-    if (memory[Spec::kDrains] != 0 && memory[Spec::kVoltage] > kNoVoltage)
-        current = (own + loads_of_others(spec, c.type())) / memory[Spec::kVoltage];
-    if (memory[Spec::kCharges] != 0 && memory[Spec::kCharge] < Spec::kFull * spec.capacity)
+    if (memory[LinearBatterySpec::kDrains] != 0 && memory[LinearBatterySpec::kVoltage] > kNoVoltage)
+        current = (own + loads_of_others(spec, c.type())) / memory[LinearBatterySpec::kVoltage];
+    if (memory[LinearBatterySpec::kCharges] != 0 &&
+        memory[LinearBatterySpec::kCharge] < LinearBatterySpec::kFull * spec.capacity)
         current -= spec.capacity / spec.charging_time;
     return current;
 }
@@ -65,8 +64,8 @@ double wanted_current(const Spec& spec, OnboardContext& c, std::span<const doubl
 
 bool is_out_of_power(OnboardContext& c) {
     for (const OnboardInfo& info : c.type().onboard)
-        if (std::holds_alternative<Spec>(info.spec.parameters) &&
-            c.state().onboard[static_cast<std::size_t>(info.memory_index) + Spec::kCharge] <= 0)
+        if (std::holds_alternative<LinearBatterySpec>(info.spec.parameters) &&
+            c.state().onboard[static_cast<std::size_t>(info.memory_index) + LinearBatterySpec::kCharge] <= 0)
             return true;
     return false;
 }
@@ -74,8 +73,8 @@ bool is_out_of_power(OnboardContext& c) {
 void run(const LinearBatterySpec& spec, OnboardContext& c) {
     const std::span<double> memory = c.memory();
     switch_over(spec, c, memory);
-    double &charge = memory[Spec::kCharge], &current = memory[Spec::kCurrent];
-    if (charge <= 0 && memory[Spec::kCharges] == 0) {
+    double &charge = memory[LinearBatterySpec::kCharge], &current = memory[LinearBatterySpec::kCurrent];
+    if (charge <= 0 && memory[LinearBatterySpec::kCharges] == 0) {
         charge = current = 0;
     } else {
         const double wanted = wanted_current(spec, c, memory);
@@ -83,9 +82,9 @@ void run(const LinearBatterySpec& spec, OnboardContext& c) {
         if (wanted == 0 && std::fabs(current) < kNoCurrent) current = 0;
         charge = std::clamp(charge - current * c.dt() / kSecondsPerHour, 0.0, spec.capacity);
         if (current != 0 || wanted != 0)
-            memory[Spec::kVoltage] = spec.constant_coefficient +
-                                     spec.linear_coefficient * (1 - charge / spec.capacity) -
-                                     spec.resistance * current;
+            memory[LinearBatterySpec::kVoltage] = spec.constant_coefficient +
+                                                  spec.linear_coefficient * (1 - charge / spec.capacity) -
+                                                  spec.resistance * current;
     }
     if (charge <= 0) c.cut_power();
 }

@@ -8,8 +8,6 @@
 namespace roboss {
 namespace {
 
-using Spec = RosAckermannSpec;
-
 /// Joints in the order of the parameters; the steering wheel, if there is one, is last.
 enum Joint : std::size_t { kFrontLeft, kFrontRight, kRearLeft, kRearRight, kLeft, kRight, kSteeringWheel };
 
@@ -67,7 +65,7 @@ double pid(const std::vector<double>& gain, const std::vector<double>& range, do
 }
 
 /// Drives the joints for the tick; `period`: since the PIDs acted last, s.
-void act(const Spec& spec, OnboardContext& c, const Car& car, double period) {
+void act(const RosAckermannSpec& spec, OnboardContext& c, const Car& car, double period) {
     const std::span<const double> twist = c.command(0);
     const std::span<double> memory = c.memory();
     const double speed = std::fmax(std::fmin(twist[Twist6::kLinearX], spec.max_speed), -spec.max_speed);
@@ -78,14 +76,14 @@ void act(const Spec& spec, OnboardContext& c, const Car& car, double period) {
     const double slope = middle.sin / middle.cos, across = 0.5 * car.separation / car.base * slope;
     const double left = fixed_atan2(slope, 1.0 - across), right = fixed_atan2(slope, 1.0 + across);
     const double drive = pid(spec.speed_gain, spec.speed_range, c.velocity(kRearRight) - speed / car.radius,
-                             period, memory.subspan(Spec::kSpeedError, 2));
+                             period, memory.subspan(RosAckermannSpec::kSpeedError, 2));
     c.drive(kRearLeft, MotorMode::kEffort, drive), c.drive(kRearRight, MotorMode::kEffort, drive);
     c.drive(kLeft, MotorMode::kEffort,
             pid(spec.left_gain, spec.left_range, c.position(kLeft) - left, period,
-                memory.subspan(Spec::kLeftError, 2)));
+                memory.subspan(RosAckermannSpec::kLeftError, 2)));
     c.drive(kRight, MotorMode::kEffort,
             pid(spec.right_gain, spec.right_range, c.position(kRight) - right, period,
-                memory.subspan(Spec::kRightError, 2)));
+                memory.subspan(RosAckermannSpec::kRightError, 2)));
 }
 
 }  // namespace
@@ -103,8 +101,8 @@ void run(const RosAckermannSpec& spec, OnboardContext& c) {
     }
     // The original's forces last for one step after each update, and so do these.
     const double period = spec.ros.update_rate > 0 ? std::fmax(1.0 / spec.ros.update_rate, c.dt()) : c.dt();
-    if (c.time() < memory[Spec::kNextUpdate] - 1e-9) return;
-    memory[Spec::kNextUpdate] = c.time() + period;
+    if (c.time() < memory[RosAckermannSpec::kNextUpdate] - 1e-9) return;
+    memory[RosAckermannSpec::kNextUpdate] = c.time() + period;
     act(spec, c, car, period);
 }
 

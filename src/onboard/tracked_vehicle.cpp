@@ -8,13 +8,11 @@
 namespace roboss {
 namespace {
 
-using Spec = TrackedVehicleSpec;
-
 constexpr double kSmall = 1e-6;  // m/s, rad/s: less is no speed, and no change, as in Gazebo
 constexpr double kFar = 1e9;     // m: a centre of rotation that is none
 
 /// Centre of rotation in the world, m: to the left of the body by speed / turn.
-Vec3 centre_of_rotation(const Spec& spec, OnboardContext& c, double speed, double turn) {
+Vec3 centre_of_rotation(const TrackedVehicleSpec& spec, OnboardContext& c, double speed, double turn) {
     const LinkId body = spec.body.empty() ? c.info().base : c.link(c.link_count() - 1);
     const Transform X_WL = c.pose(body);
     const double radius = std::fabs(turn) < kSmall ? kFar : std::fabs(speed) < kSmall ? 0.0 : speed / turn;
@@ -34,11 +32,14 @@ bool is_new(OnboardContext& c, std::size_t command, double& seen) {
 void run(const TrackedVehicleSpec& spec, OnboardContext& c) {
     const std::span<double> memory = c.memory();
     const std::span<const double> twist = c.command(0);
-    const double last_speed = memory[Spec::kSpeed], last_turn = memory[Spec::kTurnRate];
-    const double speed = limit_speed(spec.linear, twist[Twist6::kLinearX], c.dt(), memory[Spec::kSpeed],
-                                     memory[Spec::kSpeed + 1]);
-    const double turn = limit_speed(spec.angular, twist[Twist6::kAngularZ], c.dt(), memory[Spec::kTurnRate],
-                                    memory[Spec::kTurnRate + 1]);
+    const double last_speed = memory[TrackedVehicleSpec::kSpeed],
+                 last_turn = memory[TrackedVehicleSpec::kTurnRate];
+    const double speed =
+        limit_speed(spec.linear, twist[Twist6::kLinearX], c.dt(), memory[TrackedVehicleSpec::kSpeed],
+                    memory[TrackedVehicleSpec::kSpeed + 1]);
+    const double turn =
+        limit_speed(spec.angular, twist[Twist6::kAngularZ], c.dt(), memory[TrackedVehicleSpec::kTurnRate],
+                    memory[TrackedVehicleSpec::kTurnRate + 1]);
     double efficiency = spec.steering_efficiency;
     if (c.is_commanded(1) && c.command(1)[0] > 0) efficiency = c.command(1)[0];
     const double across = 0.5 * turn * spec.tracks_separation / efficiency;
@@ -47,8 +48,8 @@ void run(const TrackedVehicleSpec& spec, OnboardContext& c) {
     move_odometry(memory.first<5>(),
                   {0.5 * (left + right) * c.dt(), 0, (right - left) / spec.tracks_separation * c.dt()},
                   c.dt());
-    const bool has_new_twist = is_new(c, 0, memory[Spec::kSeenCommand]);
-    const bool has_new_efficiency = is_new(c, 1, memory[Spec::kSeenEfficiency]);
+    const bool has_new_twist = is_new(c, 0, memory[TrackedVehicleSpec::kSeenCommand]);
+    const bool has_new_efficiency = is_new(c, 1, memory[TrackedVehicleSpec::kSeenEfficiency]);
     const bool gives_speed = has_new_twist || has_new_efficiency || std::fabs(speed - last_speed) > kSmall ||
                              std::fabs(turn - last_turn) > kSmall;
     const bool gives_centre = gives_speed || (std::fabs(turn) >= kSmall && std::fabs(speed) >= kSmall);

@@ -5,13 +5,12 @@
 
 #include "core/fixed_math.h"
 #include "physics/dynamics/kinematics.h"
+#include "sensors/infinity.h"
 #include "sensors/readings.h"
 #include "sensors/sensor_noise.h"
 
 namespace roboss {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Beam directions of one axis: `count` angles from min to max, both included; a single beam points along
 /// min.

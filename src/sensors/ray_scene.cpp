@@ -7,14 +7,13 @@
 #include "core/check.h"
 #include "core/float_env.h"
 #include "physics/dynamics/kinematics.h"
+#include "sensors/infinity.h"
 #include "sensors/ray_shape.h"
 #include "sensors/ray_tree.h"
 #include "sensors/readings.h"
 
 namespace roboss {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Item {
     Shape shape;

@@ -9,11 +9,10 @@
 
 #include "geometry/convex_hull.h"
 #include "geometry/triangle_surface.h"
+#include "sensors/infinity.h"
 
 namespace roboss {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Interval {
     double enter = -kInfinity;

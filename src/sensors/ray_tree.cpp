@@ -13,11 +13,10 @@
 #include <vector>
 
 #include "core/check.h"
+#include "sensors/infinity.h"
 
 namespace roboss {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 const char* device_settings() {
 #if defined(__x86_64__)

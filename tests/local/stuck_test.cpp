@@ -12,7 +12,7 @@ namespace {
 
 std::unique_ptr<LocalRun> make_run(const std::string& file) {
     Diagnostics diagnostics;
-    const std::optional<World> world = load_world(std::string(ROBOSS_SOURCE "/") + file, {}, diagnostics);
+    const std::optional<World> world = load_world(ROBOSS_SOURCE "/" + file, {}, diagnostics);
     const std::shared_ptr<const Model> model = world ? compile(*world, {}, diagnostics) : nullptr;
     if (!model) return nullptr;
     return std::move(LocalRun::create(model).value());

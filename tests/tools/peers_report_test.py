@@ -13,7 +13,7 @@ TOOL = Path(os.environ["ROBOSS_TOOLS"]) / "peers_report"
 
 def row(engine, **changes):
     values = {"scene": "cars", "robots": 50, "engine": engine, "settings": "", "skipped": "", "steps": 1000, "us_median": 10.0,
-              "us_least": 9.0, "us_most": 11.0, "ratio": 1.0, "build_s": 0.1, "bytes_per_robot": 4000, "right": True,
+              "us_least": 9.0, "us_most": 11.0, "ratio": 1.0, "real_time_factor": 2.5, "build_s": 0.1, "bytes_per_robot": 4000, "right": True,
               "verdict": "fine"}
     return values | changes
 
@@ -37,7 +37,7 @@ class PeersReport(unittest.TestCase):
         page = (self.folder / "page.md").read_text()
         self.assertTrue(page.startswith("before\n") and page.endswith("after\n"))
         self.assertNotIn("old", page)
-        self.assertIn("| 35.00 (9.00 to 11.00) | 3.50 | 1000 | 4.0 kB | fine |", page)
+        self.assertIn("| 35.00 (9.00 to 11.00) | 3.50 | 2.5 | 1000 | 4.0 kB | fine |", page)
 
     def test_engines_left_out_and_wrong_results_are_shown_as_such(self):
         self.report([row("RoBOSS"), row("Bullet 3", skipped="too slow"), row("DART 6", right=False)])
