@@ -1,17 +1,16 @@
 // The sonar: the nearest hit of rays that fill its cone, ring by ring.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "core/fixed_math.h"
 #include "physics/dynamics/kinematics.h"
+#include "sensors/infinity.h"
 #include "sensors/readings.h"
 
 namespace roboss {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSpacing = kPi / 90;  // rad between neighbours, at most
 constexpr int kRingsLeast = 4;         // in a narrow cone
 

@@ -11,7 +11,7 @@ namespace {
 
 using namespace sensors_test;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNothing = std::numeric_limits<double>::infinity();
 
 /// Turns the sensor's -z to the robot's x.
 const Quat kAlongX{std::sqrt(0.5), 0, -std::sqrt(0.5), 0};
@@ -34,18 +34,18 @@ SonarSpec cone(double radius) {
 
 TEST(Sonar, HearsTheNearestSurfaceInItsCone) {
     EXPECT_NEAR(heard(cone(1), {{2, 0, 1}, {}}), 1.8, 1e-9) << "the face ahead, head on";
-    EXPECT_EQ(heard(cone(1), {{-2, 0, 1}, {}}), kInfinity) << "behind";
+    EXPECT_EQ(heard(cone(1), {{-2, 0, 1}, {}}), kNothing) << "behind";
     // A corner aside: its edge is at x = 1.8, y = 0.2; the cone is 0.36 m wide there.
     EXPECT_NEAR(heard(cone(1), {{2, 0.3, 1}, {}}), std::hypot(1.8, 0.2), 1e-2);
-    EXPECT_EQ(heard(cone(0.4), {{2, 0.3, 1}, {}}), kInfinity) << "beside a narrow cone";
-    EXPECT_EQ(heard(cone(1), {{6, 0, 1}, {}}), kInfinity) << "too far";
-    EXPECT_EQ(heard(cone(1), {{0.25, 0, 1}, {}}), -kInfinity) << "nearer than the least range";
+    EXPECT_EQ(heard(cone(0.4), {{2, 0.3, 1}, {}}), kNothing) << "beside a narrow cone";
+    EXPECT_EQ(heard(cone(1), {{6, 0, 1}, {}}), kNothing) << "too far";
+    EXPECT_EQ(heard(cone(1), {{0.25, 0, 1}, {}}), -kNothing) << "nearer than the least range";
 }
 
 TEST(Sonar, LooksDownItsZAxis) {
     // The own cart is below the mast; its wheel, half a metre ahead, is 0.9 m below the sensor.
     EXPECT_NEAR(heard(cone(5), {{0, 9, 0}, {}}, {}), 0.95, 1e-9) << "the own cart's top";
-    EXPECT_EQ(heard(cone(1), {{0, 0, 0.4}, {}}, {0, 1, 0, 0}), kInfinity) << "turned over: nothing above";
+    EXPECT_EQ(heard(cone(1), {{0, 0, 0.4}, {}}, {0, 1, 0, 0}), kNothing) << "turned over: nothing above";
 }
 
 TEST(Sonar, ASlopeIsNearestWhereItMeetsTheCone) {
