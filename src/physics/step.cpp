@@ -28,8 +28,10 @@ struct StepScratch::Impl {
     Meetings meetings;
     UnionFind joined;                        // of robots: who may meet, directly or by way of others
     std::vector<std::uint32_t> active;       // awake, or about to wake
-    std::vector<std::uint32_t> near, batch;  // `near`: who may meet others, or sleeps, set by set
+    std::vector<std::uint32_t> near, batch;  // `near`: who may meet others, or wake, set by set
+    std::vector<std::uint32_t> sleepers;     // whom nothing wakes
     std::vector<char> is_near, ordered, moved_freely;
+    std::vector<char> is_stirred;  // by set (UnionFind::find): one of it is active
     std::vector<float> efforts;
     StageNow now = nullptr;  // nullptr: stages are not measured
     StageClock clock;
@@ -157,12 +159,13 @@ Aabb coarse_box(const Model& model, RobotId robot, RobotState& state, RobotWork&
     return buffer.box;
 }
 
-/// Parts the robots into sets that may meet, or sleep, and those alone. The exact boxes lie inside the coarse
-/// ones, so that the parting changes no bit.
+/// Parts the robots into sets that may meet, or wake, sleepers whom nothing wakes, and those alone. The exact
+/// boxes lie inside the coarse ones, so that the parting changes no bit.
 void find_near(const Model& model, std::span<const RobotId> robots, std::span<RobotState* const> states,
                Impl& s) {
     const std::size_t count = robots.size();
-    s.is_near.assign(count, 0), s.near.clear(), s.active.clear();
+    s.is_near.assign(count, 0), s.is_stirred.assign(count, 0);
+    s.near.clear(), s.active.clear(), s.sleepers.clear();
     s.joined.reset(count), s.coarse.resize(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         const RobotState& state = *states[i];
@@ -182,8 +185,9 @@ void find_near(const Model& model, std::span<const RobotId> robots, std::span<Ro
     if (count > 1) s.meetings.join(s.coarse, s.active, s.joined);
     for (std::uint32_t i = 0; i < count; ++i)
         if (const std::uint32_t root = s.joined.find(i); root != i) s.is_near[i] = s.is_near[root] = 1;
+    for (const std::uint32_t i : s.active) s.is_stirred[s.joined.find(i)] = 1;
     for (std::uint32_t i = 0; i < count; ++i)
-        if (s.is_near[i]) s.near.push_back(i);
+        if (s.is_near[i]) (s.is_stirred[s.joined.find(i)] ? s.near : s.sleepers).push_back(i);
     s.joined.sort_by_set(s.near);
 }
 
@@ -198,6 +202,16 @@ void step_group(const StepCall& call, std::span<const std::uint32_t> chosen, std
     if (!step_robots(group, call.clock)) return;
     share_effort(chosen, call.report.iterations - before, s.efforts);
     for (std::size_t k = 0; k < chosen.size(); ++k) s.moved_freely[chosen[k]] = !works[k].held;
+}
+
+/// What a step leaves of sleepers whom nothing wakes: everything.
+void let_sleep(const StepCall& call, Impl& s) {
+    for (const std::uint32_t i : s.sleepers) {
+        call.bounds[i] = call.states[i]->rest.bound;
+        s.efforts[i] = kEffort;
+        s.moved_freely[i] = 1;
+    }
+    call.report.asleep += static_cast<int>(s.sleepers.size());
 }
 
 /// Steps those who may meet, some sets at a time: so few that what is computed of them stays in the cache, so
@@ -286,6 +300,7 @@ StepReport step_island(const Model& model, Tick tick, std::span<const RobotId> r
     s.clock.enter(Stage::kBroadPhase);
     find_near(model, robots, states, s);
     const StepCall call{model, tick, robots, states, bounds, s.ordered, report, s.clock};
+    let_sleep(call, s);
     step_groups(call, s);       // batches of robots that may meet: step_robots (tick.h)
     step_lone_robots(call, s);  // batches of robots that meet nobody: likewise
     sort_contact_reports(s.group.contact_reports);

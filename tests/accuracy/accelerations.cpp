@@ -68,7 +68,7 @@ std::vector<double> free_acceleration(const Model& model, RobotState& state,
     Equalities equalities;
     gather_equalities(work, state.q, equalities);
     EqualitySolver solver;
-    solver.prepare(type, work.mass_matrix, equalities);
+    solver.prepare(work, {}, equalities);
     std::vector<double> wanted, change(work.impulse.size());
     for (const EqualityRow& row : equalities.rows)
         wanted.push_back(-row.curvature - times_row(equalities, row, work.impulse));

@@ -32,7 +32,7 @@ void shift_half_a_tick(const Model& model, RobotState& state) {
         compute_mass_matrix<double>(type, 0.0, work);
         tree_factor(type.paths, work.mass_matrix.data());
         gather_equalities(work, state.q, equalities);
-        solver.prepare(type, work.mass_matrix, equalities);
+        solver.prepare(work, {}, equalities);
         wanted.clear();
         for (const EqualityRow& row : equalities.rows)
             wanted.push_back(0.5 * model.dt_s * row.curvature - times_row(equalities, row, state.v));
