@@ -68,7 +68,7 @@ def test_the_same_seed_gives_the_same_bits(mode):
 
 
 def test_the_hand_written_driver_scores():
-    env = envs.SoccerVectorEnv(num_envs=16, cars=1, threads=1)
+    env = envs.SoccerVectorEnv(num_envs=48, cars=1, threads=1)
     observations, _ = env.reset(seed=2)
     goals = 0
     for _ in range(1200):
@@ -76,7 +76,7 @@ def test_the_hand_written_driver_scores():
         actions[1::2] = 0                     # blue cars stand
         observations, *_, infos = env.step(actions)
         goals += infos["goals"][::2].sum()
-    assert goals >= 4                         # of eight red cars in a minute
+    assert goals >= 5                         # of 24 red cars in a minute; they shoot about ten
 
 
 def test_wrong_numbers_of_cars_are_refused():

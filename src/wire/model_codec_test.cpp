@@ -31,6 +31,7 @@ std::vector<SensorSpec> sensors_of_all_kinds() {
             else if constexpr (std::is_same_v<Value, std::string>)
                 value = value == "child"             ? "parent"
                         : value == "child_to_parent" ? "parent_to_child"
+                        : value == "cone"            ? "sphere"
                                                      : "slide";
             else if constexpr (std::is_same_v<Value, Vec3>)
                 value.y = ++next;
