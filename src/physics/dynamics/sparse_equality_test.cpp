@@ -65,6 +65,13 @@ class SparseEqualities : public testing::TestWithParam<int> {
                 return {"scissors, a joint locked", scissors(9, true), true};
         }
     }
+    World world() const {
+        World world = empty_world(1e-3);
+        place(world, case_.model, "robot");
+        return world;
+    }
+
+    const Case case_ = of(GetParam());
 };
 
 /// Share of the largest entry by which two vectors differ.
@@ -76,24 +83,21 @@ double difference(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 TEST_P(SparseEqualities, AgreeWithTheDenseSolve) {
-    const Case c = of(GetParam());
-    SCOPED_TRACE(c.name);
-    World world = empty_world(1e-3);
-    place(world, c.model, "robot");
-    Simulation sim(world);
+    SCOPED_TRACE(case_.name);
+    Simulation sim(world());
     const RobotType& sparse = sim.type(0);
     ASSERT_FALSE(sparse.elimination.empty());
     RobotType dense = sparse;
     dense.elimination = {};
     std::vector<char> locked;
-    if (c.lock) locked.assign(static_cast<std::size_t>(sparse.nv), 0), locked[locked.size() / 2] = 1;
+    if (case_.lock) locked.assign(static_cast<std::size_t>(sparse.nv), 0), locked[locked.size() / 2] = 1;
 
     std::mt19937 random(1);
     std::normal_distribution<double> normal;
     for (int round = 0; round < 5; ++round) {
         std::vector<double> v(static_cast<std::size_t>(sparse.nv));
         for (double& x : v) x = normal(random);
-        if (c.lock) v[locked.size() / 2] = 0;
+        if (case_.lock) v[locked.size() / 2] = 0;
         std::vector<double> v_dense = v;
         EqualityProjection by_joints, by_matrix;
         by_joints.close_velocities(sparse, sim.states[0].q, v, locked);
@@ -106,16 +110,13 @@ TEST_P(SparseEqualities, AgreeWithTheDenseSolve) {
         by_joints.close_coordinates(sparse, q, locked);
         by_matrix.close_coordinates(dense, q_dense, locked);
         EXPECT_LT(difference(q, q_dense), 1e-9) << "coordinates, round " << round;
-        if (!c.lock) sim.step();
+        if (!case_.lock) sim.step();
     }
 }
 
 TEST_P(SparseEqualities, StayClosedWhileTheyMove) {
-    const Case c = of(GetParam());
-    SCOPED_TRACE(c.name);
-    World world = empty_world(1e-3);
-    place(world, c.model, "robot");
-    Simulation sim(world);
+    SCOPED_TRACE(case_.name);
+    Simulation sim(world());
     const double energy = sim.energy();
     for (int i = 0; i < 300; ++i) sim.step();
     RobotWork work;
