@@ -1,6 +1,6 @@
 // LiveArray: a property of some robots as a numpy array that follows them. The states of a run lie robot by
 // robot, so the rows are copied; where and when: into the same memory, after the calls that change states,
-// and only while Python holds an array on it. Nothing is copied for arrays that nobody holds.
+// and only while Python holds an array on it.
 #pragma once
 
 #include <nanobind/ndarray.h>

@@ -76,7 +76,7 @@ def test_the_hand_written_driver_scores():
         actions[1::2] = 0                     # blue cars stand
         observations, *_, infos = env.step(actions)
         goals += infos["goals"][::2].sum()
-    assert goals >= 5                         # of 24 red cars in a minute; they shoot about ten
+    assert goals >= 7                         # of 24 red cars in a minute; 9, 14 and 8 with seeds 2, 3 and 4
 
 
 def test_wrong_numbers_of_cars_are_refused():

@@ -10,7 +10,7 @@
 namespace roboss {
 namespace {
 
-// So many loops pay off (docs/decisions/0032-many-loops.md); fewer are solved in the coordinates of the tree.
+// Robots with fewer loops are faster with the dense matrix (docs/decisions/0032-many-loops.md).
 constexpr std::size_t kLoopsMin = 6;
 // Bodies, and directions of one body, that differ more would cost digits.
 constexpr double kMassRatioMax = 1e4, kInertiaRatioMax = 1e5;

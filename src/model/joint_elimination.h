@@ -7,8 +7,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
-#include <utility>
 #include <vector>
 
 namespace roboss {

@@ -159,30 +159,33 @@ Error RemoteRun::not_here() {
             "remote"};
 }
 
-Result<ControlOutcome> RemoteRun::control(const ControlAction& action, const GoOn& go_on) {
+Result<std::optional<ControlOutcome>> RemoteRun::ask(const ControlAction& action, const GoOn& go_on,
+                                                     bool even_outdated) {
     client_->control(action);
     std::vector<ControlAnswer> answers;
     const auto answered = [&] {
         answers = client_->take_control_answers();
-        return !answers.empty();
+        return !answers.empty() || (even_outdated && client_->outdated());
     };
-    if (Result<> waited = wait_until(answered, go_on); !waited) return waited.error();
-    return std::move(answers.back().outcome);
+    if (Result<> waited = wait_until(answered, go_on, even_outdated); !waited) return waited.error();
+    if (answers.empty()) return std::optional<ControlOutcome>();
+    return std::optional(std::move(answers.back().outcome));
+}
+
+Result<ControlOutcome> RemoteRun::control(const ControlAction& action, const GoOn& go_on) {
+    Result<std::optional<ControlOutcome>> outcome = ask(action, go_on, false);
+    if (!outcome) return outcome.error();
+    return *std::move(outcome.value());
 }
 
 Result<std::string> RemoteRun::change_run(const ControlAction& action, const GoOn& go_on) {
     const std::size_t welcomes = client_->welcomes();
-    client_->control(action);
-    std::vector<ControlAnswer> answers;
     // A run whose Model was changed may wait for this Client before it answers: it is there again by
     // renewed().
-    const auto answered = [&] {
-        for (ControlAnswer& answer : client_->take_control_answers()) answers.push_back(std::move(answer));
-        return !answers.empty() || client_->outdated();
-    };
-    if (Result<> waited = wait_until(answered, go_on, true); !waited) return waited.error();
-    if (answers.empty()) return std::string();
-    const ControlOutcome& outcome = answers.back().outcome;
+    const Result<std::optional<ControlOutcome>> answer = ask(action, go_on, true);
+    if (!answer) return answer.error();
+    if (!answer.value()) return std::string();
+    const ControlOutcome& outcome = *answer.value();
     if (const auto* refused = std::get_if<ControlRefused>(&outcome)) return refused->error();
     const auto goes_on = [&] {
         return client_->outdated() || (client_->welcomes() > welcomes && client_->observing());

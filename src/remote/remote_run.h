@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -88,6 +89,9 @@ class RemoteRun final : public RunAccess {
     static Error not_here();
     /// Waits until done(), advancing the Client; also while the Model is another one, if `even_outdated`.
     Result<> wait_until(const std::function<bool()>& done, const GoOn& go_on, bool even_outdated = false);
+    /// The answer to a request; `even_outdated`: none if the run is outdated() before it comes.
+    Result<std::optional<ControlOutcome>> ask(const ControlAction& action, const GoOn& go_on,
+                                              bool even_outdated);
 
     RemoteOptions options_;
     std::unique_ptr<DdsBus> bus_;

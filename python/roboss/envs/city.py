@@ -171,9 +171,8 @@ class CityVectorEnv(TaskVectorEnv):
 
     def __init__(self, num_envs: int = 64, *, worlds: int = 1, autoreset_mode="NextStep", render_mode: Optional[str] = None,
                  **options):
-        if worlds < 1 or num_envs < 1 or num_envs % worlds:
-            raise ArgumentError(f"{num_envs} cars in {worlds} worlds", "give as many cars to each world")
-        super().__init__(CityTask(num_envs // worlds, worlds=worlds, **options), autoreset_mode, render_mode)
+        each = self._agents_of_each(worlds, num_envs, "cars", "world")
+        super().__init__(CityTask(each, worlds=worlds, **options), autoreset_mode, render_mode)
 
 
 class CityEnv(TaskEnv):

@@ -45,6 +45,13 @@ class TaskVectorEnv(VectorEnv):
         self.action_space = batch_space(task.action_space, task.count)
         self._was_reset = False
 
+    @staticmethod
+    def _agents_of_each(worlds: int, num_envs: int, agents: str, place: str) -> int:
+        """How many agents each of the worlds has; the names are for the error."""
+        if worlds < 1 or num_envs < 1 or num_envs % worlds:
+            raise ArgumentError(f"{num_envs} {agents} in {worlds} {place}s", f"give as many {agents} to each {place}")
+        return num_envs // worlds
+
     @property
     def state_hashes(self) -> tuple[str, ...]:
         """Simulation.state_hash of each world: equal hashes, equal worlds, to the last bit."""

@@ -247,9 +247,8 @@ class WarehouseVectorEnv(TaskVectorEnv):
 
     def __init__(self, num_envs: int = 8, *, worlds: int = 1, autoreset_mode="NextStep", render_mode: Optional[str] = None,
                  **options):
-        if worlds < 1 or num_envs < 1 or num_envs % worlds:
-            raise ArgumentError(f"{num_envs} carriers in {worlds} halls", "give as many carriers to each hall")
-        super().__init__(WarehouseTask(num_envs // worlds, worlds=worlds, **options), autoreset_mode, render_mode)
+        each = self._agents_of_each(worlds, num_envs, "carriers", "hall")
+        super().__init__(WarehouseTask(each, worlds=worlds, **options), autoreset_mode, render_mode)
 
 
 class WarehouseEnv(TaskEnv):

@@ -2,6 +2,7 @@
 #include "physics/dynamics/sparse_equality.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "physics/dynamics/equality.h"

@@ -3,7 +3,6 @@
 // O(n^1.5), where the matrix of its loops alone costs O(n^3).
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
