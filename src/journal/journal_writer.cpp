@@ -336,6 +336,7 @@ Result<> JournalWriter::close() {
     }
     if (thread_.joinable()) thread_.join();
     const std::lock_guard guard(mutex_);
+    db_.reset();  // SQLite merges the WAL into the file
     if (lost_) return *lost_;
     if (!waiting_.empty() && trouble_) return *trouble_;
     return Ok{};

@@ -45,7 +45,7 @@ class JournalWriter : public RunLog {
 
     /// Writes all entries. Waits for the disk.
     Result<> flush();
-    /// Calls flush() and ends; an Error if any entry is not in the file.
+    /// Calls flush() and ends, with all entries in the file itself; an Error if any is not.
     Result<> close();
     /// What happened since the last call (the disk is full, there is room again), one line each.
     std::vector<std::string> take_notices();

@@ -3,8 +3,12 @@
 #include "simulation/simulation.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <support/bodies.h>
+#include <filesystem>
+
+#include "journal/journal_writer.h"
 
 namespace roboss {
 namespace {
@@ -68,6 +72,33 @@ TEST_F(SimulationTest, StopsAtEachTargetAndHasTheStatesThere) {
     }
     run_until(*simulation, kEnd);
     EXPECT_EQ(simulation->hash(), expected_);
+}
+
+class Idle : public ControlProgram {
+    void control(Client&) override {}
+};
+
+TEST_F(SimulationTest, AJournalNamesTheClientsFromItsBeginningEvenIfTheyAreStillToJoin) {
+    const std::string file = ::testing::TempDir() + "roboss_clients_" + std::to_string(getpid());
+    std::filesystem::remove(file);
+    SimulationOptions options;
+    options.simulators = 1;
+    options.clients_awaited = {"elsewhere"};
+    std::vector<NamedProgram> programs;
+    programs.push_back({"driver", std::make_unique<Idle>()});
+    const auto simulation = std::move(Simulation::create(model_, options, std::move(programs))).value();
+    auto writer = std::move(JournalWriter::open(file)).value();
+    ASSERT_TRUE(writer->start_branch({}, *model_).ok());
+    simulation->start_log(writer.get(), 100);
+    ASSERT_TRUE(writer->flush().ok());
+
+    const Journal journal = std::move(Journal::open(file)).value();  // as after kill -9
+    const Branch branch = journal.branch().value();
+    const Result<SavedRun> run = journal.resume_from(branch, journal.checkpoints(branch).front(), *model_);
+    ASSERT_TRUE(run.ok()) << run.error().text();
+    EXPECT_EQ(run.value().clients, (std::vector<std::string>{"driver", "elsewhere"}));
+    EXPECT_EQ(run.value().tick, 0);
+    std::filesystem::remove(file);
 }
 
 TEST_F(SimulationTest, RefusesAnOrderForATickThatIsOverAndForARobotThatIsNot) {

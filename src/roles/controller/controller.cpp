@@ -175,8 +175,9 @@ ControllerOptions::Before Controller::hand_over() {
 
 void Controller::start_log(RunLog* log, Tick log_ticks) {
     recorder_.start(log, log_ticks);
+    // Also those that are still to join: a run killed before that continues with the same Clients.
     for (std::size_t i = 0; i < clients_.seats().size(); ++i)
-        if (clients_.seats()[i].joined) recorder_.joined(ClientId(i), clients_.seats()[i].name);
+        recorder_.joined(ClientId(i), clients_.seats()[i].name);
     for (const LoggedOrder& o : order_log_.pending(tick())) recorder_.order(o.order, o.given_at);
 }
 
